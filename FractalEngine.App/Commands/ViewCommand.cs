@@ -28,13 +28,22 @@ internal static class ViewCommand
         var noWatch = new Option<bool>("--no-watch") { Description = "Don't load files again when they change." };
         var trace = NumberOption.OptionalInteger(
             "--trace", "SAMPLES", 1, TraceOptions.MaxSamples, ProgressiveTrace.DefaultSampleCount,
-            "Follow light through the scene while the view stands still, as key Y does, with so many samples of each pixel"
+            "Samples of each pixel of the image that is traced while the view stands still"
             + $" (default: {ProgressiveTrace.DefaultSampleCount}).");
+        var noTrace = new Option<bool>("--no-trace") { Description = "Don't trace the view while it stands still. Key Y switches." };
+        command.Validators.Add(result =>
+        {
+            if (result.GetResult(trace) is not null && result.GetValue(noTrace))
+            {
+                result.AddError("--no-trace: expected either --trace or --no-trace");
+            }
+        });
         shared.AddTo(command);
         draw.AddTo(command);
         command.Add(noWatch);
         command.Add(trailLength);
         command.Add(trace);
+        command.Add(noTrace);
         command.SetAction(result => Run(
             result.GetValue(shared.File) ?? FindGallery(),
             new()
@@ -43,7 +52,8 @@ internal static class ViewCommand
                 Settings = draw.Settings(result),
                 Projection = draw.Projection(result),
                 TrailLength = result.GetValue(trailLength) ?? DefaultTrailLength,
-                TraceSampleCount = result.GetValue(trace),
+                IsTraced = result.GetValue(noTrace) ? false : result.GetValue(trace) is null ? null : true,
+                TraceSampleCount = result.GetValue(trace) ?? ProgressiveTrace.DefaultSampleCount,
                 Size = draw.Resolution(result),
                 WatchesFiles = !result.GetValue(noWatch),
                 SettingsPath = WindowSettings.DefaultPath,

@@ -53,6 +53,7 @@ internal sealed class SceneWindow : IDisposable
         _actions = new(_window, _windowRenderer, _overlay, _tracing, options.Settings) { Files = _files };
         _interface = new(_actions, _window, options.SettingsPath, Report);
         _actions.Interface = _interface;
+        _tracing.IsEnabled = options.IsTraced ?? _interface.IsTraced;
         _loader.Open(path, options.Settings);
     }
 

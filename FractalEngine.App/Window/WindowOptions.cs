@@ -20,8 +20,11 @@ internal sealed record WindowOptions
     /// <summary>Length of the trail of the paper's zoom into a fractal.</summary>
     public int TrailLength { get; init; } = 3;
 
-    /// <summary>Number of samples of the traced image that is shown from the start; null to show none until key Y.</summary>
-    public int? TraceSampleCount { get; init; }
+    /// <summary>Whether views that stand still are traced from the start; null for what the settings remember.</summary>
+    public bool? IsTraced { get; init; }
+
+    /// <summary>Number of samples of each pixel of a traced image.</summary>
+    public int TraceSampleCount { get; init; } = ProgressiveTrace.DefaultSampleCount;
 
     /// <summary>Width and height of the window's contents in pixels.</summary>
     public (int Width, int Height) Size { get; init; } = SharedOptions.DefaultResolution;

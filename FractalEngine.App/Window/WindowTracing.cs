@@ -3,18 +3,18 @@ using FractalEngine.Render;
 
 namespace FractalEngine.App.Window;
 
-/// <summary>Shows a document traced whenever its view stands still, if that is switched on.</summary>
+/// <summary>Shows a document traced whenever its view stands still, unless that is switched off.</summary>
 /// <param name="options">The options of the window.</param>
 /// <param name="published">Called on another thread when there is something new to show.</param>
 internal sealed class WindowTracing(WindowOptions options, Action published) : IDisposable
 {
     private readonly ProgressiveTrace _trace =
-        new(options.TraceSampleCount ?? ProgressiveTrace.DefaultSampleCount, options.Settings, published);
+        new(options.TraceSampleCount, options.Settings, published);
 
     private string? _obstacle;
 
     /// <summary>Whether tracing is switched on.</summary>
-    public bool IsEnabled { get; private set; } = options.TraceSampleCount is not null;
+    public bool IsEnabled { get; set; }
 
     /// <summary>The image to show over the frame; null for none.</summary>
     public ImageLayer? Layer => _trace.Layer;
@@ -68,6 +68,8 @@ internal sealed class WindowTracing(WindowOptions options, Action published) : I
         document.Physics.IsRunning ? "bodies move"
         : document.IsTrailEnabled ? "the paper's zoom"
         : settings.Wireframe ? "wireframe"
+        : settings.Shading != Shading.PerPixel ? "light at the vertices"
+        : !settings.Shadows ? "no shadows"
         : settings.Grid || settings.Axes ? "grid"
         : document.Physics.ShowsClosestPoints ? "closest points"
         : null;

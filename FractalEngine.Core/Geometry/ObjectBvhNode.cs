@@ -88,32 +88,19 @@ internal sealed class ObjectBvhNode
         return Vector256.Sqrt((x * x) + (y * y) + (z * z));
     }
 
-    /// <summary>Computes where a ray enters the boxes of all children at the soonest: NaN or infinite for those that it misses.</summary>
+    /// <summary>Computes where a ray enters the boxes of all children at the soonest: NaN for those that it misses.</summary>
     /// <param name="ray">In world space.</param>
-    /// <param name="search">The limit of the search, and its rounding.</param>
-    public Vector256<double> RayEntries(in LocalRay ray, in RaySearch search)
+    /// <param name="maxDistance">The largest distance that counts.</param>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public Vector256<double> RayEntries(in ObjectRay ray, double maxDistance)
     {
         var near = Vector256<double>.Zero;
-        var far = Vector256.Create(search.MaxDistance - ray.Start);
-        ClipAlongAxis(_minX, _maxX, in ray, 0, search.Error, ref near, ref far);
-        ClipAlongAxis(_minY, _maxY, in ray, 1, search.Error, ref near, ref far);
-        ClipAlongAxis(_minZ, _maxZ, in ray, 2, search.Error, ref near, ref far);
+        var far = Vector256.Create(maxDistance - ray.Start);
+        ray.Clip(0, Widen(_minX), Widen(_maxX), ref near, ref far);
+        ray.Clip(1, Widen(_minY), Widen(_maxY), ref near, ref far);
+        ray.Clip(2, Widen(_minZ), Widen(_maxZ), ref near, ref far);
         return Vector256.ConditionalSelect(
             Vector256.LessThanOrEqual(near, far), near + Vector256.Create(ray.Start), Vector256.Create(double.NaN));
-    }
-
-    private static void ClipAlongAxis(
-        Vector128<float> minimum, Vector128<float> maximum, in LocalRay ray, int axis, double error,
-        ref Vector256<double> near, ref Vector256<double> far)
-    {
-        // A slower ray than this passes no box within the range of coordinates.
-        const double MinComponent = 1e-30;
-        var component = ray.Direction.GetElement(axis);
-        var inverse = 1 / (Math.Abs(component) < MinComponent ? double.CopySign(MinComponent, component) : component);
-        var low = (Widen(minimum) - Vector256.Create(ray.Origin.GetElement(axis) + error)) * Vector256.Create(inverse);
-        var high = (Widen(maximum) - Vector256.Create(ray.Origin.GetElement(axis) - error)) * Vector256.Create(inverse);
-        near = Vector256.MaxNative(near, inverse > 0 ? low : high);
-        far = Vector256.MinNative(far, inverse > 0 ? high : low);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

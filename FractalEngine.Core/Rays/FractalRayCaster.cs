@@ -29,9 +29,6 @@ internal sealed class FractalRayCaster : RayCaster
     // Beyond it, faces that the ray passes by more than 1e-12 of the whole may count as hit.
     private const double MaxLeafCondition = 100;
 
-    // Of rays that cross a face at a smaller sine, rounding decides where.
-    private const double MinSlope = 1e-4;
-
     private const double MinRadiusInErrors = 8;
 
     // Longer than the way of a ray from its origin through the box of a sub-fractal, in the units of its bounds.
@@ -83,6 +80,10 @@ internal sealed class FractalRayCaster : RayCaster
     /// <summary>The caster of a sub-fractal in its own frame. It shares what is kept with that of the whole.</summary>
     /// <param name="levels">Its remaining levels, which the hierarchy must have kept.</param>
     public FractalRayCaster At(long levels) => new(this, levels);
+
+    /// <summary>The maps of the outermost set of a sub-fractal.</summary>
+    /// <param name="levels">Its remaining levels, at least 1.</param>
+    public ReadOnlySpan<AffineMap> MapsAt(long levels) => _hierarchy.MapSetAt(levels)!.Maps;
 
     /// <summary>The box of the fractal, or of the sub-fractal; empty where it has no faces.</summary>
     public BoundingBox Box => _root.Box;
@@ -319,7 +320,7 @@ internal sealed class FractalRayCaster : RayCaster
         if (condition > MaxLeafCondition)
         {
             // What comes within the rounding of the ray here may be farther from it in the frame of the query, and at another distance.
-            var slack = condition * search.Error / MinSlope;
+            var slack = condition * search.Error / TrianglePlane.MinSine;
             var probe = new RaySearch(search.MinDistance - slack, search.MaxDistance + slack, stopsAtFirst: true, search.Error, default);
             var mayHit = TestBase(in frame, bounds, ref probe);
             search.BoundTests += probe.BoundTests;

@@ -20,43 +20,57 @@ internal static class RayInstanceSearch
         ObjectBvhNode root, in LocalRay ray, ref RaySearch search, QueryContext context, ref RayInstance? found, ref int pathLength)
     {
         var queue = context.ObjectQueue;
-        queue.Clear();
-        queue.Add(ray.Start, ObjectQueue.Untested, root);
-        while (queue.TryTake(out var entry, out _, out var target) && entry <= search.MaxDistance)
+        var boxRay = new ObjectRay(in ray, search.Error);
+        // Of nearly all nodes a ray enters one child, which needs no place in the queue.
+        object? next = root;
+        while (next is not null)
         {
-            if (target is ObjectBvhNode node)
+            if (next is ObjectBvhNode node)
             {
-                AddChildren(node, in ray, ref search, queue);
-                continue;
+                next = EnterOnlyChildOrQueue(node, in boxRay, ref search, queue);
+            }
+            else
+            {
+                var instance = (RayInstance)next;
+                next = null;
+                if (TryIntersect(instance, in ray, ref search, context, ref pathLength))
+                {
+                    found = instance;
+                    if (search.StopsAtFirst)
+                    {
+                        break;
+                    }
+                }
             }
 
-            var instance = (RayInstance)target!;
-            if (TryIntersect(instance, in ray, ref search, context, ref pathLength))
+            if (next is null && (!queue.TryTake(out var entry, out _, out next) || !(entry <= search.MaxDistance)))
             {
-                found = instance;
-                if (search.StopsAtFirst)
-                {
-                    break;
-                }
+                break;
             }
         }
 
         queue.Clear();
     }
 
-    private static void AddChildren(ObjectBvhNode node, in LocalRay ray, ref RaySearch search, ObjectQueue queue)
+    /// <summary>Queues the children that a ray may hit; a single one is returned instead, if nothing else is queued.</summary>
+    private static object? EnterOnlyChildOrQueue(ObjectBvhNode node, in ObjectRay ray, ref RaySearch search, ObjectQueue queue)
     {
         search.BoundTests += node.ChildCount;
-        var entries = node.RayEntries(in ray, in search);
-        var isHit = Vector256.LessThanOrEqual(entries, Vector256.Create(search.MaxDistance));
-        for (var slots = isHit.ExtractMostSignificantBits(); slots != 0; slots &= slots - 1)
+        var entries = node.RayEntries(in ray, search.MaxDistance);
+        var slots = Vector256.LessThanOrEqual(entries, Vector256.Create(search.MaxDistance)).ExtractMostSignificantBits()
+            & ((1u << node.ChildCount) - 1);
+        if (BitOperations.IsPow2(slots) && double.IsPositiveInfinity(queue.Bound))
+        {
+            return node[BitOperations.TrailingZeroCount(slots)];
+        }
+
+        for (; slots != 0; slots &= slots - 1)
         {
             var slot = BitOperations.TrailingZeroCount(slots);
-            if (slot < node.ChildCount)
-            {
-                queue.Add(entries[slot], node[slot] is RayInstance leaf ? leaf.Index : ObjectQueue.Untested, node[slot]);
-            }
+            queue.Add(entries[slot], node[slot] is RayInstance leaf ? leaf.Index : ObjectQueue.Untested, node[slot]);
         }
+
+        return null;
     }
 
     /// <summary>Searches one instance, with the rounding of its own coordinates: those of the largest would blur the nearest.</summary>

@@ -1,5 +1,4 @@
-using FractalEngine.Core.Collision;
-using FractalEngine.Core.Fractals;
+using System.Collections.Immutable;
 using FractalEngine.Core.Fractals.Hierarchy;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
@@ -9,13 +8,11 @@ namespace FractalEngine.Core.Rays;
 
 /// <summary>
 /// Finds where rays hit the objects of a scene, in world space. The caster of a model is made when the first ray may hit it, once for all
-/// objects that show the model. Immutable, as <see cref="RayCaster"/> is.
+/// objects that show the model.
 /// </summary>
-/// <remarks>A ray finds its object in O(log n) for n objects that lie apart, by a hierarchy over their boxes.</remarks>
-public sealed class SceneRayCaster
+public sealed class SceneRayCaster : InstanceRayCaster
 {
     private readonly Dictionary<Model, Lazy<RayCaster>> _casters;
-    private readonly ObjectBvh? _objects;
     private readonly BoundingBox _bounds;
 
     /// <summary>Prepares the objects of a scene made in code, or loaded from a file.</summary>
@@ -30,19 +27,24 @@ public sealed class SceneRayCaster
     /// <exception cref="SingularMatrixException">The matrix of an object has no inverse.</exception>
     /// <remarks>Cost: O(n log n) for n objects. No model is prepared yet.</remarks>
     public SceneRayCaster(LoadedScene scene)
+        : this(
+            (scene ?? throw new ArgumentNullException(nameof(scene))).Objects,
+            scene.Models.ToDictionary(model => model, model => new Lazy<RayCaster>(() => RayCaster.For(model))), scene.Bounds)
     {
-        ArgumentNullException.ThrowIfNull(scene);
-        _casters = scene.Models.ToDictionary(model => model, model => new Lazy<RayCaster>(() => RayCaster.For(model)));
-        _objects = scene.Objects.IsEmpty
-            ? null
-            : ObjectBvh.Build([.. scene.Objects.Select((placed, index) => CreateInstance(index, placed))]);
-        _bounds = scene.Bounds;
     }
 
-    private SceneRayCaster(Dictionary<Model, Lazy<RayCaster>> casters, ObjectBvh objects, BoundingBox bounds)
+    private SceneRayCaster(
+        ImmutableArray<PlacedModel> objects, Dictionary<Model, Lazy<RayCaster>> casters, BoundingBox bounds)
+        : this(
+            objects.IsEmpty ? null : ObjectBvh.Build([.. objects.Select((placed, index) => CreateInstance(casters, index, placed))]),
+            casters, bounds)
+    {
+    }
+
+    private SceneRayCaster(ObjectBvh? objects, Dictionary<Model, Lazy<RayCaster>> casters, BoundingBox bounds)
+        : base(objects, BoundingVolume.MaxAbsCoordinate(bounds))
     {
         _casters = casters;
-        _objects = objects;
         _bounds = bounds;
     }
 
@@ -55,14 +57,14 @@ public sealed class SceneRayCaster
     public SceneRayCaster WithObject(int index, PlacedModel placed)
     {
         ArgumentOutOfRangeException.ThrowIfNegative(index);
-        ArgumentOutOfRangeException.ThrowIfGreaterThanOrEqual(index, _objects?.Count ?? 0);
+        ArgumentOutOfRangeException.ThrowIfGreaterThanOrEqual(index, Instances?.Count ?? 0);
         ArgumentNullException.ThrowIfNull(placed);
         if (!_casters.ContainsKey(placed.Model))
         {
             throw new ArgumentException("expected the model of an object of the scene", nameof(placed));
         }
 
-        var objects = _objects!.With(CreateInstance(index, placed));
+        var objects = Instances!.With(CreateInstance(_casters, index, placed));
         if (objects.IsDegraded)
         {
             var leaves = new RayInstance[objects.Count];
@@ -70,72 +72,9 @@ public sealed class SceneRayCaster
             objects = ObjectBvh.Build(leaves);
         }
 
-        return new(_casters, objects, BoundingBox.Union(_bounds, placed.Bounds));
+        return new(objects, _casters, BoundingBox.Union(_bounds, placed.Bounds));
     }
 
-    /// <summary>Finds the nearest face that a ray hits.</summary>
-    /// <param name="ray">In world space.</param>
-    /// <param name="context">Receives the costs and the instance; one for each thread.</param>
-    /// <param name="hit">The hit in world space, if there is one.</param>
-    /// <param name="objectIndex">Index of the object in the scene; −1 for none.</param>
-    /// <param name="minDistance">Smallest distance that counts, scene units, not negative.</param>
-    /// <param name="maxDistance">Largest distance that counts, scene units; may be infinite.</param>
-    /// <param name="footprint">How wide the ray is; a line unless stated.</param>
-    /// <returns>False when the ray hits no face between the two distances.</returns>
-    /// <exception cref="ArgumentException">The ray is not finite, its direction is 0, or a distance is negative or NaN.</exception>
-    /// <exception cref="FractalLimitException">A model can't be prepared, see <see cref="RayCaster.For(Model)"/>.</exception>
-    public bool TryFindNearest(
-        Ray ray, QueryContext context, out RayHit hit, out int objectIndex, double minDistance = 0,
-        double maxDistance = double.PositiveInfinity, RayFootprint footprint = default)
-    {
-        ArgumentNullException.ThrowIfNull(context);
-        var direction = RayCaster.CheckedUnitDirection(in ray, minDistance, maxDistance);
-        var search = Search(
-            ray.Origin, direction, minDistance, maxDistance, stopsAtFirst: false, footprint, context, out var found, out var pathLength);
-        objectIndex = found?.Index ?? -1;
-        hit = found is null ? default : RayHitFactory.Create(
-            ray.Origin, direction, in search, minDistance, maxDistance,
-            found.Caster.Value.Mesh, found.Caster.Value.ResolveInstance(in search, pathLength, in found.ObjectToWorld, context));
-        return found is not null;
-    }
-
-    /// <summary>Tells whether a ray hits any face, which is found sooner than the nearest.</summary>
-    /// <param name="ray">In world space.</param>
-    /// <param name="context">Receives the costs; one for each thread.</param>
-    /// <param name="minDistance">Smallest distance that counts, scene units, not negative.</param>
-    /// <param name="maxDistance">Largest distance that counts, scene units; may be infinite.</param>
-    /// <param name="footprint">How wide the ray is; a line unless stated.</param>
-    /// <exception cref="ArgumentException">The ray is not finite, its direction is 0, or a distance is negative or NaN.</exception>
-    /// <exception cref="FractalLimitException">A model can't be prepared, see <see cref="RayCaster.For(Model)"/>.</exception>
-    public bool HitsAny(
-        Ray ray, QueryContext context, double minDistance = 0, double maxDistance = double.PositiveInfinity,
-        RayFootprint footprint = default)
-    {
-        ArgumentNullException.ThrowIfNull(context);
-        var direction = RayCaster.CheckedUnitDirection(in ray, minDistance, maxDistance);
-        Search(ray.Origin, direction, minDistance, maxDistance, stopsAtFirst: true, footprint, context, out var found, out _);
-        return found is not null;
-    }
-
-    private RaySearch Search(
-        Vector origin, Vector unitDirection, double minDistance, double maxDistance, bool stopsAtFirst, RayFootprint footprint,
-        QueryContext context, out RayInstance? found, out int pathLength)
-    {
-        context.ClearPath();
-        found = null;
-        pathLength = 0;
-        var error = RayCaster.RoundingError(origin, minDistance, BoundingVolume.MaxAbsCoordinate(_bounds));
-        var search = new RaySearch(minDistance, maxDistance, stopsAtFirst, error, footprint);
-        if (_objects is not null)
-        {
-            var ray = LocalRay.Of(origin, unitDirection, minDistance);
-            RayInstanceSearch.Run(_objects.Root, in ray, ref search, context, ref found, ref pathLength);
-        }
-
-        search.AddTo(context.Statistics);
-        return search;
-    }
-
-    private RayInstance CreateInstance(int index, PlacedModel placed) =>
-        new(index, _casters[placed.Model], placed.ObjectToWorld, placed.Bounds);
+    private static RayInstance CreateInstance(Dictionary<Model, Lazy<RayCaster>> casters, int index, PlacedModel placed) =>
+        new(index, casters[placed.Model], placed.ObjectToWorld, placed.Bounds);
 }

@@ -6,8 +6,10 @@ namespace FractalEngine.Core.Rays;
 /// <summary>Finds where a ray crosses the plane of a triangle, as exactly as the coordinates tell, also for needles.</summary>
 internal static class TrianglePlane
 {
-    // Where a ray is closer to the plane than this, as a sine, rounding of the plane matters more than that of areas.
-    private const double MinSine = 1e-4;
+    /// <summary>
+    /// Sine of the angle between a ray and a plane below which the rounding of the plane decides where the ray crosses it.
+    /// </summary>
+    public const double MinSine = 1e-4;
 
     // Squared sine of the angle at the first corner below which a triangle counts as thin.
     private const double ThinSineSquared = 1e-2;

@@ -24,15 +24,8 @@ public sealed record Sky(Colour Zenith, Colour Horizon, Colour? Ground = null)
     /// <summary>Radiance at the horizon, linear light.</summary>
     public Vector HorizonRadiance => ToVector(Horizon);
 
-    /// <summary>Computes the radiance of a direction, linear light: red, green, blue.</summary>
-    /// <param name="height">The y coordinate of the unit direction.</param>
-    public Vector Radiance(double height)
-    {
-        var horizon = HorizonRadiance;
-        return height >= 0
-            ? horizon + (height * (ZenithRadiance - horizon))
-            : horizon + (Math.Sqrt(-height) * (GroundRadiance - horizon));
-    }
+    /// <summary>The sky as a function of directions, for many of them.</summary>
+    public SkyRadiance ToRadiance() => new(ZenithRadiance, HorizonRadiance, GroundRadiance);
 
     /// <summary>
     /// Computes the light on surfaces without shadows as a + b·c + d·c², where c is the y coordinate of the surface's unit normal: the

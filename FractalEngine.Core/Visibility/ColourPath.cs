@@ -32,9 +32,7 @@ public readonly record struct ColourPath(int MapCount, float PathFraction, float
         var path = Start;
         for (var level = 0; level < instancePath.Length; level++)
         {
-            var maps = fractal.LevelAt(level).Maps;
-            var index = instancePath[level];
-            path = path.Append(maps[index] == AffineMap.Identity ? -1 : index, index, maps.Length);
+            path = path.Append(fractal.LevelAt(level).Maps.AsSpan(), instancePath[level]);
         }
 
         return path.ComputeGradientFactor(gradient, fractal.LevelCount ?? long.MaxValue);
@@ -47,6 +45,12 @@ public readonly record struct ColourPath(int MapCount, float PathFraction, float
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     internal ColourPath Append(int mapIndex, int childIndex, int childCount) => mapIndex < 0 ? this
         : new(MapCount + 1, PathFraction + (0.5f * RemainingWeight * childIndex / Math.Max(1, childCount - 1)), 0.5f * RemainingWeight);
+
+    /// <summary>Appends one map of a set, which may be the identity.</summary>
+    /// <param name="maps">The set.</param>
+    /// <param name="index">Index of the map in it.</param>
+    internal ColourPath Append(ReadOnlySpan<AffineMap> maps, int index) =>
+        Append(maps[index] == AffineMap.Identity ? -1 : index, index, maps.Length);
 
     /// <summary>Computes the position between the two colours of a gradient, from 0 to 1.</summary>
     /// <param name="gradient">Kind of the gradient; not <see cref="GradientKind.None"/>.</param>

@@ -43,7 +43,7 @@ public sealed class PathTracer
     private readonly Vector _eye;
     private readonly double _unit = 1;
     private readonly Scene _declared;
-    private readonly Sky? _visibleSky;
+    private readonly SkyRadiance? _visibleSky;
     private readonly Vector _backgroundRadiance;
     private readonly DisplayTransform _display;
     private readonly double _fogDensity;
@@ -89,7 +89,7 @@ public sealed class PathTracer
         _declared = declared;
         _display = DisplayTransform.Of(declared);
         // A background is shown as it is declared, whatever is done with light.
-        _visibleSky = declared.Background is null ? declared.Sky : null;
+        _visibleSky = declared.Background is null ? declared.Sky?.ToRadiance() : null;
         _backgroundRadiance = _display.Invert(TracedMaterial.ToLinear(declared.Background ?? RenderSettings.DefaultBackground));
         _fogDensity = _unit * (declared.Fog?.Density ?? 0);
         _fogColour = LightBlock.FogColour(declared);
@@ -280,7 +280,7 @@ public sealed class PathTracer
         }
     }
 
-    private Vector Background(Vector unitDirection) => _visibleSky is { } sky ? sky.Radiance(unitDirection.Y) : _backgroundRadiance;
+    private Vector Background(Vector unitDirection) => _visibleSky is { } sky ? sky.At(unitDirection.Y) : _backgroundRadiance;
 
     /// <summary>Adds up the light that reaches a surface from the scene's lights, and goes on towards the eye.</summary>
     private Vector DirectLight(

@@ -68,8 +68,8 @@ internal static class Reflection
         }
 
         var radius = Math.Sqrt(point.U);
-        var angle = 2 * Math.PI * point.V;
-        direction = axes * new Vector(radius * Math.Cos(angle), radius * Math.Sin(angle), Math.Sqrt(Math.Max(0, 1 - point.U)));
+        var (sine, cosineAround) = Math.SinCos(2 * Math.PI * point.V);
+        direction = axes * new Vector(radius * cosineAround, radius * sine, Math.Sqrt(Math.Max(0, 1 - point.U)));
         weight = surface.Diffuse / (1 - probability);
         spread = 1;
         // An interpolated normal leans away from the face, and some directions lead below it. Mirrored there, no light is lost.
@@ -87,7 +87,8 @@ internal static class Reflection
 
     private static Vector Fresnel(Vector specular, double cosine)
     {
-        var power = Math.Pow(Math.Clamp(1 - cosine, 0, 1), 5);
+        var rest = Math.Clamp(1 - cosine, 0, 1);
+        var power = rest * rest * (rest * rest) * rest;
         return specular + (power * (Vector.One - specular));
     }
 
@@ -109,19 +110,19 @@ internal static class Reflection
     }
 
     /// <summary>Chooses a unit direction of a cone, each as likely as another.</summary>
-    /// <param name="axis">Unit direction in the middle.</param>
+    /// <param name="axes">Orthonormal axes whose third is in the middle, see <see cref="AxesAround"/>.</param>
     /// <param name="cosine">Cosine of the largest angle with the axis.</param>
     /// <param name="point">A point of the unit square.</param>
-    public static Vector SampleCone(Vector axis, double cosine, (double U, double V) point)
+    public static Vector SampleCone(in Matrix axes, double cosine, (double U, double V) point)
     {
         var z = 1 - (point.U * (1 - cosine));
         var radius = Math.Sqrt(Math.Max(0, 1 - (z * z)));
         var (sine, cosineAround) = Math.SinCos(2 * Math.PI * point.V);
-        return AxesAround(axis) * new Vector(radius * cosineAround, radius * sine, z);
+        return axes * new Vector(radius * cosineAround, radius * sine, z);
     }
 
     /// <summary>Orthonormal axes whose third is a unit vector, after Duff and others, JCGT 2017.</summary>
-    private static Matrix AxesAround(Vector normal)
+    public static Matrix AxesAround(Vector normal)
     {
         var sign = double.CopySign(1, normal.Z);
         var a = -1 / (sign + normal.Z);

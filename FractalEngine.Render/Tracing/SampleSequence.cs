@@ -14,7 +14,7 @@ internal struct SampleSequence
     private const float UnitOfUInt24 = 1f / (1 << 24);
 
     private readonly uint _pixelSeed;
-    private readonly uint _index;
+    private readonly uint _reversedIndex;
     private uint _dimension;
 
     /// <summary>Begins the points of one sample.</summary>
@@ -24,17 +24,17 @@ internal struct SampleSequence
     public SampleSequence(int pixel, int sample, int seed)
     {
         _pixelSeed = Hash((uint)pixel ^ Hash((uint)seed));
-        _index = (uint)sample;
+        _reversedIndex = ReverseBits((uint)sample);
     }
 
     /// <summary>The next point, both coordinates from 0 to below 1.</summary>
     public (double U, double V) Next()
     {
         var seed = Hash(_pixelSeed + (0x9E3779B9u * ++_dimension));
-        var index = Scramble(_index, seed);
+        var index = ReverseBits(ScrambleReversed(_reversedIndex, seed));
         return (
-            ToUnit(Scramble(ReverseBits(index), Hash(seed ^ 0xA511E9B3))),
-            ToUnit(Scramble(SecondDimension(index), Hash(seed ^ 0x63D83595))));
+            ToUnit(ReverseBits(ScrambleReversed(index, Hash(seed ^ 0xA511E9B3)))),
+            ToUnit(ReverseBits(ScrambleReversed(SecondDimensionReversed(index), Hash(seed ^ 0x63D83595)))));
     }
 
     /// <summary>The next number from 0 to below 1.</summary>
@@ -42,27 +42,27 @@ internal struct SampleSequence
 
     private static double ToUnit(uint bits) => (bits >> 8) * UnitOfUInt24;
 
-    /// <summary>The second dimension of Sobol's sequence, whose direction numbers are the rows of Pascal's triangle modulo 2.</summary>
-    private static uint SecondDimension(uint index)
+    /// <summary>
+    /// The second dimension of Sobol's sequence with its bits reversed. Its direction numbers are the rows of Pascal's triangle modulo 2:
+    /// bit j is the sum of all bits of the index whose positions contain those of j, so that each position is summed over once.
+    /// </summary>
+    private static uint SecondDimensionReversed(uint index)
     {
-        var result = 0u;
-        for (var direction = 1u << 31; index != 0; index >>= 1, direction ^= direction >> 1)
-        {
-            result ^= (index & 1) != 0 ? direction : 0;
-        }
-
-        return result;
+        index ^= (index >> 1) & 0x55555555;
+        index ^= (index >> 2) & 0x33333333;
+        index ^= (index >> 4) & 0x0F0F0F0F;
+        index ^= (index >> 8) & 0x00FF00FF;
+        return index ^ (index >> 16);
     }
 
-    /// <summary>Flips each bit or not, as the bits above it and the seed decide.</summary>
-    private static uint Scramble(uint bits, uint seed)
+    /// <summary>Flips each bit or not, as the bits below it and the seed decide.</summary>
+    private static uint ScrambleReversed(uint bits, uint seed)
     {
-        bits = ReverseBits(bits) + seed;
+        bits += seed;
         bits ^= bits * 0x6C50B47C;
         bits ^= bits * 0xB82F1E52;
         bits ^= bits * 0xC7AFE638;
-        bits ^= bits * 0x8D22F6E6;
-        return ReverseBits(bits);
+        return bits ^ (bits * 0x8D22F6E6);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

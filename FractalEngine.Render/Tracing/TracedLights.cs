@@ -1,4 +1,3 @@
-using System.Collections.Immutable;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Render.Passes;
@@ -12,31 +11,30 @@ namespace FractalEngine.Render.Tracing;
 /// </remarks>
 internal sealed class TracedLights
 {
-    private readonly ImmutableArray<Light> _lights;
+    private readonly Emitter[] _emitters;
     private readonly Vector _colourAtHorizon;
     private readonly Vector _colourSlope;
-    private readonly Sky? _sky;
+    private readonly SkyRadiance? _sky;
 
     /// <summary>Prepares the lights of a scene, or the default ones where it declares none.</summary>
     public TracedLights(LoadedScene scene)
     {
-        _lights = LightBlock.LightsOf(scene);
+        _emitters = [.. LightBlock.LightsOf(scene).Select(static light => new Emitter(light))];
         var (sky, ground, _) = SceneAmbient.OfLights(scene.Scene);
-        _sky = scene.Scene.Sky;
+        _sky = scene.Scene.Sky?.ToRadiance();
         // Irradiance on a surface that faces upwards by the cosine c is then that of the drawn mixture (1 + c)/2 of sky and ground.
         _colourAtHorizon = 0.5 * (sky + ground);
         _colourSlope = 0.75 * (sky - ground);
-        Count = _lights.Length;
     }
 
     /// <summary>Number of lights that are sampled.</summary>
-    public int Count { get; }
+    public int Count => _emitters.Length;
 
     /// <summary>The radiance of the surroundings in a direction.</summary>
     public Vector Surroundings(Vector unitDirection)
     {
         var lights = Vector.Max(_colourAtHorizon + (unitDirection.Y * _colourSlope), Vector.Zero);
-        return _sky is null ? lights : lights + _sky.Radiance(unitDirection.Y);
+        return _sky is { } sky ? lights + sky.At(unitDirection.Y) : lights;
     }
 
     /// <summary>Computes the irradiance, divided by π, that a light brings to a surface which faces it, without shadows.</summary>
@@ -47,33 +45,24 @@ internal sealed class TracedLights
     /// <param name="distance">Distance of the light; infinite for parallel light.</param>
     public Vector Incoming(int index, Vector position, ref SampleSequence samples, out Vector toLight, out double distance)
     {
-        var light = _lights[index];
-        var colour = light.Intensity * TracedMaterial.ToLinear(light.Colour);
-        if (light is DirectionalLight directional)
+        var emitter = _emitters[index];
+        if (emitter.Light is not PointLight point)
         {
-            toLight = -directional.Direction.UnitVector();
-            if (directional is SunLight { Diameter: > 0 and var diameter })
-            {
-                toLight = Reflection.SampleCone(toLight, Math.Cos(diameter * Math.PI / 360), samples.Next());
-            }
-
+            toLight = emitter.IsWide ? Reflection.SampleCone(in emitter.Axes, emitter.ConeCosine, samples.Next()) : emitter.Axis;
             distance = double.PositiveInfinity;
-            return colour;
+            return emitter.Colour;
         }
 
-        var point = (PointLight)light;
         var difference = point.Position - position;
         distance = difference.Length();
         toLight = distance > 0 ? difference / distance : Vector.J;
         var strength = Falloff(distance, point.Range);
-        if (light is SpotLight spot)
+        if (point is SpotLight)
         {
-            var halfAngle = 0.5 * spot.Angle * Math.PI / 180;
-            strength *= SmoothStep(
-                Math.Cos(halfAngle), Math.Cos(0.9 * halfAngle), -Vector.Dot(toLight, spot.Direction.UnitVector()));
+            strength *= SmoothStep(emitter.ConeCosine, emitter.BrightConeCosine, Vector.Dot(toLight, emitter.Axis));
         }
 
-        return strength * colour;
+        return strength * emitter.Colour;
     }
 
     /// <summary>As in lighting.glsl: by the inverse square, 1 at a tenth of the range, 0 from the range on.</summary>
@@ -89,5 +78,52 @@ internal sealed class TracedLights
     {
         var t = Math.Clamp((value - start) / (end - start), 0, 1);
         return t * t * (3 - (2 * t));
+    }
+
+    /// <summary>A light with what does not depend on the surface that it falls on.</summary>
+    private sealed class Emitter
+    {
+        private readonly Matrix _axes;
+
+        public Emitter(Light light)
+        {
+            Light = light;
+            Colour = light.Intensity * TracedMaterial.ToLinear(light.Colour);
+            if (light is DirectionalLight or SpotLight)
+            {
+                Axis = -(light is SpotLight narrow ? narrow.Direction : ((DirectionalLight)light).Direction).UnitVector();
+                _axes = Reflection.AxesAround(Axis);
+            }
+
+            if (light is SunLight { Diameter: > 0 and var diameter })
+            {
+                (IsWide, ConeCosine) = (true, Math.Cos(diameter * Math.PI / 360));
+            }
+            else if (light is SpotLight spot)
+            {
+                var halfAngle = 0.5 * spot.Angle * Math.PI / 180;
+                (ConeCosine, BrightConeCosine) = (Math.Cos(halfAngle), Math.Cos(0.9 * halfAngle));
+            }
+        }
+
+        public Light Light { get; }
+
+        /// <summary>With the intensity, linear light.</summary>
+        public Vector Colour { get; }
+
+        /// <summary>Unit direction against which the light travels; zero for a light that shines in all directions.</summary>
+        public Vector Axis { get; }
+
+        /// <summary>Orthonormal, the third of which is that.</summary>
+        public ref readonly Matrix Axes => ref _axes;
+
+        /// <summary>True where directions towards the light differ.</summary>
+        public bool IsWide { get; }
+
+        /// <summary>Cosine of the half angle of a sun, or of a spot light.</summary>
+        public double ConeCosine { get; }
+
+        /// <summary>Cosine of the half angle within which a spot light is not weakened.</summary>
+        public double BrightConeCosine { get; }
     }
 }

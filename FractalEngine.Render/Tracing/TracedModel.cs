@@ -112,7 +112,7 @@ internal sealed class TracedModel
         return TracedMaterial.ToLinear(new(Math.Clamp(colours[0], 0, 1), Math.Clamp(colours[1], 0, 1), Math.Clamp(colours[2], 0, 1)));
     }
 
-    /// <summary>The unit normal of a corner, on the side that the winding says, as it is drawn.</summary>
+    /// <summary>The normal of a corner, of length 1 to a millionth, on the side that the winding says, as it is drawn.</summary>
     private Vector NormalAt(int corner, Vector faceNormal)
     {
         var source = _mesh.NormalIndices.Length > 0 && _mesh.NormalIndices[corner] >= 0 ? _mesh : _meshWithNormals;
@@ -128,7 +128,9 @@ internal sealed class TracedModel
             return Vector.Zero;
         }
 
-        normal = normal.UnitVector();
+        // Most files have unit normals already.
+        const double UnitError = 1e-6;
+        normal = Math.Abs(normal.LengthSquared() - 1) <= UnitError ? normal : normal.UnitVector();
         return Vector.Dot(normal, faceNormal) < 0 ? -normal : normal;
     }
 }

@@ -1,3 +1,4 @@
+using System.Collections.Concurrent;
 using System.Collections.Immutable;
 using FractalEngine.Core.Collision;
 using FractalEngine.Core.Maths;
@@ -14,10 +15,10 @@ internal sealed class TracedScene
     // Rays leave a surface by this part of the scene's size: far more than rounding, far less than a pixel.
     private const double SurfaceOffset = 1e-9;
 
-    private readonly SceneRayCaster _caster;
+    private readonly InstanceRayCaster _caster;
     private readonly TracedScene _whole;
     private readonly DeepZoom? _zoom;
-    private readonly DeepZoomRayCaster? _zoomCaster;
+    private readonly ConcurrentDictionary<Model, DeepZoomRayCaster> _zoomCasters;
     private readonly double _offset;
     private readonly ImmutableArray<PlacedModel> _objects;
     private readonly TracedModel[] _models;
@@ -30,7 +31,8 @@ internal sealed class TracedScene
     public TracedScene(LoadedScene scene, RenderSettings settings)
     {
         _whole = this;
-        _caster = new(scene);
+        _zoomCasters = [];
+        _caster = new SceneRayCaster(scene);
         _objects = scene.Objects;
         var notices = ImmutableArray.CreateBuilder<string>();
         var textures = new TextureCache(notices, shareTextures: true, []);
@@ -48,7 +50,10 @@ internal sealed class TracedScene
     private TracedScene(TracedScene scene, DeepZoom zoom)
     {
         _whole = scene;
-        _caster = scene._caster;
+        _caster = scene._zoomCasters.GetOrAdd(
+            scene._objects[zoom.ObjectIndex].Model,
+            static model => new DeepZoomRayCaster(((FractalModel)model).Fractal, [])).WithRoots(zoom.Roots);
+        _zoomCasters = scene._zoomCasters;
         _objects = scene._objects;
         _models = scene._models;
         _colours = scene._colours;
@@ -56,7 +61,6 @@ internal sealed class TracedScene
         IsSeeThrough = scene.IsSeeThrough;
         Notices = scene.Notices;
         _zoom = zoom;
-        _zoomCaster = new(((FractalModel)_objects[zoom.ObjectIndex].Model).Fractal, zoom.Roots);
     }
 
     /// <summary>Sentences for the user about textures that can't be decoded.</summary>
@@ -76,10 +80,7 @@ internal sealed class TracedScene
     public bool TryIntersect(
         in Ray ray, RayFootprint footprint, double minDistance, double maxDistance, QueryContext context, out TracedSurface surface)
     {
-        int index;
-        var isHit = _zoomCaster is not null
-            ? _zoomCaster.TryFindNearest(ray, context, out var hit, out index, minDistance, maxDistance, footprint)
-            : _caster.TryFindNearest(ray, context, out hit, out index, minDistance, maxDistance, footprint);
+        var isHit = _caster.TryFindNearest(ray, context, out var hit, out var index, minDistance, maxDistance, footprint);
         surface = isHit ? CreateSurface(ray.Direction, in hit, index, context) : default;
         return isHit;
     }
@@ -93,9 +94,7 @@ internal sealed class TracedScene
     {
         if (!IsSeeThrough)
         {
-            var isHit = _zoomCaster?.HitsAny(ray, context, 0, distance, footprint)
-                ?? _caster.HitsAny(ray, context, 0, distance, footprint);
-            return isHit ? 0 : 1;
+            return _caster.HitsAny(ray, context, 0, distance, footprint) ? 0 : 1;
         }
 
         const int MaxLayers = 32;
@@ -178,7 +177,7 @@ internal sealed class TracedScene
             return _colours[objectIndex];
         }
 
-        var factor = _zoomCaster?.GradientFactorOf(kind, index, context)
+        var factor = (_caster as DeepZoomRayCaster)?.GradientFactorOf(kind, index, context)
             ?? ColourPath.GradientFactorOf(fractal, kind, context.InstancePath);
         return ((1 - factor) * _colours[objectIndex]) + (factor * _gradientEnds[objectIndex]);
     }

@@ -31,7 +31,7 @@ public sealed class SkyTests
                 var y = ((i + 0.5) * 2 / Steps) - 1;
                 var (sine, cosine) = Math.SinCos((j + 0.5) * 2 * Math.PI / Steps);
                 var radius = Math.Sqrt(1 - (y * y));
-                sum += Math.Max(0, Vector.Dot(normal, new(radius * cosine, y, radius * sine))) * Blue.Radiance(y);
+                sum += Math.Max(0, Vector.Dot(normal, new(radius * cosine, y, radius * sine))) * Blue.ToRadiance().At(y);
             }
         }
 

@@ -91,7 +91,7 @@ internal static class ActionTable
             "lighting: per pixel", "lighting: per vertex"),
         new("trace", "View", "Traced image", "a traced image while the view stands still, or drawn frames only")
         {
-            Keys = [new(Key.Y)], Flag = "--trace", Run = static a => a.Show(a.Tracing.Toggle()) | Redraw.Scene,
+            Keys = [new(Key.Y)], Flag = "--trace", Run = static a => a.ToggleTracing(),
             IsOn = static a => a.Tracing.IsEnabled,
         },
         new("papers-zoom", "View", "The paper's zoom",

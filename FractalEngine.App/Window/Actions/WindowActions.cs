@@ -142,6 +142,14 @@ internal sealed class WindowActions(
         return Redraw.Overlay;
     }
 
+    /// <summary>Traces views that stand still from now on, or draws them only; later windows do the same.</summary>
+    public Redraw ToggleTracing()
+    {
+        var message = tracing.Toggle();
+        Interface.IsTraced = tracing.IsEnabled;
+        return Show(message) | Redraw.Scene;
+    }
+
     /// <summary>Switches between the paper's zoom and that of the engine.</summary>
     public Redraw ToggleTrail()
     {

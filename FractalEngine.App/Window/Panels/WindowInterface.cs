@@ -102,6 +102,13 @@ internal sealed class WindowInterface
     /// <summary>Switches between light and dark colours.</summary>
     public void ToggleTheme() => _settings = _settings with { IsLight = !_settings.IsLight };
 
+    /// <summary>Whether views that stand still are traced, as the user has chosen last.</summary>
+    public bool IsTraced
+    {
+        get => _settings.IsTraced;
+        set => _settings = _settings with { IsTraced = value };
+    }
+
     /// <summary>Makes the text larger or smaller by a step.</summary>
     public string ChangeScale(int steps)
     {

@@ -9,8 +9,8 @@ namespace FractalEngine.App.Window.Panels;
 
 /// <summary>What the window remembers from one run to the next: panels, colours, size of text and changed keys.</summary>
 /// <remarks>
-/// One setting a line: <c>theme light</c>, <c>scale 1.5</c>, <c>menu hidden</c>, <c>panel scene open folded floating 20 60</c>,
-/// <c>key grid Ctrl+G</c>.
+/// One setting a line: <c>theme light</c>, <c>scale 1.5</c>, <c>menu hidden</c>, <c>still drawn</c>,
+/// <c>panel scene open folded floating 20 60</c>, <c>key grid Ctrl+G</c>.
 /// </remarks>
 internal sealed record WindowSettings
 {
@@ -23,6 +23,9 @@ internal sealed record WindowSettings
 
     /// <summary>Size of the text; null to follow the size of the frame.</summary>
     public double? Scale { get; init; }
+
+    /// <summary>Whether views that stand still are traced.</summary>
+    public bool IsTraced { get; init; } = true;
 
     /// <summary>Whether the menu bar is shown.</summary>
     public bool ShowsMenu { get; init; } = true;
@@ -110,6 +113,7 @@ internal sealed record WindowSettings
         text.Append(IsLight ? "theme light\n" : "theme dark\n");
         text.Append(CultureInfo.InvariantCulture, $"scale {(Scale is { } scale ? scale : "auto")}\n");
         text.Append(ShowsMenu ? "menu shown\n" : "menu hidden\n");
+        text.Append(IsTraced ? "still traced\n" : "still drawn\n");
         foreach (var (name, panel) in Panels)
         {
             text.Append(CultureInfo.InvariantCulture, $"panel {name} {panel}\n");
@@ -127,6 +131,7 @@ internal sealed record WindowSettings
     {
         ["theme", "light" or "dark"] => this with { IsLight = words[1] == "light" },
         ["menu", "shown" or "hidden"] => this with { ShowsMenu = words[1] == "shown" },
+        ["still", "traced" or "drawn"] => this with { IsTraced = words[1] == "traced" },
         ["scale", "auto"] => this with { Scale = null },
         ["scale", var number] => double.TryParse(number, NumberStyles.Float, CultureInfo.InvariantCulture, out var scale)
             && scale is >= 0.5 and <= 4 ? this with { Scale = scale } : null,

@@ -15,7 +15,7 @@ internal sealed partial class DrivenWindow : IDisposable
     private readonly string _folder;
     private readonly string _window;
 
-    private DrivenWindow(string folder, string file, string[] options)
+    private DrivenWindow(string folder, string file, string[] options, bool isTraced)
     {
         _folder = folder;
         // The list of recent files is that of the test.
@@ -24,8 +24,10 @@ internal sealed partial class DrivenWindow : IDisposable
             ["FRACTALENGINE_NO_WINDOW"] = null,
             ["XDG_CONFIG_HOME"] = Path.Combine(folder, "config"),
         };
+        // What converges would change the pixels that a test looks at.
+        string[] trace = isTraced || options.Contains("--trace") ? [] : ["--no-trace"];
         string[] size = options.Contains("--resolution") ? [] : ["--resolution", "640x480"];
-        _process = AppProcess.Start(folder, environment, ["view", file, .. size, .. options]);
+        _process = AppProcess.Start(folder, environment, ["view", file, .. size, .. trace, .. options]);
         _process.ErrorDataReceived += (_, line) =>
         {
             lock (_errorLines)
@@ -42,11 +44,18 @@ internal sealed partial class DrivenWindow : IDisposable
     }
 
     /// <summary>Opens a window on a file. Skips the test where no window can be driven.</summary>
-    public static DrivenWindow Open(TemporaryFolder folder, string file, params string[] options)
+    /// <remarks>It is not traced while it stands still, unless an option says so.</remarks>
+    public static DrivenWindow Open(TemporaryFolder folder, string file, params string[] options) =>
+        Open(folder, file, options, isTraced: false);
+
+    /// <summary>Opens a window as a user does, without any option. Skips the test where no window can be driven.</summary>
+    public static DrivenWindow OpenPlainly(TemporaryFolder folder, string file) => Open(folder, file, [], isTraced: true);
+
+    private static DrivenWindow Open(TemporaryFolder folder, string file, string[] options, bool isTraced)
     {
         Skip.If(string.IsNullOrEmpty(Environment.GetEnvironmentVariable("DISPLAY")), "there is no display");
         Skip.IfNot(IsAvailable, "xdotool is not installed");
-        return new(folder.Path, file, options);
+        return new(folder.Path, file, options, isTraced);
     }
 
     private static bool IsAvailable => (Environment.GetEnvironmentVariable("PATH") ?? "").Split(Path.PathSeparator)

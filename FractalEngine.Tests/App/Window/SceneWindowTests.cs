@@ -210,6 +210,27 @@ public sealed class SceneWindowTests : IDisposable
     }
 
     [SkippableFact]
+    public void View_OpenedPlainly_IsTracedUntilTheUserSwitchesThatOff()
+    {
+        _folder.Write("ball.sdo", "o \"cube.obj\" ((0, 0, 0), #, #)\nlight ambient (1, 1, 1) 0.2\n");
+        using (var window = DrivenWindow.OpenPlainly(_folder, "ball.sdo"))
+        {
+            window.WaitForTitle("ball.sdo, traced ");
+            window.Send("key y");
+            window.WaitForTitle("ball.sdo - FractalEngine");
+            Assert.Equal(0, window.CloseWith("key Escape"));
+        }
+
+        using (var window = DrivenWindow.OpenPlainly(_folder, "ball.sdo"))
+        {
+            window.WaitForTitle("ball.sdo - FractalEngine");
+            window.Send("key y");
+            window.WaitForTitle("ball.sdo, traced ");
+            Assert.Equal(0, window.CloseWith("key Escape"));
+        }
+    }
+
+    [SkippableFact]
     public void Window_OnABadFile_ShowsTheErrorAndExitsWith1()
     {
         _folder.Write("bad.sdo", "o \"cube.obj\" (\n");

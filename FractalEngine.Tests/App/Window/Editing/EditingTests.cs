@@ -176,10 +176,12 @@ public sealed class EditingTests : IDisposable
     public void Settings_Written_AreReadAgain()
     {
         var settings = WindowSettings.Parse(
-            "theme light\nscale 1.5\nmenu hidden\npanel view open folded floating 20 60\nkey grid Ctrl+G\n");
+            "theme light\nscale 1.5\nmenu hidden\nstill drawn\npanel view open folded floating 20 60\nkey grid Ctrl+G\n");
         Assert.True(settings.IsLight);
         Assert.Equal(1.5, settings.Scale);
         Assert.False(settings.ShowsMenu);
+        Assert.False(settings.IsTraced);
+        Assert.True(new WindowSettings().IsTraced);
         Assert.Equal(settings.ToText(), WindowSettings.Parse(settings.ToText()).ToText());
         var panel = new UiPanel("View", static _ => { });
         settings.Panels["view"].ApplyTo(panel);
@@ -188,6 +190,7 @@ public sealed class EditingTests : IDisposable
 
     [Theory]
     [InlineData("theme pink")]
+    [InlineData("still moving")]
     [InlineData("scale 0")]
     [InlineData("scale big")]
     [InlineData("panel view open")]
