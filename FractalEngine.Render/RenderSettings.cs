@@ -69,6 +69,12 @@ public sealed record RenderSettings
     /// </summary>
     public bool FitShadowsToView { get; init; } = true;
 
+    /// <summary>
+    /// Darkens the light from all around where parts of a fractal hide each other's sky, where lighting is computed at every pixel. What
+    /// they hide is computed when the model is prepared.
+    /// </summary>
+    public bool AmbientOcclusion { get; init; } = true;
+
     /// <summary>Draws only the edges of the triangles.</summary>
     public bool Wireframe { get; init; }
 

@@ -56,6 +56,11 @@ internal sealed class DrawOptions
         HelpName = "NX,NY,NZ,D",
     };
 
+    private readonly Option<bool> _noAmbientOcclusion = new("--no-ambient-occlusion")
+    {
+        Description = "Light the holes of fractals as if they were open to the sky.",
+    };
+
     private readonly Option<Optimisation[]> _disabled = WordOption.Repeatable(
         "--without", "OPTIMISATION",
         "Disable one optimisation, for comparison; repeatable. "
@@ -70,8 +75,8 @@ internal sealed class DrawOptions
     {
         Option[] options =
         [
-            _resolution, _projection, _shading, _noShadows, _wireframe, _grid, _section, _minProjectedSize, _maxInstances, _sampleCount,
-            _disabled,
+            _resolution, _projection, _shading, _noShadows, _noAmbientOcclusion, _wireframe, _grid, _section, _minProjectedSize,
+            _maxInstances, _sampleCount, _disabled,
         ];
         foreach (var option in options)
         {
@@ -97,6 +102,7 @@ internal sealed class DrawOptions
         result.GetValue(_wireframe) ? "--wireframe"
         : result.GetValue(_grid) ? "--grid"
         : result.GetValue(_noShadows) ? "--no-shadows"
+        : result.GetValue(_noAmbientOcclusion) ? "--no-ambient-occlusion"
         : result.GetValue(_shading) == Shading.PerVertex ? "--shading vertex"
         : null;
 
@@ -128,6 +134,7 @@ internal sealed class DrawOptions
             Samples = result.GetValue(_sampleCount) ?? DefaultSettings.Samples,
             Shading = result.GetValue(_shading) ?? DefaultSettings.Shading,
             Shadows = !result.GetValue(_noShadows),
+            AmbientOcclusion = !result.GetValue(_noAmbientOcclusion),
             BackFaceCulling = IsEnabled(result, Optimisation.BackFaceCulling),
             RemoveDegenerateTriangles = IsEnabled(result, Optimisation.DegenerateRemoval),
             FilterRedundantState = IsEnabled(result, Optimisation.StateFiltering),

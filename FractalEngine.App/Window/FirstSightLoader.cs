@@ -4,7 +4,7 @@ using FractalEngine.Render.Preparation;
 
 namespace FractalEngine.App.Window;
 
-/// <summary>Prepares models in the background when their objects first become visible.</summary>
+/// <summary>Prepares models in the background when their objects first become visible, and then the light within fractals.</summary>
 /// <param name="preparation">The preparation of the scene.</param>
 /// <param name="completed">Called on the other thread when models have been prepared.</param>
 internal sealed class FirstSightLoader(ScenePreparation preparation, Action completed) : IDisposable
@@ -14,42 +14,60 @@ internal sealed class FirstSightLoader(ScenePreparation preparation, Action comp
     private CancellationTokenSource _cancellation = new();
     private volatile Task? _task;
     private bool _isDisposed;
+    private bool _isBaking;
 
     /// <summary>True from <see cref="Start"/> until <see cref="TakeScene"/> has returned the new scene.</summary>
     public bool IsRunning => _task is not null;
 
     /// <summary>The model being prepared, and the completed fraction from 0 to 1; null while nothing is prepared.</summary>
-    public (string Text, double Fraction)? Progress => _task is null ? null : _progress.Latest;
+    public (string Text, double Fraction)? Progress => _task is null || _isBaking ? null : _progress.Latest;
 
     /// <summary>Starts to prepare the visible models that are still placeholders, unless a preparation is running.</summary>
     /// <param name="view">Camera and projection of the frame.</param>
     /// <param name="aspect">Width divided by height of the frame.</param>
-    public void Start(View view, double aspect)
+    /// <param name="settings">Settings of the frame, which may need no light within fractals.</param>
+    public void Start(View view, double aspect, RenderSettings settings)
     {
-        if (_task is null && !preparation.IsComplete && preparation.HasUnpreparedVisibleModels(view, aspect))
+        if (_task is not null)
         {
-            CancellationToken token;
-            lock (_lock)
+            return;
+        }
+
+        if (!preparation.IsComplete && preparation.HasUnpreparedVisibleModels(view, aspect))
+        {
+            _isBaking = false;
+            Run(token => preparation.PrepareVisible(view, aspect, _progress, token));
+        }
+        else if (preparation.HasUnbakedSky(settings))
+        {
+            _isBaking = true;
+            Run(preparation.BakeSky);
+        }
+    }
+
+    private void Run(Action<CancellationToken> work)
+    {
+        CancellationToken token;
+        lock (_lock)
+        {
+            _cancellation.Dispose();
+            _cancellation = new();
+            token = _cancellation.Token;
+        }
+
+        _task = Task.Run(() =>
+        {
+            try
             {
-                _cancellation.Dispose();
-                _cancellation = new();
-                token = _cancellation.Token;
+                work(token);
+            }
+            catch (OperationCanceledException)
+            {
+                // What was prepared before stays.
             }
 
-            _task = Task.Run(() =>
-            {
-                try
-                {
-                    preparation.PrepareVisible(view, aspect, _progress, token);
-                }
-                catch (OperationCanceledException)
-                {
-                    // What was prepared before stays.
-                }
-
-                completed();
-            });
-        }
+            completed();
+        });
     }
 
     /// <summary>Returns the scene with newly prepared models, or null while there are none.</summary>

@@ -329,7 +329,7 @@ internal sealed class SceneWindow : IDisposable
         var usedSettings = _windowRenderer.Draw(Document, _actions.Settings, _window.Width, _window.Height);
         if (Document is { } document)
         {
-            document.FirstSightLoader.Start(_windowRenderer.LatestView!, _window.Aspect);
+            document.FirstSightLoader.Start(_windowRenderer.LatestView!, _window.Aspect, _actions.Settings);
             var camera = document.FlyingCamera;
             var drawTime = _clock.Elapsed - start;
             _overlay.ViewText = ViewName.Of(document.Camera, camera.Projection, document.VisibleDepth, camera.Log10Magnification);

@@ -70,6 +70,7 @@ internal sealed class WindowTracing(WindowOptions options, Action published) : I
         : settings.Wireframe ? "wireframe"
         : settings.Shading != Shading.PerPixel ? "light at the vertices"
         : !settings.Shadows ? "no shadows"
+        : !settings.AmbientOcclusion ? "no ambient occlusion"
         : settings.Grid || settings.Axes ? "grid"
         : document.Physics.ShowsClosestPoints ? "closest points"
         : document.Tool.Lines().Count > 0 ? "outlines of a selection"

@@ -5,6 +5,7 @@ using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Render;
+using FractalEngine.Render.Images;
 using FractalEngine.Render.Preparation;
 using FractalEngine.Render.Tracing;
 using FractalEngine.Render.Windowing;
@@ -15,15 +16,20 @@ namespace FractalEngine.Benchmarks.Light;
 internal static class LightCommand
 {
     private const string Usage = """
-        light [SCENE ...] [--quick] [--output FOLDER]
+        light [SCENE ...] [--quick] [--images FOLDER] [--output FOLDER]
           Pixels with wrong shadows, of a resting and of a moving camera; decibels of the drawn image to a traced one, without
-          and with shadows; processor time of frames with shadows by that of frames without; writes light.csv.
+          both, with shadows, with occlusion too; processor time of frames likewise; writes light.csv.
+          Unless scenes are named, also the light from all around within fractals, to a traced image; writes occlusion.csv.
+          --images: also the images of both.
         """;
+
+    private static readonly RenderSettings Plain = new() { Shadows = false, AmbientOcclusion = false };
 
     private static readonly string[] Columns =
     [
         "scene", "width", "height", "facing_pixels", "wrong_percent_resting", "wrong_percent_moving", "samples_of_truth",
-        "db_vertex", "db_without_shadows", "db_with_shadows", "frame_ms_without_shadows", "frame_ms_with_shadows", "time_ratio",
+        "db_vertex", "db_without_shadows", "db_with_shadows", "db_with_occlusion", "frame_ms_without_shadows", "frame_ms_with_shadows",
+        "frame_ms_with_occlusion", "ratio_with_shadows", "ratio_with_occlusion",
     ];
 
     /// <summary>Runs the command and returns the exit code.</summary>
@@ -32,11 +38,13 @@ internal static class LightCommand
     {
         var isQuick = false;
         var folder = CommandLineParser.DefaultFolder;
+        string? images = null;
         var scenes = new List<string>();
         var parser = new CommandLineParser(Usage)
             .Flag("--quick", () => isQuick = true)
             .Option("--output", value => folder = value)
-            .Names(static name => File.Exists(PathOf(name)), scenes);
+            .Option("--images", value => images = value)
+            .Names(static name => name == "occlusion" || File.Exists(PathOf(name)), scenes);
         if (!parser.TryParse(args))
         {
             return 2;
@@ -44,13 +52,19 @@ internal static class LightCommand
 
         if (scenes.Count == 0)
         {
-            scenes.AddRange(isQuick ? ["menger"] : ["menger", "playground", "gallery"]);
+            scenes.AddRange(isQuick ? ["menger"] : ["menger", "playground", "gallery", "inside"]);
+            MeasureOcclusion(isQuick, folder, images);
+        }
+        else if (scenes.RemoveAll(static name => name == "occlusion") > 0)
+        {
+            MeasureOcclusion(isQuick, folder, images);
+            return 0;
         }
 
         var table = new TableOptions("light", isQuick, folder).CreateTable("light.csv", Columns);
         foreach (var scene in scenes)
         {
-            var row = Measure(scene, isQuick);
+            var row = Measure(scene, isQuick, images);
             table.Add(row);
             Console.WriteLine(string.Join(' ', row.Select(static field => Convert.ToString(field, CultureInfo.InvariantCulture))));
         }
@@ -59,9 +73,22 @@ internal static class LightCommand
         return 0;
     }
 
+    private static void MeasureOcclusion(bool isQuick, string folder, string? images)
+    {
+        var table = new TableOptions("light", isQuick, folder).CreateTable("occlusion.csv", OcclusionTable.Columns);
+        foreach (var name in isQuick ? ["menger-4"] : OcclusionTable.Fractals)
+        {
+            var row = OcclusionTable.Measure(name, isQuick, images);
+            table.Add(row);
+            Console.WriteLine(string.Join(' ', row.Select(static field => Convert.ToString(field, CultureInfo.InvariantCulture))));
+        }
+
+        table.Save();
+    }
+
     private static string PathOf(string name) => Path.Combine(FractalCase.Assets, "scenes", name + ".sdo");
 
-    private static object?[] Measure(string name, bool isQuick)
+    private static object?[] Measure(string name, bool isQuick, string? images)
     {
         var (width, height) = isQuick ? (320, 180) : (1280, 720);
         var scene = AssetLoader.Load(PathOf(name)).Scene;
@@ -79,41 +106,56 @@ internal static class LightCommand
         }
 
         var truth = tracer.ToImage();
-        var (without, with) = MeasureFrames(scene, view, isQuick ? 5 : 20);
+        if (images is not null)
+        {
+            truth.SavePng(Path.Combine(images, name + "-truth.png"));
+        }
+
+        var milliseconds = MeasureFrames(scene, view, isQuick ? 5 : 20);
         return
         [
             name, width, height, facing, Percent(resting, facing), Percent(moving, facing), samples,
-            Decibels(new() { Shading = Shading.PerVertex }), Decibels(new() { Shadows = false }), Decibels(new()),
-            Math.Round(without, 1), Math.Round(with, 1), Math.Round(with / without, 3),
+            Decibels(new() { Shading = Shading.PerVertex }), Decibels(Plain), Decibels(Plain with { Shadows = true }), Decibels(new()),
+            Math.Round(milliseconds[0], 1), Math.Round(milliseconds[1], 1), Math.Round(milliseconds[2], 1),
+            Math.Round(milliseconds[1] / milliseconds[0], 3), Math.Round(milliseconds[2] / milliseconds[0], 3),
         ];
 
         double Decibels(RenderSettings settings)
         {
             using var renderer = Renderer.Offscreen(smallWidth, smallHeight, settings);
-            return Math.Round(ImageError.PeakSignalToNoiseRatio(renderer.Draw(scene, view), truth), 2);
+            var image = renderer.Draw(scene, view);
+            if (images is not null)
+            {
+                var kind = settings.Shading == Shading.PerVertex ? "vertex" : !settings.Shadows ? "plain"
+                    : settings.AmbientOcclusion ? "with" : "shadows";
+                image.SavePng(Path.Combine(images, $"{name}-{kind}.png"));
+            }
+
+            return Math.Round(ImageError.PeakSignalToNoiseRatio(image, truth), 2);
         }
     }
 
     private static double Percent(int part, int whole) => Math.Round(100.0 * part / Math.Max(1, whole), 2);
 
     /// <summary>Measures frames of a camera that moves, in turns: the best processor time of each kind.</summary>
-    private static (double Without, double With) MeasureFrames(LoadedScene scene, View view, int rounds)
+    private static double[] MeasureFrames(LoadedScene scene, View view, int rounds)
     {
         var settings = new AdaptiveQuality().Adapt(new());
+        var shadowsOnly = settings with { AmbientOcclusion = false };
+        RenderSettings[] kinds = [shadowsOnly with { Shadows = false }, shadowsOnly, settings];
         using var context = new OffscreenContext();
         using var frame = new FrameRenderer(context);
         using var renderer = new SceneRenderer(context, DrawableScene.Prepare(scene, settings));
         var step = 1e-4 * scene.Bounds.Diagonal * Vector.I;
-        var best = (Without: double.PositiveInfinity, With: double.PositiveInfinity);
+        double[] best = [.. kinds.Select(static _ => double.PositiveInfinity)];
         for (var round = 0; round <= rounds; round++)
         {
             var moved = view with { Camera = view.Camera with { Position = view.Camera.Position + (round * step) } };
-            var without = Time(moved, settings with { Shadows = false });
-            var with = Time(moved, settings);
-            // In the first round, programs are compiled and maps drawn.
-            if (round > 0)
+            for (var i = 0; i < kinds.Length; i++)
             {
-                best = (Math.Min(best.Without, without), Math.Min(best.With, with));
+                var time = Time(moved, kinds[i]);
+                // In the first round, programs are compiled and maps drawn.
+                best[i] = round > 0 ? Math.Min(best[i], time) : best[i];
             }
         }
 

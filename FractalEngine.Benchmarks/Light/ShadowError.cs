@@ -52,8 +52,9 @@ internal sealed class ShadowError
     public (int Facing, int Wrong) Count(RenderSettings settings)
     {
         var (facing, wrong) = (0, 0);
-        using var renderer = Renderer.Offscreen(_width, _height, settings with { Samples = 0 });
-        using var plainRenderer = Renderer.Offscreen(_width, _height, settings with { Samples = 0, Shadows = false });
+        settings = settings with { Samples = 0, AmbientOcclusion = false };
+        using var renderer = Renderer.Offscreen(_width, _height, settings);
+        using var plainRenderer = Renderer.Offscreen(_width, _height, settings with { Shadows = false });
         foreach (var light in _scene.Scene.Lights.Where(light => light is not AmbientLight && light.Intensity > 0))
         {
             var scene = LitBy(light);

@@ -17,6 +17,7 @@ internal sealed class InstanceList
     private readonly bool _hasPathHashes;
     private float[] _rows = new float[64 * FloatsPerInstance];
     private float[] _gradientFactors = [];
+    private float[] _skyParts = [];
     private ulong[] _pathHashes = [];
 
     /// <summary>Creates an empty list.</summary>
@@ -32,6 +33,10 @@ internal sealed class InstanceList
     /// <summary>Gradient factors from 0 to 1, [at most <see cref="Count"/>].</summary>
     /// <remarks>Only those of objects with a gradient have a meaning; the list ends with the last of these.</remarks>
     public ReadOnlySpan<float> GradientFactors => _gradientFactors.AsSpan(0, Math.Min(Count, _gradientFactors.Length));
+
+    /// <summary>Parts of the sky that the six sides of instances see, [at most <see cref="Count"/> × 6].</summary>
+    /// <remarks>Only those of objects with masks have a meaning; the list ends with the last of these.</remarks>
+    public ReadOnlySpan<float> SkyParts => _skyParts.AsSpan(0, Math.Min(Count * SkySides.Count, _skyParts.Length));
 
     /// <summary>Hashes that tell the instances of one object apart, [<see cref="Count"/>].</summary>
     public ReadOnlySpan<ulong> PathHashes => _pathHashes.AsSpan(0, Count);
@@ -80,6 +85,11 @@ internal sealed class InstanceList
         {
             SetGradientFactor(other._gradientFactors[index]);
         }
+
+        if (index * SkySides.Count < other._skyParts.Length)
+        {
+            other._skyParts.AsSpan(index * SkySides.Count, SkySides.Count).CopyTo(LastSkyParts());
+        }
     }
 
     /// <summary>Sets the gradient factor of the last instance, a number from 0 to 1.</summary>
@@ -91,6 +101,17 @@ internal sealed class InstanceList
         }
 
         _gradientFactors[Count - 1] = gradientFactor;
+    }
+
+    /// <summary>Returns the place of the last instance's parts of the sky.</summary>
+    public Span<float> LastSkyParts()
+    {
+        if (_skyParts.Length < Count * SkySides.Count)
+        {
+            Array.Resize(ref _skyParts, _rows.Length / FloatsPerInstance * SkySides.Count);
+        }
+
+        return _skyParts.AsSpan((Count - 1) * SkySides.Count, SkySides.Count);
     }
 
     private void EnsureCapacity()

@@ -13,6 +13,13 @@ public sealed class LodHierarchy
 {
     private readonly LodNode[] _nodes;
     private readonly LevelRegion[] _regions;
+    private readonly Lock _bakeLock = new();
+    private SkySides? _sides;
+    private SkyMasks?[] _lastSkyMasks = [];
+
+    // Set on the thread that bakes, after all masks.
+    private volatile bool _hasSkyMasks;
+    private volatile bool _isSkyBaked;
 
     internal LodHierarchy(LodNode[] nodes, LevelRegion[] regions, long levelCount, Mesh mesh)
     {
@@ -29,6 +36,9 @@ public sealed class LodHierarchy
     /// <summary>The base mesh in the form that an <see cref="OcclusionBuffer"/> rasterizes.</summary>
     internal OccluderMesh Occluder { get; }
 
+    /// <summary>Points of the base mesh that stand for its sides.</summary>
+    internal SkySides Sides => _sides ??= new(Mesh);
+
     /// <summary>Number of levels of the whole fractal; a huge number where they are infinitely many.</summary>
     internal long LevelCount { get; }
 
@@ -43,7 +53,57 @@ public sealed class LodHierarchy
 
     /// <summary>Builds the hierarchy of a mesh that is drawn once.</summary>
     public static LodHierarchy Build(Mesh mesh) =>
-        new([new(mesh.FaceCount == 0 ? BoundingBox.Empty : mesh.Bounds, AffineMap.Identity, [])], [new(0, 1, 0, 1)], 0, mesh);
+        new([new(mesh.FaceCount == 0 ? BoundingBox.Empty : mesh.Bounds, AffineMap.Identity, [])], [new(0, 1, 0, 1)], 0, mesh)
+        {
+            IsSkyBaked = true,
+        };
+
+    /// <summary>Whether it is known what the parts of the fractal leave of each other's sky: see <see cref="BakeSkyMasks"/>.</summary>
+    public bool HasSkyMasks
+    {
+        get => _hasSkyMasks;
+        private set => _hasSkyMasks = value;
+    }
+
+    /// <summary>Whether <see cref="BakeSkyMasks"/> has nothing more to do.</summary>
+    public bool IsSkyBaked
+    {
+        get => _isSkyBaked;
+        private set => _isSkyBaked = value;
+    }
+
+    /// <summary>Bytes of the tables that <see cref="BakeSkyMasks"/> has made.</summary>
+    public int SkyMaskBytes => HasSkyMasks
+        ? _nodes.Select(static node => node.SkyMasks).Concat(_lastSkyMasks).OfType<SkyMasks>().Distinct()
+            .Sum(static masks => masks.ByteCount)
+        : 0;
+
+    /// <summary>
+    /// Computes what the parts of the fractal leave of each other's sky, unless that is known, or no use. Takes up to two seconds, on any
+    /// one thread; culling may go on meanwhile.
+    /// </summary>
+    /// <param name="windingSign">As in <see cref="CulledObject.WindingSign"/>.</param>
+    /// <param name="cancellation">Ends the work early.</param>
+    /// <exception cref="OperationCanceledException">The work was cancelled.</exception>
+    public void BakeSkyMasks(int windingSign, CancellationToken cancellation = default)
+    {
+        // Two preparations of a scene may share the hierarchy.
+        lock (_bakeLock)
+        {
+            if (!IsSkyBaked)
+            {
+                HasSkyMasks = SkyMaskBaker.TryBake(this, windingSign, cancellation: cancellation);
+                IsSkyBaked = true;
+            }
+        }
+    }
+
+    /// <summary>Sets the masks of the last levels: they end in the base mesh, unlike others with the same node.</summary>
+    internal void SetLastSkyMasks(SkyMasks?[] masks) => _lastSkyMasks = masks;
+
+    /// <summary>Finds the masks of a node with a number of remaining levels; null for none.</summary>
+    internal SkyMasks? SkyMasksAt(LodNode node, long remainingLevels) =>
+        remainingLevels < _lastSkyMasks.Length ? _lastSkyMasks[remainingLevels] : node.SkyMasks;
 
     /// <summary>Finds the node of a number of remaining levels.</summary>
     internal LodNode NodeAt(long remainingLevels) => _nodes[LevelRegion.FindIndex(_regions, remainingLevels)];

@@ -98,6 +98,9 @@ internal sealed class LodNode
     /// <summary>Indices of the children's maps in their sets; −1 for the identity, which changes no colour.</summary>
     public int[] ChildMapIndices { get; }
 
+    /// <summary>What the children leave of each other's sky; null while that is not known.</summary>
+    public SkyMasks? SkyMasks { get; set; }
+
     private void WriteVector(Vector v, int child, int row)
     {
         var start = (child / Lanes * Lanes * BoxRows) + (row * Lanes) + (child % Lanes);

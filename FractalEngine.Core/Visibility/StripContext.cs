@@ -23,6 +23,7 @@ internal readonly ref struct StripContext
         WindingSign = item.WindingSign;
         CanOcclude = item.IsOpaque && Occluder.VertexIndices.Length > 0;
         Gradient = item.GradientKind;
+        HasSkyParts = frame.HasSkyVisibility && item.HasSkyMasks;
         Output = output;
     }
 
@@ -46,6 +47,9 @@ internal readonly ref struct StripContext
 
     /// <summary>Kind of the object's gradient.</summary>
     public GradientKind Gradient { get; }
+
+    /// <summary>Whether instances come with the parts of the sky that they see.</summary>
+    public bool HasSkyParts { get; }
 
     /// <summary>Receiver of the visible instances and the statistics.</summary>
     public StripOutput Output { get; }

@@ -26,6 +26,7 @@ internal sealed class StripCuller
     private readonly OccluderRasterizer _rasterizer = new();
     private readonly ChildFootprints _footprints = new();
     private readonly List<int> _candidates = [];
+    private readonly SkyPath _skyPath = new();
 
     /// <summary>Instances and statistics of the last run.</summary>
     public StripOutput Output { get; } = new();
@@ -261,9 +262,10 @@ internal sealed class StripCuller
         _footprints.Pop(start);
     }
 
-    private static LodInstance Descend(in StripContext context, in LodInstance parent, int child)
+    private LodInstance Descend(in StripContext context, in LodInstance parent, int child)
     {
         var node = parent.Node;
+        _skyPath.Set(parent.Depth, new(node, parent.RemainingLevels, child));
         var childLevels = node.ChildLevelSteps[child].RemainingLevels(parent.RemainingLevels);
         return new(
             context.Hierarchy.NodeAt(childLevels),
@@ -301,6 +303,11 @@ internal sealed class StripCuller
         if (context.Gradient != GradientKind.None)
         {
             instances.SetGradientFactor(instance.Path.ColourPath.ComputeGradientFactor(context.Gradient, context.Hierarchy.LevelCount));
+        }
+
+        if (context.HasSkyParts)
+        {
+            _skyPath.ComputeParts(context.Hierarchy, instance.Node, instance.Depth, instances.LastSkyParts());
         }
     }
 }

@@ -55,6 +55,7 @@ internal readonly struct StripFrame
         HasFrustumCulling = settings.FrustumCulling;
         HasOcclusionCulling = settings.OcclusionCulling;
         IsMultisampled = settings.IsMultisampled;
+        HasSkyVisibility = settings.SkyVisibility;
         MinProjectedSize = samplesPerAxis * minProjectedSize;
         InstanceBudget = instanceBudget;
         MaxNodes = MaxNodesPerInstance * (long)Math.Max(instanceBudget, MinInstancesForNodeLimit);
@@ -102,6 +103,9 @@ internal readonly struct StripFrame
 
     /// <summary>Whether boxes beyond a section plane are culled.</summary>
     public bool HasSection { get; }
+
+    /// <summary>Whether instances come with the parts of the sky that they see.</summary>
+    public bool HasSkyVisibility { get; }
 
     /// <summary>Whether pixels of the frame have several samples.</summary>
     public bool IsMultisampled { get; }

@@ -124,6 +124,18 @@ public sealed class VisibleSet
         return count == 0 ? [] : ListOf(chunk).GradientFactors.Slice(start, count);
     }
 
+    /// <summary>
+    /// Parts of the sky from 0 to 1 that the sides of each of <see cref="Instances"/> see, towards +x, +y, +z, −x, −y, −z of the base
+    /// mesh, [n × 6]. Meaningful where <see cref="CullingSettings.SkyVisibility"/> is on and the object's hierarchy has masks.
+    /// </summary>
+    /// <param name="objectIndex">Index of the object in the list of <see cref="Cull"/>.</param>
+    /// <param name="chunk">Index of the chunk, less than <see cref="ChunkCount"/>.</param>
+    public ReadOnlySpan<float> SkyParts(int objectIndex, int chunk)
+    {
+        var (start, count) = RangeOf(objectIndex, chunk);
+        return count == 0 ? [] : ListOf(chunk).SkyParts.Slice(start * SkySides.Count, count * SkySides.Count);
+    }
+
     /// <summary>Counts the visible instances of an object.</summary>
     /// <param name="objectIndex">Index of the object in the list of <see cref="Cull"/>.</param>
     public int InstanceCountOf(int objectIndex)

@@ -7,6 +7,10 @@ internal sealed class EffectiveCulling
 {
     private (CullingSettings Source, CullingSettings Resolved)? _lastResolved;
 
+    /// <summary>Tells whether frames show what instances see of the sky.</summary>
+    public static bool HasSkyVisibility(RenderSettings settings) =>
+        settings is { AmbientOcclusion: true, Wireframe: false, Shading: Shading.PerPixel, Culling: not null };
+
     /// <summary>Returns the culling settings of a frame; null where every instance is drawn.</summary>
     public CullingSettings? Resolve(RenderSettings settings)
     {
@@ -18,10 +22,15 @@ internal sealed class EffectiveCulling
         var isMultisampled = settings.Samples > 1;
         // A wireframe hides nothing behind it.
         var occlusionCulling = culling.OcclusionCulling && !settings.Wireframe;
+        var skyVisibility = HasSkyVisibility(settings);
         if (_lastResolved is not { } last || last.Source != culling || last.Resolved.IsMultisampled != isMultisampled
-            || last.Resolved.OcclusionCulling != occlusionCulling)
+            || last.Resolved.OcclusionCulling != occlusionCulling || last.Resolved.SkyVisibility != skyVisibility)
         {
-            last = (culling, culling with { IsMultisampled = isMultisampled, OcclusionCulling = occlusionCulling });
+            var resolved = culling with
+            {
+                IsMultisampled = isMultisampled, OcclusionCulling = occlusionCulling, SkyVisibility = skyVisibility,
+            };
+            last = (culling, resolved);
             _lastResolved = last;
         }
 

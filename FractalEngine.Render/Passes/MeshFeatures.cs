@@ -44,4 +44,7 @@ internal enum MeshFeatures
 
     /// <summary>A plane beyond which nothing is drawn, and which shows solids filled where it cuts them.</summary>
     Section = 2048,
+
+    /// <summary>Instances come with the parts of the sky that they see.</summary>
+    SkyParts = 4096,
 }

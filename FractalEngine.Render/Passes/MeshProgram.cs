@@ -24,6 +24,7 @@ internal sealed class MeshProgram : IDisposable
         (MeshFeatures.Shadows, "SHADOWS"),
         (MeshFeatures.PointShadows, "POINT_SHADOWS"),
         (MeshFeatures.Section, "SECTION"),
+        (MeshFeatures.SkyParts, "SKY_PARTS"),
     ];
 
     private readonly RedundancyFilter _filter;

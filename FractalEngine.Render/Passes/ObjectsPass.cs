@@ -31,6 +31,7 @@ internal sealed class ObjectsPass : IDisposable
     private TransparentOrder _transparentOrder;
     private readonly ShadowPass _shadowPass;
     private SphereBatch? _sphereBatch;
+    private bool _hasSkyParts;
 
     /// <summary>Creates the uniform buffers of a scene's lights and objects.</summary>
     /// <param name="context">Current context.</param>
@@ -87,6 +88,7 @@ internal sealed class ObjectsPass : IDisposable
         }
 
         _shadowPass.Bind();
+        _hasSkyParts = EffectiveCulling.HasSkyVisibility(settings);
         _meshPass.Begin(in frame, settings.Wireframe, FrameFeatures(settings));
         DrawOpaque(in frame, settings);
         if (spheres.Count > 0 && view.DeepZoom is null)
@@ -220,6 +222,7 @@ internal sealed class ObjectsPass : IDisposable
 
     private MeshFeatures FeaturesOf(int index, CullFace culledFace) =>
         (_buffers.Culler.SelectsInstances(index) ? MeshFeatures.CameraRelative : MeshFeatures.None)
+        | (_hasSkyParts && _buffers.Culler.HasSkyParts(index) ? MeshFeatures.SkyParts : MeshFeatures.None)
         | (culledFace == CullFace.Back ? MeshFeatures.FrontFacesOnly : MeshFeatures.None)
         | (_scene.Objects[index].Model.Colours.IsEmpty ? MeshFeatures.None : MeshFeatures.VertexColours);
 

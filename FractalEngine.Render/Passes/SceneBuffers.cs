@@ -17,7 +17,7 @@ internal sealed class SceneBuffers(GlResources resources) : IDisposable
     public SceneCuller Culler => _culler!;
 
     /// <summary>Culls the instances for the depth maps of lights, one map after the other. Made anew when models are uploaded.</summary>
-    public SceneCuller ShadowCuller => _shadowCuller ??= new(resources, _scene!, _models);
+    public SceneCuller ShadowCuller => _shadowCuller ??= new(resources, _scene!, _models, usesSkyMasks: false);
 
     /// <summary>Uploads what is not on the GPU yet, and deletes the buffers of models that the scene no longer has.</summary>
     /// <exception cref="GlException">The GPU's memory does not suffice. What was uploaded before stays until disposal.</exception>
@@ -40,7 +40,7 @@ internal sealed class SceneBuffers(GlResources resources) : IDisposable
             _models.Add(model, new(resources, model));
         }
 
-        _culler = new(resources, scene, _models);
+        _culler = new(resources, scene, _models, usesSkyMasks: true);
     }
 
     /// <summary>Returns the buffers of a model of the scene.</summary>

@@ -19,6 +19,7 @@ internal sealed class SceneCuller : IDisposable
     // By object; its index among the culled ones.
     private readonly int[] _culledIndices;
     private readonly CulledObject[] _culledObjects;
+    private bool _hasSkyParts;
     private VisibleSet _visible = new();
     private VisibleSet _speculative = new();
     private Task? _speculativeTask;
@@ -26,7 +27,12 @@ internal sealed class SceneCuller : IDisposable
     private (CullingView View, CullingSettings Settings, DeepZoom? Zoom)? _lastKey;
 
     /// <summary>Creates empty instance buffers for the objects that have a level-of-detail hierarchy and are not dynamic.</summary>
-    public SceneCuller(GlResources resources, DrawableScene scene, IReadOnlyDictionary<DrawableModel, ModelBuffers> models)
+    /// <param name="resources">Resources of the current context.</param>
+    /// <param name="scene">Scene whose instances are culled.</param>
+    /// <param name="models">Buffers of its models.</param>
+    /// <param name="usesSkyMasks">Whether instances come with the parts of the sky that they see, where that is known by now.</param>
+    public SceneCuller(
+        GlResources resources, DrawableScene scene, IReadOnlyDictionary<DrawableModel, ModelBuffers> models, bool usesSkyMasks)
     {
         _uploadFilter = resources.UploadFilter;
         _scene = scene;
@@ -40,10 +46,12 @@ internal sealed class SceneCuller : IDisposable
             _culledIndices[i] = culledObjects.Count;
             if (model.LodHierarchy is { } hierarchy && !item.IsDynamic)
             {
-                _visibleInstances[i] = new(resources, item.Name, models[model], item.Gradient is not null);
+                var hasSkyMasks = usesSkyMasks && hierarchy.HasSkyMasks;
+                _visibleInstances[i] = new(resources, item.Name, models[model], item.Gradient is not null, hasSkyMasks);
                 culledObjects.Add(new(hierarchy, item.Map, model.MeshOrigin, model.MeshWindingSign, !model.IsSeeThrough)
                 {
                     GradientKind = item.Gradient?.Kind ?? GradientKind.None,
+                    HasSkyMasks = hasSkyMasks,
                 });
             }
         }
@@ -91,6 +99,9 @@ internal sealed class SceneCuller : IDisposable
     /// <summary>Returns true for an object whose visible instances are selected here; all instances of others are drawn.</summary>
     public bool SelectsInstances(int index) => _visibleInstances[index] is not null;
 
+    /// <summary>Returns true for an object whose instances of the last pass come with the parts of the sky that they see.</summary>
+    public bool HasSkyParts(int index) => _hasSkyParts && SelectsInstances(index) && _culledObjects[_culledIndices[index]].HasSkyMasks;
+
     /// <summary>Moves an object of the scene.</summary>
     /// <param name="index">Index of the object in the scene, from 0.</param>
     /// <param name="map">Map from the model's frame to world space.</param>
@@ -129,10 +140,11 @@ internal sealed class SceneCuller : IDisposable
         CullCount++;
         for (var i = 0; i < _visibleInstances.Length; i++)
         {
-            _visibleInstances[i]?.Upload(_visible, _culledIndices[i]);
+            _visibleInstances[i]?.Upload(_visible, _culledIndices[i], settings.SkyVisibility);
         }
 
         _lastKey = (view, settings, zoom);
+        _hasSkyParts = settings.SkyVisibility;
     }
 
     /// <summary>Starts culling on other threads for a frame that will probably be drawn next.</summary>

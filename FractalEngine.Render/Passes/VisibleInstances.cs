@@ -9,9 +9,12 @@ namespace FractalEngine.Render.Passes;
 internal sealed class VisibleInstances : IDisposable
 {
     private const int TintLocation = 5;
+    private const int SkyAboveLocation = 8;
+    private const int SkyBelowLocation = 9;
 
     private readonly GlBuffer _instances;
     private readonly GlBuffer? _tints;
+    private readonly GlBuffer? _skyParts;
     private readonly VertexArray _vertexArray;
     private int _instanceCount;
 
@@ -20,7 +23,8 @@ internal sealed class VisibleInstances : IDisposable
     /// <param name="name">Name of the object, for messages.</param>
     /// <param name="model">Buffers of the object's model.</param>
     /// <param name="hasTints">Whether the object has a gradient, so that each instance has a position in it.</param>
-    public VisibleInstances(GlResources resources, string name, ModelBuffers model, bool hasTints)
+    /// <param name="hasSkyParts">Whether instances come with the parts of the sky that they see.</param>
+    public VisibleInstances(GlResources resources, string name, ModelBuffers model, bool hasTints, bool hasSkyParts)
     {
         _instances = new(resources, $"visible instances of {name}", BufferTarget.ArrayBuffer);
         _vertexArray = new(resources, $"visible instances of {name}");
@@ -31,6 +35,14 @@ internal sealed class VisibleInstances : IDisposable
             _vertexArray.Attribute(_tints, TintLocation, 1, 1, 0, divisor: 1);
             _vertexArray.Unbind();
         }
+
+        if (hasSkyParts)
+        {
+            _skyParts = new(resources, $"sky of {name}", BufferTarget.ArrayBuffer);
+            _vertexArray.Attribute(_skyParts, SkyAboveLocation, 3, 6, 0, divisor: 1);
+            _vertexArray.Attribute(_skyParts, SkyBelowLocation, 3, 6, 3, divisor: 1);
+            _vertexArray.Unbind();
+        }
     }
 
     /// <summary>Bytes that were uploaded so far.</summary>
@@ -39,7 +51,8 @@ internal sealed class VisibleInstances : IDisposable
     /// <summary>Replaces the instances on the GPU.</summary>
     /// <param name="visible">Visible instances of all objects.</param>
     /// <param name="objectIndex">Index of the object in that set.</param>
-    public void Upload(VisibleSet visible, int objectIndex)
+    /// <param name="hasSkyParts">Whether the set has parts of the sky.</param>
+    public void Upload(VisibleSet visible, int objectIndex, bool hasSkyParts)
     {
         _instanceCount = visible.InstanceCountOf(objectIndex);
         _instances.Discard(_instanceCount * VisibleSet.FloatsPerInstance * sizeof(float));
@@ -50,19 +63,29 @@ internal sealed class VisibleInstances : IDisposable
         }
 
         UploadedBytes += offset;
-        if (_tints is null)
+        if (_tints is not null)
         {
-            return;
+            _tints.Discard(_instanceCount * sizeof(float));
+            offset = 0;
+            for (var chunk = 0; chunk < VisibleSet.ChunkCount; chunk++)
+            {
+                offset += _tints.Write(visible.GradientFactors(objectIndex, chunk), offset);
+            }
+
+            UploadedBytes += offset;
         }
 
-        _tints.Discard(_instanceCount * sizeof(float));
-        offset = 0;
-        for (var chunk = 0; chunk < VisibleSet.ChunkCount; chunk++)
+        if (_skyParts is not null && hasSkyParts)
         {
-            offset += _tints.Write(visible.GradientFactors(objectIndex, chunk), offset);
-        }
+            _skyParts.Discard(_instanceCount * 6 * sizeof(float));
+            offset = 0;
+            for (var chunk = 0; chunk < VisibleSet.ChunkCount; chunk++)
+            {
+                offset += _skyParts.Write(visible.SkyParts(objectIndex, chunk), offset);
+            }
 
-        UploadedBytes += offset;
+            UploadedBytes += offset;
+        }
     }
 
     /// <summary>Draws one batch of all instances in one call.</summary>
@@ -73,6 +96,7 @@ internal sealed class VisibleInstances : IDisposable
     {
         _vertexArray.Dispose();
         _tints?.Dispose();
+        _skyParts?.Dispose();
         _instances.Dispose();
     }
 }

@@ -16,6 +16,7 @@ public sealed class ScenePreparation
     private readonly TextureCache _textures;
     private readonly Model[] _models;
     private readonly DrawableModel?[] _prepared;
+    private readonly bool _hasAmbientLight;
 
     /// <summary>Creates the scene with placeholders for all models.</summary>
     /// <param name="scene">Scene with its files loaded.</param>
@@ -28,6 +29,7 @@ public sealed class ScenePreparation
         _scene = scene;
         _settings = settings;
         _models = [.. scene.Models];
+        _hasAmbientLight = SceneAmbient.Of(scene.Scene) != default;
         _textures = new(_notices, settings.ShareTextures, previous?.Textures ?? []);
         _prepared = new DrawableModel?[_models.Length];
         var lightCount = scene.Scene.Lights.Count(static light => light is not AmbientLight);
@@ -71,6 +73,30 @@ public sealed class ScenePreparation
         View view, double aspect, IProgress<PreparationProgress>? progress = null, CancellationToken cancellation = default) =>
         Prepare(model => IsVisible(model, view, aspect), progress, cancellation);
 
+    /// <summary>
+    /// Whether <see cref="BakeSky"/> has anything to do: light comes from all around, and it is not known which parts of a fractal hide it
+    /// from others.
+    /// </summary>
+    /// <param name="settings">Settings of the frame, which may have no use for it.</param>
+    public bool HasUnbakedSky(RenderSettings settings) =>
+        _hasAmbientLight && EffectiveCulling.HasSkyVisibility(settings) && Array.Exists(_prepared, NeedsBaking);
+
+    /// <summary>
+    /// Computes what the parts of each fractal that is prepared leave of each other's sky. The drawn scene uses it once it is updated.
+    /// </summary>
+    /// <param name="cancellation">Ends the work early.</param>
+    /// <exception cref="OperationCanceledException">The work was cancelled.</exception>
+    public void BakeSky(CancellationToken cancellation)
+    {
+        foreach (var model in _prepared)
+        {
+            if (NeedsBaking(model))
+            {
+                model!.LodHierarchy!.BakeSkyMasks(model.MeshWindingSign, cancellation);
+            }
+        }
+    }
+
     /// <summary>Returns true when the model of a visible object is not prepared yet.</summary>
     /// <param name="view">Camera and projection.</param>
     /// <param name="aspect">Width divided by height of the frame.</param>
@@ -86,6 +112,8 @@ public sealed class ScenePreparation
 
         return false;
     }
+
+    private static bool NeedsBaking(DrawableModel? model) => model?.LodHierarchy is { IsSkyBaked: false };
 
     private void TakePrepared(DrawableScene previous)
     {

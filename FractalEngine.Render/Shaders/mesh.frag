@@ -1,7 +1,8 @@
 #version 330 core
 #extension GL_ARB_texture_gather : enable
 // The colour of the visible face. Front faces are wound clockwise on the screen in a left-handed scene, the other way in a right-handed one.
-// PER_PIXEL, TEXTURED, GLOSSY, FRONT_FACES_ONLY, CUT_OUT, EMISSIVE, ATMOSPHERE, SHADOWS and SECTION are defined where they apply.
+// PER_PIXEL, TEXTURED, GLOSSY, FRONT_FACES_ONLY, CUT_OUT, EMISSIVE, ATMOSPHERE, SHADOWS, POINT_SHADOWS, SECTION and SKY_PARTS are
+// defined where they apply.
 
 #include "material.glsl"
 #if defined(PER_PIXEL) || defined(ATMOSPHERE)
@@ -21,6 +22,21 @@ in vec3 pixelPosition;
 #ifdef PER_PIXEL
 in vec3 pixelNormal;
 in vec3 pixelColour;
+#ifdef SKY_PARTS
+in vec2 pixelSky;
+
+// The part of direct light that falls on the surfaces around an open place, on the mean: some face away, some are in shadow. In a hole it
+// falls with the part of the sky that is seen.
+const float directPart = 0.3;
+
+// The light from all around within a hole. What hides the sky has about the same colour, and shines back what it gets: the sky that is
+// seen here, and a part of the direct light. So e = part * sky + (1 - part) * albedo * (directPart * part * direct + e).
+vec3 lightInHole(vec3 sky, float part, vec3 direct, vec3 albedo)
+{
+    vec3 returned = (1.0 - part) * min(albedo, 0.95);
+    return (part * sky + returned * directPart * part * direct) / (1.0 - returned);
+}
+#endif
 #else
 in vec3 frontColour;
 #ifdef GLOSSY
@@ -93,11 +109,19 @@ void main()
     }
 #endif
     vec3 light = material[2].rgb * ambientLight(n.y);
+#ifdef SKY_PARTS
+    vec3 sky = light;
+    vec3 direct = vec3(0.0);
+    light = vec3(0.0);
+#endif
     for (int i = 0; i < lightCount.x; i++)
     {
         vec3 toLight;
         vec3 incoming = incomingLight(lights[i], position, toLight);
         float cosine = dot(n, toLight);
+#ifdef SKY_PARTS
+        direct += incoming;
+#endif
 #ifdef SHADOWS
         if (cosine > 0.0)
         {
@@ -111,6 +135,13 @@ void main()
 #endif
     }
 
+#ifdef SKY_PARTS
+    float seenSky = clamp(gl_FrontFacing ? pixelSky.x : pixelSky.y, 0.0, 1.0);
+#ifdef SECTION
+    seenSky = isCap ? 1.0 : seenSky;
+#endif
+    light += lightInHole(sky, seenSky, direct, pixelColour);
+#endif
     vec3 colour = pixelColour * light;
 #else
 #ifdef FRONT_FACES_ONLY

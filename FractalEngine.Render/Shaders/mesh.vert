@@ -15,6 +15,11 @@ layout(location = 6) in vec2 textureCoordinates;
 layout(location = 7) in vec3 vertexColour; // linear light
 #endif
 
+#ifdef SKY_PARTS
+layout(location = 8) in vec3 skyAbove; // parts of the sky that the instance's sides see, towards x, y and z of the mesh
+layout(location = 9) in vec3 skyBelow; // towards -x, -y and -z
+#endif
+
 layout(std140) uniform ObjectBlock
 {
     vec4 linear[3];      // columns of the object's map
@@ -53,6 +58,9 @@ out vec3 backHighlight;
 #endif
 #endif
 #endif
+#ifdef SKY_PARTS
+out vec2 pixelSky;          // part of the sky that the front and the back of the surface see
+#endif
 #ifdef TEXTURED
 out vec2 pixelTextureCoordinates;
 #endif
@@ -82,6 +90,12 @@ void main()
     vec3 n = direction(cross(c1, c2) * normal.x + cross(c2, c0) * normal.y + cross(c0, c1) * normal.z);
 #ifndef CAMERA_RELATIVE
     n = direction(cofactors[0].xyz * n.x + cofactors[1].xyz * n.y + cofactors[2].xyz * n.z);
+#endif
+
+#ifdef SKY_PARTS
+    vec3 squares = normal * normal / max(dot(normal, normal), 1e-30);
+    vec3 isAbove = step(0.0, normal);
+    pixelSky = vec2(dot(squares, mix(skyBelow, skyAbove, isAbove)), dot(squares, mix(skyAbove, skyBelow, isAbove)));
 #endif
 
     vec3 surface = mix(mix(colour.rgb, gradientEnd.rgb, tint), material[0].rgb, material[2].w);

@@ -141,7 +141,7 @@ public sealed class HandednessTests : IDisposable
     private static PixelImage DrawDive(Handedness handedness, out int depth)
     {
         // All that is seen lies in a shadow.
-        var settings = new RenderSettings { Samples = 0, Shadows = false };
+        var settings = new RenderSettings { Samples = 0, Shadows = false, AmbientOcclusion = false };
         var model = RenderScenes.Menger(null);
         var scene = RenderScenes.Scene(
             new() { Handedness = handedness, Lights = [RenderScenes.FullLight, new DirectionalLight(new(1, -2, 0), Colour.White, 0.5)] },

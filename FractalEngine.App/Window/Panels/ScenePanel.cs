@@ -138,7 +138,7 @@ internal sealed class ScenePanel(WindowActions actions)
             var offset = 0.25 * actions.Document!.File.Scene.Objects[index].Bounds.Size.X * Vector.I;
             var placement = declared.Placement with { Position = declared.Placement.Position + offset };
             actions.ChangeScene(
-                ui, present => present with { Objects = present.Objects.Add(Place(present.Objects[index], placement)) });
+                ui, present => present with { Objects = present.Objects.Add(present.Objects[index].MovedTo(placement)) });
             _object = actions.Document.File.Scene.Scene.Objects.Length;
             actions.Document.Tool.Selected = null;
         }

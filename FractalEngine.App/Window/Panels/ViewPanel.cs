@@ -110,6 +110,14 @@ internal sealed class ViewPanel(WindowActions actions, Action<WindowAction> choo
         }
 
         ui.Tooltip("shadows of all lights, where lighting is computed at every pixel (--no-shadows)");
+        var ambientOcclusion = actions.Settings.AmbientOcclusion;
+        if (ui.CheckBox("Ambient occlusion", ref ambientOcclusion))
+        {
+            actions.Settings = actions.Settings with { AmbientOcclusion = ambientOcclusion };
+            actions.RequestDraw();
+        }
+
+        ui.Tooltip("light within the holes of fractals, where lighting is computed at every pixel (--no-ambient-occlusion)");
     }
 
     private void BuildBookmarks(UserInterface ui, Document document)

@@ -80,11 +80,11 @@ public sealed class WindowRendererTests : IDisposable
         using var window = Open();
         using var document = Load(window);
         Assert.Equal(1, document.Renderer.Scene.Models.Count(model => model.IsPlaceholder));
-        document.FirstSightLoader.Start(document.UpdateView(window.Aspect), window.Aspect);
+        document.FirstSightLoader.Start(document.UpdateView(window.Aspect), window.Aspect, Settings);
         Assert.False(document.FirstSightLoader.IsRunning);
         // F frames the whole scene.
         document.CameraControls.Handle(new KeyPressed(Key.F, KeyModifiers.None, false), window.Aspect);
-        document.FirstSightLoader.Start(document.UpdateView(window.Aspect), window.Aspect);
+        document.FirstSightLoader.Start(document.UpdateView(window.Aspect), window.Aspect, Settings);
         Assert.True(document.FirstSightLoader.IsRunning);
         var scene = Polling.WaitFor(document.FirstSightLoader.TakeScene, "scene with the models that became visible");
         Assert.DoesNotContain(scene.Models, model => model.IsPlaceholder);

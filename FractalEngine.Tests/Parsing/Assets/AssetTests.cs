@@ -39,6 +39,9 @@ public sealed class AssetTests
     [InlineData("shell", 160, 128)]
     [InlineData("snowflake", 22, 14_406)]
     [InlineData("terrain", 12, 65_536)]
+    [InlineData("mountain", 36, 100_000)]
+    [InlineData("forest", 20, 2_560_000_000)]
+    [InlineData("forest-leaves", 24, 1_610_612_736)]
     public void Fractal_HasTheStatedFacesAndInstances(string name, int faces, long instances)
     {
         var fractal = Fractal(name);
@@ -57,6 +60,7 @@ public sealed class AssetTests
     [InlineData("diamond", 117_649)]
     [InlineData("tree", 21_845)]
     [InlineData("snowflake", 9_330)]
+    [InlineData("mountain", 66_430)]
     [InlineData("terrain", 65_536)]
     public void Fractal_HasTheStatedDistinctInstances(string name, int distinct) =>
         Assert.Equal(distinct, DistinctInstances.Count(Fractal(name)));

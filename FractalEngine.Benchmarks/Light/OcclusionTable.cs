@@ -1,0 +1,87 @@
+using FractalEngine.Benchmarks.Drawing;
+using FractalEngine.Benchmarks.Measuring;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Images;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Visibility;
+using FractalEngine.Parsing.Assets;
+using FractalEngine.Render;
+using FractalEngine.Render.Images;
+using FractalEngine.Render.Tracing;
+
+namespace FractalEngine.Benchmarks.Light;
+
+/// <summary>
+/// How right is light from all around within fractals? Dark fractals under a white sky are drawn, and traced with many rays a pixel: what
+/// is seen is the part of the sky that each point sees.
+/// </summary>
+internal static class OcclusionTable
+{
+    /// <summary>Names of the table's columns.</summary>
+    public static readonly string[] Columns =
+        ["fractal", "rays_of_truth", "db_without", "db_with", "has_masks", "bake_ms", "bytes"];
+
+    /// <summary>The fractals that are measured.</summary>
+    public static readonly string[] Fractals =
+    [
+        "menger-4", "menger", "tetrahedron", "sierpinski", "tree-leaves", "tree", "romanesco", "terrain", "mountain",
+    ];
+
+    // So dark that hardly any light is reflected twice, and shown so many times brighter.
+    private const double Exposure = 25;
+    private static readonly Colour Dark = new(0.22, 0.22, 0.22);
+
+    /// <summary>Measures the drawn light within one fractal.</summary>
+    /// <param name="name">Name of its file, without the ending.</param>
+    /// <param name="isQuick">Whether a smaller image with fewer rays will do.</param>
+    /// <param name="folder">Receives the images; null for none.</param>
+    public static object?[] Measure(string name, bool isQuick, string? folder = null)
+    {
+        var (width, height, rays) = isQuick ? (240, 180, 32) : (480, 360, 128);
+        var file = AssetLoader.Load(Path.Combine(FractalCase.Assets, "fractals", name + ".fdo")).Scene;
+        var placed = file.Objects[0];
+        var scene = file with
+        {
+            Scene = file.Scene with { Lights = [new AmbientLight(Colour.White, 1)], Background = Colour.Black, Exposure = Exposure },
+            Objects = [new(placed.Declaration with { Colour = Dark }, placed.Model)],
+        };
+        var view = View.Of(scene, (double)width / height);
+        var tracer = new PathTracer(scene, view, width, height);
+        for (var i = 0; i < rays; i++)
+        {
+            tracer.AddSample();
+        }
+
+        var truth = tracer.ToImage();
+        var without = Draw(new() { AmbientOcclusion = false });
+        var with = Draw(new());
+        if (folder is not null)
+        {
+            truth.SavePng(Path.Combine(folder, name + "-truth.png"));
+            with.SavePng(Path.Combine(folder, name + "-with.png"));
+        }
+
+        var (hasMasks, milliseconds, bytes) = Bake((FractalModel)placed.Model);
+        return
+        [
+            name, rays, Round(ImageError.PeakSignalToNoiseRatio(without, truth)), Round(ImageError.PeakSignalToNoiseRatio(with, truth)),
+            hasMasks, Math.Round(milliseconds), bytes,
+        ];
+
+        PixelImage Draw(RenderSettings settings)
+        {
+            using var renderer = Renderer.Offscreen(width, height, settings);
+            return renderer.Draw(scene, view);
+        }
+    }
+
+    private static double Round(double decibels) => Math.Round(decibels, 1);
+
+    private static (bool HasMasks, double Milliseconds, int Bytes) Bake(FractalModel model)
+    {
+        var hierarchy = LodHierarchy.Build(model.Fractal);
+        var start = Environment.CpuUsage.TotalTime;
+        hierarchy.BakeSkyMasks(ClosedSurface.IsSolid(model.Mesh) ? 1 : 0);
+        return (hierarchy.HasSkyMasks, (Environment.CpuUsage.TotalTime - start).TotalMilliseconds, hierarchy.SkyMaskBytes);
+    }
+}

@@ -1,0 +1,332 @@
+using System.Numerics;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+using Vector = FractalEngine.Core.Maths.Vector;
+
+namespace FractalEngine.Core.Visibility;
+
+/// <summary>Computes the <see cref="SkyMasks"/> of a hierarchy by casting rays from the surface of each child at its siblings.</summary>
+internal sealed class SkyMaskBaker
+{
+    // From so many remaining levels on, levels with the same maps look alike.
+    private const long SettledLevels = 4;
+
+    // Hierarchies with a node of more children have no masks, and neither have those with more children in all.
+    private const int MaxChildren = 64;
+    private const int MaxTotalChildren = 80;
+
+    // Flat tiles in sheared frames make up a landscape. Their masks are turned wrong by a little at each level, and all directions that
+    // matter lie close to the ground: drawn mountains are 3 dB farther from traced ones than without. By the diagonal.
+    private const double MaxFlatness = 0.05;
+
+    // In each round, so many lines of sight are cast for each child, and one point votes for each mask.
+    private const int RoundCount = 7;
+    private const int DrawsPerChild = 100;
+
+    // Lines of sight to points at which masks are compared with rays, and the maximum of their error, by that of no masks.
+    private const int TestedLines = 300;
+    private const double MaxErrorRatio = 0.7;
+    private const double MaxLoss = 0.05;
+
+    private readonly SkyOccluder _occluder;
+
+    private readonly LodHierarchy _hierarchy;
+
+    private SkyMaskBaker(SkyOccluder occluder, LodHierarchy hierarchy)
+    {
+        _occluder = occluder;
+        _hierarchy = hierarchy;
+    }
+
+    /// <summary>Gives the nodes of a hierarchy their masks, where these come close to the truth.</summary>
+    /// <param name="hierarchy">Hierarchy of a fractal; that of a mesh needs none.</param>
+    /// <param name="windingSign">As in <see cref="CulledObject.WindingSign"/>.</param>
+    /// <param name="keepsAll">Whether masks stay that do not pay.</param>
+    /// <param name="cancellation">Ends the work early.</param>
+    /// <returns>False where the hierarchy has no masks.</returns>
+    public static bool TryBake(LodHierarchy hierarchy, int windingSign, bool keepsAll = false, CancellationToken cancellation = default)
+    {
+        if (hierarchy.Mesh.FaceCount is 0 or > OccluderMesh.MaxFaceCount)
+        {
+            return false;
+        }
+
+        var occluder = new SkyOccluder(hierarchy, windingSign);
+        if (IsFlat(hierarchy.Mesh.Bounds) && occluder.Nodes.Exists(static state => Array.Exists(state.Node.ChildMaps, IsShear)))
+        {
+            return false;
+        }
+
+        return new SkyMaskBaker(occluder, hierarchy).Bake(keepsAll, cancellation);
+    }
+
+    private static bool IsFlat(BoundingBox box) =>
+        Math.Min(box.Size.X, Math.Min(box.Size.Y, box.Size.Z)) < MaxFlatness * box.Diagonal;
+
+    /// <summary>Tells whether a map changes angles.</summary>
+    private static bool IsShear(SimdAffineMap map)
+    {
+        var (x, y, z) = (SimdAffineMap.ToVector(map.V1), SimdAffineMap.ToVector(map.V2), SimdAffineMap.ToVector(map.V3));
+        const double Tolerance = 0.01;
+        var size = map.FrobeniusNormSquared() / 3;
+        return Math.Abs(x.LengthSquared() - size) + Math.Abs(y.LengthSquared() - size) + Math.Abs(z.LengthSquared() - size)
+            + Math.Abs(Vector.Dot(x, y)) + Math.Abs(Vector.Dot(y, z)) + Math.Abs(Vector.Dot(z, x)) > Tolerance * size;
+    }
+
+    private bool Bake(bool keepsAll, CancellationToken cancellation)
+    {
+        var sources = FindSources();
+        var children = sources.Where(static pair => pair.Source < 0).Sum(pair => _occluder.Nodes[pair.Index].Node.ChildMaps.Length);
+        if (children > MaxTotalChildren || _occluder.Nodes.Exists(static state => state.Node.ChildMaps.Length > MaxChildren))
+        {
+            return false;
+        }
+
+        // The masks of a node are compared with rays together with those below it, which are there first.
+        var lastMasks = new SkyMasks?[_occluder.LastLevels + 1];
+        _hierarchy.SetLastSkyMasks(lastMasks);
+        var hidesAnything = false;
+        var fromTheLast = sources.OrderBy(pair => _occluder.Nodes[pair.Index].Levels).ThenByDescending(static pair => pair.Index);
+        foreach (var (index, source) in fromTheLast)
+        {
+            var (node, levels) = _occluder.Nodes[index];
+            if (source < 0)
+            {
+                var masks = Compute(node, levels, cancellation);
+                SetMasks(node, levels, masks);
+                masks = masks.HideAnything && (keepsAll || IsUseful(node, levels)) ? masks : masks.WithoutMasks();
+                SetMasks(node, levels, masks);
+                hidesAnything |= masks.HideAnything;
+            }
+        }
+
+        foreach (var (index, source) in sources.Where(static pair => pair.Source >= 0))
+        {
+            _occluder.Nodes[index].Node.SkyMasks = _occluder.Nodes[source].Node.SkyMasks;
+        }
+
+        return hidesAnything;
+
+        void SetMasks(LodNode node, long levels, SkyMasks masks)
+        {
+            if (levels < lastMasks.Length)
+            {
+                lastMasks[levels] = masks;
+            }
+            else
+            {
+                node.SkyMasks = masks;
+            }
+        }
+    }
+
+    /// <summary>Finds the nodes with children, and for each another one that has the same masks; −1 for none.</summary>
+    private List<(int Index, int Source)> FindSources()
+    {
+        var sources = new List<(int Index, int Source)>();
+        for (var i = 0; i < _occluder.Nodes.Count; i++)
+        {
+            var (node, levels) = _occluder.Nodes[i];
+            if (node.ChildMaps.Length > 0)
+            {
+                var isSettled = levels > _occluder.LastLevels && levels >= SettledLevels;
+                sources.Add((i, isSettled ? sources.FindIndex(pair => pair.Source < 0 && HasSameChildren(pair.Index, node)) : -1));
+                var (index, source) = sources[^1];
+                sources[^1] = (index, source < 0 ? -1 : sources[source].Index);
+            }
+        }
+
+        return sources;
+
+        bool HasSameChildren(int index, LodNode node) =>
+            _occluder.Nodes[index].Levels > _occluder.LastLevels && SkyMaskBaker.HasSameChildren(node, _occluder.Nodes[index].Node);
+    }
+
+    /// <summary>
+    /// Compares the masks of a node with rays at some points of its surface: whether they tell more than that siblings hide nothing.
+    /// </summary>
+    private bool IsUseful(LodNode node, long levels)
+    {
+        var random = new Random(0);
+        var path = new SkyPath();
+        var sample = new SkySample();
+        Span<float> parts = stackalloc float[SkySides.Count];
+        // By the side that the lines come from: what is right on the whole may be wrong on the one side that an image shows.
+        Span<double> gains = stackalloc double[SkySides.Count];
+        var (error, errorWithout) = (0.0, 0.0);
+        for (var i = 0; i < TestedLines; i++)
+        {
+            if (_occluder.TrySample(node, levels, random, sample))
+            {
+                var free = _occluder.FreeDirections(node, levels, -1, sample.Point, SkyDirections.Above(sample.Normal));
+                var truth = SkyDirections.VisiblePart(free, SkyDirections.NearestNormal(SimdAffineMap.ToVector256(sample.Normal)));
+                path.Set(sample.Steps);
+                path.ComputeParts(_hierarchy, sample.Leaf!, sample.Steps.Count, parts);
+                var part = SkySides.Blend(parts, (sample.FromMesh.Linear.Transpose() * sample.Normal).UnitVector());
+                // As far apart as the values of an image are.
+                var (shown, shownTruth) = (Math.Sqrt(part), Math.Sqrt(truth));
+                error += (shown - shownTruth) * (shown - shownTruth);
+                errorWithout += (1 - shownTruth) * (1 - shownTruth);
+                gains[SkySides.Of(SimdAffineMap.ToVector256(-sample.Direction))] +=
+                    ((1 - shownTruth) * (1 - shownTruth)) - ((shown - shownTruth) * (shown - shownTruth));
+            }
+        }
+
+        return error < MaxErrorRatio * MaxErrorRatio * errorWithout
+            && !gains.ContainsAnyInRange(double.NegativeInfinity, -MaxLoss * errorWithout);
+    }
+
+    private static bool HasSameChildren(LodNode node1, LodNode node2)
+    {
+        if (node1.ChildMaps.Length != node2.ChildMaps.Length)
+        {
+            return false;
+        }
+
+        for (var i = 0; i < node1.ChildMaps.Length; i++)
+        {
+            if (node1.ChildMaps[i].ToAffineMap() != node2.ChildMaps[i].ToAffineMap())
+            {
+                return false;
+            }
+        }
+
+        var tolerance = 0.05 * node1.Box.Diagonal;
+        return (node1.Box.Minimum - node2.Box.Minimum).Length() < tolerance && (node1.Box.Maximum - node2.Box.Maximum).Length() < tolerance;
+    }
+
+    private SkyMasks Compute(LodNode node, long levels, CancellationToken cancellation)
+    {
+        var data = new SkyMasks.Child[node.ChildMaps.Length];
+        for (var i = 0; i < data.Length; i++)
+        {
+            var turns = data.Length > 1 ? TurnsOf(ToNextMasks(node, levels, i)) : null;
+            data[i] = new(_occluder.ChildOf(node, levels, i).Node.Box, node.ChildMaps[i].ToAffineMap().Linear, turns);
+        }
+
+        if (data.Length == 1)
+        {
+            return new(null, data);
+        }
+
+        // Rounds with sources of their own, so that the result does not depend on the number of threads.
+        var votes = new int[data.Length][];
+        for (var i = 0; i < data.Length; i++)
+        {
+            votes[i] = new int[SkyMasks.MaskCount * SkyDirections.Count];
+        }
+
+        Parallel.For(0, RoundCount, new() { CancellationToken = cancellation }, round => Vote(node, levels, data, new(round), votes));
+        return new([.. votes.Select(ToMasks)], data);
+    }
+
+    /// <summary>
+    /// Lets the points of the surface that are seen from outside vote about the directions that are free for their child, cell and side.
+    /// </summary>
+    private void Vote(LodNode node, long levels, SkyMasks.Child[] data, Random random, int[][] votes)
+    {
+        var sample = new SkySample();
+        var hasVoted = new HashSet<(int Child, int Place)>();
+        for (var draw = 0; draw < DrawsPerChild * data.Length; draw++)
+        {
+            if (!_occluder.TrySample(node, levels, random, sample))
+            {
+                continue;
+            }
+
+            var child = sample.Steps[0].Child;
+            var inverse = node.ChildMaps[child].ToAffineMap().Inverse();
+            var normalInChild = node.ChildMaps[child].ToAffineMap().Linear.Transpose() * sample.Normal;
+            var cell = SkyMasks.CellOf(in data[child], SimdAffineMap.ToVector256(inverse * sample.Point));
+            var place = (cell * SkySides.Count) + SkySides.Of(SimdAffineMap.ToVector256(normalInChild));
+            if (!hasVoted.Add((child, place)))
+            {
+                continue;
+            }
+
+            var above = SkyDirections.Above(sample.Normal);
+            var free = _occluder.FreeDirections(node, levels, child, sample.Point, above);
+            for (var rest = above; rest != 0; rest &= rest - 1)
+            {
+                var direction = BitOperations.TrailingZeroCount(rest);
+                Interlocked.Add(ref votes[child][(place * SkyDirections.Count) + direction], ((free >> direction) & 1) != 0 ? 1 : -1);
+            }
+        }
+    }
+
+    /// <summary>Decides each direction of each mask by its votes, or by those of the closest cell that has some.</summary>
+    private static ulong[] ToMasks(int[] votes)
+    {
+        var masks = new ulong[SkyMasks.MaskCount];
+        for (var place = 0; place < masks.Length; place++)
+        {
+            var (cell, side) = (place / SkySides.Count, place % SkySides.Count);
+            var sameSide = VotesAt(votes, FindNearestCell(cell, other => HasVotes(votes, other, side)), side);
+            // A side that no surface faces is blended with others, and sees about what they see.
+            var nearestCell = FindNearestCell(cell, other => Enumerable.Range(0, SkySides.Count).Any(any => HasVotes(votes, other, any)));
+            for (var direction = 0; direction < SkyDirections.Count; direction++)
+            {
+                var sum = sameSide.IsEmpty ? 0 : sameSide[direction];
+                for (var any = 0; sum == 0 && any < SkySides.Count && nearestCell >= 0; any++)
+                {
+                    sum = VotesAt(votes, nearestCell, any)[direction];
+                }
+
+                masks[place] |= sum >= 0 ? 1ul << direction : 0;
+            }
+        }
+
+        return masks;
+    }
+
+    private static ReadOnlySpan<int> VotesAt(int[] votes, int cell, int side) =>
+        cell < 0 ? [] : votes.AsSpan(((cell * SkySides.Count) + side) * SkyDirections.Count, SkyDirections.Count);
+
+    private static bool HasVotes(int[] votes, int cell, int side) => VotesAt(votes, cell, side).ContainsAnyExcept(0);
+
+    private static int FindNearestCell(int cell, Func<int, bool> isMeant)
+    {
+        var (nearest, nearestDistance) = (-1, int.MaxValue);
+        for (var other = 0; other < SkyMasks.CellCount; other++)
+        {
+            var distance = SkyMasks.SquaredDistance(cell, other);
+            if (distance < nearestDistance && isMeant(other))
+            {
+                (nearest, nearestDistance) = (other, distance);
+            }
+        }
+
+        return nearest;
+    }
+
+    /// <summary>Maps directions of a node to the frame below a child in which masks are known next: an only child has none.</summary>
+    private Matrix ToNextMasks(LodNode node, long levels, int child)
+    {
+        var linear = node.ChildMaps[child].ToAffineMap().Linear;
+        var (below, belowLevels) = _occluder.ChildOf(node, levels, child);
+        while (below.ChildMaps.Length == 1)
+        {
+            linear *= below.ChildMaps[0].ToAffineMap().Linear;
+            (below, belowLevels) = _occluder.ChildOf(below, belowLevels, 0);
+        }
+
+        return linear.Inverse();
+    }
+
+    /// <summary>Tells for each direction which one it is under a map; null where it is the same.</summary>
+    private static byte[]? TurnsOf(Matrix map)
+    {
+        if (SkyDirections.AreParallel(map))
+        {
+            return null;
+        }
+
+        var turns = new byte[SkyDirections.Count];
+        for (var i = 0; i < turns.Length; i++)
+        {
+            turns[i] = (byte)SkyDirections.Nearest(map * SkyDirections.At(i));
+        }
+
+        return turns;
+    }
+}

@@ -1,0 +1,140 @@
+using System.Runtime.Intrinsics;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Visibility;
+
+/// <summary>
+/// In which directions the sky is free past the siblings of each child of a node: for each cell of a grid over the child's box one mask for
+/// each side that a surface there may face.
+/// </summary>
+/// <remarks>
+/// A ray leaves a leaf freely exactly when it misses the siblings at every level. So the mask of a leaf is the product, bit by bit, of one
+/// mask for each level above it.
+/// </remarks>
+internal sealed class SkyMasks
+{
+    /// <summary>Cells of a grid along each axis: thin ones at both ends, for surfaces in a side of the box, and thirds.</summary>
+    public const int GridSize = 5;
+
+    /// <summary>Number of cells of a whole grid.</summary>
+    public const int CellCount = GridSize * GridSize * GridSize;
+
+    /// <summary>Number of masks of a child.</summary>
+    public const int MaskCount = CellCount * SkySides.Count;
+
+    // Thickness of the outermost cells, by the size of the box.
+    private const double ThinCell = 0.01;
+
+    private readonly ulong[][]? _masks;
+    private readonly Child[] _children;
+
+    /// <summary>Stores the masks of a node.</summary>
+    /// <param name="masks">Masks by child, cell and side, in directions of the node's frame; null where siblings hide nothing.</param>
+    /// <param name="children">The other data of each child.</param>
+    public SkyMasks(ulong[][]? masks, Child[] children)
+    {
+        _masks = masks;
+        _children = children;
+    }
+
+    /// <summary>Whether siblings hide anything.</summary>
+    public bool HideAnything => _masks is not null;
+
+    /// <summary>Size of the tables in bytes.</summary>
+    public int ByteCount =>
+        (_masks?.Sum(static masks => sizeof(ulong) * masks.Length) ?? 0) + _children.Sum(static child => child.Turns?.Length ?? 0);
+
+    /// <summary>Returns what is left when siblings are taken to hide nothing: how frames are turned.</summary>
+    public SkyMasks WithoutMasks() => new(null, _children);
+
+    /// <summary>Maps what a surface sees from a child's frame to the node's.</summary>
+    /// <param name="child">Index of the child that the surface is part of.</param>
+    /// <param name="point">Point just before the surface, in the child's frame: x, y, z, 0.</param>
+    /// <param name="normal">Normal of the surface of any length, x, y, z, 0; in the child's frame before, in the node's after.</param>
+    /// <param name="mask">Free directions of the frame in which masks were known last; in the node's frame after.</param>
+    public void Apply(int child, Vector256<double> point, ref Vector256<double> normal, ref ulong mask)
+    {
+        ref readonly var data = ref _children[child];
+        var side = SkySides.Of(normal);
+        if (data.Turns is { } turns && mask != ulong.MaxValue)
+        {
+            var turned = 0ul;
+            for (var i = 0; i < turns.Length; i++)
+            {
+                turned |= ((mask >> turns[i]) & 1) << i;
+            }
+
+            mask = turned;
+        }
+
+        if (_masks is not null)
+        {
+            mask &= _masks[child][(CellOf(in data, point) * SkySides.Count) + side];
+        }
+
+        if (data.NormalMap is { } normalMap)
+        {
+            normal = normalMap.ApplyLinear(normal);
+        }
+    }
+
+    /// <summary>Finds the cell of a child's grid that is closest to a point.</summary>
+    /// <param name="child">The child.</param>
+    /// <param name="point">In the child's frame: x, y, z, 0.</param>
+    public static int CellOf(in Child child, Vector256<double> point)
+    {
+        var place = (point - child.Origin) * child.Scale;
+        var cell = (place * (GridSize - 2)) + Vector256<double>.One;
+        cell = Vector256.Min(Vector256.Max(cell, Vector256.Create(1.5)), Vector256.Create(GridSize - 1.5));
+        var (isFirst, isLast) =
+            (Vector256.LessThan(place, Vector256.Create(ThinCell)), Vector256.GreaterThan(place, Vector256.Create(1 - ThinCell)));
+        cell = Vector256.ConditionalSelect(isFirst, Vector256<double>.Zero, cell);
+        cell = Vector256.ConditionalSelect(isLast, Vector256.Create(GridSize - 0.5), cell);
+        return (((((int)cell[2]) * GridSize) + (int)cell[1]) * GridSize) + (int)cell[0];
+    }
+
+    /// <summary>Computes the squared distance of two cells, in cells.</summary>
+    public static int SquaredDistance(int cell1, int cell2)
+    {
+        var x = (cell1 % GridSize) - (cell2 % GridSize);
+        var y = (cell1 / GridSize % GridSize) - (cell2 / GridSize % GridSize);
+        var z = (cell1 / (GridSize * GridSize)) - (cell2 / (GridSize * GridSize));
+        return (x * x) + (y * y) + (z * z);
+    }
+
+    /// <summary>How a child lies in its node.</summary>
+    internal readonly struct Child
+    {
+        /// <summary>Divides a child's box evenly, and notes how its frame is turned.</summary>
+        /// <param name="box">Box in the child's frame.</param>
+        /// <param name="linear">Linear part of the map to the node's frame.</param>
+        /// <param name="turns">
+        /// For each direction of the node's frame, the one of the frame in which masks are known next below; null where they are parallel.
+        /// </param>
+        public Child(BoundingBox box, Matrix linear, byte[]? turns)
+        {
+            var (x, y, z) = box.Size;
+            Origin = SimdAffineMap.ToVector256(box.Minimum);
+            Scale = Vector256.Create(x > 0 ? 1 / x : 0, y > 0 ? 1 / y : 0, z > 0 ? 1 / z : 0, 0);
+            Turns = turns;
+            // The inverse transpose keeps normals upright. Their length does not matter, but must not overflow.
+            var cofactors = linear.Inverse().Transpose();
+            NormalMap = SkyDirections.AreParallel(linear)
+                ? null
+                : new SimdAffineMap(new(cofactors / cofactors.MaxAbsEntry(), Vector.Zero));
+        }
+
+        /// <summary>Corner of the first cell: x, y, z, 0.</summary>
+        public Vector256<double> Origin { get; }
+
+        /// <summary>One by the size of the box: x, y, z, 0.</summary>
+        public Vector256<double> Scale { get; }
+
+        /// <summary>Directions of the frame below; null where it is parallel.</summary>
+        public byte[]? Turns { get; }
+
+        /// <summary>Map of normals to the node's frame; null where the frames are parallel.</summary>
+        public SimdAffineMap? NormalMap { get; }
+    }
+}

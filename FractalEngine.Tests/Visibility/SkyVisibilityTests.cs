@@ -1,0 +1,145 @@
+using System.Collections.Immutable;
+using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Visibility;
+using FractalEngine.Tests.Collision;
+using FractalEngine.Tests.Render;
+
+namespace FractalEngine.Tests.Visibility;
+
+/// <summary>Parts of the sky that the sides of instances see, where they are known in closed form.</summary>
+public class SkyVisibilityTests
+{
+    // 64 directions of a cosine lobe.
+    private const double Tolerance = 0.04;
+
+    // Likewise, by a majority of at most seven points anywhere in the middle third of a side, for its very middle.
+    private const double MiddleTolerance = 0.15;
+
+    [Fact]
+    public void VisiblePart_OfAHalfSky_IsAHalfForSurfacesUpright()
+    {
+        var above = 0ul;
+        for (var i = 0; i < SkyDirections.Count; i++)
+        {
+            above |= SkyDirections.At(i).Y > 0 ? 1ul << i : 0;
+        }
+
+        Assert.Equal(1, SkyDirections.VisiblePart(above, NearestNormal(Vector.J)), 1e-5);
+        Assert.Equal(0, SkyDirections.VisiblePart(above, NearestNormal(-Vector.J)), 1e-5);
+        Assert.Equal(0.5, SkyDirections.VisiblePart(above, NearestNormal(Vector.I)), Tolerance);
+        Assert.Equal(1, SkyDirections.VisiblePart(ulong.MaxValue, NearestNormal(new Vector(1, 2, 3))), 1e-5);
+    }
+
+    [Fact]
+    public void Top_OfACubeUnderAnother_SeesWhatIsLeftOfTheSky()
+    {
+        // A square of the half size a at the height c hides 4 / 2π · 2 · s · atan(s) of a point below its middle, with s = a / √(a² + c²).
+        var s = 1 / Math.Sqrt(2);
+        var parts = PartsOf(Move(0, 0, 0), Move(0, 3, 0));
+        Assert.Equal(1 - (4 / Math.PI * s * Math.Atan(s)), parts[1], MiddleTolerance);
+        Assert.Equal(1, parts[4], MiddleTolerance);
+    }
+
+    [Fact]
+    public void Top_OfACubeInACorner_SeesMoreThanHalfTheSky()
+    {
+        // A long wall of the height h over the top, at the distance w from its middle, hides (1 − w / √(w² + h²)) / 2 of the sky.
+        var wall = new Transformation(new(1.5, 1, 0), Vector.Zero, new(0.5, 4, 6));
+        Assert.Equal(1 - (0.5 * (1 - (1 / Math.Sqrt(17)))), PartsOf(Move(0, 0, 0), wall)[1], MiddleTolerance);
+    }
+
+    [Fact]
+    public void Floor_OfASlot_SeesTheSineOfItsOpening()
+    {
+        // Between two long walls of the height h at the distance w on both sides, sin(atan(w / h)) of the sky is left.
+        var parts = PartsOf(
+            Move(0, 0, 0), new(new(-1.5, 0, 0), Vector.Zero, new(0.5, 3, 6)), new(new(1.5, 0, 0), Vector.Zero, new(0.5, 3, 6)));
+        Assert.Equal(Math.Sin(Math.Atan(1 / 2.0)), parts[1], MiddleTolerance);
+    }
+
+    [Fact]
+    public void Masks_OfADeepFractal_AreShared()
+    {
+        var hierarchy = LodHierarchy.Build(AssetFractals.Load("menger", 12));
+        hierarchy.BakeSkyMasks(1);
+        Assert.True(hierarchy.HasSkyMasks);
+        Assert.Same(hierarchy.NodeAt(12).SkyMasks, hierarchy.NodeAt(5).SkyMasks);
+        Assert.InRange(hierarchy.SkyMaskBytes, 1, 500_000);
+    }
+
+    [Fact]
+    public void Bake_OfTheSameFractal_GivesTheSameMasks()
+    {
+        var fractal = AssetFractals.Load("romanesco", 2);
+        var (first, second) = (LodHierarchy.Build(fractal), LodHierarchy.Build(fractal));
+        first.BakeSkyMasks(1);
+        second.BakeSkyMasks(1);
+        var root = first.NodeAt(first.LevelCount);
+        var (parts1, parts2) = (new float[SkySides.Count], new float[SkySides.Count]);
+        var path = new SkyPath();
+        for (var child = 0; child < root.ChildMaps.Length; child++)
+        {
+            path.Set(0, new(root, first.LevelCount, child));
+            path.ComputeParts(first, first.NodeAt(0), 1, parts1);
+            path.Set(0, new(second.NodeAt(second.LevelCount), second.LevelCount, child));
+            path.ComputeParts(second, second.NodeAt(0), 1, parts2);
+            Assert.Equal(parts1, parts2);
+        }
+    }
+
+    [Fact]
+    public void Bake_WhereNothingHidesTheSky_LeavesNoMasks()
+    {
+        // Two small cubes far apart: masks would tell nothing.
+        var fractal = CubesAt([Move(0, 0, 0), Move(500, 0, 0)]);
+        var hierarchy = LodHierarchy.Build(fractal);
+        hierarchy.BakeSkyMasks(1);
+        Assert.Equal((true, false, 0), (hierarchy.IsSkyBaked, hierarchy.HasSkyMasks, hierarchy.SkyMaskBytes));
+    }
+
+    [Fact]
+    public void Bake_Cancelled_LeavesNothingAndCanBeRepeated()
+    {
+        var hierarchy = LodHierarchy.Build(AssetFractals.Load("menger", 3));
+        Assert.ThrowsAny<OperationCanceledException>(() => hierarchy.BakeSkyMasks(1, new(canceled: true)));
+        Assert.Equal((false, false), (hierarchy.IsSkyBaked, hierarchy.HasSkyMasks));
+        hierarchy.BakeSkyMasks(1);
+        Assert.True(hierarchy.HasSkyMasks);
+    }
+
+    private static int NearestNormal(Vector normal) => SkyDirections.NearestNormal(SimdAffineMap.ToVector256(normal));
+
+    private static Fractal CubesAt(ImmutableArray<Transformation> cubes) =>
+        new(new FractalDescription([new Repetition([new TransformationSet(cubes)], 1)], Composition.Affine), RenderScenes.Cube(1));
+
+    private static Transformation Move(double x, double y, double z) => RenderScenes.TranslatedTo(x, y, z);
+
+    /// <summary>Returns the parts of the sides of the first of some cubes, which is at its place: +x, +y, +z, −x, −y, −z.</summary>
+    private static float[] PartsOf(params ImmutableArray<Transformation> cubes)
+    {
+        var hierarchy = LodHierarchy.Build(CubesAt(cubes));
+        SkyMaskBaker.TryBake(hierarchy, 1, keepsAll: true);
+        var visible = new VisibleSet();
+        var settings = new CullingSettings
+        {
+            SkyVisibility = true, FrustumCulling = false, OcclusionCulling = false, MinProjectedSize = 0, ThreadCount = 1,
+        };
+        var view = new CullingView(new(0, 0, -2000), Matrix.Identity, true, 0.5, 640, 640, 1, 0.1, 10_000);
+        visible.Cull(in view, [new(hierarchy, AffineMap.Identity, Vector.Zero, 1) { HasSkyMasks = true }], settings);
+        for (var chunk = 0; chunk < VisibleSet.ChunkCount; chunk++)
+        {
+            var rows = visible.Instances(0, chunk);
+            for (var i = 0; i < rows.Length / VisibleSet.FloatsPerInstance; i++)
+            {
+                var translation = new Vector(rows[(12 * i) + 3], rows[(12 * i) + 7], rows[(12 * i) + 11] - 2000);
+                if ((translation - cubes[0].Position).Length() < 1e-3)
+                {
+                    return visible.SkyParts(0, chunk).Slice(6 * i, 6).ToArray();
+                }
+            }
+        }
+
+        throw new InvalidOperationException("the first cube is not visible");
+    }
+}

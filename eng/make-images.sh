@@ -1,0 +1,85 @@
+#!/usr/bin/env bash
+# Draws the images of README.md and docs/ again: docs/images/*.png. Names after that draw those only: `eng/make-images.sh menger`.
+set -euo pipefail
+. "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
+
+images="$root/docs/images"
+work="$(mktemp -d)"
+trap 'rm -rf "$work"' EXIT
+install_packages tests
+build FractalEngine.App
+cd "$root"
+
+app=(dotnet "$root/FractalEngine.App/bin/$configuration/net10.0/FractalEngine.App.dll")
+
+# Runs a command of the program where it can draw.
+run() {
+    if [ -z "${DISPLAY:-}" ]; then
+        xvfb-run -a "${app[@]}" "$@" --quiet
+    else
+        "${app[@]}" "$@" --quiet
+    fi
+}
+
+# draw NAME FILE SIZE [OPTION ...]
+draw() { run render "$2" --output "$images/$1.png" --resolution "$3" "${@:4}"; }
+
+# Shows a window of 1280 x 720 on a file, sends it what xdotool understands, and keeps what is seen.
+window() {
+    local name="$1" file="$2"
+    shift 2
+    xvfb-run -a -s '-screen 0 1280x720x24' bash -c '
+        out="$1" file="$2"; shift 2
+        "${@:1:2}" view "$file" --resolution 1280x720 >/dev/null 2>&1 & pid=$!
+        shift 2
+        until xdotool search --onlyvisible --pid $pid >/dev/null 2>&1; do sleep 0.2; done
+        sleep 8
+        while [ $# != 0 ]; do eval "xdotool $1"; sleep 1.5; shift; done
+        sleep 3
+        import -window root "$out"
+        kill $pid
+    ' _ "$images/$name.png" "$file" "${app[@]}" "$@"
+}
+
+playground() {
+    local time
+    for time in 0 0.6 1.2 2.4 5 9; do
+        run render assets/scenes/playground.sdo --time "$time" --output "$work/$time.png" --resolution 480x270
+    done
+    montage "$work"/{0,0.6,1.2,2.4,5,9}.png -tile 3x2 -geometry 480x270+2+2 -background white "$images/playground.png"
+}
+
+make_image() {
+    case "$1" in
+        angles) draw "$1" assets/examples/angles.sdo 720x200 ;;
+        tree-0[1-8]) draw "$1" "assets/examples/$1.fdo" 360x240 ;;
+        tree-09) draw "$1" assets/examples/tree-09.sdo 360x240 ;;
+        tree-10) draw "$1" assets/examples/tree-10.sdo 360x240 --time 0.9 ;;
+        gallery | forest) draw "$1" "assets/scenes/$1.sdo" 1280x720 ;;
+        gradients) draw "$1" assets/scenes/gradients.sdo 960x480 ;;
+        appendix-b | inside | menger | textured | reef | cathedral | winter) draw "$1" "assets/scenes/$1.sdo" 720x405 ;;
+        traced-*) draw "$1" "assets/scenes/${1#traced-}.sdo" 640x360 --trace 64 ;;
+        playground) playground ;;
+        zoom)
+            run animate assets/examples/zoom.sdo --zoom 1 --output "$work/zoom.apng" --frames 36 --fps 24 --resolution 320x180
+            mv "$work/zoom.apng" "$images/zoom.png"
+            ;;
+        window-fractal) window "$1" assets/fractals/tree.fdo 'key F4' ;;
+        window-keys) window "$1" assets/scenes/gallery.sdo 'key h' 'type view' ;;
+        window-selection)
+            window "$1" assets/scenes/playground.sdo 'key F6' 'mousemove 560 450 click 1' 'mousemove 838 391 click 1' 'key BackSpace'
+            ;;
+        *) fail "unknown image '$1'" 2 ;;
+    esac
+    echo "$1"
+}
+
+all=(
+    forest gallery cathedral reef menger inside appendix-b gradients textured winter playground angles
+    tree-01 tree-02 tree-03 tree-04 tree-05 tree-06 tree-07 tree-08 tree-09 tree-10
+    traced-gallery traced-menger traced-playground zoom window-fractal window-keys window-selection
+)
+[ $# != 0 ] || set -- "${all[@]}"
+for name in "$@"; do
+    make_image "$name"
+done
