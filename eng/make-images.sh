@@ -30,7 +30,7 @@ window() {
     shift 2
     xvfb-run -a -s '-screen 0 1280x720x24' bash -c '
         out="$1" file="$2"; shift 2
-        "${@:1:2}" view "$file" --resolution 1280x720 >/dev/null 2>&1 & pid=$!
+        "${@:1:2}" view "$file" --no-trace --resolution 1280x720 >/dev/null 2>&1 & pid=$!
         shift 2
         until xdotool search --onlyvisible --pid $pid >/dev/null 2>&1; do sleep 0.2; done
         sleep 8

@@ -62,7 +62,8 @@ internal static class TraceCommand
             var image = truth.ToImage();
             object[] row =
             [
-                name, width, height, Math.Round(oneBounceMilliseconds, 1), Math.Round(sampleMilliseconds, 1), Math.Round(drawn, 1), truthSamples,
+                name, width, height, Math.Round(oneBounceMilliseconds, 1),
+                Math.Round(sampleMilliseconds, 1), Math.Round(drawn, 1), truthSamples,
                 Math.Round(ImageError.PeakSignalToNoiseRatio(after5, image), 2),
                 Math.Round(ImageError.PeakSignalToNoiseRatio(after10, image), 2),
             ];

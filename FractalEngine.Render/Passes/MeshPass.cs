@@ -21,7 +21,7 @@ internal sealed class MeshPass(RenderContext context) : IDisposable
     /// <summary>Texture unit of the depth maps.</summary>
     public const int ShadowTextureUnit = 1;
 
-    private const int FeatureCombinations = 4096;
+    private const int FeatureCombinations = 8192;
     private static readonly Colour WireframeColour = new(0.80, 0.83, 0.87);
 
     // Indexed by features. Each program is built when it is first needed.

@@ -108,7 +108,9 @@ public sealed class PathTracer
     /// <summary>Height of the image in pixels.</summary>
     public int Height { get; }
 
-    /// <summary>Number of surfaces that a path of light goes on from, from 0 to <see cref="MaxBounces"/>; that many unless stated.</summary>
+    /// <summary>
+    /// Number of surfaces that a path of light goes on from, from 0 to <see cref="MaxBounces"/>; that many unless stated.
+    /// </summary>
     /// <exception cref="ArgumentOutOfRangeException">The number is negative, or larger than that.</exception>
     public int BounceLimit
     {
