@@ -73,8 +73,9 @@ public sealed class SavingTests : IDisposable
         Assert.Equal("# another scene\n", File.ReadAllText(_folder["cube.sdo"]));
         Assert.NotNull(SceneParser.Parse(new("cube-2.sdo", File.ReadAllText(_folder["cube-2.sdo"]))).Scene.Camera);
         // From now on the window shows the new scene, and saves into it.
+        window.WaitForTitle("cube-2.sdo");
         window.Send("key 1 key ctrl+s");
-        window.WaitForError("saved cube-2.sdo");
+        Polling.WaitUntil(() => window.CountErrors("saved cube-2.sdo") > 1, "second save");
         window.Send("key ctrl+shift+s key ctrl+u");
         window.Type("cube.sdo");
         window.Send("key Return");
