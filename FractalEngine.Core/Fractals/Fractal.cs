@@ -124,7 +124,9 @@ public sealed class Fractal : IEquatable<Fractal>
     public Fractal WithDepth(int depth) => With(Description.WithDepth(depth));
 
     /// <summary>Makes the same fractal moved as a whole, see <see cref="FractalDescription.WithPlacement"/>.</summary>
-    public Fractal WithPlacement(Transformation placement) => With(Description.WithPlacement(placement));
+    /// <returns>The same object where the placement moves nothing.</returns>
+    public Fractal WithPlacement(Transformation placement) =>
+        placement == Transformation.Identity ? this : With(Description.WithPlacement(placement));
 
     /// <summary>
     /// Cuts a fractal of more than <paramref name="maxInstances"/> instances to the deepest version that has no more. Repetitions are cut
