@@ -94,7 +94,7 @@ public sealed partial class Body
         return new(linear, Description.ObjectOffset == Vector.Zero ? translation : translation + origin);
     }
 
-    /// <summary>The index of no island.</summary>
+    /// <summary>Stands for the index of an island where the body is in none.</summary>
     internal const int NoIsland = -1;
 
     /// <summary>Surfaces and bodies that this body touches.</summary>
@@ -127,7 +127,7 @@ public sealed partial class Body
     /// <summary>Force in the next step besides the constant one.</summary>
     internal Vector StepForce { get; set; }
 
-    /// <summary>Torque in the next step.</summary>
+    /// <summary>Torque that callers exert during the next step only, about the centre of mass.</summary>
     internal Vector StepTorque { get; set; }
 
     /// <summary>Angular velocity before the step.</summary>

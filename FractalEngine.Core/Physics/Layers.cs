@@ -6,7 +6,7 @@ internal static class Layers
     /// <summary>Number of layers, numbered from 0.</summary>
     public const int Count = 32;
 
-    /// <summary>The mask of all layers.</summary>
+    /// <summary>The mask of what meets everything, which things have unless stated otherwise.</summary>
     public const uint All = uint.MaxValue;
 
     /// <summary>Two things meet when the mask of each has the other's layer.</summary>

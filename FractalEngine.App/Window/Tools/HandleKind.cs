@@ -3,7 +3,7 @@ namespace FractalEngine.App.Window.Tools;
 /// <summary>What the handles of the selected object do.</summary>
 internal enum HandleKind
 {
-    /// <summary>There are no handles.</summary>
+    /// <summary>No handles are shown at the selected object.</summary>
     None,
 
     /// <summary>They move the object along the axes of the world, or in the plane of the frame.</summary>

@@ -40,7 +40,7 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
     /// <summary>Number of contacts of all islands.</summary>
     public int RowCount { get; private set; }
 
-    /// <summary>A contact of an island.</summary>
+    /// <summary>A contact by its index among those of all islands, which stand one island after the other.</summary>
     public ref ContactRow Row(int index) => ref _rows[index];
 
     /// <summary>The bodies of an island, in the order of their indices.</summary>

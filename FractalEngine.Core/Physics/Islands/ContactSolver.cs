@@ -47,7 +47,7 @@ internal sealed partial class ContactSolver
     /// <summary>Rounds of the last solve.</summary>
     public int Rounds { get; private set; }
 
-    /// <summary>Makes room for bodies.</summary>
+    /// <summary>Grows the arrays to the bodies of a world, so that its steps allocate nothing.</summary>
     public void Reserve(int bodyCount)
     {
         if (_bodies.Length < bodyCount)

@@ -35,7 +35,7 @@ internal sealed class OverlapSeparator
     private Gap[] _gaps = new Gap[InitialCapacity];
     private double _maxGap = MaxGap;
 
-    /// <summary>Makes room for bodies.</summary>
+    /// <summary>Grows the arrays to the bodies of a world, so that its steps allocate nothing.</summary>
     public void Reserve(int bodyCount)
     {
         if (_movers.Length < bodyCount)

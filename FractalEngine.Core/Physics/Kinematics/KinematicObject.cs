@@ -38,7 +38,7 @@ internal sealed class KinematicObject
         Reset(0);
     }
 
-    /// <summary>The object in the world.</summary>
+    /// <summary>The object of the world that moves by itself, or whose surface does.</summary>
     public StaticObject Target { get; }
 
     /// <summary>The object where its collider is.</summary>
