@@ -63,6 +63,9 @@ public static class FractalBounds
 
             return support + Vector.Dot(direction, map.Translation);
         }
+
+        public (Vector Direction, double Offset)? Key(in AffineMap map) =>
+            (map.Linear.Transpose() * direction, Vector.Dot(direction, map.Translation));
     }
 
     /// <summary>Computes the box of all vertices of the enumerated sums where they are few, else a box that may be wider.</summary>

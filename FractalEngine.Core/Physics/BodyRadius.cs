@@ -38,6 +38,8 @@ internal static class BodyRadius
         public double UpperBound(SubFractal subFractal, in AffineMap map) => MaxCornerDistance(subFractal.Box, map);
 
         public double Largest(Mesh mesh, in AffineMap map) => MaxVertexDistance(mesh, map);
+
+        public (Vector Direction, double Offset)? Key(in AffineMap map) => null;
     }
 
     private static double MaxCornerDistance(BoundingBox box, AffineMap map)

@@ -11,6 +11,9 @@ internal interface IPointMeasure
 
     /// <summary>Computes the largest value over the vertices of a mesh's image under a map.</summary>
     double Largest(Mesh mesh, in AffineMap map);
+
+    /// <summary>What of a map the values depend on: images under maps with equal keys have equal values. Null where that is unknown.</summary>
+    (Vector Direction, double Offset)? Key(in AffineMap map);
 }
 
 /// <summary>Finds the largest value of a measure over the points of a fractal, such as how far it reaches in a direction.</summary>
@@ -37,6 +40,8 @@ internal static class FarthestPointSearch
 
         var scale = Math.Max(Math.Abs(measure.UpperBound(hierarchy.Root, in map)), hierarchy.Root.Radius * map.Linear.MaxAbsEntry());
         var tolerance = relativeTolerance * scale;
+        // A forest's trees stand on one plane and are turned about its normal: to the eye of a direction they are the same.
+        var visited = new HashSet<(long Levels, (Vector, double) Key)>();
         // Ties are common in symmetric fractals: of bounds that are equal to the tolerance the deepest is taken first.
         var open = new PriorityQueue<(SubFractal SubFractal, long Levels, AffineMap Map, double Bound, int Depth), (double, int)>();
         open.Enqueue((hierarchy.Root, hierarchy.Levels, map, double.PositiveInfinity, 0), default);
@@ -68,6 +73,11 @@ internal static class FarthestPointSearch
                 }
 
                 var childMap = node.Map * child.Map;
+                if (measure.Key(in childMap) is { } key && !visited.Add((levels, key)))
+                {
+                    continue;
+                }
+
                 var bound = levels == 0
                     ? measure.Largest(fractal.BaseMesh, in childMap)
                     : Math.Min(node.Bound, measure.UpperBound(subFractal, in childMap));
