@@ -110,6 +110,20 @@ public sealed class CommandLineTests : IDisposable
         Assert.Equal(exitCode, Run("info", "row.fdo", "--limit", limit).ExitCode);
 
     [Theory]
+    [InlineData("info", "far.sdo")]
+    [InlineData("export", "far.sdo", "--output", "out.obj")]
+    [InlineData("save", "far.sdo", "--output", "out.sdo")]
+    public void AnyCommand_OnAPlacementBeyondADouble_NamesTheLimitAndWritesNothing(params string[] arguments)
+    {
+        _folder.Write("large.obj", "v 0 0 0\nv 1e308 0 0\nv 0 1e308 0\nf 1 2 3\n");
+        _folder.Write("far.sdo", "o \"large.obj\" (#, #, (-10, 1, 1))\n");
+        const string message = "far.sdo:1:3: error: the placement takes the object beyond 1.8e308, the limit of a coordinate\n"
+            + "  o \"large.obj\" (#, #, (-10, 1, 1))\n    ^\n";
+        Assert.Equal(new AppResult(3, "", message), Run(arguments));
+        Assert.False(File.Exists(_folder["out.obj"]) || File.Exists(_folder["out.sdo"]));
+    }
+
+    [Theory]
     [InlineData("1e160 0 0", 3)]
     [InlineData("1e150 0 0", 0)]
     public void Query_OfAPointTooFarAway_IsRefused(string point, int exitCode)
