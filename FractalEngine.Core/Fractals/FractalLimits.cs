@@ -84,11 +84,18 @@ public static class FractalLimits
     /// <summary>Maximum number of transformations on all levels that a hierarchy is built of: about 500 MB.</summary>
     public static int MaxHierarchyChildren => (int)HierarchyChildren.Value;
 
+    /// <summary>The limit of <see cref="MaxTracedTests"/>.</summary>
+    public static Limit TracedTests { get; } = new(
+        "traced-tests", 10_000, "bounds and faces that a path of light tests, on average", "ten times what a dense forest takes");
+
+    /// <summary>Maximum number of bounds and faces that a path of light of a traced image tests, on average over some pixels.</summary>
+    public static long MaxTracedTests => TracedTests.Value;
+
     /// <summary>All limits of fractals, in the order of a listing.</summary>
     public static ImmutableArray<Limit> All { get; } =
     [
         Depth, Levels, Digits, Steps, Nesting, DrawnInstances, ExportedFaces, EnumeratedInstances,
-        ComparedProducts, ComponentwiseSums, HierarchyChildren,
+        ComparedProducts, ComponentwiseSums, HierarchyChildren, TracedTests,
     ];
 
     /// <summary>

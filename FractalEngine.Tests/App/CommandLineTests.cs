@@ -123,6 +123,31 @@ public sealed class CommandLineTests : IDisposable
         Assert.False(File.Exists(_folder["out.obj"]) || File.Exists(_folder["out.sdo"]));
     }
 
+    [Fact]
+    public void RenderTraced_OfPartsThatOverlapTooMuch_NamesTheLimitAndWritesNothing()
+    {
+        // Each ray enters up to 4^40 parts of nearly the same size: more than a minute for this image.
+        _folder.Write("overlap.fdo", """
+            v 0.3 0 0
+            v 0.95 0.95 0.95
+            v 10 10 20
+            v 0 0 0.3
+            v 0 0.3 0
+            t.a.b.c. (a, c, b)
+            x. "cube.obj"
+            z<x>. [t.1.2.3, t.4.2.3, t.5.2.3, t.1.2.1] x
+            <$>. z 40
+
+            """);
+        var (exitCode, output, error) =
+            Run("render", "overlap.fdo", "--trace", "4", "--resolution", "64x48", "--output", "out.png");
+        Assert.Equal(
+            (3, "", "error: a path of light takes more than the limit of 10000 tests of bounds and faces (traced-tests): "
+                + "too much of the scene overlaps\n"),
+            (exitCode, output, error));
+        Assert.False(File.Exists(_folder["out.png"]));
+    }
+
     [Theory]
     [InlineData("1e160 0 0", 3)]
     [InlineData("1e150 0 0", 0)]
