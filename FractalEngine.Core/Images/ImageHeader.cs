@@ -8,7 +8,7 @@ namespace FractalEngine.Core.Images;
 /// <param name="Width">Pixels, as the file states them; may be 0 in a damaged file.</param>
 /// <param name="Height">Pixels, as the file states them; may be 0 in a damaged file.</param>
 /// <param name="MinFileBytes">
-/// Bytes that the file has at least if it holds so many pixels: all of uncompressed formats but padding, and by the greatest ratio of others.
+/// Bytes that the file has at least if it holds so many pixels: all but padding where they are not compressed, else by the greatest ratio.
 /// </param>
 public readonly record struct ImageHeader(long Width, long Height, long MinFileBytes)
 {

@@ -265,7 +265,8 @@ internal sealed class MaterialLoader(
                     isLimitExceeded: true);
             }
 
-            if (ImageHeader.Read(stream, ImageHeader.IsTga(fullPath)) is not { Width: > 0 and var width, Height: > 0 and var height } header)
+            var isTga = ImageHeader.IsTga(fullPath);
+            if (ImageHeader.Read(stream, isTga) is not { Width: > 0 and var width, Height: > 0 and var height } header)
             {
                 throw source.Error(offset, $"\"{file}\" is not a PNG, JPEG, BMP or TGA image");
             }

@@ -67,7 +67,8 @@ public static class ImageFile
 
         if (!isPng && header.PixelCount > PngReader.DefaultMaxPixels)
         {
-            throw new IOException($"an image of {header.Width}×{header.Height} pixels, more than the limit of {PngReader.DefaultMaxPixels}");
+            throw new IOException(
+                $"an image of {header.Width}×{header.Height} pixels, more than the limit of {PngReader.DefaultMaxPixels} in all");
         }
 
         if (header.FindFault(stream.Length) is { } fault)

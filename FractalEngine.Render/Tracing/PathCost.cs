@@ -5,8 +5,8 @@ namespace FractalEngine.Render.Tracing;
 
 /// <summary>Refuses images whose paths of light take too long each, before the first of them is traced as a whole.</summary>
 /// <remarks>
-/// A ray through a fractal whose parts overlap, level within level, enters nearly all of them. Up to a million bounds a ray are tested then,
-/// and a small image takes minutes. Paths of a grid of pixels tell so within a second.
+/// A ray through a fractal whose parts overlap, level within level, enters nearly all of them. Up to a million bounds a ray are tested
+/// then, and a small image takes minutes. Paths of a grid of pixels tell so within a second.
 /// </remarks>
 internal static class PathCost
 {
@@ -19,7 +19,8 @@ internal static class PathCost
     /// <param name="cancellation">Cancels between two rows.</param>
     /// <exception cref="OperationCanceledException">The check was cancelled.</exception>
     /// <exception cref="FractalLimitException">Their mean cost exceeds <see cref="FractalLimits.MaxTracedTests"/>.</exception>
-    public static void Check((int Left, int Top, int Width, int Height) viewport, Action<int, int, QueryContext> trace, CancellationToken cancellation)
+    public static void Check(
+        (int Left, int Top, int Width, int Height) viewport, Action<int, int, QueryContext> trace, CancellationToken cancellation)
     {
         var (left, top, width, height) = viewport;
         var columns = Math.Min(width, Columns);
