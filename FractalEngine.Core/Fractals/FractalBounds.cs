@@ -16,8 +16,8 @@ namespace FractalEngine.Core.Fractals;
 public static class FractalBounds
 {
     private const int MaxSearchedNodes = 20_000;
+    private const long MaxEnumeratedVertices = 10_000_000;
     private const double RelativeTolerance = 1e-13;
-    private static long MaxEnumeratedVertices => 20L * FractalLimits.MaxEnumeratedInstances;
 
     /// <summary>Computes a box that holds all instances of a fractal, in its own frame.</summary>
     public static BoundingBox ComputeBox(Fractal fractal) => fractal switch
@@ -31,6 +31,7 @@ public static class FractalBounds
 
     private static BoundingBox ComputeAffineBox(Fractal fractal)
     {
+        var search = new FarthestPointSearch(fractal);
         try
         {
             return new(
@@ -44,7 +45,7 @@ public static class FractalBounds
         }
 
         double Support(Vector direction) =>
-            FarthestPointSearch.Run(fractal, AffineMap.Identity, new SupportMeasure(direction), RelativeTolerance, MaxSearchedNodes);
+            search.Run(AffineMap.Identity, new SupportMeasure(direction), RelativeTolerance, MaxSearchedNodes);
     }
 
     /// <summary>Measures how far points reach in a direction.</summary>

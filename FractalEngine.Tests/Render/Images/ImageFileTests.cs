@@ -87,6 +87,15 @@ public sealed class ImageFileTests : IDisposable
         Assert.StartsWith(expected, error.Message, StringComparison.Ordinal);
     }
 
+    [Fact]
+    public void Load_OfAnImageThatItsFileCantHold_IsRefusedBeforeADecoderSeesIt()
+    {
+        var path = Path.Combine(_directory.FullName, "image.tga");
+        File.WriteAllBytes(path, [0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 32, 0, 32, 24, 0]);
+        var error = Assert.Throws<IOException>(() => ImageFile.Load(path, _ => throw new NotSupportedException()));
+        Assert.Equal($"{path} can't be read: it is cut off: 8192×8192 pixels need at least 201326610 bytes, and it has 18", error.Message);
+    }
+
     [SkippableFact]
     public void Load_OfABmp_ReadsItWithSdl()
     {
