@@ -27,7 +27,7 @@ internal static class RotationUnits
     public static string? DescribeDegrees(Vector radians)
     {
         var angle = Components(radians).FirstOrDefault(static angle => Math.Abs(angle) > 2 * Math.PI * (1 + RelativeTolerance));
-        return angle == 0 ? null : Describe(radians, "degrees", "radians", angle, Math.Round(angle * Math.PI / 180, 4));
+        return angle == 0 ? null : Describe(radians, "degrees", "radians", angle, Math.Round(angle / 180 * Math.PI, 4));
     }
 
     private static string Describe(Vector rotation, string likely, string unit, double angle, double converted) => string.Create(
