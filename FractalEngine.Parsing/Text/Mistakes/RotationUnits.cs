@@ -16,9 +16,11 @@ internal static class RotationUnits
     /// <returns>Null for any other rotation.</returns>
     public static string? DescribeRadians(Vector degrees)
     {
-        double[] angles = [.. Components(degrees).Where(static angle => angle != 0)];
-        return angles.Length > 0 && angles.All(IsCommonRadian)
-            ? Describe(degrees, "radians", "degrees", angles[0], Math.Round(angles[0] * 180 / Math.PI))
+        // Without allocation, since each call of a transformation is looked at.
+        var (x, y, z) = degrees;
+        var first = x != 0 ? x : y != 0 ? y : z;
+        return first != 0 && IsZeroOrCommonRadian(x) && IsZeroOrCommonRadian(y) && IsZeroOrCommonRadian(z)
+            ? Describe(degrees, "radians", "degrees", first, Math.Round(first * 180 / Math.PI))
             : null;
     }
 
@@ -34,8 +36,13 @@ internal static class RotationUnits
         CultureInfo.InvariantCulture,
         $"the rotation {rotation} looks like {likely}, but is in {unit} here: {angle:R} {likely} are {converted:R} {unit}");
 
-    private static bool IsCommonRadian(double angle)
+    private static bool IsZeroOrCommonRadian(double angle)
     {
+        if (angle == 0)
+        {
+            return true;
+        }
+
         var multiple = Math.Round(angle / CommonAngle) * CommonAngle;
         return multiple != 0 && Math.Abs(angle) <= 2 * Math.PI * (1 + RelativeTolerance)
             && Math.Abs(angle - multiple) <= RelativeTolerance * Math.Abs(multiple);
