@@ -16,7 +16,7 @@ internal sealed record TransformationFunction(
     Func<Vector[], Vector> Rotation,
     Func<Vector[], Vector> Scale)
 {
-    /// <summary>Returns the transformation for the given arguments, one per parameter, perhaps with room for more. Keeps no array.</summary>
+    /// <summary>Returns the transformation for the given arguments, one a parameter, perhaps with room for more. Keeps no array.</summary>
     public Transformation Apply(Vector[] arguments) =>
         new(Position(arguments), Rotation(arguments), Scale(arguments));
 }

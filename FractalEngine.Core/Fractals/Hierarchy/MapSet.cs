@@ -52,7 +52,7 @@ internal sealed class MapSet
     /// <summary>The maps in the order of the set.</summary>
     public AffineMap[] Maps { get; }
 
-    /// <summary>The inverses of the maps, computed when they are first asked for: as large as the maps, and few searches need them.</summary>
+    /// <summary>The inverses of the maps, computed at the first use: they are as large as the maps, and few searches need them.</summary>
     public AffineMap[] Inverses => _inverses ??= Array.ConvertAll(Maps, static map => map.Inverse());
 
     /// <summary>Squares of the factors by which the maps lengthen vectors; meaningful for similarities only.</summary>
