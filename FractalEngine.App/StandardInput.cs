@@ -18,7 +18,7 @@ internal static class StandardInput
     /// <summary>Reads all text of the standard input.</summary>
     /// <param name="name">Name of the text in messages.</param>
     /// <param name="maxBytes">Size limit; more is refused.</param>
-    /// <exception cref="SourceException">The input is closed, too large, or no text.</exception>
+    /// <exception cref="SourceException">The input is closed, unreadable, too large, or no text.</exception>
     public static SourceText Read(string name, long maxBytes)
     {
         if (IsClosed())
@@ -26,8 +26,22 @@ internal static class StandardInput
             throw new SourceException(name, "the standard input is closed");
         }
 
-        using var input = Console.OpenStandardInput();
         using var bytes = new MemoryStream();
+        try
+        {
+            ReadAll(bytes, name, maxBytes);
+        }
+        catch (Exception exception) when (exception is IOException or UnauthorizedAccessException)
+        {
+            throw new SourceException(name, $"the standard input can't be read: {exception.Message}");
+        }
+
+        return SourceText.Decode(bytes.GetBuffer().AsSpan(0, (int)bytes.Length), name);
+    }
+
+    private static void ReadAll(MemoryStream bytes, string name, long maxBytes)
+    {
+        using var input = Console.OpenStandardInput();
         var buffer = new byte[1 << 16];
         for (var count = input.Read(buffer); count > 0; count = input.Read(buffer))
         {
@@ -37,8 +51,6 @@ internal static class StandardInput
                 throw new SourceException(name, $"the standard input has more than the limit of {maxBytes} bytes", isLimitExceeded: true);
             }
         }
-
-        return SourceText.Decode(bytes.GetBuffer().AsSpan(0, (int)bytes.Length), name);
     }
 
     /// <summary>Adds the text of the standard input to the options of a file that is named <c>-</c>.</summary>

@@ -40,7 +40,7 @@ public sealed record Diagnostic(
         var start = caret < MaxShownWidth ? 0 : caret - (MaxShownWidth / 2);
         var shown = SourceLine[start..Math.Min(start + MaxShownWidth, SourceLine.Length)];
         // Tabs stay tabs in both lines, so that the caret keeps its place. Others that would spoil the terminal take one column each.
-        var line = string.Concat(shown.Select((c, i) => c is '\n' or '\r' || DisplayText.IsHidden(shown, i) ? '?' : c));
+        var line = string.Concat(shown.Select((c, i) => DisplayText.IsHidden(shown, i) ? '?' : c));
         var padding = string.Concat(shown.Take(caret - start).Select(c => c == '\t' ? '\t' : ' '));
         return $"{head}\n  {line}\n  {padding}^";
     }

@@ -114,6 +114,26 @@ public sealed class ShellTests : IDisposable
         Assert.Equal(new AppResult(1, "", "-:1:1: error: the standard input is closed\n"), RunInShell("{0} info - <&-"));
     }
 
+    [SkippableFact]
+    public void Info_OfAFolderAsStandardInput_SaysSo()
+    {
+        Skip.If(OperatingSystem.IsWindows(), "the shell there opens no folders");
+        Assert.Equal(
+            new AppResult(1, "", "-:1:1: error: the standard input can't be read: Is a directory\n"), RunInShell("{0} info - < ."));
+    }
+
+    [SkippableFact]
+    public void Messages_OfNamesWithLineBreaks_AreOneLine()
+    {
+        Skip.If(OperatingSystem.IsWindows(), "no name has line breaks there");
+        Assert.Equal(new AppResult(1, "", "no\\u000Aname.fdo:1:1: error: file not found\n"), Run("info", "no\nname.fdo"));
+        Assert.StartsWith("wrote a\\u000Ab.obj: 12 faces, ", Run("export", "cube.obj", "--output", "a\nb.obj").Error, StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void Names_WithAnAtSign_AreNames() => Assert.Equal(
+        new AppResult(1, "", "@cube.stl:1:1: error: file not found\n"), Run("info", "@cube.stl"));
+
     [SkippableTheory]
     [InlineData("info cube.obj")]
     [InlineData("generate torus-knot --output a.obj")]
