@@ -26,8 +26,38 @@ public static class FractalBounds
         _ when FractalSteps.CountUpTo(fractal.Description.Steps, 1).IsZero => BoundingBox.Empty,
         { Description.Composition: Composition.Componentwise } => ComputeComponentwiseBox(fractal),
         _ when LevelBoxes.AreExact(fractal.Description.Steps) => LevelBoxes.ComputeBox(fractal),
+        _ when FindWideSet(fractal) is { } index => ComputeEnumeratedBox(fractal, index),
         _ => ComputeAffineBox(fractal),
     };
+
+    /// <summary>
+    /// Finds the only level with more than one map of a fractal that is one wide set, perhaps under placements; null for others. To search
+    /// its hierarchy would cost a hundred times the memory of its maps.
+    /// </summary>
+    private static int? FindWideSet(Fractal fractal)
+    {
+        var steps = fractal.Description.Steps;
+        var wide = steps.Select((step, index) => (Set: step as TransformationSet, Index: index))
+            .Where(static level => level.Set is not { Maps.Length: 1 }).ToArray();
+        return wide is [{ Set.Maps.Length: > ChildGroups.MaxUngroupedChildren and var count, Index: var index }]
+            && (long)count * fractal.BaseMesh.VertexCount <= MaxEnumeratedVertices
+                ? index
+                : null;
+    }
+
+    private static BoundingBox ComputeEnumeratedBox(Fractal fractal, int wideIndex)
+    {
+        var steps = fractal.Description.Steps;
+        var outer = steps[..wideIndex].Aggregate(AffineMap.Identity, static (map, step) => map * ((TransformationSet)step).Maps[0]);
+        var inner = steps[(wideIndex + 1)..].Aggregate(AffineMap.Identity, static (map, step) => map * ((TransformationSet)step).Maps[0]);
+        var box = BoundingBox.Empty;
+        foreach (var map in ((TransformationSet)steps[wideIndex]).Maps)
+        {
+            box = BoundingBox.Union(box, fractal.BaseMesh.ComputeBounds(outer * map * inner));
+        }
+
+        return box;
+    }
 
     private static BoundingBox ComputeAffineBox(Fractal fractal)
     {

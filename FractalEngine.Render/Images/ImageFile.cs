@@ -3,7 +3,7 @@ using FractalEngine.Core.Images;
 
 namespace FractalEngine.Render.Images;
 
-/// <summary>Reads and writes image files: PNG with the engine's own reader and writer, other formats with SDL2_image.</summary>
+/// <summary>Reads and writes image files: PNG by the engine itself; JPEG, BMP and TGA are read with SDL2_image.</summary>
 public static class ImageFile
 {
     private const string InstallHint =
@@ -19,8 +19,10 @@ public static class ImageFile
     /// <exception cref="IOException">The file can't be written.</exception>
     public static void SavePng(this PixelImage image, string path) => AtomicFile.Write(path, stream => PngWriter.Write(image, stream));
 
-    /// <summary>Reads an image: PNG, known by its first bytes whatever its name is, or any format that SDL2_image knows.</summary>
-    /// <exception cref="IOException">The file can't be read or is damaged; or it is no PNG, and SDL2_image is missing.</exception>
+    /// <summary>Reads an image: PNG, known by its first bytes whatever its name is, or JPEG, BMP or TGA.</summary>
+    /// <exception cref="IOException">
+    /// The file can't be read, is damaged or of another format; or it is no PNG, and SDL2_image is missing.
+    /// </exception>
     /// <remarks>
     /// An image of more than <see cref="PngReader.DefaultMaxPixels"/> pixels, or of more than its file can hold, is refused before memory
     /// is taken for it.
@@ -62,7 +64,8 @@ public static class ImageFile
     {
         if (ImageHeader.Read(stream, ImageHeader.IsTga(path)) is not { } header)
         {
-            return;
+            // The library knows more formats, of which some hang, or take gigabytes for a file of a few bytes.
+            throw new IOException(isPng ? "the file ends within its header" : "it is not a PNG, JPEG, BMP or TGA image");
         }
 
         if (!isPng && header.PixelCount > PngReader.DefaultMaxPixels)

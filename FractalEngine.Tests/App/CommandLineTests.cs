@@ -124,6 +124,11 @@ public sealed class CommandLineTests : IDisposable
     }
 
     [Fact]
+    public void RenderTraced_OfTooManyPixels_NamesTheLimit() => Assert.Equal(
+        new AppResult(3, "", "error: a traced image of 100000×100000 pixels has more than the limit of 67108864 in all\n"),
+        Run("render", "cube.obj", "--trace", "1", "--resolution", "100000x100000", "--output", "out.png"));
+
+    [Fact]
     public void RenderTraced_OfPartsThatOverlapTooMuch_NamesTheLimitAndWritesNothing()
     {
         // Each ray enters up to 4^40 parts of nearly the same size: more than a minute for this image.

@@ -1,4 +1,5 @@
 using System.Globalization;
+using System.Text;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Robustness;
@@ -36,6 +37,28 @@ public sealed class MemoryTests : IDisposable
 
             """);
         RunWithinMemory("sums.fdo", arguments);
+    }
+
+    [Theory]
+    [InlineData("check")]
+    [InlineData("info")]
+    public void Info_OfAHundredThousandMaps_IsWithinTheMemory(string command)
+    {
+        var text = new StringBuilder();
+        var random = new Random(1);
+        for (var i = 0; i < 1000; i++)
+        {
+            text.Append(CultureInfo.InvariantCulture, $"v {random.Next(9)}.{i} {random.Next(99)} 0.0{i}\n");
+        }
+
+        text.Append("v 0.01 0.01 0.01\nt.a.b. (a, b, 1001)\nx. \"t.obj\"\n<$>. [");
+        for (var i = 0; i < 100_000; i++)
+        {
+            text.Append(CultureInfo.InvariantCulture, $"t.{random.Next(1000) + 1}.{random.Next(1000) + 1},");
+        }
+
+        _folder.Write("wide.fdo", text.Append("#] x\n").ToString());
+        RunWithinMemory("wide.fdo", [command]);
     }
 
     private void RunWithinMemory(string file, string[] arguments)

@@ -167,7 +167,7 @@ public sealed class MaterialLoaderTests : IDisposable
         _folder.Write("a.mtl", "newmtl m\nmap_Bump Images\\Heights.png\nnorm gone.png\nPr 0.5\n");
         var loaded = Load("mtllib a.mtl\nusemtl m\nf 1 2 3\n");
         Assert.Equal(new Material("m") { BumpTexture = new(_folder["images/heights.png"]), Roughness = 0.5 }, MaterialOf(loaded));
-        Assert.Equal("map_Bump is kept but not drawn (3 such statements in all)", Assert.Single(loaded.Warnings).Message);
+        Assert.Equal("map_Bump is shown in traced images only (3 such statements in all)", Assert.Single(loaded.Warnings).Message);
     }
 
     [Fact]

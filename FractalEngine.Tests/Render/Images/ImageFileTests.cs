@@ -60,6 +60,18 @@ public sealed class ImageFileTests : IDisposable
         Assert.StartsWith($"{path} can't be read: ", ErrorOf(path), StringComparison.Ordinal);
     }
 
+    [Theory]
+    [InlineData("P6 30000 30000 255\n")]
+    [InlineData("/* XPM */\nstatic char*a[]={\"60000 60000 1 1\",\"a c #000000\"};")]
+    [InlineData("GIF89a")]
+    public void Load_OfAnotherFormat_IsRefusedBeforeADecoderSeesIt(string contents)
+    {
+        var path = Path.Combine(_directory.FullName, "image.ppm");
+        File.WriteAllText(path, contents);
+        var error = Assert.Throws<IOException>(() => ImageFile.Load(path, _ => throw new NotSupportedException()));
+        Assert.Equal($"{path} can't be read: it is not a PNG, JPEG, BMP or TGA image", error.Message);
+    }
+
     [Fact]
     public void Load_OfAPngByAnotherName_KnowsItByItsFirstBytes()
     {
