@@ -58,6 +58,9 @@ internal sealed class ObjectsPass : IDisposable
     /// <summary>Depth maps of lights: drawn for the last frame, and kept from an earlier one.</summary>
     public RedundancyCounts ShadowMapCounts => new(_shadowPass.DrawnMapCount, _shadowPass.MapCount - _shadowPass.DrawnMapCount);
 
+    /// <summary>Depth maps that the last frame did not need, and objects that it drew into none.</summary>
+    public (int Maps, int Casters) SkippedShadows => (_shadowPass.SkippedMapCount, _shadowPass.SkippedCasterCount);
+
     /// <summary>Draws another preparation of the same scene from now on.</summary>
     public void SetScene(DrawableScene scene)
     {

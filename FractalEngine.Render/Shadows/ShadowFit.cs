@@ -50,12 +50,16 @@ internal sealed class ShadowFit
     private readonly ConvexRegion _region = new();
     private readonly List<ShadowView> _views = [];
     private readonly List<double> _weights = [];
+    private bool _keepsIdleViews;
 
     /// <summary>Views of the depth maps, those of one light after those of another.</summary>
     public List<ShadowView> Views => _views;
 
     /// <summary>For each light, the index of its first view and their number; without any where it casts no shadow.</summary>
     public List<(int First, int Count)> Ranges { get; } = [];
+
+    /// <summary>Number of maps that are not needed: their light is dark, or lights nothing visible.</summary>
+    public int SkippedCount { get; private set; }
 
     /// <summary>Computes the views for a frame.</summary>
     /// <param name="lights">Lights in the order of the light block.</param>
@@ -65,10 +69,13 @@ internal sealed class ShadowFit
     /// <param name="receivers">Bounds of what shadows fall on.</param>
     /// <param name="casters">Bounds of what casts them.</param>
     /// <param name="fitsToView">Whether maps show only what the frame shows.</param>
+    /// <param name="cullsLights">Whether maps that are not needed have no view; otherwise they have idle ones.</param>
     public void Fit(
         ImmutableArray<Light> lights, in FrameView frame, Vector origin, double unitsPerSceneUnit, BoundingBox receivers,
-        BoundingBox casters, bool fitsToView)
+        BoundingBox casters, bool fitsToView, bool cullsLights = true)
     {
+        _keepsIdleViews = !cullsLights;
+        SkippedCount = 0;
         _views.Clear();
         _weights.Clear();
         Ranges.Clear();
@@ -76,9 +83,16 @@ internal sealed class ShadowFit
         foreach (var light in lights)
         {
             var first = _views.Count;
-            if (hasShadows && IsBright(light))
+            if (hasShadows)
             {
                 AddViews(light, in frame, origin, unitsPerSceneUnit, receivers, casters, fitsToView);
+            }
+
+            if (_views.Count > MaxViews && _keepsIdleViews)
+            {
+                // Idle views take the place of no others.
+                Fit(lights, in frame, origin, unitsPerSceneUnit, receivers, casters, fitsToView);
+                return;
             }
 
             if (_views.Count > MaxViews)
@@ -97,14 +111,22 @@ internal sealed class ShadowFit
         }
     }
 
+    /// <summary>Takes all views away, as nothing casts a shadow. Lights keep their places.</summary>
+    public void Clear()
+    {
+        _views.Clear();
+        for (var i = 0; i < Ranges.Count; i++)
+        {
+            Ranges[i] = (0, 0);
+        }
+    }
+
     /// <summary>Returns axes whose third is a direction.</summary>
     private static Matrix AxesAlong(Vector forward, Vector up)
     {
         var right = Vector.Cross(up, forward).UnitVector();
         return new(right, Vector.Cross(forward, right), forward);
     }
-
-    private static bool IsBright(Light light) => light.Intensity > 0 && light.Colour != Colour.Black;
 
     private static double WeightOf(Light light)
     {
@@ -140,7 +162,7 @@ internal sealed class ShadowFit
         var far = Math.Min(range, distance + receivers.Diagonal);
         if (distance >= far)
         {
-            return;
+            weight = 0;
         }
 
         SetRegion(in frame, origin, frame.Near, frame.Far, receivers, fitsToView);
@@ -175,11 +197,8 @@ internal sealed class ShadowFit
             before &= z < near;
         }
 
-        if (_region.Corners.Length > 0 && !(right || left || above || below || before))
-        {
-            _views.Add(new(position, axes, true, halfSize, halfSize, near, far, near, 0));
-            _weights.Add(weight);
-        }
+        var isVisible = _region.Corners.Length > 0 && !(right || left || above || below || before);
+        AddView(new(position, axes, true, halfSize, halfSize, near, far, near, 0), isVisible ? weight : 0);
     }
 
     private void AddParallelViews(
@@ -189,6 +208,7 @@ internal sealed class ShadowFit
         SetRegion(in frame, origin, frame.Near, frame.Far, receivers, fitsToView);
         if (_region.Corners.Length == 0)
         {
+            SkippedCount++;
             return;
         }
 
@@ -207,9 +227,22 @@ internal sealed class ShadowFit
 
             if (_region.Corners.Length > 0)
             {
-                _views.Add(ParallelView(axes, receivers, casters));
-                _weights.Add(weight);
+                AddView(ParallelView(axes, receivers, casters), weight);
             }
+        }
+    }
+
+    /// <summary>Adds a view, unless its light has no weight and is culled.</summary>
+    private void AddView(in ShadowView view, double weight)
+    {
+        if (weight > 0 || _keepsIdleViews)
+        {
+            _views.Add(view with { IsIdle = !(weight > 0) });
+            _weights.Add(weight);
+        }
+        else
+        {
+            SkippedCount++;
         }
     }
 
@@ -292,7 +325,7 @@ internal sealed class ShadowFit
             {
                 var size = Math.Max(MinSize / 2, _weights[i] > 0.5 * brightest ? largest : largest / 2);
                 _views[i] = _views[i] with { Size = size };
-                texels += (long)size * size;
+                texels += _views[i].IsIdle ? 0 : (long)size * size;
             }
 
             isWithinLimit = texels <= MaxTexels || largest <= MinSize;
