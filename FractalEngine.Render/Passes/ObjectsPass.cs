@@ -44,7 +44,7 @@ internal sealed class ObjectsPass : IDisposable
         _scene = scene;
         _buffers = buffers;
         _transforms = transforms;
-        _meshPass = new(context);
+        _meshPass = new(context, LightBlock.LightsOf(scene.Source));
         _lightBlock = new(_resources, scene.Source);
         _objectBlocks = [.. scene.Objects.Select(item => new ObjectBlock(_resources, item.Name))];
         _transparentOrder = TransparentOrder.Create(scene);
@@ -129,7 +129,8 @@ internal sealed class ObjectsPass : IDisposable
     private MeshFeatures FrameFeatures(RenderSettings settings) =>
         (settings.Shading == Shading.PerPixel ? MeshFeatures.PerPixel : 0) | (_lightBlock.HasAtmosphere ? MeshFeatures.Atmosphere : 0)
         | (_shadowPass.HasShadows ? MeshFeatures.Shadows : 0)
-        | (_shadowPass.HasPointShadows ? MeshFeatures.PointShadows : 0);
+        | (_shadowPass.HasPointShadows ? MeshFeatures.PointShadows : 0)
+        | (_shadowPass.HasSlices ? MeshFeatures.ShadowSlices : 0);
 
     private static double LightScaleOf(View view) =>
         view.DeepZoom is { } zoom ? Math.Exp(Math.Min(-zoom.LogUnit, MaxLogLightScale)) : 1;

@@ -41,6 +41,9 @@ internal sealed class ShadowFit
     // The size of a map of parallel light grows in steps of this factor.
     private const double SizeStep = 1.0905;
 
+    // By depth: a texel beyond each edge, as a point is compared with four.
+    private const double CubeSideHalfSize = 1.01;
+
     private static readonly (Vector Forward, Vector Up)[] CubeSides =
     [
         (Vector.I, Vector.J), (-Vector.I, Vector.J), (Vector.J, Vector.K), (-Vector.J, Vector.K),
@@ -60,6 +63,9 @@ internal sealed class ShadowFit
 
     /// <summary>Number of maps that are not needed: their light is dark, or lights nothing visible.</summary>
     public int SkippedCount { get; private set; }
+
+    /// <summary>Whether a light has views of the sides of a cube, unless it is so far away that it is parallel.</summary>
+    public static bool HasCube(Light light) => light is PointLight and not SpotLight { Angle: < MaxSpotAngle };
 
     /// <summary>Computes the views for a frame.</summary>
     /// <param name="lights">Lights in the order of the light block.</param>
@@ -167,23 +173,24 @@ internal sealed class ShadowFit
 
         SetRegion(in frame, origin, frame.Near, frame.Far, receivers, fitsToView);
         var near = NearByRange * Math.Min(range, receivers.Diagonal);
-        if (light is SpotLight { Angle: < MaxSpotAngle } spot)
+        if (!HasCube(light) && light is SpotLight spot)
         {
             var direction = spot.Direction.UnitVector();
             var halfSize = Math.Tan(0.5 * spot.Angle * Math.PI / 180) * 1.01;
             var up = Math.Abs(direction.Y) > 0.9 ? Vector.K : Vector.J;
-            AddPerspectiveView(position, AxesAlong(direction, up), halfSize, near, far, weight);
+            AddPerspectiveView(position, AxesAlong(direction, up), halfSize, near, far, weight, isCubeSide: false);
             return;
         }
 
         foreach (var (forward, up) in CubeSides)
         {
-            AddPerspectiveView(position, AxesAlong(forward, up), 1.004, near, far, 0.5 * weight);
+            AddPerspectiveView(position, AxesAlong(forward, up), CubeSideHalfSize, near, far, 0.5 * weight, isCubeSide: true);
         }
     }
 
     /// <summary>Adds a view of a light with a position, if anything visible lies within it.</summary>
-    private void AddPerspectiveView(Vector position, Matrix axes, double halfSize, double near, double far, double weight)
+    private void AddPerspectiveView(
+        Vector position, Matrix axes, double halfSize, double near, double far, double weight, bool isCubeSide)
     {
         var toView = axes.Transpose();
         var (right, left, above, below, before) = (true, true, true, true, true);
@@ -198,7 +205,8 @@ internal sealed class ShadowFit
         }
 
         var isVisible = _region.Corners.Length > 0 && !(right || left || above || below || before);
-        AddView(new(position, axes, true, halfSize, halfSize, near, far, near, 0), isVisible ? weight : 0);
+        var view = new ShadowView(position, axes, true, halfSize, halfSize, near, far, near, 0) { IsCubeSide = isCubeSide };
+        AddView(in view, isVisible ? weight : 0);
     }
 
     private void AddParallelViews(

@@ -68,6 +68,9 @@ internal sealed class ShadowPass : IDisposable
     /// <summary>Whether any of them has a position.</summary>
     public bool HasPointShadows { get; private set; }
 
+    /// <summary>Whether any parallel light has several depth maps.</summary>
+    public bool HasSlices { get; private set; }
+
     /// <summary>Number of depth maps of the frame.</summary>
     public int MapCount { get; private set; }
 
@@ -114,6 +117,7 @@ internal sealed class ShadowPass : IDisposable
     {
         HasShadows = false;
         HasPointShadows = false;
+        HasSlices = false;
         (MapCount, DrawnMapCount, SkippedMapCount, SkippedCasterCount) = (0, 0, 0, 0);
         if (!settings.Shadows || settings.Wireframe || settings.Shading != Shading.PerPixel || _lights.IsEmpty)
         {
@@ -137,6 +141,11 @@ internal sealed class ShadowPass : IDisposable
         if (_fit.Views.Count == 0)
         {
             return;
+        }
+
+        foreach (var (first, count) in _fit.Ranges)
+        {
+            HasSlices |= count > 1 && !_fit.Views[first].IsPerspective;
         }
 
         _maps = fitsToView ? _fittedMaps : _wholeMaps;
