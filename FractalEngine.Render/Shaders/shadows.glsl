@@ -18,6 +18,7 @@ layout(std140) uniform ShadowBlock
     ivec4 shadowRanges[16];
     // Of each light with a position: its views towards +x, -x, +y, -y, and then +z, -z.
     ivec4 shadowSides[32];
+    vec4 shadowTexel; // xy: size of a texel of the texture
     ShadowView shadowViews[shadowViewCount];
 };
 
@@ -41,7 +42,7 @@ float litPart(vec3 texel, vec2 slope)
     vec2 corner = floor(texel.xy - 0.5);
     vec2 part = texel.xy - 0.5 - corner;
 #ifdef GL_ARB_texture_gather
-    vec4 stored = textureGather(shadowMap, (corner + 1.0) / vec2(textureSize(shadowMap, 0))).wzxy;
+    vec4 stored = textureGather(shadowMap, (corner + 1.0) * shadowTexel.xy).wzxy;
 #else
     ivec2 first = ivec2(corner);
     vec4 stored = vec4(
@@ -55,16 +56,16 @@ float litPart(vec3 texel, vec2 slope)
 }
 
 // From 0 to 1: how much of the light of a view reaches a surface; -1 beyond its map.
-float litPart(ShadowView view, vec3 position, vec3 faceNormal, vec3 toLight)
+float litPart(ShadowView view, vec3 position, vec3 faceNormal)
 {
     // In the axes of the light.
     vec3 point = vec3(dot(view.right.xyz, position), dot(view.up.xyz, position), dot(view.forward.xyz, position))
         + vec3(view.right.w, view.up.w, view.forward.w);
     vec3 normal = vec3(dot(view.right.xyz, faceNormal), dot(view.up.xyz, faceNormal), dot(view.forward.xyz, faceNormal));
-    vec3 away = 0.25 * normal + vec3(dot(view.right.xyz, toLight), dot(view.up.xyz, toLight), dot(view.forward.xyz, toLight));
 #ifdef POINT_SHADOWS
     bool isPerspective = view.depth.z > 0.0;
-    point += away * (view.depth.w * (isPerspective ? point.z : 1.0));
+    vec3 towardsLight = isPerspective ? -point * inversesqrt(dot(point, point)) : vec3(0.0, 0.0, -1.0);
+    point += (towardsLight + 0.25 * normal) * (view.depth.w * (isPerspective ? point.z : 1.0));
     float inverse = isPerspective ? 1.0 / point.z : 1.0;
     vec3 texel = vec3(point.xy * inverse * view.scale.xy + view.scale.zw,
         isPerspective ? view.depth.x + view.depth.y * inverse : view.depth.x * point.z);
@@ -74,7 +75,7 @@ float litPart(ShadowView view, vec3 position, vec3 faceNormal, vec3 toLight)
         / ((abs(height) > 1e-20 ? height : 1e-20) * view.scale.xy);
     bool isBefore = inverse > 0.0;
 #else
-    point += away * view.depth.w;
+    point += (vec3(0.0, 0.0, -1.0) + 0.25 * normal) * view.depth.w;
     vec3 texel = vec3(point.xy * view.scale.xy + view.scale.zw, view.depth.x * point.z);
     // How much the depth changes from texel to texel along the plane.
     vec2 slope = -view.depth.x * normal.xy / (normal.z * view.scale.xy);
@@ -110,15 +111,15 @@ float lightThatArrives(int light, vec3 position, vec3 faceNormal, vec3 toLight)
         vec3 fromLight = position - lights[light].position.xyz;
         vec3 size = abs(fromLight);
         fromLight += (toLight + 0.25 * faceNormal) * (shadowViews[light].depth.w * max(size.x, max(size.y, size.z)));
-        return abs(litPart(shadowViews[sideOf(light, fromLight)], position, faceNormal, toLight));
+        return abs(litPart(shadowViews[sideOf(light, fromLight)], position, faceNormal));
     }
 #endif
-    float part = litPart(shadowViews[light], position, faceNormal, toLight);
+    float part = litPart(shadowViews[light], position, faceNormal);
 #ifdef SHADOW_SLICES
     ivec2 range = shadowRanges[light].xy;
     for (int i = range.x; part < 0.0 && i < range.x + range.y; i++)
     {
-        part = litPart(shadowViews[i], position, faceNormal, toLight);
+        part = litPart(shadowViews[i], position, faceNormal);
     }
 #endif
 

@@ -15,9 +15,10 @@ internal sealed class ShadowBlock(GlResources resources, bool hasReversedDepth) 
     private const int FloatsPerView = 24;
     private const int EmptySlot = SlotCount - 1;
 
-    // Ranges, then sides, four integers and eight for each light; then the views.
+    // Ranges, then sides, four integers and eight for each light; then the size of a texel, and the views.
     private const int SidesStart = 4 * LightBlock.MaxLights;
-    private const int ViewsStart = 12 * LightBlock.MaxLights;
+    private const int TexelStart = 12 * LightBlock.MaxLights;
+    private const int ViewsStart = TexelStart + 4;
     private const int SideCount = 6;
 
     // Distance towards the light at which a surface is compared with the map, texels: parts below a texel may be drawn as proxies there.
@@ -30,11 +31,14 @@ internal sealed class ShadowBlock(GlResources resources, bool hasReversedDepth) 
     /// <param name="ranges">First view of each light, and their number.</param>
     /// <param name="views">Views of all lights.</param>
     /// <param name="corners">Corner of each view's map in the atlas.</param>
+    /// <param name="textureSize">Width and height of the atlas, texels.</param>
     /// <param name="origin">Position of the camera in the space of the views.</param>
     public void Upload(
-        IReadOnlyList<(int First, int Count)> ranges, IReadOnlyList<ShadowView> views, IReadOnlyList<(int X, int Y)> corners, Vector origin)
+        IReadOnlyList<(int First, int Count)> ranges, IReadOnlyList<ShadowView> views, IReadOnlyList<(int X, int Y)> corners,
+        (int Width, int Height) textureSize, Vector origin)
     {
-        var indices = MemoryMarshal.Cast<float, int>(_data.AsSpan(0, ViewsStart));
+        var indices = MemoryMarshal.Cast<float, int>(_data.AsSpan(0, TexelStart));
+        (_data[TexelStart], _data[TexelStart + 1]) = (1f / textureSize.Width, 1f / textureSize.Height);
         // Without bounds, no slot holds any point.
         _data.AsSpan(ViewsStart).Clear();
         var nextSlot = LightBlock.MaxLights;

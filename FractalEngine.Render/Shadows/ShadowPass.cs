@@ -166,7 +166,7 @@ internal sealed class ShadowPass : IDisposable
             DrawMaps(in frame, spheres, settings);
         }
 
-        _block.Upload(_fit.Ranges, _fit.Views, _maps.Corners, origin);
+        _block.Upload(_fit.Ranges, _fit.Views, _maps.Corners, _maps.TextureSize, origin);
     }
 
     /// <summary>Binds the maps and their views, where the frame has any.</summary>
