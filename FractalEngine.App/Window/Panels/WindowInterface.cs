@@ -1,6 +1,7 @@
 using System.Collections.Immutable;
 using FractalEngine.App.Window.Actions;
 using FractalEngine.App.Window.Tools;
+using FractalEngine.Core.Maths;
 using FractalEngine.Render.Ui;
 using FractalEngine.Render.Windowing;
 
@@ -181,8 +182,9 @@ internal sealed class WindowInterface
         foreach (var dimension in document.Tool.Measure.Dimensions)
         {
             var middle = 0.5 * (dimension.From + dimension.To);
-            var drawn = document.Physics.IsWalking ? middle : document.FlyingCamera.ToDrawnFrame(middle);
-            if (view.Project(drawn, _width, _height) is var (x, y, _))
+            var frame = document.VisibleDepth > 0 ? view with { Camera = view.Camera with { Position = Vector.Zero } } : view;
+            if (document.MapToDrawnFrame(dimension.Viewpoint) is { } map
+                && frame.Project(map(middle), _width, _height) is var (x, y, _))
             {
                 ui.Mark(dimension.LengthText, x, y);
             }
