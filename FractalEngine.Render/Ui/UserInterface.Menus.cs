@@ -5,6 +5,9 @@ namespace FractalEngine.Render.Ui;
 /// <content>The menu bar, dialogs and tooltips.</content>
 public sealed partial class UserInterface
 {
+    // Narrower room beside a panel is none for a tooltip.
+    private const int MinTooltipColumns = 24;
+
     private const int DialogColumns = 76;
 
     private readonly List<string> _menuTitles = [];
@@ -253,13 +256,20 @@ public sealed partial class UserInterface
 
         _layer = 2;
         _clip = new(0, 0, _width, _height);
-        var columns = Math.Max(1, Math.Min(60, (_width / CellWidth) - 2));
+        // Beside the panel or the menu, where there is room: below the pointer it would cover the next rows.
+        var root = HoveredBounds();
+        var (leftRoom, rightRoom) = (root.X - (3 * Gap), _width - root.Right - (3 * Gap));
+        var room = Math.Max(leftRoom, rightRoom);
+        var isBeside = root.Width > 0 && room >= MinTooltipColumns * CellWidth;
+        var columns = Math.Max(1, Math.Min(60, isBeside ? room / CellWidth : (_width / CellWidth) - 2));
         var lines = Wrap(_tooltip, columns).ToArray();
         var width = (lines.Max(static line => line.Length) * CellWidth) + (2 * Gap);
         var height = (lines.Length * LineHeight) + (2 * Gap);
-        var x = Math.Max(0, Math.Min((int)_input.X + CellWidth, _width - width));
-        var y = (int)_input.Y + LineHeight + Gap;
-        y = y + height > _height ? Math.Max(0, (int)_input.Y - height - Gap) : y;
+        var x = !isBeside ? Math.Max(0, Math.Min((int)_input.X + CellWidth, _width - width))
+            : rightRoom >= leftRoom ? root.Right + Gap
+            : root.X - Gap - width;
+        var y = (int)_input.Y + (isBeside ? -LineHeight / 2 : LineHeight + Gap);
+        y = y + height > _height ? Math.Max(0, isBeside ? _height - height : (int)_input.Y - height - Gap) : y;
         var bounds = new UiRect(x, y, width, height);
         Fill(bounds, Theme.Title, 2);
         Frame(bounds, Theme.Border);
@@ -267,6 +277,13 @@ public sealed partial class UserInterface
         {
             Print(lines[i], new(x + Gap, y + Gap + (i * LineHeight), width, LineHeight), Theme.Text);
         }
+    }
+
+    /// <summary>Returns the bounds of the panel or menu under the pointer; empty for none.</summary>
+    private UiRect HoveredBounds()
+    {
+        var hovered = RootAt(_input.X, _input.Y);
+        return _roots.FirstOrDefault(root => root.Root == hovered && root.Bounds.Contains(_input.X, _input.Y)).Bounds;
     }
 
     private int _menuStep;

@@ -15,6 +15,10 @@ internal static class ActionTable
     /// <summary>All actions, in the order of menus and manual.</summary>
     public static readonly ImmutableArray<WindowAction> All =
     [
+        new("new-fractal", "File", "New fractal…", "begin a fractal from a tree, a triangle or cubes, whose numbers are then turned")
+        {
+            Keys = [KeyChord.Control(Key.N)], Run = OverlayOf(static a => a.Files.NewFractal(() => a.Interface.Open("fractal"))),
+        },
         new("open", "File", "Open…", "open a file") { Keys = [KeyChord.Control(Key.O)], Run = OverlayOf(static a => a.Files.AskForFile()) },
         new("save", "File", "Save", "save the changed numbers into their files, and the view into the scene's file")
         {

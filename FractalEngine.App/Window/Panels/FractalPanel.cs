@@ -45,7 +45,7 @@ internal sealed class FractalPanel(WindowActions actions)
             {
                 if (ui.Selectable(other.Name, other == model))
                 {
-                    _path = other.SourcePath;
+                    model = other;
                     actions.Document.Tool.Selected = null;
                     actions.RequestDraw();
                 }
