@@ -278,6 +278,13 @@ internal sealed class Document : IDisposable
         History.Transform(state => state with { Edits = state.Edits.AfterSave(path, before, after) });
     }
 
+    /// <summary>Drops the edits of a file that is not shown any more, also in all states that an undo returns to.</summary>
+    public void ForgetEdits(string path)
+    {
+        Edits = Edits.Without(path);
+        History.Transform(state => state with { Edits = state.Edits.Without(path) });
+    }
+
     /// <summary>Continues the same edits, as they are after other programs have changed the files.</summary>
     public void RebaseEdits(FileEdits edits) => Edits = edits;
 

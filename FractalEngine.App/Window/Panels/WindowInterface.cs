@@ -93,6 +93,13 @@ internal sealed class WindowInterface
         panel.IsOpen = !panel.IsOpen;
     }
 
+    /// <summary>Opens a panel, and unfolds it.</summary>
+    public void Open(string name)
+    {
+        var panel = PanelOf(name);
+        (panel.IsOpen, panel.IsFolded) = (true, false);
+    }
+
     /// <summary>Whether the menu bar and the panels are shown.</summary>
     public bool IsShown => _settings.ShowsMenu;
 
@@ -197,7 +204,7 @@ internal sealed class WindowInterface
         {
             var actions = ActionTable.All.Where(action => action.Menu == menu && action.IsCommand).ToArray();
             var columns = actions.Max(action => action.Name.Length + Bindings.TextOf(action).Length);
-            ui.Menu(menu, () => BuildItems(ui, actions), columns);
+            ui.Menu(menu, () => BuildItems(ui, actions), columns, actions.Length);
         }
     }
 
