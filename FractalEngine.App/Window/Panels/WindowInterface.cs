@@ -204,7 +204,7 @@ internal sealed class WindowInterface
         {
             var actions = ActionTable.All.Where(action => action.Menu == menu && action.IsCommand).ToArray();
             var columns = actions.Max(action => action.Name.Length + Bindings.TextOf(action).Length);
-            ui.Menu(menu, () => BuildItems(ui, actions), columns);
+            ui.Menu(menu, () => BuildItems(ui, actions), columns, actions.Length);
         }
     }
 

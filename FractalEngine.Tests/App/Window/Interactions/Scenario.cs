@@ -23,11 +23,6 @@ internal sealed class Scenario : IDisposable
             _folder.Write(name, text.Replace("\r", "", StringComparison.Ordinal));
         }
 
-        if (interaction.NeedsLargeFile)
-        {
-            InteractionFiles.WriteLarge(_folder["large.obj"]);
-        }
-
         if (interaction.Settings.Length > 0)
         {
             Directory.CreateDirectory(Path.GetDirectoryName(SettingsPath)!);
@@ -108,19 +103,6 @@ internal sealed class Scenario : IDisposable
         s.MoveAway();
     };
 
-    /// <summary>
-    /// Opens the large file that a question has the name of, and types the first number below a text while it loads.
-    /// </summary>
-    public static Action<Scenario> OpenAndType(string value, string text) => s =>
-    {
-        s.Window.FindText("large.obj");
-        // The question covers none of the panel.
-        var (x, y) = s.Place(text, 0, 3, 1, isRight: false);
-        var digits = string.Join(' ', value.Select(static digit => digit == '.' ? "key period" : $"key {digit}"));
-        s.Window.Send(string.Create(
-            CultureInfo.InvariantCulture, $"mousemove --window {{window}} {x} {y} key Return click 1 key ctrl+a {digits} key Return"));
-    };
-
     /// <summary>Drags a slider, by a number of pixels.</summary>
     public static Action<Scenario> Slide(
         int pixels, string text, int column = 0, int columns = 1, int rows = 0, bool isRight = false) => s =>
@@ -164,7 +146,7 @@ internal sealed class Scenario : IDisposable
     public static Action<Scenario> Save(string file = "scene.sdo") => s =>
     {
         var count = s.Window.CountErrors($"saved {file}");
-        s.Window.WaitForTitle(file);
+        s.Window.WaitForTitle("*");
         Polling.WaitUntil(
             () =>
             {
@@ -241,8 +223,8 @@ internal sealed class Scenario : IDisposable
 
     private void ClickPixel(int x, int y, int count, int button = 1)
     {
-        var clicks = string.Concat(Enumerable.Repeat($" click {button}", count));
-        Window.Send(string.Create(CultureInfo.InvariantCulture, $"mousemove --window {{window}} {x} {y}{clicks}"));
+        Window.Send(string.Create(
+            CultureInfo.InvariantCulture, $"mousemove --window {{window}} {x} {y} click --repeat {count} --delay 30 {button}"));
         MoveAway();
     }
 
