@@ -5,9 +5,6 @@ namespace FractalEngine.Render.Ui;
 /// <content>The menu bar, dialogs and tooltips.</content>
 public sealed partial class UserInterface
 {
-    // Narrower room beside a panel is none for a tooltip.
-    private const int MinTooltipColumns = 24;
-
     private const int DialogColumns = 76;
 
     private readonly List<string> _menuTitles = [];

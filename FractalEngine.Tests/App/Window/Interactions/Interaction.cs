@@ -11,6 +11,9 @@ internal sealed record Interaction(
     /// <summary>Lines of the settings that the window begins with.</summary>
     public string Settings { get; init; } = "";
 
+    /// <summary>Whether it opens <c>large.obj</c>, which takes about a second to load.</summary>
+    public bool NeedsLargeFile { get; init; }
+
     /// <summary>Options of the command line.</summary>
     public IReadOnlyList<string> Options { get; init; } = [];
 }

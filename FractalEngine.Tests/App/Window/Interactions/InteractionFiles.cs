@@ -28,6 +28,21 @@ internal static class InteractionFiles
 
         """;
 
+    /// <summary>Writes a mesh of half a million triangles.</summary>
+    public static void WriteLarge(string path)
+    {
+        using var writer = new StreamWriter(path) { NewLine = "\n" };
+        for (var i = 0; i < 250_000; i++)
+        {
+            writer.WriteLine(FormattableString.Invariant($"v {i % 500} {i / 500} {i * 7 % 5}"));
+        }
+
+        for (var i = 0; i < 249_000; i++)
+        {
+            writer.WriteLine(FormattableString.Invariant($"f {i + 1} {i + 2} {i + 502} {i + 501}"));
+        }
+    }
+
     public static readonly (string Name, string Text)[] All =
     [
         ("cube.obj", "mtllib missing.mtl\nusemtl missing\n" + SampleFiles.Cube),

@@ -23,6 +23,11 @@ internal sealed class Scenario : IDisposable
             _folder.Write(name, text.Replace("\r", "", StringComparison.Ordinal));
         }
 
+        if (interaction.NeedsLargeFile)
+        {
+            InteractionFiles.WriteLarge(_folder["large.obj"]);
+        }
+
         if (interaction.Settings.Length > 0)
         {
             Directory.CreateDirectory(Path.GetDirectoryName(SettingsPath)!);
@@ -101,6 +106,17 @@ internal sealed class Scenario : IDisposable
         s.Window.Type(value);
         s.Window.Send("key Return");
         s.MoveAway();
+    };
+
+    /// <summary>
+    /// Opens the large file that a question has the name of, and types the first number below a text while it loads.
+    /// </summary>
+    public static Action<Scenario> OpenAndType(string value, string text) => s =>
+    {
+        var (x, y) = s.Place(text, 0, 3, 1, isRight: false);
+        var digits = string.Join(' ', value.Select(static digit => digit == '.' ? "key period" : $"key {digit}"));
+        s.Window.Send(string.Create(
+            CultureInfo.InvariantCulture, $"mousemove --window {{window}} {x} {y} key Return click 1 key ctrl+a {digits} key Return"));
     };
 
     /// <summary>Drags a slider, by a number of pixels.</summary>
