@@ -384,6 +384,8 @@ public class UserInterfaceTests
         _ui.Handle(new MouseMoved(x, y, 1, 1));
         Assert.True(UiText.Contains(_ui, "explains two"));
         Assert.False(UiText.Contains(_ui, "explains one"));
+        // Beside the panel, of which it covers no row.
+        Assert.True(UiText.Find(_ui, "explains two").X > _panel.Bounds.Right || UiText.Find(_ui, "explains two").X < _panel.Bounds.X);
     }
 
     [Fact]
