@@ -169,6 +169,12 @@ public sealed partial class Body
     /// <summary>Velocity at the beginning of the planned path.</summary>
     internal Vector PlannedVelocity { get; set; }
 
+    /// <summary>How far the planned path leads.</summary>
+    internal Vector PlannedWay { get; set; }
+
+    /// <summary>True for a body that was of a large island last, see <see cref="ContactTolerances.HeapMargin"/>.</summary>
+    internal bool HasHeapMargin { get; set; }
+
     /// <summary>Energy of motion and rotation at the beginning of the planned path, joules.</summary>
     internal double PlannedStartEnergy { get; set; }
 
@@ -215,6 +221,7 @@ public sealed partial class Body
         SleepTimer = 0;
         IsOverlapResolved = false;
         MayTouchBodies = true;
+        HasHeapMargin = false;
         NetAcceleration = acceleration;
         DiscardSurfaces();
         UpdateBalls();

@@ -8,6 +8,15 @@ internal static class ContactTolerances
     /// <summary>Factor on a radius that still finds neighbours which touch up to rounding.</summary>
     public const double NeighbourRadiusFactor = 1 + 1e-6;
 
+    /// <summary>
+    /// Of the smaller radius: balls of large islands stay up to so far apart where they touch. What their solve leaves of an approach uses
+    /// that up first, so that they rarely overlap.
+    /// </summary>
+    public const double HeapMargin = 1e-3;
+
+    /// <summary>Factor on a radius that finds all that may rest on a body, or support it.</summary>
+    public const double SupportRadiusFactor = NeighbourRadiusFactor + HeapMargin;
+
     // Of the radius: ten times the tolerance to which the moment of an impact is found.
     private const double TouchFraction = 1e-9;
 

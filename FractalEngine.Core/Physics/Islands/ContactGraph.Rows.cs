@@ -80,7 +80,11 @@ internal sealed partial class ContactGraph
         for (var i = 0; i < _count; i++)
         {
             var island = _islandOf[_found[i].First];
-            _islands[island] = _islands[island] with { RowCount = _islands[island].RowCount + 1 };
+            _islands[island] = _islands[island] with
+            {
+                RowCount = _islands[island].RowCount + 1,
+                HasCompound = _islands[island].HasCompound || _found[i].HasArms,
+            };
         }
 
         var firstRow = 0;

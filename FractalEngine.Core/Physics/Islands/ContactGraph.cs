@@ -242,6 +242,7 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
     {
         _neighbours.Clear();
         var radius = body.Radius + ContactTolerances.Slop(body.Radius, body.Position);
+        radius += body.HasHeapMargin ? ContactTolerances.HeapMargin * body.Radius : 0;
         nearbyBodies.CollectOverlaps(new(body.Position, body.Position), radius, body.Index, _neighbours);
         _neighbours.Sort();
         foreach (var neighbour in _neighbours)

@@ -40,7 +40,7 @@ internal sealed class IslandMover(List<Body> bodies, ContactGraph graph, BodyGri
             {
                 var body = bodies[index];
                 body.PlannedStart = body.Position;
-                body.Target = body.Position + (stepLength * (body.Velocity + (0.5 * stepLength * body.NetAcceleration)));
+                body.Target = body.Position + body.PlannedWay;
                 body.IsHeld = false;
             }
         }
@@ -174,7 +174,7 @@ internal sealed class IslandMover(List<Body> bodies, ContactGraph graph, BodyGri
             _separator.SetBody(index, body.Target - body.PlannedStart, body.IsHeld ? 0 : 1 / body.Description.Mass);
         }
 
-        _separator.Separate(graph.RowsOf(in island), CollectionsMarshal.AsSpan(_unplanned));
+        _separator.Separate(graph.RowsOf(in island), CollectionsMarshal.AsSpan(_unplanned), island.IsLarge);
         foreach (var index in members)
         {
             if (_separator.HasMoved(index))
