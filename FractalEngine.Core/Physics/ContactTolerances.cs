@@ -33,4 +33,11 @@ internal static class ContactTolerances
     /// <summary>Largest gap at which something that was touched still counts as a contact, in scene units.</summary>
     public static double Slop(double radius, Vector position) =>
         (SlopFraction * radius) + (RoundingFraction * position.MaxAbsComponent());
+
+    /// <summary>Largest gap at which two balls count as touching, in scene units.</summary>
+    /// <param name="radius">Radius of the smaller one.</param>
+    /// <param name="rounding">The <see cref="Slop"/> of a radius of 0 where they are.</param>
+    /// <param name="keepsMargin">True for two balls of a large island.</param>
+    public static double TouchDistance(double radius, double rounding, bool keepsMargin) =>
+        ((SlopFraction + (keepsMargin ? HeapMargin : 0)) * radius) + rounding;
 }

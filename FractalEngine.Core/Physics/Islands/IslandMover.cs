@@ -123,7 +123,7 @@ internal sealed class IslandMover(List<Body> bodies, ContactGraph graph, BodyGri
     private bool OverlapsOthers(Body body)
     {
         _neighbours.Clear();
-        nearbyBodies.CollectOverlaps(new(body.Position, body.Position), body.Radius * (1 - MaxOverlap), body.Index, _neighbours);
+        nearbyBodies.CollectOverlaps(body.Position, body.Radius * (1 - MaxOverlap), body.Index, _neighbours);
         foreach (var neighbour in _neighbours)
         {
             if (bodies[neighbour].IslandIndex != body.IslandIndex && BallPairs.AreOverlapping(body, bodies[neighbour], MaxOverlap))
@@ -147,7 +147,7 @@ internal sealed class IslandMover(List<Body> bodies, ContactGraph graph, BodyGri
             }
 
             _neighbours.Clear();
-            nearbyBodies.CollectOverlaps(new(body.Target, body.Target), body.Radius * (1 + SearchMargin), index, _neighbours);
+            nearbyBodies.CollectOverlaps(body.Target, body.Radius * (1 + SearchMargin), index, _neighbours);
             foreach (var neighbour in _neighbours)
             {
                 var other = bodies[neighbour];
@@ -268,7 +268,7 @@ internal sealed class IslandMover(List<Body> bodies, ContactGraph graph, BodyGri
     {
         _neighbours.Clear();
         nearbyBodies.CollectOverlaps(
-            new(body.Position, body.Position), body.Radius * (1 - MaxOverlap), body.Index, _neighbours);
+            body.Position, body.Radius * (1 - MaxOverlap), body.Index, _neighbours);
         var hasReturned = false;
         foreach (var neighbour in _neighbours)
         {
