@@ -5,20 +5,30 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Physics.Islands;
 
 /// <summary>
-/// The rounds of a <see cref="ContactSolver"/> for large islands of balls. What happens along a normal turns no ball, so that one pass over
-/// both bodies of a contact solves for its normal impulse and its friction.
+/// The rounds of a <see cref="ContactSolver"/> for islands of balls. What happens along a normal turns no ball, so that one pass over both
+/// bodies of a contact solves for its normal impulse and its friction.
 /// </summary>
-/// <remarks>Contacts are copied to rows of two cache lines. A vector has the lanes x, y, z, 0.</remarks>
+/// <remarks>
+/// Contacts are copied to rows of two cache lines. A vector has the lanes x, y, z, 0; an impulse has friction in the lanes x, y, z, and
+/// the part along the normal in the fourth. In most rounds only contacts take part that push: half of those in a heap are gaps.
+/// </remarks>
 internal sealed class BallContactSolver
 {
     private const int InitialCapacity = 256;
     private const int ContactsPerBody = 4;
+    private const int NormalLane = 3;
 
     private Body[] _bodies = new Body[InitialCapacity + 1];
     private Row[] _rows = new Row[InitialCapacity];
-    private Change[] _changes = new Change[InitialCapacity];
-    private Change[] _directions = new Change[InitialCapacity];
+    private Turn[] _turns = new Turn[InitialCapacity];
+    private Vector256<double>[] _changes = new Vector256<double>[InitialCapacity];
+    private Vector256<double>[] _directions = new Vector256<double>[InitialCapacity];
+
+    // The contacts of the next round, in their order.
+    private int[] _active = new int[InitialCapacity];
+    private int _activeCount;
     private int _count;
+    private bool _hasTurns;
 
     // The body of surfaces and of bodies that do not give way: it has no velocity, and none is given to it.
     private int _firm;
@@ -29,22 +39,11 @@ internal sealed class BallContactSolver
     /// <summary>Copies the contacts of an island and their bodies.</summary>
     public void Load(ReadOnlySpan<ContactRow> rows, ReadOnlySpan<SolverBody> bodies)
     {
-        if (_bodies.Length <= bodies.Length)
-        {
-            _bodies = new Body[bodies.Length + 1];
-        }
-
-        if (_rows.Length < rows.Length)
-        {
-            // At once for all bodies, so that islands that grow allocate nothing.
-            _rows = new Row[Math.Max(2 * rows.Length, ContactsPerBody * bodies.Length)];
-            _changes = new Change[_rows.Length];
-            _directions = new Change[_rows.Length];
-        }
-
+        Reserve(rows.Length, bodies.Length);
         _count = rows.Length;
         _firm = bodies.Length;
         _bodies[_firm] = default;
+        _hasTurns = false;
         for (var i = 0; i < rows.Length; i++)
         {
             ref readonly var row = ref rows[i];
@@ -55,6 +54,12 @@ internal sealed class BallContactSolver
             }
 
             _rows[i] = new(in row, row.Second >= 0 ? row.Second : _firm);
+            _hasTurns |= Turn.SlowsDown(in row);
+        }
+
+        for (var i = 0; _hasTurns && i < rows.Length; i++)
+        {
+            _turns[i] = new(in rows[i]);
         }
     }
 
@@ -64,9 +69,9 @@ internal sealed class BallContactSolver
         for (var i = 0; i < rows.Length; i++)
         {
             ref readonly var row = ref _rows[i];
-            rows[i].NormalImpulse = row.NormalImpulse;
-            rows[i].FrictionImpulse = SimdAffineMap.ToVector(row.FrictionImpulse);
-            rows[i].TurnImpulse = SimdAffineMap.ToVector(row.TurnImpulse);
+            rows[i].NormalImpulse = row.Impulse[NormalLane];
+            rows[i].FrictionImpulse = SimdAffineMap.ToVector(row.Impulse);
+            rows[i].TurnImpulse = _hasTurns ? SimdAffineMap.ToVector(_turns[i].Impulse) : Vector.Zero;
             _bodies[row.First].CopyTo(ref bodies[row.First]);
             if (row.Second != _firm)
             {
@@ -76,32 +81,46 @@ internal sealed class BallContactSolver
     }
 
     /// <summary>Solves each contact once in the order of the list, and once in the opposite one.</summary>
+    /// <param name="isFull">False where only those contacts take part that pushed after the last full round.</param>
     /// <param name="norm">Square of the changes, weighed by masses.</param>
     /// <param name="maxImpulse">The largest impulse along a normal.</param>
     /// <returns>The largest change of an impulse.</returns>
-    public double MakeRound(out double norm, out double maxImpulse)
+    public double MakeRound(bool isFull, out double norm, out double maxImpulse)
     {
-        var bodies = _bodies;
-        var rows = _rows.AsSpan(0, _count);
-        var changes = _changes.AsSpan(0, _count);
-        for (var i = 0; i < rows.Length; i++)
+        if (isFull)
         {
-            changes[i] = default;
-            Solve(ref rows[i], ref changes[i], bodies);
+            ChooseAll();
+        }
+
+        var active = _active.AsSpan(0, _activeCount);
+        var changes = _changes;
+        foreach (var i in active)
+        {
+            changes[i] = Vector256<double>.Zero;
+            if (_hasTurns)
+            {
+                _turns[i].Change = Vector256<double>.Zero;
+            }
+
+            Solve(i);
         }
 
         norm = 0;
         maxImpulse = 0;
         var largest = Vector256<double>.Zero;
-        for (var i = rows.Length - 1; i >= 0; i--)
+        for (var k = active.Length - 1; k >= 0; k--)
         {
-            ref var change = ref changes[i];
-            ref var row = ref rows[i];
-            Solve(ref row, ref change, bodies);
-            norm += ((change.Normal * change.Normal) + Dot(change.Across, change.Across)) * row.InverseNormalMass;
-            largest = Vector256.MaxNative(
-                largest, Vector256.MaxNative(Vector256.Abs(change.Across), Vector256.Create(Math.Abs(change.Normal))));
-            maxImpulse = Math.Max(maxImpulse, row.NormalImpulse);
+            var i = active[k];
+            Solve(i);
+            var change = changes[i];
+            norm += Vector256.Dot(change, change) * _rows[i].InverseNormalMass;
+            largest = Vector256.MaxNative(largest, Vector256.Abs(change));
+            maxImpulse = Math.Max(maxImpulse, _rows[i].Impulse[NormalLane]);
+        }
+
+        if (isFull)
+        {
+            ChooseActive();
         }
 
         return Math.Max(Math.Max(largest[0], largest[1]), Math.Max(largest[2], largest[3]));
@@ -110,102 +129,154 @@ internal sealed class BallContactSolver
     /// <summary>Goes on along the direction of the rounds before; at a share of 0 it begins anew.</summary>
     public void Extrapolate(double share)
     {
-        var changes = _changes.AsSpan(0, _count);
-        var directions = _directions.AsSpan(0, _count);
         if (!(share > 0))
         {
-            changes.CopyTo(directions);
+            foreach (var i in _active.AsSpan(0, _activeCount))
+            {
+                _directions[i] = _changes[i];
+                if (_hasTurns)
+                {
+                    _turns[i].Direction = _turns[i].Change;
+                }
+            }
+
             return;
         }
 
-        var bodies = _bodies;
-        var rows = _rows.AsSpan(0, _count);
         var shares = Vector256.Create(share);
-        for (var i = 0; i < rows.Length; i++)
+        foreach (var i in _active.AsSpan(0, _activeCount))
         {
-            ref var row = ref rows[i];
-            ref var direction = ref directions[i];
-            ref readonly var change = ref changes[i];
-            direction.Normal *= share;
-            direction.Across *= shares;
-            row.NormalImpulse += direction.Normal;
-            row.FrictionImpulse += direction.Across;
-            ref var first = ref bodies[row.First];
-            ref var second = ref bodies[row.Second];
-            Apply(ref row, ref first, ref second, direction.Normal, direction.Across);
-            direction.Normal += change.Normal;
-            direction.Across += change.Across;
-            if (row.IsSlowedDown)
+            ref var row = ref _rows[i];
+            var direction = shares * _directions[i];
+            row.Impulse += direction;
+            ref var first = ref _bodies[row.First];
+            ref var second = ref _bodies[row.Second];
+            Apply(in row, ref first, ref second, direction[NormalLane], direction.WithElement(NormalLane, 0));
+            _directions[i] = direction + _changes[i];
+            if (_hasTurns && _turns[i].IsSlowedDown)
             {
-                direction.Turn *= shares;
-                row.TurnImpulse += direction.Turn;
-                ApplyTurn(ref first, ref second, direction.Turn);
-                direction.Turn += change.Turn;
+                ref var turn = ref _turns[i];
+                turn.Direction *= shares;
+                turn.Impulse += turn.Direction;
+                ApplyTurn(ref first, ref second, turn.Direction);
+                turn.Direction += turn.Change;
             }
         }
     }
 
-    private void Solve(ref Row row, ref Change change, Body[] bodies)
+    private void Reserve(int rowCount, int bodyCount)
     {
-        ref var first = ref bodies[row.First];
-        ref var second = ref bodies[row.Second];
-        var normal = row.Normal;
-        var relative = first.Velocity - second.Velocity;
-        var speed = Dot(relative, normal);
-        var impulse = Math.Max(0, row.NormalImpulse + (row.NormalMass * (row.MinNormalVelocity - speed)));
-        var normalChange = impulse - row.NormalImpulse;
-        row.NormalImpulse = impulse;
-        change.Normal += normalChange;
-        if (!row.HasFriction)
+        if (_bodies.Length <= bodyCount)
         {
-            var push = Vector256.Create(normalChange) * normal;
-            first.Velocity += Vector256.Create(first.InverseMass) * push;
-            second.Velocity -= Vector256.Create(second.InverseMass) * push;
-        }
-        else if (impulse > 0 || row.FrictionImpulse != Vector256<double>.Zero)
-        {
-            // The change along the normal turns nothing, and leaves the slip as it is.
-            var spin = (Vector256.Create(row.FirstRadius) * first.Spin) + (Vector256.Create(row.SecondRadius) * second.Spin);
-            var slip = relative - (Vector256.Create(speed) * normal) + Cross(normal, spin);
-            var across = row.FrictionImpulse - (Vector256.Create(row.FrictionMass) * slip);
-            var squared = Dot(across, across);
-            var limit = row.Friction * impulse;
-            across *= Vector256.Create(squared > limit * limit ? limit / Math.Sqrt(squared) : 1);
-            var acrossChange = Vector256.Create(FrictionShare) * (across - row.FrictionImpulse);
-            row.FrictionImpulse += acrossChange;
-            change.Across += acrossChange;
-            Apply(ref row, ref first, ref second, normalChange, acrossChange);
+            _bodies = new Body[bodyCount + 1];
         }
 
-        if (row.IsSlowedDown)
+        if (_rows.Length < rowCount)
         {
-            StopTurning(ref row, ref change, ref first, ref second);
+            // At once for all bodies, so that islands that grow allocate nothing.
+            _rows = new Row[Math.Max(2 * rowCount, ContactsPerBody * bodyCount)];
+            _turns = new Turn[_rows.Length];
+            _changes = new Vector256<double>[_rows.Length];
+            _directions = new Vector256<double>[_rows.Length];
+            _active = new int[_rows.Length];
+        }
+    }
+
+    private void ChooseAll()
+    {
+        for (var i = 0; i < _count; i++)
+        {
+            _active[i] = i;
+        }
+
+        _activeCount = _count;
+    }
+
+    private void ChooseActive()
+    {
+        _activeCount = 0;
+        for (var i = 0; i < _count; i++)
+        {
+            if (_hasTurns || _rows[i].Impulse != Vector256<double>.Zero || _changes[i] != Vector256<double>.Zero)
+            {
+                _active[_activeCount++] = i;
+            }
+            else
+            {
+                _directions[i] = Vector256<double>.Zero;
+            }
+        }
+    }
+
+    private void Solve(int index)
+    {
+        ref var row = ref _rows[index];
+        ref var first = ref _bodies[row.First];
+        ref var second = ref _bodies[row.Second];
+        var normal = row.Normal;
+        var impulse = row.Impulse;
+        var alongNormal = impulse[NormalLane];
+        var relative = first.Velocity - second.Velocity;
+        var speed = Vector256.Dot(relative, normal);
+        var newAlongNormal = Math.Max(0, alongNormal + (row.NormalMass * (row.MinNormalVelocity - speed)));
+        if (newAlongNormal == 0 && impulse == Vector256<double>.Zero && !_hasTurns)
+        {
+            return;
+        }
+
+        var change = newAlongNormal - alongNormal;
+        var across = Vector256<double>.Zero;
+        var acrossChange = Vector256<double>.Zero;
+        if (row.Friction > 0)
+        {
+            // The change along the normal turns nothing, and leaves the slip as it is.
+            var oldAcross = impulse.WithElement(NormalLane, 0);
+            var spin = (Vector256.Create(row.FirstRadius) * first.Spin) + (Vector256.Create(row.SecondRadius) * second.Spin);
+            var slip = relative - (Vector256.Create(speed) * normal) + Cross(normal, spin);
+            across = oldAcross - (Vector256.Create(row.FrictionMass) * slip);
+            var squared = Vector256.Dot(across, across);
+            var limit = row.Friction * newAlongNormal;
+            if (squared > limit * limit)
+            {
+                across *= Vector256.Create(limit / Math.Sqrt(squared));
+            }
+
+            acrossChange = Vector256.Create(FrictionShare) * (across - oldAcross);
+            across = oldAcross + acrossChange;
+        }
+
+        row.Impulse = across.WithElement(NormalLane, newAlongNormal);
+        _changes[index] += acrossChange.WithElement(NormalLane, change);
+        Apply(in row, ref first, ref second, change, acrossChange);
+        if (_hasTurns && _turns[index].IsSlowedDown)
+        {
+            StopTurning(in row, ref _turns[index], ref first, ref second);
         }
     }
 
     /// <summary>Slows down rolling and spinning as far as the normal impulse allows.</summary>
-    private static void StopTurning(ref Row row, ref Change change, ref Body first, ref Body second)
+    private static void StopTurning(in Row row, ref Turn turn, ref Body first, ref Body second)
     {
-        var turn = row.TurnImpulse - (Vector256.Create(row.TurnInertia) * (first.Spin - second.Spin));
-        var about = Dot(turn, row.Normal);
-        var rolling = turn - (Vector256.Create(about) * row.Normal);
-        var length = Math.Sqrt(Dot(rolling, rolling));
-        var limit = row.RollingArm * row.NormalImpulse;
+        var impulse = turn.Impulse - (Vector256.Create(turn.Inertia) * (first.Spin - second.Spin));
+        var about = Vector256.Dot(impulse, row.Normal);
+        var rolling = impulse - (Vector256.Create(about) * row.Normal);
+        var length = Math.Sqrt(Vector256.Dot(rolling, rolling));
+        var limit = turn.RollingArm * row.Impulse[NormalLane];
         rolling *= Vector256.Create(length > limit ? limit / length : 1);
-        var spinningLimit = row.SpinningArm * row.NormalImpulse;
-        var turnChange = rolling + (Vector256.Create(Math.Clamp(about, -spinningLimit, spinningLimit)) * row.Normal) - row.TurnImpulse;
-        row.TurnImpulse += turnChange;
-        change.Turn += turnChange;
-        ApplyTurn(ref first, ref second, turnChange);
+        var spinningLimit = turn.SpinningArm * row.Impulse[NormalLane];
+        var change = rolling + (Vector256.Create(Math.Clamp(about, -spinningLimit, spinningLimit)) * row.Normal) - turn.Impulse;
+        turn.Impulse += change;
+        turn.Change += change;
+        ApplyTurn(ref first, ref second, change);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private static void Apply(ref Row row, ref Body first, ref Body second, double alongNormal, Vector256<double> across)
+    private static void Apply(in Row row, ref Body first, ref Body second, double alongNormal, Vector256<double> across)
     {
         var push = (Vector256.Create(alongNormal) * row.Normal) + across;
         first.Velocity += Vector256.Create(first.InverseMass) * push;
         second.Velocity -= Vector256.Create(second.InverseMass) * push;
-        if (row.HasFriction)
+        if (row.Friction > 0)
         {
             var torque = Cross(row.Normal, across);
             first.Spin -= Vector256.Create(first.InverseInertia * row.FirstRadius) * torque;
@@ -217,14 +288,6 @@ internal sealed class BallContactSolver
     {
         first.Spin += Vector256.Create(first.InverseInertia) * turn;
         second.Spin -= Vector256.Create(second.InverseInertia) * turn;
-    }
-
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private static double Dot(Vector256<double> a, Vector256<double> b)
-    {
-        var product = a * b;
-        var pair = product.GetLower() + product.GetUpper();
-        return pair[0] + pair[1];
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -257,12 +320,11 @@ internal sealed class BallContactSolver
         }
     }
 
+    /// <summary>A contact without what only few of them have: 128 bytes.</summary>
     private struct Row
     {
         public readonly Vector256<double> Normal;
-        public Vector256<double> FrictionImpulse;
-        public Vector256<double> TurnImpulse;
-        public double NormalImpulse;
+        public Vector256<double> Impulse;
         public readonly double MinNormalVelocity;
         public readonly double NormalMass;
         public readonly double InverseNormalMass;
@@ -270,20 +332,13 @@ internal sealed class BallContactSolver
         public readonly double Friction;
         public readonly double FirstRadius;
         public readonly double SecondRadius;
-        public readonly double RollingArm;
-        public readonly double SpinningArm;
-        public readonly double TurnInertia;
         public readonly int First;
         public readonly int Second;
-        public readonly bool HasFriction;
-        public readonly bool IsSlowedDown;
 
         public Row(in ContactRow row, int second)
         {
             Normal = SimdAffineMap.ToVector256(row.Normal);
-            FrictionImpulse = SimdAffineMap.ToVector256(row.FrictionImpulse);
-            TurnImpulse = SimdAffineMap.ToVector256(row.TurnImpulse);
-            NormalImpulse = row.NormalImpulse;
+            Impulse = Vector256.Create(row.FrictionImpulse.X, row.FrictionImpulse.Y, row.FrictionImpulse.Z, row.NormalImpulse);
             MinNormalVelocity = row.MinNormalVelocity;
             NormalMass = row.NormalMass;
             InverseNormalMass = 1 / row.NormalMass;
@@ -291,20 +346,31 @@ internal sealed class BallContactSolver
             Friction = row.Friction;
             FirstRadius = row.FirstRadius;
             SecondRadius = row.SecondRadius;
-            RollingArm = row.RollingArm;
-            SpinningArm = row.SpinningArm;
-            TurnInertia = row.TurnInertia;
             First = row.First;
             Second = second;
-            HasFriction = row.Friction > 0;
-            IsSlowedDown = row.RollingArm + row.SpinningArm > 0 && double.IsFinite(row.TurnInertia);
         }
     }
 
-    private struct Change
+    /// <summary>What slows down rolling and spinning at a contact.</summary>
+    private struct Turn
     {
-        public double Normal;
-        public Vector256<double> Across;
-        public Vector256<double> Turn;
+        public Vector256<double> Impulse;
+        public Vector256<double> Change;
+        public Vector256<double> Direction;
+        public readonly double RollingArm;
+        public readonly double SpinningArm;
+        public readonly double Inertia;
+        public readonly bool IsSlowedDown;
+
+        public Turn(in ContactRow row)
+        {
+            Impulse = SimdAffineMap.ToVector256(row.TurnImpulse);
+            RollingArm = row.RollingArm;
+            SpinningArm = row.SpinningArm;
+            Inertia = row.TurnInertia;
+            IsSlowedDown = SlowsDown(in row);
+        }
+
+        public static bool SlowsDown(in ContactRow row) => row.RollingArm + row.SpinningArm > 0 && double.IsFinite(row.TurnInertia);
     }
 }

@@ -37,6 +37,9 @@ internal sealed partial class ContactSolver
     // Of the momentum of a contact's bodies.
     private const double RelativeRounding = 1e-14;
 
+    // Of so many rounds of a large island, one tests the contacts that do not push.
+    private const int FullRoundPeriod = 4;
+
     // Fewer contacts are solved as soon without being copied.
     private const int MinBallRows = 8;
 
@@ -194,11 +197,14 @@ internal sealed partial class ContactSolver
         maxRounds = rows.Length <= MaxContactsOfManyRounds ? maxRounds
             : Math.Min(maxRounds, Math.Max(MinRounds, MaxContactSolves / rows.Length));
         _frictionShare = 1;
+        var isConverged = false;
         for (Rounds = 1; Rounds < maxRounds; Rounds++)
         {
             var tolerance = Rounds <= FineRounds ? FineTolerance : Tolerance;
-            var isConverged = isLarge ? MakeRoundOfBalls(tolerance, out var norm) : MakeRound(rows, tolerance, out norm);
-            if (isConverged)
+            // What converged among the contacts that push must do so among all.
+            var isFull = !isLarge || rows.Length <= MaxContactsOfManyRounds || isConverged || Rounds % FullRoundPeriod == 1;
+            isConverged = isLarge ? MakeRoundOfBalls(isFull, tolerance, out var norm) : MakeRound(rows, tolerance, out norm);
+            if (isConverged && isFull)
             {
                 return true;
             }
@@ -219,13 +225,13 @@ internal sealed partial class ContactSolver
             previousNorm = norm;
         }
 
-        return isLarge ? MakeRoundOfBalls(Tolerance, out _) : MakeRound(rows, Tolerance, out _);
+        return isLarge ? MakeRoundOfBalls(isFull: true, Tolerance, out _) : MakeRound(rows, Tolerance, out _);
     }
 
-    private bool MakeRoundOfBalls(double tolerance, out double norm)
+    private bool MakeRoundOfBalls(bool isFull, double tolerance, out double norm)
     {
         _balls.FrictionShare = _frictionShare;
-        var maxChange = _balls.MakeRound(out norm, out var maxImpulse);
+        var maxChange = _balls.MakeRound(isFull, out norm, out var maxImpulse);
         return maxChange <= Math.Max(tolerance * maxImpulse, _rounding);
     }
 
