@@ -150,14 +150,14 @@ internal sealed partial class ContactGraph
 
     private void AddPair(in BodyPair pair)
     {
-        var body = bodies[pair.First];
-        var other = bodies[pair.Second];
-        if (!body.IsCompound && !other.IsCompound)
+        if (!_states[pair.First].IsCompound && !_states[pair.Second].IsCompound)
         {
-            AddBalls(in pair, 0, 0, !pair.IsTouching);
+            AddBalls(in pair);
             return;
         }
 
+        var body = bodies[pair.First];
+        var other = bodies[pair.Second];
         var limit = DeviationLimit(pair.First) + (_stepLength * body.AngularVelocity.Length() * body.MaxArm)
             + (_stepLength * RelativeVelocity(in pair).Length());
         limit += pair.IsSecondFirm ? 0 : DeviationLimit(pair.Second) + (_stepLength * other.AngularVelocity.Length() * other.MaxArm);
@@ -177,10 +177,27 @@ internal sealed partial class ContactGraph
     private void AddBalls(in BodyPair pair, int ball, int otherBall, bool isAhead)
     {
         ref var row = ref AddRow();
-        row = ContactRows.OfBalls(bodies[pair.First], ball, bodies[pair.Second], otherBall, pair.IsSecondFirm, isAhead);
-        // What bounces first goes as far as it touches only, and would be overrun.
-        row.Restitution = isAhead && IsPushed(in pair) ? 0 : row.Restitution;
+        ContactRows.SetBalls(ref row, bodies[pair.First], ball, bodies[pair.Second], otherBall, pair.IsSecondFirm, isAhead);
+        RemoveRestitution(ref row, in pair);
     }
+
+    /// <summary>Adds the contact of two bodies that are one ball each.</summary>
+    private void AddBalls(in BodyPair pair)
+    {
+        ref readonly var first = ref _states[pair.First];
+        ref readonly var second = ref _states[pair.Second];
+        ref var row = ref AddRow();
+        row.First = pair.First;
+        row.Second = pair.IsSecondFirm ? ContactRow.Firm : pair.Second;
+        row.IsAhead = !pair.IsTouching;
+        ContactRows.SetBalls(ref row, first.Position - second.Position, first.Radius, second.Radius);
+        ContactRows.SetMaterials(ref row, in _materials[pair.First], in _materials[pair.Second]);
+        RemoveRestitution(ref row, in pair);
+    }
+
+    /// <summary>What bounces first goes as far as it touches only, and would be overrun by what is pushed.</summary>
+    private void RemoveRestitution(ref ContactRow row, in BodyPair pair) =>
+        row.Restitution = row.IsAhead && IsPushed(in pair) ? 0 : row.Restitution;
 
     private ref ContactRow AddRow()
     {

@@ -27,6 +27,9 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
     private readonly List<int> _islandBodies = new(InitialCapacity);
     private readonly DisjointSets _sets = new();
     private GraphBody[] _states = new GraphBody[InitialCapacity];
+    private BodyMaterial[] _materials = new BodyMaterial[InitialCapacity];
+    private BodyDescription?[] _descriptions = new BodyDescription?[InitialCapacity];
+    private bool _mayHavePairs;
     private double _stepLength;
 
     /// <summary>The islands, in the order of their lowest body.</summary>
@@ -71,6 +74,11 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
     public bool CollectTouching(SleepIslands islands, double stepLength)
     {
         Begin(stepLength);
+        if (!_mayHavePairs)
+        {
+            return false;
+        }
+
         var hasWoken = false;
         for (var i = 0; i < bodies.Count && !hasWoken; i++)
         {
@@ -108,7 +116,7 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
     public void JoinForStep()
     {
         _sets.Reset(bodies.Count);
-        for (var i = 0; i < bodies.Count; i++)
+        for (var i = 0; _mayHavePairs && i < bodies.Count; i++)
         {
             ref var state = ref _states[i];
             state.KinematicPush = bodies[i].KinematicPush;
@@ -116,6 +124,11 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
             state.Reach = state.CanMove ? ReachOf(in state) : 0;
             state.Push = 0;
             state.HasLooked = false;
+        }
+
+        if (!_mayHavePairs)
+        {
+            return;
         }
 
         CollectNearPushed();
@@ -139,6 +152,8 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
 
     private static bool CanMove(Body body) => !body.IsAsleep && !body.IsStuck && body.IsOverlapResolved;
 
+    private static bool MaySearch(Body body) => CanMove(body) && (body.MayTouchBodies || body.IsCompound);
+
     private void Begin(double stepLength)
     {
         _stepLength = stepLength;
@@ -149,9 +164,16 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
             Grow();
         }
 
-        for (var i = 0; i < bodies.Count; i++)
+        _mayHavePairs = bodies.Exists(static body => body.KinematicPush > 0 || MaySearch(body));
+        for (var i = 0; _mayHavePairs && i < bodies.Count; i++)
         {
             var body = bodies[i];
+            if (_descriptions[i] != body.Description)
+            {
+                _descriptions[i] = body.Description;
+                _materials[i] = new(body.Description);
+            }
+
             var canMove = CanMove(body);
             var speedGain = canMove ? stepLength * body.FreeAcceleration.Length() : 0;
             _states[i] = new()
@@ -159,7 +181,7 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
                 Position = body.Position,
                 Radius = body.Radius,
                 CanMove = canMove,
-                MaySearch = canMove && (body.MayTouchBodies || body.IsCompound),
+                MaySearch = MaySearch(body),
                 IsCompound = body.IsCompound,
                 HasHeapMargin = body.HasHeapMargin,
                 Rounding = ContactTolerances.Slop(0, body.Position),
@@ -176,6 +198,8 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
     private void Grow()
     {
         _states = new GraphBody[2 * bodies.Count];
+        _materials = new BodyMaterial[_states.Length];
+        _descriptions = new BodyDescription?[_states.Length];
         _islandOf = new int[_states.Length];
         _next = new int[_states.Length];
         var contacts = ContactsPerBody * _states.Length;

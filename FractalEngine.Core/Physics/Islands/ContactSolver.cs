@@ -18,8 +18,8 @@ internal sealed partial class ContactSolver
 
     // Others may take as many rounds as solve so many contacts.
     private const int MaxContactsOfManyRounds = 300;
-    private const int MaxContactSolves = 40_000;
-    private const int MinRounds = 12;
+    private const int MaxContactSolves = 25_000;
+    private const int MinRounds = 8;
 
     // Of the largest impulse: a round that changes less has converged.
     private const double Tolerance = 1e-9;

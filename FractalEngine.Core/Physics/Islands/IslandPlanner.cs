@@ -328,8 +328,10 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
 
     private void StopRebounds(Span<ContactRow> rows)
     {
-        for (var round = 0; round < MaxReboundRounds; round++)
+        var isRebounding = true;
+        for (var round = 0; round < MaxReboundRounds && isRebounding; round++)
         {
+            isRebounding = false;
             foreach (ref var row in rows)
             {
                 // What moves pushes on those that were slower than itself, which then rebound from what they push.
@@ -341,6 +343,7 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
                     {
                         row.NormalImpulse -= impulse;
                         _solver.Apply(in row, -impulse, Vector.Zero);
+                        isRebounding = true;
                     }
                 }
             }
