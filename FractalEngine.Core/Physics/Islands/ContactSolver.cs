@@ -17,9 +17,9 @@ internal sealed partial class ContactSolver
     public const int ManyRounds = 250;
 
     // Others may take as many rounds as solve so many contacts.
-    private const int MaxContactsOfManyRounds = 300;
-    private const int MaxContactSolves = 25_000;
-    private const int MinRounds = 8;
+    private const int MaxContactsOfManyRounds = 500;
+    private const int MaxContactSolves = 60_000;
+    private const int MinRounds = 12;
 
     // Of the largest impulse: a round that changes less has converged.
     private const double Tolerance = 1e-9;
@@ -39,6 +39,7 @@ internal sealed partial class ContactSolver
 
     // Of so many rounds of a large island, one tests the contacts that do not push.
     private const int FullRoundPeriod = 4;
+    private const int MaxContactsOfFullRounds = 300;
 
     // Fewer contacts are solved as soon without being copied.
     private const int MinBallRows = 8;
@@ -202,7 +203,7 @@ internal sealed partial class ContactSolver
         {
             var tolerance = Rounds <= FineRounds ? FineTolerance : Tolerance;
             // What converged among the contacts that push must do so among all.
-            var isFull = !isLarge || rows.Length <= MaxContactsOfManyRounds || isConverged || Rounds % FullRoundPeriod == 1;
+            var isFull = !isLarge || rows.Length <= MaxContactsOfFullRounds || isConverged || Rounds % FullRoundPeriod == 1;
             isConverged = isLarge ? MakeRoundOfBalls(isFull, tolerance, out var norm) : MakeRound(rows, tolerance, out norm);
             if (isConverged && isFull)
             {
