@@ -30,7 +30,6 @@ internal sealed class OverlapSeparator
 
     // Of an overlap: how much of it is taken back at once, since others will push in again.
     private const double Relaxation = 1.3;
-    private const double RelaxationOfLarge = 1.6;
 
     // Of the smaller radius: overlaps at which a displacement ends; and the gap that is left where bodies keep a margin, so that they
     // need not be displaced again soon.
@@ -45,7 +44,6 @@ internal sealed class OverlapSeparator
     private readonly GapQueue _queue = new();
     private double _maxGap = MaxGap;
     private double _aim = AimedOverlap;
-    private double _relaxation = Relaxation;
 
     /// <summary>Grows the arrays to the bodies of a world, so that its steps allocate nothing.</summary>
     public void Reserve(int bodyCount)
@@ -74,7 +72,6 @@ internal sealed class OverlapSeparator
     public void Separate(Span<ContactRow> rows, Span<ContactRow> others, bool keepsMargin)
     {
         _aim = keepsMargin ? -AimedGap : AimedOverlap;
-        _relaxation = keepsMargin ? RelaxationOfLarge : Relaxation;
         if (_gaps.Length < rows.Length + others.Length)
         {
             _gaps = new Gap[2 * (rows.Length + others.Length)];
@@ -117,7 +114,7 @@ internal sealed class OverlapSeparator
     {
         foreach (ref readonly var row in rows)
         {
-            var gap = new Gap(in row, _aim, _relaxation);
+            var gap = new Gap(in row, _aim);
             var offset = OffsetOf(in gap);
             var distance = gap.IsPlane ? Vector.Dot(offset, gap.Normal) : offset.Length();
             if (distance < gap.MinDistance * (1 + _maxGap))
@@ -173,7 +170,7 @@ internal sealed class OverlapSeparator
         {
             if (!row.IsBall)
             {
-                _ = TakeBack(new Gap(in row, _aim, _relaxation));
+                _ = TakeBack(new Gap(in row, _aim));
             }
         }
     }
@@ -261,7 +258,7 @@ internal sealed class OverlapSeparator
         public readonly bool IsPlane;
         public readonly bool IsOneSided;
 
-        public Gap(in ContactRow row, double aim, double relaxation)
+        public Gap(in ContactRow row, double aim)
         {
             First = row.First;
             Second = row.Second;
@@ -271,7 +268,7 @@ internal sealed class OverlapSeparator
             var unit = row.IsBall ? row.MinDistance * row.SmallerRadiusShare : 0;
             Negligible = NegligibleOverlap * unit;
             Aimed = aim * unit;
-            Relaxation = row.IsBall && !row.IsAhead ? relaxation : 1;
+            Relaxation = row.IsBall && !row.IsAhead ? OverlapSeparator.Relaxation : 1;
             IsPlane = !row.IsBall || row.HasFixedNormal;
             IsOneSided = row.IsBouncingAhead;
         }
