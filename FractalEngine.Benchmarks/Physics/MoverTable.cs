@@ -24,7 +24,7 @@ internal sealed class MoverTable(TextWriter output, CsvTable? table)
     private const double Width = 2000;
     private const int Steps = 120;
 
-    /// <summary>Writes all rows.</summary>
+    /// <summary>Writes the rows of all movers.</summary>
     public void Write()
     {
         output.WriteLine("mover    speed   balls   steps   quantity                    value   cpu ms a step");
