@@ -10,6 +10,11 @@ namespace FractalEngine.Core.Physics;
 /// </summary>
 public sealed partial class Body
 {
+    private double _scale;
+
+    // Of a ball; those of compounds change as they turn.
+    private double _inverseInertia;
+
     /// <summary>Creates a body in its initial state.</summary>
     /// <param name="description">Already validated.</param>
     /// <param name="index">Index among the bodies of the world.</param>
@@ -53,10 +58,20 @@ public sealed partial class Body
     public Vector Force { get; internal set; }
 
     /// <summary>Current radius of the sphere, or of that about the centre of mass which holds all of them; scene units.</summary>
-    public double Radius => Scale * Description.Radius;
+    public double Radius { get; private set; }
 
     /// <summary>Current size relative to the initial one: 1, or less for a body that shrinks (paper §5.5).</summary>
-    public double Scale { get; internal set; }
+    public double Scale
+    {
+        get => _scale;
+        internal set
+        {
+            _scale = value;
+            Radius = value * Description.Radius;
+            _inverseInertia =
+                Description.IsRotationLocked ? 0 : 1 / (Description.Inertia * Description.Mass * Radius * Radius);
+        }
+    }
 
     /// <summary>Relative size before the last step, for interpolation between steps.</summary>
     public double PreviousScale { get; internal set; }
@@ -113,8 +128,7 @@ public sealed partial class Body
     internal Vector NetAcceleration { get; set; }
 
     /// <summary>1/(kilogram · unit²); 0 for a body that does not turn. Of a compound, at least that about any axis.</summary>
-    internal double InverseInertia =>
-        Description.IsRotationLocked ? 0 : IsCompound ? MaxInverseInertia : 1 / (Description.Inertia * Description.Mass * Radius * Radius);
+    internal double InverseInertia => IsCompound && !Description.IsRotationLocked ? MaxInverseInertia : _inverseInertia;
 
     /// <summary>Energy of motion and rotation, joules.</summary>
     internal double KineticEnergy => (0.5 * Description.Mass * Velocity.LengthSquared()) + SpinEnergy;
@@ -169,6 +183,12 @@ public sealed partial class Body
     /// <summary>Velocity at the beginning of the planned path.</summary>
     internal Vector PlannedVelocity { get; set; }
 
+    /// <summary>How far the planned path leads.</summary>
+    internal Vector PlannedWay { get; set; }
+
+    /// <summary>True for a body that was of a large island last, see <see cref="ContactTolerances.HeapMargin"/>.</summary>
+    internal bool HasHeapMargin { get; set; }
+
     /// <summary>Energy of motion and rotation at the beginning of the planned path, joules.</summary>
     internal double PlannedStartEnergy { get; set; }
 
@@ -215,6 +235,7 @@ public sealed partial class Body
         SleepTimer = 0;
         IsOverlapResolved = false;
         MayTouchBodies = true;
+        HasHeapMargin = false;
         NetAcceleration = acceleration;
         DiscardSurfaces();
         UpdateBalls();

@@ -149,6 +149,46 @@ internal sealed class BodyGrid
         return true;
     }
 
+    /// <summary>Collects all bodies of cells that a sphere overlaps.</summary>
+    /// <param name="centre">Its centre, world space.</param>
+    /// <param name="radius">Its radius, scene units.</param>
+    /// <param name="excludedIndex">Index of a body that is left out.</param>
+    /// <param name="results">Receives the indices, in no particular order, but always in the same.</param>
+    /// <returns>False where that would take longer than to test all bodies: then nothing is collected.</returns>
+    public bool TryCollectOverlaps(Vector centre, double radius, int excludedIndex, List<int> results)
+    {
+        var margin = (radius + _maxGridRadius) * Vector.One;
+        var (min, max) = (CellAt(centre - margin), CellAt(centre + margin));
+        if (!(new CellRange(min, max).Count <= _bodies.Count))
+        {
+            return false;
+        }
+
+        var entries = _entries;
+        for (var x = min.X; x <= max.X; x++)
+        {
+            for (var y = min.Y; y <= max.Y; y++)
+            {
+                for (var z = min.Z; z <= max.Z; z++)
+                {
+                    for (var i = _heads[Hash(x, y, z)]; i >= 0; i = entries[i].Next)
+                    {
+                        ref readonly var entry = ref entries[i];
+                        var maxDistance = radius + entry.Radius;
+                        // Other cells may have the same hash.
+                        if ((entry.Position - centre).LengthSquared() <= maxDistance * maxDistance
+                            && entry.Cell.X == x && entry.Cell.Y == y && entry.Cell.Z == z && i != excludedIndex)
+                        {
+                            results.Add(i);
+                        }
+                    }
+                }
+            }
+        }
+
+        return true;
+    }
+
     /// <summary>Collects all bodies of all cells, in the order of their indices.</summary>
     public void CollectAll(List<int> results)
     {

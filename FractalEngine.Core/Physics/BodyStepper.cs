@@ -138,6 +138,7 @@ internal sealed class BodyStepper
     {
         var (faceTests, boundTests) = BeginCount();
         var motion = new Motion(body.Position, body.Velocity, body.FreeAcceleration);
+        body.HasHeapMargin = false;
         SetMover(body, staticColliders, character, stepLength);
         _nearbyBodies.Prepare(motion.SweptBox(stepLength), body.Radius * ContactTolerances.NeighbourRadiusFactor);
         if (body.IsCompound)

@@ -8,6 +8,15 @@ internal static class ContactTolerances
     /// <summary>Factor on a radius that still finds neighbours which touch up to rounding.</summary>
     public const double NeighbourRadiusFactor = 1 + 1e-6;
 
+    /// <summary>
+    /// Of the smaller radius: balls of large islands stay up to so far apart where they touch. What their solve leaves of an approach uses
+    /// that up first, so that they rarely overlap.
+    /// </summary>
+    public const double HeapMargin = 1e-3;
+
+    /// <summary>Factor on a radius that finds all that may rest on a body, or support it.</summary>
+    public const double SupportRadiusFactor = NeighbourRadiusFactor + HeapMargin;
+
     // Of the radius: ten times the tolerance to which the moment of an impact is found.
     private const double TouchFraction = 1e-9;
 
@@ -24,4 +33,11 @@ internal static class ContactTolerances
     /// <summary>Largest gap at which something that was touched still counts as a contact, in scene units.</summary>
     public static double Slop(double radius, Vector position) =>
         (SlopFraction * radius) + (RoundingFraction * position.MaxAbsComponent());
+
+    /// <summary>Largest gap at which two balls count as touching, in scene units.</summary>
+    /// <param name="radius">Radius of the smaller one.</param>
+    /// <param name="rounding">The <see cref="Slop"/> of a radius of 0 where they are.</param>
+    /// <param name="keepsMargin">True for two balls of a large island.</param>
+    public static double TouchDistance(double radius, double rounding, bool keepsMargin) =>
+        ((SlopFraction + (keepsMargin ? HeapMargin : 0)) * radius) + rounding;
 }

@@ -1,4 +1,6 @@
+using System.Runtime.InteropServices;
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Physics;
 
@@ -51,6 +53,21 @@ internal sealed class NearbyBodies(BodyGrid grid, List<Body>? bodies = null)
             {
                 results.Add(index);
             }
+        }
+    }
+
+    /// <summary>Collects the bodies that a sphere overlaps. What was collected for a mover stays as it is.</summary>
+    /// <param name="centre">Its centre, world space.</param>
+    /// <param name="radius">Its radius, scene units.</param>
+    /// <param name="excludedIndex">Index of the body that the sphere belongs to.</param>
+    /// <param name="results">Receives the indices, in no particular order, but always in the same.</param>
+    public void CollectOverlaps(Vector centre, double radius, int excludedIndex, List<int> results)
+    {
+        var firstIndex = results.Count;
+        if (HasFilters || grid.LargeBodies.Count > 0 || !grid.TryCollectOverlaps(centre, radius, excludedIndex, results))
+        {
+            CollectionsMarshal.SetCount(results, firstIndex);
+            CollectOverlaps(new BoundingBox(centre, centre), radius, excludedIndex, results);
         }
     }
 

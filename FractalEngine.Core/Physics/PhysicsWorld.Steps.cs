@@ -128,7 +128,7 @@ public sealed partial class PhysicsWorld
             if (!body.AreNearSurfacesKnown && _planner.Graph.IsJoined(body.Index))
             {
                 body.AreNearSurfacesKnown = true;
-                var reach = _planner.Graph.Reach(body);
+                var reach = _planner.Graph.ReachOf(body.Index);
                 _stepper.FindNearSurfaces(body, CollidersOf(body), reach, seconds);
             }
         }

@@ -72,7 +72,7 @@ internal sealed class SleepIslands(List<Body> bodies, NearbyBodies nearbyBodies)
         {
             _neighbours.Clear();
             nearbyBodies.CollectOverlaps(
-                new(next.Position, next.Position), next.Radius * ContactTolerances.NeighbourRadiusFactor, next.Index, _neighbours);
+                next.Position, next.Radius * ContactTolerances.SupportRadiusFactor, next.Index, _neighbours);
             foreach (var index in _neighbours)
             {
                 if (bodies[index].IsAsleep)
@@ -91,7 +91,7 @@ internal sealed class SleepIslands(List<Body> bodies, NearbyBodies nearbyBodies)
     public void WakeOverlapping(Vector centre, double radius, int excludedIndex = Contact.NoBody)
     {
         _candidates.Clear();
-        nearbyBodies.CollectOverlaps(new(centre, centre), radius * ContactTolerances.NeighbourRadiusFactor, excludedIndex, _candidates);
+        nearbyBodies.CollectOverlaps(centre, radius * ContactTolerances.SupportRadiusFactor, excludedIndex, _candidates);
         foreach (var index in _candidates)
         {
             if (bodies[index].IsAsleep)

@@ -155,7 +155,9 @@ internal sealed partial class CompoundMover
                 var isFirm = other.IsAsleep || other.IsStuck;
                 if (isFirm || withAwake)
                 {
-                    _rows.Add(ContactRows.OfBalls(body, i, other, FindBall(other, contact.Point), isFirm, isAhead: false));
+                    var row = new ContactRow();
+                    ContactRows.SetBalls(ref row, body, i, other, FindBall(other, contact.Point), isFirm, isAhead: false);
+                    _rows.Add(row);
                     if (!isFirm && !_members.Contains(other.Index))
                     {
                         _members.Add(other.Index);

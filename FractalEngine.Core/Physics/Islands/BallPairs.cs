@@ -41,7 +41,9 @@ internal static class BallPairs
         {
             for (var j = 0; j < other.BallCount; j++)
             {
-                var slop = ContactTolerances.Slop(Math.Min(body.BallRadius(i), other.BallRadius(j)), body.Position);
+                var radius = Math.Min(body.BallRadius(i), other.BallRadius(j));
+                var slop = ContactTolerances.TouchDistance(
+                    radius, ContactTolerances.Slop(0, body.Position), body.HasHeapMargin && other.HasHeapMargin);
                 if (Gap(body, i, other, j) <= slop && Approach(body, i, other, j) > minApproach)
                 {
                     return true;

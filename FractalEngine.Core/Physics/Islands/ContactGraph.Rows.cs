@@ -6,27 +6,39 @@ namespace FractalEngine.Core.Physics.Islands;
 /// <content>How contacts and bodies are put into the order of their islands.</content>
 internal sealed partial class ContactGraph
 {
+    // Places of the pairs that are contacts, one island after the other.
+    private readonly List<int> _sortedPairs = new(InitialCapacity);
+    private ContactRow[] _rows = new ContactRow[InitialCapacity];
+    private int[] _islandOf = new int[InitialCapacity];
+    private int[] _next = new int[InitialCapacity];
+    private int _count;
+
     /// <summary>Makes islands of the joined sets, and contacts of their pairs and surfaces.</summary>
     public void Group()
     {
         _islands.Clear();
         _islandBodies.Clear();
         CollectBodies();
+        SortPairs();
         _count = 0;
-        foreach (var index in _islandBodies)
+        for (var island = 0; island < _islands.Count; island++)
         {
-            AddSurfaces(bodies[index]);
-        }
-
-        foreach (ref readonly var pair in CollectionsMarshal.AsSpan(_pairs))
-        {
-            if (pair.IsRow && _islandOf[pair.First] >= 0)
+            var firstRow = _count;
+            foreach (var index in BodiesOf(_islands[island]))
             {
-                AddPair(in pair);
+                AddSurfaces(bodies[index]);
             }
+
+            var firstPair = island > 0 ? _next[island - 1] : 0;
+            foreach (var pair in CollectionsMarshal.AsSpan(_sortedPairs)[firstPair.._next[island]])
+            {
+                AddPair(in CollectionsMarshal.AsSpan(_pairs)[pair]);
+            }
+
+            _islands[island] = _islands[island] with { FirstRow = firstRow, RowCount = _count - firstRow };
         }
 
-        PlaceRows();
+        RowCount = _count;
     }
 
     /// <summary>Makes an island of each set of two or more bodies, and lists its bodies.</summary>
@@ -46,7 +58,11 @@ internal sealed partial class ContactGraph
 
                 // The lowest index stands for its set, so that it has come already.
                 _islandOf[i] = _islandOf[root];
-                _islands[_islandOf[i]] = _islands[_islandOf[i]] with { BodyCount = _islands[_islandOf[i]].BodyCount + 1 };
+                var island = _islands[_islandOf[i]];
+                _islands[_islandOf[i]] = island with
+                {
+                    BodyCount = island.BodyCount + 1, HasCompound = island.HasCompound || _states[i].IsCompound,
+                };
             }
         }
 
@@ -68,32 +84,32 @@ internal sealed partial class ContactGraph
         }
     }
 
-    /// <summary>Sorts the contacts by islands, and keeps their order within each.</summary>
-    private void PlaceRows()
+    /// <summary>Sorts the pairs that are contacts by islands, and keeps their order within each.</summary>
+    private void SortPairs()
     {
-        RowCount = _count;
-        if (_rows.Length < _count)
+        Array.Clear(_next, 0, _islands.Count + 1);
+        var pairs = CollectionsMarshal.AsSpan(_pairs);
+        foreach (ref readonly var pair in pairs)
         {
-            _rows = new ContactRow[_found.Length];
+            if (pair.IsRow && _islandOf[pair.First] >= 0)
+            {
+                _next[_islandOf[pair.First] + 1]++;
+            }
         }
 
-        for (var i = 0; i < _count; i++)
-        {
-            var island = _islandOf[_found[i].First];
-            _islands[island] = _islands[island] with { RowCount = _islands[island].RowCount + 1 };
-        }
-
-        var firstRow = 0;
         for (var island = 0; island < _islands.Count; island++)
         {
-            _islands[island] = _islands[island] with { FirstRow = firstRow };
-            _next[island] = firstRow;
-            firstRow += _islands[island].RowCount;
+            _next[island + 1] += _next[island];
         }
 
-        for (var i = 0; i < _count; i++)
+        CollectionsMarshal.SetCount(_sortedPairs, _next[_islands.Count]);
+        for (var i = 0; i < pairs.Length; i++)
         {
-            _rows[_next[_islandOf[_found[i].First]]++] = _found[i];
+            if (pairs[i].IsRow && _islandOf[pairs[i].First] >= 0)
+            {
+                // Each entry is the end of its island afterwards.
+                _sortedPairs[_next[_islandOf[pairs[i].First]]++] = i;
+            }
         }
     }
 
@@ -107,7 +123,7 @@ internal sealed partial class ContactGraph
 
         if (body.Description.Shape is { IsCapsule: true })
         {
-            _count = firstRow + CapsuleRows.RemoveInner(_found.AsSpan(firstRow, _count - firstRow));
+            _count = firstRow + CapsuleRows.RemoveInner(_rows.AsSpan(firstRow, _count - firstRow));
         }
 
         if (!body.IsCompound)
@@ -134,14 +150,14 @@ internal sealed partial class ContactGraph
 
     private void AddPair(in BodyPair pair)
     {
-        var body = bodies[pair.First];
-        var other = bodies[pair.Second];
-        if (!body.IsCompound && !other.IsCompound)
+        if (!_states[pair.First].IsCompound && !_states[pair.Second].IsCompound)
         {
-            AddBalls(in pair, 0, 0, !pair.IsTouching);
+            AddBalls(in pair);
             return;
         }
 
+        var body = bodies[pair.First];
+        var other = bodies[pair.Second];
         var limit = DeviationLimit(pair.First) + (_stepLength * body.AngularVelocity.Length() * body.MaxArm)
             + (_stepLength * RelativeVelocity(in pair).Length());
         limit += pair.IsSecondFirm ? 0 : DeviationLimit(pair.Second) + (_stepLength * other.AngularVelocity.Length() * other.MaxArm);
@@ -161,19 +177,36 @@ internal sealed partial class ContactGraph
     private void AddBalls(in BodyPair pair, int ball, int otherBall, bool isAhead)
     {
         ref var row = ref AddRow();
-        row = ContactRows.OfBalls(bodies[pair.First], ball, bodies[pair.Second], otherBall, pair.IsSecondFirm, isAhead);
-        // What bounces first goes as far as it touches only, and would be overrun.
-        row.Restitution = isAhead && IsPushed(in pair) ? 0 : row.Restitution;
+        ContactRows.SetBalls(ref row, bodies[pair.First], ball, bodies[pair.Second], otherBall, pair.IsSecondFirm, isAhead);
+        RemoveRestitution(ref row, in pair);
     }
+
+    /// <summary>Adds the contact of two bodies that are one ball each.</summary>
+    private void AddBalls(in BodyPair pair)
+    {
+        ref readonly var first = ref _states[pair.First];
+        ref readonly var second = ref _states[pair.Second];
+        ref var row = ref AddRow();
+        row.First = pair.First;
+        row.Second = pair.IsSecondFirm ? ContactRow.Firm : pair.Second;
+        row.IsAhead = !pair.IsTouching;
+        ContactRows.SetBalls(ref row, first.Position - second.Position, first.Radius, second.Radius);
+        ContactRows.SetMaterials(ref row, in _materials[pair.First], in _materials[pair.Second]);
+        RemoveRestitution(ref row, in pair);
+    }
+
+    /// <summary>What bounces first goes as far as it touches only, and would be overrun by what is pushed.</summary>
+    private void RemoveRestitution(ref ContactRow row, in BodyPair pair) =>
+        row.Restitution = row.IsAhead && IsPushed(in pair) ? 0 : row.Restitution;
 
     private ref ContactRow AddRow()
     {
-        if (_count == _found.Length)
+        if (_count == _rows.Length)
         {
-            Array.Resize(ref _found, 2 * _found.Length);
+            Array.Resize(ref _rows, 2 * _rows.Length);
         }
 
-        _found[_count] = default;
-        return ref _found[_count++];
+        _rows[_count] = default;
+        return ref _rows[_count++];
     }
 }

@@ -12,24 +12,25 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
     private const int InitialCapacity = 256;
 
     private const int ContactsPerBody = 4;
+    private const int NeighboursPerBody = 32;
 
     // Of the radius: how much farther than its free path a body is expected to get, pushed by others.
     private const double ReachMargin = 0.1;
 
+    // Of the radius: bodies that get farther do not search for all that they may meet before it is known that they touch anything.
+    private const double MaxEarlyDistance = 4;
+
     private readonly List<int> _neighbours = new(InitialCapacity);
+    private readonly List<int> _near = new(InitialCapacity);
     private readonly List<BodyPair> _pairs = new(InitialCapacity);
     private readonly List<Island> _islands = new(InitialCapacity);
     private readonly List<int> _islandBodies = new(InitialCapacity);
     private readonly DisjointSets _sets = new();
-    private ContactRow[] _found = new ContactRow[InitialCapacity];
-    private ContactRow[] _rows = new ContactRow[InitialCapacity];
-    private int[] _islandOf = new int[InitialCapacity];
-    private int[] _next = new int[InitialCapacity];
-    private double[] _reach = new double[InitialCapacity];
-    private double[] _push = new double[InitialCapacity];
-    private bool[] _hasLooked = new bool[InitialCapacity];
+    private GraphBody[] _states = new GraphBody[InitialCapacity];
+    private BodyMaterial[] _materials = new BodyMaterial[InitialCapacity];
+    private BodyDescription?[] _descriptions = new BodyDescription?[InitialCapacity];
+    private bool _mayHavePairs;
     private double _stepLength;
-    private int _count;
 
     /// <summary>The islands, in the order of their lowest body.</summary>
     public List<Island> Islands => _islands;
@@ -53,14 +54,18 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
     /// <summary>All pairs that are known: those that touch, and those that bodies of islands may meet.</summary>
     public ReadOnlySpan<BodyPair> Pairs => CollectionsMarshal.AsSpan(_pairs);
 
-    /// <summary>How far a body may get in the step. Never 0, which is for bodies that do not move.</summary>
-    public double Reach(Body body) => (_stepLength * body.Velocity.Length()) + Slack(body) + body.KinematicPush;
+    /// <summary>How far a body that can move may get in the step. Never 0, which is for bodies that do not move.</summary>
+    public double ReachOf(int body) => _states[body].Reach;
 
     /// <summary>How far a body may get from where it would be without others, before it may meet what no contact knows of.</summary>
-    public double DeviationLimit(int body) => Slack(bodies[body]) + _push[body] + bodies[body].KinematicPush;
+    public double DeviationLimit(int body) => DeviationLimit(in _states[body]);
 
     /// <summary>True for a body of an island that is farther from where it was than any pair foresees.</summary>
-    public bool IsBeyondReach(Body body) => (body.Position - body.PlannedStart).LengthSquared() > _reach[body.Index] * _reach[body.Index];
+    public bool IsBeyondReach(Body body)
+    {
+        var reach = _states[body.Index].Reach;
+        return (body.Position - body.PlannedStart).LengthSquared() > reach * reach;
+    }
 
     /// <summary>Finds all pairs of bodies that touch. Only those search that may: most bodies in flight have met no other.</summary>
     /// <param name="islands">Wakes bodies that sleep and are hit.</param>
@@ -69,10 +74,15 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
     public bool CollectTouching(SleepIslands islands, double stepLength)
     {
         Begin(stepLength);
+        if (!_mayHavePairs)
+        {
+            return false;
+        }
+
         var hasWoken = false;
         for (var i = 0; i < bodies.Count && !hasWoken; i++)
         {
-            hasWoken = MaySearch(bodies[i]) && CollectTouching(bodies[i], islands);
+            hasWoken = _states[i].MaySearch && CollectTouching(i, islands);
         }
 
         return hasWoken || PassPushes(islands);
@@ -82,9 +92,9 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
     public void JoinTouching()
     {
         _sets.Reset(bodies.Count);
-        foreach (var body in bodies)
+        for (var i = 0; i < bodies.Count; i++)
         {
-            body.MayTouchBodies &= body.IsAsleep;
+            bodies[i].MayTouchBodies &= bodies[i].IsAsleep;
         }
 
         foreach (ref var pair in CollectionsMarshal.AsSpan(_pairs))
@@ -106,11 +116,19 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
     public void JoinForStep()
     {
         _sets.Reset(bodies.Count);
-        for (var i = 0; i < bodies.Count; i++)
+        for (var i = 0; _mayHavePairs && i < bodies.Count; i++)
         {
-            _reach[i] = CanMove(bodies[i]) ? Reach(bodies[i]) : 0;
-            _push[i] = 0;
-            _hasLooked[i] = false;
+            ref var state = ref _states[i];
+            state.KinematicPush = bodies[i].KinematicPush;
+            state.Velocity = bodies[i].Velocity;
+            state.Reach = state.CanMove ? ReachOf(in state) : 0;
+            state.Push = 0;
+            state.HasLooked = false;
+        }
+
+        if (!_mayHavePairs)
+        {
+            return;
         }
 
         CollectNearPushed();
@@ -132,238 +150,145 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
         }
     }
 
-    /// <summary>Finds how far bodies are pushed by those that kinematic objects push, and so on.</summary>
-    /// <returns>True where a body was woken.</returns>
-    private bool PassPushes(SleepIslands islands)
-    {
-        var hasChanged = true;
-        while (hasChanged)
-        {
-            hasChanged = false;
-            foreach (var body in bodies)
-            {
-                if (body.KinematicPush > 0 && CanMove(body))
-                {
-                    if (TryWakePushed(body, islands))
-                    {
-                        return true;
-                    }
-
-                    hasChanged |= PassPush(body);
-                }
-            }
-        }
-
-        return false;
-    }
-
-    private void CollectPushedBy(Body body)
-    {
-        _neighbours.Clear();
-        nearbyBodies.CollectOverlaps(new(body.Position, body.Position), body.Radius + body.KinematicPush, body.Index, _neighbours);
-        _neighbours.Sort();
-    }
-
-    private bool TryWakePushed(Body body, SleepIslands islands)
-    {
-        CollectPushedBy(body);
-        foreach (var neighbour in _neighbours)
-        {
-            if (bodies[neighbour].IsAsleep)
-            {
-                islands.Wake(bodies[neighbour]);
-                return true;
-            }
-        }
-
-        return false;
-    }
-
-    private bool PassPush(Body body)
-    {
-        var hasChanged = false;
-        CollectPushedBy(body);
-        foreach (var neighbour in _neighbours)
-        {
-            var other = bodies[neighbour];
-            var push = body.KinematicPush - Math.Max(0, (body.Position - other.Position).Length() - body.Radius - other.Radius);
-            if (push > other.KinematicPush)
-            {
-                other.KinematicPush = push;
-                hasChanged = true;
-            }
-        }
-
-        return hasChanged;
-    }
-
-    /// <summary>Finds what bodies may meet that are pushed, which touch nothing yet.</summary>
-    private void CollectNearPushed()
-    {
-        for (var i = 0; i < bodies.Count; i++)
-        {
-            if (bodies[i].KinematicPush > 0 && CanMove(bodies[i]))
-            {
-                _hasLooked[i] = true;
-                CollectNear(i);
-            }
-        }
-    }
-
-    private bool IsPushed(in BodyPair pair) =>
-        bodies[pair.First].KinematicPush > 0 || (!pair.IsSecondFirm && bodies[pair.Second].KinematicPush > 0);
+    private static bool CanMove(Body body) => !body.IsAsleep && !body.IsStuck && body.IsOverlapResolved;
 
     private static bool MaySearch(Body body) => CanMove(body) && (body.MayTouchBodies || body.IsCompound);
-
-    private static bool CanMove(Body body) => !body.IsAsleep && !body.IsStuck && body.IsOverlapResolved;
 
     private void Begin(double stepLength)
     {
         _stepLength = stepLength;
         _pairs.Clear();
-        if (_islandOf.Length < bodies.Count)
+        _near.Clear();
+        if (_states.Length < bodies.Count)
         {
-            _islandOf = new int[2 * bodies.Count];
-            _next = new int[2 * bodies.Count];
-            _reach = new double[2 * bodies.Count];
-            _push = new double[2 * bodies.Count];
-            _hasLooked = new bool[2 * bodies.Count];
-            // Room for as many contacts as bodies in a heap have, so that steps need not allocate.
-            var contacts = ContactsPerBody * _hasLooked.Length;
-            _pairs.EnsureCapacity(contacts);
-            _islands.EnsureCapacity(_hasLooked.Length);
-            _islandBodies.EnsureCapacity(_hasLooked.Length);
-            Array.Resize(ref _found, Math.Max(contacts, _found.Length));
-            Array.Resize(ref _rows, _found.Length);
+            Grow();
+        }
+
+        _mayHavePairs = bodies.Exists(static body => body.KinematicPush > 0 || MaySearch(body));
+        for (var i = 0; _mayHavePairs && i < bodies.Count; i++)
+        {
+            var body = bodies[i];
+            if (_descriptions[i] != body.Description)
+            {
+                _descriptions[i] = body.Description;
+                _materials[i] = new(body.Description);
+            }
+
+            var canMove = CanMove(body);
+            var speedGain = canMove ? stepLength * body.FreeAcceleration.Length() : 0;
+            _states[i] = new()
+            {
+                Position = body.Position,
+                Radius = body.Radius,
+                CanMove = canMove,
+                MaySearch = MaySearch(body),
+                IsCompound = body.IsCompound,
+                HasHeapMargin = body.HasHeapMargin,
+                Rounding = ContactTolerances.Slop(0, body.Position),
+                Velocity = body.Velocity,
+                SpeedGain = speedGain,
+                Slack = (stepLength * speedGain) + (ReachMargin * body.Radius),
+                KinematicPush = body.KinematicPush,
+                NearDistance = double.NegativeInfinity,
+            };
         }
     }
 
-    private bool CollectTouching(Body body, SleepIslands islands)
+    /// <summary>Makes room for as many contacts as bodies in a heap have, so that steps need not allocate.</summary>
+    private void Grow()
     {
+        _states = new GraphBody[2 * bodies.Count];
+        _materials = new BodyMaterial[_states.Length];
+        _descriptions = new BodyDescription?[_states.Length];
+        _islandOf = new int[_states.Length];
+        _next = new int[_states.Length];
+        var contacts = ContactsPerBody * _states.Length;
+        _near.EnsureCapacity(NeighboursPerBody * bodies.Count);
+        _pairs.EnsureCapacity(contacts);
+        _sortedPairs.EnsureCapacity(contacts);
+        _islands.EnsureCapacity(_states.Length);
+        _islandBodies.EnsureCapacity(_states.Length);
+        Array.Resize(ref _rows, Math.Max(contacts, _rows.Length));
+    }
+
+    private bool CollectTouching(int index, SleepIslands islands)
+    {
+        ref var body = ref _states[index];
+        var touchDistance = body.Radius * (body.HasHeapMargin ? ContactTolerances.HeapMargin : 0)
+            + ContactTolerances.Slop(body.Radius, body.Position);
+        // What the body may meet lies among the same neighbours.
+        var distance = 2 * ReachOf(in body);
+        distance = Math.Max(touchDistance, distance <= MaxEarlyDistance * body.Radius ? distance : 0);
+        body.FirstNear = _near.Count;
+        body.NearDistance = distance;
+        nearbyBodies.CollectOverlaps(body.Position, body.Radius + distance, index, _near);
+        body.NearCount = _near.Count - body.FirstNear;
         _neighbours.Clear();
-        var radius = body.Radius + ContactTolerances.Slop(body.Radius, body.Position);
-        nearbyBodies.CollectOverlaps(new(body.Position, body.Position), radius, body.Index, _neighbours);
+        foreach (var neighbour in CollectionsMarshal.AsSpan(_near)[body.FirstNear..])
+        {
+            if ((body.Position - _states[neighbour].Position).Length() - body.Radius - _states[neighbour].Radius <= 2 * touchDistance)
+            {
+                _neighbours.Add(neighbour);
+            }
+        }
+
         _neighbours.Sort();
         foreach (var neighbour in _neighbours)
         {
-            var other = bodies[neighbour];
-            var isFirm = !CanMove(other);
+            ref readonly var other = ref _states[neighbour];
+            var isFirm = !other.CanMove;
             // Of two that search, the first one finds the pair.
-            var isInOrder = isFirm || body.Index < neighbour;
-            if ((isInOrder || !MaySearch(other)) && (isInOrder ? BallPairs.AreTouching(body, other) : BallPairs.AreTouching(other, body)))
+            var isInOrder = isFirm || index < neighbour;
+            if ((isInOrder || !other.MaySearch) && AreTouching(index, neighbour, isInOrder))
             {
-                if (other.IsAsleep && BallPairs.AreHitting(body, other))
+                if (bodies[neighbour].IsAsleep && BallPairs.AreHitting(bodies[index], bodies[neighbour]))
                 {
-                    islands.Wake(other);
+                    islands.Wake(bodies[neighbour]);
                     return true;
                 }
 
-                _pairs.Add(isInOrder ? new(body.Index, neighbour, isFirm, true) : new(neighbour, body.Index, false, true));
+                _pairs.Add(isInOrder ? new(index, neighbour, isFirm, true) : new(neighbour, index, false, true));
             }
         }
 
         return false;
     }
 
-    /// <summary>
-    /// Finds what the bodies of islands may meet: all that are near and no faster, since faster ones look for themselves.
-    /// </summary>
-    private void CollectNear()
+    /// <summary>True where two bodies touch, the first of which stands for the position of both.</summary>
+    private bool AreTouching(int index, int neighbour, bool isInOrder)
     {
-        for (var i = 0; i < bodies.Count; i++)
+        var (firstIndex, secondIndex) = isInOrder ? (index, neighbour) : (neighbour, index);
+        ref readonly var first = ref _states[firstIndex];
+        ref readonly var second = ref _states[secondIndex];
+        if (first.IsCompound || second.IsCompound)
         {
-            if (_sets.IsJoined(i) && !_hasLooked[i])
-            {
-                _hasLooked[i] = true;
-                CollectNear(i);
-            }
-        }
-    }
-
-    private void CollectNear(int index)
-    {
-        var body = bodies[index];
-        _neighbours.Clear();
-        nearbyBodies.CollectOverlaps(new(body.Position, body.Position), body.Radius + (2 * _reach[index]), index, _neighbours);
-        _neighbours.Sort();
-        foreach (var neighbour in _neighbours)
-        {
-            var other = bodies[neighbour];
-            var gap = (body.Position - other.Position).Length() - body.Radius - other.Radius;
-            var isFound = _hasLooked[neighbour] && gap <= 2 * _reach[neighbour];
-            if (isFound || gap > _reach[index] + _reach[neighbour])
-            {
-                continue;
-            }
-
-            var isFirm = !CanMove(other);
-            var isInOrder = isFirm || index < neighbour;
-            if (!(isInOrder ? BallPairs.AreTouching(body, other) : BallPairs.AreTouching(other, body)))
-            {
-                AddNear(isInOrder ? new(index, neighbour, isFirm, false) : new(neighbour, index, false, false));
-            }
-        }
-    }
-
-    private void AddNear(BodyPair pair)
-    {
-        _pairs.Add(pair);
-        // How far each may be pushed by the other one.
-        var offset = bodies[pair.First].Position - bodies[pair.Second].Position;
-        var gap = offset.Length() - bodies[pair.First].Radius - bodies[pair.Second].Radius;
-        var push = (-_stepLength * Vector.Dot(RelativeVelocity(in pair), offset.UnitVectorOrZero())) - Math.Max(gap, 0);
-        _push[pair.First] = Math.Max(_push[pair.First], push);
-        _push[pair.Second] = Math.Max(_push[pair.Second], push);
-    }
-
-    /// <summary>Joins islands with all bodies that they may meet.</summary>
-    /// <returns>True where a body was joined.</returns>
-    private bool JoinNear()
-    {
-        var hasJoined = false;
-        foreach (ref var pair in CollectionsMarshal.AsSpan(_pairs))
-        {
-            if (!pair.IsRow && (_sets.IsJoined(pair.First) || (!pair.IsSecondFirm && _sets.IsJoined(pair.Second))) && MayMeet(in pair))
-            {
-                pair.IsRow = true;
-                if (!pair.IsSecondFirm)
-                {
-                    _sets.Join(pair.First, pair.Second);
-                    hasJoined = true;
-                }
-            }
+            return BallPairs.AreTouching(bodies[firstIndex], bodies[secondIndex]);
         }
 
-        return hasJoined;
+        var gap = (first.Position - second.Position).Length() - first.Radius - second.Radius;
+        return gap <= ContactTolerances.TouchDistance(
+            Math.Min(first.Radius, second.Radius), first.Rounding, first.HasHeapMargin && second.HasHeapMargin);
     }
 
-    private double Slack(Body body) => (_stepLength * _stepLength * body.FreeAcceleration.Length()) + (ReachMargin * body.Radius);
+    private double ReachOf(in GraphBody body) => (_stepLength * body.Velocity.Length()) + body.Slack + body.KinematicPush;
 
-    /// <summary>Tells whether two bodies come so near on their straight ways that they may touch.</summary>
-    private bool MayMeet(in BodyPair pair)
-    {
-        var offset = bodies[pair.First].Position - bodies[pair.Second].Position;
-        var way = _stepLength * RelativeVelocity(in pair);
-        var wayLengthSquared = way.LengthSquared();
-        var share = wayLengthSquared > 0 ? Math.Clamp(-Vector.Dot(offset, way) / wayLengthSquared, 0, 1) : 0;
-        var distance = bodies[pair.First].Radius + bodies[pair.Second].Radius + DeviationLimit(pair.First)
-            + (pair.IsSecondFirm ? 0 : DeviationLimit(pair.Second));
-        return (offset + (share * way)).LengthSquared() <= distance * distance;
-    }
+    private static double DeviationLimit(in GraphBody body) => body.Slack + body.Push + body.KinematicPush;
 
     private Vector RelativeVelocity(in BodyPair pair) => pair.IsSecondFirm
-        ? bodies[pair.First].Velocity : bodies[pair.First].Velocity - bodies[pair.Second].Velocity;
+        ? _states[pair.First].Velocity : _states[pair.First].Velocity - _states[pair.Second].Velocity;
 
     /// <summary>True for two bodies that come apart faster than gravity could bring them together again in this step.</summary>
     private bool IsSeparating(in BodyPair pair)
     {
-        if (bodies[pair.First].IsCompound || bodies[pair.Second].IsCompound)
+        ref readonly var first = ref _states[pair.First];
+        ref readonly var second = ref _states[pair.Second];
+        if (first.IsCompound || second.IsCompound)
         {
             // Another part of them may come nearer.
             return false;
         }
 
-        var normal = (bodies[pair.First].Position - bodies[pair.Second].Position).UnitVectorOrZero();
-        return Vector.Dot(RelativeVelocity(in pair), normal) > _stepLength * bodies[pair.First].FreeAcceleration.Length();
+        var normal = (first.Position - second.Position).UnitVectorOrZero();
+        return Vector.Dot(RelativeVelocity(in pair), normal) > first.SpeedGain;
     }
 }

@@ -58,37 +58,44 @@ internal static class ContactRows
     }
 
     /// <summary>Makes the contact of two balls.</summary>
+    /// <param name="row">Receives the contact; must be empty.</param>
     /// <param name="body">A body that can move.</param>
     /// <param name="ball">Index of its ball.</param>
     /// <param name="other">The other body.</param>
     /// <param name="otherBall">Index of the other one's ball.</param>
     /// <param name="isFirm">True where the other one does not give way.</param>
     /// <param name="isAhead">True where they do not touch yet.</param>
-    public static ContactRow OfBalls(Body body, int ball, Body other, int otherBall, bool isFirm, bool isAhead)
+    public static void SetBalls(ref ContactRow row, Body body, int ball, Body other, int otherBall, bool isFirm, bool isAhead)
     {
-        var firstRadius = body.BallRadius(ball);
-        var secondRadius = other.BallRadius(otherBall);
-        var radius = Math.Min(firstRadius, secondRadius);
-        var row = new ContactRow
-        {
-            First = body.Index,
-            Second = isFirm ? ContactRow.Firm : other.Index,
-            Offset = body.BallCentre(ball) - other.BallCentre(otherBall),
-            MinDistance = firstRadius + secondRadius,
-            FirstRadius = firstRadius,
-            SecondRadius = secondRadius,
-            IsBall = true,
-            IsAhead = isAhead,
-            Friction = Math.Min(body.Description.Friction, other.Description.Friction),
-            Restitution = Math.Min(body.Description.Restitution, other.Description.Restitution),
-            RollingArm = radius * Math.Min(body.Description.RollingFriction, other.Description.RollingFriction),
-            SpinningArm = radius * Math.Min(body.Description.SpinningFriction, other.Description.SpinningFriction),
-            HasArms = body.IsCompound || other.IsCompound,
-            FirstArm = body.BallOffset(ball),
-            SecondArm = other.BallOffset(otherBall),
-            Part = (MaxBalls * otherBall) + ball,
-        };
-        row.Normal = row.Offset.UnitVectorOrZero();
-        return row;
+        row.First = body.Index;
+        row.Second = isFirm ? ContactRow.Firm : other.Index;
+        row.IsAhead = isAhead;
+        SetBalls(ref row, body.BallCentre(ball) - other.BallCentre(otherBall), body.BallRadius(ball), other.BallRadius(otherBall));
+        SetMaterials(ref row, new(body.Description), new(other.Description));
+        row.HasArms = body.IsCompound || other.IsCompound;
+        row.FirstArm = body.BallOffset(ball);
+        row.SecondArm = other.BallOffset(otherBall);
+        row.Part = (MaxBalls * otherBall) + ball;
+    }
+
+    /// <summary>Sets the shape of a contact of two balls.</summary>
+    public static void SetBalls(ref ContactRow row, Vector offset, double firstRadius, double secondRadius)
+    {
+        row.Offset = offset;
+        row.Normal = offset.UnitVectorOrZero();
+        row.MinDistance = firstRadius + secondRadius;
+        row.FirstRadius = firstRadius;
+        row.SecondRadius = secondRadius;
+        row.IsBall = true;
+    }
+
+    /// <summary>Sets what the materials of two balls make of their contact, whose radii must be known.</summary>
+    public static void SetMaterials(ref ContactRow row, in BodyMaterial first, in BodyMaterial second)
+    {
+        var radius = Math.Min(row.FirstRadius, row.SecondRadius);
+        row.Friction = Math.Min(first.Friction, second.Friction);
+        row.Restitution = Math.Min(first.Restitution, second.Restitution);
+        row.RollingArm = radius * Math.Min(first.RollingFriction, second.RollingFriction);
+        row.SpinningArm = radius * Math.Min(first.SpinningFriction, second.SpinningFriction);
     }
 }

@@ -13,8 +13,10 @@ namespace FractalEngine.Core.Physics.Islands;
 /// </remarks>
 internal sealed partial class ContactSolver
 {
-    // Most rounds of a solve: islands of up to so many contacts may take many, and all others as many as solve so many contacts.
-    private const int ManyRounds = 250;
+    /// <summary>Most rounds of a solve of few contacts.</summary>
+    public const int ManyRounds = 250;
+
+    // Others may take as many rounds as solve so many contacts.
     private const int MaxContactsOfManyRounds = 500;
     private const int MaxContactSolves = 60_000;
     private const int MinRounds = 12;
@@ -35,6 +37,14 @@ internal sealed partial class ContactSolver
     // Of the momentum of a contact's bodies.
     private const double RelativeRounding = 1e-14;
 
+    // Of so many rounds of a large island, one tests the contacts that do not push.
+    private const int FullRoundPeriod = 4;
+    private const int MaxContactsOfFullRounds = 300;
+
+    // Fewer contacts are solved as soon without being copied.
+    private const int MinBallRows = 8;
+
+    private readonly BallContactSolver _balls = new();
     private double _frictionShare = 1;
     private double _rounding;
     private SolverBody[] _bodies = new SolverBody[InitialCapacity];
@@ -156,8 +166,9 @@ internal sealed partial class ContactSolver
 
     /// <summary>Solves for the impulses. Those of the rows must have been given to the bodies already.</summary>
     /// <param name="rows">All contacts of an island; receive the impulses.</param>
+    /// <param name="maxRounds">Number of rounds at most, fewer where there are many contacts.</param>
     /// <returns>False where it has not converged: then the impulses are those of the last round.</returns>
-    public bool Solve(Span<ContactRow> rows)
+    public bool Solve(Span<ContactRow> rows, int maxRounds = ManyRounds)
     {
         if (_changes.Length < rows.Length)
         {
@@ -166,13 +177,35 @@ internal sealed partial class ContactSolver
         }
 
         _rounding = ComputeRounding(rows);
+        var isLarge = rows.Length > MinBallRows && !HasArms(rows);
+        if (isLarge)
+        {
+            _balls.Load(rows, _bodies);
+        }
+
+        var isConverged = Iterate(rows, isLarge, maxRounds);
+        if (isLarge)
+        {
+            _balls.Store(rows, _bodies);
+        }
+
+        return isConverged;
+    }
+
+    private bool Iterate(Span<ContactRow> rows, bool isLarge, int maxRounds)
+    {
         var previousNorm = 0.0;
-        var maxRounds = rows.Length <= MaxContactsOfManyRounds ? ManyRounds : Math.Max(MinRounds, MaxContactSolves / rows.Length);
+        maxRounds = rows.Length <= MaxContactsOfManyRounds ? maxRounds
+            : Math.Min(maxRounds, Math.Max(MinRounds, MaxContactSolves / rows.Length));
         _frictionShare = 1;
+        var isConverged = false;
         for (Rounds = 1; Rounds < maxRounds; Rounds++)
         {
-            var isConverged = MakeRound(rows, Rounds <= FineRounds ? FineTolerance : Tolerance, out var norm);
-            if (isConverged)
+            var tolerance = Rounds <= FineRounds ? FineTolerance : Tolerance;
+            // What converged among the contacts that push must do so among all.
+            var isFull = !isLarge || rows.Length <= MaxContactsOfFullRounds || isConverged || Rounds % FullRoundPeriod == 1;
+            isConverged = isLarge ? MakeRoundOfBalls(isFull, tolerance, out var norm) : MakeRound(rows, tolerance, out norm);
+            if (isConverged && isFull)
             {
                 return true;
             }
@@ -180,11 +213,40 @@ internal sealed partial class ContactSolver
             _frictionShare = Rounds < maxRounds / 2 ? 1 : LateFrictionShare;
             // Directions that have not led to the end by now may never do so where balls begin and cease to slip.
             var isConjugate = previousNorm > 0 && norm <= previousNorm && Rounds < maxRounds / 2;
-            Extrapolate(rows, isConjugate ? norm / previousNorm : 0);
+            var share = isConjugate ? norm / previousNorm : 0;
+            if (isLarge)
+            {
+                _balls.Extrapolate(share);
+            }
+            else
+            {
+                Extrapolate(rows, share);
+            }
+
             previousNorm = norm;
         }
 
-        return MakeRound(rows, Tolerance, out _);
+        return isLarge ? MakeRoundOfBalls(isFull: true, Tolerance, out _) : MakeRound(rows, Tolerance, out _);
+    }
+
+    private bool MakeRoundOfBalls(bool isFull, double tolerance, out double norm)
+    {
+        _balls.FrictionShare = _frictionShare;
+        var maxChange = _balls.MakeRound(isFull, out norm, out var maxImpulse);
+        return maxChange <= Math.Max(tolerance * maxImpulse, _rounding);
+    }
+
+    public static bool HasArms(ReadOnlySpan<ContactRow> rows)
+    {
+        foreach (ref readonly var row in rows)
+        {
+            if (row.HasArms)
+            {
+                return true;
+            }
+        }
+
+        return false;
     }
 
     /// <summary>Solves each contact once in the order of the list, and once in the opposite one.</summary>

@@ -5,4 +5,14 @@ namespace FractalEngine.Core.Physics.Islands;
 /// <param name="RowCount">Number of its contacts.</param>
 /// <param name="FirstBody">Place of its first body.</param>
 /// <param name="BodyCount">Number of its bodies, at least two.</param>
-internal readonly record struct Island(int FirstRow, int RowCount, int FirstBody, int BodyCount);
+internal readonly record struct Island(int FirstRow, int RowCount, int FirstBody, int BodyCount)
+{
+    // Contacts from which on forces and impulses are one solve.
+    private const int MinRowsOfLarge = 300;
+
+    /// <summary>True where one of its bodies is a compound.</summary>
+    public bool HasCompound { get; init; }
+
+    /// <summary>True where a solve is too long to converge in each step: it goes on from step to step.</summary>
+    public bool IsLarge => RowCount >= MinRowsOfLarge && !HasCompound;
+}

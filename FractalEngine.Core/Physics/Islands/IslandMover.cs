@@ -40,7 +40,7 @@ internal sealed class IslandMover(List<Body> bodies, ContactGraph graph, BodyGri
             {
                 var body = bodies[index];
                 body.PlannedStart = body.Position;
-                body.Target = body.Position + (stepLength * (body.Velocity + (0.5 * stepLength * body.NetAcceleration)));
+                body.Target = body.Position + body.PlannedWay;
                 body.IsHeld = false;
             }
         }
@@ -123,7 +123,7 @@ internal sealed class IslandMover(List<Body> bodies, ContactGraph graph, BodyGri
     private bool OverlapsOthers(Body body)
     {
         _neighbours.Clear();
-        nearbyBodies.CollectOverlaps(new(body.Position, body.Position), body.Radius * (1 - MaxOverlap), body.Index, _neighbours);
+        nearbyBodies.CollectOverlaps(body.Position, body.Radius * (1 - MaxOverlap), body.Index, _neighbours);
         foreach (var neighbour in _neighbours)
         {
             if (bodies[neighbour].IslandIndex != body.IslandIndex && BallPairs.AreOverlapping(body, bodies[neighbour], MaxOverlap))
@@ -147,7 +147,7 @@ internal sealed class IslandMover(List<Body> bodies, ContactGraph graph, BodyGri
             }
 
             _neighbours.Clear();
-            nearbyBodies.CollectOverlaps(new(body.Target, body.Target), body.Radius * (1 + SearchMargin), index, _neighbours);
+            nearbyBodies.CollectOverlaps(body.Target, body.Radius * (1 + SearchMargin), index, _neighbours);
             foreach (var neighbour in _neighbours)
             {
                 var other = bodies[neighbour];
@@ -174,7 +174,7 @@ internal sealed class IslandMover(List<Body> bodies, ContactGraph graph, BodyGri
             _separator.SetBody(index, body.Target - body.PlannedStart, body.IsHeld ? 0 : 1 / body.Description.Mass);
         }
 
-        _separator.Separate(graph.RowsOf(in island), CollectionsMarshal.AsSpan(_unplanned));
+        _separator.Separate(graph.RowsOf(in island), CollectionsMarshal.AsSpan(_unplanned), island.IsLarge);
         foreach (var index in members)
         {
             if (_separator.HasMoved(index))
@@ -268,7 +268,7 @@ internal sealed class IslandMover(List<Body> bodies, ContactGraph graph, BodyGri
     {
         _neighbours.Clear();
         nearbyBodies.CollectOverlaps(
-            new(body.Position, body.Position), body.Radius * (1 - MaxOverlap), body.Index, _neighbours);
+            body.Position, body.Radius * (1 - MaxOverlap), body.Index, _neighbours);
         var hasReturned = false;
         foreach (var neighbour in _neighbours)
         {

@@ -26,10 +26,7 @@ internal sealed partial class IslandPlanner
         var turn = 0.0;
         if (isFirst && row.IsAhead)
         {
-            var approach = -Vector.Dot(velocity, row.Normal);
-            row.IsBouncingAhead = row.IsMetExactly ? approach > SlowFraction * Threshold(in row)
-                : row.Restitution > 0 && approach > Threshold(in row);
-            row.HasFixedNormal = row.IsBall && TryFindImpactNormal(in row, stepLength * velocity, out row.Normal);
+            SetImpactAhead(ref row, stepLength, velocity);
         }
 
         if (row.IsBouncingAhead)
@@ -66,6 +63,15 @@ internal sealed partial class IslandPlanner
 
         row.MinNormalVelocity = (-2 * gap / stepLength) - Vector.Dot(velocity, row.Normal);
         return turn;
+    }
+
+    /// <summary>Tells what will bounce that does not touch yet, and what goes so far that the line of its impact counts.</summary>
+    private void SetImpactAhead(ref ContactRow row, double stepLength, Vector velocity)
+    {
+        var approach = -Vector.Dot(velocity, row.Normal);
+        row.IsBouncingAhead = row.IsMetExactly ? approach > SlowFraction * Threshold(in row)
+            : row.Restitution > 0 && approach > Threshold(in row);
+        row.HasFixedNormal = row.IsBall && TryFindImpactNormal(in row, stepLength * velocity, out row.Normal);
     }
 
     /// <summary>The gap to close. Overlaps are left as they are, and rounding is no gap.</summary>

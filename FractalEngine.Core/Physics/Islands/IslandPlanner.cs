@@ -16,6 +16,9 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
     // Rounds of bounces, one contact after the other: more of them are balls that pass their speed to and fro.
     private const int MaxBounceRounds = 64;
 
+    // Rounds of the solve before it is known what bodies may meet in the step.
+    private const int MaxFirstRounds = 32;
+
     // Times that the lines of contact are corrected for how far the bodies move in the step.
     private const int MaxTurns = 4;
     private const int MinTurns = 2;
@@ -59,7 +62,17 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
         {
             var rows = Graph.RowsOf(in island);
             Load(Graph.BodiesOf(in island), rows);
-            _ = StopApproaches(rows);
+            if (island.IsLarge)
+            {
+                // What then still approaches is stopped by the solve of the step.
+                BounceAll(rows);
+            }
+            else
+            {
+                // The solve of the step ends what this one leaves.
+                _ = StopApproaches(rows, island.HasCompound ? ContactSolver.ManyRounds : MaxFirstRounds);
+            }
+
             StoreVelocities(Graph.BodiesOf(in island));
         }
     }
@@ -77,15 +90,14 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
             {
                 bodies[body].IslandIndex = index;
                 bodies[body].MayTouchBodies = true;
+                bodies[body].HasHeapMargin = island.IsLarge;
             }
 
             Load(Graph.BodiesOf(in island), rows);
-            // Of bodies that have joined without touching another: they may run into surfaces.
-            var isConverged = StopApproaches(rows);
-            StoreVelocities(Graph.BodiesOf(in island));
-            isConverged &= FindForces(Graph.BodiesOf(in island), rows, stepLength);
+            var isConverged = island.IsLarge ? FindImpulses(Graph.BodiesOf(in island), rows, stepLength)
+                : StopApproachesAndFindForces(Graph.BodiesOf(in island), rows, stepLength);
             Statistics = new(Statistics.Solves + 1, Statistics.Rounds, Statistics.Unconverged + (isConverged ? 0 : 1));
-            StorePlan(Graph.BodiesOf(in island), stepLength);
+            StorePlan(Graph.BodiesOf(in island), stepLength, island.IsLarge);
             StoreTurns(Graph.BodiesOf(in island), rows, stepLength);
             StopRebounds(Graph.BodiesOf(in island), rows);
             Log(rows);
@@ -107,13 +119,18 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
         }
     }
 
-    /// <summary>Takes away all approaching velocities: by bounces where they are fast enough, else by one solve.</summary>
-    private bool StopApproaches(Span<ContactRow> rows)
+    private bool StopApproachesAndFindForces(ReadOnlySpan<int> island, Span<ContactRow> rows, double stepLength)
     {
-        for (var round = 0; round < MaxBounceRounds && Bounce(rows); round++)
-        {
-        }
+        // Of bodies that have joined without touching another: they may run into surfaces.
+        var isConverged = StopApproaches(rows);
+        StoreVelocities(island);
+        return FindForces(island, rows, stepLength) && isConverged;
+    }
 
+    /// <summary>Takes away all approaching velocities: by bounces where they are fast enough, else by one solve.</summary>
+    private bool StopApproaches(Span<ContactRow> rows, int maxRounds = ContactSolver.ManyRounds)
+    {
+        BounceAll(rows);
         var isApproaching = false;
         foreach (ref var row in rows)
         {
@@ -131,7 +148,7 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
             row.MinNormalVelocity = row.IsAhead ? double.NegativeInfinity : 0;
         }
 
-        var isConverged = Solve(rows);
+        var isConverged = Solve(rows, maxRounds);
         Log(rows);
         return isConverged;
     }
@@ -155,7 +172,15 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
     private void Log(in ContactRow row, double impulse) => contactLog.Add(
         row.First, row.Second, bodies[row.First].Position + row.FirstArm - (row.FirstRadius * row.Normal), row.Normal, impulse);
 
-    /// <summary>Lets all pairs bounce that approach fast enough, one after the other.</summary>
+    /// <summary>Lets all pairs bounce until none approaches fast enough any more.</summary>
+    private void BounceAll(Span<ContactRow> rows)
+    {
+        for (var round = 0; round < MaxBounceRounds && Bounce(rows); round++)
+        {
+        }
+    }
+
+    /// <summary>Lets all pairs bounce once that approach fast enough, one after the other.</summary>
     private bool Bounce(Span<ContactRow> rows)
     {
         var hasBounced = false;
@@ -228,9 +253,7 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
 
             foreach (ref var row in rows)
             {
-                row.FrictionImpulse -= Vector.Dot(row.FrictionImpulse, row.Normal) * row.Normal;
-                _solver.Apply(in row, row.NormalImpulse, row.FrictionImpulse);
-                _solver.ApplyTurn(in row, row.TurnImpulse);
+                ApplyKnownImpulses(ref row);
             }
 
             isConverged = Solve(rows);
@@ -239,9 +262,17 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
         return isConverged;
     }
 
-    private bool Solve(Span<ContactRow> rows)
+    /// <summary>Gives the bodies of a contact the impulses from which the solve begins.</summary>
+    private void ApplyKnownImpulses(ref ContactRow row)
     {
-        var isConverged = _solver.Solve(rows);
+        row.FrictionImpulse -= Vector.Dot(row.FrictionImpulse, row.Normal) * row.Normal;
+        _solver.Apply(in row, row.NormalImpulse, row.FrictionImpulse);
+        _solver.ApplyTurn(in row, row.TurnImpulse);
+    }
+
+    private bool Solve(Span<ContactRow> rows, int maxRounds = ContactSolver.ManyRounds)
+    {
+        var isConverged = _solver.Solve(rows, maxRounds);
         Statistics = Statistics with { Rounds = Statistics.Rounds + _solver.Rounds };
         return isConverged;
     }
@@ -255,7 +286,7 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
         }
     }
 
-    private void StorePlan(ReadOnlySpan<int> island, double stepLength)
+    private void StorePlan(ReadOnlySpan<int> island, double stepLength, bool isLarge)
     {
         foreach (var index in island)
         {
@@ -273,6 +304,10 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
             }
 
             body.NetAcceleration = change / stepLength;
+            // Of a large island, what touches nothing follows its parabola too.
+            var isStraight = isLarge && change != Vector.Zero
+                && _solver.Bodies[index].Velocity != body.Velocity + (stepLength * body.FreeAcceleration);
+            body.PlannedWay = stepLength * (body.Velocity + (isStraight ? change : 0.5 * stepLength * body.NetAcceleration));
         }
     }
 
@@ -293,8 +328,10 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
 
     private void StopRebounds(Span<ContactRow> rows)
     {
-        for (var round = 0; round < MaxReboundRounds; round++)
+        var isRebounding = true;
+        for (var round = 0; round < MaxReboundRounds && isRebounding; round++)
         {
+            isRebounding = false;
             foreach (ref var row in rows)
             {
                 // What moves pushes on those that were slower than itself, which then rebound from what they push.
@@ -306,6 +343,7 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
                     {
                         row.NormalImpulse -= impulse;
                         _solver.Apply(in row, -impulse, Vector.Zero);
+                        isRebounding = true;
                     }
                 }
             }

@@ -25,15 +25,25 @@ internal sealed class OverlapSeparator
     // The same where something pushes bodies together: then all of a row come to touch at once.
     private const double MaxPushedGap = 0.25;
 
+    // Squares of shorter offsets lose digits.
+    private const double MinDistance = 1e-140;
+
     // Of an overlap: how much of it is taken back at once, since others will push in again.
     private const double Relaxation = 1.3;
 
-    // Of the smaller radius: overlaps at which a displacement ends.
+    // Of the smaller radius: overlaps at which a displacement ends; and the gap that is left where bodies keep a margin, so that they
+    // need not be displaced again soon.
     private const double AimedOverlap = 1e-7;
+    private const double AimedGap = 0.3 * ContactTolerances.HeapMargin;
+
+    // Of the distance at which two touch: a shorter displacement makes no others overlap.
+    private const double NegligibleShift = 0.1 * NegligibleOverlap;
 
     private Mover[] _movers = new Mover[InitialCapacity];
     private Gap[] _gaps = new Gap[InitialCapacity];
+    private readonly GapQueue _queue = new();
     private double _maxGap = MaxGap;
+    private double _aim = AimedOverlap;
 
     /// <summary>Grows the arrays to the bodies of a world, so that its steps allocate nothing.</summary>
     public void Reserve(int bodyCount)
@@ -42,6 +52,7 @@ internal sealed class OverlapSeparator
         {
             Array.Resize(ref _movers, Math.Max(bodyCount, 2 * _movers.Length));
             Array.Resize(ref _gaps, Math.Max(ContactsPerBody * _movers.Length, _gaps.Length));
+            _queue.Reserve(_movers.Length, _gaps.Length);
         }
     }
 
@@ -57,11 +68,14 @@ internal sealed class OverlapSeparator
     /// <summary>Separates all bodies of an island, whose ways must have been set.</summary>
     /// <param name="rows">Contacts of the island.</param>
     /// <param name="others">Contacts that no plan knew.</param>
-    public void Separate(Span<ContactRow> rows, Span<ContactRow> others)
+    /// <param name="keepsMargin">True for a large island, see <see cref="ContactTolerances.HeapMargin"/>.</param>
+    public void Separate(Span<ContactRow> rows, Span<ContactRow> others, bool keepsMargin)
     {
+        _aim = keepsMargin ? -AimedGap : AimedOverlap;
         if (_gaps.Length < rows.Length + others.Length)
         {
             _gaps = new Gap[2 * (rows.Length + others.Length)];
+            _queue.Reserve(_movers.Length, _gaps.Length);
         }
 
         _maxGap = IsPushed(rows) ? MaxPushedGap : MaxGap;
@@ -70,9 +84,10 @@ internal sealed class OverlapSeparator
         for (var choice = 0; choice < MaxChoices && hasMoved; choice++)
         {
             var gaps = _gaps.AsSpan(0, Choose(others, Choose(rows, 0)));
+            Enqueue(gaps);
             hasMoved = MakeRound(gaps, isBackwards: false);
             // To and fro: what the floor pushes up reaches the top of a pile in one round.
-            for (var round = 1; round < MaxRounds && MakeRound(gaps, round % 2 == 1); round++)
+            for (var round = 1; round < MaxRounds && MakeRound(gaps, isBackwards: round % 2 == 1); round++)
             {
             }
         }
@@ -99,7 +114,7 @@ internal sealed class OverlapSeparator
     {
         foreach (ref readonly var row in rows)
         {
-            var gap = new Gap(in row);
+            var gap = new Gap(in row, _aim);
             var offset = OffsetOf(in gap);
             var distance = gap.IsPlane ? Vector.Dot(offset, gap.Normal) : offset.Length();
             if (distance < gap.MinDistance * (1 + _maxGap))
@@ -111,12 +126,39 @@ internal sealed class OverlapSeparator
         return count;
     }
 
-    private bool MakeRound(Span<Gap> gaps, bool isBackwards)
+    private void Enqueue(ReadOnlySpan<Gap> gaps)
     {
-        var hasMoved = false;
+        foreach (ref readonly var gap in gaps)
+        {
+            _queue.ClearListsOf(gap.First, gap.Second);
+        }
+
         for (var i = 0; i < gaps.Length; i++)
         {
-            hasMoved |= TakeBack(in gaps[isBackwards ? gaps.Length - 1 - i : i]);
+            _queue.Add(i, gaps[i].First, gaps[i].Second);
+        }
+
+        _queue.WaitForAll(gaps.Length);
+    }
+
+    /// <summary>Tests all contacts that wait.</summary>
+    /// <returns>True where bodies have been moved, so that others wait.</returns>
+    private bool MakeRound(ReadOnlySpan<Gap> gaps, bool isBackwards)
+    {
+        var hasMoved = false;
+        var index = isBackwards ? gaps.Length : -1;
+        while (isBackwards ? _queue.TryTakePrevious(ref index) : _queue.TryTakeNext(ref index))
+        {
+            ref readonly var gap = ref gaps[index];
+            if (TakeBack(in gap))
+            {
+                hasMoved = true;
+                _queue.WaitForContactsOf(gap.First);
+                if (gap.Second >= 0)
+                {
+                    _queue.WaitForContactsOf(gap.Second);
+                }
+            }
         }
 
         return hasMoved;
@@ -128,7 +170,7 @@ internal sealed class OverlapSeparator
         {
             if (!row.IsBall)
             {
-                _ = TakeBack(new Gap(in row));
+                _ = TakeBack(new Gap(in row, _aim));
             }
         }
     }
@@ -163,7 +205,7 @@ internal sealed class OverlapSeparator
             distance = Math.Sqrt(lengthSquared);
         }
 
-        var normal = gap.IsPlane ? gap.Normal : offset.UnitVectorOrZero();
+        var normal = gap.IsPlane ? gap.Normal : distance > MinDistance ? (1 / distance) * offset : offset.UnitVectorOrZero();
         ref var first = ref _movers[gap.First];
         var firstWeight = first.InverseMass;
         var secondWeight = gap.Second >= 0 ? _movers[gap.Second].InverseMass : 0;
@@ -191,7 +233,7 @@ internal sealed class OverlapSeparator
             _movers[gap.Second].HasMoved = true;
         }
 
-        return overlap > NegligibleOverlap * gap.MinDistance;
+        return overlap > NegligibleShift * gap.MinDistance;
     }
 
     /// <summary>What a separation needs of a body.</summary>
@@ -216,7 +258,7 @@ internal sealed class OverlapSeparator
         public readonly bool IsPlane;
         public readonly bool IsOneSided;
 
-        public Gap(in ContactRow row)
+        public Gap(in ContactRow row, double aim)
         {
             First = row.First;
             Second = row.Second;
@@ -225,7 +267,7 @@ internal sealed class OverlapSeparator
             MinDistance = row.MinDistance;
             var unit = row.IsBall ? row.MinDistance * row.SmallerRadiusShare : 0;
             Negligible = NegligibleOverlap * unit;
-            Aimed = AimedOverlap * unit;
+            Aimed = aim * unit;
             Relaxation = row.IsBall && !row.IsAhead ? OverlapSeparator.Relaxation : 1;
             IsPlane = !row.IsBall || row.HasFixedNormal;
             IsOneSided = row.IsBouncingAhead;

@@ -1,0 +1,58 @@
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Physics.Islands;
+
+/// <summary>What a <see cref="ContactGraph"/> needs of a body, copied once a step: a search reads those of many bodies.</summary>
+internal struct GraphBody
+{
+    /// <summary>Centre in world space.</summary>
+    public Vector Position;
+
+    /// <summary>Radius of the sphere that holds the body.</summary>
+    public double Radius;
+
+    /// <summary>How far the body may get in the step; 0 for one that does not move.</summary>
+    public double Reach;
+
+    /// <summary>True once it is known what the body may meet.</summary>
+    public bool HasLooked;
+
+    /// <summary>True for a body that is awake and not stuck.</summary>
+    public bool CanMove;
+
+    /// <summary>True for a body that may touch others, and searches for them.</summary>
+    public bool MaySearch;
+
+    /// <summary>True for a body of several balls.</summary>
+    public bool IsCompound;
+
+    /// <summary>True for a body that was of a large island last, see <see cref="Body.HasHeapMargin"/>.</summary>
+    public bool HasHeapMargin;
+
+    /// <summary>What rounding adds to gaps so far from the origin.</summary>
+    public double Rounding;
+
+    /// <summary>Velocity at the beginning of the step, or after bodies have been stopped that approached.</summary>
+    public Vector Velocity;
+
+    /// <summary>What gravity and forces add to the speed in the step.</summary>
+    public double SpeedGain;
+
+    /// <summary>How far others that touch it are expected to push the body aside.</summary>
+    public double Slack;
+
+    /// <summary>How far those push the body that may run into it.</summary>
+    public double Push;
+
+    /// <summary>How far a kinematic object pushes the body, see <see cref="Body.KinematicPush"/>.</summary>
+    public double KinematicPush;
+
+    /// <summary>Place of the first body that was found near it, among those of all.</summary>
+    public int FirstNear;
+
+    /// <summary>Number of bodies found.</summary>
+    public int NearCount;
+
+    /// <summary>Free distance up to which all bodies have been found; negative where none were searched for.</summary>
+    public double NearDistance;
+}
