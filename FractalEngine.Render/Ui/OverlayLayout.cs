@@ -7,9 +7,7 @@ internal sealed class OverlayLayout
     private const double TextRows = 45;
     private const double TextColumns = 78;
 
-    /// <summary>Ground of all panels: so opaque that texts contrast with it by 4.5:1 over a white scene.</summary>
-    internal static readonly (float Red, float Green, float Blue, float Opacity) PanelColour = (0.055f, 0.065f, 0.085f, 0.84f);
-
+    private static readonly (float, float, float, float) PanelColour = (0.055f, 0.065f, 0.085f, 0.74f);
     private static readonly (float, float, float, float) TrackColour = (1, 1, 1, 0.14f);
     private static readonly (float, float, float, float) BarColour = (0.42f, 0.71f, 0.93f, 1);
 
@@ -75,8 +73,7 @@ internal sealed class OverlayLayout
         return closest;
     }
 
-    /// <summary>Returns the colour of a text.</summary>
-    internal static (float Red, float Green, float Blue, float Opacity) ColourOf(OverlayTone tone) => tone switch
+    private static (float, float, float, float) ColourOf(OverlayTone tone) => tone switch
     {
         OverlayTone.Dim => (0.66f, 0.70f, 0.75f, 1),
         OverlayTone.Accent => (0.98f, 0.84f, 0.58f, 1),

@@ -1,4 +1,3 @@
-using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Images;
 using FractalEngine.Render.Ui;
 
@@ -7,12 +6,6 @@ namespace FractalEngine.Tests.App.Window;
 /// <summary>Finds texts in screenshots. Letters are drawn texel by pixel, so that they are found by their shapes.</summary>
 internal static class ScreenText
 {
-    private static readonly Colour[] TextColours =
-    [
-        UiTheme.Dark.Text, UiTheme.Dark.DimText, UiTheme.Dark.Accent, UiTheme.Dark.Warning,
-        .. Enum.GetValues<OverlayTone>().Select(OverlayLayout.ColourOf).Select(static tone => new Colour(tone.Red, tone.Green, tone.Blue)),
-    ];
-
     /// <summary>Finds the last place of a text at scale 1, by rows from the top; null where it is not shown.</summary>
     public static (int X, int Y)? Find(PixelImage image, string text)
     {
@@ -51,7 +44,7 @@ internal static class ScreenText
     private static bool IsText(PixelImage image, int x, int y)
     {
         var colour = image[x, y];
-        return TextColours.Any(text =>
+        return new[] { UiTheme.Dark.Text, UiTheme.Dark.DimText, UiTheme.Dark.Accent, UiTheme.Dark.Warning }.Any(text =>
             Math.Abs(colour.Red - (255 * text.Red)) < 12 && Math.Abs(colour.Green - (255 * text.Green)) < 12
             && Math.Abs(colour.Blue - (255 * text.Blue)) < 12);
     }

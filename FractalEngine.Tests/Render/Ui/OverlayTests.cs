@@ -131,22 +131,4 @@ public sealed class OverlayTests
     /// <summary>Counts the pixels of a rectangle that are brighter than a panel.</summary>
     private static int CountLitPixels(PixelImage image, int x, int y, int width, int height) =>
         Enumerable.Range(y, height).Sum(row => Enumerable.Range(x, width).Count(column => image[column, row].Green > 100));
-
-    [Theory]
-    [InlineData(0)]
-    [InlineData(0.5)]
-    [InlineData(1)]
-    public void Texts_OverAnyScene_ContrastByAtLeastFourAndAHalf(double scene)
-    {
-        var (red, green, blue, opacity) = OverlayLayout.PanelColour;
-        var ground = new Colour(Over(red), Over(green), Over(blue));
-        foreach (var tone in Enum.GetValues<OverlayTone>())
-        {
-            var text = OverlayLayout.ColourOf(tone);
-            var contrast = UiTheme.Contrast(new(text.Red, text.Green, text.Blue), ground);
-            Assert.True(contrast >= 4.5, $"{tone}: {contrast:F2}");
-        }
-
-        double Over(double component) => (opacity * component) + ((1 - opacity) * scene);
-    }
 }
