@@ -177,14 +177,14 @@ internal sealed partial class ContactSolver
         }
 
         _rounding = ComputeRounding(rows);
-        var isLarge = rows.Length > MinBallRows && !HasArms(rows);
-        if (isLarge)
+        var isOfBalls = rows.Length > MinBallRows && !HasArms(rows);
+        if (isOfBalls)
         {
             _balls.Load(rows, _bodies);
         }
 
-        var isConverged = Iterate(rows, isLarge, maxRounds);
-        if (isLarge)
+        var isConverged = Iterate(rows, isOfBalls, maxRounds);
+        if (isOfBalls)
         {
             _balls.Store(rows, _bodies);
         }
@@ -192,7 +192,7 @@ internal sealed partial class ContactSolver
         return isConverged;
     }
 
-    private bool Iterate(Span<ContactRow> rows, bool isLarge, int maxRounds)
+    private bool Iterate(Span<ContactRow> rows, bool isOfBalls, int maxRounds)
     {
         var previousNorm = 0.0;
         maxRounds = rows.Length <= MaxContactsOfManyRounds ? maxRounds
@@ -203,8 +203,8 @@ internal sealed partial class ContactSolver
         {
             var tolerance = Rounds <= FineRounds ? FineTolerance : Tolerance;
             // What converged among the contacts that push must do so among all.
-            var isFull = !isLarge || rows.Length <= MaxContactsOfFullRounds || isConverged || Rounds % FullRoundPeriod == 1;
-            isConverged = isLarge ? MakeRoundOfBalls(isFull, tolerance, out var norm) : MakeRound(rows, tolerance, out norm);
+            var isFull = !isOfBalls || rows.Length <= MaxContactsOfFullRounds || isConverged || Rounds % FullRoundPeriod == 1;
+            isConverged = isOfBalls ? MakeRoundOfBalls(isFull, tolerance, out var norm) : MakeRound(rows, tolerance, out norm);
             if (isConverged && isFull)
             {
                 return true;
@@ -214,7 +214,7 @@ internal sealed partial class ContactSolver
             // Directions that have not led to the end by now may never do so where balls begin and cease to slip.
             var isConjugate = previousNorm > 0 && norm <= previousNorm && Rounds < maxRounds / 2;
             var share = isConjugate ? norm / previousNorm : 0;
-            if (isLarge)
+            if (isOfBalls)
             {
                 _balls.Extrapolate(share);
             }
@@ -226,7 +226,7 @@ internal sealed partial class ContactSolver
             previousNorm = norm;
         }
 
-        return isLarge ? MakeRoundOfBalls(isFull: true, Tolerance, out _) : MakeRound(rows, Tolerance, out _);
+        return isOfBalls ? MakeRoundOfBalls(isFull: true, Tolerance, out _) : MakeRound(rows, Tolerance, out _);
     }
 
     private bool MakeRoundOfBalls(bool isFull, double tolerance, out double norm)
@@ -236,7 +236,7 @@ internal sealed partial class ContactSolver
         return maxChange <= Math.Max(tolerance * maxImpulse, _rounding);
     }
 
-    public static bool HasArms(ReadOnlySpan<ContactRow> rows)
+    private static bool HasArms(ReadOnlySpan<ContactRow> rows)
     {
         foreach (ref readonly var row in rows)
         {
