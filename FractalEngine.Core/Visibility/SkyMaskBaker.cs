@@ -1,5 +1,6 @@
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
+using BitOperations = System.Numerics.BitOperations;
 
 namespace FractalEngine.Core.Visibility;
 
