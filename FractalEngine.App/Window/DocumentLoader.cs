@@ -170,7 +170,7 @@ internal sealed class DocumentLoader(
         return redraw;
     }
 
-    /// <summary>Tells whether the user has changed the present document while another one was loading in its place.</summary>
+    /// <summary>Tells whether the user has changed the present document while another was loading, which would replace it.</summary>
     private bool WasEditedDuring(BackgroundLoad load) =>
         load.Previous is null && Document is { } document && !document.Edits.Equals(_editsAtStart);
 

@@ -104,15 +104,12 @@ internal static class ActionTable
         Setting("shadows", "Shadows", "shadows of all lights, where lighting is computed at every pixel", null, "--no-shadows",
             static settings => settings.Shadows, static (settings, on) => settings with { Shadows = on }),
         Setting("ambient-occlusion", "Ambient occlusion",
-            "less light within the holes of fractals, where lighting is computed at every pixel",
-            null, "--no-ambient-occlusion",
+            "less light within the holes of fractals, where lighting is computed at every pixel", null, "--no-ambient-occlusion",
             static settings => settings.AmbientOcclusion, static (settings, on) => settings with { AmbientOcclusion = on }),
         Setting("occlusion-culling", "Occlusion culling", "leave out what other parts hide; the image is the same", null, "--without",
             static settings => settings.Culling?.OcclusionCulling == true,
-            static (settings, on) => settings with
-            {
-                Culling = settings.Culling is { } culling ? culling with { OcclusionCulling = on } : null,
-            }),
+            static (settings, on) => settings.Culling is not { } culling ? settings
+                : settings with { Culling = culling with { OcclusionCulling = on } }),
         new("normals", "View", "Normals", "normals of the selected instance's faces, or of all meshes where nothing is selected")
         {
             IsAvailable = HasDocument, IsOn = static a => a.Document?.Tool.Normals.IsOn == true,
