@@ -8,8 +8,8 @@ namespace FractalEngine.Render;
 /// </summary>
 /// <remarks>
 /// The minimum projected size stays between 3 and 24 pixels, 8 with shadows, and follows the frame time so that ten frames a second are
-/// drawn. It changes at most every fourth frame, since each change discards what was culled ahead. Draw with <see cref="Adapt(RenderSettings)"/> and pass the
-/// time taken to <see cref="RecordFrameTime"/>. When the camera stops, draw once more with the full settings.
+/// drawn. It changes at most every fourth frame, since each change discards what was culled ahead. Draw with
+/// <see cref="Adapt(RenderSettings)"/> and pass the time taken to <see cref="RecordFrameTime"/>. When the camera stops, draw once more with the full settings.
 /// </remarks>
 public sealed class AdaptiveQuality
 {
@@ -41,7 +41,8 @@ public sealed class AdaptiveQuality
     /// <returns>The same object for as long as nothing has changed.</returns>
     public RenderSettings Adapt(RenderSettings settings)
     {
-        _coarsestSize = settings is { Shadows: true, Shading: Shading.PerPixel, Wireframe: false } ? CoarsestShadedSize : CoarsestProjectedSize;
+        var hasShadows = settings is { Shadows: true, Shading: Shading.PerPixel, Wireframe: false };
+        _coarsestSize = hasShadows ? CoarsestShadedSize : CoarsestProjectedSize;
         _minProjectedSize = Math.Min(_minProjectedSize, _coarsestSize);
         if (_lastAdapted is not { } last || last.Source != settings || last.MinProjectedSize != _minProjectedSize)
         {

@@ -1,8 +1,8 @@
 #version 330 core
 #extension GL_ARB_texture_gather : enable
-// The colour of the visible face. Front faces are wound clockwise on the screen in a left-handed scene, the other way in a right-handed one.
-// PER_PIXEL, TEXTURED, GLOSSY, FRONT_FACES_ONLY, CUT_OUT, EMISSIVE, ATMOSPHERE, SHADOWS, POINT_SHADOWS, SHADOW_SLICES, SECTION and SKY_PARTS are
-// defined where they apply.
+// The colour of the visible face. Front faces are wound clockwise on the screen in a left-handed scene, the other way in a
+// right-handed one. PER_PIXEL, TEXTURED, GLOSSY, FRONT_FACES_ONLY, CUT_OUT, EMISSIVE, ATMOSPHERE, SHADOWS, POINT_SHADOWS,
+// SHADOW_SLICES, SECTION and SKY_PARTS are defined where they apply.
 
 #include "material.glsl"
 #if defined(PER_PIXEL) || defined(ATMOSPHERE)

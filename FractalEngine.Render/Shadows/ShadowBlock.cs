@@ -94,7 +94,8 @@ internal sealed class ShadowBlock(GlResources resources, bool hasReversedDepth) 
     private (double Scale, double Shift) StoredDepth(in ShadowView view)
     {
         var (zByDepth, z, _, _) = view.DepthScale;
-        // Without clip control, depths from −1 to 1 are stored as 0 to 1: half of each, and a half is added to what does not depend on depth.
+        // Without clip control, depths from −1 to 1 are stored as 0 to 1: half of each, and a half is added to what does not
+        // depend on depth.
         return hasReversedDepth ? (zByDepth, z)
             : view.IsPerspective ? (0.5 * (zByDepth + 1), 0.5 * z)
             : (0.5 * zByDepth, 0.5 * (z + 1));

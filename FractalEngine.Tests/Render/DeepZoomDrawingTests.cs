@@ -331,7 +331,8 @@ public sealed class DeepZoomDrawingTests
         }
 
         /// <summary>Draws with the camera's position relative to a sub-fractal.</summary>
-        public PixelImage DrawZoomed(Camera camera, (double Near, double Far) clipPlanes, FractalAddress address, RenderSettings? settings = null) =>
+        public PixelImage DrawZoomed(
+            Camera camera, (double Near, double Far) clipPlanes, FractalAddress address, RenderSettings? settings = null) =>
             Draw(new(camera, Projection.Perspective) { FixedClipPlanes = clipPlanes, DeepZoom = CreateDeepZoom(address) }, settings);
 
         /// <summary>Darkens the pixels of an image without shadows that no ray to the light reaches.</summary>

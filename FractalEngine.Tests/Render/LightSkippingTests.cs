@@ -181,7 +181,8 @@ public sealed class LightSkippingTests
 
     private static LoadedScene FloorWith(
         Light[] lights, params ReadOnlySpan<(Model Model, Transformation Placement, Colour? Colour)> objects) =>
-        RenderScenes.Scene(new() { Lights = [.. lights], Background = Colour.Black }, [(Floor, Transformation.Identity, Colour.White), .. objects]);
+        RenderScenes.Scene(
+            new() { Lights = [.. lights], Background = Colour.Black }, [(Floor, Transformation.Identity, Colour.White), .. objects]);
 
     private static Model Floor => RenderScenes.Model(
         new([-20, 0, -20, -20, 0, 20, 20, 0, 20, 20, 0, -20], [0, 1, 2, 0, 2, 3]), "floor.obj");
