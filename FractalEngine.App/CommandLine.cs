@@ -8,6 +8,9 @@ internal static class CommandLine
 {
     private static readonly LimitOption Limits = new();
 
+    // A name that begins with @ is that of a file, not of a list of arguments.
+    private static readonly ParserConfiguration Configuration = new() { ResponseFileTokenReplacer = null };
+
     /// <summary>Runs the command that the arguments name.</summary>
     /// <returns>One of <see cref="ExitCode"/>.</returns>
     public static int Run(string[] args)
@@ -18,7 +21,7 @@ internal static class CommandLine
             return exitCode;
         }
 
-        var result = root.Parse(args.Contains("--version") ? ["--version"] : WithDefaultCommand(root, args));
+        var result = root.Parse(args.Contains("--version") ? ["--version"] : WithDefaultCommand(root, args), Configuration);
         return HelpText.IsRequested(result) ? Guard(() => HelpText.Print(result))
             : result.Errors.Count > 0 ? UsageErrors.Report(result)
             : Guard(() =>

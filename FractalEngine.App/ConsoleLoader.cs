@@ -11,14 +11,17 @@ internal static class ConsoleLoader
     private static readonly TimeSpan ProgressBarDelay = TimeSpan.FromSeconds(0.5);
 
     /// <summary>Loads a file with all files that it refers to. The path <c>-</c> stands for the standard input.</summary>
+    /// <param name="path">Path of the file.</param>
+    /// <param name="options">Options for loading.</param>
+    /// <param name="isTraced">Whether nothing but traced images is made of it, so that warnings about drawn frames are not true.</param>
     /// <exception cref="SourceException">A file is missing or faulty.</exception>
-    public static LoadedFile Load(string path, LoadOptions options)
+    public static LoadedFile Load(string path, LoadOptions options, bool isTraced = false)
     {
         options = StandardInput.AddTo(options, path);
         var cache = new AssetCache();
         var file = Console.IsErrorRedirected ? AssetLoader.Load(path, options, null, cache) : LoadWithProgressBar(path, options, cache);
         InputFiles.Add(cache);
-        foreach (var warning in file.Warnings)
+        foreach (var warning in file.Warnings.Where(warning => !(isTraced && warning.ConcernsDrawnFrames)))
         {
             Console.Error.WriteLine(warning);
         }

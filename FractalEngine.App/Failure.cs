@@ -21,6 +21,7 @@ internal sealed record Failure(int ExitCode, string Text)
         UsageException => new(App.ExitCode.WrongUsage, Line(exception.Message)),
         FractalEngineException engine => new(CodeOf(engine.Kind), Line(engine.Message)),
         OutOfMemoryException => new(App.ExitCode.OverLimit, Line("the machine's memory does not suffice")),
+        IOException when IsCurrentFolderGone() => new(App.ExitCode.WrongUsage, Line("the current folder has been removed")),
         OperationCanceledException => new(App.ExitCode.Interrupted, Line(exception.Message)),
         // Input that can't be read has become a SourceException already, so this is about an output.
         IOException or UnauthorizedAccessException => new(App.ExitCode.WrongUsage, Line(exception.Message)),
@@ -34,6 +35,18 @@ internal sealed record Failure(int ExitCode, string Text)
         ErrorKind.Unavailable => App.ExitCode.NoGraphics,
         _ => App.ExitCode.BadInput,
     };
+
+    private static bool IsCurrentFolderGone()
+    {
+        try
+        {
+            return !Directory.Exists(Directory.GetCurrentDirectory());
+        }
+        catch (IOException)
+        {
+            return true;
+        }
+    }
 
     private static string Line(string message) => $"error: {DisplayText.Escape(message)}";
 

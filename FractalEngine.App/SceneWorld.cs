@@ -14,13 +14,14 @@ internal static class SceneWorld
     /// <param name="scene">The scene, perhaps with another projection.</param>
     /// <param name="settings">Checked by the command line.</param>
     /// <exception cref="SourceException">The scene declares an invalid body, such as one without size.</exception>
-    /// <exception cref="FractalEngineException">More bodies begin at one place than the limit.</exception>
+    /// <exception cref="FractalEngineException">A limit is exceeded: of bodies at one place, or of coordinates.</exception>
     public static PhysicsWorld Create(LoadedFile file, LoadedScene scene, PhysicsSettings settings)
     {
         try
         {
             var world = new PhysicsWorld(scene, settings);
             PhysicsLimits.Require(world.Bodies);
+            PhysicsLimits.RequireRange(world);
             return world;
         }
         catch (SceneObjectException exception) when (file.ParsedScene is { } parsed)
@@ -31,16 +32,21 @@ internal static class SceneWorld
     }
 
     /// <summary>Advances a world by one step.</summary>
-    /// <exception cref="SourceException">A body leaves the range of a double.</exception>
+    /// <exception cref="SourceException">A body leaves the range of a double, or goes beyond the limit of physics.</exception>
     public static void Step(string path, PhysicsWorld world)
     {
         try
         {
             world.Step();
+            PhysicsLimits.RequireRange(world);
         }
         catch (InvalidOperationException exception)
         {
             throw new SourceException(path, exception.Message);
+        }
+        catch (FractalEngineException exception) when (exception.Kind == ErrorKind.Limit)
+        {
+            throw new SourceException(path, exception.Message, isLimitExceeded: true);
         }
     }
 

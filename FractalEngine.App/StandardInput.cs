@@ -18,11 +18,30 @@ internal static class StandardInput
     /// <summary>Reads all text of the standard input.</summary>
     /// <param name="name">Name of the text in messages.</param>
     /// <param name="maxBytes">Size limit; more is refused.</param>
-    /// <exception cref="SourceException">The input is too large, or no text.</exception>
+    /// <exception cref="SourceException">The input is closed, unreadable, too large, or no text.</exception>
     public static SourceText Read(string name, long maxBytes)
     {
-        using var input = Console.OpenStandardInput();
+        if (IsClosed())
+        {
+            throw new SourceException(name, "the standard input is closed");
+        }
+
         using var bytes = new MemoryStream();
+        try
+        {
+            ReadAll(bytes, name, maxBytes);
+        }
+        catch (Exception exception) when (exception is IOException or UnauthorizedAccessException)
+        {
+            throw new SourceException(name, $"the standard input can't be read: {exception.Message}");
+        }
+
+        return SourceText.Decode(bytes.GetBuffer().AsSpan(0, (int)bytes.Length), name);
+    }
+
+    private static void ReadAll(MemoryStream bytes, string name, long maxBytes)
+    {
+        using var input = Console.OpenStandardInput();
         var buffer = new byte[1 << 16];
         for (var count = input.Read(buffer); count > 0; count = input.Read(buffer))
         {
@@ -32,11 +51,29 @@ internal static class StandardInput
                 throw new SourceException(name, $"the standard input has more than the limit of {maxBytes} bytes", isLimitExceeded: true);
             }
         }
-
-        return SourceText.Decode(bytes.GetBuffer().AsSpan(0, (int)bytes.Length), name);
     }
 
     /// <summary>Adds the text of the standard input to the options of a file that is named <c>-</c>.</summary>
     public static LoadOptions AddTo(LoadOptions options, string path) =>
         path == Name ? options with { Text = Read(Name, Parsing.ParsingLimits.MaxDescriptionBytes) } : options;
+
+    /// <summary>
+    /// Tells whether the program was started without a standard input. The runtime has taken its number for a pipe of its own then, and
+    /// reading that would wait for ever. What a program is started with does not close on exec; all that the runtime opens does.
+    /// </summary>
+    private static bool IsClosed()
+    {
+        const string description = "/proc/self/fdinfo/0";
+        const long closeOnExec = 0x80000;
+        try
+        {
+            var flags = File.ReadLines(description).FirstOrDefault(static line => line.StartsWith("flags:", StringComparison.Ordinal));
+            return flags is not null && (Convert.ToInt64(flags["flags:".Length..].Trim(), 8) & closeOnExec) != 0;
+        }
+        catch (Exception exception) when (exception is IOException or UnauthorizedAccessException or FormatException)
+        {
+            // Only Linux tells. There a number without a file is closed.
+            return exception is FileNotFoundException && Directory.Exists("/proc/self/fdinfo");
+        }
+    }
 }

@@ -1,3 +1,4 @@
+using FractalEngine.Core;
 using FractalEngine.Core.Images;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Render;
@@ -11,6 +12,9 @@ namespace FractalEngine.App;
 /// <param name="KeepsPartial">Whether an interrupted image is written as far as it is.</param>
 internal sealed record TracedImage(int Samples, int Seed, bool KeepsPartial)
 {
+    // Sums and image take 20 bytes each: 1.3 GiB.
+    private const long MaxPixels = 1L << 26;
+
     /// <summary>Traces a scene, with its progress on a terminal.</summary>
     /// <param name="scene">With its models loaded.</param>
     /// <param name="view">Camera and projection.</param>
@@ -31,6 +35,7 @@ internal sealed record TracedImage(int Samples, int Seed, bool KeepsPartial)
     /// <param name="job">Size, background and settings of the image.</param>
     /// <param name="report">Tells how long it took.</param>
     /// <exception cref="UsageException">The background is transparent.</exception>
+    /// <exception cref="FractalEngineException">The image has more pixels than the limit.</exception>
     public PathTracer Prepare(LoadedScene scene, View view, RenderJob job, WrittenReport report)
     {
         var tracer = report.Measure("prepare", () => CreateTracer(scene, view, job));
@@ -47,11 +52,19 @@ internal sealed record TracedImage(int Samples, int Seed, bool KeepsPartial)
     /// <param name="view">Camera and projection.</param>
     /// <param name="job">Size, background and settings of the image.</param>
     /// <exception cref="UsageException">The background is transparent.</exception>
+    /// <exception cref="FractalEngineException">The image has more pixels than the limit.</exception>
     public PathTracer CreateTracer(LoadedScene scene, View view, RenderJob job)
     {
         if (job.Background.IsTransparent)
         {
             throw new UsageException("--trace draws no transparent background: expected a colour");
+        }
+
+        if ((long)job.Size.Width * job.Size.Height > MaxPixels)
+        {
+            throw new FractalEngineException(
+                ErrorKind.Limit,
+                $"a traced image of {job.Size.Width}×{job.Size.Height} pixels has more than the limit of {MaxPixels} in all");
         }
 
         var background = job.Background.Colour ?? scene.Scene.Background;

@@ -42,11 +42,15 @@ internal sealed class WrittenReport(bool isQuiet, bool isVerbose)
     {
         if (!isQuiet)
         {
-            var size = path != StandardInput.Name && File.Exists(path) ? $", {FormatBytes(new FileInfo(path).Length)}" : "";
+            var size = path != StandardInput.Name && File.Exists(path) ? $", {FormatBytes(SizeOf(path))}" : "";
             var name = path == StandardInput.Name ? "the standard output" : path;
             Write($"wrote {name}: {contents}{size}, {_clock.Elapsed.TotalSeconds:F1} s");
         }
     }
+
+    /// <summary>Returns the size of a file, not that of a link to it.</summary>
+    private static long SizeOf(string path) =>
+        new FileInfo(File.ResolveLinkTarget(Path.GetFullPath(path), returnFinalTarget: true)?.FullName ?? path).Length;
 
     private static string FormatBytes(long bytes) => bytes switch
     {

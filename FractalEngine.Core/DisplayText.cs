@@ -7,8 +7,8 @@ namespace FractalEngine.Core;
 public static class DisplayText
 {
     /// <summary>
-    /// Replaces control characters other than tabs and line breaks, characters that turn the direction of writing or can't be seen, and
-    /// halves of surrogate pairs by <c>\uXXXX</c>.
+    /// Replaces control characters other than tabs, characters that turn the direction of writing or can't be seen, and halves of surrogate
+    /// pairs by <c>\uXXXX</c>. The names of files may have line breaks, too.
     /// </summary>
     public static string Escape(string text)
     {
@@ -45,7 +45,7 @@ public static class DisplayText
     {
         ArgumentNullException.ThrowIfNull(text);
         var character = text[index];
-        return character is not ('\t' or '\n' or '\r') && char.GetUnicodeCategory(character) switch
+        return character is not '\t' && char.GetUnicodeCategory(character) switch
         {
             UnicodeCategory.Control or UnicodeCategory.Format => true,
             UnicodeCategory.LineSeparator or UnicodeCategory.ParagraphSeparator => true,

@@ -11,6 +11,9 @@ namespace FractalEngine.App.Animation;
 /// </summary>
 internal sealed class CameraPath
 {
+    // Products of the spline stay doubles.
+    private const double MaxCoordinate = 1e150;
+
     private readonly Camera[] _cameras;
     private readonly Handedness _handedness;
 
@@ -21,7 +24,7 @@ internal sealed class CameraPath
     /// </summary>
     /// <param name="path">Path of the list.</param>
     /// <param name="handedness">That of the scene.</param>
-    /// <exception cref="SourceException">The file can't be read, or a line is no camera.</exception>
+    /// <exception cref="SourceException">The file can't be read, or a line is no camera, or one beyond the limit.</exception>
     /// <exception cref="UsageException">There are fewer than two cameras.</exception>
     public static CameraPath Read(string path, Handedness handedness)
     {
@@ -33,10 +36,15 @@ internal sealed class CameraPath
             .. source.Text.ReplaceLineEndings("\n").Split('\n')
                 .Select(static (line, index) => (Text: line.TrimEnd(), Number: index + 1))
                 .Where(static line => line.Text.Length > 0 && !line.Text.TrimStart().StartsWith('#'))
-                .Select(line => CameraText.ParseCameraLine(path, line.Number, line.Text, handedness)),
+                .Select(line => InRange(path, line.Number, CameraText.ParseCameraLine(path, line.Number, line.Text, handedness))),
         ];
         return cameras.Length >= 2 ? new(cameras, handedness) : throw new UsageException($"{path} has fewer than two cameras");
     }
+
+    private static Camera InRange(string path, int line, Camera camera) => camera.Position.MaxAbsComponent() <= MaxCoordinate
+        ? camera
+        : throw new SourceException(
+            new(path, line, 1, DiagnosticSeverity.Error, "the camera of a path is beyond the limit of 1e150") { IsLimitExceeded = true });
 
     /// <summary>Returns the camera at a time.</summary>
     /// <param name="time">0 at the first camera, 1 at the last.</param>
@@ -53,7 +61,11 @@ internal sealed class CameraPath
         // Two opposite directions have no middle; the turn then happens at once.
         var direction = forward.Length() > 1e-6 ? forward : from.LocalAxes.V3;
         var fieldOfView = from.FieldOfView + (fraction * (to.FieldOfView - from.FieldOfView));
-        return CameraFraming.LookAt(position, position + direction, UpBetween(from, to, fraction), fieldOfView, _handedness);
+        // Far away, a point before the camera would be the camera's own.
+        return CameraFraming.LookAt(Vector.Zero, direction, UpBetween(from, to, fraction), fieldOfView, _handedness) with
+        {
+            Position = position,
+        };
     }
 
     private static Vector UpBetween(Camera from, Camera to, double fraction)

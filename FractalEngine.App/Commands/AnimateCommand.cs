@@ -82,7 +82,7 @@ internal static class AnimateCommand
         // Before anything is loaded, since a video needs a program that may be missing.
         using var output = AnimationOutput.Create(animation.Output, animation.FrameCount, animation.FramesPerSecond);
         var job = animation.Images;
-        var file = report.Measure("load", () => ConsoleLoader.Load(job.Path, job.Load));
+        var file = report.Measure("load", () => ConsoleLoader.Load(job.Path, job.Load, isTraced: animation.Trace is not null));
         InputFiles.Protect(animation.Output);
         var scene = job.WithProjection(file.Scene);
         // A default camera frames the scene as it is at time 0, as in a still image.

@@ -71,7 +71,7 @@ internal static class RenderCommand
     /// <exception cref="OperationCanceledException">A traced image was interrupted; it may be written as far as it was.</exception>
     public static PixelImage Run(RenderJob job, TracedImage? trace, string output, WrittenReport report)
     {
-        var file = report.Measure("load", () => ConsoleLoader.Load(job.Path, job.Load));
+        var file = report.Measure("load", () => ConsoleLoader.Load(job.Path, job.Load, isTraced: trace is not null));
         InputFiles.Protect(output);
         var scene = job.WithProjection(file.Scene);
         // A default camera frames the scene as it is at time 0, so that images of several times show the same view.

@@ -2,6 +2,7 @@ using System.CommandLine;
 using FractalEngine.App.Window;
 using FractalEngine.App.Window.Panels;
 using FractalEngine.Render;
+using FractalEngine.Render.Windowing;
 
 namespace FractalEngine.App.Commands;
 
@@ -69,7 +70,7 @@ internal static class ViewCommand
     {
         if (Environment.GetEnvironmentVariable(NoWindowVariable) is not "1")
         {
-            return SceneWindow.Show(path, options);
+            return Show(path, options);
         }
 
         var output = Path.Combine("out", Path.GetFileNameWithoutExtension(path) + ".png");
@@ -80,6 +81,20 @@ internal static class ViewCommand
         RenderCommand.Run(job, trace: null, output, new(isQuiet: true, isVerbose: false));
         Console.Error.WriteLine($"there is no display for a window, so {output} was drawn instead");
         return ExitCode.Done;
+    }
+
+    private static int Show(string path, WindowOptions options)
+    {
+        try
+        {
+            return SceneWindow.Show(path, options);
+        }
+        catch (GraphicsUnavailableException) when (path != StandardInput.Name && !Path.Exists(path))
+        {
+            // A window would wait for the file to appear. Without one, the file is the user's first problem.
+            ConsoleLoader.Load(path, options.Load);
+            throw;
+        }
     }
 
     /// <summary>Finds the gallery in the source tree that the program was built in, whatever the current folder is.</summary>

@@ -1,10 +1,8 @@
 using System.Diagnostics.CodeAnalysis;
-using System.Runtime.Intrinsics;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
-using BitOperations = System.Numerics.BitOperations;
 
 namespace FractalEngine.Core.Collision;
 
@@ -221,177 +219,18 @@ public sealed partial class SceneCollider
         ArgumentNullException.ThrowIfNull(context);
         Collider.ThrowIfInvalid(position, maxDistance, epsilon);
         var objects = ReadyObjects();
-        var isFarAway = position.MaxAbsComponent() > Collider.MaxCoordinate;
-        var isFound = isFarAway
-            ? TryFindAmongFew(objects.ToArray(), position, maxDistance, context, out closest, out objectIndex, excludedObject, epsilon)
-            : objects.Hierarchy is { } hierarchy
-            ? TryFindAmongMany(
-                hierarchy, objects.Loose.AsSpan(), position, maxDistance, context, out closest, out objectIndex, excludedObject, epsilon)
-            : TryFindAmongFew(
-                objects.Loose.AsSpan(), position, maxDistance, context, out closest, out objectIndex, excludedObject, epsilon);
-        context.RestorePath();
-        return isFound;
-    }
-
-    /// <summary>Searches a few objects, whose boxes are all tested.</summary>
-    private static bool TryFindAmongFew(
-        ReadOnlySpan<ColliderInstance> objects, Vector position, double maxDistance, QueryContext context, out ClosestPoint closest,
-        out int objectIndex, int excludedObject, double epsilon)
-    {
-        closest = default;
-        objectIndex = -1;
-        var lowerBound = double.PositiveInfinity;
-        var boundDistances = context.ObjectBoundsBuffer(objects.Length);
-        for (var i = 0; i < objects.Length; i++)
+        var search = new ClosestObjectSearch(position, maxDistance, context, excludedObject, epsilon);
+        if (objects.Hierarchy is { } hierarchy && !(position.MaxAbsComponent() > Collider.MaxCoordinate))
         {
-            boundDistances[i] = i == excludedObject ? double.PositiveInfinity : BoundDistance(objects[i], position);
+            search.RunAmongMany(hierarchy, objects.Loose.AsSpan());
+        }
+        else
+        {
+            // Without a hierarchy all objects are loose. From very far away the boxes of a hierarchy tell nothing.
+            search.RunAmongFew(objects.Hierarchy is null ? objects.Loose.AsSpan() : objects.ToArray());
         }
 
-        context.Statistics.BoundTests += objects.Length;
-        for (var remaining = objects.Length; remaining > 0; remaining--)
-        {
-            var nextObject = 0;
-            for (var i = 1; i < boundDistances.Length; i++)
-            {
-                nextObject = boundDistances[i] < boundDistances[nextObject] ? i : nextObject;
-            }
-
-            if (!(boundDistances[nextObject] * (objectIndex < 0 ? 1 : 1 + epsilon) <= maxDistance)
-                || double.IsPositiveInfinity(boundDistances[nextObject]))
-            {
-                break;
-            }
-
-            boundDistances[nextObject] = double.PositiveInfinity;
-            if (objects[nextObject].TryFindClosest(position, maxDistance, context, out var candidate, epsilon)
-                && IsCloser(candidate, in closest, objectIndex, ref lowerBound))
-            {
-                closest = candidate;
-                objectIndex = nextObject;
-                maxDistance = Math.Min(maxDistance, candidate.Distance);
-                context.SavePath();
-            }
-        }
-
-        closest = closest with { ErrorBound = Math.Min(closest.Distance, Math.Max(closest.ErrorBound, closest.Distance - lowerBound)) };
-        return objectIndex >= 0;
-    }
-
-    /// <summary>Searches objects best first, down from the root of their hierarchy. Tests the same objects as a search among few.</summary>
-    private static bool TryFindAmongMany(
-        ObjectBvh hierarchy, ReadOnlySpan<ColliderInstance> loose, Vector position, double maxDistance, QueryContext context,
-        out ClosestPoint closest, out int objectIndex, int excludedObject, double epsilon)
-    {
-        closest = default;
-        objectIndex = -1;
-        var lowerBound = double.PositiveInfinity;
-        var queue = context.ObjectQueue;
-        queue.Clear();
-        foreach (var instance in loose)
-        {
-            queue.Add(BoundDistance(instance, position), instance.Index, instance);
-        }
-
-        var boundTests = loose.Length + Expand(hierarchy.Root, position, maxDistance, queue);
-        while (queue.TryTake(out var bound, out var index, out var target)
-            && bound * (objectIndex < 0 ? 1 : 1 + epsilon) <= maxDistance && !double.IsPositiveInfinity(bound))
-        {
-            if (target is ObjectBvhNode node)
-            {
-                boundTests += Expand(node, position, maxDistance, queue);
-                continue;
-            }
-
-            var instance = (ColliderInstance)target!;
-            if (index == ObjectQueue.Untested)
-            {
-                index = instance.Index;
-                bound = BoundDistance(instance, position);
-                boundTests++;
-                // Behind what is closer, or equally close and of a smaller index.
-                if (!(bound < queue.Bound && bound * (objectIndex < 0 ? 1 : 1 + epsilon) <= maxDistance))
-                {
-                    queue.Add(bound, index, instance);
-                    continue;
-                }
-            }
-
-            if (index != excludedObject && instance.TryFindClosest(position, maxDistance, context, out var candidate, epsilon)
-                && IsCloser(candidate, in closest, objectIndex, ref lowerBound))
-            {
-                closest = candidate;
-                objectIndex = index;
-                maxDistance = Math.Min(maxDistance, candidate.Distance);
-                context.SavePath();
-            }
-        }
-
-        context.Statistics.BoundTests += boundTests;
-        queue.Clear();
-        closest = closest with { ErrorBound = Math.Min(closest.Distance, Math.Max(closest.ErrorBound, closest.Distance - lowerBound)) };
-        return objectIndex >= 0;
-    }
-
-    /// <summary>Tells whether an object's point is the closest so far, and takes account of what its search left open.</summary>
-    private static bool IsCloser(in ClosestPoint candidate, in ClosestPoint closest, int objectIndex, ref double lowerBound)
-    {
-        lowerBound = Math.Min(lowerBound, candidate.Distance - candidate.ErrorBound);
-        return objectIndex < 0 || candidate.Distance < closest.Distance;
-    }
-
-    private static double BoundDistance(ColliderInstance instance, Vector position)
-    {
-        var bounds = instance.Bounds;
-        var distance = Math.Sqrt(bounds.DistanceSquared(position));
-        // Where squares leave the range of a double, the distance along an axis is a bound too.
-        return double.IsPositiveInfinity(distance) && !bounds.IsEmpty
-            ? Vector.Max(bounds.Minimum - position, position - bounds.Maximum).MaxAbsComponent()
-            : distance;
-    }
-
-    /// <summary>
-    /// Queues the children of a node that are close enough. The closest child is expanded at once while nothing in the queue is closer.
-    /// </summary>
-    /// <returns>Number of boxes tested.</returns>
-    private static int Expand(ObjectBvhNode root, Vector position, double maxDistance, ObjectQueue queue)
-    {
-        var boundTests = 0;
-        for (var node = root; ;)
-        {
-            boundTests += node.ChildCount;
-            var bounds = node.DistanceBounds(position);
-            var isCloseEnough = Vector256.LessThanOrEqual(bounds, Vector256.Create(maxDistance))
-                & Vector256.LessThan(bounds, Vector256.Create(double.PositiveInfinity));
-            var closeSlots = isCloseEnough.ExtractMostSignificantBits();
-            var nearest = queue.Bound;
-            var nearestSlot = -1;
-            for (var slots = closeSlots; slots != 0; slots &= slots - 1)
-            {
-                var slot = BitOperations.TrailingZeroCount(slots);
-                if (bounds[slot] < nearest)
-                {
-                    nearest = bounds[slot];
-                    nearestSlot = slot;
-                }
-            }
-
-            var nearestChild = nearestSlot < 0 ? null : node[nearestSlot] as ObjectBvhNode;
-            for (var slots = closeSlots; slots != 0; slots &= slots - 1)
-            {
-                var slot = BitOperations.TrailingZeroCount(slots);
-                if (nearestChild is null || slot != nearestSlot)
-                {
-                    queue.Add(bounds[slot], ObjectQueue.Untested, node[slot]);
-                }
-            }
-
-            if (nearestChild is null)
-            {
-                return boundTests;
-            }
-
-            node = nearestChild;
-        }
+        return search.TryGetResult(out closest, out objectIndex);
     }
 
     /// <summary>The objects with a hierarchy that is worth its cost, which the first query builds.</summary>

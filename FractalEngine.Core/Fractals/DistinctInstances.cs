@@ -16,8 +16,8 @@ public static class DistinctInstances
     /// <summary>Counts the distinct instances of a fractal.</summary>
     /// <param name="fractal">Fractal of any composition and depth.</param>
     /// <param name="budget">
-    /// Maximum number of distinct instances of a level that are enumerated, whatever the number of chains; null for
-    /// <see cref="FractalLimits.MaxEnumeratedInstances"/>.
+    /// Maximum number of chains that are expanded, and where there are more, of distinct instances of a level; null for
+    /// <see cref="FractalLimits.MaxCountedInstances"/> and <see cref="FractalLimits.MaxEnumeratedInstances"/>.
     /// </param>
     /// <returns>The exact number; null for an infinite fractal, or if there are too many to enumerate and no proof succeeds.</returns>
     public static BigInteger? Count(Fractal fractal, long? budget = null)
@@ -28,11 +28,12 @@ public static class DistinctInstances
         }
 
         var maxInstances = budget ?? FractalLimits.MaxEnumeratedInstances;
+        var maxChains = budget ?? FractalLimits.MaxCountedInstances;
         if (fractal.Description.Composition == Composition.Affine)
         {
             return AreProvedDistinct(fractal) ? fractal.InstanceCount
-                : FractalSteps.HasAtMostInstances(fractal.Description.Steps, maxInstances)
-                    ? FractalGenerator.Expand(fractal, maxInstances).Length
+                : FractalSteps.HasAtMostInstances(fractal.Description.Steps, maxChains)
+                    ? FractalGenerator.ExpandAffine(fractal, maxChains).Length
                 : FractalGenerator.TryExpandLevels(fractal, maxInstances)?.Length;
         }
 

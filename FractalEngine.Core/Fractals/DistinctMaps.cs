@@ -1,5 +1,6 @@
-using System.Runtime.InteropServices;
+using System.Numerics;
 using FractalEngine.Core.Maths;
+using Vector = FractalEngine.Core.Maths.Vector;
 
 namespace FractalEngine.Core.Fractals;
 
@@ -23,7 +24,8 @@ internal static class DistinctMaps
     private const double TolerancesPerCell = 65521.7;
 
     /// <summary>Keeps the first of each group of equal maps, in order.</summary>
-    public static AffineMap[] Deduplicate(AffineMap[] maps) => Distinct(maps, WriteMap);
+    /// <param name="maps">Changed: its room is used.</param>
+    public static ReadOnlyMemory<AffineMap> Deduplicate(AffineMap[] maps) => Distinct(maps, WriteMap);
 
     /// <summary>
     /// Keeps the first of each group of equal products m1·m2, in the order of <see cref="FractalGenerator.ConcatenatePair"/>: the same maps
@@ -33,8 +35,9 @@ internal static class DistinctMaps
     /// <param name="inner">The maps m2.</param>
     /// <param name="maxCount">Maximum number of distinct products.</param>
     /// <returns>The distinct products; null if there are more.</returns>
-    public static AffineMap[]? DeduplicateProducts(ReadOnlySpan<AffineMap> outer, ReadOnlySpan<AffineMap> inner, long maxCount) =>
-        DistinctProducts(outer, inner, static (in AffineMap m1, in AffineMap m2) => m1 * m2, WriteMap, maxCount);
+    public static ReadOnlyMemory<AffineMap>? DeduplicateProducts(
+        ReadOnlySpan<AffineMap> outer, ReadOnlySpan<AffineMap> inner, long maxCount) => DistinctProducts(
+            outer, inner, static (in AffineMap m1, in AffineMap m2) => m1 * m2, WriteMap, maxCount);
 
     /// <summary>
     /// Keeps the first of each group of equal componentwise compositions, without an array of all pairs: those of the first transformation
@@ -45,13 +48,13 @@ internal static class DistinctMaps
     /// <param name="maxCount">Maximum number of distinct sums.</param>
     /// <returns>The distinct sums; null if there are more.</returns>
     /// <remarks>Angles are compared as numbers, so 360° differs from 0°.</remarks>
-    public static Transformation[]? DeduplicateSums(
+    public static ReadOnlyMemory<Transformation>? DeduplicateSums(
         ReadOnlySpan<Transformation> transformations, ReadOnlySpan<Transformation> sums, long maxCount) => DistinctProducts(
             transformations, sums,
             static (in Transformation added, in Transformation sum) => Transformation.ComposeComponentwise(sum, added),
             WriteTransformation, maxCount);
 
-    private static T[]? DistinctProducts<T>(
+    private static ReadOnlyMemory<T>? DistinctProducts<T>(
         ReadOnlySpan<T> outer, ReadOnlySpan<T> inner, Composer<T> compose, EntryWriter<T> write, long maxCount)
     {
         // All products are multiplied twice, since the tolerance depends on the largest entries.
@@ -67,7 +70,9 @@ internal static class DistinctMaps
         }
 
         ShareWithinTriples(maxEntries);
-        var grid = new HashGrid<T>(write, maxEntries, Math.Max(outer.Length, inner.Length));
+        // Not more than one beyond the limit, and without growing, which would leave garbage as large.
+        var room = Math.Min(((long)outer.Length * inner.Length) - 1, maxCount) + 1;
+        var grid = new HashGrid<T>(write, maxEntries, GC.AllocateUninitializedArray<T>((int)Math.Clamp(room, 1, Array.MaxLength)));
         foreach (ref readonly var m1 in outer)
         {
             foreach (ref readonly var m2 in inner)
@@ -80,7 +85,7 @@ internal static class DistinctMaps
             }
         }
 
-        return grid.ToArray();
+        return grid.Items;
     }
 
     private static void WriteTransformation(in Transformation transformation, Span<double> entries)
@@ -110,8 +115,13 @@ internal static class DistinctMaps
         entries[2] = v.Z;
     }
 
-    private static T[] Distinct<T>(T[] items, EntryWriter<T> write)
+    private static ReadOnlyMemory<T> Distinct<T>(T[] items, EntryWriter<T> write)
     {
+        if (items.Length == 0)
+        {
+            return items;
+        }
+
         Span<double> maxEntries = stackalloc double[EntryCount];
         Span<double> entries = stackalloc double[EntryCount];
         foreach (ref readonly var item in items.AsSpan())
@@ -121,13 +131,13 @@ internal static class DistinctMaps
         }
 
         ShareWithinTriples(maxEntries);
-        var grid = new HashGrid<T>(write, maxEntries, items.Length);
+        var grid = new HashGrid<T>(write, maxEntries, items);
         foreach (ref readonly var item in items.AsSpan())
         {
             grid.Add(item);
         }
 
-        return grid.Count == items.Length ? items : grid.ToArray();
+        return grid.Items;
     }
 
     private static void TakeLarger(Span<double> maxEntries, ReadOnlySpan<double> entries)
@@ -147,40 +157,73 @@ internal static class DistinctMaps
         }
     }
 
-    /// <summary>A hash table over the cells of a grid in the space of all entries.</summary>
-    private readonly ref struct HashGrid<T>(EntryWriter<T> write, ReadOnlySpan<double> maxEntries, int capacity)
+    /// <summary>A hash table over the cells of a grid in the space of all entries. It keeps items only, and no hashes of them.</summary>
+    private ref struct HashGrid<T>
     {
         // The offset basis of the hash FNV-1a.
         private const ulong Seed = 14695981039346656037;
 
-        private readonly ReadOnlySpan<double> _maxEntries = maxEntries;
-        private readonly Dictionary<ulong, int> _firstOfCell = new(capacity);
-        private readonly List<int> _nextOfCell = new(capacity);
-        private readonly List<T> _distinct = new(capacity);
+        private readonly EntryWriter<T> _write;
+        private readonly ReadOnlySpan<double> _maxEntries;
+        private readonly T[] _items;
+
+        // The next item whose hash begins with the same bits, and the first one of each such chain; −1 for none.
+        private readonly int[] _next;
+        private readonly int[] _first;
+
+        /// <summary>Makes an empty table.</summary>
+        /// <param name="write">Writes the entries of an item.</param>
+        /// <param name="maxEntries">The largest entry of each kind, in size.</param>
+        /// <param name="items">Room for all distinct items, not empty. It may hold the items that will be added, in that order.</param>
+        public HashGrid(EntryWriter<T> write, ReadOnlySpan<double> maxEntries, T[] items)
+        {
+            _write = write;
+            _maxEntries = maxEntries;
+            _items = items;
+            _next = GC.AllocateUninitializedArray<int>(items.Length);
+            _first = EmptyChains(items.Length);
+        }
 
         /// <summary>Number of distinct items so far.</summary>
-        public int Count => _distinct.Count;
+        public int Count { get; private set; }
 
-        /// <summary>The distinct items, in the order in which they were added.</summary>
-        public T[] ToArray() => [.. _distinct];
+        /// <summary>The distinct items, in the order in which they were added. Not copied.</summary>
+        public readonly ReadOnlyMemory<T> Items => _items.AsMemory(0, Count);
 
-        /// <summary>Adds an item, unless an equal one was added before.</summary>
+        /// <summary>Adds an item for which there is room, unless an equal one was added before.</summary>
         public void Add(in T item)
         {
             Span<double> entries = stackalloc double[EntryCount];
             Span<double> other = stackalloc double[EntryCount];
-            write(item, entries);
-            if (!Contains(entries, 0, Seed, other))
+            _write(item, entries);
+            if (Contains(entries, 0, Seed, other))
             {
-                ref var first = ref CollectionsMarshal.GetValueRefOrAddDefault(_firstOfCell, Hash(entries), out var exists);
-                _nextOfCell.Add(exists ? first : -1);
-                first = _distinct.Count;
-                _distinct.Add(item);
+                return;
             }
+
+            _items[Count] = item;
+            Link(Count++, Hash(entries));
         }
 
+        private static int[] EmptyChains(int capacity)
+        {
+            var first = GC.AllocateUninitializedArray<int>((int)BitOperations.RoundUpToPowerOf2((uint)capacity));
+            first.AsSpan().Fill(-1);
+            return first;
+        }
+
+        private readonly void Link(int index, ulong hash)
+        {
+            ref var first = ref ChainOf(hash);
+            _next[index] = first;
+            first = index;
+        }
+
+        // The high bits are mixed best.
+        private readonly ref int ChainOf(ulong hash) => ref _first[(int)(hash >> 32) & (_first.Length - 1)];
+
         /// <summary>Computes the cell of an entry, and the entry's offset from the cell's centre, from −½ to ½ cells.</summary>
-        private (long Cell, double Offset) Quantize(double entry, int index)
+        private readonly (long Cell, double Offset) Quantize(double entry, int index)
         {
             var size = TolerancesPerCell * RelativeTolerance * _maxEntries[index];
             var position = size > 0 ? entry / size : 0;
@@ -194,7 +237,7 @@ internal static class DistinctMaps
             return hash ^ (hash >> 29);
         }
 
-        private ulong Hash(ReadOnlySpan<double> entries)
+        private readonly ulong Hash(ReadOnlySpan<double> entries)
         {
             var hash = Seed;
             for (var i = 0; i < EntryCount; i++)
@@ -210,7 +253,7 @@ internal static class DistinctMaps
         /// <param name="index">Number of the entries that are in the hash already.</param>
         /// <param name="hash">Hash of the cells of these entries.</param>
         /// <param name="other">Memory for the entries of another item.</param>
-        private bool Contains(ReadOnlySpan<double> entries, int index, ulong hash, Span<double> other)
+        private readonly bool Contains(ReadOnlySpan<double> entries, int index, ulong hash, Span<double> other)
         {
             for (; index < EntryCount; index++)
             {
@@ -224,14 +267,9 @@ internal static class DistinctMaps
                 hash = CombineHash(hash, cell);
             }
 
-            if (!_firstOfCell.TryGetValue(hash, out var candidate))
+            for (var candidate = ChainOf(hash); candidate >= 0; candidate = _next[candidate])
             {
-                return false;
-            }
-
-            for (; candidate >= 0; candidate = _nextOfCell[candidate])
-            {
-                write(_distinct[candidate], other);
+                _write(_items[candidate], other);
                 if (AreEqual(entries, other))
                 {
                     return true;
@@ -241,7 +279,7 @@ internal static class DistinctMaps
             return false;
         }
 
-        private bool AreEqual(ReadOnlySpan<double> entries, ReadOnlySpan<double> other)
+        private readonly bool AreEqual(ReadOnlySpan<double> entries, ReadOnlySpan<double> other)
         {
             for (var i = 0; i < EntryCount; i++)
             {

@@ -16,8 +16,8 @@ namespace FractalEngine.Core.Fractals;
 public static class FractalBounds
 {
     private const int MaxSearchedNodes = 20_000;
+    private const long MaxEnumeratedVertices = 10_000_000;
     private const double RelativeTolerance = 1e-13;
-    private static long MaxEnumeratedVertices => 20L * FractalLimits.MaxEnumeratedInstances;
 
     /// <summary>Computes a box that holds all instances of a fractal, in its own frame.</summary>
     public static BoundingBox ComputeBox(Fractal fractal) => fractal switch
@@ -26,11 +26,42 @@ public static class FractalBounds
         _ when FractalSteps.CountUpTo(fractal.Description.Steps, 1).IsZero => BoundingBox.Empty,
         { Description.Composition: Composition.Componentwise } => ComputeComponentwiseBox(fractal),
         _ when LevelBoxes.AreExact(fractal.Description.Steps) => LevelBoxes.ComputeBox(fractal),
+        _ when FindWideSet(fractal) is { } index => ComputeEnumeratedBox(fractal, index),
         _ => ComputeAffineBox(fractal),
     };
 
+    /// <summary>
+    /// Finds the only level with more than one map of a fractal that is one wide set, perhaps under placements; null for others. To search
+    /// its hierarchy would cost a hundred times the memory of its maps.
+    /// </summary>
+    private static int? FindWideSet(Fractal fractal)
+    {
+        var steps = fractal.Description.Steps;
+        var wide = steps.Select((step, index) => (Set: step as TransformationSet, Index: index))
+            .Where(static level => level.Set is not { Maps.Length: 1 }).ToArray();
+        return wide is [{ Set.Maps.Length: > ChildGroups.MaxUngroupedChildren and var count, Index: var index }]
+            && (long)count * fractal.BaseMesh.VertexCount <= MaxEnumeratedVertices
+                ? index
+                : null;
+    }
+
+    private static BoundingBox ComputeEnumeratedBox(Fractal fractal, int wideIndex)
+    {
+        var steps = fractal.Description.Steps;
+        var outer = steps[..wideIndex].Aggregate(AffineMap.Identity, static (map, step) => map * ((TransformationSet)step).Maps[0]);
+        var inner = steps[(wideIndex + 1)..].Aggregate(AffineMap.Identity, static (map, step) => map * ((TransformationSet)step).Maps[0]);
+        var box = BoundingBox.Empty;
+        foreach (var map in ((TransformationSet)steps[wideIndex]).Maps)
+        {
+            box = BoundingBox.Union(box, fractal.BaseMesh.ComputeBounds(outer * map * inner));
+        }
+
+        return box;
+    }
+
     private static BoundingBox ComputeAffineBox(Fractal fractal)
     {
+        var search = new FarthestPointSearch(fractal);
         try
         {
             return new(
@@ -44,7 +75,7 @@ public static class FractalBounds
         }
 
         double Support(Vector direction) =>
-            FarthestPointSearch.Run(fractal, AffineMap.Identity, new SupportMeasure(direction), RelativeTolerance, MaxSearchedNodes);
+            search.Run(AffineMap.Identity, new SupportMeasure(direction), RelativeTolerance, MaxSearchedNodes);
     }
 
     /// <summary>Measures how far points reach in a direction.</summary>
@@ -63,6 +94,9 @@ public static class FractalBounds
 
             return support + Vector.Dot(direction, map.Translation);
         }
+
+        public (Vector Direction, double Offset)? Key(in AffineMap map) =>
+            (map.Linear.Transpose() * direction, Vector.Dot(direction, map.Translation));
     }
 
     /// <summary>Computes the box of all vertices of the enumerated sums where they are few, else a box that may be wider.</summary>

@@ -29,11 +29,21 @@ public static class FractalGenerator
             return [.. ExpandComponentwise(fractal, maxInstances).Select(transformation => transformation.ToAffineMap())];
         }
 
+        var instances = ExpandAffine(fractal, maxInstances);
+        return MemoryMarshal.TryGetArray(instances, out var segment) && segment.Array!.Length == instances.Length
+            ? ImmutableCollectionsMarshal.AsImmutableArray(segment.Array)
+            : [.. instances.Span];
+    }
+
+    /// <summary>As <see cref="Expand"/>, of a fractal in affine composition, without a copy of the result.</summary>
+    /// <exception cref="FractalLimitException">The fractal has more instances.</exception>
+    internal static ReadOnlyMemory<AffineMap> ExpandAffine(Fractal fractal, long maxInstances)
+    {
         // What no array holds is refused at once, whatever the caller allows.
         maxInstances = Math.Min(maxInstances, Array.MaxLength);
         if (FractalSteps.CountUpTo(fractal.Description.Steps, maxInstances).IsZero && !fractal.Description.IsInfinite)
         {
-            return [];
+            return default;
         }
 
         if (!FractalSteps.HasAtMostInstances(fractal.Description.Steps, maxInstances) || fractal.Description.IsInfinite)
@@ -42,19 +52,19 @@ public static class FractalGenerator
         }
 
         var isProvedDistinct = DistinctInstances.AreProvedDistinct(fractal);
-        AffineMap[] instances = [AffineMap.Identity];
+        ReadOnlyMemory<AffineMap> instances = new[] { AffineMap.Identity };
         for (var level = 0L; level < fractal.LevelCount; level++)
         {
             var set = fractal.LevelAt(level);
             // A level of the identity alone changes nothing; a recursion of a million levels may consist of them.
             if (set.Maps is not [var only] || only != AffineMap.Identity)
             {
-                var pairs = ConcatenatePair(instances, set.Maps.AsSpan(), static (m1, m2) => m1 * m2);
+                var pairs = ConcatenatePair(instances.Span, set.Maps.AsSpan(), static (m1, m2) => m1 * m2);
                 instances = isProvedDistinct ? pairs : DistinctMaps.Deduplicate(pairs);
             }
         }
 
-        return ImmutableCollectionsMarshal.AsImmutableArray(instances);
+        return instances;
     }
 
     /// <summary>
@@ -96,7 +106,7 @@ public static class FractalGenerator
             return null;
         }
 
-        AffineMap[]? instances = [AffineMap.Identity];
+        ReadOnlyMemory<AffineMap> instances = new[] { AffineMap.Identity };
         var products = 0L;
         for (var level = 0L; level < fractal.LevelCount; level++)
         {
@@ -107,16 +117,16 @@ public static class FractalGenerator
             }
 
             products += instances.Length * (long)maps.Length;
-            instances = products <= FractalLimits.MaxComparedProducts
-                ? DistinctMaps.DeduplicateProducts(instances, maps, maxInstances)
-                : null;
-            if (instances is null)
+            if (products > FractalLimits.MaxComparedProducts
+                || DistinctMaps.DeduplicateProducts(instances.Span, maps, maxInstances) is not { } distinct)
             {
                 return null;
             }
+
+            instances = distinct;
         }
 
-        return instances;
+        return instances.ToArray();
     }
 
     private static FractalLimitException LimitError(Fractal fractal, long maxInstances)
@@ -195,7 +205,7 @@ public static class FractalGenerator
         }
 
         maxInstances = Math.Min(maxInstances, FractalLimits.MaxComponentwiseSums);
-        Transformation[] sums = [Transformation.Identity];
+        ReadOnlyMemory<Transformation> sums = new[] { Transformation.Identity };
         var compared = 0L;
         for (var level = 0L; level < levels; level++)
         {
@@ -213,11 +223,11 @@ public static class FractalGenerator
                     $"the sums of all levels are more than the limit of {FractalLimits.MaxComparedProducts} compared ones");
             }
 
-            sums = DistinctMaps.DeduplicateSums(set.AsSpan(), sums, maxInstances) ?? throw new FractalLimitException(
+            sums = DistinctMaps.DeduplicateSums(set.AsSpan(), sums.Span, maxInstances) ?? throw new FractalLimitException(
                 $"componentwise composition of the fractal has more than {maxInstances} distinct sums");
         }
 
-        return ImmutableCollectionsMarshal.AsImmutableArray(sums);
+        return [.. sums.Span];
     }
 
     /// <summary>Composes all pairs of two sets, the paper's concatPair: [m1·m2 | ∀ m1 ∈ set1, ∀ m2 ∈ set2], in that order.</summary>

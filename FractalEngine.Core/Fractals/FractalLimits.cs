@@ -56,25 +56,32 @@ public static class FractalLimits
     /// <summary>Maximum number of faces that are exported, unless stated otherwise: about 3 GB of text.</summary>
     public static long MaxExportedFaces => ExportedFaces.Value;
 
+    /// <summary>The limit of <see cref="MaxCountedInstances"/>.</summary>
+    public static Limit CountedInstances { get; } = new(
+        "counted-instances", 500_000, "instances that are expanded to count the distinct ones", "60 MB");
+
+    /// <summary>Maximum number of instances that are expanded to count the distinct ones: 60 MB.</summary>
+    public static int MaxCountedInstances => (int)CountedInstances.Value;
+
     /// <summary>The limit of <see cref="MaxEnumeratedInstances"/>.</summary>
     public static Limit EnumeratedInstances { get; } = new(
-        "enumerated-instances", 500_000, "distinct instances of a level, where there are more chains", "half a second");
+        "enumerated-instances", 200_000, "distinct instances of a level, where there are more chains", "50 MB");
 
     /// <summary>Maximum number of distinct instances of a level that are enumerated where there are more chains.</summary>
     public static int MaxEnumeratedInstances => (int)EnumeratedInstances.Value;
 
     /// <summary>The limit of <see cref="MaxComparedProducts"/>.</summary>
     public static Limit ComparedProducts { get; } = new(
-        "compared-products", 20_000_000, "products of maps compared to find the distinct ones", "some seconds");
+        "compared-products", 8_000_000, "products of maps compared to find the distinct ones", "two seconds");
 
-    /// <summary>Maximum number of products of maps that are compared to find the distinct ones of all levels: some seconds.</summary>
+    /// <summary>Maximum number of products of maps that are compared to find the distinct ones of all levels: two seconds.</summary>
     public static int MaxComparedProducts => (int)ComparedProducts.Value;
 
     /// <summary>The limit of <see cref="MaxComponentwiseSums"/>.</summary>
     public static Limit ComponentwiseSums { get; } = new(
-        "componentwise-sums", 1_000_000, "distinct sums in componentwise composition", "about 100 MB");
+        "componentwise-sums", 200_000, "distinct sums in componentwise composition", "50 MB");
 
-    /// <summary>Maximum number of distinct sums of componentwise composition: about 100 MB.</summary>
+    /// <summary>Maximum number of distinct sums of componentwise composition: 50 MB.</summary>
     public static int MaxComponentwiseSums => (int)ComponentwiseSums.Value;
 
     /// <summary>The limit of <see cref="MaxHierarchyChildren"/>.</summary>
@@ -84,11 +91,18 @@ public static class FractalLimits
     /// <summary>Maximum number of transformations on all levels that a hierarchy is built of: about 500 MB.</summary>
     public static int MaxHierarchyChildren => (int)HierarchyChildren.Value;
 
+    /// <summary>The limit of <see cref="MaxTracedTests"/>.</summary>
+    public static Limit TracedTests { get; } = new(
+        "traced-tests", 10_000, "bounds and faces that a path of light tests, on average", "ten times what a dense forest takes");
+
+    /// <summary>Maximum number of bounds and faces that a path of light of a traced image tests, on average over some pixels.</summary>
+    public static long MaxTracedTests => TracedTests.Value;
+
     /// <summary>All limits of fractals, in the order of a listing.</summary>
     public static ImmutableArray<Limit> All { get; } =
     [
-        Depth, Levels, Digits, Steps, Nesting, DrawnInstances, ExportedFaces, EnumeratedInstances,
-        ComparedProducts, ComponentwiseSums, HierarchyChildren,
+        Depth, Levels, Digits, Steps, Nesting, DrawnInstances, ExportedFaces, CountedInstances, EnumeratedInstances,
+        ComparedProducts, ComponentwiseSums, HierarchyChildren, TracedTests,
     ];
 
     /// <summary>

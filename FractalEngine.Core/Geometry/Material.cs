@@ -28,19 +28,19 @@ public sealed record Material(string Name)
     /// <summary><c>map_Kd</c>: the diffuse texture; null where there is none.</summary>
     public MaterialTexture? Texture { get; init; }
 
-    /// <summary><c>map_Ke</c>: a texture of emitted light; null where there is none. It is kept, and not drawn yet.</summary>
+    /// <summary><c>map_Ke</c>: a texture of emitted light; null where there is none. It is kept, and not shown yet.</summary>
     public MaterialTexture? EmissionTexture { get; init; }
 
-    /// <summary><c>map_Bump</c>: a texture of heights; null where there is none. It is kept, and not drawn yet.</summary>
+    /// <summary><c>map_Bump</c>: a texture of heights; null where there is none. It is shown in traced images only.</summary>
     public MaterialTexture? BumpTexture { get; init; }
 
-    /// <summary><c>norm</c>: a texture of normals in tangent space; null where there is none. It is kept, and not drawn yet.</summary>
+    /// <summary><c>norm</c>: a texture of normals in tangent space; null where there is none. It is shown in traced images only.</summary>
     public MaterialTexture? NormalTexture { get; init; }
 
-    /// <summary><c>Pr</c>: the roughness, from 0 (smooth) to 1; null where there is none. It is kept, and not drawn yet.</summary>
+    /// <summary><c>Pr</c>: the roughness, from 0 (smooth) to 1; null where there is none. It is shown in traced images only.</summary>
     public double? Roughness { get; init; }
 
-    /// <summary><c>Pm</c>: the share of metal, from 0 to 1; null where there is none. It is kept, and not drawn yet.</summary>
+    /// <summary><c>Pm</c>: the share of metal, from 0 to 1; null where there is none. It is shown in traced images only.</summary>
     public double? Metalness { get; init; }
 
     /// <summary>

@@ -25,7 +25,7 @@ internal static class BodyRadius
         return placed.Model switch
         {
             FractalModel { Fractal: { Description.Composition: Composition.Affine } fractal } =>
-                Math.Max(0, FarthestPointSearch.Run(fractal, linear, new DistanceFromOrigin(), RelativeTolerance, MaxNodes)),
+                Math.Max(0, new FarthestPointSearch(fractal).Run(linear, new DistanceFromOrigin(), RelativeTolerance, MaxNodes)),
             FractalModel { Fractal: var fractal } => FractalGenerator.Expand(fractal, FractalLimits.MaxDrawnInstances)
                 .Max(instance => MaxVertexDistance(fractal.BaseMesh, linear * instance)),
             _ => MaxVertexDistance(placed.Model.Mesh, linear),
@@ -38,6 +38,8 @@ internal static class BodyRadius
         public double UpperBound(SubFractal subFractal, in AffineMap map) => MaxCornerDistance(subFractal.Box, map);
 
         public double Largest(Mesh mesh, in AffineMap map) => MaxVertexDistance(mesh, map);
+
+        public (Vector Direction, double Offset)? Key(in AffineMap map) => null;
     }
 
     private static double MaxCornerDistance(BoundingBox box, AffineMap map)

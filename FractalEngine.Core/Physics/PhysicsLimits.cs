@@ -1,4 +1,6 @@
 using System.Collections.Immutable;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes;
 
 namespace FractalEngine.Core.Physics;
 
@@ -12,8 +14,26 @@ public static class PhysicsLimits
     /// <summary>Maximum number of bodies whose centres begin within a cube as wide as a radius.</summary>
     public static int MaxBodiesAtOnePlace => (int)BodiesAtOnePlace.Value;
 
+    /// <summary>Largest coordinate of positions, velocities and gravity in size: the squares of larger ones leave a double.</summary>
+    public const double MaxCoordinate = 1e150;
+
     /// <summary>All limits of physics, in the order of a listing.</summary>
     public static ImmutableArray<Limit> All { get; } = [BodiesAtOnePlace];
+
+    /// <summary>Throws where gravity, or a body, is beyond <see cref="MaxCoordinate"/>: such a body would stand still for ever.</summary>
+    /// <exception cref="FractalEngineException">
+    /// The limit is exceeded; the message names it, and the body. For a body of the scene it is a <see cref="SceneObjectException"/>.
+    /// </exception>
+    public static void RequireRange(PhysicsWorld world)
+    {
+        ArgumentNullException.ThrowIfNull(world);
+        Require(world.Gravity, "gravity");
+        foreach (var body in world.Bodies)
+        {
+            Require(body.Position, "the position", body);
+            Require(body.Velocity, "the velocity", body);
+        }
+    }
 
     /// <summary>Throws where more bodies than <see cref="MaxBodiesAtOnePlace"/> begin at one place.</summary>
     /// <exception cref="FractalEngineException">The limit is exceeded; the message names it.</exception>
@@ -34,5 +54,18 @@ public static class PhysicsLimits
             throw new FractalEngineException(
                 ErrorKind.Limit, $"{mostInCube} bodies begin at one place, more than the limit of {MaxBodiesAtOnePlace}");
         }
+    }
+
+    private static void Require(Vector vector, string name, Body? body = null)
+    {
+        if (vector.MaxAbsComponent() <= MaxCoordinate)
+        {
+            return;
+        }
+
+        var message = $"{name}{(body is null ? "" : $" of body {body.Name}")} is beyond the limit of 1e150 of physics";
+        throw body?.Description.ObjectIndex is { } index
+            ? new SceneObjectException(index, ErrorKind.Limit, message)
+            : new FractalEngineException(ErrorKind.Limit, message);
     }
 }

@@ -28,6 +28,10 @@ internal sealed class SkyMaskBaker
     private const double MaxErrorRatio = 0.7;
     private const double MaxLoss = 0.05;
 
+    // So many lines of sight tell how many nodes rays enter, and the most that they may enter on average.
+    private const int ProbedLines = 30;
+    private const long MaxMeanVisits = 500;
+
     private readonly SkyOccluder _occluder;
 
     private readonly LodHierarchy _hierarchy;
@@ -57,7 +61,38 @@ internal sealed class SkyMaskBaker
             return false;
         }
 
-        return new SkyMaskBaker(occluder, hierarchy).Bake(keepsAll, cancellation);
+        var baker = new SkyMaskBaker(occluder, hierarchy);
+        return baker.IsAffordable() && baker.Bake(keepsAll, cancellation);
+    }
+
+    /// <summary>
+    /// Tells by some lines of sight whether rays enter few nodes. Where the parts of a fractal overlap, level within level, they enter
+    /// nearly all, and the masks would take hours.
+    /// </summary>
+    private bool IsAffordable()
+    {
+        if (_occluder.Nodes is not [var (whole, levels), ..])
+        {
+            return true;
+        }
+
+        var random = new Random(0);
+        var sample = new SkySample();
+        var visitCount = 0L;
+        var rayCount = 0;
+        for (var i = 0; i < ProbedLines && visitCount <= MaxMeanVisits * ProbedLines; i++)
+        {
+            var isFound = _occluder.TrySample(whole, levels, random, sample);
+            visitCount += sample.VisitCount;
+            rayCount++;
+            if (isFound)
+            {
+                var above = SkyDirections.Above(sample.Normal);
+                _occluder.FreeDirections(whole, levels, -1, sample.Point, above, ref visitCount);
+                rayCount += BitOperations.PopCount(above);
+            }
+        }
+        return visitCount <= MaxMeanVisits * rayCount;
     }
 
     private static bool IsFlat(BoundingBox box) =>
@@ -150,6 +185,7 @@ internal sealed class SkyMaskBaker
         var random = new Random(0);
         var path = new SkyPath();
         var sample = new SkySample();
+        var visitCount = 0L;
         Span<float> parts = stackalloc float[SkySides.Count];
         // By the side that the lines come from: what is right on the whole may be wrong on the one side that an image shows.
         Span<double> gains = stackalloc double[SkySides.Count];
@@ -158,7 +194,7 @@ internal sealed class SkyMaskBaker
         {
             if (_occluder.TrySample(node, levels, random, sample))
             {
-                var free = _occluder.FreeDirections(node, levels, -1, sample.Point, SkyDirections.Above(sample.Normal));
+                var free = _occluder.FreeDirections(node, levels, -1, sample.Point, SkyDirections.Above(sample.Normal), ref visitCount);
                 var truth = SkyDirections.VisiblePart(free, SkyDirections.NearestNormal(SimdAffineMap.ToVector256(sample.Normal)));
                 path.Set(sample.Steps);
                 path.ComputeParts(_hierarchy, sample.Leaf!, sample.Steps.Count, parts);
@@ -226,6 +262,7 @@ internal sealed class SkyMaskBaker
     private void Vote(LodNode node, long levels, SkyMasks.Child[] data, Random random, int[][] votes)
     {
         var sample = new SkySample();
+        var visitCount = 0L;
         var hasVoted = new HashSet<(int Child, int Place)>();
         for (var draw = 0; draw < DrawsPerChild * data.Length; draw++)
         {
@@ -245,7 +282,7 @@ internal sealed class SkyMaskBaker
             }
 
             var above = SkyDirections.Above(sample.Normal);
-            var free = _occluder.FreeDirections(node, levels, child, sample.Point, above);
+            var free = _occluder.FreeDirections(node, levels, child, sample.Point, above, ref visitCount);
             for (var rest = above; rest != 0; rest &= rest - 1)
             {
                 var direction = BitOperations.TrailingZeroCount(rest);

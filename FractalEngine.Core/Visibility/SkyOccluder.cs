@@ -18,6 +18,9 @@ internal sealed class SkyOccluder
     private const double MaxLastSize = 1.0 / 9;
     private const long MaxLastLevels = 10;
 
+    // A ray that enters more nodes goes no further. Where parts overlap, level within level, it would enter nearly all of them.
+    private const int MaxVisits = 20_000;
+
     private readonly LodHierarchy _hierarchy;
     private readonly int _windingSign;
     private readonly Dictionary<(LodNode, long), Solid> _solids = [];
@@ -57,14 +60,18 @@ internal sealed class SkyOccluder
     /// <param name="excludedChild">Index of the child that stops none; −1 for none.</param>
     /// <param name="point">Where the rays begin, in the node's frame.</param>
     /// <param name="directions">Directions to test.</param>
-    public ulong FreeDirections(LodNode node, long levels, int excludedChild, Vector point, ulong directions)
+    /// <param name="visitCount">Receives how many nodes the rays have entered in addition.</param>
+    public ulong FreeDirections(
+        LodNode node, long levels, int excludedChild, Vector point, ulong directions, ref long visitCount)
     {
         var solid = SolidOf(node, levels);
         var free = 0ul;
         for (var rest = directions; rest != 0; rest &= rest - 1)
         {
             var i = BitOperations.TrailingZeroCount(rest);
-            free |= IsBlocked(solid, excludedChild, point, SkyDirections.At(i), 1) ? 0 : 1ul << i;
+            var remainingVisits = MaxVisits;
+            free |= IsBlocked(solid, excludedChild, point, SkyDirections.At(i), 1, ref remainingVisits) ? 0 : 1ul << i;
+            visitCount += MaxVisits - remainingVisits;
         }
 
         return free;
@@ -153,6 +160,11 @@ internal sealed class SkyOccluder
     private void FindNearest(
         LodNode node, long levels, Vector origin, Vector direction, AffineMap toRoot, double size, int depth, SkySample sample)
     {
+        if (++sample.VisitCount > MaxVisits)
+        {
+            return;
+        }
+
         if (node.ChildMaps.Length == 0 || size < MinRelativeSize)
         {
             FindNearestTriangle(node, origin, direction, toRoot, depth, sample);
@@ -187,7 +199,8 @@ internal sealed class SkyOccluder
     }
 
     /// <summary>Tells whether a ray hits a child of a node, all in the node's frame.</summary>
-    private bool IsBlocked(Solid solid, int excludedChild, Vector origin, Vector direction, double size)
+    private bool IsBlocked(
+        Solid solid, int excludedChild, Vector origin, Vector direction, double size, ref int remainingVisits)
     {
         var inverseDirection = new Vector(1 / direction.X, 1 / direction.Y, 1 / direction.Z);
         for (var i = 0; i < solid.Boxes.Length; i++)
@@ -197,12 +210,19 @@ internal sealed class SkyOccluder
                 continue;
             }
 
+            if (remainingVisits == 0)
+            {
+                return false;
+            }
+
+            remainingVisits--;
+
             var (child, childLevels) = solid.Children[i];
             var (childOrigin, childDirection) = (solid.Inverses[i] * origin, solid.Inverses[i].Linear * direction);
             var childSize = size * solid.SizeRatios[i];
             if (child.ChildMaps.Length == 0 || childSize < MinRelativeSize
                 ? HitsMesh(child, childOrigin, childDirection)
-                : IsBlocked(SolidOf(child, childLevels), -1, childOrigin, childDirection, childSize))
+                : IsBlocked(SolidOf(child, childLevels), -1, childOrigin, childDirection, childSize, ref remainingVisits))
             {
                 return true;
             }

@@ -32,11 +32,15 @@ internal sealed class SkySample
     /// <summary>The children that lead to the surface.</summary>
     public IReadOnlyList<SkyStep> Steps => _nearestSteps;
 
+    /// <summary>Number of nodes that the line of sight has entered.</summary>
+    public int VisitCount { get; set; }
+
     /// <summary>Forgets what was found, and looks in another direction.</summary>
     public void Begin(Vector direction)
     {
         Direction = direction;
         Leaf = null;
+        VisitCount = 0;
         Distance = double.PositiveInfinity;
     }
 

@@ -156,7 +156,26 @@ public sealed class AssetLoader
             }
         }
 
-        return CreateLoadedFile(FileKind.Scene, LoadedScene.Of(parsed.Scene with { Objects = objects.ToImmutable() }), parsed);
+        var scene = LoadedScene.Of(parsed.Scene with { Objects = objects.ToImmutable() });
+        if (_errors.Count == 0)
+        {
+            RequireFiniteBounds(scene, parsed);
+        }
+
+        return CreateLoadedFile(FileKind.Scene, scene, parsed);
+    }
+
+    /// <summary>Throws for an object whose placement takes it beyond the numbers that there are.</summary>
+    private static void RequireFiniteBounds(LoadedScene scene, ParsedScene parsed)
+    {
+        foreach (var (placed, offset) in scene.Objects.Zip(parsed.FileNameOffsets))
+        {
+            if (!placed.Bounds.IsEmpty && !(placed.Bounds.Minimum.IsFinite() && placed.Bounds.Maximum.IsFinite()))
+            {
+                throw parsed.Source.Error(
+                    offset, "the placement takes the object beyond 1.8e308, the limit of a coordinate", isLimitExceeded: true);
+            }
+        }
     }
 
     private Model LoadReferenced(SourceText source, int offset, string file)
@@ -206,7 +225,7 @@ public sealed class AssetLoader
         var fractal = new Fractal(description, contents.Mesh) { BaseMeshPath = basePath };
         if (FractalCheck.FindBoundsFault(fractal) is { } fault)
         {
-            throw parsed.Source.Error(parsed.ResultOffset, fault);
+            throw parsed.Source.Error(parsed.ResultOffset, fault, isLimitExceeded: !description.IsInfinite);
         }
 
         var byteCount = parsed.Source.ByteCount + contents.ByteCount;

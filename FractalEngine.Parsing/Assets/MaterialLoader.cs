@@ -1,6 +1,7 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Files;
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Images;
 using FractalEngine.Parsing.Meshes;
 using FractalEngine.Parsing.Text;
 
@@ -264,8 +265,8 @@ internal sealed class MaterialLoader(
                     isLimitExceeded: true);
             }
 
-            var isTga = Path.GetExtension(fullPath).Equals(".tga", StringComparison.OrdinalIgnoreCase);
-            if (ImageSizeReader.Read(stream, isTga) is not ( > 0 and var width, > 0 and var height))
+            var isTga = ImageHeader.IsTga(fullPath);
+            if (ImageHeader.Read(stream, isTga) is not { Width: > 0 and var width, Height: > 0 and var height } header)
             {
                 throw source.Error(offset, $"\"{file}\" is not a PNG, JPEG, BMP or TGA image");
             }
@@ -282,6 +283,11 @@ internal sealed class MaterialLoader(
                 throw source.Error(offset,
                     $"with \"{file}\" all images have more than the limit of {ParsingLimits.MaxTotalImagePixels} pixels",
                     isLimitExceeded: true);
+            }
+
+            if (header.FindFault(stream.Length) is { } fault)
+            {
+                throw source.Error(offset, $"the image \"{file}\" {fault}");
             }
 
             _totalPixels += width * height;

@@ -72,7 +72,7 @@ public sealed partial class FractalParser
 
         // Each parameter has a value of its own, by which it is recognised in the outputs.
         var markers = Enumerable.Range(0, function.ParameterCount)
-            .Select(static i => new Vector(i + 2, -i - 3, i + 4)).ToImmutableArray();
+            .Select(static i => new Vector(i + 2, -i - 3, i + 4)).ToArray();
         ReadOnlySpan<Vector> outputs = [function.Position(markers), function.Rotation(markers), function.Scale(markers)];
         for (var output = 0; output < outputs.Length; output++)
         {

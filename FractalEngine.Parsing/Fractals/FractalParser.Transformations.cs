@@ -12,6 +12,9 @@ public sealed partial class FractalParser
 {
     private const int MaxParameters = 3;
 
+    // The arguments of the call that is read.
+    private readonly Vector[] _arguments = new Vector[MaxParameters];
+
     /// <summary>Parses <c>t.a.b. (out, out, out)</c>; each output is a parameter, the number of a vector, or '#'.</summary>
     private bool ParseFunction(Cursor cursor, out Cursor rest)
     {
@@ -65,7 +68,7 @@ public sealed partial class FractalParser
     }
 
     private bool ParseOutput(
-        Cursor cursor, List<string> parameters, Vector defaultValue, out Func<ImmutableArray<Vector>, Vector> output, out Cursor rest)
+        Cursor cursor, List<string> parameters, Vector defaultValue, out Func<Vector[], Vector> output, out Cursor rest)
     {
         output = _ => defaultValue;
         rest = cursor;
@@ -130,12 +133,13 @@ public sealed partial class FractalParser
     /// <summary>Parses a set of calls: <c>[#, t.1, u.6.10]</c>.</summary>
     private bool ParseSet(Cursor cursor, out TransformationSet set, out Cursor rest)
     {
-        var transformations = ImmutableArray.CreateBuilder<Transformation>();
         set = new([]);
         if (!ParseChar(cursor, '[', out rest) || !ParseBlanks(rest, out rest))
         {
             return false;
         }
+
+        var transformations = ImmutableArray.CreateBuilder<Transformation>(Math.Min(CountCalls(rest), ParsingLimits.MaxMaps));
 
         for (var first = true; rest.Current != ']'; first = false)
         {
@@ -156,6 +160,23 @@ public sealed partial class FractalParser
         return ParseChar(rest, ']', out rest);
     }
 
+    /// <summary>Counts what may be the calls of a set, so that wide sets are collected without copies.</summary>
+    private static int CountCalls(Cursor cursor)
+    {
+        var end = cursor.Rest.IndexOfAny(']', '\n', '\r');
+        var text = end < 0 ? cursor.Rest : cursor.Rest[..end];
+        var count = 0;
+        var isBetween = true;
+        foreach (var character in text)
+        {
+            var isSeparator = character is ',' or ' ' or '\t';
+            count += isBetween && !isSeparator ? 1 : 0;
+            isBetween = isSeparator;
+        }
+
+        return count;
+    }
+
     /// <summary>Parses <c>#</c>, or a function with the numbers of its arguments: <c>t.4</c>, <c>u.6.10</c>, <c>r.</c></summary>
     private bool ParseCall(Cursor cursor, out Transformation transformation, out Cursor rest)
     {
@@ -173,7 +194,7 @@ public sealed partial class FractalParser
         }
 
         var function = FindFunction(cursor, name);
-        var arguments = ImmutableArray.CreateBuilder<Vector>(MaxParameters);
+        var argumentCount = 0;
         if (!ParseChar(rest, '.', out rest))
         {
             return false;
@@ -187,8 +208,13 @@ public sealed partial class FractalParser
                 return false;
             }
 
-            ListArgument(name, start, rest, number, arguments.Count, function);
-            arguments.Add(argument);
+            ListArgument(name, start, rest, number, argumentCount, function);
+            if (argumentCount < MaxParameters)
+            {
+                _arguments[argumentCount] = argument;
+            }
+
+            argumentCount++;
             if (rest.Current != '.')
             {
                 break;
@@ -197,13 +223,13 @@ public sealed partial class FractalParser
             rest = rest.Advance(1);
         }
 
-        if (arguments.Count != function.ParameterCount)
+        if (argumentCount != function.ParameterCount)
         {
             var hint = char.IsAsciiDigit(rest.Advance(1).Current) && rest.Current is ' ' or '\t' ? ": no blank stands within a call" : "";
-            throw Error(cursor, $"'{name}' takes {ArgumentCountText(function.ParameterCount)}, not {arguments.Count}{hint}");
+            throw Error(cursor, $"'{name}' takes {ArgumentCountText(function.ParameterCount)}, not {argumentCount}{hint}");
         }
 
-        transformation = function.Apply(arguments.ToImmutable());
+        transformation = function.Apply(_arguments);
         Hint(cursor, RotationUnits.DescribeRadians(transformation.Rotation));
         return ScaleCheck.IsInvertible(transformation.Scale)
             ? true

@@ -1,4 +1,3 @@
-using System.Collections.Immutable;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Parsing.Fractals;
@@ -13,11 +12,11 @@ namespace FractalEngine.Parsing.Fractals;
 /// <param name="Scale">Returns the scale for given arguments.</param>
 internal sealed record TransformationFunction(
     int ParameterCount,
-    Func<ImmutableArray<Vector>, Vector> Position,
-    Func<ImmutableArray<Vector>, Vector> Rotation,
-    Func<ImmutableArray<Vector>, Vector> Scale)
+    Func<Vector[], Vector> Position,
+    Func<Vector[], Vector> Rotation,
+    Func<Vector[], Vector> Scale)
 {
-    /// <summary>Returns the transformation for the given arguments, one per parameter.</summary>
-    public Transformation Apply(ImmutableArray<Vector> arguments) =>
+    /// <summary>Returns the transformation for the given arguments, one a parameter, perhaps with room for more. Keeps no array.</summary>
+    public Transformation Apply(Vector[] arguments) =>
         new(Position(arguments), Rotation(arguments), Scale(arguments));
 }

@@ -43,25 +43,57 @@ public static class MeshCountHeader
     {
         // The mark of UTF-8 as Latin-1 characters.
         const string byteOrderMark = "\u00EF\u00BB\u00BF";
-        var header = Format(faceCount);
-        var lineBreak = SourceText.LineBreakOf(text);
-        var position = text.StartsWith(byteOrderMark, StringComparison.Ordinal) ? byteOrderMark.Length
+        var start = text.StartsWith(byteOrderMark, StringComparison.Ordinal) ? byteOrderMark.Length
             : text.StartsWith('\uFEFF') ? 1 : 0;
+        var lineBreak = FirstLineBreak(text);
+        var position = start;
         while (position < text.Length && text[position] == '#')
         {
             var lineLength = text.AsSpan(position).IndexOfAny('\r', '\n');
             var end = lineLength < 0 ? text.Length : position + lineLength;
-            if (text.AsSpan(position).StartsWith(Prefix, StringComparison.OrdinalIgnoreCase))
+            if (FindNumber(text.AsSpan(position, end - position)) is var (numberStart, length))
             {
-                return text[..position] + header + text[end..];
+                var blank = text[position + numberStart - 1] == ':' ? " " : "";
+                var number = blank + faceCount.ToString(CultureInfo.InvariantCulture);
+                return text[..(position + numberStart)] + number + text[(position + numberStart + length)..];
             }
 
-            var isCrLf = text.AsSpan(end).StartsWith("\r\n", StringComparison.Ordinal);
-            position = isCrLf ? end + 2 : Math.Min(end + 1, text.Length);
+            // The new line ends as the one before it.
+            lineBreak = end < text.Length ? LineBreakAt(text, end) : lineBreak;
+            position = Math.Min(end + lineBreak.Length, text.Length);
         }
 
         // The last comment at the head may end the file without a line break.
-        var separator = position > 0 && text[position - 1] is not ('\n' or '\r' or '\u00BF' or '\uFEFF') ? lineBreak : "";
-        return text[..position] + separator + header + lineBreak + text[position..];
+        var separator = position > start && text[position - 1] is not ('\n' or '\r') ? lineBreak : "";
+        return text[..position] + separator + Format(faceCount) + lineBreak + text[position..];
     }
+
+    /// <summary>Finds the number of the comment, or the place for it; null for any other comment.</summary>
+    private static (int Start, int Length)? FindNumber(ReadOnlySpan<char> comment)
+    {
+        if (!comment.StartsWith(Prefix, StringComparison.OrdinalIgnoreCase))
+        {
+            return null;
+        }
+
+        var rest = comment[Prefix.Length..];
+        var number = rest.TrimStart(" \t");
+        var digits = number.IndexOfAnyExceptInRange('0', '9') is var count and >= 0 ? count : number.Length;
+        var behind = number[digits..];
+        if (number.IsEmpty)
+        {
+            return (Prefix.Length, 0);
+        }
+
+        // "# Mesh count: 5.5 kg" is somebody's remark.
+        return digits > 0 && (behind.IsEmpty || behind[0] is ' ' or '\t' or ',' or ';' or '(')
+            ? (comment.Length - number.Length, digits)
+            : null;
+    }
+
+    private static string FirstLineBreak(string text) =>
+        text.AsSpan().IndexOfAny('\r', '\n') is var index and >= 0 ? LineBreakAt(text, index) : "\n";
+
+    private static string LineBreakAt(string text, int index) =>
+        text.AsSpan(index).StartsWith("\r\n", StringComparison.Ordinal) ? "\r\n" : text[index..(index + 1)];
 }

@@ -5,8 +5,8 @@ namespace FractalEngine.Parsing.Meshes;
 
 /// <summary>
 /// Reads Wavefront material files: <c>newmtl</c>, <c>Kd</c>, <c>Ka</c>, <c>Ks</c>, <c>Ke</c>, <c>Ns</c>, <c>d</c>, <c>Tr</c>,
-/// <c>map_Kd</c>, <c>map_d</c>; and <c>map_Ke</c>, <c>map_Bump</c>, <c>norm</c>, <c>Pr</c>, <c>Pm</c>, which are not drawn yet and give one
-/// warning per file.
+/// <c>map_Kd</c>, <c>map_d</c>; and <c>map_Ke</c>, <c>map_Bump</c>, <c>norm</c>, <c>Pr</c>, <c>Pm</c>, which drawn frames do not show,
+/// with one warning per file.
 /// </summary>
 /// <remarks>
 /// Other statements are ignored. Faulty ones are ignored with one warning per file: a surface of the wrong colour is better than none.
@@ -24,8 +24,8 @@ public sealed partial class MtlParser : Parser
     private bool _hasOpacity;
     private Diagnostic? _firstFault;
     private int _faultCount;
-    private (Cursor Statement, string Keyword)? _firstUndrawn;
-    private int _undrawnCount;
+    private UnshownStatements _tracedOnly;
+    private UnshownStatements _unshown;
 
     private MtlParser(SourceText source)
         : base(source)
@@ -66,10 +66,14 @@ public sealed partial class MtlParser : Parser
             yield return CreateWarning(_firstFault);
         }
 
-        if (_firstUndrawn is var (statement, keyword))
+        if (_tracedOnly.Count > 0)
         {
-            var totalNote = _undrawnCount == 1 ? "" : $" ({_undrawnCount} such statements in all)";
-            yield return Source.Diagnose(statement.Offset, $"{keyword} is kept but not drawn{totalNote}", DiagnosticSeverity.Warning);
+            yield return CreateWarning(_tracedOnly, "is shown in traced images only") with { ConcernsDrawnFrames = true };
+        }
+
+        if (_unshown.Count > 0)
+        {
+            yield return CreateWarning(_unshown, "is kept but not shown");
         }
     }
 
@@ -100,6 +104,12 @@ public sealed partial class MtlParser : Parser
         }
     }
 
+    private Diagnostic CreateWarning(UnshownStatements statements, string problem)
+    {
+        var totalNote = statements.Count == 1 ? "" : $" ({statements.Count} such statements in all)";
+        return Source.Diagnose(statements.First.Offset, $"{statements.Keyword} {problem}{totalNote}", DiagnosticSeverity.Warning);
+    }
+
     private bool ParseLine(Cursor cursor)
     {
         ParseBlanks(cursor, out var start);
@@ -125,15 +135,15 @@ public sealed partial class MtlParser : Parser
             "map_d" => ParseDrawnTexture(
                 start, rest, _opacityNameOffsets, static (material, texture) => material with { OpacityTexture = texture }),
             "map_Ke" => ParseTexture(rest, out var emission, out _)
-                && KeepUndrawn(start, keyword, material => material with { EmissionTexture = emission }),
+                && Keep(ref _unshown, start, keyword, material => material with { EmissionTexture = emission }),
             "map_Bump" or "map_bump" or "bump" => ParseTexture(rest, out var heights, out _)
-                && KeepUndrawn(start, keyword, material => material with { BumpTexture = heights }),
+                && Keep(ref _tracedOnly, start, keyword, material => material with { BumpTexture = heights }),
             "norm" => ParseTexture(rest, out var normals, out _)
-                && KeepUndrawn(start, keyword, material => material with { NormalTexture = normals }),
+                && Keep(ref _tracedOnly, start, keyword, material => material with { NormalTexture = normals }),
             "Pr" => ParseScalar(rest, out var roughness)
-                && KeepUndrawn(start, keyword, material => material with { Roughness = roughness }),
+                && Keep(ref _tracedOnly, start, keyword, material => material with { Roughness = roughness }),
             "Pm" => ParseScalar(rest, out var metalness)
-                && KeepUndrawn(start, keyword, material => material with { Metalness = metalness }),
+                && Keep(ref _tracedOnly, start, keyword, material => material with { Metalness = metalness }),
             _ => true,
         };
     }
@@ -182,12 +192,11 @@ public sealed partial class MtlParser : Parser
     private bool ParseScalar(Cursor cursor, out double number) =>
         ParseNumber(cursor, out number, out var rest) && ParseEndOfStatement(rest);
 
-    /// <summary>Updates the material by a statement that makes no difference to frames yet.</summary>
-    private bool KeepUndrawn(Cursor statement, string keyword, Func<Material, Material> update)
+    /// <summary>Updates the material by a statement that makes no difference to some images.</summary>
+    private bool Keep(ref UnshownStatements statements, Cursor statement, string keyword, Func<Material, Material> update)
     {
         UpdateMaterial(statement, update);
-        _firstUndrawn ??= (statement, keyword);
-        _undrawnCount++;
+        statements = statements.Count == 0 ? new(statement, keyword, 1) : statements with { Count = statements.Count + 1 };
         return true;
     }
 
@@ -215,4 +224,7 @@ public sealed partial class MtlParser : Parser
     private static bool IsAtEndOfStatement(Cursor cursor) => IsAtEndOfLine(cursor) || cursor.Current == '#';
 
     private bool ParseEndOfStatement(Cursor cursor) => ParseCommentAndEndOfLine(cursor, out _);
+
+    /// <summary>The first of some statements, for a warning about all of them.</summary>
+    private readonly record struct UnshownStatements(Cursor First, string Keyword, int Count);
 }

@@ -9,7 +9,9 @@ namespace FractalEngine.Parsing.Meshes;
 /// <param name="Source">Text of the file.</param>
 /// <param name="Materials">Materials by name; their textures are named as in the file.</param>
 /// <param name="TextureNameOffsets">Offset of the texture's name in the text for each material, for messages.</param>
-/// <param name="Warnings">At most one about statements that can't be read, and one about those that are not drawn yet.</param>
+/// <param name="Warnings">
+/// At most one about statements that can't be read, one about those that drawn frames do not show, and one about those that none shows.
+/// </param>
 public sealed record ParsedMtl(
     SourceText Source,
     IReadOnlyDictionary<string, Material> Materials,

@@ -9,6 +9,9 @@ namespace FractalEngine.Parsing.Scenes;
 /// <content>Parses the declarations of lights.</content>
 public sealed partial class SceneParser
 {
+    // Largest exposure, and intensity of a light: their product, and its square, stay within what the shaders compute with.
+    private const double MaxFactor = 1e9;
+
     private bool ParseLight(Cursor cursor, out Cursor rest)
     {
         if (ParseKeyword(cursor, "ambient", out rest))
@@ -107,6 +110,7 @@ public sealed partial class SceneParser
         }
 
         Require(intensity >= 0, cursor, "the intensity of a light must not be negative");
+        Require(intensity <= MaxFactor, cursor, "the intensity of a light must not exceed 1e9");
         return true;
     }
 }

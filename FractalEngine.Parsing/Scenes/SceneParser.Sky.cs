@@ -50,6 +50,7 @@ public sealed partial class SceneParser
         }
 
         Require(exposure > 0, cursor, "the exposure must be positive");
+        Require(exposure is >= 1e-9 and <= MaxFactor, cursor, "the exposure must lie between 1e-9 and 1e9");
         return UpdateScene(_scene with { Exposure = exposure });
     }
 

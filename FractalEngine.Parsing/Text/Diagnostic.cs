@@ -22,6 +22,9 @@ public sealed record Diagnostic(
     /// <summary>True when the file is well-formed but exceeds a stated limit.</summary>
     public bool IsLimitExceeded { get; init; }
 
+    /// <summary>True for a warning about drawn frames only: of traced images it is not true.</summary>
+    public bool ConcernsDrawnFrames { get; init; }
+
     /// <summary>Returns <c>file:line:column: error: message</c>, then the source line and a caret, indented by two spaces.</summary>
     public override string ToString()
     {
@@ -37,7 +40,7 @@ public sealed record Diagnostic(
         var start = caret < MaxShownWidth ? 0 : caret - (MaxShownWidth / 2);
         var shown = SourceLine[start..Math.Min(start + MaxShownWidth, SourceLine.Length)];
         // Tabs stay tabs in both lines, so that the caret keeps its place. Others that would spoil the terminal take one column each.
-        var line = string.Concat(shown.Select((c, i) => c is '\n' or '\r' || DisplayText.IsHidden(shown, i) ? '?' : c));
+        var line = string.Concat(shown.Select((c, i) => DisplayText.IsHidden(shown, i) ? '?' : c));
         var padding = string.Concat(shown.Take(caret - start).Select(c => c == '\t' ? '\t' : ' '));
         return $"{head}\n  {line}\n  {padding}^";
     }

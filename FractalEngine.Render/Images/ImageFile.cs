@@ -3,7 +3,7 @@ using FractalEngine.Core.Images;
 
 namespace FractalEngine.Render.Images;
 
-/// <summary>Reads and writes image files: PNG with the engine's own reader and writer, other formats with SDL2_image.</summary>
+/// <summary>Reads and writes image files: PNG by the engine itself; JPEG, BMP and TGA are read with SDL2_image.</summary>
 public static class ImageFile
 {
     private const string InstallHint =
@@ -19,9 +19,14 @@ public static class ImageFile
     /// <exception cref="IOException">The file can't be written.</exception>
     public static void SavePng(this PixelImage image, string path) => AtomicFile.Write(path, stream => PngWriter.Write(image, stream));
 
-    /// <summary>Reads an image: PNG, known by its first bytes whatever its name is, or any format that SDL2_image knows.</summary>
-    /// <exception cref="IOException">The file can't be read or is damaged; or it is no PNG, and SDL2_image is missing.</exception>
-    /// <remarks>A PNG of more than <see cref="PngReader.DefaultMaxPixels"/> pixels is refused before memory is taken for it.</remarks>
+    /// <summary>Reads an image: PNG, known by its first bytes whatever its name is, or JPEG, BMP or TGA.</summary>
+    /// <exception cref="IOException">
+    /// The file can't be read, is damaged or of another format; or it is no PNG, and SDL2_image is missing.
+    /// </exception>
+    /// <remarks>
+    /// An image of more than <see cref="PngReader.DefaultMaxPixels"/> pixels, or of more than its file can hold, is refused before memory
+    /// is taken for it.
+    /// </remarks>
     public static PixelImage Load(string path) => Load(path, SdlImage.Read);
 
     /// <summary>As <see cref="Load(string)"/>, with another reader for what is no PNG.</summary>
@@ -41,18 +46,37 @@ public static class ImageFile
         }
     }
 
-    /// <summary>Null where the file is no PNG.</summary>
+    /// <summary>Null where the file is no PNG. Throws where no decoder should take memory for it.</summary>
     private static PixelImage? LoadPng(string path)
     {
         using var stream = new FileStream(path, FileMode.Open, FileAccess.Read, FileShare.Read, BufferBytes, FileOptions.SequentialScan);
         Span<byte> head = stackalloc byte[8];
         var count = stream.ReadAtLeast(head, head.Length, throwOnEndOfStream: false);
-        if (!PngReader.IsPng(head[..count]))
+        stream.Position = 0;
+        var isPng = PngReader.IsPng(head[..count]);
+        CheckHeader(stream, path, isPng);
+        stream.Position = 0;
+        return isPng ? PngReader.Read(stream) : null;
+    }
+
+    /// <summary>Throws where a file is too short for the pixels that it states, or has too many for another decoder.</summary>
+    private static void CheckHeader(Stream stream, string path, bool isPng)
+    {
+        if (ImageHeader.Read(stream, ImageHeader.IsTga(path)) is not { } header)
         {
-            return null;
+            // The library knows more formats, of which some hang, or take gigabytes for a file of a few bytes.
+            throw new IOException(isPng ? "the file ends within its header" : "it is not a PNG, JPEG, BMP or TGA image");
         }
 
-        stream.Position = 0;
-        return PngReader.Read(stream);
+        if (!isPng && header.PixelCount > PngReader.DefaultMaxPixels)
+        {
+            throw new IOException(
+                $"an image of {header.Width}×{header.Height} pixels, more than the limit of {PngReader.DefaultMaxPixels} in all");
+        }
+
+        if (header.FindFault(stream.Length) is { } fault)
+        {
+            throw new IOException($"it {fault}");
+        }
     }
 }

@@ -15,6 +15,9 @@ internal readonly record struct DisplayTransform(double Exposure, Tone Tone)
     private const double D = 0.59;
     private const double E = 0.14;
 
+    // Squares of larger ones leave the range of the shader's floats.
+    private const double MaxLight = 1e18;
+
     /// <summary>Whether light is shown as it is.</summary>
     public bool IsIdentity => Exposure == 1 && Tone == Tone.None;
 
@@ -29,7 +32,7 @@ internal readonly record struct DisplayTransform(double Exposure, Tone Tone)
 
     private double Apply(double light)
     {
-        var x = Exposure * light;
+        var x = Math.Min(Exposure * light, MaxLight);
         return Tone == Tone.None ? x : Math.Clamp(x * ((A * x) + B) / ((x * ((C * x) + D)) + E), 0, 1);
     }
 

@@ -9,7 +9,8 @@ vec3 throughHaze(vec3 light, float distance)
 // Exposed light behind the curve of K. Narkowicz, "ACES Filmic Tone Mapping Curve", 2016, where the scene asks for it.
 vec3 toScreen(vec3 light)
 {
-    vec3 x = display.x * light;
+    // Squares of larger ones would leave the range of a float.
+    vec3 x = min(display.x * light, vec3(1e18));
     vec3 filmic = clamp(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0);
     return display.y > 0.5 ? filmic : x;
 }

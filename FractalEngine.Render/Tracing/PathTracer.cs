@@ -53,6 +53,7 @@ public sealed class PathTracer
     private readonly int _seed;
     private readonly float[] _sums;
     private readonly int[] _rowSamples;
+    private bool _isAffordable;
 
     /// <summary>Prepares an image without samples.</summary>
     /// <param name="scene">With its models loaded.</param>
@@ -142,7 +143,10 @@ public sealed class PathTracer
     /// <param name="scheduler">Owns the threads, beside the calling one; null for those of the pool.</param>
     /// <param name="cancellation">Cancels between two rows; rows then differ by a sample.</param>
     /// <exception cref="OperationCanceledException">The samples were cancelled.</exception>
-    /// <exception cref="FractalLimitException">A model can't be prepared, see <see cref="RayCaster.For(Model)"/>.</exception>
+    /// <exception cref="FractalLimitException">
+    /// A model can't be prepared, see <see cref="RayCaster.For(Model)"/>; or paths take more than
+    /// <see cref="FractalLimits.MaxTracedTests"/>.
+    /// </exception>
     public void AddSample(int? threads = null, TaskScheduler? scheduler = null, CancellationToken cancellation = default)
     {
         var options = new ParallelOptions
@@ -152,6 +156,12 @@ public sealed class PathTracer
             TaskScheduler = scheduler ?? TaskScheduler.Default,
         };
         var sample = SampleCount;
+        if (sample == 0 && !_isAffordable)
+        {
+            PathCost.Check(_camera.Viewport, (x, y, context) => TracePixel(x, y, 0, context), cancellation);
+            _isAffordable = true;
+        }
+
         var (_, top, _, height) = _camera.Viewport;
         for (var y = 0; y < Height; y++)
         {
@@ -230,12 +240,17 @@ public sealed class PathTracer
         for (var x = left; x < left + width; x++)
         {
             var pixel = (y * Width) + x;
-            var samples = new SampleSequence(pixel, sample, _seed);
-            var radiance = Trace(_camera.CreateRay(x, y, samples.Next(), out var footprint), footprint, ref samples, context);
+            var radiance = TracePixel(x, y, sample, context);
             _sums[3 * pixel] += (float)radiance.X;
             _sums[(3 * pixel) + 1] += (float)radiance.Y;
             _sums[(3 * pixel) + 2] += (float)radiance.Z;
         }
+    }
+
+    private Vector TracePixel(int x, int y, int sample, QueryContext context)
+    {
+        var samples = new SampleSequence((y * Width) + x, sample, _seed);
+        return Trace(_camera.CreateRay(x, y, samples.Next(), out var footprint), footprint, ref samples, context);
     }
 
     /// <summary>Follows one path, and returns the radiance that comes along it.</summary>

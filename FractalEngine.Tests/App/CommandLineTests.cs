@@ -110,6 +110,50 @@ public sealed class CommandLineTests : IDisposable
         Assert.Equal(exitCode, Run("info", "row.fdo", "--limit", limit).ExitCode);
 
     [Theory]
+    [InlineData("info", "far.sdo")]
+    [InlineData("export", "far.sdo", "--output", "out.obj")]
+    [InlineData("save", "far.sdo", "--output", "out.sdo")]
+    public void AnyCommand_OnAPlacementBeyondADouble_NamesTheLimitAndWritesNothing(params string[] arguments)
+    {
+        _folder.Write("large.obj", "v 0 0 0\nv 1e308 0 0\nv 0 1e308 0\nf 1 2 3\n");
+        _folder.Write("far.sdo", "o \"large.obj\" (#, #, (-10, 1, 1))\n");
+        const string message = "far.sdo:1:3: error: the placement takes the object beyond 1.8e308, the limit of a coordinate\n"
+            + "  o \"large.obj\" (#, #, (-10, 1, 1))\n    ^\n";
+        Assert.Equal(new AppResult(3, "", message), Run(arguments));
+        Assert.False(File.Exists(_folder["out.obj"]) || File.Exists(_folder["out.sdo"]));
+    }
+
+    [Fact]
+    public void RenderTraced_OfTooManyPixels_NamesTheLimit() => Assert.Equal(
+        new AppResult(3, "", "error: a traced image of 100000×100000 pixels has more than the limit of 67108864 in all\n"),
+        Run("render", "cube.obj", "--trace", "1", "--resolution", "100000x100000", "--output", "out.png"));
+
+    [Fact]
+    public void RenderTraced_OfPartsThatOverlapTooMuch_NamesTheLimitAndWritesNothing()
+    {
+        // Each ray enters up to 4^40 parts of nearly the same size: more than a minute for this image.
+        _folder.Write("overlap.fdo", """
+            v 0.3 0 0
+            v 0.95 0.95 0.95
+            v 10 10 20
+            v 0 0 0.3
+            v 0 0.3 0
+            t.a.b.c. (a, c, b)
+            x. "cube.obj"
+            z<x>. [t.1.2.3, t.4.2.3, t.5.2.3, t.1.2.1] x
+            <$>. z 40
+
+            """);
+        var (exitCode, output, error) =
+            Run("render", "overlap.fdo", "--trace", "4", "--resolution", "64x48", "--output", "out.png");
+        Assert.Equal(
+            (3, "", "error: a path of light takes more than the limit of 10000 tests of bounds and faces (traced-tests): "
+                + "too much of the scene overlaps\n"),
+            (exitCode, output, error));
+        Assert.False(File.Exists(_folder["out.png"]));
+    }
+
+    [Theory]
     [InlineData("1e160 0 0", 3)]
     [InlineData("1e150 0 0", 0)]
     public void Query_OfAPointTooFarAway_IsRefused(string point, int exitCode)

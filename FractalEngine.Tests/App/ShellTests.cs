@@ -66,6 +66,33 @@ public sealed class ShellTests : IDisposable
         Assert.Matches(report, error);
     }
 
+    [SkippableFact]
+    public void Output_ThroughALink_IsToldWithTheSizeOfTheFile()
+    {
+        Skip.If(OperatingSystem.IsWindows(), "links need rights there");
+        File.CreateSymbolicLink(_folder["link.obj"], "flat.obj");
+        var (_, _, error) = Run("export", "cube.obj", "--output", "link.obj");
+        Assert.Contains($": 12 faces, {new FileInfo(_folder["flat.obj"]).Length} bytes, ", error, StringComparison.Ordinal);
+    }
+
+    [SkippableFact]
+    public void View_OfAMissingFileWithoutADisplay_NamesTheFile()
+    {
+        Skip.IfNot(OperatingSystem.IsLinux(), "elsewhere there is always a display");
+        var environment = new Dictionary<string, string?> { ["DISPLAY"] = null, ["WAYLAND_DISPLAY"] = null };
+        var (exitCode, _, error) = AppProcess.Run(_folder.Path, environment, "view", "cub.obj");
+        Assert.Equal((1, "cub.obj:1:1: error: file not found: did you mean \"cube.obj\"?\n"), (exitCode, error));
+    }
+
+    [Fact]
+    public void Render_OfAMaterialThatOnlyTracedImagesShow_WarnsWhereThatIsTrue()
+    {
+        _folder.Write("a.mtl", "newmtl a\nPr 0.5\n");
+        _folder.Write("a.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n");
+        Assert.Equal("", Run("render", "a.obj", "--trace", "1", "--resolution", "8x8", "--output", "a.png", "--quiet").Error);
+        Assert.StartsWith("a.mtl:2:1: warning: Pr is shown in traced images only\n", Run("info", "a.obj").Error, StringComparison.Ordinal);
+    }
+
     [Fact]
     public void Info_OfTheStandardInput_ReadsAFractal()
     {
@@ -79,6 +106,45 @@ public sealed class ShellTests : IDisposable
     public void Check_OfTheStandardInput_NamesItInMessages() => Assert.Equal(
         new AppResult(1, "", "-:1:3: error: the file \"cub.obj\" is not found: did you mean \"cube.obj\"?\n  o \"cub.obj\" #\n    ^\n"),
         RunWithInput("o \"cub.obj\" #", "check", "-"));
+
+    [SkippableFact]
+    public void Info_OfAClosedStandardInput_DoesNotWait()
+    {
+        Skip.IfNot(OperatingSystem.IsLinux(), "only Linux tells that it is closed");
+        Assert.Equal(new AppResult(1, "", "-:1:1: error: the standard input is closed\n"), RunInShell("{0} info - <&-"));
+    }
+
+    [SkippableFact]
+    public void Info_OfAFolderAsStandardInput_SaysSo()
+    {
+        Skip.If(OperatingSystem.IsWindows(), "the shell there opens no folders");
+        Assert.Equal(
+            new AppResult(1, "", "-:1:1: error: the standard input can't be read: Is a directory\n"), RunInShell("{0} info - < ."));
+    }
+
+    [SkippableFact]
+    public void Messages_OfNamesWithLineBreaks_AreOneLine()
+    {
+        Skip.If(OperatingSystem.IsWindows(), "no name has line breaks there");
+        Assert.Equal(new AppResult(1, "", "no\\u000Aname.fdo:1:1: error: file not found\n"), Run("info", "no\nname.fdo"));
+        Assert.StartsWith("wrote a\\u000Ab.obj: 12 faces, ", Run("export", "cube.obj", "--output", "a\nb.obj").Error, StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void Names_WithAnAtSign_AreNames() => Assert.Equal(
+        new AppResult(1, "", "@cube.stl:1:1: error: file not found\n"), Run("info", "@cube.stl"));
+
+    [SkippableTheory]
+    [InlineData("info cube.obj")]
+    [InlineData("generate torus-knot --output a.obj")]
+    [InlineData("check .")]
+    public void AnyCommand_InAFolderThatIsGone_SaysSo(string command)
+    {
+        Skip.If(OperatingSystem.IsWindows(), "a folder that is in use can't be removed there");
+        Assert.Equal(
+            new AppResult(2, "", "error: the current folder has been removed\n"),
+            RunInShell($"mkdir gone && cd gone && rmdir ../gone && {{0}} {command}"));
+    }
 
     [Fact]
     public void Export_OfAPipeIntoAPipe_WritesTheSameAsFiles()
@@ -135,9 +201,14 @@ public sealed class ShellTests : IDisposable
     private AppResult RunWithInput(string input, params string[] arguments)
     {
         _folder.Write("input.txt", input);
-        var command = string.Join(' ', arguments.Select(static argument => $"'{argument}'"));
+        return RunInShell($"cat input.txt | {{0}} {string.Join(' ', arguments.Select(static argument => $"'{argument}'"))}");
+    }
+
+    /// <summary>Runs a line of a shell, in which {0} stands for the program.</summary>
+    private AppResult RunInShell(string line)
+    {
         var program = typeof(FractalEngine.App.BodyCsvWriter).Assembly.Location;
-        var start = new ProcessStartInfo("sh", ["-c", $"cat input.txt | dotnet exec '{program}' {command}"])
+        var start = new ProcessStartInfo("sh", ["-c", line.Replace("{0}", $"dotnet exec '{program}'", StringComparison.Ordinal)])
         {
             WorkingDirectory = _folder.Path,
             RedirectStandardOutput = true,

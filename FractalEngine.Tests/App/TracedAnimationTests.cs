@@ -32,6 +32,23 @@ public sealed class TracedAnimationTests : IDisposable
     }
 
     [Fact]
+    public void Path_FarAway_KeepsItsDirection()
+    {
+        // At 1e17 the next double is 16 units away, so that a point before the camera would be the camera's own.
+        _folder.Write("cameras.txt", "(1e17, 0, 0) (0, 0, 0) 60\n(1e17, 0, 0) (0, 1, 0) 60\n");
+        Animate("scene.sdo", "--path", "cameras.txt");
+    }
+
+    [Fact]
+    public void Path_BeyondTheLimit_NamesTheLine()
+    {
+        _folder.Write("cameras.txt", "(0, 0, -5) (0, 0, 0) 60\n(1e308, 0, 0) (0, 0, 0) 60\n");
+        Assert.Equal(
+            new AppResult(3, "", "cameras.txt:2:1: error: the camera of a path is beyond the limit of 1e150\n"),
+            AppProcess.Run(_folder.Path, ["animate", "scene.sdo", "--path", "cameras.txt", .. Traced, "--output", "f.png"]));
+    }
+
+    [Fact]
     public void Turntable_Traced_BeginsWithTheStillImageAndSharesItsSeed()
     {
         Animate("scene.sdo", "--turntable", "--seed", "5");

@@ -27,6 +27,21 @@ public class FractalBoundsTests
         Assert.True(bounds.Minimum.Y <= expanded.Minimum.Y && bounds.Maximum.Y >= expanded.Maximum.Y);
     }
 
+    /// <summary>
+    /// 32,768 trees on one plane, turned about its normal. All are candidates for the highest twig, but only 16 of them differ in height.
+    /// </summary>
+    [Theory]
+    [InlineData("forest")]
+    [InlineData("forest-leaves")]
+    public void Bounds_OfAForest_ReachAsHighAsItsHighestTree(string name)
+    {
+        var forest = AssetFractals.Load(name);
+        var trees = new Fractal(new([.. forest.Description.Steps[7..]]), forest.BaseMesh);
+        Assert.Equal(4, trees.LevelAt(0).Transformations.Length);
+        Near.Equal(trees.Bounds.Minimum.Y, forest.Bounds.Minimum.Y, 1e-12);
+        Near.Equal(trees.Bounds.Maximum.Y, forest.Bounds.Maximum.Y, 1e-12);
+    }
+
     [Fact]
     public void LevelBoxes_OfRoundsOfManyMaps_DoNotMultiplyThemOut() => Seeded.Run(1, random =>
     {

@@ -1,9 +1,11 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Visibility;
 using FractalEngine.Tests.Collision;
 using FractalEngine.Tests.Render;
+using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Visibility;
 
@@ -15,6 +17,18 @@ public class SkyVisibilityTests
 
     // Likewise, by a majority of at most seven points anywhere in the middle third of a side, for its very middle.
     private const double MiddleTolerance = 0.15;
+
+    [Fact]
+    public void Bake_OfPartsThatOverlapOnManyLevels_EndsAtOnceWithoutMasks()
+    {
+        // A ray enters nearly all of 4^50 parts that are larger than a fifteenth of the whole.
+        static Transformation Map(double x, double y, double z) => new(new(x, y, z), new(10, 10, 20), 0.95 * Vector.One);
+        var fractal = Fractal.Of(Shapes.Cube())
+            .Repeat([Map(0.3, 0, 0), Map(0, 0, 0.3), Map(0, 0.3, 0), Map(0.3, 0.3, 0)], 60);
+        var hierarchy = LodHierarchy.Build(fractal);
+        ProcessorTime.RunWithin(10, () => hierarchy.BakeSkyMasks(1));
+        Assert.False(hierarchy.HasSkyMasks);
+    }
 
     [Fact]
     public void VisiblePart_OfAHalfSky_IsAHalfForSurfacesUpright()

@@ -22,28 +22,55 @@ internal static class ChildGroups
         MapSet set, ChildInstance[] children, BoundingBox[] childBoxes, BoundingBox parentBox, HullBound? childHull,
         bool hasOnlySimilarities)
     {
-        int[] nonEmpty = [.. Enumerable.Range(0, children.Length).Where(i => !childBoxes[i].IsEmpty)];
-        var partition = new BoxPartition([.. nonEmpty.Select(i => childBoxes[i])]);
-        return CreateGroups(0..nonEmpty.Length);
+        var nonEmpty = new int[children.Length];
+        var count = 0;
+        for (var i = 0; i < children.Length; i++)
+        {
+            if (!childBoxes[i].IsEmpty)
+            {
+                nonEmpty[count++] = i;
+            }
+        }
+
+        // Where all have points, which is usual, the boxes are shared: wide sets take much memory.
+        var partition = new BoxPartition(
+            count == children.Length ? childBoxes : Array.ConvertAll(nonEmpty[..count], i => childBoxes[i]));
+        return CreateGroups(0..count);
 
         (ChildInstance[], BoundingBox[]) CreateGroups(Range range)
         {
             var parts = partition.Split(range, GroupSize, GroupSize);
-            BoundingBox[] boxes = [.. parts.Select(partition.BoundsOf)];
-            ChildInstance[] groups = [.. parts.Select((part, i) => ChildInstance.Of(CreateGroup(part, boxes[i])))];
+            var boxes = new BoundingBox[parts.Count];
+            var groups = new ChildInstance[parts.Count];
+            for (var i = 0; i < groups.Length; i++)
+            {
+                boxes[i] = partition.BoundsOf(parts[i]);
+                groups[i] = ChildInstance.Of(CreateGroup(parts[i], boxes[i]));
+            }
+
             return (groups, boxes);
         }
 
         SubFractal CreateGroup(Range range, BoundingBox box)
         {
-            int[] members = [.. partition.Order[range].ToArray().Select(i => nonEmpty[i])];
-            var (parts, boxes) = members.Length > GroupSize
-                ? CreateGroups(range)
-                : (members.Select(i => children[i]).ToArray(), members.Select(i => childBoxes[i]).ToArray());
+            var (parts, boxes) = BoxPartition.CountOf(range) > GroupSize ? CreateGroups(range) : CollectChildren(partition.Order[range]);
             var hasFirstHull = parts[0].Group is null && parts[0].LevelStep == children[0].LevelStep;
             return new(
                 set, parts, boxes, box, parentBox, null, hasFirstHull ? childHull : null, ConvexSolid.FromBox(box), null,
                 hasOnlySimilarities);
+        }
+
+        (ChildInstance[], BoundingBox[]) CollectChildren(ReadOnlySpan<int> members)
+        {
+            var parts = new ChildInstance[members.Length];
+            var boxes = new BoundingBox[members.Length];
+            for (var i = 0; i < members.Length; i++)
+            {
+                parts[i] = children[nonEmpty[members[i]]];
+                boxes[i] = childBoxes[nonEmpty[members[i]]];
+            }
+
+            return (parts, boxes);
         }
     }
 }

@@ -19,20 +19,18 @@ internal sealed class ChildInstance
         var inverse = AffineMap.Identity;
         ScaleSquared = 1;
         OperatorNormBound = 1;
+        var areMapsOfLevels = true;
         foreach (var (set, mapIndex, levelStep) in edges)
         {
             map *= set.Maps[mapIndex];
-            inverse = set.Inverses[mapIndex] * inverse;
+            inverse = set.Maps[mapIndex].Inverse() * inverse;
             ScaleSquared *= set.ScalesSquared[mapIndex];
             OperatorNormBound *= set.OperatorNormBounds[mapIndex];
             LevelStep = LevelStep.Then(levelStep);
+            areMapsOfLevels &= levelStep == LevelStep.Down(1) && set.Power is null && set != MapSet.Identity;
         }
 
-        if (edges.All(edge => edge.LevelStep == LevelStep.Down(1) && edge.Set.Power is null && edge.Set != MapSet.Identity))
-        {
-            MapIndices = [.. edges.Select(edge => edge.MapIndex)];
-        }
-
+        HasMapsOfLevels = areMapsOfLevels;
         InverseScaleSquared = 1 / ScaleSquared;
         _simdMap = new(map);
         _inverseSimdMap = new(inverse);
@@ -56,8 +54,8 @@ internal sealed class ChildInstance
     /// <summary>The edges, the outermost first.</summary>
     public ChildEdge[] Edges { get; }
 
-    /// <summary>The map index of each edge, where each goes down one level by a map of that level's set; null for others.</summary>
-    public int[]? MapIndices { get; }
+    /// <summary>Whether each edge goes down one level by a map of that level's set.</summary>
+    public bool HasMapsOfLevels { get; }
 
     /// <summary>The map from the child's frame to that of the parent.</summary>
     public AffineMap Map => _simdMap.ToAffineMap();

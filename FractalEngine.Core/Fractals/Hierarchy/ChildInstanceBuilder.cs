@@ -35,7 +35,7 @@ internal sealed class ChildInstanceBuilder
     /// <param name="setAt">Gives the set of a lower level by its remaining levels.</param>
     public static ChildEdge[] EdgesAt(long level, long levelsBelowRepetition, int period, MapSet set, Func<long, MapSet> setAt)
     {
-        var edges = new List<ChildEdge>();
+        var edges = new List<ChildEdge>(set.Maps.Length);
         var offeredMaps = new HashSet<AffineMap>();
         var currentSet = set;
         for (var levelsDown = 1L; ; levelsDown++)
@@ -43,7 +43,7 @@ internal sealed class ChildInstanceBuilder
             AddEdges(edges, offeredMaps, currentSet, levelsDown);
             if (currentSet.IdentityIndex < 0)
             {
-                return [.. edges];
+                return edges.ToArray();
             }
 
             // All sets of the repetition were visited, and all have the identity.
@@ -80,6 +80,12 @@ internal sealed class ChildInstanceBuilder
     /// <param name="edgesAt">Gives the edges of a lower level by its remaining levels; it is never called for the base, at 0.</param>
     public ChildInstance[] ExpandChildren(long level, ChildEdge[] edges, Func<long, ChildEdge[]> edgesAt)
     {
+        if (edges.Length > MaxChildrenForSameLevel && !LeadToNothing(level, edges, edgesAt))
+        {
+            // Too many to expand, and perhaps so many that the list would take more memory than they do.
+            return CreateChildren(edges);
+        }
+
         var chains = new List<EdgeChain>(edges.Length);
         foreach (var edge in edges)
         {
@@ -116,6 +122,30 @@ internal sealed class ChildInstanceBuilder
         for (var i = 0; i < children.Length; i++)
         {
             children[i] = GetOrCreate(best[i].Edges);
+        }
+
+        return children;
+    }
+
+    /// <summary>Tells whether the highest level that edges lead to has no edges itself.</summary>
+    private static bool LeadToNothing(long level, ChildEdge[] edges, Func<long, ChildEdge[]> edgesAt)
+    {
+        var highest = 0L;
+        foreach (var edge in edges)
+        {
+            highest = Math.Max(highest, edge.RemainingLevels(level));
+        }
+
+        return highest > 0 && edgesAt(highest).Length == 0;
+    }
+
+    private ChildInstance[] CreateChildren(ChildEdge[] edges)
+    {
+        _instances.EnsureCapacity(_instances.Count + edges.Length);
+        var children = new ChildInstance[edges.Length];
+        for (var i = 0; i < children.Length; i++)
+        {
+            children[i] = GetOrCreate([edges[i]]);
         }
 
         return children;
@@ -188,7 +218,7 @@ internal sealed class ChildInstanceBuilder
     private static void AddEdges(List<ChildEdge> edges, HashSet<AffineMap> offeredMaps, MapSet set, long levelsDown)
     {
         // Of the indices, since maps of wide sets are many bytes.
-        var mapsOfThisLevel = new HashSet<int>(new MapComparer(set.Maps));
+        var mapsOfThisLevel = new HashSet<int>(set.Maps.Length, new MapComparer(set.Maps));
         for (var i = 0; i < set.Maps.Length; i++)
         {
             // A map that a level above offers is found there, provided that this level could be skipped instead. Only a level that can be
@@ -224,7 +254,7 @@ internal sealed class ChildInstanceBuilder
             var inverseEntry = 1.0;
             foreach (var edge in Edges)
             {
-                inverseEntry *= Math.Max(1, edge.Set.Inverses[edge.MapIndex].Linear.MaxAbsEntry());
+                inverseEntry *= Math.Max(1, edge.Set.Maps[edge.MapIndex].Inverse().Linear.MaxAbsEntry());
             }
 
             return inverseEntry < MaxInverseEntry;

@@ -47,9 +47,9 @@ internal sealed partial class ConvexHull
     public double MaxOutsideDistance { get; }
 
     /// <summary>Builds the hull of some points.</summary>
-    /// <param name="points">At least one point, all of them finite.</param>
+    /// <param name="points">At least one point, all of them finite. Neither kept nor copied: wide sets have millions.</param>
     /// <param name="maxVertices">Maximum number of vertices, at least 4. Beyond it, points near the hull are left outside.</param>
-    public static ConvexHull Build(ReadOnlySpan<Vector> points, int maxVertices)
+    public static ConvexHull Build(Vector[] points, int maxVertices)
     {
         var box = BoundingBox.Empty;
         foreach (var point in points)
@@ -74,7 +74,7 @@ internal sealed partial class ConvexHull
         var normal = TriangleKernel.UnitNormal(points[i0], points[i1], points[i2]);
         var i3 = FindFarthest(points, points[i0], (point, origin) => Math.Abs(Vector.Dot(normal, point - origin)), out var height);
         return height > CoplanarTolerance * size
-            ? new QuickHull(points.ToArray(), CoplanarTolerance * size).Build(i0, i1, i2, i3, maxVertices)
+            ? new QuickHull(points, CoplanarTolerance * size).Build(i0, i1, i2, i3, maxVertices)
             : BuildFlatHull(points, direction, normal, height, maxVertices);
     }
 

@@ -11,14 +11,26 @@ internal interface IPointMeasure
 
     /// <summary>Computes the largest value over the vertices of a mesh's image under a map.</summary>
     double Largest(Mesh mesh, in AffineMap map);
+
+    /// <summary>What of a map the values depend on: images under maps with equal keys have equal values. Null where that is unknown.</summary>
+    (Vector Direction, double Offset)? Key(in AffineMap map);
 }
 
 /// <summary>Finds the largest value of a measure over the points of a fractal, such as how far it reaches in a direction.</summary>
-internal static class FarthestPointSearch
+/// <param name="fractal">The fractal, in affine composition.</param>
+/// <remarks>Its memory serves one search after the other: about 100 bytes for each child of a sub-fractal that was opened.</remarks>
+internal sealed class FarthestPointSearch(Fractal fractal)
 {
+    private readonly List<Opened> _opened = [];
+
+    // A forest's trees stand on one plane and are turned about its normal: to the eye of a direction they are the same.
+    private readonly HashSet<(long Levels, (Vector Direction, double Offset) Key)> _seen = [];
+
+    // What may still be opened. Its place follows from that of its parent, which saves most of the memory.
+    private readonly PriorityQueue<(int Parent, ChildInstance Child, double Bound), (double, int)> _open = new();
+
     /// <summary>Searches the sub-fractals best first.</summary>
     /// <typeparam name="TMeasure">The measure; a struct, so that the search is compiled for it.</typeparam>
-    /// <param name="fractal">The fractal, in affine composition.</param>
     /// <param name="map">From the frame of the fractal to that of the measure.</param>
     /// <param name="measure">The measure.</param>
     /// <param name="relativeTolerance">Values that differ by no more than this part of the largest count as equal.</param>
@@ -26,7 +38,7 @@ internal static class FarthestPointSearch
     /// <returns>
     /// The largest value of all points to the tolerance; more where the search gave up; negative infinity for a fractal without points.
     /// </returns>
-    public static double Run<TMeasure>(Fractal fractal, AffineMap map, TMeasure measure, double relativeTolerance, int maxNodes)
+    public double Run<TMeasure>(AffineMap map, TMeasure measure, double relativeTolerance, int maxNodes)
         where TMeasure : struct, IPointMeasure
     {
         var hierarchy = fractal.Hierarchy;
@@ -35,48 +47,79 @@ internal static class FarthestPointSearch
             return double.NegativeInfinity;
         }
 
+        if (hierarchy.Root.Children.Length == 0)
+        {
+            return measure.Largest(fractal.BaseMesh, in map);
+        }
+
+        _open.Clear();
+        _opened.Clear();
+        _seen.Clear();
         var scale = Math.Max(Math.Abs(measure.UpperBound(hierarchy.Root, in map)), hierarchy.Root.Radius * map.Linear.MaxAbsEntry());
         var tolerance = relativeTolerance * scale;
-        // Ties are common in symmetric fractals: of bounds that are equal to the tolerance the deepest is taken first.
-        var open = new PriorityQueue<(SubFractal SubFractal, long Levels, AffineMap Map, double Bound, int Depth), (double, int)>();
-        open.Enqueue((hierarchy.Root, hierarchy.Levels, map, double.PositiveInfinity, 0), default);
-        for (var nodes = 0; open.TryDequeue(out var node, out _); nodes++)
+        // Of the instances of the base mesh only the first in the order of the queue counts: its bound is the value itself.
+        var leaf = (Priority: (double.PositiveInfinity, 0), Value: double.NegativeInfinity);
+        var largestLeaf = double.NegativeInfinity;
+        var node = (Parent: -1, Child: default(ChildInstance), Bound: double.PositiveInfinity);
+        var opened = new Opened(hierarchy.Root, hierarchy.Levels, map, 0);
+        for (var nodes = 0; ; nodes++)
         {
-            if (node.Depth > 0 && node.SubFractal.Children.Length == 0)
+            if (nodes == maxNodes || (opened.Depth > 0 && opened.SubFractal.Radius * opened.Map.Linear.MaxAbsEntry() <= tolerance))
             {
-                // The bound of a mesh is the value itself.
-                return node.Bound;
+                return _open.UnorderedItems.Select(item => item.Element.Bound).Append(node.Bound).Append(largestLeaf).Max();
             }
 
-            if (nodes == maxNodes || (node.Depth > 0 && node.SubFractal.Radius * node.Map.Linear.MaxAbsEntry() <= tolerance))
+            _opened.Add(opened);
+            foreach (var child in opened.SubFractal.Children)
             {
-                return open.UnorderedItems.Select(item => item.Element.Bound).Append(node.Bound).Max();
-            }
-
-            if (node.SubFractal.Children.Length == 0)
-            {
-                return measure.Largest(fractal.BaseMesh, in map);
-            }
-
-            foreach (var child in node.SubFractal.Children)
-            {
-                var levels = child.RemainingLevels(node.Levels);
+                var levels = child.RemainingLevels(opened.Levels);
                 var subFractal = hierarchy.At(child, levels);
                 if (subFractal.Box.IsEmpty)
                 {
                     continue;
                 }
 
-                var childMap = node.Map * child.Map;
+                var childMap = opened.Map * child.Map;
+                if (measure.Key(in childMap) is { } key && !_seen.Add((levels, key)))
+                {
+                    continue;
+                }
+
                 var bound = levels == 0
                     ? measure.Largest(fractal.BaseMesh, in childMap)
                     : Math.Min(node.Bound, measure.UpperBound(subFractal, in childMap));
-                open.Enqueue(
-                    (subFractal, levels, childMap, bound, node.Depth + 1),
-                    (tolerance > 0 ? -Math.Round(bound / tolerance) : -bound, -(node.Depth + 1)));
-            }
-        }
+                // Ties are common in symmetric fractals: of bounds that are equal to the tolerance the deepest is taken first.
+                var priority = (tolerance > 0 ? -Math.Round(bound / tolerance) : -bound, -(opened.Depth + 1));
+                if (subFractal.Children.Length > 0)
+                {
+                    _open.Enqueue((_opened.Count - 1, child, bound), priority);
+                    continue;
+                }
 
-        return double.NegativeInfinity;
+                largestLeaf = Math.Max(largestLeaf, bound);
+                if (priority.CompareTo(leaf.Priority) < 0)
+                {
+                    leaf = (priority, bound);
+                }
+            }
+
+            if (!_open.TryDequeue(out var next, out var nextPriority) || leaf.Priority.CompareTo(nextPriority) <= 0)
+            {
+                return leaf.Value;
+            }
+
+            node = next;
+            opened = Open(hierarchy, next.Parent, next.Child);
+        }
     }
+
+    private Opened Open(FractalHierarchy hierarchy, int parentIndex, ChildInstance child)
+    {
+        var parent = _opened[parentIndex];
+        var levels = child.RemainingLevels(parent.Levels);
+        return new(hierarchy.At(child, levels), levels, parent.Map * child.Map, parent.Depth + 1);
+    }
+
+    /// <summary>A sub-fractal whose children were looked at.</summary>
+    private readonly record struct Opened(SubFractal SubFractal, long Levels, AffineMap Map, int Depth);
 }

@@ -40,9 +40,13 @@ internal sealed partial class FractalHierarchy
 
             map = SimdAffineMap.Compose(in map, in child.SimdMap);
             maxTranslation = Vector256.Max(maxTranslation, Vector256.Abs(map.Translation));
-            if (child.MapIndices is { } mapIndices)
+            if (child.HasMapsOfLevels)
             {
-                context.AppendToPath(mapIndices);
+                foreach (var edge in child.Edges)
+                {
+                    context.AppendToPath(edge.MapIndex);
+                }
+
                 remainingLevels = child.RemainingLevels(remainingLevels);
                 subFractal = At(remainingLevels);
                 continue;

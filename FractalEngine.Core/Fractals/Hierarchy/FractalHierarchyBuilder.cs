@@ -159,17 +159,7 @@ internal sealed class FractalHierarchyBuilder
     private void AddLevel(ChildEdge[] edges, MapSet mapSet)
     {
         var level = Built.Top + 1;
-        var collapsedEdges = new List<CollapsedEdge>(edges.Length);
-        foreach (var edge in edges)
-        {
-            var collapsed = CollapsedEdge.Collapse(edge, level, Built.EdgesAt);
-            if (!Built.VolumeAt(collapsed.RemainingLevels).Box.IsEmpty)
-            {
-                collapsedEdges.Add(collapsed);
-            }
-        }
-
-        var volume = ComputeUnion(collapsedEdges.ToArray(), level);
+        var volume = ComputeUnion(CollapseEdges(edges, level), level);
         var children = _childBuilder.ExpandChildren(level, edges, Built.EdgesAt);
         var childVolumes = new BoundingVolume[children.Length];
         for (var i = 0; i < children.Length; i++)
@@ -179,6 +169,26 @@ internal sealed class FractalHierarchyBuilder
 
         var subFractal = _subFractalFactory.Create(mapSet, children, childVolumes, volume);
         Built.Add(subFractal, volume, new(mapSet, volume.Box, edges, ComputeEdgeBoxes(edges, level, Built.VolumeAt)));
+    }
+
+    /// <summary>Collapses the edges of a level that lead to parts with points.</summary>
+    private CollapsedEdge[] CollapseEdges(ChildEdge[] edges, long level)
+    {
+        var collapsedEdges = new CollapsedEdge[edges.Length];
+        var count = 0;
+        // One delegate for all edges.
+        Func<long, ChildEdge[]> edgesAt = Built.EdgesAt;
+        foreach (var edge in edges)
+        {
+            var collapsed = CollapsedEdge.Collapse(edge, level, edgesAt);
+            if (!Built.VolumeAt(collapsed.RemainingLevels).Box.IsEmpty)
+            {
+                collapsedEdges[count++] = collapsed;
+            }
+        }
+
+        Array.Resize(ref collapsedEdges, count);
+        return collapsedEdges;
     }
 
     /// <summary>Replaces all remaining rounds by one that is inflated a little, if it can be proved to contain them.</summary>

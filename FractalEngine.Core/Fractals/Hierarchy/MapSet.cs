@@ -11,6 +11,9 @@ internal sealed class MapSet
     // An upper bound of the relative rounding error of a norm.
     private const double NormError = 1e-15;
 
+    // Computed twice at worst, with the same result.
+    private AffineMap[]? _inverses;
+
     /// <summary>Computes the terms of a transformation set.</summary>
     /// <exception cref="SingularMatrixException">A map has no inverse.</exception>
     public MapSet(TransformationSet set)
@@ -24,7 +27,6 @@ internal sealed class MapSet
     public MapSet(AffineMap[] maps)
     {
         Maps = maps;
-        Inverses = new AffineMap[maps.Length];
         ScalesSquared = new double[maps.Length];
         OperatorNormBounds = new double[maps.Length];
         IdentityIndex = -1;
@@ -32,7 +34,8 @@ internal sealed class MapSet
         for (var i = 0; i < maps.Length; i++)
         {
             var map = maps[i];
-            Inverses[i] = map.Inverse();
+            // Only to find out whether there is one.
+            map.Inverse();
             ScalesSquared[i] = map.Linear.V1.LengthSquared();
             OperatorNormBounds[i] = BoundingSphere.OperatorNormBound(map.Linear) * (1 + NormError);
             AreSimilarities &= Similarity.IsSimilarity(map.Linear);
@@ -49,8 +52,8 @@ internal sealed class MapSet
     /// <summary>The maps in the order of the set.</summary>
     public AffineMap[] Maps { get; }
 
-    /// <summary>The inverses of the maps.</summary>
-    public AffineMap[] Inverses { get; }
+    /// <summary>The inverses of the maps, computed at the first use: they are as large as the maps, and few searches need them.</summary>
+    public AffineMap[] Inverses => _inverses ??= Array.ConvertAll(Maps, static map => map.Inverse());
 
     /// <summary>Squares of the factors by which the maps lengthen vectors; meaningful for similarities only.</summary>
     public double[] ScalesSquared { get; }
@@ -65,5 +68,5 @@ internal sealed class MapSet
     public bool AreSimilarities { get; }
 
     /// <summary>Number of bytes of the arrays.</summary>
-    public long StorageBytes => Maps.Length * 26 * sizeof(double);
+    public long StorageBytes => Maps.Length * (_inverses is null ? 14 : 26) * sizeof(double);
 }

@@ -126,8 +126,12 @@ internal sealed class SubFractal
         + (Solid?.StorageBytes ?? 0) + (Lanes?.StorageBytes ?? 0) + (Floats?.StorageBytes ?? 0) + (Clusters?.StorageBytes ?? 0) + 160;
 
     /// <summary>Lists the children, and those of groups among them.</summary>
-    public IEnumerable<ChildInstance> AllChildren() =>
-        Children.SelectMany(child => child.Group is { } group ? [child, .. group.AllChildren()] : (IEnumerable<ChildInstance>)[child]);
+    public List<ChildInstance> AllChildren()
+    {
+        var all = new List<ChildInstance>(Children.Length);
+        AddAllChildren(all);
+        return all;
+    }
 
     /// <summary>True for a child without faces, whose box is far from everything.</summary>
     public bool IsChildEmpty(int child) => ChildBounds[child] == FarAwayPoint.X;
@@ -216,5 +220,14 @@ internal sealed class SubFractal
         return isHullTested
             ? Math.Max(bound, Hull!.TransformedLowerBoundSquared(position, in map, in inverse, cutoffSquared))
             : bound;
+    }
+
+    private void AddAllChildren(List<ChildInstance> all)
+    {
+        foreach (var child in Children)
+        {
+            all.Add(child);
+            child.Group?.AddAllChildren(all);
+        }
     }
 }

@@ -16,9 +16,11 @@ internal static class RotationUnits
     /// <returns>Null for any other rotation.</returns>
     public static string? DescribeRadians(Vector degrees)
     {
-        double[] angles = [.. Components(degrees).Where(static angle => angle != 0)];
-        return angles.Length > 0 && angles.All(IsCommonRadian)
-            ? Describe(degrees, "radians", "degrees", angles[0], Math.Round(angles[0] * 180 / Math.PI))
+        // Without allocation, since each call of a transformation is looked at.
+        var (x, y, z) = degrees;
+        var first = x != 0 ? x : y != 0 ? y : z;
+        return first != 0 && IsZeroOrCommonRadian(x) && IsZeroOrCommonRadian(y) && IsZeroOrCommonRadian(z)
+            ? Describe(degrees, "radians", "degrees", first, Math.Round(first * 180 / Math.PI))
             : null;
     }
 
@@ -27,15 +29,20 @@ internal static class RotationUnits
     public static string? DescribeDegrees(Vector radians)
     {
         var angle = Components(radians).FirstOrDefault(static angle => Math.Abs(angle) > 2 * Math.PI * (1 + RelativeTolerance));
-        return angle == 0 ? null : Describe(radians, "degrees", "radians", angle, Math.Round(angle * Math.PI / 180, 4));
+        return angle == 0 ? null : Describe(radians, "degrees", "radians", angle, Math.Round(angle / 180 * Math.PI, 4));
     }
 
     private static string Describe(Vector rotation, string likely, string unit, double angle, double converted) => string.Create(
         CultureInfo.InvariantCulture,
         $"the rotation {rotation} looks like {likely}, but is in {unit} here: {angle:R} {likely} are {converted:R} {unit}");
 
-    private static bool IsCommonRadian(double angle)
+    private static bool IsZeroOrCommonRadian(double angle)
     {
+        if (angle == 0)
+        {
+            return true;
+        }
+
         var multiple = Math.Round(angle / CommonAngle) * CommonAngle;
         return multiple != 0 && Math.Abs(angle) <= 2 * Math.PI * (1 + RelativeTolerance)
             && Math.Abs(angle - multiple) <= RelativeTolerance * Math.Abs(multiple);

@@ -49,6 +49,20 @@ public sealed class SimulateCommandTests : IDisposable
             error.ReplaceLineEndings("\n"));
     }
 
+    [Theory]
+    [InlineData("p \"cube.obj\" ((1e151, 2, 0), #, #) 0.5 name \"far\"", "far.sdo:1:1: error: the position of body far")]
+    [InlineData("p \"cube.obj\" # 0.5 velocity (0, 1e160, 0)", "far.sdo:1:1: error: the velocity of body #0")]
+    [InlineData("p \"cube.obj\" # 0.5\ngravity (0, 1e200, 0)", "error: gravity")]
+    [InlineData("p \"cube.obj\" # 0 velocity (9e149, 0, 0)\ngravity (1e149, 0, 0)", "far.sdo:1:1: error: the velocity of body #0")]
+    public void Simulate_BeyondTheRangeOfPhysics_NamesTheLimit(string scene, string subject)
+    {
+        // Such bodies stood still, without a word.
+        _folder.Write("far.sdo", scene + "\n");
+        var (exitCode, _, error) = Run("simulate", "far.sdo", "--seconds", "2");
+        Assert.Equal(3, exitCode);
+        Assert.StartsWith($"{subject} is beyond the limit of 1e150 of physics", error, StringComparison.Ordinal);
+    }
+
     [Fact]
     public void Simulate_UntilAllBodiesRest_ReportsThemAsleep()
     {
@@ -188,13 +202,14 @@ public sealed class SimulateCommandTests : IDisposable
     }
 
     [Fact]
-    public void Simulate_BeyondTheRangeOfADouble_WritesNothingAndNamesTheBody()
+    public void Simulate_BeyondTheRangeOfPhysics_WritesNothingAndNamesTheBody()
     {
-        _folder.Write("far.sdo", "p \"cube.obj\" # 0.5 name \"comet\" velocity (1e308, 0, 0)\n");
+        _folder.Write("far.sdo", "p \"cube.obj\" # 0.5 name \"comet\" velocity (9e149, 0, 0)\ngravity (1e149, 0, 0)\n");
         File.WriteAllText(_folder["bodies.csv"], "before");
         var (exitCode, output, error) = Run("simulate", "far.sdo", "--output", "bodies.csv");
-        Assert.Equal((1, ""), (exitCode, output));
-        Assert.StartsWith("far.sdo:1:1: error: body comet has left the range of a double in step 107: ", error, StringComparison.Ordinal);
+        Assert.Equal((3, ""), (exitCode, output));
+        Assert.StartsWith(
+            "far.sdo:1:1: error: the velocity of body comet is beyond the limit of 1e150 of physics", error, StringComparison.Ordinal);
         Assert.Equal("before", File.ReadAllText(_folder["bodies.csv"]));
         Assert.Empty(Directory.GetFiles(_folder.Path, "*.tmp"));
     }

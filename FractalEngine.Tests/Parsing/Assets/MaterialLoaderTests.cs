@@ -167,7 +167,7 @@ public sealed class MaterialLoaderTests : IDisposable
         _folder.Write("a.mtl", "newmtl m\nmap_Bump Images\\Heights.png\nnorm gone.png\nPr 0.5\n");
         var loaded = Load("mtllib a.mtl\nusemtl m\nf 1 2 3\n");
         Assert.Equal(new Material("m") { BumpTexture = new(_folder["images/heights.png"]), Roughness = 0.5 }, MaterialOf(loaded));
-        Assert.Equal("map_Bump is kept but not drawn (3 such statements in all)", Assert.Single(loaded.Warnings).Message);
+        Assert.Equal("map_Bump is shown in traced images only (3 such statements in all)", Assert.Single(loaded.Warnings).Message);
     }
 
     [Fact]
@@ -260,6 +260,26 @@ public sealed class MaterialLoaderTests : IDisposable
         AssertImageIsRefused(message);
     }
 
+    [Theory]
+    [InlineData("a.tga", 201_326_610, new byte[] { 0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 32, 0, 32, 24, 0 })]
+    [InlineData("a.tga", 3_145_763, new byte[] { 5, 1, 10, 0, 0, 4, 0, 24, 0, 0, 0, 0, 0, 32, 0, 32, 40, 0 })]
+    [InlineData("a.bmp", 201_326_646, new byte[]
+        { 0x42, 0x4D, 0, 0, 0, 0, 0, 0, 0, 0, 54, 0, 0, 0, 40, 0, 0, 0, 0, 32, 0, 0, 0, 32, 0, 0, 1, 0, 24, 0, 0, 0, 0, 0 })]
+    [InlineData("a.bmp", 4_182, new byte[]
+        { 0x42, 0x4D, 0, 0, 0, 0, 0, 0, 0, 0, 54, 0, 0, 0, 40, 0, 0, 0, 0, 32, 0, 0, 0, 32, 0, 0, 1, 0, 8, 0, 1, 0, 0, 0 })]
+    [InlineData("a.jpg", 32_768, new byte[] { 0xFF, 0xD8, 0xFF, 0xC0, 0, 17, 8, 32, 0, 32, 0, 3, 1 })]
+    [InlineData("a.png", 195_083, new byte[]
+        { 0x89, 0x50, 0x4E, 0x47, 13, 10, 26, 10, 0, 0, 0, 13, 0x49, 0x48, 0x44, 0x52, 0, 0, 32, 0, 0, 0, 32, 0, 8, 2, 0, 0, 0 })]
+    public void Load_WithAnImageThatItsFileCantHold_WarnsAndIsGrey(string name, int bytes, byte[] header)
+    {
+        File.WriteAllBytes(_folder[name], header);
+        _folder.Write("a.mtl", $"newmtl m\nmap_Kd {name}\n");
+        var warning = SingleWarning(Load("mtllib a.mtl\nusemtl m\nf 1 2 3\n"));
+        Assert.Contains(
+            $"the image \"{name}\" is cut off: 8192×8192 pixels need at least {bytes} bytes, and it has {header.Length}: drawn grey",
+            warning, StringComparison.Ordinal);
+    }
+
     [Fact]
     public void Load_WithAnImageFileBeyondTheLimit_WarnsAndIsGrey()
     {
@@ -278,7 +298,8 @@ public sealed class MaterialLoaderTests : IDisposable
         var names = new[] { "a", "b", "c" };
         foreach (var name in names)
         {
-            WritePngHeader($"{name}.png", 8192, 8192);
+            // What an image of one bit a pixel takes at least.
+            WritePngHeader($"{name}.png", 8192, 8192, fileBytes: 8192 * 8192 / 8 / 1032);
         }
 
         _folder.Write("a.mtl", string.Concat(names.Select(name => $"newmtl {name}\nmap_Kd {name}.png\n")));
@@ -321,7 +342,7 @@ public sealed class MaterialLoaderTests : IDisposable
     [InlineData("a.raw", new byte[] { 0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 5, 0, 6, 0, 24, 0 }, false)]
     public void Load_OfAnImageHeader_TellsImagesFromOtherFiles(string name, byte[] header, bool isImage)
     {
-        File.WriteAllBytes(_folder[name], header);
+        File.WriteAllBytes(_folder[name], isImage ? [.. header, .. new byte[300]] : header);
         _folder.Write("a.mtl", $"newmtl m\nmap_Kd {name}\n");
         var loaded = Load("mtllib a.mtl\nusemtl m\nf 1 2 3\n");
         Assert.Equal(isImage, MaterialOf(loaded).Texture is not null);
@@ -382,10 +403,10 @@ public sealed class MaterialLoaderTests : IDisposable
     }
 
     /// <summary>Writes the first bytes of a PNG file, which hold its size.</summary>
-    private void WritePngHeader(string name, uint width, uint height)
+    private void WritePngHeader(string name, uint width, uint height, int fileBytes = 29)
     {
         byte[] head = [0x89, (byte)'P', (byte)'N', (byte)'G', 0x0D, 0x0A, 0x1A, 0x0A, 0, 0, 0, 13, (byte)'I', (byte)'H', (byte)'D',
-            (byte)'R', .. new byte[13]];
+            (byte)'R', .. new byte[fileBytes - 16]];
         BinaryPrimitives.WriteUInt32BigEndian(head.AsSpan(16), width);
         BinaryPrimitives.WriteUInt32BigEndian(head.AsSpan(20), height);
         Directory.CreateDirectory(Path.GetDirectoryName(_folder[name])!);

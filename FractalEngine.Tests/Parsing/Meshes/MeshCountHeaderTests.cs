@@ -20,6 +20,15 @@ public sealed class MeshCountHeaderTests : IDisposable
     [InlineData("\uFEFFv 1 2 3\n", "\uFEFF# Mesh count: 7\nv 1 2 3\n")]
     [InlineData("\uFEFF# a\nv 1 2 3\n", "\uFEFF# a\n# Mesh count: 7\nv 1 2 3\n")]
     [InlineData("# only a comment", "# only a comment\n# Mesh count: 7\n")]
+    [InlineData("# Mesh count: 9670 (by me)\nv 1 2 3\n", "# Mesh count: 7 (by me)\nv 1 2 3\n")]
+    [InlineData("# MESH COUNT:\t12, once\nv 1 2 3\n", "# MESH COUNT:\t7, once\nv 1 2 3\n")]
+    [InlineData("# Mesh count:\nv 1 2 3\n", "# Mesh count: 7\nv 1 2 3\n")]
+    [InlineData("# Mesh count:12\nv 1 2 3\n", "# Mesh count: 7\nv 1 2 3\n")]
+    [InlineData("# Mesh count: of the artist\nv 1 2 3\n", "# Mesh count: of the artist\n# Mesh count: 7\nv 1 2 3\n")]
+    [InlineData("# Mesh count: 5.5 kg\nv 1 2 3\n", "# Mesh count: 5.5 kg\n# Mesh count: 7\nv 1 2 3\n")]
+    [InlineData("# a\nv 1 2 3\r\nv 2 3 4\r\n", "# a\n# Mesh count: 7\nv 1 2 3\r\nv 2 3 4\r\n")]
+    [InlineData("v 1 2 3\nv 2 3 4\r\n", "# Mesh count: 7\nv 1 2 3\nv 2 3 4\r\n")]
+    [InlineData("# a\rv 1 2 3\rv 2 3 4\r", "# a\r# Mesh count: 7\rv 1 2 3\rv 2 3 4\r")]
     public void Update_InsertsOrCorrectsTheHeaderAndNothingElse(string before, string after)
     {
         var path = _folder.Write("a.obj", before);

@@ -61,8 +61,10 @@ public class MtlParserTests
                 Metalness = 1,
             },
             file.Materials["a"]);
-        Assert.StartsWith($"test.mtl:2:1: warning: {keyword} is kept but not drawn (5 such statements in all)\n",
-            Assert.Single(file.Warnings).ToString(), StringComparison.Ordinal);
+        Assert.StartsWith($"test.mtl:2:1: warning: {keyword} is shown in traced images only (4 such statements in all)\n",
+            file.Warnings[0].ToString(), StringComparison.Ordinal);
+        Assert.StartsWith("test.mtl:4:1: warning: map_Ke is kept but not shown\n", file.Warnings[1].ToString(), StringComparison.Ordinal);
+        Assert.Equal([true, false], file.Warnings.Select(static warning => warning.ConcernsDrawnFrames));
         Assert.Empty(file.TextureNameOffsets);
     }
 

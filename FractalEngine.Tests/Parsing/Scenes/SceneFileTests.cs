@@ -104,7 +104,7 @@ public sealed class SceneFileTests : IDisposable
     [Fact]
     public void Write_OfAModelWithMaterials_WritesThemToo()
     {
-        File.WriteAllBytes(_folder["3 d.tga"], [0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 5, 0, 6, 0, 24, 0]);
+        File.WriteAllBytes(_folder["3 d.tga"], [0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 5, 0, 6, 0, 24, 0, .. new byte[90]]);
         var red = new Material("dark red")
         {
             Diffuse = new(0.1, 1.0 / 3, 0), Specular = Colour.White, SpecularExponent = 96.5, Opacity = 0.25,

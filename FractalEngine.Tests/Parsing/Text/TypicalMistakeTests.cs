@@ -457,6 +457,11 @@ public class TypicalMistakeTests
         Assert.Single(SceneParser.Parse(new("room.sdo", "c (1, 2, 3) (0, 45, 0) 60")).Warnings).ToString());
 
     [Fact]
+    public void Camera_WithALargeRotation_IsConvertedWithoutOverflow() => Assert.EndsWith(
+        ": 1E+308 degrees are 1.7453292519943295E+306 radians",
+        Assert.Single(SceneParser.Parse(new("room.sdo", "c (1, 2, 3) (0, 1e308, 0) 60")).Warnings).Message, StringComparison.Ordinal);
+
+    [Fact]
     public void Object_WithRadians_IsReadWithAHint() => Assert.Equal(
         """
         room.sdo:1:18: warning: the rotation (0, 1.5708, 0) looks like radians, but is in degrees here: 1.5708 radians are 90 degrees

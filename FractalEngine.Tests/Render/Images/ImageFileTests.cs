@@ -60,6 +60,18 @@ public sealed class ImageFileTests : IDisposable
         Assert.StartsWith($"{path} can't be read: ", ErrorOf(path), StringComparison.Ordinal);
     }
 
+    [Theory]
+    [InlineData("P6 30000 30000 255\n")]
+    [InlineData("/* XPM */\nstatic char*a[]={\"60000 60000 1 1\",\"a c #000000\"};")]
+    [InlineData("GIF89a")]
+    public void Load_OfAnotherFormat_IsRefusedBeforeADecoderSeesIt(string contents)
+    {
+        var path = Path.Combine(_directory.FullName, "image.ppm");
+        File.WriteAllText(path, contents);
+        var error = Assert.Throws<IOException>(() => ImageFile.Load(path, _ => throw new NotSupportedException()));
+        Assert.Equal($"{path} can't be read: it is not a PNG, JPEG, BMP or TGA image", error.Message);
+    }
+
     [Fact]
     public void Load_OfAPngByAnotherName_KnowsItByItsFirstBytes()
     {
@@ -85,6 +97,15 @@ public sealed class ImageFileTests : IDisposable
         var error = Assert.Throws<IOException>(() => ImageFile.Load(path, _ => throw new DllNotFoundException()));
         var expected = $"{path} can't be read: it is no PNG image, and other formats need SDL2_image (Debian: ";
         Assert.StartsWith(expected, error.Message, StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void Load_OfAnImageThatItsFileCantHold_IsRefusedBeforeADecoderSeesIt()
+    {
+        var path = Path.Combine(_directory.FullName, "image.tga");
+        File.WriteAllBytes(path, [0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 32, 0, 32, 24, 0]);
+        var error = Assert.Throws<IOException>(() => ImageFile.Load(path, _ => throw new NotSupportedException()));
+        Assert.Equal($"{path} can't be read: it is cut off: 8192×8192 pixels need at least 201326610 bytes, and it has 18", error.Message);
     }
 
     [SkippableFact]

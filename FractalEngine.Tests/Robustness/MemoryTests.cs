@@ -1,0 +1,72 @@
+using System.Globalization;
+using System.Text;
+using FractalEngine.Tests.Support;
+
+namespace FractalEngine.Tests.Robustness;
+
+/// <summary>
+/// The promise about memory: beyond an empty process, 64 MiB and 20 times the text. The collector's heap is limited to that, where an empty
+/// process has next to nothing, so that a command that needs more ends with exit code 3.
+/// </summary>
+public sealed class MemoryTests : IDisposable
+{
+    private const string Triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+
+    private readonly TemporaryFolder _folder = new();
+
+    public MemoryTests() => _folder.Write("t.obj", Triangle);
+
+    public void Dispose() => _folder.Dispose();
+
+    [Theory]
+    [InlineData("info")]
+    [InlineData("info", "--prepare")]
+    [InlineData("info", "--composition", "affine")]
+    public void Info_OfMillionsOfSums_IsWithinTheMemory(params string[] arguments)
+    {
+        _folder.Write("sums.fdo", """
+            composition componentwise
+            v 1.1 0.2 0.3
+            v 0.7 1 0.11
+            v 0.13 0.17 1
+            v 0.5 0.25 0.125
+            t.a.b. (a, b, #)
+            x. "t.obj"
+            z<x>. [#, t.1.2, t.2.3, t.3.1, t.4.4, t.1.3] x
+            <$>. z 100
+
+            """);
+        RunWithinMemory("sums.fdo", arguments);
+    }
+
+    [Theory]
+    [InlineData("check")]
+    [InlineData("info")]
+    public void Info_OfAHundredThousandMaps_IsWithinTheMemory(string command)
+    {
+        var text = new StringBuilder();
+        var random = new Random(1);
+        for (var i = 0; i < 1000; i++)
+        {
+            text.Append(CultureInfo.InvariantCulture, $"v {random.Next(9)}.{i} {random.Next(99)} 0.0{i}\n");
+        }
+
+        text.Append("v 0.01 0.01 0.01\nt.a.b. (a, b, 1001)\nx. \"t.obj\"\n<$>. [");
+        for (var i = 0; i < 100_000; i++)
+        {
+            text.Append(CultureInfo.InvariantCulture, $"t.{random.Next(1000) + 1}.{random.Next(1000) + 1},");
+        }
+
+        _folder.Write("wide.fdo", text.Append("#] x\n").ToString());
+        RunWithinMemory("wide.fdo", [command]);
+    }
+
+    private void RunWithinMemory(string file, string[] arguments)
+    {
+        var bytes = (64L << 20) + (20 * new FileInfo(_folder[file]).Length);
+        var limit = bytes.ToString("x", CultureInfo.InvariantCulture);
+        var environment = new Dictionary<string, string?> { ["DOTNET_GCHeapHardLimit"] = limit };
+        var (exitCode, _, error) = AppProcess.Run(_folder[""], environment, [arguments[0], file, .. arguments[1..]]);
+        Assert.Equal((0, ""), (exitCode, error));
+    }
+}
