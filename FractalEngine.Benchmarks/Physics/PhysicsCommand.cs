@@ -8,13 +8,15 @@ namespace FractalEngine.Benchmarks.Physics;
 internal static class PhysicsCommand
 {
     private const string Heaps = "heaps";
+    private const string Movers = "movers";
 
     private const string Usage = """
         physics [NAME[:DEPTH] ...] [--balls N] [--collider NAME] [--rounds N] [--output FOLDER]
-        physics heaps [--rounds N] [--output FOLDER]
+        physics heaps|movers [--rounds N] [--output FOLDER]
           What a step costs while balls fall on a fractal; menger:5 and 1,000 balls unless stated. heaps: how heaps of balls come to
-          rest in a box and on a floor. Without names both are measured.
-          --output: also as physics.csv and physics-heaps.csv.
+          rest in a box and on a floor. movers: what plates, lifts and belts let pass, and how well they carry. Without names all are
+          measured.
+          --output: also as physics.csv, physics-heaps.csv and physics-movers.csv.
         """;
 
     /// <summary>Runs the command and returns the exit code.</summary>
@@ -31,7 +33,7 @@ internal static class PhysicsCommand
             .Count("--balls", count => bodyCount = count)
             .Option("--collider", text => TryParse(text, out collider))
             .Option("--output", value => folder = value)
-            .Names(name => name == Heaps || FractalCase.IsKnown(name), names);
+            .Names(name => name is Heaps or Movers || FractalCase.IsKnown(name), names);
         if (!parser.TryParse(args))
         {
             return 2;
@@ -42,12 +44,12 @@ internal static class PhysicsCommand
         var command = FormattableString.Invariant($"physics{nameList} --balls {bodyCount} --collider {colliderName} --rounds {rounds}");
         var csv = folder is null ? null : new CsvTable(Path.Combine(folder, "physics.csv"), command, PhysicsTable.Columns);
         var table = new PhysicsTable(rounds, Console.Out, csv);
-        foreach (var name in names.Count > 0 ? names.Where(static name => name != Heaps) : ["menger:5"])
+        foreach (var name in names.Count > 0 ? names.Where(static name => name is not (Heaps or Movers)) : ["menger:5"])
         {
             table.Write(FractalCase.Parse(name), bodyCount, collider);
         }
 
-        if (names is not [Heaps])
+        if (names.Count == 0 || names.Exists(FractalCase.IsKnown))
         {
             csv?.Save();
         }
@@ -55,6 +57,11 @@ internal static class PhysicsCommand
         if (names.Count == 0 || names.Contains(Heaps))
         {
             WriteHeaps(rounds, folder);
+        }
+
+        if (names.Count == 0 || names.Contains(Movers))
+        {
+            WriteMovers(rounds, folder);
         }
 
         return 0;
@@ -69,6 +76,14 @@ internal static class PhysicsCommand
         table.Write(1000, friction: 0.5, isOpen: false, seconds: 10);
         table.Write(1000, friction: 0.5, isOpen: true, seconds: 10);
         table.Write(10_000, friction: 0.5, isOpen: false, seconds: 3);
+        csv?.Save();
+    }
+
+    private static void WriteMovers(int rounds, string? folder)
+    {
+        var command = FormattableString.Invariant($"physics movers --rounds {rounds}");
+        var csv = folder is null ? null : new CsvTable(Path.Combine(folder, "physics-movers.csv"), command, MoverTable.Columns);
+        new MoverTable(rounds, Console.Out, csv).Write();
         csv?.Save();
     }
 

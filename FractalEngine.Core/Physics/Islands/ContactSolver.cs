@@ -16,10 +16,15 @@ internal sealed partial class ContactSolver
     /// <summary>Most rounds of a solve of few contacts.</summary>
     public const int ManyRounds = 250;
 
-    // Others may take as many rounds as solve so many contacts.
+    // Islands of more balls may take as many rounds as solve so many contacts.
     private const int MaxContactsOfManyRounds = 300;
     private const int MaxContactSolves = 25_000;
     private const int MinRounds = 8;
+
+    // The same where there are compounds, whose forces are solved for anew in each step.
+    private const int MaxContactsOfManyRoundsWithArms = 500;
+    private const int MaxContactSolvesWithArms = 60_000;
+    private const int MinRoundsWithArms = 12;
 
     // Of the largest impulse: a round that changes less has converged.
     private const double Tolerance = 1e-9;
@@ -176,14 +181,15 @@ internal sealed partial class ContactSolver
         }
 
         _rounding = ComputeRounding(rows);
-        var isLarge = rows.Length > MinBallRows && !HasArms(rows);
-        if (isLarge)
+        var hasArms = HasArms(rows);
+        var isCopied = rows.Length > MinBallRows && !hasArms;
+        if (isCopied)
         {
             _balls.Load(rows, _bodies);
         }
 
-        var isConverged = Iterate(rows, isLarge, maxRounds);
-        if (isLarge)
+        var isConverged = Iterate(rows, isCopied, Math.Min(maxRounds, MaxRoundsOf(rows.Length, hasArms)));
+        if (isCopied)
         {
             _balls.Store(rows, _bodies);
         }
@@ -191,19 +197,24 @@ internal sealed partial class ContactSolver
         return isConverged;
     }
 
-    private bool Iterate(Span<ContactRow> rows, bool isLarge, int maxRounds)
+    private static int MaxRoundsOf(int rowCount, bool hasArms)
+    {
+        var maxContacts = hasArms ? MaxContactsOfManyRoundsWithArms : MaxContactsOfManyRounds;
+        var maxSolves = hasArms ? MaxContactSolvesWithArms : MaxContactSolves;
+        return rowCount <= maxContacts ? ManyRounds : Math.Max(hasArms ? MinRoundsWithArms : MinRounds, maxSolves / rowCount);
+    }
+
+    private bool Iterate(Span<ContactRow> rows, bool isCopied, int maxRounds)
     {
         var previousNorm = 0.0;
-        maxRounds = rows.Length <= MaxContactsOfManyRounds ? maxRounds
-            : Math.Min(maxRounds, Math.Max(MinRounds, MaxContactSolves / rows.Length));
         _frictionShare = 1;
         var isConverged = false;
         for (Rounds = 1; Rounds < maxRounds; Rounds++)
         {
             var tolerance = Rounds <= FineRounds ? FineTolerance : Tolerance;
             // What converged among the contacts that push must do so among all.
-            var isFull = !isLarge || rows.Length <= MaxContactsOfManyRounds || isConverged || Rounds % FullRoundPeriod == 1;
-            isConverged = isLarge ? MakeRoundOfBalls(isFull, tolerance, out var norm) : MakeRound(rows, tolerance, out norm);
+            var isFull = !isCopied || rows.Length <= MaxContactsOfManyRounds || isConverged || Rounds % FullRoundPeriod == 1;
+            isConverged = isCopied ? MakeRoundOfBalls(isFull, tolerance, out var norm) : MakeRound(rows, tolerance, out norm);
             if (isConverged && isFull)
             {
                 return true;
@@ -213,7 +224,7 @@ internal sealed partial class ContactSolver
             // Directions that have not led to the end by now may never do so where balls begin and cease to slip.
             var isConjugate = previousNorm > 0 && norm <= previousNorm && Rounds < maxRounds / 2;
             var share = isConjugate ? norm / previousNorm : 0;
-            if (isLarge)
+            if (isCopied)
             {
                 _balls.Extrapolate(share);
             }
@@ -225,7 +236,7 @@ internal sealed partial class ContactSolver
             previousNorm = norm;
         }
 
-        return isLarge ? MakeRoundOfBalls(isFull: true, Tolerance, out _) : MakeRound(rows, Tolerance, out _);
+        return isCopied ? MakeRoundOfBalls(isFull: true, Tolerance, out _) : MakeRound(rows, Tolerance, out _);
     }
 
     private bool MakeRoundOfBalls(bool isFull, double tolerance, out double norm)

@@ -70,7 +70,7 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
             else
             {
                 // The solve of the step ends what this one leaves.
-                _ = StopApproaches(rows, MaxFirstRounds);
+                _ = StopApproaches(rows, island.HasCompound ? ContactSolver.ManyRounds : MaxFirstRounds);
             }
 
             StoreVelocities(Graph.BodiesOf(in island));
