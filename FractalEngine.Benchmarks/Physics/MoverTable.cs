@@ -93,8 +93,8 @@ internal sealed class MoverTable(int rounds, TextWriter output, CsvTable? table)
         var text = $"{name,-10} {speed,4} {count,7} {result.Passed,8} {result.Overlap,15:E1} {result.Gap,11:E1} {result.Speed,12:F6}";
         WriteLine($"{text} {best.Average(),15:F3} {best.Max(),7:F3}");
         table?.Add(
-            name, speed, count, Steps, result.Passed, result.Overlap, result.Gap, Math.Round(result.Speed, 9), Math.Round(best.Average(), 4),
-            Math.Round(best.Max(), 4), stateHash);
+            name, speed, count, Steps, result.Passed, result.Overlap, result.Gap, Math.Round(result.Speed, 9),
+            Math.Round(best.Average(), 4), Math.Round(best.Max(), 4), stateHash);
     }
 
     private static Result Run(Case mover, double[] best)

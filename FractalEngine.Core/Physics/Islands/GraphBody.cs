@@ -26,7 +26,7 @@ internal struct GraphBody
     /// <summary>True for a body of several balls.</summary>
     public bool IsCompound;
 
-    /// <summary>See <see cref="Body.HasHeapMargin"/>.</summary>
+    /// <summary>True for a body that was of a large island last, see <see cref="Body.HasHeapMargin"/>.</summary>
     public bool HasHeapMargin;
 
     /// <summary>What rounding adds to gaps so far from the origin.</summary>
@@ -44,7 +44,7 @@ internal struct GraphBody
     /// <summary>How far those push the body that may run into it.</summary>
     public double Push;
 
-    /// <summary>See <see cref="Body.KinematicPush"/>.</summary>
+    /// <summary>How far objects that move push the body in the step, see <see cref="Body.KinematicPush"/>.</summary>
     public double KinematicPush;
 
     /// <summary>Place of the first body that was found near it, among those of all.</summary>
