@@ -7,8 +7,8 @@ namespace FractalEngine.Render;
 /// coarser detail while frames are slow.
 /// </summary>
 /// <remarks>
-/// The minimum projected size stays between 3 and 24 pixels, and follows the frame time so that ten frames a second are drawn. It changes
-/// at most every fourth frame, since each change discards what was culled ahead. Draw with <see cref="Adapt(RenderSettings)"/> and pass the
+/// The minimum projected size stays between 3 and 24 pixels, 8 with shadows, and follows the frame time so that ten frames a second are
+/// drawn. It changes at most every fourth frame, since each change discards what was culled ahead. Draw with <see cref="Adapt(RenderSettings)"/> and pass the
 /// time taken to <see cref="RecordFrameTime"/>. When the camera stops, draw once more with the full settings.
 /// </remarks>
 public sealed class AdaptiveQuality
@@ -16,6 +16,10 @@ public sealed class AdaptiveQuality
     // Limits of the minimum projected size, pixels.
     private const double FinestProjectedSize = 3;
     private const double CoarsestProjectedSize = 24;
+
+    // Shadow maps have their own, finer detail. Larger proxies lie so far below what maps show, as tiles of a mountain do, that their
+    // surface is full of stripes and dots of shadow.
+    private const double CoarsestShadedSize = 8;
     private const int MaxInstances = 150_000;
 
     // Frame times between the two leave the size as it is.
@@ -28,6 +32,7 @@ public sealed class AdaptiveQuality
     private const double RefinementFactor = 1.15;
 
     private double _minProjectedSize = FinestProjectedSize;
+    private double _coarsestSize = CoarsestProjectedSize;
     private int _framesSinceChange;
     private (RenderSettings Source, double MinProjectedSize, RenderSettings Adapted)? _lastAdapted;
 
@@ -36,6 +41,8 @@ public sealed class AdaptiveQuality
     /// <returns>The same object for as long as nothing has changed.</returns>
     public RenderSettings Adapt(RenderSettings settings)
     {
+        _coarsestSize = settings is { Shadows: true, Shading: Shading.PerPixel, Wireframe: false } ? CoarsestShadedSize : CoarsestProjectedSize;
+        _minProjectedSize = Math.Min(_minProjectedSize, _coarsestSize);
         if (_lastAdapted is not { } last || last.Source != settings || last.MinProjectedSize != _minProjectedSize)
         {
             var culling = settings.Culling is null ? null : Adapt(settings.Culling);
@@ -58,7 +65,7 @@ public sealed class AdaptiveQuality
         var previousSize = _minProjectedSize;
         if (frameTime > SlowFrameTime)
         {
-            _minProjectedSize = Math.Min(CoarseningFactor * _minProjectedSize, CoarsestProjectedSize);
+            _minProjectedSize = Math.Min(CoarseningFactor * _minProjectedSize, _coarsestSize);
         }
         else if (frameTime < FastFrameTime)
         {

@@ -48,6 +48,15 @@ public sealed record RenderSettings
     /// </summary>
     public bool LazyLoading { get; init; } = true;
 
+    /// <summary>Draws no depth maps of lights that are dark, or light nothing visible.</summary>
+    public bool LightCulling { get; init; } = true;
+
+    /// <summary>Draws no objects into depth maps whose shadow falls on nothing visible.</summary>
+    public bool CasterCulling { get; init; } = true;
+
+    /// <summary>Computes no ambient occlusion of fractals that certainly have none: flat ones, and those of one part.</summary>
+    public bool BakeSkipping { get; init; } = true;
+
     /// <summary>Skips bindings and uniforms that are in effect already.</summary>
     public bool FilterRedundantState { get; init; } = true;
 

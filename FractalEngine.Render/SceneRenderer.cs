@@ -99,6 +99,9 @@ public sealed class SceneRenderer : IDisposable
         Scene.Models.Sum(static model => (long)model.DegenerateTriangleCount), _frameUploads, _frameStateChanges)
     {
         ShadowMaps = _objectsPass.ShadowMapCounts,
+        SkippedShadowMaps = _objectsPass.SkippedShadows.Maps,
+        SkippedCasters = _objectsPass.SkippedShadows.Casters,
+        SkippedBakes = Scene.Models.Count(static model => model.HasOpenSky && model.LodHierarchy is { IsSkyBaked: false }),
     };
 
     /// <summary>Replaces the models by those of a further preparation of the same scene, on the context's thread.</summary>

@@ -15,6 +15,15 @@ internal enum Optimisation
     /// <summary>Removes triangles without area when a mesh is prepared.</summary>
     DegenerateRemoval,
 
+    /// <summary>Draws no depth maps of lights that are dark, or light nothing visible.</summary>
+    LightCulling,
+
+    /// <summary>Draws no objects into depth maps whose shadow falls on nothing visible.</summary>
+    CasterCulling,
+
+    /// <summary>Computes no ambient occlusion of fractals that certainly have none.</summary>
+    BakeSkipping,
+
     /// <summary>Skips OpenGL calls that would not change the state.</summary>
     StateFiltering,
 

@@ -2,6 +2,7 @@ using FractalEngine.App.Window.Editing;
 using FractalEngine.App.Window.Tools;
 using FractalEngine.App.Window.Selecting;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Render;
@@ -158,18 +159,27 @@ internal sealed class Document : IDisposable
     /// <summary>Adds the lines of what is selected and measured to those of the bodies, in the frame of the view.</summary>
     private void AddLines(View view)
     {
-        var lines = Tool.Lines();
+        var lines = Tool.WorldLines();
         Section.AddLines(File.Scene.Bounds, lines);
         TransformHandles.AddLines(this, view, lines);
-        if (lines.Count == 0 && VisibleDepth == 0)
+        lines.AddRange(Renderer.Lines);
+        if (VisibleDepth > 0 && MapToDrawnFrame(null) is { } map)
         {
-            return;
+            lines = lines.ConvertAll(line => line with { From = map(line.From), To = map(line.To) });
         }
 
-        lines.AddRange(Renderer.Lines);
-        Renderer.Lines = Physics.IsWalking ? lines : lines.ConvertAll(line =>
-            line with { From = FlyingCamera.ToDrawnFrame(line.From), To = FlyingCamera.ToDrawnFrame(line.To) });
+        Tool.AddDrawnLines(lines);
+        if (lines.Count > 0 || Renderer.Lines.Count > 0)
+        {
+            Renderer.Lines = lines;
+        }
     }
+
+    /// <summary>Returns the map from points of the world, or about another camera in the fractal, to the frame that is drawn.</summary>
+    /// <param name="viewpoint">Address of that other camera, in whose unit the points are; null for points in world space.</param>
+    /// <returns>Null where a double can't tell both places.</returns>
+    public Func<Vector, Vector>? MapToDrawnFrame(FractalAddress? viewpoint) =>
+        FlyingCamera.MapToDrawnFrame(viewpoint, isDeep: VisibleDepth > 0);
 
     /// <summary>Passes an event to the controls of the player or the camera.</summary>
     /// <param name="windowEvent">Any event of the window.</param>
@@ -266,6 +276,13 @@ internal sealed class Document : IDisposable
     {
         Edits = Edits.AfterSave(path, before, after);
         History.Transform(state => state with { Edits = state.Edits.AfterSave(path, before, after) });
+    }
+
+    /// <summary>Drops the edits of a file that is not shown any more, also in all states that an undo returns to.</summary>
+    public void ForgetEdits(string path)
+    {
+        Edits = Edits.Without(path);
+        History.Transform(state => state with { Edits = state.Edits.Without(path) });
     }
 
     /// <summary>Continues the same edits, as they are after other programs have changed the files.</summary>

@@ -25,6 +25,7 @@ internal sealed class DocumentLoader(
     private readonly AssetCache _cache = new();
     private string _path = "";
     private FileEdits _edits = FileEdits.None;
+    private FileEdits _editsAtStart = FileEdits.None;
     private BackgroundLoad? _load;
     private Action? _next;
     private (string Error, TimeSpan Time)? _pendingFault;
@@ -62,11 +63,6 @@ internal sealed class DocumentLoader(
         {
             _next = () => Open(path, settings, keepsState);
             return;
-        }
-
-        if (!keepsState)
-        {
-            _edits = FileEdits.None;
         }
 
         Start(path, settings, keepsState ? Document : null);
@@ -123,14 +119,19 @@ internal sealed class DocumentLoader(
             ShowTitle(path);
         }
 
-        var rebased = _edits.Rebase(report);
-        if (!ReferenceEquals(rebased, _edits))
+        _editsAtStart = Document?.Edits ?? FileEdits.None;
+        var edits = FileEdits.None;
+        if (previous is not null)
         {
-            _edits = rebased;
-            previous?.RebaseEdits(rebased);
+            edits = _edits.Rebase(report);
+            if (!ReferenceEquals(edits, _edits))
+            {
+                _edits = edits;
+                previous.RebaseEdits(edits);
+            }
         }
 
-        _load = new(path, options.Load with { EditedTexts = _edits.Texts }, settings, window.Aspect, _cache, previous, window.Wake);
+        _load = new(path, options.Load with { EditedTexts = edits.Texts }, settings, window.Aspect, _cache, previous, window.Wake);
     }
 
     private void ShowTitle(string path)
@@ -157,7 +158,9 @@ internal sealed class DocumentLoader(
         overlay.Progress = null;
         var loaded = load.TakeResult(out var exitCode, out var error);
         ExitCode = Document is null ? exitCode : ExitCode;
-        var redraw = loaded is var (file, preparation) ? Show(load, file, preparation) : Refuse(load, error!, now);
+        var redraw = loaded is not var (file, preparation) ? Refuse(load, error!, now)
+            : WasEditedDuring(load) ? KeepEdited(load)
+            : Show(load, file, preparation);
         if (_next is { } next)
         {
             _next = null;
@@ -165,6 +168,16 @@ internal sealed class DocumentLoader(
         }
 
         return redraw;
+    }
+
+    /// <summary>Tells whether the user has changed the present document while another was loading, which would replace it.</summary>
+    private bool WasEditedDuring(BackgroundLoad load) =>
+        load.Previous is null && Document is { } document && !document.Edits.Equals(_editsAtStart);
+
+    private Redraw KeepEdited(BackgroundLoad load)
+    {
+        report($"{Path.GetFileName(load.Path)} was not opened, since {Path.GetFileName(_path)} was changed meanwhile: save that first");
+        return Redraw.Overlay;
     }
 
     private Redraw Show(BackgroundLoad load, LoadedFile file, ScenePreparation preparation)
@@ -175,6 +188,17 @@ internal sealed class DocumentLoader(
         {
             Document?.Dispose();
             Document = null;
+        }
+
+        if (previous is null)
+        {
+            _edits = FileEdits.None;
+        }
+        else if (!isSameFile && previous.File.Kind == FileKind.Scene)
+        {
+            // The scene has another file now, which has all that was changed.
+            previous.ForgetEdits(previous.File.Path);
+            _edits = previous.Edits;
         }
 
         var known = previous?.File.Warnings.Select(static warning => warning.ToString()).ToHashSet() ?? [];

@@ -48,6 +48,32 @@ internal sealed class FileCommands(
     /// <summary>Asks for a file, and opens it. The files that were opened last are suggested first.</summary>
     public void AskForFile() => prompts.Open(new TextPrompt("Open a file", "", TryOpen, SuggestFiles));
 
+    /// <summary>Asks what a new fractal begins with and for its name, writes it, and opens it.</summary>
+    /// <param name="created">Called once it is written.</param>
+    public void NewFractal(Action created) => AskAboutChanges("Begin a new fractal?", () => prompts.Open(new ChoicePrompt(
+        "A new fractal begins as", [],
+        [.. FractalTemplate.All.Select(template => new PromptChoice(template.Key, template.Help, () => AskForName(template, created)))])));
+
+    private void AskForName(FractalTemplate template, Action created) => prompts.Open(new TextPrompt(
+        "Name of the new fractal", PathText.Shorten(NewFractalFile.Propose(template, Directory.GetCurrentDirectory())), text =>
+        {
+            var path = PathText.Expand(text);
+            path = path.Length > 0 && Path.GetExtension(path).Length == 0 ? path + ".fdo" : path;
+            try
+            {
+                NewFractalFile.Write(template, path);
+            }
+            catch (Exception exception) when (exception is IOException or UnauthorizedAccessException)
+            {
+                return exception.Message;
+            }
+
+            report($"saved {PathText.Shorten(path)}");
+            loader.Open(PathText.Shorten(path), settings());
+            created();
+            return null;
+        }));
+
     /// <summary>Opens another file, after asking about unsaved changes.</summary>
     public void Open(string path) =>
         AskAboutChanges("Open another file?", () => loader.Open(path, settings()));

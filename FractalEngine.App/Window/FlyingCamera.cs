@@ -160,23 +160,47 @@ internal sealed class FlyingCamera
     }
 
     /// <summary>Looks at a point, which becomes the centre of the orbit.</summary>
-    /// <param name="point">World space, another one than the position of the camera.</param>
+    /// <param name="point">Relative to the camera, in the present unit; not 0.</param>
     public void FocusOn(Vector point)
     {
-        var direction = point - Camera.Position;
-        var distance = direction.Length();
+        var distance = point.Length();
         if (distance > 0)
         {
-            var rotation = CameraFraming.LookRotation(Pose.Camera.Handedness.Mirror(direction));
+            var rotation = CameraFraming.LookRotation(Pose.Camera.Handedness.Mirror(point));
             Pose = Pose with { Camera = Pose.Camera with { Rotation = rotation } };
-            FocusDistance = distance * Math.Exp(-(_address?.LogUnit ?? 0));
+            FocusDistance = distance;
         }
     }
 
-    /// <summary>Maps a point from world space to the frame in which a deep zoom is drawn, outside of it to itself.</summary>
-    public Vector ToDrawnFrame(Vector point) => _address is { Depth: > 0 } && Projection == Projection.Perspective
-        ? Math.Exp(-_address.LogUnit) * (point - Camera.Position)
-        : point;
+    /// <summary>Address of the camera in the fractal, which nobody else may move; null outside of fractals.</summary>
+    public FractalAddress? Address => _address;
+
+    /// <summary>Maps a point to world axes about the camera, in the present unit.</summary>
+    /// <param name="point">World space, or relative to another camera.</param>
+    /// <param name="viewpoint">Address of that other camera; null for world space.</param>
+    /// <returns>Null where a double can't tell both places.</returns>
+    public Vector? ToCameraFrame(Vector point, FractalAddress? viewpoint) =>
+        viewpoint is null ? Math.Exp(-(_address?.LogUnit ?? 0)) * (point - Camera.Position)
+        : _address?.MapFrom(viewpoint) is { } map ? map * point
+        : null;
+
+    /// <summary>
+    /// Returns the map to the frame that is drawn: in a deep zoom about the camera in the present unit, else world space.
+    /// </summary>
+    /// <param name="viewpoint">Address of the camera that the mapped points are about; null for points in world space.</param>
+    /// <param name="isDeep">Whether a deep zoom is drawn.</param>
+    /// <returns>Null where a double can't tell both places.</returns>
+    public Func<Vector, Vector>? MapToDrawnFrame(FractalAddress? viewpoint, bool isDeep)
+    {
+        if (viewpoint is null)
+        {
+            return isDeep ? point => Math.Exp(-_address!.LogUnit) * (point - Camera.Position) : static point => point;
+        }
+
+        // An address that nobody has moved is relative to the whole fractal and to the origin of the world.
+        var target = isDeep || _fractal is null ? _address : new(_fractal.Hierarchy, _fractal.ObjectToWorld, Vector.Zero);
+        return target?.MapFrom(viewpoint) is { } map ? point => map * point : null;
+    }
 
     /// <summary>Changes the angle of view, without moving the camera.</summary>
     /// <param name="degrees">The full vertical angle, more than 0 and less than 180 degrees.</param>

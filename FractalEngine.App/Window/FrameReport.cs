@@ -60,6 +60,9 @@ internal readonly record struct FrameReport(
             ("sharing", Invariant($"{saved.ObjectCount:N0} objects, {saved.ModelCount:N0} models, {saved.TextureCount:N0} textures")),
             ("buffer reuse", Invariant($"{saved.Uploads.Skipped:N0} uploads skipped, {saved.Uploads.Performed:N0} made")),
             ("shadow maps", Invariant($"{saved.ShadowMaps.Skipped:N0} kept, {saved.ShadowMaps.Performed:N0} drawn")),
+            ("light culling", Invariant($"{saved.SkippedShadowMaps:N0} shadow maps skipped")),
+            ("caster culling", Invariant($"{saved.SkippedCasters:N0} of {saved.ObjectCount:N0} objects")),
+            ("bake skipping", Invariant($"{saved.SkippedBakes:N0} of {saved.ModelCount:N0} models")),
             ("state filtering", Invariant($"{saved.StateChanges.Skipped:N0} calls skipped, {saved.StateChanges.Performed:N0} made")),
             ("idle", Invariant($"{frames.Skipped:N0} frames skipped, {frames.Drawn:N0} drawn, {frames.PresentedAgain:N0} reused")),
         ];

@@ -313,6 +313,7 @@ internal sealed class SceneWindow : IDisposable
         _overlay.TraceText = _tracing.StatusText;
         _loader.TitleNote = _overlay.TraceText;
         _overlay.HidesPhysics = _interface.IsShown && (_interface.IsOpen("physics") || !_interface.HasRoomForTexts);
+        _overlay.MessageReplacesStatus = _interface.IsShown && !_interface.HasRoomForTexts;
         _actions.Document = Document;
         _interface.Update(_window.Width, _window.Height);
         _redraw |= _actions.TakeRequested();

@@ -65,7 +65,7 @@ internal sealed class WindowOverlay
                 panels.Add(new(OverlayAnchor.TopLeft, [new OverlayLine(status, null, OverlayTone.Dim)]));
             }
 
-            if (_description is { } description)
+            if (_description is { } description && !(MessageReplacesStatus && _message is not null))
             {
                 var trace = TraceText is { } text ? $" · {text}" : "";
                 var lines = description.Lines.Insert(0, new($"{_fileText}{ViewText}{trace} · H: keys", null, OverlayTone.Dim));
@@ -96,6 +96,9 @@ internal sealed class WindowOverlay
             return panels;
         }
     }
+
+    /// <summary>Whether a message stands in the place of the status, since there is no room for both beside the panels.</summary>
+    public bool MessageReplacesStatus { get; set; }
 
     /// <summary>A line for frames that are coarser than the settings ask for; null for all others.</summary>
     private OverlayLine? BudgetNotice

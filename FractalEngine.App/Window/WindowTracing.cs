@@ -73,6 +73,6 @@ internal sealed class WindowTracing(WindowOptions options, Action published) : I
         : !settings.AmbientOcclusion ? "no ambient occlusion"
         : settings.Grid || settings.Axes ? "grid"
         : document.Physics.ShowsClosestPoints ? "closest points"
-        : document.Tool.Lines().Count > 0 ? "outlines of a selection"
+        : document.Tool.HasLines ? "outlines of a selection"
         : null;
 }

@@ -78,6 +78,11 @@ internal sealed class OptimisationTable(int rounds, TextWriter output, CsvTable?
             preparation.PrepareAll(null, CancellationToken.None);
         }
 
+        if (preparation.HasUnbakedSky(optimisation.Settings))
+        {
+            preparation.BakeSky(CancellationToken.None);
+        }
+
         using var renderer = new SceneRenderer(context, preparation.Scene);
         Draw(view);
         var start = watch.Elapsed.TotalMilliseconds;

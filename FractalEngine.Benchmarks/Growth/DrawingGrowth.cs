@@ -48,7 +48,7 @@ internal static class DrawingGrowth
             [() => Draw(culledRenderer, culledSettings, drawCount), () => Draw(everyInstanceRenderer, everyInstanceSettings, drawCount++)],
             options.IsQuick ? 2 : 7);
         var faces = frameCase.Scene.Objects[0].Model.FaceCount;
-        AddRow("chosen", culledRenderer.Statistics.InstanceCount, times[0]);
+        AddRow("culled", culledRenderer.Statistics.InstanceCount, times[0]);
         AddRow("all", everyInstance.InstanceCount, times[1]);
 
         void Draw(SceneRenderer renderer, RenderSettings settings, int count)

@@ -16,10 +16,11 @@ namespace FractalEngine.Benchmarks.Light;
 internal static class LightCommand
 {
     private const string Usage = """
-        light [SCENE ...] [--quick] [--images FOLDER] [--output FOLDER]
+        light [SCENE ...] [--quick] [--no-truth] [--images FOLDER] [--output FOLDER]
           Pixels with wrong shadows, of a resting and of a moving camera; decibels of the drawn image to a traced one, without
           both, with shadows, with occlusion too; processor time of frames likewise; writes light.csv.
           Unless scenes are named, also the light from all around within fractals, to a traced image; writes occlusion.csv.
+          --no-truth: without traced images, and the decibels to them.
           --images: also the images of both.
         """;
 
@@ -37,11 +38,13 @@ internal static class LightCommand
     public static int Run(ReadOnlySpan<string> args)
     {
         var isQuick = false;
+        var hasTruth = true;
         var folder = CommandLineParser.DefaultFolder;
         string? images = null;
         var scenes = new List<string>();
         var parser = new CommandLineParser(Usage)
             .Flag("--quick", () => isQuick = true)
+            .Flag("--no-truth", () => hasTruth = false)
             .Option("--output", value => folder = value)
             .Option("--images", value => images = value)
             .Names(static name => name == "occlusion" || File.Exists(PathOf(name)), scenes);
@@ -64,7 +67,7 @@ internal static class LightCommand
         var table = new TableOptions("light", isQuick, folder).CreateTable("light.csv", Columns);
         foreach (var scene in scenes)
         {
-            var row = Measure(scene, isQuick, images);
+            var row = Measure(scene, isQuick, hasTruth, images);
             table.Add(row);
             Console.WriteLine(string.Join(' ', row.Select(static field => Convert.ToString(field, CultureInfo.InvariantCulture))));
         }
@@ -88,7 +91,7 @@ internal static class LightCommand
 
     private static string PathOf(string name) => Path.Combine(FractalCase.Assets, "scenes", name + ".sdo");
 
-    private static object?[] Measure(string name, bool isQuick, string? images)
+    private static object?[] Measure(string name, bool isQuick, bool hasTruth, string? images)
     {
         var (width, height) = isQuick ? (320, 180) : (1280, 720);
         var scene = AssetLoader.Load(PathOf(name)).Scene;
@@ -98,7 +101,7 @@ internal static class LightCommand
         var (_, moving) = error.Count(new() { FitShadowsToView = false });
 
         // A traced image takes long: half the size shows the same.
-        var (smallWidth, smallHeight, samples) = (width / 2, height / 2, isQuick ? 32 : 64);
+        var (smallWidth, smallHeight, samples) = (width / 2, height / 2, !hasTruth ? 0 : isQuick ? 32 : 64);
         var tracer = new PathTracer(scene, view, smallWidth, smallHeight);
         for (var i = 0; i < samples; i++)
         {
@@ -120,8 +123,13 @@ internal static class LightCommand
             Math.Round(milliseconds[1] / milliseconds[0], 3), Math.Round(milliseconds[2] / milliseconds[0], 3),
         ];
 
-        double Decibels(RenderSettings settings)
+        double? Decibels(RenderSettings settings)
         {
+            if (!hasTruth)
+            {
+                return null;
+            }
+
             using var renderer = Renderer.Offscreen(smallWidth, smallHeight, settings);
             var image = renderer.Draw(scene, view);
             if (images is not null)

@@ -14,8 +14,7 @@ internal static class PhysicsCommand
         physics [NAME[:DEPTH] ...] [--balls N] [--collider NAME] [--rounds N] [--output FOLDER]
         physics heaps|movers [--rounds N] [--output FOLDER]
           What a step costs while balls fall on a fractal; menger:5 and 1,000 balls unless stated. heaps: how heaps of balls come to
-          rest in a box and on a floor. movers: what plates, lifts and belts let pass, and how well they carry. Without names all are
-          measured.
+          rest in a box and on a floor. movers: what a plate, a lift and a belt do to balls. Without names all are measured.
           --output: also as physics.csv, physics-heaps.csv and physics-movers.csv.
         """;
 
@@ -44,12 +43,13 @@ internal static class PhysicsCommand
         var command = FormattableString.Invariant($"physics{nameList} --balls {bodyCount} --collider {colliderName} --rounds {rounds}");
         var csv = folder is null ? null : new CsvTable(Path.Combine(folder, "physics.csv"), command, PhysicsTable.Columns);
         var table = new PhysicsTable(rounds, Console.Out, csv);
-        foreach (var name in names.Count > 0 ? names.Where(static name => name is not (Heaps or Movers)) : ["menger:5"])
+        var fractals = names.Count > 0 ? names.FindAll(static name => name is not (Heaps or Movers)) : ["menger:5"];
+        foreach (var name in fractals)
         {
             table.Write(FractalCase.Parse(name), bodyCount, collider);
         }
 
-        if (names.Count == 0 || names.Exists(FractalCase.IsKnown))
+        if (fractals.Count > 0)
         {
             csv?.Save();
         }
@@ -61,7 +61,7 @@ internal static class PhysicsCommand
 
         if (names.Count == 0 || names.Contains(Movers))
         {
-            WriteMovers(rounds, folder);
+            WriteMovers(folder);
         }
 
         return 0;
@@ -79,11 +79,10 @@ internal static class PhysicsCommand
         csv?.Save();
     }
 
-    private static void WriteMovers(int rounds, string? folder)
+    private static void WriteMovers(string? folder)
     {
-        var command = FormattableString.Invariant($"physics movers --rounds {rounds}");
-        var csv = folder is null ? null : new CsvTable(Path.Combine(folder, "physics-movers.csv"), command, MoverTable.Columns);
-        new MoverTable(rounds, Console.Out, csv).Write();
+        var csv = folder is null ? null : new CsvTable(Path.Combine(folder, "physics-movers.csv"), "physics movers", MoverTable.Columns);
+        new MoverTable(Console.Out, csv).Write();
         csv?.Save();
     }
 

@@ -1,4 +1,3 @@
-using System.Runtime.ExceptionServices;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Collision;
@@ -82,6 +81,8 @@ public static class BatchQuery
         double epsilon = 0,
         int? threads = null)
     {
+        ArgumentNullException.ThrowIfNull(scene);
+        ArgumentNullException.ThrowIfNull(context);
         FindClosest(Find, positions, results, context, maxDistance, epsilon, threads);
 
         bool Find(Vector position, QueryContext threadContext, out ClosestPoint closest) =>
@@ -96,37 +97,8 @@ public static class BatchQuery
     {
         ThrowIfInvalid(positions.Span, results.Length, maxDistance, epsilon, threads);
         context.ClearPath();
-        var taskCount = (positions.Length + PositionsPerTask - 1) / PositionsPerTask;
-        var totalsLock = new Lock();
-        try
-        {
-            RunTasks();
-        }
-        catch (AggregateException exception)
-        {
-            // Callers handle the errors of a query, on whatever thread it ran.
-            ExceptionDispatchInfo.Throw(exception.InnerExceptions[0]);
-        }
-
-        void RunTasks() => Parallel.For(
-            0,
-            taskCount,
-            new ParallelOptions { MaxDegreeOfParallelism = threads ?? -1 },
-            () => new QueryContext(),
-            (task, _, threadContext) =>
-            {
-                var first = task * PositionsPerTask;
-                var count = Math.Min(PositionsPerTask, positions.Length - first);
-                RunQueries(query, positions.Span.Slice(first, count), results.Span.Slice(first, count), threadContext);
-                return threadContext;
-            },
-            threadContext =>
-            {
-                lock (totalsLock)
-                {
-                    context.Statistics.Add(threadContext.Statistics);
-                }
-            });
+        QueryTasks.Run(positions.Length, PositionsPerTask, threads, context, (first, end, threadContext) => RunQueries(
+            query, positions.Span[first..end], results.Span[first..end], threadContext));
     }
 
     private static void ThrowIfInvalid(ReadOnlySpan<Vector> positions, int results, double maxDistance, double epsilon, int? threads)
@@ -146,10 +118,7 @@ public static class BatchQuery
         }
 
         Collider.ThrowIfInvalid(maxDistance, epsilon);
-        if (threads is { } number)
-        {
-            ArgumentOutOfRangeException.ThrowIfNegativeOrZero(number, nameof(threads));
-        }
+        QueryTasks.ThrowIfNoThreads(threads);
     }
 
     private static void RunQueries(Query query, ReadOnlySpan<Vector> positions, Span<BatchResult> results, QueryContext context)

@@ -107,7 +107,7 @@ internal ref struct ClosestObjectSearch(Vector position, double maxDistance, Que
         return objectIndex >= 0;
     }
 
-    /// <summary>Tells whether an object may be closer, or as close, whose box is at a distance. Without any point ε does not count.</summary>
+    /// <summary>Tells whether an object whose box is at a distance may be closer, or as close. ε counts once there is a point.</summary>
     private readonly bool MayHoldCloser(double boundDistance) =>
         boundDistance * (_objectIndex < 0 ? 1 : 1 + epsilon) <= _maxDistance && !double.IsPositiveInfinity(boundDistance);
 

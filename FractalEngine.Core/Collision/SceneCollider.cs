@@ -112,13 +112,13 @@ public sealed partial class SceneCollider
     internal SceneCollider WithoutObject(int index, out ColliderInstance removed)
     {
         var objects = _objects;
-        removed = objects.ToArray()[index];
+        removed = objects[index];
         // No query comes near an empty box.
         return new(objects.With(new(index, removed.Collider, Similarity.Identity, null, BoundingBox.Empty)), _sharedColliders, _kind);
     }
 
     /// <summary>The collider of one object at its place.</summary>
-    internal ColliderInstance ColliderOf(int index) => _objects.ToArray()[index];
+    internal ColliderInstance ColliderOf(int index) => _objects[index];
 
     private ColliderInstance CreateInstance(int index, PlacedModel placed)
     {

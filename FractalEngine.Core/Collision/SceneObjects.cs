@@ -40,6 +40,10 @@ internal sealed class SceneObjects
 
     private int HierarchyCount => Hierarchy?.Count ?? 0;
 
+    /// <summary>The object with an index in the scene, found in O(log n).</summary>
+    public ColliderInstance this[int index] =>
+        index < HierarchyCount ? (ColliderInstance)Hierarchy!.LeafOf(index) : Loose[index - HierarchyCount];
+
     /// <summary>Collects objects without a hierarchy.</summary>
     /// <param name="instances">Each at its index.</param>
     public static SceneObjects Of(ImmutableArray<ColliderInstance> instances) => new(null, instances);

@@ -118,32 +118,76 @@ public sealed class FractalAddress
     /// </param>
     public ImmutableArray<LodRoot> CollectRoots(int maxAncestors)
     {
-        var roots = ImmutableArray.CreateBuilder<LodRoot>();
-        roots.Add(new(_path.RemainingLevelsAt(Depth), _frameToCamera, _path.ColourPathTo(Depth)));
-        var frameToCamera = _frameToCamera;
-        for (var depth = Depth - 1; depth >= Math.Max(0, Depth - maxAncestors); depth--)
-        {
-            var node = _path.NodeAt(depth);
-            frameToCamera *= node.ChildMaps[Path[depth]].ToAffineMap().Inverse();
-            if (!IsWithinScale(frameToCamera))
-            {
-                break;
-            }
+        return [.. EnumerateRoots(maxAncestors).Select(static found => found.Root).OrderBy(DistanceTo)];
+    }
 
-            var colourPath = _path.ColourPathTo(depth);
-            for (var child = 0; child < node.ChildMaps.Length; child++)
-            {
-                if (child != Path[depth])
-                {
-                    roots.Add(new(
-                        _path.ChildLevels(depth, child),
-                        frameToCamera * node.ChildMaps[child].ToAffineMap(),
-                        colourPath.Append(node.ChildMapIndices[child], child, node.ChildMaps.Length)));
-                }
-            }
+    /// <summary>Makes the address of the same camera relative to one of the sub-fractals around it, in the same unit.</summary>
+    /// <param name="root">One of <see cref="CollectRoots"/>, since this address was moved last.</param>
+    /// <exception cref="ArgumentException">There is no such sub-fractal around the camera.</exception>
+    public FractalAddress RelativeTo(LodRoot root)
+    {
+        var (_, parent, child) = EnumerateRoots(int.MaxValue).FirstOrDefault(found => found.Root == root, (default, -1, -1));
+        if (parent < 0)
+        {
+            throw new ArgumentException("expected a sub-fractal around the camera", nameof(root));
         }
 
-        return [.. roots.OrderBy(DistanceTo)];
+        var relative = Clone();
+        while (relative.Depth > parent)
+        {
+            relative._path.Leave();
+        }
+
+        if (child >= 0)
+        {
+            relative._path.Enter(child);
+        }
+
+        relative._frameToCamera = root.FrameToCamera;
+        return relative;
+    }
+
+    /// <summary>
+    /// Lists the maps that lead to the sub-fractal: for each level the index of the map in its set, −1 for an identity that leaves a set
+    /// out.
+    /// </summary>
+    public ImmutableArray<int> MapIndices =>
+        [.. Enumerable.Range(0, Depth).Select(depth => _path.NodeAt(depth).ChildMapIndices[Path[depth]])];
+
+    /// <summary>Number of levels of the fractal that lie above the sub-fractal.</summary>
+    public long LevelsAbove => _hierarchy.LevelCount - _path.RemainingLevelsAt(Depth);
+
+    /// <summary>Finds the box around a sub-fractal on the path, and where it is.</summary>
+    /// <param name="depth">Number of child instances that lead to it, from 0 for the whole fractal to <see cref="Depth"/>.</param>
+    /// <returns>
+    /// The box in the frame of that sub-fractal, and the map from there to world axes about the camera, in the present unit. Null where it
+    /// is 10¹⁵ times as large as the unit.
+    /// </returns>
+    public (BoundingBox Box, AffineMap FrameToCamera)? SubFractalAt(int depth) =>
+        FrameToCameraAt(depth) is { } map ? (_path.NodeAt(depth).Box, map) : null;
+
+    /// <summary>Computes the map from the surroundings of another camera in the same fractal to those of this one.</summary>
+    /// <param name="other">The address of the other camera.</param>
+    /// <returns>
+    /// From world axes about the other camera, in its unit, to world axes about this one, in the present unit. Null where the fractals
+    /// differ, or what holds both cameras is 10¹⁵ times as large as one of the units.
+    /// </returns>
+    /// <remarks>Cost O(depth).</remarks>
+    public AffineMap? MapFrom(FractalAddress other)
+    {
+        ArgumentNullException.ThrowIfNull(other);
+        if (!ReferenceEquals(_hierarchy, other._hierarchy))
+        {
+            return null;
+        }
+
+        var shared = 0;
+        while (shared < Math.Min(Depth, other.Depth) && Path[shared] == other.Path[shared])
+        {
+            shared++;
+        }
+
+        return FrameToCameraAt(shared) is { } own && other.FrameToCameraAt(shared) is { } others ? own * others.Inverse() : null;
     }
 
     /// <summary>Computes the camera position in world space, as far as a double can tell it.</summary>
@@ -203,6 +247,51 @@ public sealed class FractalAddress
         var closestDistance = Math.Max(distance, MinRelativeDistance * CurrentDiagonal);
         _closestDistance = closestDistance;
         return closestDistance;
+    }
+
+    /// <summary>Lists the sub-fractals to draw, with the depth of the one that each is a child of; −1 for no child.</summary>
+    private IEnumerable<(LodRoot Root, int Parent, int Child)> EnumerateRoots(int maxAncestors)
+    {
+        yield return (new(_path.RemainingLevelsAt(Depth), _frameToCamera, _path.ColourPathTo(Depth)), Depth, -1);
+        var frameToCamera = _frameToCamera;
+        for (var depth = Depth - 1; depth >= Math.Max(0, Depth - (long)maxAncestors); depth--)
+        {
+            var node = _path.NodeAt(depth);
+            frameToCamera *= node.ChildMaps[Path[depth]].ToAffineMap().Inverse();
+            if (!IsWithinScale(frameToCamera))
+            {
+                yield break;
+            }
+
+            var colourPath = _path.ColourPathTo(depth);
+            for (var child = 0; child < node.ChildMaps.Length; child++)
+            {
+                if (child != Path[depth])
+                {
+                    var root = new LodRoot(
+                        _path.ChildLevels(depth, child),
+                        frameToCamera * node.ChildMaps[child].ToAffineMap(),
+                        colourPath.Append(node.ChildMapIndices[child], child, node.ChildMaps.Length));
+                    yield return (root, depth, child);
+                }
+            }
+        }
+    }
+
+    /// <summary>Computes the map from the frame of a sub-fractal on the path; null where that is too large for the unit.</summary>
+    private AffineMap? FrameToCameraAt(int depth)
+    {
+        var frameToCamera = _frameToCamera;
+        for (var ancestor = Depth - 1; ancestor >= depth; ancestor--)
+        {
+            frameToCamera *= _path.NodeAt(ancestor).ChildMaps[Path[ancestor]].ToAffineMap().Inverse();
+            if (!IsWithinScale(frameToCamera))
+            {
+                return null;
+            }
+        }
+
+        return frameToCamera;
     }
 
     private static double DistanceToBox(BoundingBox box, Vector position) => Math.Sqrt(box.DistanceSquared(position));

@@ -172,6 +172,12 @@ public static class NormalGenerator
             foreach (var corner in around)
             {
                 var direction = corners.FaceNormal(corner);
+                if (direction == Vector.Zero)
+                {
+                    // A face without area adds nothing, and would be a cluster of its own.
+                    continue;
+                }
+
                 var weighted = corners.WeightedNormal(corner);
                 var index = _clusters.FindIndex(cluster => Vector.Dot(cluster.Direction, direction) >= MinClusterCosine);
                 if (index < 0)

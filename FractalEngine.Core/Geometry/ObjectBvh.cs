@@ -57,6 +57,22 @@ internal sealed class ObjectBvh
         return new(root, _paths, _builtSize, size);
     }
 
+    /// <summary>Finds the leaf of an object, O(log n).</summary>
+    public ObjectBvhLeaf LeafOf(int index)
+    {
+        var node = Root;
+        for (var path = _paths[index]; ; path >>= BitsPerLevel)
+        {
+            var target = node[(int)(path & (ObjectBvhNode.Width - 1))];
+            if (target is not ObjectBvhNode child)
+            {
+                return (ObjectBvhLeaf)target;
+            }
+
+            node = child;
+        }
+    }
+
     /// <summary>Writes the leaves to an array, each at its index.</summary>
     public void CopyTo<TLeaf>(Span<TLeaf> leaves)
         where TLeaf : ObjectBvhLeaf

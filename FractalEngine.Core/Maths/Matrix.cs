@@ -40,7 +40,7 @@ public readonly record struct Matrix(Vector V1, Vector V2, Vector V3)
     /// <summary>Creates a rotation by an angle about an axis (Rodrigues' formula).</summary>
     /// <param name="axis">Unit vector.</param>
     /// <param name="angle">
-    /// Radians, in the direction in which <see cref="Pitch(double)"/> rotates for a negative angle: i → j about k.
+    /// Radians; i turns towards j about k, the opposite of <see cref="Roll(double)"/>.
     /// </param>
     public static Matrix Rotation(Vector axis, double angle)
     {
@@ -100,7 +100,8 @@ public readonly record struct Matrix(Vector V1, Vector V2, Vector V3)
         // The columns of the scaled inverse's transpose are its rows.
         var rows = (scaled.Cofactors().Transpose() / determinant).Transpose();
         var inverse = new Matrix(rows.V1 / size1, rows.V2 / size2, rows.V3 / size3).Transpose();
-        return inverse.IsFinite() ? inverse : throw new SingularMatrixException(this);
+        return inverse.IsFinite() ? inverse
+            : throw new SingularMatrixException($"the inverse of the matrix {this} is beyond the range of a double");
     }
 
     /// <summary>

@@ -9,5 +9,6 @@ public readonly record struct Ray(Vector Origin, Vector Direction)
 {
     /// <summary>The point at a distance along the ray.</summary>
     /// <param name="distance">Scene units.</param>
+    /// <exception cref="InvalidOperationException">The direction is 0.</exception>
     public Vector PointAt(double distance) => Origin + (distance * Direction.UnitVector());
 }

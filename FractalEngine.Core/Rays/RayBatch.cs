@@ -1,5 +1,6 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Collision;
+using FractalEngine.Core.Fractals;
 
 namespace FractalEngine.Core.Rays;
 
@@ -16,15 +17,12 @@ public static class RayBatch
     /// <param name="threads">The most threads to use; null for one a core.</param>
     /// <returns>One result for each ray, in the same order and the same on any number of threads.</returns>
     /// <exception cref="ArgumentException">A ray is not finite, its direction is 0, or there are no threads.</exception>
+    /// <exception cref="FractalLimitException">A model can't be prepared, see <see cref="RayCaster.For(Scenes.Model)"/>.</exception>
     public static ImmutableArray<RayResult> FindNearest(
         SceneRayCaster scene, ReadOnlyMemory<Ray> rays, QueryContext? context = null, int? threads = null)
     {
         ArgumentNullException.ThrowIfNull(scene);
-        if (threads is { } number)
-        {
-            ArgumentOutOfRangeException.ThrowIfNegativeOrZero(number, nameof(threads));
-        }
-
+        QueryTasks.ThrowIfNoThreads(threads);
         // Before any thread begins, so that the error is the caller's own and names the first.
         foreach (ref readonly var ray in rays.Span)
         {
@@ -32,32 +30,15 @@ public static class RayBatch
         }
 
         var results = new RayResult[rays.Length];
-        var totals = context ?? new();
-        var totalsLock = new Lock();
-        Parallel.For(
-            0,
-            (rays.Length + RaysPerTask - 1) / RaysPerTask,
-            new ParallelOptions { MaxDegreeOfParallelism = threads ?? -1 },
-            static () => new QueryContext(),
-            (task, _, threadContext) =>
+        QueryTasks.Run(rays.Length, RaysPerTask, threads, context ?? new(), (first, end, threadContext) =>
+        {
+            for (var i = first; i < end; i++)
             {
-                var end = Math.Min(rays.Length, (task + 1) * RaysPerTask);
-                for (var i = task * RaysPerTask; i < end; i++)
-                {
-                    results[i] = scene.TryFindNearest(rays.Span[i], threadContext, out var hit, out var objectIndex)
-                        ? new(objectIndex, hit, [.. threadContext.InstancePath])
-                        : RayResult.None;
-                }
-
-                return threadContext;
-            },
-            threadContext =>
-            {
-                lock (totalsLock)
-                {
-                    totals.Statistics.Add(threadContext.Statistics);
-                }
-            });
+                results[i] = scene.TryFindNearest(rays.Span[i], threadContext, out var hit, out var objectIndex)
+                    ? new(objectIndex, hit, [.. threadContext.InstancePath])
+                    : RayResult.None;
+            }
+        });
         return [.. results];
     }
 }

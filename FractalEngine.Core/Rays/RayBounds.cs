@@ -61,7 +61,7 @@ internal sealed class RayBounds
         double minInnerRadius)
     {
         Box = new(subFractal.Box);
-        Radius = subFractal.Radius * Box.InverseSize;
+        Radius = subFractal.Radius * Box.InverseHalfExtent;
         MinInnerRadius = minInnerRadius;
         Single = single ?? this;
         _children = children;
@@ -69,7 +69,7 @@ internal sealed class RayBounds
         _rowCount = BoxRows + normals.Count;
         LanesPerOctant = (children.Length + LaneCount - 1) / LaneCount * LaneCount;
         (_rows, _order) = CreateRows(descendants);
-        _planes = subFractal.Hull is { } hull ? CreatePlanes(hull, subFractal.Box.Centre, Box.InverseSize) : [];
+        _planes = subFractal.Hull is { } hull ? CreatePlanes(hull, subFractal.Box.Centre, Box.InverseHalfExtent) : [];
         // A flat box stays a little thick, so that the map has an inverse.
         var ownBox = subFractal.Box;
         var thickness = MinThickness * Math.Max(ownBox.Size.MaxAbsComponent(), baseBox.Size.MaxAbsComponent());
@@ -240,7 +240,7 @@ internal sealed class RayBounds
                     {
                         var offset = descendant.Target.SupportBound(descendant.Map, _normals[plane])
                             - Vector.Dot(_normals[plane], SimdAffineMap.ToVector(Box.Centre));
-                        values[BoxRows + plane] = offset * Box.InverseSize;
+                        values[BoxRows + plane] = offset * Box.InverseHalfExtent;
                     }
                 }
 

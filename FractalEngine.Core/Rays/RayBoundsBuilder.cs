@@ -85,6 +85,6 @@ internal static class RayBoundsBuilder
             children[i] = new(descendants[i], box, group?.Box ?? new(target.Box), group, normals.Contain(descendants[i]));
         }
 
-        return new(subFractal, baseBox, descendants, children, normals, single, minInnerRadius * box.InverseSize);
+        return new(subFractal, baseBox, descendants, children, normals, single, minInnerRadius * box.InverseHalfExtent);
     }
 }

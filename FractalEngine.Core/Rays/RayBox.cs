@@ -24,8 +24,8 @@ internal sealed class RayBox
         var halfSize = 0.5 * box.Size;
         var error = BoxError * BoundingVolume.MaxAbsCoordinate(box);
         var size = Math.Max(halfSize.MaxAbsComponent(), error);
-        InverseSize = size > 0 ? 1 / size : 1;
-        Size = 1 / InverseSize;
+        InverseHalfExtent = size > 0 ? 1 / size : 1;
+        HalfExtent = 1 / InverseHalfExtent;
         Centre = SimdAffineMap.ToVector256(box.Centre);
         _halfSize = SimdAffineMap.ToVector256(halfSize + (error * Vector.One));
     }
@@ -34,17 +34,17 @@ internal sealed class RayBox
     public Vector256<double> Centre { get; }
 
     /// <summary>Half the largest side.</summary>
-    public double Size { get; }
+    public double HalfExtent { get; }
 
     /// <summary>Inverse of half the largest side.</summary>
-    public double InverseSize { get; }
+    public double InverseHalfExtent { get; }
 
     /// <summary>Maps the frame of the box to its units: half the largest side, from the centre.</summary>
     public AffineMap ToUnits =>
-        new(InverseSize * Matrix.Identity, -InverseSize * SimdAffineMap.ToVector(Centre));
+        new(InverseHalfExtent * Matrix.Identity, -InverseHalfExtent * SimdAffineMap.ToVector(Centre));
 
     /// <summary>Maps the units of the box to its frame.</summary>
-    public AffineMap FromUnits => new(Size * Matrix.Identity, SimdAffineMap.ToVector(Centre));
+    public AffineMap FromUnits => new(HalfExtent * Matrix.Identity, SimdAffineMap.ToVector(Centre));
 
     /// <summary>Finds where a ray enters a box.</summary>
     /// <param name="box">In the frame of the ray.</param>
@@ -75,7 +75,7 @@ internal sealed class RayBox
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public bool TryApproach(ref LocalRay ray, in RaySearch search)
     {
-        var distance = Vector256.Abs(ray.Origin - Centre) * Vector256.Create(InverseSize);
+        var distance = Vector256.Abs(ray.Origin - Centre) * Vector256.Create(InverseHalfExtent);
         return Vector256.LessThanAll(distance, Vector256.Create(MaxOriginDistance)) || TryApproachFromAfar(ref ray, in search);
     }
 

@@ -9,7 +9,7 @@ namespace FractalEngine.Core.Rays;
 
 /// <summary>
 /// Finds where rays hit a shape, exactly. Immutable: any number of threads may cast rays at once, each with a context of its own. Rays with
-/// a context allocate nothing.
+/// a context allocate nothing once the levels that they meet are prepared, but where maps flatten what they hit.
 /// </summary>
 /// <remarks>
 /// Faces are hit from both sides. Where several faces are hit at the same distance, as on a common edge, one of them is found, the same
@@ -74,7 +74,7 @@ public abstract class RayCaster
     /// <param name="ray">In the shape's frame.</param>
     /// <param name="context">Receives the costs and the instance; one for each thread.</param>
     /// <param name="hit">The hit, if there is one.</param>
-    /// <param name="minDistance">Smallest distance that counts, scene units, not negative.</param>
+    /// <param name="minDistance">Smallest distance that counts, scene units, finite, not negative.</param>
     /// <param name="maxDistance">Largest distance that counts, scene units; may be infinite.</param>
     /// <param name="footprint">How wide the ray is; a line unless stated.</param>
     /// <returns>False when the ray hits no face between the two distances.</returns>
@@ -116,7 +116,7 @@ public abstract class RayCaster
     /// <summary>Tells whether a ray hits any face, which is found sooner than the nearest.</summary>
     /// <param name="ray">In the shape's frame.</param>
     /// <param name="context">Receives the costs; one for each thread.</param>
-    /// <param name="minDistance">Smallest distance that counts, scene units, not negative.</param>
+    /// <param name="minDistance">Smallest distance that counts, scene units, finite, not negative.</param>
     /// <param name="maxDistance">Largest distance that counts, scene units; may be infinite.</param>
     /// <param name="footprint">How wide the ray is; a line unless stated.</param>
     /// <exception cref="ArgumentException">The ray is not finite, its direction is 0, or a distance is negative or NaN.</exception>
@@ -166,7 +166,7 @@ public abstract class RayCaster
         var squared = ray.Direction.LengthSquared();
         // The product is NaN unless the origin is finite.
         var isPlain = 0 * (ray.Origin.X + ray.Origin.Y + ray.Origin.Z) == 0 && squared is > MinSquaredLength and < MaxSquaredLength
-            && minDistance >= 0 && maxDistance >= 0;
+            && minDistance is >= 0 and < double.PositiveInfinity && maxDistance >= 0;
         if (!isPlain)
         {
             return CheckedUnitDirectionOfAny(in ray, minDistance, maxDistance);
@@ -189,9 +189,9 @@ public abstract class RayCaster
             throw new ArgumentException($"expected a finite direction that is not zero, got {ray.Direction}", nameof(ray));
         }
 
-        if (!(minDistance >= 0))
+        if (!(minDistance >= 0) || !double.IsFinite(minDistance))
         {
-            throw new ArgumentOutOfRangeException(nameof(minDistance), minDistance, "expected no negative number");
+            throw new ArgumentOutOfRangeException(nameof(minDistance), minDistance, "expected a finite number, not negative");
         }
 
         if (!(maxDistance >= 0))

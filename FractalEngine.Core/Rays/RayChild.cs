@@ -7,9 +7,6 @@ namespace FractalEngine.Core.Rays;
 /// <summary>Leads a ray from the units of a <see cref="RayBounds"/> to those of a sub-fractal one or a few levels below.</summary>
 internal readonly struct RayChild
 {
-    /// <summary>Most child instances that a path can have.</summary>
-    public const int MaxPathLength = 64 / BitsPerIndex;
-
     // A sub-fractal has at most 64 children.
     private const int BitsPerIndex = 6;
 
@@ -36,8 +33,8 @@ internal readonly struct RayChild
             _path |= (ulong)descendant.Path[i] << (BitsPerIndex * i);
         }
 
-        Norm = descendant.InverseNorm * entered.InverseSize / parent.InverseSize;
-        InverseNorm = descendant.Norm * parent.InverseSize / entered.InverseSize;
+        Norm = descendant.InverseNorm * entered.InverseHalfExtent / parent.InverseHalfExtent;
+        InverseNorm = descendant.Norm * parent.InverseHalfExtent / entered.InverseHalfExtent;
         var scale = map.Linear.V1.X;
         if (scale > 0 && map.Linear == Matrix.Diagonal(scale * Vector.One))
         {

@@ -111,12 +111,12 @@ internal struct RayFrame
     public void Set(in LocalRay ray)
     {
         var box = Bounds.Box;
-        Origin = (ray.Origin - box.Centre) * Vector256.Create(box.InverseSize);
+        Origin = (ray.Origin - box.Centre) * Vector256.Create(box.InverseHalfExtent);
         Start = ray.Start;
-        PerDistance = box.InverseSize;
-        DistancePer = box.Size;
-        Scale = ray.Scale * box.Size;
-        InverseScale = ray.InverseScale * box.InverseSize;
+        PerDistance = box.InverseHalfExtent;
+        DistancePer = box.HalfExtent;
+        Scale = ray.Scale * box.HalfExtent;
+        InverseScale = ray.InverseScale * box.InverseHalfExtent;
         // Rays of a query in the frame of the fractal have unit directions.
         if (ray.Scale == 1 && ray.InverseScale == 1)
         {
@@ -124,7 +124,7 @@ internal struct RayFrame
         }
         else
         {
-            Turn(ray.Direction, box.InverseSize);
+            Turn(ray.Direction, box.InverseHalfExtent);
         }
     }
 
@@ -134,8 +134,8 @@ internal struct RayFrame
     public readonly LocalRay ToLocal(RayBox box)
     {
         return new(
-            box.Centre + (Origin * Vector256.Create(box.Size)), Direction * Vector256.Create(PerDistance * box.Size), Start,
-            Scale * box.InverseSize, InverseScale * box.Size);
+            box.Centre + (Origin * Vector256.Create(box.HalfExtent)), Direction * Vector256.Create(PerDistance * box.HalfExtent), Start,
+            Scale * box.InverseHalfExtent, InverseScale * box.HalfExtent);
     }
 
     /// <summary>Takes the ray of another frame to a child, from where it enters the child's box.</summary>
@@ -185,7 +185,7 @@ internal struct RayFrame
             return false;
         }
 
-        Origin = (local.Origin - box.Centre) * Vector256.Create(box.InverseSize);
+        Origin = (local.Origin - box.Centre) * Vector256.Create(box.InverseHalfExtent);
         Start = local.Start;
         return true;
     }

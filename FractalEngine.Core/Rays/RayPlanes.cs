@@ -41,7 +41,7 @@ internal sealed class RayPlanes
         {
             // The last plane fills the lanes that are left over.
             var (normal, offset, _) = hull.Planes[Math.Min(i, hull.Planes.Length - 1)];
-            var height = (offset + volume.Margin - Vector.Dot(normal, volume.Box.Centre)) * box.InverseSize;
+            var height = (offset + volume.Margin - Vector.Dot(normal, volume.Box.Centre)) * box.InverseHalfExtent;
             ReadOnlySpan<double> values = [normal.X, normal.Y, normal.Z, height + RoundingError];
             for (var row = 0; row < RowCount; row++)
             {

@@ -72,6 +72,15 @@ public sealed class LodHierarchy
         private set => _isSkyBaked = value;
     }
 
+    /// <summary>
+    /// Whether no part of the fractal can hide another one's sky, so that <see cref="BakeSkyMasks"/> would find nothing: it is one part, or
+    /// lies in a plane. Costs a pass over the base mesh and the nodes; false proves nothing.
+    /// </summary>
+    public bool HasOpenSky() => OpenSky.IsSinglePath(_nodes) || IsFlat();
+
+    /// <summary>Whether all instances of the base mesh certainly lie in one plane.</summary>
+    public bool IsFlat() => OpenSky.IsFlat(Mesh, _nodes);
+
     /// <summary>Bytes of the tables that <see cref="BakeSkyMasks"/> has made.</summary>
     public int SkyMaskBytes => HasSkyMasks
         ? _nodes.Select(static node => node.SkyMasks).Concat(_lastSkyMasks).OfType<SkyMasks>().Distinct()

@@ -1,7 +1,6 @@
-using System.Numerics;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
-using Vector = FractalEngine.Core.Maths.Vector;
+using BitOperations = System.Numerics.BitOperations;
 
 namespace FractalEngine.Core.Visibility;
 
@@ -22,11 +21,6 @@ internal sealed class SkyMaskBaker
     // In each round, so many lines of sight are cast for each child, and one point votes for each mask.
     private const int RoundCount = 7;
     private const int DrawsPerChild = 100;
-
-    // Lines of sight to points at which masks are compared with rays, and the maximum of their error, by that of no masks.
-    private const int TestedLines = 300;
-    private const double MaxErrorRatio = 0.7;
-    private const double MaxLoss = 0.05;
 
     // So many lines of sight tell how many nodes rays enter, and the most that they may enter on average.
     private const int ProbedLines = 30;
@@ -92,6 +86,7 @@ internal sealed class SkyMaskBaker
                 rayCount += BitOperations.PopCount(above);
             }
         }
+
         return visitCount <= MaxMeanVisits * rayCount;
     }
 
@@ -129,7 +124,8 @@ internal sealed class SkyMaskBaker
             {
                 var masks = Compute(node, levels, cancellation);
                 SetMasks(node, levels, masks);
-                masks = masks.HideAnything && (keepsAll || IsUseful(node, levels)) ? masks : masks.WithoutMasks();
+                var isUseful = masks.HideAnything && (keepsAll || SkyMaskTest.IsUseful(_occluder, _hierarchy, node, levels));
+                masks = isUseful ? masks : masks.WithoutMasks();
                 SetMasks(node, levels, masks);
                 hidesAnything |= masks.HideAnything;
             }
@@ -177,41 +173,6 @@ internal sealed class SkyMaskBaker
             _occluder.Nodes[index].Levels > _occluder.LastLevels && SkyMaskBaker.HasSameChildren(node, _occluder.Nodes[index].Node);
     }
 
-    /// <summary>
-    /// Compares the masks of a node with rays at some points of its surface: whether they tell more than that siblings hide nothing.
-    /// </summary>
-    private bool IsUseful(LodNode node, long levels)
-    {
-        var random = new Random(0);
-        var path = new SkyPath();
-        var sample = new SkySample();
-        var visitCount = 0L;
-        Span<float> parts = stackalloc float[SkySides.Count];
-        // By the side that the lines come from: what is right on the whole may be wrong on the one side that an image shows.
-        Span<double> gains = stackalloc double[SkySides.Count];
-        var (error, errorWithout) = (0.0, 0.0);
-        for (var i = 0; i < TestedLines; i++)
-        {
-            if (_occluder.TrySample(node, levels, random, sample))
-            {
-                var free = _occluder.FreeDirections(node, levels, -1, sample.Point, SkyDirections.Above(sample.Normal), ref visitCount);
-                var truth = SkyDirections.VisiblePart(free, SkyDirections.NearestNormal(SimdAffineMap.ToVector256(sample.Normal)));
-                path.Set(sample.Steps);
-                path.ComputeParts(_hierarchy, sample.Leaf!, sample.Steps.Count, parts);
-                var part = SkySides.Blend(parts, (sample.FromMesh.Linear.Transpose() * sample.Normal).UnitVector());
-                // As far apart as the values of an image are.
-                var (shown, shownTruth) = (Math.Sqrt(part), Math.Sqrt(truth));
-                error += (shown - shownTruth) * (shown - shownTruth);
-                errorWithout += (1 - shownTruth) * (1 - shownTruth);
-                gains[SkySides.Of(SimdAffineMap.ToVector256(-sample.Direction))] +=
-                    ((1 - shownTruth) * (1 - shownTruth)) - ((shown - shownTruth) * (shown - shownTruth));
-            }
-        }
-
-        return error < MaxErrorRatio * MaxErrorRatio * errorWithout
-            && !gains.ContainsAnyInRange(double.NegativeInfinity, -MaxLoss * errorWithout);
-    }
-
     private static bool HasSameChildren(LodNode node1, LodNode node2)
     {
         if (node1.ChildMaps.Length != node2.ChildMaps.Length)
@@ -246,23 +207,18 @@ internal sealed class SkyMaskBaker
         }
 
         // Rounds with sources of their own, so that the result does not depend on the number of threads.
-        var votes = new int[data.Length][];
-        for (var i = 0; i < data.Length; i++)
-        {
-            votes[i] = new int[SkyMasks.MaskCount * SkyDirections.Count];
-        }
+        SkyVotes[] votes = [.. data.Select(static _ => new SkyVotes())];
 
         Parallel.For(0, RoundCount, new() { CancellationToken = cancellation }, round => Vote(node, levels, data, new(round), votes));
-        return new([.. votes.Select(ToMasks)], data);
+        return new([.. votes.Select(static child => child.ToMasks())], data);
     }
 
     /// <summary>
     /// Lets the points of the surface that are seen from outside vote about the directions that are free for their child, cell and side.
     /// </summary>
-    private void Vote(LodNode node, long levels, SkyMasks.Child[] data, Random random, int[][] votes)
+    private void Vote(LodNode node, long levels, SkyMasks.Child[] data, Random random, SkyVotes[] votes)
     {
         var sample = new SkySample();
-        var visitCount = 0L;
         var hasVoted = new HashSet<(int Child, int Place)>();
         for (var draw = 0; draw < DrawsPerChild * data.Length; draw++)
         {
@@ -282,58 +238,9 @@ internal sealed class SkyMaskBaker
             }
 
             var above = SkyDirections.Above(sample.Normal);
-            var free = _occluder.FreeDirections(node, levels, child, sample.Point, above, ref visitCount);
-            for (var rest = above; rest != 0; rest &= rest - 1)
-            {
-                var direction = BitOperations.TrailingZeroCount(rest);
-                Interlocked.Add(ref votes[child][(place * SkyDirections.Count) + direction], ((free >> direction) & 1) != 0 ? 1 : -1);
-            }
+            var free = _occluder.FreeDirections(node, levels, child, sample.Point, above);
+            votes[child].Add(place, above, free);
         }
-    }
-
-    /// <summary>Decides each direction of each mask by its votes, or by those of the closest cell that has some.</summary>
-    private static ulong[] ToMasks(int[] votes)
-    {
-        var masks = new ulong[SkyMasks.MaskCount];
-        for (var place = 0; place < masks.Length; place++)
-        {
-            var (cell, side) = (place / SkySides.Count, place % SkySides.Count);
-            var sameSide = VotesAt(votes, FindNearestCell(cell, other => HasVotes(votes, other, side)), side);
-            // A side that no surface faces is blended with others, and sees about what they see.
-            var nearestCell = FindNearestCell(cell, other => Enumerable.Range(0, SkySides.Count).Any(any => HasVotes(votes, other, any)));
-            for (var direction = 0; direction < SkyDirections.Count; direction++)
-            {
-                var sum = sameSide.IsEmpty ? 0 : sameSide[direction];
-                for (var any = 0; sum == 0 && any < SkySides.Count && nearestCell >= 0; any++)
-                {
-                    sum = VotesAt(votes, nearestCell, any)[direction];
-                }
-
-                masks[place] |= sum >= 0 ? 1ul << direction : 0;
-            }
-        }
-
-        return masks;
-    }
-
-    private static ReadOnlySpan<int> VotesAt(int[] votes, int cell, int side) =>
-        cell < 0 ? [] : votes.AsSpan(((cell * SkySides.Count) + side) * SkyDirections.Count, SkyDirections.Count);
-
-    private static bool HasVotes(int[] votes, int cell, int side) => VotesAt(votes, cell, side).ContainsAnyExcept(0);
-
-    private static int FindNearestCell(int cell, Func<int, bool> isMeant)
-    {
-        var (nearest, nearestDistance) = (-1, int.MaxValue);
-        for (var other = 0; other < SkyMasks.CellCount; other++)
-        {
-            var distance = SkyMasks.SquaredDistance(cell, other);
-            if (distance < nearestDistance && isMeant(other))
-            {
-                (nearest, nearestDistance) = (other, distance);
-            }
-        }
-
-        return nearest;
     }
 
     /// <summary>Maps directions of a node to the frame below a child in which masks are known next: an only child has none.</summary>

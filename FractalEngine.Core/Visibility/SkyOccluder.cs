@@ -60,6 +60,19 @@ internal sealed class SkyOccluder
     /// <param name="excludedChild">Index of the child that stops none; −1 for none.</param>
     /// <param name="point">Where the rays begin, in the node's frame.</param>
     /// <param name="directions">Directions to test.</param>
+    public ulong FreeDirections(LodNode node, long levels, int excludedChild, Vector point, ulong directions)
+    {
+        var visitCount = 0L;
+        return FreeDirections(node, levels, excludedChild, point, directions, ref visitCount);
+    }
+
+    /// <summary>The same, and counts the work.</summary>
+    /// <inheritdoc cref="FreeDirections(LodNode, long, int, Vector, ulong)"/>
+    /// <param name="node">A node of the fractal.</param>
+    /// <param name="levels">Levels that it has left.</param>
+    /// <param name="excludedChild">Index of the child that stops none; −1 for none.</param>
+    /// <param name="point">Where the rays begin, in the node's frame.</param>
+    /// <param name="directions">Directions to test.</param>
     /// <param name="visitCount">Receives how many nodes the rays have entered in addition.</param>
     public ulong FreeDirections(
         LodNode node, long levels, int excludedChild, Vector point, ulong directions, ref long visitCount)

@@ -47,4 +47,7 @@ internal enum MeshFeatures
 
     /// <summary>Instances come with the parts of the sky that they see.</summary>
     SkyParts = 4096,
+
+    /// <summary>Shadows of lights that have several depth maps, for slices of the view, are among them.</summary>
+    ShadowSlices = 8192,
 }

@@ -1,4 +1,6 @@
+using System.Collections.Immutable;
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Scenes;
 using FractalEngine.Render.Gl;
 using FractalEngine.Render.Preparation;
 using FractalEngine.Render.Windowing;
@@ -7,7 +9,9 @@ using OpenTK.Graphics.OpenGL4;
 namespace FractalEngine.Render.Passes;
 
 /// <summary>Selects the program that a material needs, and sets its uniforms, to draw lit, instanced triangles.</summary>
-internal sealed class MeshPass(RenderContext context) : IDisposable
+/// <param name="context">Current context.</param>
+/// <param name="lights">Lights of the scene.</param>
+internal sealed class MeshPass(RenderContext context, ImmutableArray<Light> lights) : IDisposable
 {
     /// <summary>Binding point of the uniform block <c>ObjectBlock</c>.</summary>
     public const int ObjectBinding = 0;
@@ -21,8 +25,10 @@ internal sealed class MeshPass(RenderContext context) : IDisposable
     /// <summary>Texture unit of the depth maps.</summary>
     public const int ShadowTextureUnit = 1;
 
-    private const int FeatureCombinations = 8192;
+    private const int FeatureCombinations = 16384;
     private static readonly Colour WireframeColour = new(0.80, 0.83, 0.87);
+
+    private readonly string[] _lightSymbols = LightBlock.SymbolsOf(lights);
 
     // Indexed by features. Each program is built when it is first needed.
     private readonly MeshProgram?[] _programs = new MeshProgram?[FeatureCombinations];
@@ -64,7 +70,7 @@ internal sealed class MeshPass(RenderContext context) : IDisposable
     {
         var (frame, wireframe, frameFeatures) = _frameState ?? throw new InvalidOperationException("no frame was begun");
         var features = instanceFeatures | frameFeatures | (wireframe ? MeshFeatures.None : FeaturesOf(material));
-        var program = _programs[(int)features] ??= new(context, features);
+        var program = _programs[(int)features] ??= new(context, features, _lightSymbols);
         program.Use();
         if (context.Resources.State.Filter.Update(ref _lastFrameOfProgram[(int)features], _frameNumber))
         {

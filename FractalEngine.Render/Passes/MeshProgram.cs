@@ -25,6 +25,7 @@ internal sealed class MeshProgram : IDisposable
         (MeshFeatures.PointShadows, "POINT_SHADOWS"),
         (MeshFeatures.Section, "SECTION"),
         (MeshFeatures.SkyParts, "SKY_PARTS"),
+        (MeshFeatures.ShadowSlices, "SHADOW_SLICES"),
     ];
 
     private readonly RedundancyFilter _filter;
@@ -38,11 +39,14 @@ internal sealed class MeshProgram : IDisposable
     private CullFace? _lastInnerFace;
 
     /// <summary>Compiles and links the program.</summary>
+    /// <param name="context">Current context.</param>
+    /// <param name="features">What the program shows.</param>
+    /// <param name="lightSymbols">Number and kinds of the lights: <see cref="LightBlock.SymbolsOf"/>.</param>
     /// <exception cref="GlException">The driver refuses the program.</exception>
-    public MeshProgram(RenderContext context, MeshFeatures features)
+    public MeshProgram(RenderContext context, MeshFeatures features, IReadOnlyList<string> lightSymbols)
     {
         _filter = context.Resources.State.Filter;
-        string[] symbols = [.. Symbols.Where(entry => features.HasFlag(entry.Feature)).Select(entry => entry.Symbol)];
+        string[] symbols = [.. Symbols.Where(entry => features.HasFlag(entry.Feature)).Select(entry => entry.Symbol), .. lightSymbols];
         _program = ShaderProgram.Load(context.Resources, "mesh", symbols);
         _program.BindBlock("ObjectBlock", MeshPass.ObjectBinding);
         _program.BindBlock("LightBlock", MeshPass.LightBinding);

@@ -44,7 +44,7 @@ internal sealed class ObjectsPass : IDisposable
         _scene = scene;
         _buffers = buffers;
         _transforms = transforms;
-        _meshPass = new(context);
+        _meshPass = new(context, LightBlock.LightsOf(scene.Source));
         _lightBlock = new(_resources, scene.Source);
         _objectBlocks = [.. scene.Objects.Select(item => new ObjectBlock(_resources, item.Name))];
         _transparentOrder = TransparentOrder.Create(scene);
@@ -57,6 +57,9 @@ internal sealed class ObjectsPass : IDisposable
 
     /// <summary>Depth maps of lights: drawn for the last frame, and kept from an earlier one.</summary>
     public RedundancyCounts ShadowMapCounts => new(_shadowPass.DrawnMapCount, _shadowPass.MapCount - _shadowPass.DrawnMapCount);
+
+    /// <summary>Depth maps that the last frame did not need, and objects that it drew into none.</summary>
+    public (int Maps, int Casters) SkippedShadows => (_shadowPass.SkippedMapCount, _shadowPass.SkippedCasterCount);
 
     /// <summary>Draws another preparation of the same scene from now on.</summary>
     public void SetScene(DrawableScene scene)
@@ -126,7 +129,8 @@ internal sealed class ObjectsPass : IDisposable
     private MeshFeatures FrameFeatures(RenderSettings settings) =>
         (settings.Shading == Shading.PerPixel ? MeshFeatures.PerPixel : 0) | (_lightBlock.HasAtmosphere ? MeshFeatures.Atmosphere : 0)
         | (_shadowPass.HasShadows ? MeshFeatures.Shadows : 0)
-        | (_shadowPass.HasPointShadows ? MeshFeatures.PointShadows : 0);
+        | (_shadowPass.HasPointShadows ? MeshFeatures.PointShadows : 0)
+        | (_shadowPass.HasSlices ? MeshFeatures.ShadowSlices : 0);
 
     private static double LightScaleOf(View view) =>
         view.DeepZoom is { } zoom ? Math.Exp(Math.Min(-zoom.LogUnit, MaxLogLightScale)) : 1;

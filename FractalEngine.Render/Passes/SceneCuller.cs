@@ -1,4 +1,5 @@
 using System.Diagnostics;
+using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Visibility;
@@ -10,6 +11,8 @@ namespace FractalEngine.Render.Passes;
 /// <summary>Culls the instances of a scene's objects, and keeps the visible ones on the GPU until a frame needs others.</summary>
 internal sealed class SceneCuller : IDisposable
 {
+    private static readonly LodHierarchy Empty = LodHierarchy.Build(Mesh.Empty);
+
     private readonly RedundancyFilter _uploadFilter;
     private readonly DrawableScene _scene;
 
@@ -112,6 +115,26 @@ internal sealed class SceneCuller : IDisposable
             DiscardSpeculativeCull();
             ref var culledObject = ref _culledObjects[_culledIndices[index]];
             culledObject = culledObject with { ObjectToWorld = map };
+            _lastKey = null;
+        }
+    }
+
+    /// <summary>Includes an object of the scene, or leaves out all of its instances from the next pass on.</summary>
+    /// <param name="index">Index of the object in the scene, from 0.</param>
+    /// <param name="isIncluded">Whether its instances are looked for.</param>
+    public void Include(int index, bool isIncluded)
+    {
+        if (!SelectsInstances(index))
+        {
+            return;
+        }
+
+        ref var culledObject = ref _culledObjects[_culledIndices[index]];
+        var hierarchy = isIncluded ? _scene.Objects[index].Model.LodHierarchy! : Empty;
+        if (!ReferenceEquals(culledObject.Hierarchy, hierarchy))
+        {
+            DiscardSpeculativeCull();
+            culledObject = culledObject with { Hierarchy = hierarchy };
             _lastKey = null;
         }
     }

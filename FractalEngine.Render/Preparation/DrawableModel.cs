@@ -56,6 +56,9 @@ public sealed class DrawableModel
     /// <summary>True where any batch is transparent, and drawn after the opaque ones.</summary>
     public bool HasTransparentBatches => Batches.Any(static batch => batch.IsTransparent);
 
+    /// <summary>True where any batch casts a shadow: transparent ones cast none.</summary>
+    internal bool HasCasterBatches => Batches.Any(static batch => !batch.IsTransparent);
+
     /// <summary>True where what is behind shows through any batch, or through holes in it.</summary>
     public bool IsSeeThrough => !Batches.All(static batch => batch.IsSolid);
 
@@ -75,6 +78,15 @@ public sealed class DrawableModel
 
     /// <summary>Hierarchy that visible instances are selected from for each frame; null where all instances are drawn.</summary>
     public LodHierarchy? LodHierarchy { get; init; }
+
+    /// <summary>Whether no part of a fractal hides another one's sky, so that nothing needs to be baked.</summary>
+    internal bool HasOpenSky { get; init; }
+
+    /// <summary>Whether the model lies in a plane: it hides light from none of its own parts.</summary>
+    internal bool IsFlat { get; init; }
+
+    /// <summary>Whether the model is a convex solid: from outside, it hides light from none of what is seen of it.</summary>
+    internal bool IsConvex { get; init; }
 
     /// <summary>Point of the mesh's frame that vertices are relative to.</summary>
     internal Vector MeshOrigin { get; init; }

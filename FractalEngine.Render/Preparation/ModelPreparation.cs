@@ -57,6 +57,9 @@ internal static class ModelPreparation
             Colours = colours,
             Batches = batches.Batches,
             DegenerateTriangleCount = batches.DegenerateTriangleCount,
+            HasOpenSky = model is FractalModel && hierarchy?.HasOpenSky() == true,
+            IsFlat = hierarchy?.IsFlat() == true,
+            IsConvex = model is MeshModel && meshWindingSign > 0 && UnshadedSurface.IsConvex(mesh),
             MeshWindingSign = meshWindingSign,
             WindingSign = meshWindingSign * instanceSign,
             SolidSign = testsSolidity || isSeeThrough || mesh.FaceCount > MaxFacesForSections

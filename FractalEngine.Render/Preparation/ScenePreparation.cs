@@ -113,7 +113,8 @@ public sealed class ScenePreparation
         return false;
     }
 
-    private static bool NeedsBaking(DrawableModel? model) => model?.LodHierarchy is { IsSkyBaked: false };
+    private bool NeedsBaking(DrawableModel? model) =>
+        model?.LodHierarchy is { IsSkyBaked: false } && !(_settings.BakeSkipping && model.HasOpenSky);
 
     private void TakePrepared(DrawableScene previous)
     {

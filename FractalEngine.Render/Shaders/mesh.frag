@@ -1,7 +1,7 @@
 #version 330 core
 #extension GL_ARB_texture_gather : enable
 // The colour of the visible face. Front faces are wound clockwise on the screen in a left-handed scene, the other way in a right-handed one.
-// PER_PIXEL, TEXTURED, GLOSSY, FRONT_FACES_ONLY, CUT_OUT, EMISSIVE, ATMOSPHERE, SHADOWS, POINT_SHADOWS, SECTION and SKY_PARTS are
+// PER_PIXEL, TEXTURED, GLOSSY, FRONT_FACES_ONLY, CUT_OUT, EMISSIVE, ATMOSPHERE, SHADOWS, POINT_SHADOWS, SHADOW_SLICES, SECTION and SKY_PARTS are
 // defined where they apply.
 
 #include "material.glsl"
@@ -86,6 +86,32 @@ vec3 fillSection(vec3 position, out bool isCap)
 }
 #endif
 
+#ifdef PER_PIXEL
+// Adds what one light does. Its index is constant: see LightBlock.SymbolsOf.
+void addLight(int i, vec3 position, vec3 n, vec3 faceNormal, inout vec3 light, inout vec3 direct, inout vec3 highlights)
+{
+    vec3 toLight;
+    vec3 incoming = incomingLight(lights[i], position, toLight);
+    float cosine = dot(n, toLight);
+#ifdef SKY_PARTS
+    direct += incoming;
+#endif
+#ifdef SHADOWS
+    if (cosine > 0.0)
+    {
+        incoming *= lightThatArrives(i, position, faceNormal, toLight);
+    }
+#endif
+    light += max(cosine, 0.0) * incoming;
+#ifdef GLOSSY
+    vec3 toEye = towardsEye(position, cameraAxes[2], depthScale);
+    highlights += max(sign(cosine), 0.0) * highlight(n, toLight, toEye, material[1].w) * incoming * material[1].rgb;
+#endif
+}
+
+#define ADD_LIGHT(i) addLight(i, position, n, faceNormal, light, direct, highlights);
+#endif
+
 void main()
 {
     vec3 highlights = vec3(0.0);
@@ -94,8 +120,9 @@ void main()
 #endif
 #ifdef PER_PIXEL
     vec3 n = direction(gl_FrontFacing ? pixelNormal : -pixelNormal);
+    vec3 faceNormal = n;
 #ifdef SHADOWS
-    vec3 faceNormal = faceNormalTowardsEye(position, towardsEye(position, cameraAxes[2], depthScale), n);
+    faceNormal = faceNormalTowardsEye(position, depthScale.z != 0.0 ? -position : -cameraAxes[2], n);
 #endif
 #ifdef SECTION
     bool isCap;
@@ -103,37 +130,16 @@ void main()
     if (isCap)
     {
         n = -section.xyz;
-#ifdef SHADOWS
         faceNormal = n;
-#endif
     }
 #endif
     vec3 light = material[2].rgb * ambientLight(n.y);
+    vec3 direct = vec3(0.0);
 #ifdef SKY_PARTS
     vec3 sky = light;
-    vec3 direct = vec3(0.0);
     light = vec3(0.0);
 #endif
-    for (int i = 0; i < lightCount.x; i++)
-    {
-        vec3 toLight;
-        vec3 incoming = incomingLight(lights[i], position, toLight);
-        float cosine = dot(n, toLight);
-#ifdef SKY_PARTS
-        direct += incoming;
-#endif
-#ifdef SHADOWS
-        if (cosine > 0.0)
-        {
-            incoming *= lightThatArrives(i, position, faceNormal, toLight);
-        }
-#endif
-        light += max(cosine, 0.0) * incoming;
-#ifdef GLOSSY
-        vec3 toEye = towardsEye(position, cameraAxes[2], depthScale);
-        highlights += max(sign(cosine), 0.0) * highlight(n, toLight, toEye, material[1].w) * incoming * material[1].rgb;
-#endif
-    }
+    EACH_LIGHT(ADD_LIGHT)
 
 #ifdef SKY_PARTS
     float seenSky = clamp(gl_FrontFacing ? pixelSky.x : pixelSky.y, 0.0, 1.0);

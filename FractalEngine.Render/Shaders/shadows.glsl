@@ -1,23 +1,31 @@
 // Which part of a light arrives at a surface: the depth maps of all lights lie in one texture.
-const int maxShadowViews = 32; // ShadowFit.MaxViews
+const int shadowViewCount = 48; // ShadowBlock.SlotCount
 
 struct ShadowView
 {
-    vec4 across;    // from a point relative to the camera to texels of the atlas, times w
-    vec4 down;
-    vec4 depth;     // to the depth, times w; greater is closer to the light
-    vec4 w;
-    vec4 bounds;    // first and last texel that has neighbours in the map
-    vec4 offset;    // x: distance towards the light, scene units; y: likewise, per w; zw: squared ratio of depth to texels, without w
+    vec4 right;     // axes of the light, and what is added so that a point relative to the camera is relative to the light's eye
+    vec4 up;
+    vec4 forward;   // w: likewise, or for parallel light so that the depth in the map is in proportion
+    vec4 scale;     // xy: texels per unit (at depth 1 of a light with a position); zw: middle of the map
+    vec4 bounds;    // first and last texel that has neighbours in the map; empty without a map
+    vec4 depth;     // xy: depth in the map is x * forward, or x + y / forward; greater is closer to the light. z: 1 for a light with a
+                    // position. w: distance towards the light, scene units, or per forward
 };
 
 layout(std140) uniform ShadowBlock
 {
-    ivec4 shadowRanges[16]; // of each light: its first view, and their number
-    ShadowView shadowViews[maxShadowViews];
+    // Of each light: its first view beyond those that have its own index, and their number.
+    ivec4 shadowRanges[16];
+    // Of each light with a position: its views towards +x, -x, +y, -y, and then +z, -z.
+    ivec4 shadowSides[32];
+    vec4 shadowTexel; // xy: size of a texel of the texture
+    ShadowView shadowViews[shadowViewCount];
 };
 
 uniform sampler2D shadowMap;
+
+// Of each light: 1 where it has a cube of views around it.
+const int lightKinds[] = LIGHT_KINDS;
 
 // The unit normal of the triangle itself, on the side of the eye.
 vec3 faceNormalTowardsEye(vec3 position, vec3 toEye, vec3 smoothNormal)
@@ -29,12 +37,12 @@ vec3 faceNormalTowardsEye(vec3 position, vec3 toEye, vec3 smoothNormal)
 
 // The lit part of the four texels around a point. Each is compared with the depth that the surface's plane has there, so that a slanted
 // surface does not shade itself.
-float litPart(ShadowView view, vec3 texel, vec2 slope)
+float litPart(vec3 texel, vec2 slope)
 {
     vec2 corner = floor(texel.xy - 0.5);
     vec2 part = texel.xy - 0.5 - corner;
 #ifdef GL_ARB_texture_gather
-    vec4 stored = textureGather(shadowMap, (corner + 1.0) / vec2(textureSize(shadowMap, 0))).wzxy;
+    vec4 stored = textureGather(shadowMap, (corner + 1.0) * shadowTexel.xy).wzxy;
 #else
     ivec2 first = ivec2(corner);
     vec4 stored = vec4(
@@ -47,25 +55,47 @@ float litPart(ShadowView view, vec3 texel, vec2 slope)
     return mix(rows.x, rows.y, part.y);
 }
 
-// How much the depth changes from texel to texel along a plane.
-vec2 depthSlope(ShadowView view, vec3 texel, vec3 normal)
+// From 0 to 1: how much of the light of a view reaches a surface; -1 beyond its map.
+float litPart(ShadowView view, vec3 position, vec3 faceNormal)
 {
-#ifndef POINT_SHADOWS
-    // The rows are at right angles to each other.
-    float along = dot(view.depth.xyz, normal);
-    return -view.offset.zw * vec2(dot(view.across.xyz, normal), dot(view.down.xyz, normal)) / along;
+    // In the axes of the light.
+    vec3 point = vec3(dot(view.right.xyz, position), dot(view.up.xyz, position), dot(view.forward.xyz, position))
+        + vec3(view.right.w, view.up.w, view.forward.w);
+    vec3 normal = vec3(dot(view.right.xyz, faceNormal), dot(view.up.xyz, faceNormal), dot(view.forward.xyz, faceNormal));
+#ifdef POINT_SHADOWS
+    bool isPerspective = view.depth.z > 0.0;
+    vec3 towardsLight = isPerspective ? -point * inversesqrt(dot(point, point)) : vec3(0.0, 0.0, -1.0);
+    point += (towardsLight + 0.25 * normal) * (view.depth.w * (isPerspective ? point.z : 1.0));
+    float inverse = isPerspective ? 1.0 / point.z : 1.0;
+    vec3 texel = vec3(point.xy * inverse * view.scale.xy + view.scale.zw,
+        isPerspective ? view.depth.x + view.depth.y * inverse : view.depth.x * point.z);
+    // How much the depth changes from texel to texel along the plane. A surface along the light has no depth of its own at a texel.
+    float height = isPerspective ? dot(normal, point) : normal.z;
+    vec2 slope = (isPerspective ? view.depth.y : -view.depth.x) * normal.xy
+        / ((abs(height) > 1e-20 ? height : 1e-20) * view.scale.xy);
+    bool isBefore = inverse > 0.0;
 #else
-    vec3 tangent = normalize(abs(normal.x) > 0.7 ? cross(normal, vec3(0.0, 1.0, 0.0)) : cross(normal, vec3(1.0, 0.0, 0.0)));
-    vec3 other = cross(normal, tangent);
-    vec3 d1 = vec3(dot(view.across.xyz, tangent), dot(view.down.xyz, tangent), dot(view.depth.xyz, tangent))
-        - texel * dot(view.w.xyz, tangent);
-    vec3 d2 = vec3(dot(view.across.xyz, other), dot(view.down.xyz, other), dot(view.depth.xyz, other))
-        - texel * dot(view.w.xyz, other);
-    float determinant = d1.x * d2.y - d1.y * d2.x;
-    // A surface along the light has no depth of its own at a texel.
-    return abs(determinant) > 1e-20 ? vec2(d1.z * d2.y - d1.y * d2.z, d1.x * d2.z - d1.z * d2.x) / determinant : vec2(0.0);
+    point += (vec3(0.0, 0.0, -1.0) + 0.25 * normal) * view.depth.w;
+    vec3 texel = vec3(point.xy * view.scale.xy + view.scale.zw, view.depth.x * point.z);
+    // How much the depth changes from texel to texel along the plane.
+    vec2 slope = -view.depth.x * normal.xy / (normal.z * view.scale.xy);
+    const bool isBefore = true;
 #endif
+    return isBefore && all(greaterThan(texel.xy, view.bounds.xy)) && all(lessThan(texel.xy, view.bounds.zw))
+        ? litPart(texel, slope)
+        : -1.0;
 }
+
+#ifdef POINT_SHADOWS
+// The view of a light with a position that shows a point: the side of a cube around the light.
+int sideOf(int light, vec3 fromLight)
+{
+    vec3 size = abs(fromLight);
+    return size.x >= max(size.y, size.z) ? (fromLight.x > 0.0 ? shadowSides[2 * light].x : shadowSides[2 * light].y)
+        : size.y >= size.z ? (fromLight.y > 0.0 ? shadowSides[2 * light].z : shadowSides[2 * light].w)
+        : (fromLight.z > 0.0 ? shadowSides[2 * light + 1].x : shadowSides[2 * light + 1].y);
+}
+#endif
 
 // From 0 to 1: how much of a light reaches a surface that faces it.
 float lightThatArrives(int light, vec3 position, vec3 faceNormal, vec3 toLight)
@@ -75,25 +105,23 @@ float lightThatArrives(int light, vec3 position, vec3 faceNormal, vec3 toLight)
         return 0.0;
     }
 
-    vec3 away = toLight + 0.25 * faceNormal;
-    ivec2 range = shadowRanges[light].xy;
-    for (int i = range.x; i < range.x + range.y; i++)
-    {
-        ShadowView view = shadowViews[i];
 #ifdef POINT_SHADOWS
-        vec4 point = vec4(position + away * (view.offset.x + view.offset.y * dot(view.w, vec4(position, 1.0))), 1.0);
-        float w = dot(view.w, point);
-        vec3 texel = vec3(dot(view.across, point), dot(view.down, point), dot(view.depth, point)) / w;
-#else
-        vec4 point = vec4(position + away * view.offset.x, 1.0);
-        const float w = 1.0;
-        vec3 texel = vec3(dot(view.across, point), dot(view.down, point), dot(view.depth, point));
-#endif
-        if (w > 0.0 && all(greaterThan(texel.xy, view.bounds.xy)) && all(lessThan(texel.xy, view.bounds.zw)))
-        {
-            return litPart(view, texel, depthSlope(view, texel, faceNormal));
-        }
+    if (lightKinds[light] != 0)
+    {
+        vec3 fromLight = position - lights[light].position.xyz;
+        vec3 size = abs(fromLight);
+        fromLight += (toLight + 0.25 * faceNormal) * (shadowViews[light].depth.w * max(size.x, max(size.y, size.z)));
+        return abs(litPart(shadowViews[sideOf(light, fromLight)], position, faceNormal));
     }
+#endif
+    float part = litPart(shadowViews[light], position, faceNormal);
+#ifdef SHADOW_SLICES
+    ivec2 range = shadowRanges[light].xy;
+    for (int i = range.x; part < 0.0 && i < range.x + range.y; i++)
+    {
+        part = litPart(shadowViews[i], position, faceNormal);
+    }
+#endif
 
-    return 1.0;
+    return abs(part);
 }

@@ -44,7 +44,8 @@ internal sealed class CasterRenderer : IDisposable
     /// <summary>Draws the objects that stand, as far as the view shows them.</summary>
     /// <param name="culling">Settings of culling; null to draw all instances.</param>
     /// <param name="zoom">Deep zoom of the frame, with roots about the view's eye; null where the camera is in world space.</param>
-    public void DrawStatic(CullingSettings? culling, DeepZoom? zoom)
+    /// <param name="selection">The objects to draw.</param>
+    public void DrawStatic(CullingSettings? culling, DeepZoom? zoom, CasterSelection selection)
     {
         var culler = _buffers.ShadowCuller;
         if (culling is not null)
@@ -55,6 +56,11 @@ internal sealed class CasterRenderer : IDisposable
         for (var i = 0; i < Scene.Objects.Length; i++)
         {
             var item = Scene.Objects[i];
+            if (!selection.IsSelected(i))
+            {
+                continue;
+            }
+
             if (culler.SelectsInstances(i))
             {
                 Draw(i, isRelative: true, FaceToCull(i, culler.WindingSign(i)));

@@ -41,6 +41,9 @@ internal sealed class ShadowFit
     // The size of a map of parallel light grows in steps of this factor.
     private const double SizeStep = 1.0905;
 
+    // By depth: a texel beyond each edge, as a point is compared with four.
+    private const double CubeSideHalfSize = 1.01;
+
     private static readonly (Vector Forward, Vector Up)[] CubeSides =
     [
         (Vector.I, Vector.J), (-Vector.I, Vector.J), (Vector.J, Vector.K), (-Vector.J, Vector.K),
@@ -50,12 +53,19 @@ internal sealed class ShadowFit
     private readonly ConvexRegion _region = new();
     private readonly List<ShadowView> _views = [];
     private readonly List<double> _weights = [];
+    private bool _keepsIdleViews;
 
     /// <summary>Views of the depth maps, those of one light after those of another.</summary>
     public List<ShadowView> Views => _views;
 
     /// <summary>For each light, the index of its first view and their number; without any where it casts no shadow.</summary>
     public List<(int First, int Count)> Ranges { get; } = [];
+
+    /// <summary>Number of maps that are not needed: their light is dark, or lights nothing visible.</summary>
+    public int SkippedCount { get; private set; }
+
+    /// <summary>Whether a light has views of the sides of a cube, unless it is so far away that it is parallel.</summary>
+    public static bool HasCube(Light light) => light is PointLight and not SpotLight { Angle: < MaxSpotAngle };
 
     /// <summary>Computes the views for a frame.</summary>
     /// <param name="lights">Lights in the order of the light block.</param>
@@ -65,10 +75,13 @@ internal sealed class ShadowFit
     /// <param name="receivers">Bounds of what shadows fall on.</param>
     /// <param name="casters">Bounds of what casts them.</param>
     /// <param name="fitsToView">Whether maps show only what the frame shows.</param>
+    /// <param name="cullsLights">Whether maps that are not needed have no view; otherwise they have idle ones.</param>
     public void Fit(
         ImmutableArray<Light> lights, in FrameView frame, Vector origin, double unitsPerSceneUnit, BoundingBox receivers,
-        BoundingBox casters, bool fitsToView)
+        BoundingBox casters, bool fitsToView, bool cullsLights = true)
     {
+        _keepsIdleViews = !cullsLights;
+        SkippedCount = 0;
         _views.Clear();
         _weights.Clear();
         Ranges.Clear();
@@ -76,9 +89,16 @@ internal sealed class ShadowFit
         foreach (var light in lights)
         {
             var first = _views.Count;
-            if (hasShadows && IsBright(light))
+            if (hasShadows)
             {
                 AddViews(light, in frame, origin, unitsPerSceneUnit, receivers, casters, fitsToView);
+            }
+
+            if (_views.Count > MaxViews && _keepsIdleViews)
+            {
+                // Idle views take the place of no others.
+                Fit(lights, in frame, origin, unitsPerSceneUnit, receivers, casters, fitsToView);
+                return;
             }
 
             if (_views.Count > MaxViews)
@@ -97,14 +117,22 @@ internal sealed class ShadowFit
         }
     }
 
+    /// <summary>Takes all views away, as nothing casts a shadow. Lights keep their places.</summary>
+    public void Clear()
+    {
+        _views.Clear();
+        for (var i = 0; i < Ranges.Count; i++)
+        {
+            Ranges[i] = (0, 0);
+        }
+    }
+
     /// <summary>Returns axes whose third is a direction.</summary>
     private static Matrix AxesAlong(Vector forward, Vector up)
     {
         var right = Vector.Cross(up, forward).UnitVector();
         return new(right, Vector.Cross(forward, right), forward);
     }
-
-    private static bool IsBright(Light light) => light.Intensity > 0 && light.Colour != Colour.Black;
 
     private static double WeightOf(Light light)
     {
@@ -140,28 +168,29 @@ internal sealed class ShadowFit
         var far = Math.Min(range, distance + receivers.Diagonal);
         if (distance >= far)
         {
-            return;
+            weight = 0;
         }
 
         SetRegion(in frame, origin, frame.Near, frame.Far, receivers, fitsToView);
         var near = NearByRange * Math.Min(range, receivers.Diagonal);
-        if (light is SpotLight { Angle: < MaxSpotAngle } spot)
+        if (!HasCube(light) && light is SpotLight spot)
         {
             var direction = spot.Direction.UnitVector();
             var halfSize = Math.Tan(0.5 * spot.Angle * Math.PI / 180) * 1.01;
             var up = Math.Abs(direction.Y) > 0.9 ? Vector.K : Vector.J;
-            AddPerspectiveView(position, AxesAlong(direction, up), halfSize, near, far, weight);
+            AddPerspectiveView(position, AxesAlong(direction, up), halfSize, near, far, weight, isCubeSide: false);
             return;
         }
 
         foreach (var (forward, up) in CubeSides)
         {
-            AddPerspectiveView(position, AxesAlong(forward, up), 1.004, near, far, 0.5 * weight);
+            AddPerspectiveView(position, AxesAlong(forward, up), CubeSideHalfSize, near, far, 0.5 * weight, isCubeSide: true);
         }
     }
 
     /// <summary>Adds a view of a light with a position, if anything visible lies within it.</summary>
-    private void AddPerspectiveView(Vector position, Matrix axes, double halfSize, double near, double far, double weight)
+    private void AddPerspectiveView(
+        Vector position, Matrix axes, double halfSize, double near, double far, double weight, bool isCubeSide)
     {
         var toView = axes.Transpose();
         var (right, left, above, below, before) = (true, true, true, true, true);
@@ -175,11 +204,9 @@ internal sealed class ShadowFit
             before &= z < near;
         }
 
-        if (_region.Corners.Length > 0 && !(right || left || above || below || before))
-        {
-            _views.Add(new(position, axes, true, halfSize, halfSize, near, far, near, 0));
-            _weights.Add(weight);
-        }
+        var isVisible = _region.Corners.Length > 0 && !(right || left || above || below || before);
+        var view = new ShadowView(position, axes, true, halfSize, halfSize, near, far, near, 0) { IsCubeSide = isCubeSide };
+        AddView(in view, isVisible ? weight : 0);
     }
 
     private void AddParallelViews(
@@ -189,6 +216,7 @@ internal sealed class ShadowFit
         SetRegion(in frame, origin, frame.Near, frame.Far, receivers, fitsToView);
         if (_region.Corners.Length == 0)
         {
+            SkippedCount++;
             return;
         }
 
@@ -207,9 +235,22 @@ internal sealed class ShadowFit
 
             if (_region.Corners.Length > 0)
             {
-                _views.Add(ParallelView(axes, receivers, casters));
-                _weights.Add(weight);
+                AddView(ParallelView(axes, receivers, casters), weight);
             }
+        }
+    }
+
+    /// <summary>Adds a view, unless its light has no weight and is culled.</summary>
+    private void AddView(in ShadowView view, double weight)
+    {
+        if (weight > 0 || _keepsIdleViews)
+        {
+            _views.Add(view with { IsIdle = !(weight > 0) });
+            _weights.Add(weight);
+        }
+        else
+        {
+            SkippedCount++;
         }
     }
 
@@ -292,7 +333,7 @@ internal sealed class ShadowFit
             {
                 var size = Math.Max(MinSize / 2, _weights[i] > 0.5 * brightest ? largest : largest / 2);
                 _views[i] = _views[i] with { Size = size };
-                texels += (long)size * size;
+                texels += _views[i].IsIdle ? 0 : (long)size * size;
             }
 
             isWithinLimit = texels <= MaxTexels || largest <= MinSize;

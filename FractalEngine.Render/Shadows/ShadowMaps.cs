@@ -23,6 +23,9 @@ internal sealed class ShadowMaps(GlResources resources) : IDisposable
     /// <summary>Corner of each view's map in the texture.</summary>
     public IReadOnlyList<(int X, int Y)> Corners => _corners;
 
+    /// <summary>Width and height of the texture, texels; 1 while there is none.</summary>
+    public (int Width, int Height) TextureSize => _standing is null ? (1, 1) : (_standing.Width, _standing.Height);
+
     /// <summary>Number of maps that the last update drew.</summary>
     public int DrawnCount { get; private set; }
 

@@ -28,6 +28,8 @@ internal sealed class ShadowPass : IDisposable
     private readonly ShadowFit _fit = new();
     private readonly ShadowMaps _fittedMaps;
     private readonly ShadowMaps _wholeMaps;
+    private readonly CasterSelection _fittedCasters = new();
+    private readonly CasterSelection _wholeCasters = new();
     private readonly ShadowBlock _block;
     private readonly CasterRenderer _casters;
     private readonly Action<ShadowView> _drawStanding;
@@ -37,6 +39,7 @@ internal sealed class ShadowPass : IDisposable
     private CullingSettings? _culling;
     private DeepZoom? _zoom;
     private ShadowMaps _maps;
+    private CasterSelection _selection;
     private bool _hasMoving;
     private IReadOnlyList<SphereInstance> _lastSpheres = [];
     private long _version;
@@ -52,6 +55,7 @@ internal sealed class ShadowPass : IDisposable
         _fittedMaps = new(_resources);
         _wholeMaps = new(_resources);
         _maps = _fittedMaps;
+        _selection = _fittedCasters;
         _block = new(_resources, context.HasReversedDepth);
         _casters = new(_resources, scene, buffers, transforms);
         _drawStanding = DrawStanding;
@@ -64,8 +68,17 @@ internal sealed class ShadowPass : IDisposable
     /// <summary>Whether any of them has a position.</summary>
     public bool HasPointShadows { get; private set; }
 
+    /// <summary>Whether any parallel light has several depth maps.</summary>
+    public bool HasSlices { get; private set; }
+
     /// <summary>Number of depth maps of the frame.</summary>
-    public int MapCount => HasShadows ? _fit.Views.Count : 0;
+    public int MapCount { get; private set; }
+
+    /// <summary>Number of depth maps that the frame does not need.</summary>
+    public int SkippedMapCount { get; private set; }
+
+    /// <summary>Number of objects that no depth map of the frame needs.</summary>
+    public int SkippedCasterCount { get; private set; }
 
     /// <summary>Number of depth maps that were drawn for the frame; the others were kept.</summary>
     public int DrawnMapCount { get; private set; }
@@ -104,7 +117,8 @@ internal sealed class ShadowPass : IDisposable
     {
         HasShadows = false;
         HasPointShadows = false;
-        DrawnMapCount = 0;
+        HasSlices = false;
+        (MapCount, DrawnMapCount, SkippedMapCount, SkippedCasterCount) = (0, 0, 0, 0);
         if (!settings.Shadows || settings.Wireframe || settings.Shading != Shading.PerPixel || _lights.IsEmpty)
         {
             return;
@@ -116,36 +130,43 @@ internal sealed class ShadowPass : IDisposable
         var casters = _zoom is null ? bounds : new BoundingBox(-frame.Far * Vector.One, frame.Far * Vector.One);
         var fitsToView = settings.FitShadowsToView || _zoom is not null;
         var receivers = _zoom is null ? StandingBounds(bounds) : new(-reach * Vector.One, reach * Vector.One);
-        _fit.Fit(_lights, in frame, origin, unitsPerSceneUnit, receivers, casters, fitsToView);
+        _fit.Fit(_lights, in frame, origin, unitsPerSceneUnit, receivers, casters, fitsToView, settings.LightCulling);
+        SkippedMapCount = _fit.SkippedCount;
+        foreach (var view in _fit.Views)
+        {
+            HasShadows |= !view.IsIdle;
+            HasPointShadows |= view.IsPerspective && !view.IsIdle;
+        }
+
         if (_fit.Views.Count == 0)
         {
             return;
         }
 
-        HasShadows = true;
-        CutViews(_zoom is null ? frame.View.Section : frame.Section);
-        foreach (var view in _fit.Views)
+        foreach (var (first, count) in _fit.Ranges)
         {
-            HasPointShadows |= view.IsPerspective;
+            HasSlices |= count > 1 && !_fit.Views[first].IsPerspective;
         }
 
-        RefreshCuller();
-        _culling = Resolve(settings.Culling);
         _maps = fitsToView ? _fittedMaps : _wholeMaps;
-        BeginDrawing(frame.Section is not null);
-        _maps.DrawStanding(_fit.Views, _culling, _zoom, _version, settings.ReuseBuffers, _drawStanding);
-        DrawnMapCount = _maps.DrawnCount;
-        _hasMoving = _zoom is null && (_movingObjects.Count > 0 || spheres.Count > 0);
-        if (_hasMoving)
+        _selection = fitsToView ? _fittedCasters : _wholeCasters;
+        _selection.Update(
+            _casters.Scene, _transforms.Bounds, spheres, bounds, in frame, _fit, fitsToView, settings.CasterCulling && _zoom is null);
+        SkippedCasterCount = _selection.SkippedCount;
+        if (!_selection.HasCasters && spheres.Count == 0)
         {
-            // A list of spheres may change within.
-            _movingVersion += spheres.Count > 0 || _lastSpheres.Count > 0 || !settings.ReuseBuffers ? 1 : 0;
-            _lastSpheres = spheres;
-            DrawMoving(spheres);
+            // Faces that turn away from a light are still dark, as those of lights with maps.
+            SkippedMapCount += _fit.Views.Count;
+            _fit.Clear();
         }
 
-        EndDrawing();
-        _block.Upload(_fit.Ranges, _fit.Views, _maps.Corners, origin);
+        MapCount = _fit.Views.Count;
+        if (MapCount > 0)
+        {
+            DrawMaps(in frame, spheres, settings);
+        }
+
+        _block.Upload(_fit.Ranges, _fit.Views, _maps.Corners, _maps.TextureSize, origin);
     }
 
     /// <summary>Binds the maps and their views, where the frame has any.</summary>
@@ -154,6 +175,10 @@ internal sealed class ShadowPass : IDisposable
         if (HasShadows)
         {
             _block.Bind();
+        }
+
+        if (MapCount > 0)
+        {
             _maps.BindTexture(MeshPass.ShadowTextureUnit, _hasMoving);
         }
     }
@@ -165,6 +190,31 @@ internal sealed class ShadowPass : IDisposable
         _wholeMaps.Dispose();
         _block.Dispose();
         _casters.Dispose();
+    }
+
+    private void DrawMaps(in FrameView frame, IReadOnlyList<SphereInstance> spheres, RenderSettings settings)
+    {
+        CutViews(_zoom is null ? frame.View.Section : frame.Section);
+        RefreshCuller();
+        for (var i = 0; i < _casters.Scene.Objects.Length; i++)
+        {
+            _buffers.ShadowCuller.Include(i, _selection.IsSelected(i));
+        }
+
+        _culling = Resolve(settings.Culling);
+        BeginDrawing(frame.Section is not null);
+        _maps.DrawStanding(_fit.Views, _culling, _zoom, _version + _selection.Version, settings.ReuseBuffers, _drawStanding);
+        DrawnMapCount = _maps.DrawnCount;
+        _hasMoving = _zoom is null && (_movingObjects.Count > 0 || spheres.Count > 0);
+        if (_hasMoving)
+        {
+            // A list of spheres may change within.
+            _movingVersion += spheres.Count > 0 || _lastSpheres.Count > 0 || !settings.ReuseBuffers ? 1 : 0;
+            _lastSpheres = spheres;
+            DrawMoving(spheres);
+        }
+
+        EndDrawing();
     }
 
     private static void BeginDrawing(bool isCut)
@@ -257,7 +307,7 @@ internal sealed class ShadowPass : IDisposable
     private void DrawStanding(ShadowView view)
     {
         _casters.Begin(in view);
-        _casters.DrawStatic(_culling, _zoom is null ? null : AboutEye(_zoom, view.Position));
+        _casters.DrawStatic(_culling, _zoom is null ? null : AboutEye(_zoom, view.Position), _selection);
     }
 
     /// <summary>Moves the roots of a deep zoom from the camera to the eye of a view.</summary>
@@ -271,7 +321,7 @@ internal sealed class ShadowPass : IDisposable
 
     private void DrawMoving(IReadOnlyList<SphereInstance> spheres)
     {
-        if (!_maps.TryBeginMoving(_movingVersion))
+        if (!_maps.TryBeginMoving(_movingVersion + _selection.Version))
         {
             return;
         }
@@ -283,7 +333,7 @@ internal sealed class ShadowPass : IDisposable
             _casters.Begin(in view);
             foreach (var index in _movingObjects)
             {
-                if (_maps.TryMark(i, in view, _transforms.Bounds[index]))
+                if (_selection.IsSelected(index) && _maps.TryMark(i, in view, _transforms.Bounds[index]))
                 {
                     _casters.DrawWhole(index);
                 }

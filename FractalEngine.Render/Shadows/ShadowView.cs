@@ -18,6 +18,12 @@ internal readonly record struct ShadowView(
     Vector Position, Matrix Axes, bool IsPerspective, double HalfWidth, double HalfHeight, double Near, double Far, double CasterNear,
     int Size)
 {
+    /// <summary>Whether the light is dark, or lights nothing visible: drawn only where lights are not culled.</summary>
+    public bool IsIdle { get; init; }
+
+    /// <summary>Whether the view is one of the sides of a cube around a light.</summary>
+    public bool IsCubeSide { get; init; }
+
     /// <summary>Plane that cuts the casters open, in world axes about the eye of the view; null for none.</summary>
     public SectionPlane? Section { get; init; }
 

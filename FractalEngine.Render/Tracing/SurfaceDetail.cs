@@ -41,13 +41,25 @@ internal static class SurfaceDetail
             var slopeU = (bump.SampleValues(u + stepU, v).X - height) / stepU * bump.BumpFactor;
             var slopeV = (bump.SampleValues(u, v + stepV).X - height) / stepV * bump.BumpFactor;
             // Heights are in units of the texture, whose size in the world the tangents tell.
-            var (lengthU, lengthV) = (alongU.Length(), alongV.Length());
-            var unit = Math.Sqrt(lengthU * lengthV);
-            bent = normal - (slopeU * unit / (lengthU * lengthU) * alongU) - (slopeV * unit / (lengthV * lengthV) * alongV);
+            var unit = Math.Sqrt(alongU.Length() * alongV.Length());
+            bent = BendBySlopes(normal, alongU, alongV, unit * slopeU, unit * slopeV);
         }
 
         bent = Unit(bent);
         return bent.IsFinite() && Vector.Dot(bent, direction) < 0 ? bent : normal;
+    }
+
+    /// <summary>Computes a normal of a plane whose points are raised along its normal.</summary>
+    /// <param name="normal">Unit normal of the plane.</param>
+    /// <param name="alongU">A tangent of the plane: what a point moves by when u grows by 1.</param>
+    /// <param name="alongV">The same for v, at any angle but 0 to the first.</param>
+    /// <param name="slopeU">By how much the height grows when u grows by 1, in the units of the tangents.</param>
+    /// <param name="slopeV">The same for v.</param>
+    /// <returns>The plane's normal less the gradient of the height; not of unit length.</returns>
+    internal static Vector BendBySlopes(Vector normal, Vector alongU, Vector alongV, double slopeU, double slopeV)
+    {
+        var gradient = (slopeU * Vector.Cross(alongV, normal)) + (slopeV * Vector.Cross(normal, alongU));
+        return normal - (gradient / Vector.Dot(normal, Vector.Cross(alongU, alongV)));
     }
 
     /// <summary>Finds the directions in which the texture coordinates grow, as long as a whole texture.</summary>

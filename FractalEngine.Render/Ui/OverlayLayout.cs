@@ -7,7 +7,8 @@ internal sealed class OverlayLayout
     private const double TextRows = 45;
     private const double TextColumns = 78;
 
-    private static readonly (float, float, float, float) PanelColour = (0.055f, 0.065f, 0.085f, 0.74f);
+    // So dark over a white scene, too, that all texts contrast with it by 4.5:1.
+    internal static readonly (float Red, float Green, float Blue, float Alpha) PanelColour = (0.055f, 0.065f, 0.085f, 0.85f);
     private static readonly (float, float, float, float) TrackColour = (1, 1, 1, 0.14f);
     private static readonly (float, float, float, float) BarColour = (0.42f, 0.71f, 0.93f, 1);
 
@@ -73,13 +74,18 @@ internal sealed class OverlayLayout
         return closest;
     }
 
-    private static (float, float, float, float) ColourOf(OverlayTone tone) => tone switch
+    /// <summary>Returns the colour of a text, sRGB with its opacity.</summary>
+    internal static (float Red, float Green, float Blue, float Alpha) ColourOf(OverlayTone tone)
     {
-        OverlayTone.Dim => (0.66f, 0.70f, 0.75f, 1),
-        OverlayTone.Accent => (0.98f, 0.84f, 0.58f, 1),
-        OverlayTone.Warning => (1.00f, 0.62f, 0.48f, 1),
-        _ => (0.93f, 0.94f, 0.96f, 1),
-    };
+        var colour = tone switch
+        {
+            OverlayTone.Dim => UiTheme.Dark.DimText,
+            OverlayTone.Accent => UiTheme.Dark.Accent,
+            OverlayTone.Warning => UiTheme.Dark.Warning,
+            _ => UiTheme.Dark.Text,
+        };
+        return ((float)colour.Red, (float)colour.Green, (float)colour.Blue, 1);
+    }
 
     /// <summary>Adds the rectangles of a panel.</summary>
     /// <returns>False when the panel does not fit the frame.</returns>

@@ -38,8 +38,9 @@ public sealed partial class UserInterface
     /// <summary>Adds a menu to the menu bar.</summary>
     /// <param name="title">Title in the bar.</param>
     /// <param name="build">Adds the items while the menu is open.</param>
-    /// <param name="columns">Width of the opened menu in characters.</param>
-    public void Menu(string title, Action build, int columns)
+    /// <param name="columns">Width of an item in characters.</param>
+    /// <param name="items">Number of items: what is too high for the frame has several columns.</param>
+    public void Menu(string title, Action build, int columns, int items = 1)
     {
         ArgumentNullException.ThrowIfNull(title);
         ArgumentNullException.ThrowIfNull(build);
@@ -69,7 +70,7 @@ public sealed partial class UserInterface
         DrawFocus(touch, rect);
         if (isOpen)
         {
-            Scope($"menu {title}", () => AddMenu(rect, columns, build));
+            Scope($"menu {title}", () => AddMenu(rect, columns, items, build));
             _root = root;
             _layer = 0;
             _clip = new(0, 0, _width, _height);
@@ -190,10 +191,12 @@ public sealed partial class UserInterface
         _buildsAgain = true;
     }
 
-    private void AddMenu(UiRect title, int columns, Action build)
+    private void AddMenu(UiRect title, int columns, int items, Action build)
     {
         var before = _focusable.Count;
-        var width = Math.Min(((columns + 4) * CellWidth) + (2 * Gap), _width);
+        var rows = Math.Max(1, (_height - title.Bottom - (3 * Gap)) / RowPitch);
+        var besides = (Math.Max(1, items) + rows - 1) / rows;
+        var width = Math.Min((besides * (columns + 4) * CellWidth) + (2 * Gap), _width);
         var x = Math.Max(0, Math.Min(title.X, _width - width));
         var height = _dialogHeights.GetValueOrDefault(_openMenu!);
         var bounds = new UiRect(x, title.Bottom, width, height + (2 * Gap));
@@ -201,7 +204,7 @@ public sealed partial class UserInterface
         Fill(bounds, Theme.Panel);
         _area = bounds.Inset(Gap);
         _cursorY = _area.Y;
-        Row(1);
+        Row([.. Enumerable.Repeat(1.0, besides)]);
         build();
         FinishRow();
         if (_cursorY - _area.Y != height && _openMenu is not null)
@@ -253,13 +256,13 @@ public sealed partial class UserInterface
 
         _layer = 2;
         _clip = new(0, 0, _width, _height);
-        var columns = Math.Max(1, Math.Min(60, (_width / CellWidth) - 2));
+        var besides = Math.Max(_tooltipOwner.X, _width - _tooltipOwner.Right) - (2 * Gap);
+        var isBesides = besides >= MinTooltipColumns * CellWidth;
+        var columns = Math.Max(1, Math.Min(MaxTooltipColumns, ((isBesides ? besides : _width) / CellWidth) - 2));
         var lines = Wrap(_tooltip, columns).ToArray();
         var width = (lines.Max(static line => line.Length) * CellWidth) + (2 * Gap);
         var height = (lines.Length * LineHeight) + (2 * Gap);
-        var x = Math.Max(0, Math.Min((int)_input.X + CellWidth, _width - width));
-        var y = (int)_input.Y + LineHeight + Gap;
-        y = y + height > _height ? Math.Max(0, (int)_input.Y - height - Gap) : y;
+        var (x, y) = isBesides ? PlaceBesides(_tooltipOwner, width, height) : PlaceBelowPointer(width, height);
         var bounds = new UiRect(x, y, width, height);
         Fill(bounds, Theme.Title, 2);
         Frame(bounds, Theme.Border);
@@ -267,6 +270,20 @@ public sealed partial class UserInterface
         {
             Print(lines[i], new(x + Gap, y + Gap + (i * LineHeight), width, LineHeight), Theme.Text);
         }
+    }
+
+    /// <summary>Places a tooltip beside its panel or menu, of which it covers no row.</summary>
+    private (int X, int Y) PlaceBesides(UiRect owner, int width, int height)
+    {
+        var x = owner.Right + Gap + width <= _width ? owner.Right + Gap : owner.X - Gap - width;
+        return (x, Math.Clamp((int)_input.Y - (height / 2), 0, Math.Max(0, _height - height)));
+    }
+
+    private (int X, int Y) PlaceBelowPointer(int width, int height)
+    {
+        var x = Math.Max(0, Math.Min((int)_input.X + CellWidth, _width - width));
+        var y = (int)_input.Y + LineHeight + Gap;
+        return (x, y + height > _height ? Math.Max(0, (int)_input.Y - height - Gap) : y);
     }
 
     private int _menuStep;

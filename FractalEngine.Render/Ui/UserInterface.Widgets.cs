@@ -314,7 +314,14 @@ public sealed partial class UserInterface
     /// <summary>Explains the last widget while the pointer is over it.</summary>
     public void Tooltip(string text) => Tooltip(text, _isLastHot);
 
-    private void Tooltip(string text, bool isHot) => _tooltip = isHot && !_input.IsDown ? text : _tooltip;
+    private void Tooltip(string text, bool isHot)
+    {
+        if (isHot && !_input.IsDown)
+        {
+            _tooltip = text;
+            _tooltipOwner = _nextRoots.Find(owner => owner.Root == _root).Bounds;
+        }
+    }
 
     private UiTouch AddKnob(string label, double x, double y, Colour colour, string? name = null)
     {

@@ -17,6 +17,10 @@ public sealed partial class UserInterface
     // Builds after an event until nothing changes any more: a widget may act on what stands before it.
     private const int MaxBuilds = 4;
 
+    // Characters in a line of a tooltip: beside a panel at least, and at most.
+    private const int MinTooltipColumns = 24;
+    private const int MaxTooltipColumns = 60;
+
     // Half a pixel: the shader smooths edges across one, which whole pixels need not.
     private const float SquareCorner = 0.5f;
 
@@ -46,6 +50,9 @@ public sealed partial class UserInterface
     private bool _isKeyTaken;
     private UiRect _clip;
     private string? _tooltip;
+
+    // The panel, menu or knob of the widget that it explains.
+    private UiRect _tooltipOwner;
 
     /// <summary>Makes an interface that is empty until it is built.</summary>
     /// <param name="build">Adds all widgets.</param>

@@ -326,8 +326,8 @@ public sealed class CommandLineTests : IDisposable
         var (exitCode, _, error) = Run([.. arguments, "--without", "backface-culling", "--without", "nonsense"]);
         Assert.Equal(2, exitCode);
         Assert.StartsWith(
-            "error: --without: expected one of backface-culling, frustum-culling, occlusion-culling, degenerate-removal, "
-            + "state-filtering, buffer-reuse, mesh-sharing, lazy-loading, idle, not 'nonsense'\n",
+            "error: --without: expected one of backface-culling, frustum-culling, occlusion-culling, light-culling, "
+            + "caster-culling, bake-skipping, degenerate-removal, state-filtering, buffer-reuse, mesh-sharing, lazy-loading, idle, not 'nonsense'\n",
             error, StringComparison.Ordinal);
     }
 

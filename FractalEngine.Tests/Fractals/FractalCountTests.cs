@@ -76,6 +76,19 @@ public class FractalCountTests
     }
 
     [Fact]
+    public void WithComposition_CountsTheSumsOfThePaper()
+    {
+        // 2⁴ chains of two translations each have sums of 0 to 4 steps: five distinct ones, since this composition commutes.
+        var fractal = Samples.Repeated(4, TranslationsInARow(2));
+        var summed = fractal.WithComposition(Composition.Componentwise);
+        Assert.Equal(Composition.Componentwise, summed.Description.Composition);
+        Assert.Equal((16, 5), (fractal.InstanceCount, DistinctInstances.Count(summed)));
+        Assert.Same(fractal.BaseMesh, summed.BaseMesh);
+        Assert.Throws<ArgumentException>(
+            () => Samples.Repeated(null, TranslationsInARow(2)).WithComposition(Composition.Componentwise));
+    }
+
+    [Fact]
     public void WithDepth_ReplacesTheDepthInTheFile()
     {
         Assert.Equal(25, Samples.AppendixBAt(1).InstanceCount);

@@ -2,6 +2,7 @@ using System.Collections.Immutable;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Tests.Render;
+using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Geometry;
 
@@ -16,6 +17,18 @@ public sealed class NormalGeneratorTests
             var (a, b, c) = mesh.Face(corner / 3);
             AssertNear(Vector.Cross(b - a, c - a).UnitVector(), NormalOf(mesh, corner), 1e-15);
         }
+    }
+
+    [Fact]
+    public void Generate_OfManyFacesWithoutAreaAtOneCorner_IsLinear()
+    {
+        // Slivers have no direction of their own. Each was compared with all others: a minute for these.
+        const int count = 100_000;
+        double[] positions = [0, 0, 0, .. Enumerable.Range(0, count + 1).SelectMany(static i => (double[])[1, 1e6 + i, 0])];
+        int[] indices = [.. Enumerable.Range(1, count).SelectMany(static i => (int[])[0, i, i + 1])];
+        var mesh = ProcessorTime.RunWithin(
+            5, () => NormalGenerator.Generate(new Mesh([.. positions], [.. indices])));
+        Assert.Equal(3 * count, mesh.NormalIndices.Length);
     }
 
     [Fact]

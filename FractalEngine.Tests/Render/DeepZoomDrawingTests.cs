@@ -1,8 +1,10 @@
 using FractalEngine.App.Window;
+using FractalEngine.Core.Collision;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Images;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Rays;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Visibility;
 using FractalEngine.Render;
@@ -27,6 +29,10 @@ public sealed class DeepZoomDrawingTests
 
     // Shadows come from maps that fit each view differently, and levels above a zoom's roots hide no sky from what is below.
     private static readonly RenderSettings Settings = new() { Samples = 0, Shadows = false, AmbientOcclusion = false };
+    private static readonly RenderSettings Shaded = Settings with { Shadows = true };
+
+    // So low that the whole of what is seen is full of shadows.
+    private static readonly DirectionalLight Grazing = new(new(0.9, 0.3, 0.25), Colour.White, 1);
     private static readonly Light[] Directions =
     [
         new AmbientLight(Colour.White, 0.1),
@@ -153,6 +159,33 @@ public sealed class DeepZoomDrawingTests
     }
 
     [SkippableTheory]
+    [InlineData("menger")]
+    [InlineData("sierpinski")]
+    public void Shadows_AtAFixedPoint_AreTheSameAtAnyDepth(string name) => AssertSameShadows(name, [21, 1000, 10_000]);
+
+    [SkippableFact]
+    [Trait("Category", "Soak")]
+    public void Shadows_AMillionLevelsDeep_AreTheSame() => AssertSameShadows("menger", [1_000_000]);
+
+    [SkippableTheory]
+    [InlineData("menger")]
+    [InlineData("sierpinski")]
+    public void Shadows_InADeepZoom_AreTheTracedOnes(string name)
+    {
+        // At depth 5 doubles suffice to trace the same in world space.
+        using var stage = new Stage(name, Transformation.Identity, [Grazing]);
+        var dive = new FractalDive(stage.Hierarchy, 0, AffineMap.Identity, Direction(name));
+        var plain = DrawAtLevel(stage, dive, 5);
+        var drawn = DrawAtLevel(stage, dive, 5, Shaded);
+        var traced = stage.TraceShadows(stage.CreateCamera(dive), plain, Grazing);
+        // Most pixels show many parts, of which both see another one: blocks of pixels are compared. Parts of the size of a texel leave
+        // most of the difference, as they have no shadow in a map.
+        var difference = BlockDifference(drawn, traced);
+        var without = BlockDifference(plain, traced);
+        Assert.True(difference < 0.5 * without, Invariant($"{name}: {difference:F1} of 255, and {without:F1} without shadows"));
+    }
+
+    [SkippableTheory]
     [InlineData(0.8)]
     [InlineData(0.9)]
     public void Frame_DeepInAFractalThatHardlyShrinks_IsTheOrdinaryOne(double scale)
@@ -200,13 +233,48 @@ public sealed class DeepZoomDrawingTests
         }
     }
 
-    private static PixelImage DrawAtLevel(Stage stage, FractalDive dive, int depth)
+    private static void AssertSameShadows(string name, int[] depths)
+    {
+        using var stage = new Stage(name, Transformation.Identity, [Grazing]);
+        var dive = new FractalDive(stage.Hierarchy, 0, AffineMap.Identity, Direction(name));
+        var first = DrawAtLevel(stage, dive, 20, Shaded);
+        Assert.True(RenderScenes.Difference(first, DrawAtLevel(stage, dive, 20)).Share > 0.05, "there is hardly a shadow");
+        foreach (var depth in depths)
+        {
+            Assert.Equal(first.Pixels, DrawAtLevel(stage, dive, depth, Shaded).Pixels);
+        }
+    }
+
+    /// <summary>Root of the mean squared difference of the means of blocks, of 255.</summary>
+    private static double BlockDifference(PixelImage image1, PixelImage image2)
+    {
+        const int BlockSize = 10;
+        var sum = 0.0;
+        for (var top = 0; top < Height; top += BlockSize)
+        {
+            for (var left = 0; left < Width; left += BlockSize)
+            {
+                var difference = 0.0;
+                for (var i = 0; i < BlockSize * BlockSize; i++)
+                {
+                    var (x, y) = (left + (i % BlockSize), top + (i / BlockSize));
+                    difference += image1[x, y].Red - image2[x, y].Red;
+                }
+
+                sum += Math.Pow(difference / (BlockSize * BlockSize), 2);
+            }
+        }
+
+        return Math.Sqrt(sum * BlockSize * BlockSize / (Width * Height));
+    }
+
+    private static PixelImage DrawAtLevel(Stage stage, FractalDive dive, int depth, RenderSettings? settings = null)
     {
         dive.GoToDepth(depth, 0.2);
         // A position that belongs to the frame of the sub-fractal, not to that of one of its children: the same at each level.
         dive.ConvergeTo(1.5 * Direction(stage.Name));
         var camera = stage.CreateCamera(dive);
-        return stage.DrawZoomed(camera, (0.02, 1e12), dive.Address);
+        return stage.DrawZoomed(camera, (0.02, 1e12), dive.Address, settings);
     }
 
     private static Vector Direction(string name) => name switch
@@ -221,6 +289,7 @@ public sealed class DeepZoomDrawingTests
         private readonly OffscreenContext _context;
         private readonly SceneRenderer _renderer;
         private readonly FrameRenderer _frame;
+        private readonly LoadedScene _scene;
 
         public Stage(string name, Transformation placement, Light[] lights, Gradient? gradient = null)
             : this(FractalAddressTests.CreateInfinite(name), placement, lights, gradient) => Name = name;
@@ -235,6 +304,7 @@ public sealed class DeepZoomDrawingTests
             var scene = new LoadedScene(
                 new() { Background = Colour.Black, Lights = [.. lights] },
                 [new(declaration, new FractalModel(fractal) { SourcePath = "a.fdo" })]);
+            _scene = scene;
             var drawable = DrawableScene.Prepare(scene, Settings);
             Hierarchy = drawable.Objects[0].Model.LodHierarchy!;
             _context = GlTests.OpenContext();
@@ -261,8 +331,36 @@ public sealed class DeepZoomDrawingTests
         }
 
         /// <summary>Draws with the camera's position relative to a sub-fractal.</summary>
-        public PixelImage DrawZoomed(Camera camera, (double Near, double Far) clipPlanes, FractalAddress address) =>
-            Draw(new(camera, Projection.Perspective) { FixedClipPlanes = clipPlanes, DeepZoom = CreateDeepZoom(address) });
+        public PixelImage DrawZoomed(Camera camera, (double Near, double Far) clipPlanes, FractalAddress address, RenderSettings? settings = null) =>
+            Draw(new(camera, Projection.Perspective) { FixedClipPlanes = clipPlanes, DeepZoom = CreateDeepZoom(address) }, settings);
+
+        /// <summary>Darkens the pixels of an image without shadows that no ray to the light reaches.</summary>
+        public PixelImage TraceShadows(Camera camera, PixelImage plain, DirectionalLight light)
+        {
+            var view = new View(camera, Projection.Perspective);
+            var caster = new SceneRayCaster(_scene);
+            var context = new QueryContext();
+            var spread = 0.5 * camera.HalfHeightAtUnitDepth / Height;
+            var pixels = plain.Pixels.ToArray();
+            for (var i = 0; i < Width * Height; i++)
+            {
+                var ray = view.RayThrough((i % Width) + 0.5, (i / Width) + 0.5, Width, Height);
+                ray = new(ray.Origin, ray.Direction.UnitVector());
+                if (caster.TryFindNearest(ray, context, out var hit, out _, 0, double.PositiveInfinity, new(0, spread)))
+                {
+                    var distance = (hit.Point - ray.Origin).Length();
+                    var normal = Vector.Dot(hit.Normal, ray.Direction) < 0 ? hit.Normal : -hit.Normal;
+                    var origin = hit.Point + (1e-3 * spread * distance * normal);
+                    if (caster.HitsAny(
+                        new(origin, -light.Direction.UnitVector()), context, 0, double.PositiveInfinity, new(spread * distance, 1e-3)))
+                    {
+                        pixels.AsSpan(4 * i, 3).Clear();
+                    }
+                }
+            }
+
+            return new(Width, Height, pixels);
+        }
 
         public void Dispose()
         {

@@ -113,6 +113,21 @@ public class SkyVisibilityTests
     }
 
     [Fact]
+    public void OpenSky_OfTurnedPlanes_IsKnownWithoutABake()
+    {
+        // Squares in the plane z = 0: side by side, turned within it, out of it, and beside it.
+        Assert.True(SquaresAt(Move(0, 0, 0), new(new(3, 0, 0), new(0, 0, 40), new(0.5, 0.5, 1))).HasOpenSky());
+        Assert.False(SquaresAt(Move(0, 0, 0), new(new(3, 0, 0), new(0, 1, 0), Vector.One)).HasOpenSky());
+        Assert.False(SquaresAt(Move(0, 0, 0), Move(3, 0, 1e-3)).HasOpenSky());
+        var flat = SquaresAt(Move(0, 0, 0), Move(3, 0, 0));
+        flat.BakeSkyMasks(0);
+        Assert.False(flat.HasSkyMasks);
+        // A single cube, however often its only map is applied.
+        Assert.True(LodHierarchy.Build(CubesAt([Move(0, 1, 0)])).HasOpenSky());
+        Assert.False(LodHierarchy.Build(CubesAt([Move(0, 1, 0), Move(5, 0, 0)])).HasOpenSky());
+    }
+
+    [Fact]
     public void Bake_Cancelled_LeavesNothingAndCanBeRepeated()
     {
         var hierarchy = LodHierarchy.Build(AssetFractals.Load("menger", 3));
@@ -126,6 +141,10 @@ public class SkyVisibilityTests
 
     private static Fractal CubesAt(ImmutableArray<Transformation> cubes) =>
         new(new FractalDescription([new Repetition([new TransformationSet(cubes)], 1)], Composition.Affine), RenderScenes.Cube(1));
+
+    private static LodHierarchy SquaresAt(params ImmutableArray<Transformation> squares) => LodHierarchy.Build(
+        new Fractal(
+            new FractalDescription([new Repetition([new TransformationSet(squares)], 2)], Composition.Affine), RenderScenes.Square(1)));
 
     private static Transformation Move(double x, double y, double z) => RenderScenes.TranslatedTo(x, y, z);
 

@@ -1,6 +1,9 @@
 using System.Collections.Immutable;
+using FractalEngine.App.Window.Panels;
+using FractalEngine.App.Window.Selecting;
 using FractalEngine.App.Window.Tools;
 using FractalEngine.Core.Maths;
+using FractalEngine.Parsing.Assets;
 using FractalEngine.Render;
 using FractalEngine.Render.Windowing;
 
@@ -15,6 +18,10 @@ internal static class ActionTable
     /// <summary>All actions, in the order of menus and manual.</summary>
     public static readonly ImmutableArray<WindowAction> All =
     [
+        new("new-fractal", "File", "New fractal…", "begin a fractal from a tree, a triangle or cubes, whose numbers are then turned")
+        {
+            Keys = [KeyChord.Control(Key.N)], Run = OverlayOf(static a => a.Files.NewFractal(() => a.Interface.Open("fractal"))),
+        },
         new("open", "File", "Open…", "open a file") { Keys = [KeyChord.Control(Key.O)], Run = OverlayOf(static a => a.Files.AskForFile()) },
         new("save", "File", "Save", "save the changed numbers into their files, and the view into the scene's file")
         {
@@ -94,6 +101,33 @@ internal static class ActionTable
             static settings => settings.Shading == Shading.PerPixel,
             static (settings, on) => settings with { Shading = on ? Shading.PerPixel : Shading.PerVertex },
             "lighting: per pixel", "lighting: per vertex"),
+        Setting("shadows", "Shadows", "shadows of all lights, where lighting is computed at every pixel", null, "--no-shadows",
+            static settings => settings.Shadows, static (settings, on) => settings with { Shadows = on }),
+        Setting("ambient-occlusion", "Ambient occlusion",
+            "less light within the holes of fractals, where lighting is computed at every pixel", null, "--no-ambient-occlusion",
+            static settings => settings.AmbientOcclusion, static (settings, on) => settings with { AmbientOcclusion = on }),
+        Setting("occlusion-culling", "Occlusion culling", "leave out what other parts hide; the image is the same", null, "--without",
+            static settings => settings.Culling?.OcclusionCulling == true,
+            static (settings, on) => settings.Culling is not { } culling ? settings
+                : settings with { Culling = culling with { OcclusionCulling = on } }),
+        new("normals", "View", "Normals", "normals of the selected instance's faces, or of all meshes where nothing is selected")
+        {
+            IsAvailable = HasDocument, IsOn = static a => a.Document?.Tool.Normals.IsOn == true,
+            Run = OfTool(static tool => tool.Normals.IsOn = !tool.Normals.IsOn),
+        },
+        new("level-boxes", "View", "Bounding boxes", "bounding boxes of whole objects; the view panel has those of the levels within")
+        {
+            IsAvailable = HasDocument, IsOn = static a => a.Document?.Tool.Boxes.Level >= 0,
+            Run = OfTool(static tool => tool.Boxes.Level = tool.Boxes.Level < 0 ? 0 : -1),
+        },
+        new("filmic-tone", "View", "Filmic tone", "show the scene in the tone of film, or its colours as they are computed")
+        {
+            IsAvailable = HasScene,
+            Run = OverlayOf(static a => a.ChangeScene(a.Interface.Ui, static scene => scene with
+            {
+                Tone = scene.Tone == Core.Scenes.Tone.Filmic ? Core.Scenes.Tone.None : Core.Scenes.Tone.Filmic,
+            })),
+        },
         new("trace", "View", "Traced image", "a traced image while the view stands still, or drawn frames only")
         {
             Keys = [new(Key.Y)], Flag = "--trace", Run = static a => a.ToggleTracing(),
@@ -214,6 +248,8 @@ internal static class ActionTable
 
     private static bool HasDocument(WindowActions actions) => actions.Document is not null;
 
+    private static bool HasScene(WindowActions actions) => actions.Document?.File.Kind == FileKind.Scene;
+
     private static bool HasSelection(WindowActions actions) => actions.Document?.Tool.Selected is not null;
 
     private static bool HasSection(WindowActions actions) => actions.Document?.Section.IsOn == true;
@@ -247,10 +283,10 @@ internal static class ActionTable
     private static WindowAction Gesture(string id, string gesture, string help) => new(id, "Go", "", help) { Gesture = gesture };
 
     private static WindowAction Setting(
-        string id, string name, string help, Key key, string flag, Func<RenderSettings, bool> isOn,
+        string id, string name, string help, Key? key, string flag, Func<RenderSettings, bool> isOn,
         Func<RenderSettings, bool, RenderSettings> set, string? onMessage = null, string? offMessage = null) => new(id, "View", name, help)
         {
-            Keys = [new(key)],
+            Keys = key is { } pressed ? [new(pressed)] : [],
             Flag = flag,
             IsOn = a => isOn(a.Settings),
             Run = a =>
@@ -265,6 +301,12 @@ internal static class ActionTable
         new(id, "Physics", name, help) { Keys = [new(key)], Run = Physics(command), IsAvailable = HasDocument };
 
     private static Func<WindowActions, Redraw> Physics(Func<Document, string> command) => actions => actions.RunPhysics(command);
+
+    private static Func<WindowActions, Redraw> OfTool(Action<SelectionTool> command) => actions =>
+    {
+        command(actions.Document!.Tool);
+        return Redraw.Scene;
+    };
 
     private static Func<WindowActions, Redraw> OverlayOf(Action<WindowActions> command) => actions =>
     {

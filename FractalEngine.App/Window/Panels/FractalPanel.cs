@@ -16,6 +16,8 @@ internal sealed class FractalPanel(WindowActions actions)
 {
     private const string Axes = "xyz";
 
+    // The file that was chosen of several, and the one whose numbers are shown.
+    private string? _chosen;
     private string? _path;
     private string _text = "";
     private string? _problem;
@@ -38,14 +40,14 @@ internal sealed class FractalPanel(WindowActions actions)
 
         var selected = actions.Document!.Tool.Selected?.Object.Model.SourcePath;
         var model = models.FirstOrDefault(model => model.SourcePath == selected)
-            ?? models.FirstOrDefault(model => model.SourcePath == _path) ?? first;
+            ?? models.FirstOrDefault(model => model.SourcePath == _chosen) ?? first;
         if (models.Length > 1)
         {
             foreach (var other in models)
             {
                 if (ui.Selectable(other.Name, other == model))
                 {
-                    _path = other.SourcePath;
+                    _chosen = other.SourcePath;
                     actions.Document.Tool.Selected = null;
                     actions.RequestDraw();
                 }

@@ -60,7 +60,7 @@ internal sealed class LightList(WindowActions actions)
     {
         ui.Row(1);
         var intensity = light.Intensity;
-        if (ui.Slider("intensity", ref intensity, 0, 2, 0.01, isBounded: false) && intensity >= 0)
+        if (ui.Slider("intensity", ref intensity, 0, 2, 0.01, isBounded: false) && intensity is >= 0 and <= 1e9)
         {
             SetLight(ui, index, present => present with { Intensity = intensity });
         }

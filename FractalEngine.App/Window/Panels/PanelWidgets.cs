@@ -34,7 +34,7 @@ internal static class PanelWidgets
             choose(action);
         }
 
-        ui.Tooltip($"{action.Help} ({action.KeyText})");
+        ui.Tooltip(action.KeyText.Length > 0 ? $"{action.Help} ({action.KeyText})" : action.Help);
     }
 
     /// <summary>Adds a name and its value in one row.</summary>

@@ -38,7 +38,7 @@ internal sealed class SkyFields(WindowActions actions)
 
         ui.Row(1);
         var exposure = scene.Exposure;
-        if (ui.Slider("exposure", ref exposure, 0.1, 4, 0.05, isBounded: false) && exposure is > 0 and < 1e6)
+        if (ui.Slider("exposure", ref exposure, 0.1, 4, 0.05, isBounded: false) && exposure is >= 1e-9 and <= 1e9)
         {
             Change(ui, present => present with { Exposure = exposure });
         }

@@ -52,14 +52,7 @@ internal sealed class ViewPanel(WindowActions actions, Action<WindowAction> choo
 
             ui.Tooltip("bounding boxes of the sub-fractals at a level; 0 for whole objects, -1 for none");
             ui.Row(1);
-            var normals = shown.Tool.Normals.IsOn;
-            if (ui.CheckBox("Normals", ref normals))
-            {
-                shown.Tool.Normals.IsOn = normals;
-                actions.RequestDraw();
-            }
-
-            ui.Tooltip("normals of the selected instance's faces, or of all meshes where nothing is selected");
+            ui.Action(actions, "normals", choose);
             _section.Build(ui, shown);
             BuildBookmarks(ui, shown);
         }
@@ -90,34 +83,10 @@ internal sealed class ViewPanel(WindowActions actions, Action<WindowAction> choo
 
         ui.Tooltip("pixels below which a sub-fractal is drawn as one instance of its base mesh (--detail)");
         ui.Row(1);
-        if (actions.Settings.Culling is { } present)
+        foreach (var id in (ReadOnlySpan<string>)["occlusion-culling", "shadows", "ambient-occlusion"])
         {
-            var occlusion = present.OcclusionCulling;
-            if (ui.CheckBox("Occlusion culling", ref occlusion))
-            {
-                actions.Settings = actions.Settings with { Culling = present with { OcclusionCulling = occlusion } };
-                actions.RequestDraw();
-            }
-
-            ui.Tooltip("leaves out what other parts hide; the image is the same");
+            ui.Action(actions, id, choose);
         }
-
-        var shadows = actions.Settings.Shadows;
-        if (ui.CheckBox("Shadows", ref shadows))
-        {
-            actions.Settings = actions.Settings with { Shadows = shadows };
-            actions.RequestDraw();
-        }
-
-        ui.Tooltip("shadows of all lights, where lighting is computed at every pixel (--no-shadows)");
-        var ambientOcclusion = actions.Settings.AmbientOcclusion;
-        if (ui.CheckBox("Ambient occlusion", ref ambientOcclusion))
-        {
-            actions.Settings = actions.Settings with { AmbientOcclusion = ambientOcclusion };
-            actions.RequestDraw();
-        }
-
-        ui.Tooltip("light within the holes of fractals, where lighting is computed at every pixel (--no-ambient-occlusion)");
     }
 
     private void BuildBookmarks(UserInterface ui, Document document)

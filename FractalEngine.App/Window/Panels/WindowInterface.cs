@@ -1,6 +1,7 @@
 using System.Collections.Immutable;
 using FractalEngine.App.Window.Actions;
 using FractalEngine.App.Window.Tools;
+using FractalEngine.Core.Maths;
 using FractalEngine.Render.Ui;
 using FractalEngine.Render.Windowing;
 
@@ -92,6 +93,13 @@ internal sealed class WindowInterface
         panel.IsOpen = !panel.IsOpen;
     }
 
+    /// <summary>Opens a panel, and unfolds it.</summary>
+    public void Open(string name)
+    {
+        var panel = PanelOf(name);
+        (panel.IsOpen, panel.IsFolded) = (true, false);
+    }
+
     /// <summary>Whether the menu bar and the panels are shown.</summary>
     public bool IsShown => _settings.ShowsMenu;
 
@@ -181,8 +189,9 @@ internal sealed class WindowInterface
         foreach (var dimension in document.Tool.Measure.Dimensions)
         {
             var middle = 0.5 * (dimension.From + dimension.To);
-            var drawn = document.Physics.IsWalking ? middle : document.FlyingCamera.ToDrawnFrame(middle);
-            if (view.Project(drawn, _width, _height) is var (x, y, _))
+            var frame = document.VisibleDepth > 0 ? view with { Camera = view.Camera with { Position = Vector.Zero } } : view;
+            if (document.MapToDrawnFrame(dimension.Viewpoint) is { } map
+                && frame.Project(map(middle), _width, _height) is var (x, y, _))
             {
                 ui.Mark(dimension.LengthText, x, y);
             }
@@ -195,7 +204,7 @@ internal sealed class WindowInterface
         {
             var actions = ActionTable.All.Where(action => action.Menu == menu && action.IsCommand).ToArray();
             var columns = actions.Max(action => action.Name.Length + Bindings.TextOf(action).Length);
-            ui.Menu(menu, () => BuildItems(ui, actions), columns);
+            ui.Menu(menu, () => BuildItems(ui, actions), columns, actions.Length);
         }
     }
 

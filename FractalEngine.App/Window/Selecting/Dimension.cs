@@ -1,24 +1,25 @@
-using System.Globalization;
+using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Render;
 
 namespace FractalEngine.App.Window.Selecting;
 
-/// <summary>A measured distance between two points of the world.</summary>
-/// <param name="From">The first point, world space.</param>
-/// <param name="To">The second point, world space.</param>
+/// <summary>A measured distance between two points.</summary>
+/// <param name="From">The first point, in the frame that <paramref name="Viewpoint"/> tells.</param>
+/// <param name="To">The second point, likewise.</param>
 /// <param name="What">What was measured, for the user.</param>
-internal sealed record Dimension(Vector From, Vector To, string What)
+/// <param name="Viewpoint">Address of the camera that the points are about, in its unit; null for points in world space.</param>
+internal sealed record Dimension(Vector From, Vector To, string What, FractalAddress? Viewpoint = null)
 {
     private static readonly Colour LineColour = new(0.45, 1, 0.55);
 
-    /// <summary>Distance of the points, scene units.</summary>
+    /// <summary>Distance of the points, in the unit of their frame.</summary>
     public double Length => (To - From).Length();
 
-    /// <summary>The length for people, with six digits.</summary>
-    public string LengthText => Length.ToString("G6", CultureInfo.InvariantCulture);
+    /// <summary>The length in scene units for people, with six digits.</summary>
+    public string LengthText => ScaledNumber.Format(Length, Viewpoint?.LogUnit ?? 0, 6);
 
-    /// <summary>The line between the points.</summary>
+    /// <summary>The line between the points, in their frame.</summary>
     public LineSegment Line => new(From, To, LineColour);
 }

@@ -52,6 +52,11 @@ internal sealed class MeasureTool
         }
 
         _first = null;
+        if (first.Viewpoint is not null || clicked.Viewpoint is not null)
+        {
+            return ClickDeep(first, clicked);
+        }
+
         if (Kind == MeasureKind.Objects && first.ObjectIndex == clicked.ObjectIndex)
         {
             return "both clicks were at the same object";
@@ -63,6 +68,24 @@ internal sealed class MeasureTool
             MeasureKind.PointToObject => FromPoint(first, clicked, scene),
             _ => BetweenObjects(first, clicked, scene),
         };
+        Dimensions = Dimensions.Add(dimension);
+        return $"{dimension.What}: {dimension.LengthText}";
+    }
+
+    /// <summary>Measures between points that are too deep in a fractal for world space.</summary>
+    private string ClickDeep(Selection first, Selection clicked)
+    {
+        if (Kind != MeasureKind.Points)
+        {
+            return "so deep in a fractal, only points can be measured";
+        }
+
+        if (first.Viewpoint is not { } before || clicked.Viewpoint is not { } now || now.MapFrom(before) is not { } map)
+        {
+            return "the points are too different in depth to be measured";
+        }
+
+        var dimension = new Dimension(map * first.Hit.Point, clicked.Hit.Point, "two points", now);
         Dimensions = Dimensions.Add(dimension);
         return $"{dimension.What}: {dimension.LengthText}";
     }

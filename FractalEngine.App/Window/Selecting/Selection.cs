@@ -15,18 +15,33 @@ namespace FractalEngine.App.Window.Selecting;
 /// <param name="Object">The object with its model.</param>
 /// <param name="Path">Index of the transformation at each level of a fractal, the outermost first; empty for a mesh.</param>
 /// <param name="Depth">Number of levels of the path that are selected: 0 for the whole object.</param>
-/// <param name="Hit">The point that was clicked, world space.</param>
-internal sealed record Selection(int ObjectIndex, PlacedModel Object, ImmutableArray<int> Path, int Depth, RayHit Hit)
+/// <param name="Hit">The point that was clicked, in the frame that <paramref name="Viewpoint"/> tells.</param>
+/// <param name="Viewpoint">
+/// Null where the hit is in world space. Else the address of the camera at the click, about which the hit is given in the unit of the
+/// address, since the camera was too deep in a fractal for world space. It belongs to the sub-fractal that the ray met.
+/// </param>
+internal sealed record Selection(
+    int ObjectIndex, PlacedModel Object, ImmutableArray<int> Path, int Depth, RayHit Hit, FractalAddress? Viewpoint = null)
 {
     /// <summary>Number of lines of <see cref="AddBox"/>.</summary>
     public const int LinesPerBox = 12;
+
+    // Of a longer path, panels show the end.
+    private const int MaxShownLevels = 24;
 
     private static readonly Colour OutlineColour = new(1, 0.72, 0.2);
     private static readonly Colour FaceColour = new(1, 1, 1);
     private static readonly Colour NormalColour = new(0.3, 0.9, 1);
 
-    /// <summary>Box around the selected part, in its own frame, with the map from there to world space.</summary>
-    public (BoundingBox Box, AffineMap Map) Outline { get; private init; } = ComputeOutline(Object, Path, Depth, Hit);
+    /// <summary>
+    /// Box around the selected part, in its own frame, with the map from there to the frame of the hit. It is empty where the part is too
+    /// large to be told there.
+    /// </summary>
+    public (BoundingBox Box, AffineMap Map) Outline { get; private init; } = ComputeOutline(Object, Path, Depth, Hit, Viewpoint);
+
+    /// <summary>The clicked point in world space, as far as a double can tell it.</summary>
+    public Vector WorldPoint => Viewpoint is null ? Hit.Point
+        : Viewpoint.WorldPosition(Object.ObjectToWorld) + (Math.Exp(Viewpoint.LogUnit) * Hit.Point);
 
     /// <summary>Name of the clicked face's material; null where it has none.</summary>
     public string? Material
@@ -38,7 +53,7 @@ internal sealed record Selection(int ObjectIndex, PlacedModel Object, ImmutableA
         }
     }
 
-    /// <summary>Corners of the clicked face in world space.</summary>
+    /// <summary>Corners of the clicked face, in the frame of the hit.</summary>
     public (Vector A, Vector B, Vector C) Face
     {
         get
@@ -49,7 +64,8 @@ internal sealed record Selection(int ObjectIndex, PlacedModel Object, ImmutableA
     }
 
     /// <summary>Selects the sub-fractal that the selected part belongs to; the same selection where that is a whole object.</summary>
-    public Selection Up() => Depth > 0 ? this with { Depth = Depth - 1, Outline = ComputeOutline(Object, Path, Depth - 1, Hit) } : this;
+    public Selection Up() =>
+        Depth > 0 ? this with { Depth = Depth - 1, Outline = ComputeOutline(Object, Path, Depth - 1, Hit, Viewpoint) } : this;
 
     /// <summary>Selects the same part after the object was moved, or its model changed.</summary>
     /// <param name="placed">The object as it is now.</param>
@@ -60,6 +76,12 @@ internal sealed record Selection(int ObjectIndex, PlacedModel Object, ImmutableA
         if (isSameModel && placed.ObjectToWorld == Object.ObjectToWorld)
         {
             return this with { Object = placed };
+        }
+
+        if (Viewpoint is not null)
+        {
+            // The address is one of the fractal as it was.
+            return null;
         }
 
         var mesh = placed.Model.Mesh;
@@ -82,7 +104,7 @@ internal sealed record Selection(int ObjectIndex, PlacedModel Object, ImmutableA
             Point = map * ((x * a) + (y * b) + (z * c)),
             Normal = normal.Length() > 0 ? normal.UnitVector() : Hit.Normal,
         };
-        return this with { Object = placed, Hit = hit, Outline = ComputeOutline(placed, Path, Depth, hit) };
+        return this with { Object = placed, Hit = hit, Outline = ComputeOutline(placed, Path, Depth, hit, null) };
     }
 
     /// <summary>Returns the map of the instance at the path from the frame of its mesh to world space; null where there is none.</summary>
@@ -120,7 +142,7 @@ internal sealed record Selection(int ObjectIndex, PlacedModel Object, ImmutableA
         return map;
     }
 
-    /// <summary>Adds lines around the selected part, and those of the clicked face and its normal. World space.</summary>
+    /// <summary>Adds lines around the selected part, and those of the clicked face and its normal, in the frame of the hit.</summary>
     public void AddLines(List<LineSegment> lines)
     {
         AddBox(lines, Outline.Box, Outline.Map, OutlineColour);
@@ -162,12 +184,12 @@ internal sealed record Selection(int ObjectIndex, PlacedModel Object, ImmutableA
         ("object", string.Create(CultureInfo.InvariantCulture, $"{Object.Declaration.DisplayName} ({ObjectIndex})")),
         ("selected", Depth == 0 ? "the whole object"
             : string.Create(CultureInfo.InvariantCulture, $"{(Depth == Path.Length ? "instance" : "sub-fractal")} at level {Depth}")),
-        .. Path.IsEmpty ? [] : ((string, string)[])[("instance", string.Join('.', Path))],
+        .. Path.IsEmpty ? [] : ((string, string)[])[("instance", PathText(MaxShownLevels))],
         ("face", Hit.FaceIndex.ToString(CultureInfo.InvariantCulture)),
-        ("point", Format(Hit.Point)),
+        ("point", Format(WorldPoint)),
         ("normal", Format(Hit.Normal)),
         ("material", Material ?? "none"),
-        ("distance", Hit.Distance.ToString("G9", CultureInfo.InvariantCulture)),
+        ("distance", ScaledNumber.Format(Hit.Distance, Viewpoint?.LogUnit ?? 0, 9)),
     ];
 
     /// <summary>All facts as lines of text, with all digits.</summary>
@@ -176,11 +198,14 @@ internal sealed record Selection(int ObjectIndex, PlacedModel Object, ImmutableA
         var text = new StringBuilder();
         foreach (var (name, value) in Facts)
         {
-            text.Append(name).Append(": ").Append(value).Append('\n');
+            text.Append(name).Append(": ").Append(name == "instance" ? PathText(Path.Length) : value).Append('\n');
         }
 
         return text.ToString();
     }
+
+    private string PathText(int maxLevels) =>
+        (Path.Length > maxLevels ? "…" : "") + string.Join('.', Path.Skip(Path.Length - maxLevels));
 
     private static string Format(Vector vector) =>
         string.Create(CultureInfo.InvariantCulture, $"({vector.X:G9}, {vector.Y:G9}, {vector.Z:G9})");
@@ -190,7 +215,8 @@ internal sealed record Selection(int ObjectIndex, PlacedModel Object, ImmutableA
         (index & 2) == 0 ? box.Minimum.Y : box.Maximum.Y,
         (index & 4) == 0 ? box.Minimum.Z : box.Maximum.Z);
 
-    private static (BoundingBox Box, AffineMap Map) ComputeOutline(PlacedModel placed, ImmutableArray<int> path, int depth, in RayHit hit)
+    private static (BoundingBox Box, AffineMap Map) ComputeOutline(
+        PlacedModel placed, ImmutableArray<int> path, int depth, in RayHit hit, FractalAddress? viewpoint)
     {
         if (depth > 0 && depth == path.Length)
         {
@@ -198,17 +224,24 @@ internal sealed record Selection(int ObjectIndex, PlacedModel Object, ImmutableA
         }
 
         // In componentwise composition a sub-fractal has no map of its own.
-        if (placed.Model is not FractalModel { Fractal: { Description.Composition: Composition.Affine } fractal } || depth == 0)
+        if (placed.Model is not FractalModel { Fractal: { Description.Composition: Composition.Affine } fractal }
+            || (depth == 0 && viewpoint is null))
         {
             return (placed.Model.Bounds, placed.ObjectToWorld);
         }
 
-        var map = placed.ObjectToWorld;
-        for (var level = 0; level < depth; level++)
+        if (viewpoint is not null && depth <= viewpoint.Depth)
         {
-            map *= fractal.LevelAt(level).Maps[path[level]];
+            return viewpoint.SubFractalAt(depth) ?? (BoundingBox.Empty, AffineMap.Identity);
         }
 
-        return (SubFractals.Of(fractal, depth).Bounds, map);
+        var (map, firstStep, firstLevel) = viewpoint is null
+            ? (placed.ObjectToWorld, 0, 0) : (viewpoint.FrameToCamera, viewpoint.Depth, viewpoint.LevelsAbove);
+        for (var step = firstStep; step < depth; step++)
+        {
+            map *= fractal.LevelAt(firstLevel + step - firstStep).Maps[path[step]];
+        }
+
+        return (SubFractals.Of(fractal, firstLevel + depth - firstStep).Bounds, map);
     }
 }

@@ -1,5 +1,6 @@
 using FractalEngine.App.Window.Tools;
 using FractalEngine.Core;
+using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Render;
 using FractalEngine.Render.Windowing;
@@ -94,15 +95,44 @@ internal sealed class SelectionTool(Document document)
         return Selected is { } selected ? $"selected {selected.Title}" : "nothing is selected";
     }
 
-    /// <summary>Lists the lines around the selection and those of the distances, world space.</summary>
-    public List<LineSegment> Lines()
+    /// <summary>Whether any lines are drawn over the scene.</summary>
+    public bool HasLines => Selected is not null || !Measure.Dimensions.IsEmpty || WorldLines().Count > 0;
+
+    /// <summary>Lists the lines that belong to the scene, world space.</summary>
+    public List<LineSegment> WorldLines()
     {
         var lines = new List<LineSegment>();
         Boxes.AddTo(document.File.Scene, lines);
-        Normals.AddTo(document.File.Scene, Selected, lines);
-        Selected?.AddLines(lines);
-        lines.AddRange(Measure.Dimensions.Select(static dimension => dimension.Line));
+        if (Selected is not { Viewpoint: not null })
+        {
+            Normals.AddTo(document.File.Scene, Selected, lines);
+        }
+
         return lines;
+    }
+
+    /// <summary>Adds the lines around the selection and those of the distances, in the frame that is drawn.</summary>
+    public void AddDrawnLines(List<LineSegment> lines)
+    {
+        if (Selected is { } selected && document.MapToDrawnFrame(selected.Viewpoint) is { } map)
+        {
+            var own = new List<LineSegment>();
+            selected.AddLines(own);
+            if (selected.Viewpoint is not null)
+            {
+                Normals.AddTo(document.File.Scene, selected, own);
+            }
+
+            lines.AddRange(own.Select(line => line with { From = map(line.From), To = map(line.To) }));
+        }
+
+        foreach (var dimension in Measure.Dimensions)
+        {
+            if (document.MapToDrawnFrame(dimension.Viewpoint) is { } toDrawn)
+            {
+                lines.Add(dimension.Line with { From = toDrawn(dimension.From), To = toDrawn(dimension.To) });
+            }
+        }
     }
 
     private string Click((double X, double Y) pixel, (int Width, int Height) size, TimeSpan now)
@@ -110,19 +140,10 @@ internal sealed class SelectionTool(Document document)
         var isDouble = _lastClick is var (x, y, time) && now - time < DoubleClickTime
             && Math.Abs(pixel.X - x) + Math.Abs(pixel.Y - y) <= MaxClickDistance;
         _lastClick = isDouble ? null : (pixel.X, pixel.Y, now);
-        if (!Picker.IsExactAt(document.VisibleDepth > 0 ? document.FlyingCamera.Log10Magnification : 0))
-        {
-            return "too deep to select: zoom out";
-        }
-
         var scene = document.Physics.CurrentScene;
         try
         {
-            var view = View.Of(scene with { Scene = document.GetCurrentScene() }, (double)size.Width / size.Height) with
-            {
-                Section = document.Section.Shown,
-            };
-            var clicked = _picker.Pick(scene, view, pixel, size);
+            var clicked = Pick(scene, pixel, size);
             if (Measure.IsActive && !isDouble)
             {
                 return clicked is null ? "nothing is there" : Measure.Click(clicked, scene);
@@ -139,7 +160,23 @@ internal sealed class SelectionTool(Document document)
             return exception.Message;
         }
 
-        document.MoveCamera((camera, _) => camera.FocusOn(Selected!.Hit.Point), 1);
+        if (document.FlyingCamera.ToCameraFrame(Selected!.Hit.Point, Selected.Viewpoint) is { } point)
+        {
+            document.MoveCamera((camera, _) => camera.FocusOn(point), 1);
+        }
+
         return "orbiting around the point";
+    }
+
+    private Selection? Pick(LoadedScene scene, (double X, double Y) pixel, (int Width, int Height) size)
+    {
+        var view = View.Of(scene with { Scene = document.GetCurrentScene() }, (double)size.Width / size.Height) with
+        {
+            Section = document.Section.Shown,
+        };
+        var camera = document.FlyingCamera;
+        return document.VisibleDepth > 0 && !Picker.IsExactAt(camera.Log10Magnification)
+            ? _picker.PickDeep(scene, camera.WithDeepZoom(view), camera.Address!, pixel, size)
+            : _picker.Pick(scene, view, pixel, size);
     }
 }

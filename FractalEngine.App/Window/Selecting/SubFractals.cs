@@ -9,7 +9,7 @@ internal static class SubFractals
     /// <summary>Makes the fractal without its outermost levels: every sub-fractal at that depth is an instance of it.</summary>
     /// <param name="fractal">The whole fractal, in affine composition.</param>
     /// <param name="depth">Number of levels to leave out, at most as many as the fractal has.</param>
-    public static Fractal Of(Fractal fractal, int depth) =>
+    public static Fractal Of(Fractal fractal, long depth) =>
         new(fractal.Description with { Steps = Drop(fractal.Description.Steps, depth) }, fractal.BaseMesh);
 
     private static ImmutableArray<FractalStep> Drop(ImmutableArray<FractalStep> steps, long count)

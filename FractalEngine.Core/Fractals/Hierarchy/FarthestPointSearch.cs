@@ -12,7 +12,7 @@ internal interface IPointMeasure
     /// <summary>Computes the largest value over the vertices of a mesh's image under a map.</summary>
     double Largest(Mesh mesh, in AffineMap map);
 
-    /// <summary>What of a map the values depend on: images under maps with equal keys have equal values. Null where that is unknown.</summary>
+    /// <summary>What of a map the values depend on: maps with equal keys have equal values. Null where that is unknown.</summary>
     (Vector Direction, double Offset)? Key(in AffineMap map);
 }
 

@@ -16,15 +16,10 @@ internal sealed partial class ContactSolver
     /// <summary>Most rounds of a solve of few contacts.</summary>
     public const int ManyRounds = 250;
 
-    // Islands of more balls may take as many rounds as solve so many contacts.
-    private const int MaxContactsOfManyRounds = 300;
-    private const int MaxContactSolves = 25_000;
-    private const int MinRounds = 8;
-
-    // The same where there are compounds, whose forces are solved for anew in each step.
-    private const int MaxContactsOfManyRoundsWithArms = 500;
-    private const int MaxContactSolvesWithArms = 60_000;
-    private const int MinRoundsWithArms = 12;
+    // Others may take as many rounds as solve so many contacts.
+    private const int MaxContactsOfManyRounds = 500;
+    private const int MaxContactSolves = 60_000;
+    private const int MinRounds = 12;
 
     // Of the largest impulse: a round that changes less has converged.
     private const double Tolerance = 1e-9;
@@ -44,6 +39,7 @@ internal sealed partial class ContactSolver
 
     // Of so many rounds of a large island, one tests the contacts that do not push.
     private const int FullRoundPeriod = 4;
+    private const int MaxContactsOfFullRounds = 300;
 
     // Fewer contacts are solved as soon without being copied.
     private const int MinBallRows = 8;
@@ -181,15 +177,14 @@ internal sealed partial class ContactSolver
         }
 
         _rounding = ComputeRounding(rows);
-        var hasArms = HasArms(rows);
-        var isCopied = rows.Length > MinBallRows && !hasArms;
-        if (isCopied)
+        var isOfBalls = rows.Length > MinBallRows && !HasArms(rows);
+        if (isOfBalls)
         {
             _balls.Load(rows, _bodies);
         }
 
-        var isConverged = Iterate(rows, isCopied, Math.Min(maxRounds, MaxRoundsOf(rows.Length, hasArms)));
-        if (isCopied)
+        var isConverged = Iterate(rows, isOfBalls, maxRounds);
+        if (isOfBalls)
         {
             _balls.Store(rows, _bodies);
         }
@@ -197,24 +192,19 @@ internal sealed partial class ContactSolver
         return isConverged;
     }
 
-    private static int MaxRoundsOf(int rowCount, bool hasArms)
-    {
-        var maxContacts = hasArms ? MaxContactsOfManyRoundsWithArms : MaxContactsOfManyRounds;
-        var maxSolves = hasArms ? MaxContactSolvesWithArms : MaxContactSolves;
-        return rowCount <= maxContacts ? ManyRounds : Math.Max(hasArms ? MinRoundsWithArms : MinRounds, maxSolves / rowCount);
-    }
-
-    private bool Iterate(Span<ContactRow> rows, bool isCopied, int maxRounds)
+    private bool Iterate(Span<ContactRow> rows, bool isOfBalls, int maxRounds)
     {
         var previousNorm = 0.0;
+        maxRounds = rows.Length <= MaxContactsOfManyRounds ? maxRounds
+            : Math.Min(maxRounds, Math.Max(MinRounds, MaxContactSolves / rows.Length));
         _frictionShare = 1;
         var isConverged = false;
         for (Rounds = 1; Rounds < maxRounds; Rounds++)
         {
             var tolerance = Rounds <= FineRounds ? FineTolerance : Tolerance;
             // What converged among the contacts that push must do so among all.
-            var isFull = !isCopied || rows.Length <= MaxContactsOfManyRounds || isConverged || Rounds % FullRoundPeriod == 1;
-            isConverged = isCopied ? MakeRoundOfBalls(isFull, tolerance, out var norm) : MakeRound(rows, tolerance, out norm);
+            var isFull = !isOfBalls || rows.Length <= MaxContactsOfFullRounds || isConverged || Rounds % FullRoundPeriod == 1;
+            isConverged = isOfBalls ? MakeRoundOfBalls(isFull, tolerance, out var norm) : MakeRound(rows, tolerance, out norm);
             if (isConverged && isFull)
             {
                 return true;
@@ -224,7 +214,7 @@ internal sealed partial class ContactSolver
             // Directions that have not led to the end by now may never do so where balls begin and cease to slip.
             var isConjugate = previousNorm > 0 && norm <= previousNorm && Rounds < maxRounds / 2;
             var share = isConjugate ? norm / previousNorm : 0;
-            if (isCopied)
+            if (isOfBalls)
             {
                 _balls.Extrapolate(share);
             }
@@ -236,7 +226,7 @@ internal sealed partial class ContactSolver
             previousNorm = norm;
         }
 
-        return isCopied ? MakeRoundOfBalls(isFull: true, Tolerance, out _) : MakeRound(rows, Tolerance, out _);
+        return isOfBalls ? MakeRoundOfBalls(isFull: true, Tolerance, out _) : MakeRound(rows, Tolerance, out _);
     }
 
     private bool MakeRoundOfBalls(bool isFull, double tolerance, out double norm)
@@ -246,7 +236,7 @@ internal sealed partial class ContactSolver
         return maxChange <= Math.Max(tolerance * maxImpulse, _rounding);
     }
 
-    public static bool HasArms(ReadOnlySpan<ContactRow> rows)
+    private static bool HasArms(ReadOnlySpan<ContactRow> rows)
     {
         foreach (ref readonly var row in rows)
         {

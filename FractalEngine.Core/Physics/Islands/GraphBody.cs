@@ -44,7 +44,7 @@ internal struct GraphBody
     /// <summary>How far those push the body that may run into it.</summary>
     public double Push;
 
-    /// <summary>How far objects that move push the body in the step, see <see cref="Body.KinematicPush"/>.</summary>
+    /// <summary>How far a kinematic object pushes the body, see <see cref="Body.KinematicPush"/>.</summary>
     public double KinematicPush;
 
     /// <summary>Place of the first body that was found near it, among those of all.</summary>

@@ -12,6 +12,10 @@ namespace FractalEngine.Core.Physics.Islands;
 /// </remarks>
 internal sealed partial class IslandPlanner
 {
+    // A solve takes as many rounds as solve so many contacts.
+    private const int MaxSolvesOfLarge = 25_000;
+    private const int MinRoundsOfLarge = 8;
+
     private bool FindImpulses(ReadOnlySpan<int> island, Span<ContactRow> rows, double stepLength)
     {
         BounceAll(rows);
@@ -28,7 +32,7 @@ internal sealed partial class IslandPlanner
             ApplyKnownImpulses(ref row);
         }
 
-        return Solve(rows);
+        return Solve(rows, Math.Max(MinRoundsOfLarge, MaxSolvesOfLarge / rows.Length));
     }
 
     /// <summary>Demands that two bodies that go by their velocities after the step do not get nearer than they touch.</summary>

@@ -29,10 +29,7 @@ internal sealed class OverlapSeparator
     private const double MinDistance = 1e-140;
 
     // Of an overlap: how much of it is taken back at once, since others will push in again.
-    private const double Relaxation = 1.6;
-
-    // The same of compounds, which turn under what they lie on.
-    private const double RelaxationWithArms = 1.3;
+    private const double Relaxation = 1.3;
 
     // Of the smaller radius: overlaps at which a displacement ends; and the gap that is left where bodies keep a margin, so that they
     // need not be displaced again soon.
@@ -271,7 +268,7 @@ internal sealed class OverlapSeparator
             var unit = row.IsBall ? row.MinDistance * row.SmallerRadiusShare : 0;
             Negligible = NegligibleOverlap * unit;
             Aimed = aim * unit;
-            Relaxation = row.IsBall && !row.IsAhead ? (row.HasArms ? RelaxationWithArms : OverlapSeparator.Relaxation) : 1;
+            Relaxation = row.IsBall && !row.IsAhead ? OverlapSeparator.Relaxation : 1;
             IsPlane = !row.IsBall || row.HasFixedNormal;
             IsOneSided = row.IsBouncingAhead;
         }

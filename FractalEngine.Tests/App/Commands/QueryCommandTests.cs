@@ -71,6 +71,43 @@ public sealed class QueryCommandTests : IDisposable
     }
 
     [Fact]
+    public void Query_OfRays_PrintsWhatEachHits()
+    {
+        _folder.Write("rays.txt", "# through the cube, past it\n0.25 0.125 -3  0 0 2\n5 5 -3, 0 0 1\n");
+        var (exitCode, output, error) = Run("query", "cube.obj", "--rays", "rays.txt", "--header");
+        Assert.Equal(0, exitCode);
+        Assert.Matches(
+            "^distance x y z nx ny nz face\n2.5 0.25 0.125 -0.5 -?0 -?0 -1 [0-9]+\nnone\n$", output);
+        Assert.Matches("^rays [0-9]+ a second\nface tests [0-9.]+ a ray\nbound tests [0-9.]+ a ray\n$", error);
+    }
+
+    [Fact]
+    public void Query_OfRaysAsJson_NamesObjectAndInstance()
+    {
+        _folder.Write("row3.fdo", SampleFiles.Row("3"));
+        _folder.Write("two.sdo", "o \"cube.obj\" ((0, 9, 0), #, #)\no \"row3.fdo\" ((0, 0, 0), #, #)\n");
+        _folder.Write("rays.txt", "0.45 0 -3 0 0 1\n0 5 -3 0 0 1\n");
+        var (exitCode, output, _) = Run("query", "two.sdo", "--rays", "rays.txt", "--json");
+        Assert.Equal(0, exitCode);
+        using var results = JsonDocument.Parse(output);
+        var hit = results.RootElement[0];
+        Assert.Equal((1, 3), (hit.GetProperty("object").GetInt32(), hit.GetProperty("instance").GetArrayLength()));
+        Assert.Equal(3 - 0.0625, hit.GetProperty("distance").GetDouble(), 1e-12);
+        Assert.True(hit.GetProperty("front").GetBoolean());
+        Assert.Equal(1, hit.GetProperty("barycentrics").EnumerateArray().Sum(weight => weight.GetDouble()), 1e-12);
+        Assert.Equal(JsonValueKind.Null, results.RootElement[1].ValueKind);
+    }
+
+    [Fact]
+    public void Query_OfAWrongRay_NamesItsPlace()
+    {
+        _folder.Write("rays.txt", "0 0 0 0 0 1\n1 2 3 0 0 0\n");
+        var (exitCode, output, error) = Run("query", "cube.obj", "--rays", "rays.txt");
+        Assert.Equal((1, ""), (exitCode, output));
+        Assert.StartsWith("rays.txt:2:7: error: a direction of length 0\n", error, StringComparison.Ordinal);
+    }
+
+    [Fact]
     public void Query_OfAScene_IsInWorldSpace()
     {
         _folder.Write("points.txt", "0 3 0\n10 3 0\n");

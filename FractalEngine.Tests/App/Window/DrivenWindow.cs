@@ -37,7 +37,8 @@ internal sealed partial class DrivenWindow : IDisposable
         };
         _process.BeginErrorReadLine();
         _window = WaitFor(
-            () => RunXdotool($"search --name {Path.GetFileName(file)}.*FractalEngine")
+            // Of this process: the window of an earlier one may still be there.
+            () => RunXdotool($"search --all --pid {_process.Id} --name {Path.GetFileName(file)}.*FractalEngine")
                 .Split('\n', StringSplitOptions.RemoveEmptyEntries).LastOrDefault(),
             "window");
         Send("windowfocus --sync {window}");

@@ -57,7 +57,8 @@ public class SceneWriterTests
         Friction = more.Item1.Item1, Damping = more.Item1.Item2, Shrinkage = more.Item1.Item3, MinimumScale = more.Item2,
     })).SelectMany(declared => declared);
 
-    private static readonly Gen<double> Intensity = Laws.AnyFinite.Select(Math.Abs);
+    // In the range that the grammar allows.
+    private static readonly Gen<double> Intensity = Laws.AnyFinite.Select(static number => Math.Min(Math.Abs(number), 1e9));
 
     private static readonly Gen<Light> Lights = Colours.Zip(Intensity).Zip(Directions.Zip(AnyVector).Zip(Positive), (c, v) => (Light[])
     [
@@ -95,7 +96,7 @@ public class SceneWriterTests
                 StepHeightOverride = (given & 512) == 0 ? null : sizes,
             },
             Sky = (given & 1024) == 0 ? null : new(colour, new(colour.Blue, colour.Red, colour.Green), (given & 8) == 0 ? null : colour),
-            Exposure = (given & 2048) == 0 ? 1 : sizes,
+            Exposure = (given & 2048) == 0 ? 1 : Math.Clamp(sizes, 1e-9, 1e9),
             Tone = (given & 4096) == 0 ? Tone.None : Tone.Filmic,
             Fog = (given & 8192) == 0 ? null : new(going.Item1, (given & 16) == 0 ? null : colour),
             Aspect = (given & 3) == 0 ? null : 0.01 + colour.Red,

@@ -50,7 +50,7 @@ public sealed class OverlayTests
             for (var i = 0; i < cell; i++)
             {
                 var coverage = sheet.Coverage[(Atlas.GlyphOf(character) * cell) + i] / 255.0;
-                var ground = 0.055 * 0.74;
+                var ground = 0.055 * 0.85;
                 var expected = 255 * (ground + (coverage * (0.93 - ground)));
                 var found = image[left + (i % sheet.CellWidth), top + (i / sheet.CellWidth)].Red;
                 Assert.InRange(found, expected - 2, expected + 2);

@@ -45,6 +45,19 @@ public class UserInterfaceMenuTests
     }
 
     [Fact]
+    public void Menu_TooHighForTheFrame_HasColumnsWithinIt()
+    {
+        string[] items = [.. Enumerable.Range(10, 30).Select(static i => $"Item {i}")];
+        var ui = new UserInterface(ui => ui.MenuBar(() => ui.Menu("Long", () => AddItems(ui, items), 12, items.Length)));
+        ui.Update(640, 360);
+        var (x, y) = UiText.Find(ui, "Long");
+        ui.Handle(new MousePressed(MouseButton.Left, x, y, KeyModifiers.None));
+        ui.Handle(new MouseReleased(MouseButton.Left, x, y, KeyModifiers.None));
+        Assert.All(items, item => Assert.InRange(UiText.Find(ui, item).Y, 20, 350));
+        Assert.All(items, item => Assert.InRange(UiText.Find(ui, item).X, 20, 620));
+    }
+
+    [Fact]
     public void Menu_OpenWhileThePointerMovesOn_Follows()
     {
         Click("File");

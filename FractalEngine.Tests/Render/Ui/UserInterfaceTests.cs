@@ -384,6 +384,8 @@ public class UserInterfaceTests
         _ui.Handle(new MouseMoved(x, y, 1, 1));
         Assert.True(UiText.Contains(_ui, "explains two"));
         Assert.False(UiText.Contains(_ui, "explains one"));
+        // Beside the panel, of which it covers no row.
+        Assert.True(UiText.Find(_ui, "explains two").X > _panel.Bounds.Right || UiText.Find(_ui, "explains two").X < _panel.Bounds.X);
     }
 
     [Fact]
@@ -437,7 +439,8 @@ public class UserInterfaceTests
 
             foreach (var (text, grounds) in ((Core.Geometry.Colour, Core.Geometry.Colour[])[])
             [
-                (theme.DimText, [theme.Panel, theme.Title, theme.Field]), (theme.Accent, [theme.Panel, theme.Title]),
+                (theme.DimText, [theme.Panel, theme.Title, theme.Field, theme.Control]),
+                (theme.Accent, [theme.Panel, theme.Title, theme.Control]),
                 (theme.Warning, [theme.Panel]),
             ])
             {
@@ -445,6 +448,15 @@ public class UserInterfaceTests
             }
         }
 
+        // Texts over the scene, at worst a white one.
+        var (red, green, blue, alpha) = OverlayLayout.PanelColour;
+        var scene = 1 - alpha;
+        var overWhite = new Core.Geometry.Colour(scene + (alpha * red), scene + (alpha * green), scene + (alpha * blue));
+        Assert.All(Enum.GetValues<OverlayTone>(), tone =>
+        {
+            var text = OverlayLayout.ColourOf(tone);
+            Assert.InRange(UiTheme.Contrast(new(text.Red, text.Green, text.Blue), overWhite), 4.5, 21);
+        });
         Assert.Equal(21, UiTheme.Contrast(Core.Geometry.Colour.Black, Core.Geometry.Colour.White), 6);
     }
 
