@@ -37,6 +37,21 @@ public class CompoundWorldTests
         Assert.NotEqual(0, body.AngularVelocity.Z);
     }
 
+    [Theory]
+    [InlineData(0.5)]
+    [InlineData(2)]
+    public void Turntable_WithACapsuleAcrossItsAxis_TurnsItAlong(double angularSpeed)
+    {
+        var world = new PhysicsWorld();
+        var turntable = world.AddStatic(PhysicsMeshes.Cube, new(new(0, -0.5, 0), Vector.Zero, new(40, 1, 40)));
+        var capsule = CompoundShape.Capsule(-1 * Vector.I, Vector.I, 0.4);
+        var body = world.Add(new(new(0, 0.4, 0), capsule) { Friction = 0.8, RollingFriction = 0.05 });
+        turntable.SetMotion(Vector.Zero, new(0, angularSpeed, 0));
+        world.Run(300);
+        Near.Equal(new(0, angularSpeed, 0), body.AngularVelocity, 1e-3 * angularSpeed);
+        Near.Equal(new(0, 0.4, 0), body.Position, 1e-3);
+    }
+
     [Fact]
     public void Trigger_ReportsACompound_ThatOneBallReachesIntoIt()
     {
