@@ -9,7 +9,8 @@ namespace FractalEngine.Render;
 /// <remarks>
 /// The minimum projected size stays between 3 and 24 pixels, 8 with shadows, and follows the frame time so that ten frames a second are
 /// drawn. It changes at most every fourth frame, since each change discards what was culled ahead. Draw with
-/// <see cref="Adapt(RenderSettings)"/> and pass the time taken to <see cref="RecordFrameTime"/>. When the camera stops, draw once more with the full settings.
+/// <see cref="Adapt(RenderSettings)"/> and pass the time taken to <see cref="RecordFrameTime"/>. When the camera stops, draw once more with
+/// the full settings.
 /// </remarks>
 public sealed class AdaptiveQuality
 {

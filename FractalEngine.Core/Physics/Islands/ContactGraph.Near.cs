@@ -44,7 +44,8 @@ internal sealed partial class ContactGraph
         }
     }
 
-    private static readonly Comparison<BodyPair> _compareOthers =
+    // Made with the graph: a static one would be made by the first step that has such pairs, and steps allocate nothing.
+    private readonly Comparison<BodyPair> _compareOthers =
         static (a, b) => a.First != b.First ? a.First.CompareTo(b.First) : a.Second.CompareTo(b.Second);
 
     private void AddNear(int index, ReadOnlySpan<int> neighbours)
