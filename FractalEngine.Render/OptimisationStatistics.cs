@@ -16,7 +16,9 @@ public readonly record struct OptimisationStatistics(
     /// <summary>Depth maps of lights: drawn for the frame, and kept from an earlier one.</summary>
     public RedundancyCounts ShadowMaps { get; init; }
 
-    /// <summary>Number of depth maps that the last frame did not need: of lights that are dark, unseen, or meet no caster.</summary>
+    /// <summary>
+    /// Number of depth maps that the last frame did not need: of lights that are dark, light nothing visible, or meet no caster.
+    /// </summary>
     public int SkippedShadowMaps { get; init; }
 
     /// <summary>Number of objects that the last frame drew into no depth map, since no shadow of theirs can be seen.</summary>

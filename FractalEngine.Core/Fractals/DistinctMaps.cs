@@ -171,7 +171,7 @@ internal static class DistinctMaps
         private readonly int[] _next;
         private readonly int[] _first;
 
-        /// <summary>Makes an empty table.</summary>
+        /// <summary>Makes a table without items, whose memory the caller lends.</summary>
         /// <param name="write">Writes the entries of an item.</param>
         /// <param name="maxEntries">The largest entry of each kind, in size.</param>
         /// <param name="items">Room for all distinct items, not empty. It may hold the items that will be added, in that order.</param>

@@ -3,7 +3,7 @@ namespace FractalEngine.Core.Visibility;
 /// <summary>Where a box lies, as seen from a section plane.</summary>
 internal enum SectionSide
 {
-    /// <summary>All of the box is kept.</summary>
+    /// <summary>The whole box lies before the plane, where nothing is cut away.</summary>
     Kept,
 
     /// <summary>The plane goes through the box, or may do so.</summary>

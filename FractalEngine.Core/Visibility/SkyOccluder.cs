@@ -90,7 +90,9 @@ internal sealed class SkyOccluder
         return free;
     }
 
-    /// <summary>Looks at a node from a random place outside, so that what is seen from more places is found more often.</summary>
+    /// <summary>
+    /// Casts a line of sight at a node from a random place outside, so that what is seen from more places is found more often.
+    /// </summary>
     /// <param name="node">A node of this hierarchy.</param>
     /// <param name="levels">Levels that it has left.</param>
     /// <param name="random">Source of the line of sight.</param>

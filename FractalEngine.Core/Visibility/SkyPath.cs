@@ -2,12 +2,12 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Visibility;
 
-/// <summary>The children that lead to the node in work, and what they leave of the sky.</summary>
+/// <summary>The children that lead to the current node, and what they leave of the sky.</summary>
 internal sealed class SkyPath
 {
     private SkyStep[] _steps = new SkyStep[16];
 
-    /// <summary>Notes a step from a node to its child; deeper ones are forgotten.</summary>
+    /// <summary>Stores the step from a node to its child at a depth; deeper ones no longer count.</summary>
     public void Set(int depth, SkyStep step)
     {
         if (depth >= _steps.Length)
@@ -18,7 +18,7 @@ internal sealed class SkyPath
         _steps[depth] = step;
     }
 
-    /// <summary>Notes a whole path.</summary>
+    /// <summary>Stores the steps of a whole path, from the root on.</summary>
     public void Set(IReadOnlyList<SkyStep> steps)
     {
         for (var i = 0; i < steps.Count; i++)

@@ -8,7 +8,7 @@ internal sealed class SkySample
     private readonly List<SkyStep> _steps = [];
     private readonly List<SkyStep> _nearestSteps = [];
 
-    /// <summary>The point, in the frame of the node that was looked at.</summary>
+    /// <summary>The point, in the frame of the node that the line of sight was cast at.</summary>
     public Vector Point { get; set; }
 
     /// <summary>Unit normal of the surface, towards the side that the point is on.</summary>
@@ -35,7 +35,7 @@ internal sealed class SkySample
     /// <summary>Number of nodes that the line of sight has entered.</summary>
     public int VisitCount { get; set; }
 
-    /// <summary>Forgets what was found, and looks in another direction.</summary>
+    /// <summary>Resets the sample for a new line of sight.</summary>
     public void Begin(Vector direction)
     {
         Direction = direction;
@@ -44,14 +44,14 @@ internal sealed class SkySample
         Distance = double.PositiveInfinity;
     }
 
-    /// <summary>Notes a step on the way to what is looked at; deeper ones are forgotten.</summary>
+    /// <summary>Stores a step of the traversal, and removes deeper ones.</summary>
     public void SetStep(int depth, SkyStep step)
     {
         _steps.RemoveRange(depth, _steps.Count - depth);
         _steps.Add(step);
     }
 
-    /// <summary>Notes the nearest surface so far.</summary>
+    /// <summary>Stores the nearest surface so far.</summary>
     public void SetNearest(double distance, int triangle, LodNode leaf, int depth, AffineMap fromMesh)
     {
         (Distance, Triangle, Leaf, FromMesh) = (distance, triangle, leaf, fromMesh);

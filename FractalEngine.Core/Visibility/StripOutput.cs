@@ -16,7 +16,7 @@ internal sealed class StripOutput
     /// <summary>Statistics of the strip.</summary>
     public ref CullingStatistics Statistics => ref _statistics;
 
-    /// <summary>Whether the near plane or a section plane clips an instance of the object in work.</summary>
+    /// <summary>Whether the near plane or a section plane clips an instance of the current object.</summary>
     public bool IsNearClipped { get; set; }
 
     /// <summary>Whether the strip gave up because it exceeded its budget.</summary>

@@ -119,6 +119,6 @@ internal sealed class FarthestPointSearch(Fractal fractal)
         return new(hierarchy.At(child, levels), levels, parent.Map * child.Map, parent.Depth + 1);
     }
 
-    /// <summary>A sub-fractal whose children were looked at.</summary>
+    /// <summary>A sub-fractal whose children were measured.</summary>
     private readonly record struct Opened(SubFractal SubFractal, long Levels, AffineMap Map, int Depth);
 }

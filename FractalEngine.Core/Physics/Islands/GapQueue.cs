@@ -64,7 +64,7 @@ internal sealed class GapQueue
         }
     }
 
-    /// <summary>Lets all contacts wait.</summary>
+    /// <summary>Lets all contacts of an island wait to be tested.</summary>
     /// <param name="count">Their number.</param>
     public void WaitForAll(int count)
     {

@@ -5,7 +5,7 @@ namespace FractalEngine.Core.Physics.Islands;
 /// <summary>What a <see cref="ContactGraph"/> needs of a body, copied once a step: a search reads those of many bodies.</summary>
 internal struct GraphBody
 {
-    /// <summary>Centre in world space.</summary>
+    /// <summary>Centre of the body when it was copied, world space.</summary>
     public Vector Position;
 
     /// <summary>Radius of the sphere that holds the body.</summary>
@@ -50,7 +50,7 @@ internal struct GraphBody
     /// <summary>Place of the first body that was found near it, among those of all.</summary>
     public int FirstNear;
 
-    /// <summary>Number of bodies found.</summary>
+    /// <summary>Number of bodies that were found near it.</summary>
     public int NearCount;
 
     /// <summary>Free distance up to which all bodies have been found; negative where none were searched for.</summary>

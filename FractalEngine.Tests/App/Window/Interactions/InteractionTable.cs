@@ -19,7 +19,7 @@ internal static class InteractionTable
         "save first, then close", "new fractal",
     ];
 
-    /// <summary>All interactions.</summary>
+    /// <summary>The interactions of all panels and of the window, in this order.</summary>
     public static IEnumerable<Interaction> All =>
         [.. OfScene, .. OfLights, .. OfFractal, .. OfView, .. OfSelection, .. OfPhysics, .. OfWindow];
 

@@ -77,7 +77,7 @@ internal sealed class Scenario : IDisposable
     public static Action<Scenario> Keys(string keys) => s => s.Window.Send(
         string.Join(' ', keys.Split(' ').Select(static key => $"key {key}")));
 
-    /// <summary>Types text.</summary>
+    /// <summary>Types a text into the field that has the focus.</summary>
     public static Action<Scenario> Text(string text) => s => s.Window.Type(text);
 
     /// <summary>Clicks beside a text that menus and panels show.</summary>
