@@ -102,4 +102,32 @@ public class CompoundShapeTests
             Assert.InRange(distance, double.NegativeInfinity, 1e-12);
         }
     }
+
+    [Fact]
+    public void OneBall_OfACube_IsTheBallAroundIt()
+    {
+        var placed = new PlacedModel(new PhysicsObject(Model.Of(PhysicsMeshes.Cube)) { Shape = BodyShape.Balls(1) });
+        var body = Assert.Single(new PhysicsWorld(new LoadedScene(new(), [placed])).Bodies);
+        Near.Equal(placed.Model.Bounds.Centre, body.BallCentre(0), 1e-12);
+        Assert.Equal(0.5 * placed.Model.Bounds.Size.Length(), body.BallRadius(0), 1e-12);
+    }
+
+    [Fact]
+    public void Balls_OfAFanOfAHundredThousandFaces_CoverItInASecond()
+    {
+        const int Count = 100_000;
+        static Vector Corner(int i) => new(Math.Cos(Math.Tau * i / Count), Math.Sin(Math.Tau * i / Count), 0);
+        var corners = Enumerable.Range(0, Count).Select(Corner).ToArray();
+        var fan = PhysicsMeshes.FromTriangles([.. corners.Select((corner, i) => (corner, Corner((i + 1) % Count), Vector.Zero))]);
+        var placed = new PlacedModel(new PhysicsObject(Model.Of(fan)) { Shape = BodyShape.Balls(64) });
+        var before = Environment.CpuUsage.TotalTime;
+        var body = Assert.Single(new PhysicsWorld(new LoadedScene(new(), [placed])).Bodies);
+        Assert.InRange((Environment.CpuUsage.TotalTime - before).TotalSeconds, 0, 3);
+        foreach (var corner in corners)
+        {
+            Assert.Contains(
+                Enumerable.Range(0, body.BallCount),
+                ball => (body.BallCentre(ball) - corner).Length() <= body.BallRadius(ball) * (1 + 1e-12));
+        }
+    }
 }

@@ -14,6 +14,9 @@ internal static class CompoundFit
     // Rounds of Lloyd's method: each moves the centres to the middle of the points that they are closest to.
     private const int MaxRounds = 50;
 
+    // Of more points only so many tell where the centres are; the balls contain all of them.
+    private const int MaxFittedPoints = 50_000;
+
     /// <summary>Fits a shape to a placed model.</summary>
     /// <param name="placed">The object with its model.</param>
     /// <param name="shape">Balls or a capsule.</param>
@@ -86,28 +89,53 @@ internal static class CompoundFit
 
     private static CompoundShape? FitBalls(List<Vector> points, int count)
     {
-        var centres = Spread(points, count);
         var nearest = new int[points.Count];
-        for (var round = 0; round < MaxRounds && Assign(points, centres, nearest); round++)
+        var centres = FindCentres(points, count, nearest);
+        Assign(points, centres, nearest);
+        var radii = new double[count];
+        for (var i = 0; i < nearest.Length; i++)
         {
-            for (var ball = 0; ball < count; ball++)
-            {
-                var own = points.Where((_, i) => nearest[i] == ball).ToArray();
-                centres[ball] = own.Length > 0 ? own.Aggregate((sum, point) => sum + point) / own.Length : centres[ball];
-            }
+            radii[nearest[i]] = Math.Max(radii[nearest[i]], (points[i] - centres[nearest[i]]).Length());
         }
 
-        var balls = new List<CompoundBall>();
-        for (var ball = 0; ball < count; ball++)
+        var balls = centres.Zip(radii, static (centre, radius) => new CompoundBall(centre, radius)).Where(ball => ball.Radius > 0).ToArray();
+        return balls.Length > 0 ? CompoundShape.OfBalls(balls) : null;
+    }
+
+    /// <summary>Finds centres by Lloyd's method, of all points or of as many as take no time, evenly chosen.</summary>
+    /// <param name="points">The points.</param>
+    /// <param name="count">Number of centres.</param>
+    /// <param name="nearest">Room for an index for each point.</param>
+    private static Vector[] FindCentres(List<Vector> points, int count, int[] nearest)
+    {
+        var stride = ((points.Count - 1) / MaxFittedPoints) + 1;
+        var fitted = stride == 1 ? points : points.Where((_, i) => i % stride == 0).ToList();
+        var centres = Spread(fitted, count);
+        var hasChanged = true;
+        for (var round = 0; round < MaxRounds && hasChanged; round++)
         {
-            var radius = points.Where((_, i) => nearest[i] == ball).Select(point => (point - centres[ball]).Length()).Append(0).Max();
-            if (radius > 0)
-            {
-                balls.Add(new(centres[ball], radius));
-            }
+            hasChanged = Assign(fitted, centres, nearest);
+            MoveToMiddles(centres, fitted, nearest);
         }
 
-        return balls.Count > 0 ? CompoundShape.OfBalls(balls) : null;
+        return centres;
+    }
+
+    /// <summary>Moves each centre to the middle of its points.</summary>
+    private static void MoveToMiddles(Vector[] centres, List<Vector> points, int[] nearest)
+    {
+        var sums = new Vector[centres.Length];
+        var counts = new int[centres.Length];
+        for (var i = 0; i < points.Count; i++)
+        {
+            sums[nearest[i]] += points[i];
+            counts[nearest[i]]++;
+        }
+
+        for (var ball = 0; ball < centres.Length; ball++)
+        {
+            centres[ball] = counts[ball] > 0 ? sums[ball] / counts[ball] : centres[ball];
+        }
     }
 
     /// <summary>
