@@ -7,20 +7,23 @@ namespace FractalEngine.Core.Fractals.Hierarchy;
 /// </summary>
 internal sealed class ChildInstance
 {
+    private static readonly ChildEdge[] ToGroup = [ChildEdge.ToGroup];
+
     private readonly SimdAffineMap _simdMap;
     private readonly SimdAffineMap _inverseSimdMap;
+    private readonly ReadOnlyMemory<ChildEdge> _edges;
 
     /// <summary>Composes an instance from edges.</summary>
-    /// <param name="edges">At least one edge, the outermost first.</param>
-    public ChildInstance(ChildEdge[] edges)
+    /// <param name="edges">At least one edge, the outermost first. Children of wide levels share one array.</param>
+    public ChildInstance(ReadOnlyMemory<ChildEdge> edges)
     {
-        Edges = edges;
+        _edges = edges;
         var map = AffineMap.Identity;
         var inverse = AffineMap.Identity;
         ScaleSquared = 1;
         OperatorNormBound = 1;
         var areMapsOfLevels = true;
-        foreach (var (set, mapIndex, levelStep) in edges)
+        foreach (var (set, mapIndex, levelStep) in edges.Span)
         {
             map *= set.Maps[mapIndex];
             inverse = set.Maps[mapIndex].Inverse() * inverse;
@@ -37,7 +40,7 @@ internal sealed class ChildInstance
     }
 
     private ChildInstance(SubFractal group)
-        : this([ChildEdge.ToGroup])
+        : this(ToGroup)
     {
         Group = group;
     }
@@ -52,7 +55,7 @@ internal sealed class ChildInstance
     public static ChildInstance Of(SubFractal group) => new(group);
 
     /// <summary>The edges, the outermost first.</summary>
-    public ChildEdge[] Edges { get; }
+    public ReadOnlySpan<ChildEdge> Edges => _edges.Span;
 
     /// <summary>Whether each edge goes down one level by a map of that level's set.</summary>
     public bool HasMapsOfLevels { get; }
@@ -79,7 +82,7 @@ internal sealed class ChildInstance
     public LevelStep LevelStep { get; }
 
     /// <summary>Number of bytes of the maps and edges.</summary>
-    public long StorageBytes => (35 * sizeof(double)) + (28 * Edges.Length) + 48;
+    public long StorageBytes => (37 * sizeof(double)) + (24 * Edges.Length);
 
     /// <summary>Computes the remaining levels of the child.</summary>
     /// <param name="parentLevels">Remaining levels of the parent.</param>

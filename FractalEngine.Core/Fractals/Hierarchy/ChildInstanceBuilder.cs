@@ -17,10 +17,16 @@ internal sealed class ChildInstanceBuilder
     // The limit for expansions that give all children the same number of remaining levels.
     private const int MaxChildrenForSameLevel = 48;
 
+    // Single children of wider levels are not looked for among those of other levels, which would take as much memory as they do.
+    private const int MaxComparedEdges = 4096;
+
     /// <summary>Maximum number of rounds of a repetition between a sub-fractal and its children.</summary>
     public const int MaxExpandedLevels = 16;
 
     private readonly Dictionary<ChildEdge[], ChildInstance> _instances = new(EdgeSequenceComparer.Instance);
+
+    // By reference: equal edges are shared.
+    private readonly Dictionary<ChildEdge[], ChildInstance[]> _wideLevels = new(ReferenceEqualityComparer.Instance);
 
     private readonly HashSet<ChildEdge[]> _sharedEdges = new(EdgeSequenceComparer.Instance);
 
@@ -83,7 +89,7 @@ internal sealed class ChildInstanceBuilder
         if (edges.Length > MaxChildrenForSameLevel && !LeadToNothing(level, edges, edgesAt))
         {
             // Too many to expand, and perhaps so many that the list would take more memory than they do.
-            return CreateChildren(edges);
+            return GetOrCreateAll(edges);
         }
 
         var chains = new List<EdgeChain>(edges.Length);
@@ -139,15 +145,21 @@ internal sealed class ChildInstanceBuilder
         return highest > 0 && edgesAt(highest).Length == 0;
     }
 
-    private ChildInstance[] CreateChildren(ChildEdge[] edges)
+    /// <summary>The children of a level that is too wide to be expanded: one for each edge, the same for all levels with these edges.</summary>
+    private ChildInstance[] GetOrCreateAll(ChildEdge[] edges)
     {
-        _instances.EnsureCapacity(_instances.Count + edges.Length);
+        if (_wideLevels.TryGetValue(edges, out var known))
+        {
+            return known;
+        }
+
         var children = new ChildInstance[edges.Length];
         for (var i = 0; i < children.Length; i++)
         {
-            children[i] = GetOrCreate([edges[i]]);
+            children[i] = edges.Length > MaxComparedEdges ? new(edges.AsMemory(i, 1)) : GetOrCreate([edges[i]]);
         }
 
+        _wideLevels.Add(edges, children);
         return children;
     }
 
