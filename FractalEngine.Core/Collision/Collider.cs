@@ -12,9 +12,6 @@ namespace FractalEngine.Core.Collision;
 /// </summary>
 public abstract partial class Collider
 {
-    // An upper bound of the rounding error of a distance, as a part of the largest coordinate.
-    internal const double RoundingError = 4e-15;
-
     private readonly SpareContext _spareContext = new();
 
     /// <summary>False for colliders that may miss the closest point.</summary>
@@ -127,7 +124,7 @@ public abstract partial class Collider
             return closest.Distance;
         }
 
-        var rounding = RoundingError * Math.Max(position.MaxAbsComponent(), closest.Point.MaxAbsComponent());
+        var rounding = RoundingErrors.Coordinate * Math.Max(position.MaxAbsComponent(), closest.Point.MaxAbsComponent());
         var allowed = epsilon > 0 ? closest.Distance * (epsilon / (1 + epsilon)) : 0;
         return Math.Min(closest.Distance, Math.Max(closest.ErrorBound, rounding) + (double.IsNaN(allowed) ? closest.Distance : allowed));
     }

@@ -55,6 +55,6 @@ internal sealed record Similarity(AffineMap Map, AffineMap Inverse, double Scale
         Point = Map * local.Point,
         Distance = Scale * local.Distance,
         Normal = (_cofactors * local.Normal).UnitVector(),
-        ErrorBound = (Scale * local.ErrorBound) + (Collider.RoundingError * Map.Translation.MaxAbsComponent()),
+        ErrorBound = (Scale * local.ErrorBound) + (RoundingErrors.Coordinate * Map.Translation.MaxAbsComponent()),
     };
 }

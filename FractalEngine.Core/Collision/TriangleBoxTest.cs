@@ -12,8 +12,6 @@ namespace FractalEngine.Core.Collision;
 /// </remarks>
 internal static class TriangleBoxTest
 {
-    private const double RoundingError = 4e-15;
-
     /// <summary>Tells whether two closed boxes meet.</summary>
     /// <param name="box1">The first box, not empty.</param>
     /// <param name="box2">The second box, not empty.</param>
@@ -42,7 +40,7 @@ internal static class TriangleBoxTest
         var magnitude = Math.Max(
             Math.Max(a.MaxAbsComponent(), Math.Max(b.MaxAbsComponent(), c.MaxAbsComponent())),
             centre.MaxAbsComponent() + halfSize.MaxAbsComponent());
-        var rounding = RoundingError * magnitude;
+        var rounding = RoundingErrors.Coordinate * magnitude;
         a -= centre;
         b -= centre;
         c -= centre;

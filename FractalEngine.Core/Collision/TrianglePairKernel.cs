@@ -11,9 +11,6 @@ namespace FractalEngine.Core.Collision;
 /// </remarks>
 internal static class TrianglePairKernel
 {
-    // The rounding of a point on an edge and of its distance from a triangle, as a part of the largest coordinate.
-    private const double CrossingError = 4e-15;
-
     /// <summary>Finds the closest points of two triangles.</summary>
     /// <param name="triangle1">The corners of the first triangle.</param>
     /// <param name="triangle2">The corners of the second triangle, in the same frame.</param>
@@ -115,7 +112,8 @@ internal static class TrianglePairKernel
         var point = start + (startHeight / (startHeight - endHeight) * (end - start));
         var candidate = new TrianglePair(default, default, best.DistanceSquared);
         TestVertex(point, in triangle, isSwapped, ref candidate);
-        var rounding = CrossingError * Math.Max(Math.Max(start.MaxAbsComponent(), end.MaxAbsComponent()), triangle.A.MaxAbsComponent());
+        var magnitude = Math.Max(Math.Max(start.MaxAbsComponent(), end.MaxAbsComponent()), triangle.A.MaxAbsComponent());
+        var rounding = RoundingErrors.Coordinate * magnitude;
         if (candidate.DistanceSquared < best.DistanceSquared)
         {
             best = candidate.DistanceSquared <= rounding * rounding ? new(point, point, 0) : candidate;

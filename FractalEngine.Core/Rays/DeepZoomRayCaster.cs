@@ -19,9 +19,6 @@ namespace FractalEngine.Core.Rays;
 /// </remarks>
 public sealed class DeepZoomRayCaster : InstanceRayCaster
 {
-    // The rounding of a box and of its distance along a ray, as a part of the largest coordinate.
-    private const double BoxError = 1e-14;
-
     private readonly Fractal _fractal;
     private readonly FractalRayCaster _whole;
 
@@ -105,7 +102,7 @@ public sealed class DeepZoomRayCaster : InstanceRayCaster
 
     private static BoundingBox Widened(BoundingBox box)
     {
-        var margin = BoxError * BoundingVolume.MaxAbsCoordinate(box) * Vector.One;
+        var margin = RoundingErrors.Chain * BoundingVolume.MaxAbsCoordinate(box) * Vector.One;
         return new(box.Minimum - margin, box.Maximum + margin);
     }
 }

@@ -17,7 +17,7 @@ internal readonly struct FloatRay
     // Smaller components are this: over the length of what is searched, they matter less than the margin.
     private const float MinComponent = 1e-12f;
 
-    // The rounding of the parameter and what keys lose.
+    // What rounding takes from a parameter and its key, as a factor.
     private const double LimitFactor = 1 + 1e-5;
 
     /// <summary>Converts a ray to floats.</summary>
@@ -37,10 +37,7 @@ internal readonly struct FloatRay
         var narrow = Vector256.Narrow(
             (ray.Origin - centre) * Vector256.Create(inverseSize), ray.Direction * Vector256.Create(inverseSpeed));
         Origin = narrow.GetLower();
-        var components = narrow.GetUpper();
-        var isTiny = Vector128.LessThan(Vector128.Abs(components), Vector128.Create(MinComponent));
-        Direction = Vector128.ConditionalSelect(
-            isTiny, Vector128.Create(MinComponent) | (components & Vector128.Create(-0f)), components);
+        Direction = WithoutZeros(narrow.GetUpper());
         InverseDirection = Vector128<float>.One / Direction;
     }
 
@@ -67,6 +64,22 @@ internal readonly struct FloatRay
     /// <param name="perDistance">See <see cref="PerDistance"/>.</param>
     /// <param name="distance">The distance.</param>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static float LimitFor(in LocalRay ray, double perDistance, double distance) =>
-        (float)((distance - ray.Start) * perDistance * LimitFactor) + Margin;
+    public static float LimitFor(in LocalRay ray, double perDistance, double distance) => LimitFor(ray.Start, perDistance, distance);
+
+    /// <summary>Converts a distance along the ray of the query to an upper bound of the parameter.</summary>
+    /// <param name="start">Distance of the origin along the ray of the query.</param>
+    /// <param name="perDistance">See <see cref="PerDistance"/>.</param>
+    /// <param name="distance">The distance.</param>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static float LimitFor(double start, double perDistance, double distance) =>
+        (float)((distance - start) * perDistance * LimitFactor) + Margin;
+
+    /// <summary>Replaces components of a direction that are nearly 0, so that all have an inverse. Signs stay.</summary>
+    /// <param name="direction">Of about the length 1.</param>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static Vector128<float> WithoutZeros(Vector128<float> direction)
+    {
+        var isTiny = Vector128.LessThan(Vector128.Abs(direction), Vector128.Create(MinComponent));
+        return Vector128.ConditionalSelect(isTiny, Vector128.Create(MinComponent) | (direction & Vector128.Create(-0f)), direction);
+    }
 }

@@ -12,8 +12,6 @@ internal sealed class RayBox
     // Farther away, in half sizes, floats tell bounds apart less well than rounding allows.
     private const double MaxOriginDistance = 4;
 
-    // The rounding of a box and of its distance along a ray, as a part of the largest coordinate.
-    private const double BoxError = 1e-14;
     private const double MinRelativeComponent = 1e-30;
 
     private readonly Vector256<double> _halfSize;
@@ -22,7 +20,7 @@ internal sealed class RayBox
     public RayBox(BoundingBox box)
     {
         var halfSize = 0.5 * box.Size;
-        var error = BoxError * BoundingVolume.MaxAbsCoordinate(box);
+        var error = RoundingErrors.Chain * BoundingVolume.MaxAbsCoordinate(box);
         var size = Math.Max(halfSize.MaxAbsComponent(), error);
         InverseHalfExtent = size > 0 ? 1 / size : 1;
         HalfExtent = 1 / InverseHalfExtent;
@@ -88,7 +86,7 @@ internal sealed class RayBox
         var inverse = Vector256<double>.One / direction;
         var toCentre = (Centre - ray.Origin) * inverse;
         var origin = Vector256.Abs(ray.Origin);
-        var error = (ray.InverseScale * search.Error) + (BoxError * (origin[0] + origin[1] + origin[2]));
+        var error = (ray.InverseScale * search.Error) + (RoundingErrors.Chain * (origin[0] + origin[1] + origin[2]));
         var half = (_halfSize + Vector256.Create(error)) * Vector256.Abs(inverse);
         var near = toCentre - half;
         var far = toCentre + half;

@@ -22,9 +22,6 @@ public abstract class RayCaster
     private const double MinSquaredLength = 1e-200;
     private const double MaxSquaredLength = 1e200;
 
-    // What rounding leaves of the square of a unit vector.
-    private const double UnitError = 1e-15;
-
     private static readonly AffineMap Identity = AffineMap.Identity;
 
     private readonly SpareContext _spareContext = new();
@@ -157,7 +154,7 @@ public abstract class RayCaster
     /// <param name="maxCoordinate">The largest absolute coordinate of the shape.</param>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     internal static double RoundingError(Vector origin, double start, double maxCoordinate) =>
-        Collider.RoundingError * (origin.MaxAbsComponent() + start + maxCoordinate);
+        RoundingErrors.Coordinate * (origin.MaxAbsComponent() + start + maxCoordinate);
 
     /// <summary>Checks the arguments of a query, and returns the direction of length 1.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -172,7 +169,7 @@ public abstract class RayCaster
             return CheckedUnitDirectionOfAny(in ray, minDistance, maxDistance);
         }
 
-        return Math.Abs(squared - 1) <= UnitError ? ray.Direction : (1 / Math.Sqrt(squared)) * ray.Direction;
+        return Math.Abs(squared - 1) <= RoundingErrors.Norm ? ray.Direction : (1 / Math.Sqrt(squared)) * ray.Direction;
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]

@@ -19,9 +19,6 @@ internal sealed record RayDescendant(
     int[] Path, SubFractal Target, bool IsGroup, long RemainingLevels, LevelStep LevelStep, AffineMap Map, AffineMap Inverse, double Norm,
     double InverseNorm, BoundingBox Box)
 {
-    // The norms of maps are rounded.
-    private const double NormError = 1e-15;
-
     /// <summary>Lists the children of a sub-fractal, or of a group, that are not empty.</summary>
     /// <param name="subFractal">The sub-fractal or group.</param>
     /// <param name="level">Its remaining levels.</param>
@@ -37,7 +34,7 @@ internal sealed record RayDescendant(
         ChildrenOf(Target, RemainingLevels, hierarchy).Select(inner =>
         {
             var map = Map * inner.Map;
-            var norm = Norm * inner.Norm * (1 + NormError);
+            var norm = Norm * inner.Norm * (1 + RoundingErrors.Norm);
             return inner with
             {
                 Path = [.. Path, .. inner.Path],
@@ -45,7 +42,7 @@ internal sealed record RayDescendant(
                 Map = map,
                 Inverse = inner.Inverse * Inverse,
                 Norm = norm,
-                InverseNorm = InverseNorm * inner.InverseNorm * (1 + NormError),
+                InverseNorm = InverseNorm * inner.InverseNorm * (1 + RoundingErrors.Norm),
                 Box = BoundingBox.Intersection(inner.Box.Transform(Map), inner.Target.TransformedBox(map, norm)),
             };
         });
@@ -54,7 +51,7 @@ internal sealed record RayDescendant(
     {
         var levels = child.RemainingLevels(level);
         var inverse = child.InverseSimdMap.ToAffineMap();
-        var inverseNorm = BoundingSphere.OperatorNormBound(inverse.Linear) * (1 + NormError);
+        var inverseNorm = BoundingSphere.OperatorNormBound(inverse.Linear) * (1 + RoundingErrors.Norm);
         return new(
             [index], hierarchy.At(child, levels), child.Group is not null, levels, child.LevelStep, child.Map, inverse,
             child.OperatorNormBound, inverseNorm, box);

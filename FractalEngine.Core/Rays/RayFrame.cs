@@ -18,12 +18,6 @@ internal struct RayFrame
     // What rounding in single precision may leave between a ray and a box that it enters.
     private const double EntryError = 1e-4;
 
-    // Smaller components are this: over the length of what is searched, they matter less than the margin.
-    private const float MinComponent = 1e-12f;
-
-    // The rounding of the parameter.
-    private const double LimitFactor = 1 + 1e-5;
-
     /// <summary>The bounds of the sub-fractal.</summary>
     public RayBounds Bounds;
 
@@ -83,7 +77,7 @@ internal struct RayFrame
 
     /// <summary>Converts a distance along the ray of the query to an upper bound of the parameter.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public readonly float LimitFor(double distance) => (float)((distance - Start) * PerDistance * LimitFactor) + FloatRay.Margin;
+    public readonly float LimitFor(double distance) => FloatRay.LimitFor(Start, PerDistance, distance);
 
     /// <summary>Tells whether a ray that enters a child's box is near what the child is an instance of.</summary>
     /// <param name="box">The box.</param>
@@ -210,9 +204,7 @@ internal struct RayFrame
     {
         Direction = direction;
         var components = ToFloats(direction);
-        var isTiny = Vector128.LessThan(Vector128.Abs(components), Vector128.Create(MinComponent));
-        FloatDirection = Vector128.ConditionalSelect(
-            isTiny, Vector128.Create(MinComponent) | (components & Vector128.Create(-0f)), components);
+        FloatDirection = FloatRay.WithoutZeros(components);
         InverseDirection = Vector128<float>.One / FloatDirection;
         Octant = (int)(components.ExtractMostSignificantBits() & 7);
     }

@@ -7,9 +7,6 @@ namespace FractalEngine.Core.Rays;
 /// <summary>An object of a scene for rays: the caster of its model, and its place in the world.</summary>
 internal sealed class RayInstance : ObjectBvhLeaf
 {
-    // An upper bound of the relative rounding error of a norm.
-    private const double NormError = 1e-15;
-
     private readonly AffineMap _objectToWorld;
     private readonly SimdAffineMap _worldToObject;
     private readonly double _norm;
@@ -29,8 +26,8 @@ internal sealed class RayInstance : ObjectBvhLeaf
         _objectToWorld = objectToWorld;
         var inverse = objectToWorld.Inverse();
         _worldToObject = new(inverse);
-        _norm = BoundingSphere.OperatorNormBound(objectToWorld.Linear) * (1 + NormError);
-        _inverseNorm = BoundingSphere.OperatorNormBound(inverse.Linear) * (1 + NormError);
+        _norm = BoundingSphere.OperatorNormBound(objectToWorld.Linear) * (1 + RoundingErrors.Norm);
+        _inverseNorm = BoundingSphere.OperatorNormBound(inverse.Linear) * (1 + RoundingErrors.Norm);
     }
 
     /// <summary>In the frame of the model, made at the first ray.</summary>

@@ -20,9 +20,6 @@ internal sealed class RayPlanes
     // The triangles of a mesh whose hull has more are tested as soon.
     private const int MaxPlanes = 16;
 
-    // The rounding of heights and slopes within a few units.
-    private const double RoundingError = 1e-14;
-
     private readonly Vector256<double>[] _rows = [];
 
     /// <summary>Prepares the hull of a mesh.</summary>
@@ -42,7 +39,7 @@ internal sealed class RayPlanes
             // The last plane fills the lanes that are left over.
             var (normal, offset, _) = hull.Planes[Math.Min(i, hull.Planes.Length - 1)];
             var height = (offset + volume.Margin - Vector.Dot(normal, volume.Box.Centre)) * box.InverseHalfExtent;
-            ReadOnlySpan<double> values = [normal.X, normal.Y, normal.Z, height + RoundingError];
+            ReadOnlySpan<double> values = [normal.X, normal.Y, normal.Z, height + RoundingErrors.Chain];
             for (var row = 0; row < RowCount; row++)
             {
                 ref var lanes = ref _rows[(i / LaneCount * RowCount) + row];

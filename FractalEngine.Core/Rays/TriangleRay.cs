@@ -18,9 +18,6 @@ internal readonly struct TriangleRay
     /// <summary>Vectors of four triangles: x, y and z of the first vertices, then of the second and third.</summary>
     public const int VectorsPerQuad = 9;
 
-    // The rounding of a coordinate relative to the origin, as a part of it.
-    private const double CoordinateError = 4e-15;
-
     // The rounding of the direction of a query, and that after some levels of maps, as a part of its length.
     private const double QueryDirectionError = 1e-15;
     private const double MappedDirectionError = 1.6e-14;
@@ -145,7 +142,7 @@ internal readonly struct TriangleRay
         var v = (ax * cy) - (ay * cx);
         var w = (bx * ay) - (by * ax);
         var extent = Vector256.Abs(ax) + Vector256.Abs(ay) + Vector256.Abs(bx) + Vector256.Abs(by) + Vector256.Abs(cx) + Vector256.Abs(cy);
-        var rounding = Vector256.Create(CoordinateError) * extent;
+        var rounding = Vector256.Create(RoundingErrors.Coordinate) * extent;
         var sum = u + v + w;
         // Seen edge on, a triangle has no area but that of rounding, also of the direction, and is not hit. Nor is one without area.
         var depthExtent = Vector256.Abs(az) + Vector256.Abs(bz) + Vector256.Abs(cz);

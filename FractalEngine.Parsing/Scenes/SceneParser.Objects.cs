@@ -11,7 +11,18 @@ public sealed partial class SceneParser
     private static readonly string[] ColliderNames = ["exact", "fractal", "hierarchy", "bounding-box", "simple"];
 
     // With the blank that follows each.
-    private static readonly string[] BodyOptions = ["velocity ", "mass ", "friction ", "damping ", "shrink ", "collider "];
+    private static readonly string[] BodyOptions =
+    [
+        "velocity ", "mass ", "friction ", "damping ", "rolling ", "spinning ", "inertia ", "shape ", "rotation ", "shrink ", "collider ",
+    ];
+
+    private static readonly (string Keyword, string Quantity, Func<PhysicsObject, double, PhysicsObject> With)[] NonNegativeBodyNumbers =
+    [
+        ("friction", "the friction", static (body, number) => body with { Friction = number }),
+        ("damping", "the damping", static (body, number) => body with { Damping = number }),
+        ("rolling", "the rolling friction", static (body, number) => body with { RollingFriction = number }),
+        ("spinning", "the spinning friction", static (body, number) => body with { SpinningFriction = number }),
+    ];
 
     private static readonly string[] ObjectOptions = ["moving ", "belt "];
 
@@ -183,32 +194,14 @@ public sealed partial class SceneParser
             return success;
         }
 
-        if (ParseKeyword(start, "friction", out rest))
+        foreach (var (keyword, quantity, withNumber) in NonNegativeBodyNumbers)
         {
-            var success = ParseNonNegative(rest, "the friction", out var friction, out rest);
-            body = body with { Friction = friction };
-            return success;
-        }
-
-        if (ParseKeyword(start, "damping", out rest))
-        {
-            var success = ParseNonNegative(rest, "the damping", out var damping, out rest);
-            body = body with { Damping = damping };
-            return success;
-        }
-
-        if (ParseKeyword(start, "rolling", out rest))
-        {
-            var success = ParseNonNegative(rest, "the rolling friction", out var rolling, out rest);
-            body = body with { RollingFriction = rolling };
-            return success;
-        }
-
-        if (ParseKeyword(start, "spinning", out rest))
-        {
-            var success = ParseNonNegative(rest, "the spinning friction", out var spinning, out rest);
-            body = body with { SpinningFriction = spinning };
-            return success;
+            if (ParseKeyword(start, keyword, out rest))
+            {
+                var success = ParseNonNegative(rest, quantity, out var number, out rest);
+                body = withNumber(body, number);
+                return success;
+            }
         }
 
         if (ParseKeyword(start, "inertia", out rest))
@@ -239,19 +232,21 @@ public sealed partial class SceneParser
             return ParseShrinkage(rest, ref body, out rest);
         }
 
-        if (ParseKeyword(start, "collider", out rest))
+        return ParseKeyword(start, "collider", out rest) && ParseCollider(rest, ref body, out rest);
+    }
+
+    private bool ParseCollider(Cursor cursor, ref PhysicsObject body, out Cursor rest)
+    {
+        for (var kind = 0; kind < ColliderNames.Length; kind++)
         {
-            var valueStart = rest;
-            for (var kind = 0; kind < ColliderNames.Length; kind++)
+            if (ParseWord(cursor, ColliderNames[kind], out rest))
             {
-                if (ParseWord(valueStart, ColliderNames[kind], out rest))
-                {
-                    body = body with { Collider = (ColliderKind)kind };
-                    return true;
-                }
+                body = body with { Collider = (ColliderKind)kind };
+                return true;
             }
         }
 
+        rest = cursor;
         return false;
     }
 

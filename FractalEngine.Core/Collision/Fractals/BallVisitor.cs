@@ -16,11 +16,8 @@ internal struct BallVisitor(Vector centre, double radius, long maxBoundTests, Li
     // The way to a face takes some bounds of its own.
     private const long BoundTestsPerHit = 100;
 
-    // The rounding of a distance, as a part of the largest coordinate.
-    private const double DistanceError = 4e-15;
-
     private readonly Vector256<double> _centre = SimdAffineMap.ToVector256(centre);
-    private readonly double _slack = DistanceError * centre.MaxAbsComponent();
+    private readonly double _slack = RoundingErrors.Coordinate * centre.MaxAbsComponent();
 
     /// <inheritdoc/>
     public readonly long MaxBoundTests => maxBoundTests + (BoundTestsPerHit * (hits?.Count ?? 0));

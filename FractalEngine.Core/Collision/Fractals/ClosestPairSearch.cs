@@ -20,9 +20,6 @@ internal sealed class ClosestPairSearch
     private const int MaxBoundTests = 1_000_000;
     private const int MaxNodes = 400_000;
 
-    // An upper bound of the rounding error of coordinates along a chain of maps, as a part of the largest of them.
-    private const double ChainError = 4e-15;
-
     private readonly ShapeNodes _nodes1;
     private readonly ShapeNodes _nodes2;
     private readonly QueryStatistics _statistics;
@@ -40,7 +37,7 @@ internal sealed class ClosestPairSearch
         _nodes1 = new(tree1, in map1);
         _nodes2 = new(tree2, in map2);
         _statistics = statistics;
-        _tolerance = ChainError * Math.Max(
+        _tolerance = RoundingErrors.Coordinate * Math.Max(
             BoundingVolume.MaxAbsCoordinate(_nodes1[0].Box), BoundingVolume.MaxAbsCoordinate(_nodes2[0].Box));
     }
 

@@ -95,7 +95,7 @@ public sealed class ExactFractalCollider : Collider
         Unsafe.SkipInit(out closest);
         // The sum is no less than the largest coordinate, and sooner found.
         var magnitude = Math.Abs(position.X) + Math.Abs(position.Y) + Math.Abs(position.Z) + _rootMagnitude;
-        var limit = maxDistance + (FractalSearchState.ChainError * magnitude);
+        var limit = maxDistance + (RoundingErrors.Coordinate * magnitude);
         if (!(_hierarchy.Root.BoxDistanceSquared(SimdAffineMap.ToVector256(position)) > DistanceCutoff.FromRadius(limit)))
         {
             return false;

@@ -1,3 +1,5 @@
+using FractalEngine.Core.Maths;
+
 namespace FractalEngine.Core.Collision.Fractals;
 
 /// <summary>The state of a search on the levels of a fractal: the closest triangle so far, what that excludes, and the cost.</summary>
@@ -15,9 +17,6 @@ internal ref struct FractalSearchState
 
     // Suffices for some twenty levels.
     private const int InitialScratchLength = 1024;
-
-    // An upper bound of the rounding error of coordinates along a chain of maps, as a part of the largest of them.
-    public const double ChainError = 4e-15;
 
     // A larger error is allowed, but its square times that of a distance would leave the range of a double.
     private const double MaxEpsilon = 1e8;
@@ -45,7 +44,7 @@ internal ref struct FractalSearchState
         _path = context.PathBuffer(MaxStackDepth);
         _closestPath = context.BestPathBuffer(MaxStackDepth);
         _scratch = context.ScratchBuffer(InitialScratchLength);
-        _tolerance = ChainError * magnitude;
+        _tolerance = RoundingErrors.Coordinate * magnitude;
         BoundFactor = (1 + Math.Min(epsilon, MaxEpsilon)) * (1 + Math.Min(epsilon, MaxEpsilon));
         InverseBoundFactor = 1 / BoundFactor;
         ClosestFace = -1;
@@ -179,7 +178,7 @@ internal ref struct FractalSearchState
     /// <param name="reach">Largest absolute coordinate on the path to it.</param>
     public readonly double ErrorBound(double distance, double reach)
     {
-        var rounding = ChainError * Math.Max(reach, _positionMagnitude + distance);
+        var rounding = RoundingErrors.Coordinate * Math.Max(reach, _positionMagnitude + distance);
         // Sub-fractals of the least radius were replaced by the base mesh.
         var precision = 2 * Math.Sqrt(MinRadiusSquared);
         return Math.Max(0, distance - Math.Sqrt(OpenBoundSquared)) + rounding + precision;
@@ -204,7 +203,7 @@ internal ref struct FractalSearchState
     {
         var distance = Math.Sqrt(distanceSquared);
         // What is no farther than the closest triangle has no larger coordinates than that, however far the fractal reaches elsewhere.
-        var tolerance = Math.Min(_tolerance, ChainError * (_positionMagnitude + distance));
+        var tolerance = Math.Min(_tolerance, RoundingErrors.Coordinate * (_positionMagnitude + distance));
         distance = Math.Max(0, distance - tolerance);
         return distance * distance;
     }

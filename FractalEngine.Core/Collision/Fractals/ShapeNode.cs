@@ -10,9 +10,6 @@ namespace FractalEngine.Core.Collision.Fractals;
 /// </summary>
 internal readonly struct ShapeNode
 {
-    // An upper bound of the rounding error of coordinates along a chain of maps, as a part of the largest of them.
-    private const double ChainError = 4e-15;
-
     /// <summary>Creates a node of a shape.</summary>
     /// <param name="subFractal">The sub-fractal; null inside the base mesh.</param>
     /// <param name="remainingLevels">Its remaining levels.</param>
@@ -61,7 +58,7 @@ internal readonly struct ShapeNode
     public double Reach { get; }
 
     /// <summary>How far rounding may have moved what is inside, in the frame of the query.</summary>
-    public double Slack => ChainError * Reach;
+    public double Slack => RoundingErrors.Coordinate * Reach;
 
     /// <summary>Finds a point of a convex solid around the node that lies lowest in a direction.</summary>
     /// <param name="direction">In the frame of the query, of any length.</param>

@@ -14,9 +14,6 @@ internal sealed record BoundingVolume(BoundingBox Box, ConvexHull? Hull, double 
     /// <summary>Boxes that contain the sub-fractal together; none where <see cref="Box"/> alone bounds it as well.</summary>
     public BoundingBox[] Clusters { get; init; } = [];
 
-    // An upper bound of the rounding error of a mapped point, as a part of the largest coordinate.
-    private const double MappedPointError = 2e-15;
-
     // More vertices bound more tightly and take longer; this many leave about a hundredth of the size.
     private const int MaxHullVertices = 48;
 
@@ -94,7 +91,7 @@ internal sealed record BoundingVolume(BoundingBox Box, ConvexHull? Hull, double 
         Math.Max(box.Minimum.MaxAbsComponent(), box.Maximum.MaxAbsComponent());
 
     /// <summary>Upper bound of how far rounding moves a mapped point of a box.</summary>
-    public static double RoundingMargin(BoundingBox box) => MappedPointError * MaxAbsCoordinate(box);
+    public static double RoundingMargin(BoundingBox box) => RoundingErrors.MappedPoint * MaxAbsCoordinate(box);
 
     /// <summary>Lists the vertices of all faces, each once, by their first use.</summary>
     private static Vector[] UsedVertices(Mesh mesh)

@@ -145,7 +145,7 @@ internal sealed class ChildInstanceBuilder
         return highest > 0 && edgesAt(highest).Length == 0;
     }
 
-    /// <summary>The children of a level that is too wide to be expanded: one for each edge, the same for all levels with these edges.</summary>
+    /// <summary>The children of a level that is too wide to be expanded: one for each edge, shared by levels with these edges.</summary>
     private ChildInstance[] GetOrCreateAll(ChildEdge[] edges)
     {
         if (_wideLevels.TryGetValue(edges, out var known))

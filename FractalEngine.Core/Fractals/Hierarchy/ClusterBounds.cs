@@ -16,9 +16,6 @@ internal sealed class ClusterBounds
     /// <summary>Maximum number of boxes.</summary>
     public const int MaxBoxes = 64;
 
-    // Rounding of a centre and half a size, as a part of the size.
-    private const double HalfSizeError = 4e-15;
-
     private readonly double[] _rows;
     private readonly int _paddedCount;
 
@@ -33,7 +30,7 @@ internal sealed class ClusterBounds
         {
             var box = boxes[Math.Min(i, boxes.Length - 1)];
             var (x, y, z) = box.Centre;
-            var (halfX, halfY, halfZ) = (0.5 + HalfSizeError) * box.Size;
+            var (halfX, halfY, halfZ) = (0.5 + RoundingErrors.Coordinate) * box.Size;
             ReadOnlySpan<double> rows = [x, y, z, halfX, halfY, halfZ];
             for (var row = 0; row < rows.Length; row++)
             {

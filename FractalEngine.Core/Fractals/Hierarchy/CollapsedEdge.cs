@@ -9,9 +9,6 @@ namespace FractalEngine.Core.Fractals.Hierarchy;
 /// <param name="RemainingLevels">Remaining levels of the part.</param>
 internal readonly record struct CollapsedEdge(AffineMap Map, double OperatorNormBound, long RemainingLevels)
 {
-    // An upper bound of the relative error that a norm has after a chain of products.
-    private const double NormError = 1e-14;
-
     private const int MaxCollapsedEdges = 64;
 
     /// <summary>Follows an edge, and goes on through levels that have a single edge.</summary>
@@ -34,6 +31,6 @@ internal readonly record struct CollapsedEdge(AffineMap Map, double OperatorNorm
             remainingLevels = only.RemainingLevels(remainingLevels);
         }
 
-        return new(map, BoundingSphere.OperatorNormBound(map.Linear) * (1 + NormError), remainingLevels);
+        return new(map, BoundingSphere.OperatorNormBound(map.Linear) * (1 + RoundingErrors.Chain), remainingLevels);
     }
 }

@@ -8,9 +8,6 @@ namespace FractalEngine.Core.Fractals.Hierarchy;
 /// <summary>The maps of a transformation set with the terms a search needs. All levels with the same set share it.</summary>
 internal sealed class MapSet
 {
-    // An upper bound of the relative rounding error of a norm.
-    private const double NormError = 1e-15;
-
     // Computed twice at worst, with the same result.
     private AffineMap[]? _inverses;
 
@@ -37,7 +34,7 @@ internal sealed class MapSet
             // Only to find out whether there is one.
             map.Inverse();
             ScalesSquared[i] = map.Linear.V1.LengthSquared();
-            OperatorNormBounds[i] = BoundingSphere.OperatorNormBound(map.Linear) * (1 + NormError);
+            OperatorNormBounds[i] = BoundingSphere.OperatorNormBound(map.Linear) * (1 + RoundingErrors.Norm);
             AreSimilarities &= Similarity.IsSimilarity(map.Linear);
             IdentityIndex = IdentityIndex < 0 && map == AffineMap.Identity ? i : IdentityIndex;
         }

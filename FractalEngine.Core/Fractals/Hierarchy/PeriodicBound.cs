@@ -28,7 +28,6 @@ internal sealed class PeriodicBound(
 
     // Boxes are inflated by so many times as much as they changed, at least by what rounding may change.
     private const double InflationFactor = 10;
-    private const double BoxError = 1e-14;
 
     // Where margins had to grow, boxes may need more inflation.
     private const double InflationGrowth = 8;
@@ -90,7 +89,7 @@ internal sealed class PeriodicBound(
 
         var volumesWithMargins = WithInvariantMargins(
             [.. Enumerable.Range(0, period).Select(phase => volumeAt(FirstLevel + phase))], coveredLevels);
-        for (var inflation = Math.Max(InflationFactor * MaxRelativeChange(), BoxError); inflation < MaxInflation;
+        for (var inflation = Math.Max(InflationFactor * MaxRelativeChange(), RoundingErrors.Chain); inflation < MaxInflation;
             inflation *= InflationGrowth)
         {
             BoundingVolume[] volumes = [.. volumesWithMargins.Select((volume, phase) =>
@@ -107,7 +106,7 @@ internal sealed class PeriodicBound(
     private static BoundingBox Inflate(IEnumerable<BoundingBox> boxes, double fraction)
     {
         var box = boxes.Aggregate(BoundingBox.Union);
-        return BoundingVolume.Inflate(box, (fraction * box.Diagonal) + (BoxError * Magnitude(box)));
+        return BoundingVolume.Inflate(box, (fraction * box.Diagonal) + (RoundingErrors.Chain * Magnitude(box)));
     }
 
     /// <summary>
@@ -136,7 +135,7 @@ internal sealed class PeriodicBound(
 
         var margin = volume1.Margin + volume2.Margin;
         var change = Math.Max(MaxDistanceOutside(volume1, hull2.Vertices, margin), MaxDistanceOutside(volume2, hull1.Vertices, margin))
-            - volume1.Margin - volume2.Margin - (BoxError * Magnitude(volume1.Box));
+            - volume1.Margin - volume2.Margin - (RoundingErrors.Chain * Magnitude(volume1.Box));
         return change <= 0 ? boxChange : Math.Max(boxChange, change / volume1.Box.Diagonal);
     }
 
@@ -147,7 +146,7 @@ internal sealed class PeriodicBound(
     private static double RelativeChange(BoundingBox box1, BoundingBox box2)
     {
         var change = Math.Max((box1.Minimum - box2.Minimum).MaxAbsComponent(), (box1.Maximum - box2.Maximum).MaxAbsComponent());
-        return box1 == box2 || change <= BoxError * Magnitude(box1) ? 0 : change / box1.Diagonal;
+        return box1 == box2 || change <= RoundingErrors.Chain * Magnitude(box1) ? 0 : change / box1.Diagonal;
     }
 
     private static double Magnitude(BoundingBox box) => box.IsEmpty ? 0 : BoundingVolume.MaxAbsCoordinate(box);

@@ -12,9 +12,6 @@ internal sealed class SubFractal
     // A box for each child.
     private const int ValuesPerChild = 6;
 
-    // Rounding of a centre and half a size, as a part of the size: one side of a huge box may be close to a position.
-    private const double HalfSizeError = 2e-15;
-
     private static readonly Vector FarAwayPoint = 1e300 * Vector.One;
 
     private readonly Vector256<double> _halfSize;
@@ -49,7 +46,7 @@ internal sealed class SubFractal
         Box = box;
         Hull = hull;
         Centre = SimdAffineMap.ToVector256(box.Centre);
-        _halfSize = SimdAffineMap.ToVector256((0.5 + HalfSizeError) * box.Size);
+        _halfSize = SimdAffineMap.ToVector256((0.5 + RoundingErrors.MappedPoint) * box.Size);
         Floats = !hasOnlySimilarities ? null
             : hull is null ? new(box, [], [], 0)
             : new(box, hull.Planes, hull.CopyVertices(), hull.Margin);
@@ -62,7 +59,7 @@ internal sealed class SubFractal
         {
             // Padding and empty children are far from everything.
             var (x, y, z) = i < childBoxes.Length && !childBoxes[i].IsEmpty ? childBoxes[i].Centre : FarAwayPoint;
-            var (halfX, halfY, halfZ) = i < childBoxes.Length ? (0.5 + HalfSizeError) * childBoxes[i].Size : Vector.Zero;
+            var (halfX, halfY, halfZ) = i < childBoxes.Length ? (0.5 + RoundingErrors.MappedPoint) * childBoxes[i].Size : Vector.Zero;
             ReadOnlySpan<double> rows = [x, y, z, halfX, halfY, halfZ];
             for (var row = 0; row < ValuesPerChild; row++)
             {

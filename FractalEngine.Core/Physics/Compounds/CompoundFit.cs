@@ -98,7 +98,8 @@ internal static class CompoundFit
             radii[nearest[i]] = Math.Max(radii[nearest[i]], (points[i] - centres[nearest[i]]).Length());
         }
 
-        var balls = centres.Zip(radii, static (centre, radius) => new CompoundBall(centre, radius)).Where(ball => ball.Radius > 0).ToArray();
+        var balls = Enumerable.Range(0, count).Where(ball => radii[ball] > 0)
+            .Select(ball => new CompoundBall(centres[ball], radii[ball])).ToArray();
         return balls.Length > 0 ? CompoundShape.OfBalls(balls) : null;
     }
 

@@ -59,6 +59,7 @@ public class SceneParserErrorTests
     [InlineData("p \"a.obj\" # -0.5", 13, "the coefficient of restitution must lie between 0 and 1")]
     [InlineData("p \"a.obj\" # 1 mass 0", 20, "the mass must be positive")]
     [InlineData("o \"a.obj\" # mass 5", 13, "unexpected 'mass': it is an option of physics objects, which a 'p' line declares")]
+    [InlineData("o \"a.obj\" # rolling 5", 13, "unexpected 'rolling': it is an option of physics objects, which a 'p' line declares")]
     [InlineData("p \"a.obj\" # 1 belt (1, 0, 0)", 15,
         "unexpected 'belt': it is an option of objects that no force moves, which an 'o' line declares")]
     [InlineData("o \"a.obj\" # moving", 19, "unexpected end of file, expected 'velocity' or 'spin'")]
