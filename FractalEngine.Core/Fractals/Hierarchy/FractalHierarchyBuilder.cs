@@ -19,7 +19,7 @@ internal sealed class FractalHierarchyBuilder
 
     private readonly Fractal _fractal;
     private readonly bool _doublesPowers;
-    private readonly OutlierClusters _clusters;
+    private readonly LevelUnion _union;
     private readonly SubFractalFactory _subFractalFactory;
     private readonly Dictionary<TransformationSet, MapSet> _sets = new(ReferenceEqualityComparer.Instance);
     private long _childCount;
@@ -35,7 +35,7 @@ internal sealed class FractalHierarchyBuilder
         _fractal = fractal;
         _doublesPowers = doublesPowers;
         HasOnlySimilarities = fractal.Description.Steps.All(HasOnlySimilarMaps);
-        _clusters = new(fractal);
+        _union = new(Built, new(fractal));
         _subFractalFactory = new(fractal.BaseMesh, HasOnlySimilarities);
         var volume = _subFractalFactory.BaseVolume;
         Built.Add(_subFractalFactory.CreateBase(), volume, new(null, volume.Box, [], []));
@@ -54,6 +54,7 @@ internal sealed class FractalHierarchyBuilder
     /// <exception cref="FractalLimitException">Bounds overflow a double, or don't converge; the message names the level.</exception>
     public void AddAllSteps()
     {
+        RequireAllowedChildren(_fractal.Description.Steps.Sum(CountWideChildren));
         foreach (var step in _fractal.Description.Steps.Reverse())
         {
             AddStep(step);
@@ -78,6 +79,26 @@ internal sealed class FractalHierarchyBuilder
         }
 
         return true;
+    }
+
+    /// <summary>
+    /// Counts the children that the levels of wide sets have at least: too many are refused before a level is built. Two rounds of a
+    /// repetition are built in any case.
+    /// </summary>
+    private long CountWideChildren(FractalStep step) => step switch
+    {
+        TransformationSet { Maps.Length: > ChildGroups.MaxUngroupedChildren } set => set.Maps.Length,
+        Repetition repetition when !_doublesPowers || MapPowers.TryCreate(repetition) is null => Math.Min(repetition.Count ?? 2, 2) * repetition.Body.Sum(CountWideChildren),
+        _ => 0,
+    };
+
+    private static void RequireAllowedChildren(long count)
+    {
+        if (count > FractalLimits.MaxHierarchyChildren)
+        {
+            throw new FractalLimitException(
+                $"exact search needs more than the limit of {FractalLimits.MaxHierarchyChildren} transformations on all levels together");
+        }
     }
 
     private void AddStep(FractalStep step)
@@ -139,12 +160,7 @@ internal sealed class FractalHierarchyBuilder
         }
 
         _childCount += set.Maps.Length;
-        if (_childCount > FractalLimits.MaxHierarchyChildren)
-        {
-            throw new FractalLimitException(
-                $"exact search needs more than the limit of {FractalLimits.MaxHierarchyChildren} transformations on all levels together");
-        }
-
+        RequireAllowedChildren(_childCount);
         if (!_sets.TryGetValue(set, out var mapSet))
         {
             mapSet = new(set);
@@ -159,7 +175,7 @@ internal sealed class FractalHierarchyBuilder
     private void AddLevel(ChildEdge[] edges, MapSet mapSet)
     {
         var level = Built.Top + 1;
-        var volume = ComputeUnion(CollapseEdges(edges, level), level);
+        var volume = _union.Compute(edges, level);
         var children = _childBuilder.ExpandChildren(level, edges, Built.EdgesAt);
         var childVolumes = new BoundingVolume[children.Length];
         for (var i = 0; i < children.Length; i++)
@@ -169,26 +185,6 @@ internal sealed class FractalHierarchyBuilder
 
         var subFractal = _subFractalFactory.Create(mapSet, children, childVolumes, volume);
         Built.Add(subFractal, volume, new(mapSet, volume.Box, edges, ComputeEdgeBoxes(edges, level, Built.VolumeAt)));
-    }
-
-    /// <summary>Collapses the edges of a level that lead to parts with points.</summary>
-    private CollapsedEdge[] CollapseEdges(ChildEdge[] edges, long level)
-    {
-        var collapsedEdges = new CollapsedEdge[edges.Length];
-        var count = 0;
-        // One delegate for all edges.
-        Func<long, ChildEdge[]> edgesAt = Built.EdgesAt;
-        foreach (var edge in edges)
-        {
-            var collapsed = CollapsedEdge.Collapse(edge, level, edgesAt);
-            if (!Built.VolumeAt(collapsed.RemainingLevels).Box.IsEmpty)
-            {
-                collapsedEdges[count++] = collapsed;
-            }
-        }
-
-        Array.Resize(ref collapsedEdges, count);
-        return collapsedEdges;
     }
 
     /// <summary>Replaces all remaining rounds by one that is inflated a little, if it can be proved to contain them.</summary>
@@ -261,63 +257,4 @@ internal sealed class FractalHierarchyBuilder
 
         return boxes;
     }
-
-    /// <summary>Computes the bounds of the union of some parts, none of them empty.</summary>
-    /// <param name="edges">The parts.</param>
-    /// <param name="level">Remaining levels of the union.</param>
-    private BoundingVolume ComputeUnion(CollapsedEdge[] edges, long level)
-    {
-        if (edges is [])
-        {
-            return BoundingVolume.Empty;
-        }
-
-        var box = BoundingBox.Empty;
-        foreach (var edge in edges)
-        {
-            var part = Built.VolumeAt(edge.RemainingLevels).TransformedBox(edge.Map, edge.OperatorNormBound);
-            if (!part.Minimum.IsFinite() || !part.Size.IsFinite())
-            {
-                throw new FractalLimitException(
-                    $"the bounds of the fractal are beyond the range of a double {level} levels above its base");
-            }
-
-            box = BoundingBox.Union(box, part);
-        }
-
-        var clusters = _clusters.Compute(edges, Built.VolumeAt);
-        if (edges is [var only])
-        {
-            return Built.VolumeAt(only.RemainingLevels).Transform(only.Map, only.OperatorNormBound) with { Clusters = clusters };
-        }
-
-        var hasHulls = true;
-        var vertexCount = 0;
-        var margin = 0.0;
-        foreach (var edge in edges)
-        {
-            var volume = Built.VolumeAt(edge.RemainingLevels);
-            hasHulls &= volume.Hull is not null;
-            vertexCount += volume.Hull?.Vertices.Length ?? 0;
-            margin = Math.Max(margin, edge.OperatorNormBound * volume.Margin);
-        }
-
-        if (!hasHulls)
-        {
-            return BoundingVolume.FromVertices(box, null, margin) with { Clusters = clusters };
-        }
-
-        var vertices = new Vector[vertexCount];
-        var next = 0;
-        foreach (var edge in edges)
-        {
-            foreach (var vertex in Built.VolumeAt(edge.RemainingLevels).Hull!.Vertices)
-            {
-                vertices[next++] = edge.Map * vertex;
-            }
-        }
-
-        return BoundingVolume.FromVertices(box, vertices, margin) with { Clusters = clusters };
-    }
-
 }

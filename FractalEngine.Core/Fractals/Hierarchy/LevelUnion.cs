@@ -1,0 +1,94 @@
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Fractals.Hierarchy;
+
+/// <summary>Computes the bounds of a level from those of the levels that its edges lead to.</summary>
+/// <param name="built">The levels below.</param>
+/// <param name="clusters">Finds what outliers throw away.</param>
+internal sealed class LevelUnion(BuiltLevels built, OutlierClusters clusters)
+{
+    /// <summary>Computes the bounds of the union of what the edges of a level lead to.</summary>
+    /// <param name="edges">The edges.</param>
+    /// <param name="level">Remaining levels of the union.</param>
+    /// <exception cref="FractalLimitException">The bounds are beyond the range of a double.</exception>
+    public BoundingVolume Compute(ChildEdge[] edges, long level) => ComputeUnion(CollapseEdges(edges, level), level);
+
+    /// <summary>Collapses the edges of a level that lead to parts with points.</summary>
+    private CollapsedEdge[] CollapseEdges(ChildEdge[] edges, long level)
+    {
+        var collapsedEdges = new CollapsedEdge[edges.Length];
+        var count = 0;
+        // One delegate for all edges.
+        Func<long, ChildEdge[]> edgesAt = built.EdgesAt;
+        foreach (var edge in edges)
+        {
+            var collapsed = CollapsedEdge.Collapse(edge, level, edgesAt);
+            if (!built.VolumeAt(collapsed.RemainingLevels).Box.IsEmpty)
+            {
+                collapsedEdges[count++] = collapsed;
+            }
+        }
+
+        Array.Resize(ref collapsedEdges, count);
+        return collapsedEdges;
+    }
+
+    /// <summary>Computes the bounds of the union of some parts, none of them empty.</summary>
+    /// <param name="edges">The parts.</param>
+    /// <param name="level">Remaining levels of the union.</param>
+    private BoundingVolume ComputeUnion(CollapsedEdge[] edges, long level)
+    {
+        if (edges is [])
+        {
+            return BoundingVolume.Empty;
+        }
+
+        var box = BoundingBox.Empty;
+        foreach (var edge in edges)
+        {
+            var part = built.VolumeAt(edge.RemainingLevels).TransformedBox(edge.Map, edge.OperatorNormBound);
+            if (!part.Minimum.IsFinite() || !part.Size.IsFinite())
+            {
+                throw new FractalLimitException(
+                    $"the bounds of the fractal are beyond the range of a double {level} levels above its base");
+            }
+
+            box = BoundingBox.Union(box, part);
+        }
+
+        var outliers = clusters.Compute(edges, built.VolumeAt);
+        if (edges is [var only])
+        {
+            return built.VolumeAt(only.RemainingLevels).Transform(only.Map, only.OperatorNormBound) with { Clusters = outliers };
+        }
+
+        var hasHulls = true;
+        var vertexCount = 0;
+        var margin = 0.0;
+        foreach (var edge in edges)
+        {
+            var volume = built.VolumeAt(edge.RemainingLevels);
+            hasHulls &= volume.Hull is not null;
+            vertexCount += volume.Hull?.Vertices.Length ?? 0;
+            margin = Math.Max(margin, edge.OperatorNormBound * volume.Margin);
+        }
+
+        if (!hasHulls)
+        {
+            return BoundingVolume.FromVertices(box, null, margin) with { Clusters = outliers };
+        }
+
+        var vertices = new Vector[vertexCount];
+        var next = 0;
+        foreach (var edge in edges)
+        {
+            foreach (var vertex in built.VolumeAt(edge.RemainingLevels).Hull!.Vertices)
+            {
+                vertices[next++] = edge.Map * vertex;
+            }
+        }
+
+        return BoundingVolume.FromVertices(box, vertices, margin) with { Clusters = outliers };
+    }
+}
