@@ -88,7 +88,8 @@ internal sealed class FractalHierarchyBuilder
     private long CountWideChildren(FractalStep step) => step switch
     {
         TransformationSet { Maps.Length: > ChildGroups.MaxUngroupedChildren } set => set.Maps.Length,
-        Repetition repetition when !_doublesPowers || MapPowers.TryCreate(repetition) is null => Math.Min(repetition.Count ?? 2, 2) * repetition.Body.Sum(CountWideChildren),
+        Repetition repetition when !_doublesPowers || MapPowers.TryCreate(repetition) is null =>
+            Math.Min(repetition.Count ?? 2, 2) * repetition.Body.Sum(CountWideChildren),
         _ => 0,
     };
 
