@@ -36,7 +36,7 @@ public static class FractalBounds
     /// </summary>
     private static int? FindWideSet(Fractal fractal)
     {
-        var steps = fractal.Description.Steps;
+        var steps = LevelsOf(fractal);
         var wide = steps.Select((step, index) => (Set: step as TransformationSet, Index: index))
             .Where(static level => level.Set is not { Maps.Length: 1 }).ToArray();
         return wide is [{ Set.Maps.Length: > ChildGroups.MaxUngroupedChildren and var count, Index: var index }]
@@ -45,9 +45,13 @@ public static class FractalBounds
                 : null;
     }
 
+    /// <summary>The steps of a fractal, without repetitions that say a thing once.</summary>
+    private static FractalStep[] LevelsOf(Fractal fractal) =>
+        [.. fractal.Description.Steps.SelectMany(static step => step is Repetition { Count: 1 } once ? once.Body : [step])];
+
     private static BoundingBox ComputeEnumeratedBox(Fractal fractal, int wideIndex)
     {
-        var steps = fractal.Description.Steps;
+        var steps = LevelsOf(fractal);
         var outer = steps[..wideIndex].Aggregate(AffineMap.Identity, static (map, step) => map * ((TransformationSet)step).Maps[0]);
         var inner = steps[(wideIndex + 1)..].Aggregate(AffineMap.Identity, static (map, step) => map * ((TransformationSet)step).Maps[0]);
         var box = BoundingBox.Empty;

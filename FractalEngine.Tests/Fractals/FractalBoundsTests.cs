@@ -60,6 +60,20 @@ public class FractalBoundsTests
         AssertNear(BruteForce(fractal), fractal.Bounds, 1e-9);
     });
 
+    /// <summary>Wide levels are searched by groups of their children, which have the map of their parent.</summary>
+    [Theory]
+    [InlineData(65, 1)]
+    [InlineData(300, 1)]
+    [InlineData(3000, 1)]
+    [InlineData(100, 2)]
+    [InlineData(300, 2)]
+    public void Bounds_OfWideSets_AreThoseOfTheirExpandedVertices(int width, int levels) => Seeded.Run(3, random =>
+    {
+        var maps = Enumerable.Range(0, width).Select(_ => random.Transformation());
+        var fractal = new Fractal(new([new Repetition([new TransformationSet([.. maps])], levels)]), Samples.Triangle);
+        AssertNear(BruteForce(fractal), fractal.Bounds, 1e-9);
+    });
+
     [Fact]
     public void Bounds_OfAnyComponentwiseFractal_AreThoseOfItsExpandedVertices() => Seeded.Run(300, random =>
     {

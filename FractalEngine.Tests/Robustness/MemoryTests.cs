@@ -44,6 +44,23 @@ public sealed class MemoryTests : IDisposable
     [InlineData("info")]
     public void Info_OfAHundredThousandMaps_IsWithinTheMemory(string command)
     {
+        WriteWideSet(1);
+        RunWithinMemory("wide.fdo", [command]);
+    }
+
+    [Fact]
+    public void Query_OfThreeWideLevels_IsRefusedBeforeOneIsBuilt()
+    {
+        WriteWideSet(3);
+        _folder.Write("points.txt", "0 0 0\n");
+        var (exitCode, _, error) = AppProcess.Run(
+            _folder[""], HeapLimit("wide.fdo"), ["query", "wide.fdo", "--points", "points.txt"]);
+        Assert.Equal(3, exitCode);
+        Assert.Contains("200000 transformations on all levels", error);
+    }
+
+    private void WriteWideSet(int levels)
+    {
         var text = new StringBuilder();
         var random = new Random(1);
         for (var i = 0; i < 1000; i++)
@@ -51,22 +68,25 @@ public sealed class MemoryTests : IDisposable
             text.Append(CultureInfo.InvariantCulture, $"v {random.Next(9)}.{i} {random.Next(99)} 0.0{i}\n");
         }
 
-        text.Append("v 0.01 0.01 0.01\nt.a.b. (a, b, 1001)\nx. \"t.obj\"\n<$>. [");
+        text.Append("v 0.01 0.01 0.01\nt.a.b. (a, b, 1001)\nx. \"t.obj\"\nz<x>. [");
         for (var i = 0; i < 100_000; i++)
         {
             text.Append(CultureInfo.InvariantCulture, $"t.{random.Next(1000) + 1}.{random.Next(1000) + 1},");
         }
 
-        _folder.Write("wide.fdo", text.Append("#] x\n").ToString());
-        RunWithinMemory("wide.fdo", [command]);
+        _folder.Write("wide.fdo", text.Append(CultureInfo.InvariantCulture, $"#] x\n<$>. z {levels}\n").ToString());
     }
 
     private void RunWithinMemory(string file, string[] arguments)
     {
+        var (exitCode, _, error) = AppProcess.Run(_folder[""], HeapLimit(file), [arguments[0], file, .. arguments[1..]]);
+        Assert.Equal((0, ""), (exitCode, error));
+    }
+
+    private Dictionary<string, string?> HeapLimit(string file)
+    {
         var bytes = (64L << 20) + (20 * new FileInfo(_folder[file]).Length);
         var limit = bytes.ToString("x", CultureInfo.InvariantCulture);
-        var environment = new Dictionary<string, string?> { ["DOTNET_GCHeapHardLimit"] = limit };
-        var (exitCode, _, error) = AppProcess.Run(_folder[""], environment, [arguments[0], file, .. arguments[1..]]);
-        Assert.Equal((0, ""), (exitCode, error));
+        return new() { ["DOTNET_GCHeapHardLimit"] = limit };
     }
 }

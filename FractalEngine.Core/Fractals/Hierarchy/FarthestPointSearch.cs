@@ -24,7 +24,8 @@ internal sealed class FarthestPointSearch(Fractal fractal)
     private readonly List<Opened> _opened = [];
 
     // A forest's trees stand on one plane and are turned about its normal: to the eye of a direction they are the same.
-    private readonly HashSet<(long Levels, (Vector Direction, double Offset) Key)> _seen = [];
+    // Groups of children have the levels and the map of their parent, so the sub-fractal itself tells them apart.
+    private readonly HashSet<(SubFractal SubFractal, long Levels, (Vector Direction, double Offset) Key)> _seen = [];
 
     // What may still be opened. Its place follows from that of its parent, which saves most of the memory.
     private readonly PriorityQueue<(int Parent, ChildInstance Child, double Bound), (double, int)> _open = new();
@@ -108,7 +109,7 @@ internal sealed class FarthestPointSearch(Fractal fractal)
                 node = next;
                 opened = Open(hierarchy, next.Parent, next.Child);
             }
-            while (measure.Key(opened.Map) is { } key && !_seen.Add((opened.Levels, key)));
+            while (measure.Key(opened.Map) is { } key && !_seen.Add((opened.SubFractal, opened.Levels, key)));
         }
     }
 
