@@ -5,14 +5,14 @@ namespace FractalEngine.App;
 /// <summary>The files that a command has read, so that its output replaces none of them.</summary>
 internal static class InputFiles
 {
-    private static readonly HashSet<string> Paths = new(StringComparer.Ordinal);
+    private static readonly HashSet<string> Paths = new(
+        OperatingSystem.IsWindows() || OperatingSystem.IsMacOS() ? StringComparer.OrdinalIgnoreCase : StringComparer.Ordinal);
 
     /// <summary>Remembers a file, and what its links lead to.</summary>
     public static void Add(string path)
     {
-        var fullPath = Path.GetFullPath(path);
-        Paths.Add(fullPath);
-        Paths.Add(TargetOf(fullPath));
+        Paths.Add(Path.GetFullPath(path));
+        Paths.Add(AssetFolder.ResolveLinks(path));
     }
 
     /// <summary>Remembers the files that a load has read.</summary>
@@ -29,22 +29,9 @@ internal static class InputFiles
     /// <exception cref="UsageException">It is one of them, or a link to one.</exception>
     public static void Protect(string output)
     {
-        if (output != StandardInput.Name && File.Exists(output) && Paths.Contains(TargetOf(Path.GetFullPath(output))))
+        if (output != StandardInput.Name && File.Exists(output) && Paths.Contains(AssetFolder.ResolveLinks(output)))
         {
             throw new UsageException($"{output} is one of the files that are read, and is not overwritten");
-        }
-    }
-
-    private static string TargetOf(string fullPath)
-    {
-        try
-        {
-            return File.ResolveLinkTarget(fullPath, returnFinalTarget: true)?.FullName ?? fullPath;
-        }
-        catch (IOException)
-        {
-            // A link that leads nowhere, or round in a circle, leads to none of the files.
-            return fullPath;
         }
     }
 }

@@ -25,6 +25,10 @@ internal abstract class AnimationOutput : IDisposable
     /// <summary>Path of the file, or a text for the files, in the report.</summary>
     public abstract string Name { get; }
 
+    /// <summary>Refuses an output that would replace a file that was read.</summary>
+    /// <exception cref="UsageException">It would.</exception>
+    public virtual void Protect() => InputFiles.Protect(Name);
+
     /// <summary>Adds a frame behind the others.</summary>
     public abstract void Add(PixelImage frame);
 

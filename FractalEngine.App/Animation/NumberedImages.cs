@@ -18,6 +18,15 @@ internal sealed class NumberedImages(string path, int frameCount) : AnimationOut
     public override string Name => $"{PathOf(1)} to {Path.GetFileName(PathOf(_count))}";
 
     /// <inheritdoc/>
+    public override void Protect()
+    {
+        for (var number = 1; number <= frameCount; number++)
+        {
+            InputFiles.Protect(PathOf(number));
+        }
+    }
+
+    /// <inheritdoc/>
     public override void Add(PixelImage frame)
     {
         AtomicFile.Write(PathOf(_count + 1), stream => PngWriter.Write(frame, stream));

@@ -1,6 +1,7 @@
 using System.ComponentModel;
 using System.Diagnostics;
 using System.Globalization;
+using FractalEngine.Core.Files;
 using FractalEngine.Core.Images;
 
 namespace FractalEngine.App.Animation;
@@ -22,7 +23,8 @@ internal sealed class Video : AnimationOutput
     {
         _path = path;
         Directory.CreateDirectory(Path.GetDirectoryName(Path.GetFullPath(path))!);
-        _unfinishedPath = $"{Path.ChangeExtension(path, null)}.unfinished{Path.GetExtension(path)}";
+        // A name of its own, since the encoder replaces what it finds. It chooses the format by the ending.
+        _unfinishedPath = $"{Path.ChangeExtension(path, null)}.{Guid.NewGuid():N}.unfinished{Path.GetExtension(path)}";
         string[] arguments =
         [
             "-loglevel", "error", "-y", "-f", "image2pipe", "-c:v", "png",
@@ -74,8 +76,12 @@ internal sealed class Video : AnimationOutput
             throw Failure();
         }
 
-        File.Move(_unfinishedPath, _path, overwrite: true);
         _isComplete = true;
+        AtomicFile.Write(_path, stream =>
+        {
+            using var video = File.OpenRead(_unfinishedPath);
+            video.CopyTo(stream);
+        });
     }
 
     /// <inheritdoc/>

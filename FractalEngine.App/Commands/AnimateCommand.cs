@@ -83,7 +83,7 @@ internal static class AnimateCommand
         using var output = AnimationOutput.Create(animation.Output, animation.FrameCount, animation.FramesPerSecond);
         var job = animation.Images;
         var file = report.Measure("load", () => ConsoleLoader.Load(job.Path, job.Load, isTraced: animation.Trace is not null));
-        InputFiles.Protect(animation.Output);
+        output.Protect();
         var scene = job.WithProjection(file.Scene);
         // A default camera frames the scene as it is at time 0, as in a still image.
         var view = job.CreateView(scene, (double)job.Size.Width / job.Size.Height);

@@ -72,6 +72,7 @@ internal sealed class ReferenceOptions
         }
 
         var path = Path.ChangeExtension(output, null) + "-difference.png";
+        InputFiles.Protect(path);
         OutputFile.Write(path, stream => PngWriter.Write(difference.Image, stream));
         Console.Error.WriteLine(string.Create(
             CultureInfo.InvariantCulture, $"reference: {ratio}, less than {threshold:R} dB; {path} shows the difference"));

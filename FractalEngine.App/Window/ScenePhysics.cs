@@ -199,12 +199,12 @@ internal sealed class ScenePhysics : IDisposable
     }
 
     /// <summary>Returns all bodies and moving objects to their initial states, and removes those that were dropped.</summary>
-    public string Reset()
+    public string Reset() => WhenReady(world =>
     {
-        World?.Reset();
+        world.Reset();
         _isBroken = false;
         return "bodies reset";
-    }
+    });
 
     /// <summary>Drops a sphere where the camera looks.</summary>
     public string DropSphere(Camera camera) => WhenReady(world => BodySpawner.DropSphere(world, _sceneSize, camera));

@@ -6,8 +6,8 @@ namespace FractalEngine.App.Window;
 internal sealed class UndoHistory<T>(T first)
     where T : IEquatable<T>
 {
-    /// <summary>Maximum number of states that are kept, the present one included.</summary>
-    public const int MaxStates = 100;
+    /// <summary>Maximum number of steps that can be undone.</summary>
+    public const int MaxSteps = 100;
 
     private readonly LinkedList<T> _earlier = [];
     private readonly Stack<T> _later = [];
@@ -24,7 +24,7 @@ internal sealed class UndoHistory<T>(T first)
         }
 
         _earlier.AddLast(Present);
-        if (_earlier.Count > MaxStates - 1)
+        if (_earlier.Count > MaxSteps)
         {
             _earlier.RemoveFirst();
         }

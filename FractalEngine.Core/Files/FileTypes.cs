@@ -16,6 +16,9 @@ public static class FileTypes
     private const int LinuxWriteWithoutWaiting = 0x801;
     private const int MacWriteWithoutWaiting = 0x5;
 
+    // Of <errno.h>, ENXIO, with the same value on Linux and macOS.
+    private const int NoReaderError = 6;
+
     private static readonly TimeSpan ReaderTimeout = TimeSpan.FromSeconds(2);
     private static readonly TimeSpan ReaderPollInterval = TimeSpan.FromMilliseconds(20);
 
@@ -69,6 +72,12 @@ public static class FileTypes
         int descriptor;
         while ((descriptor = OpenFile(Encoding.UTF8.GetBytes(path + '\0'), flags)) < 0)
         {
+            if (Marshal.GetLastPInvokeError() != NoReaderError)
+            {
+                // It fails in the same way, with a message.
+                return Open();
+            }
+
             if (DateTime.UtcNow > deadline)
             {
                 throw new IOException("it is a pipe that nothing reads");
@@ -116,7 +125,7 @@ public static class FileTypes
     [DefaultDllImportSearchPaths(DllImportSearchPath.SafeDirectories)]
     private static extern int ReadLinuxStatus(int folder, byte[] path, int flags, uint mask, byte[] buffer);
 
-    [DllImport("libc", EntryPoint = "open")]
+    [DllImport("libc", EntryPoint = "open", SetLastError = true)]
     [DefaultDllImportSearchPaths(DllImportSearchPath.SafeDirectories)]
     private static extern int OpenFile(byte[] path, int flags);
 

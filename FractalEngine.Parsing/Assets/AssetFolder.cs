@@ -61,7 +61,9 @@ public sealed class AssetFolder
         return new FileInfo(inFolder).LinkTarget is null ? inFolder : ResolveLinks(inFolder);
     }
 
-    private static string ResolveLinks(string path)
+    /// <summary>Follows all symbolic links of a path, those of its folders too. At most 40, as Linux does; the rest stay.</summary>
+    /// <param name="path">Path of a file or a folder, which need not exist.</param>
+    public static string ResolveLinks(string path)
     {
         var linksLeft = MaxLinks;
         return ResolveLinks(path, ref linksLeft);

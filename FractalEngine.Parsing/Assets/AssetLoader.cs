@@ -27,6 +27,7 @@ public sealed class AssetLoader
     private readonly MaterialLoader _materials;
     private readonly Dictionary<string, MeshContents> _meshes = [];
     private readonly Dictionary<string, Model> _models = [];
+    private readonly Dictionary<string, Diagnostic> _faults = [];
     private readonly List<Diagnostic> _warnings = [];
     private readonly List<Diagnostic> _errors = [];
     private readonly HashSet<Diagnostic> _knownErrors = [];
@@ -186,7 +187,20 @@ public sealed class AssetLoader
             return cached;
         }
 
-        return _models[fullPath] = LoadModel(fullPath, displayName, FileKinds.FromName(fullPath));
+        if (_faults.TryGetValue(fullPath, out var fault))
+        {
+            throw new SourceException(fault);
+        }
+
+        try
+        {
+            return _models[fullPath] = LoadModel(fullPath, displayName, FileKinds.FromName(fullPath));
+        }
+        catch (SourceException exception)
+        {
+            _faults[fullPath] = exception.Diagnostic;
+            throw;
+        }
     }
 
     /// <summary>Loads a model, or takes it from the cache if none of its files has changed.</summary>

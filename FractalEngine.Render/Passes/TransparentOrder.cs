@@ -9,7 +9,9 @@ namespace FractalEngine.Render.Passes;
 internal sealed class TransparentOrder(int[] objectIndices)
 {
     private readonly int[] _order = [.. objectIndices];
-    private readonly double[] _negatedDepths = new double[objectIndices.Length];
+
+    // With the index, since sorting does not keep the order of equal keys.
+    private readonly (double NegatedDepth, int ObjectIndex)[] _keys = new (double, int)[objectIndices.Length];
 
     /// <summary>Finds the objects of a scene that have transparent batches.</summary>
     public static TransparentOrder Create(DrawableScene scene) =>
@@ -20,20 +22,15 @@ internal sealed class TransparentOrder(int[] objectIndices)
     /// <param name="objectBounds">Bounds of all objects of the scene, world space.</param>
     public ReadOnlySpan<int> SortBackToFront(Camera camera, ReadOnlySpan<BoundingBox> objectBounds)
     {
-        objectIndices.CopyTo(_order, 0);
-        for (var i = 0; i < _order.Length; i++)
+        for (var i = 0; i < _keys.Length; i++)
         {
-            var objectIndex = _order[i];
-            var negatedDepth = -camera.ToCameraSpace(objectBounds[objectIndex].Centre).Z;
-            var slot = i;
-            for (; slot > 0 && _negatedDepths[slot - 1] > negatedDepth; slot--)
-            {
-                _order[slot] = _order[slot - 1];
-                _negatedDepths[slot] = _negatedDepths[slot - 1];
-            }
+            _keys[i] = (-camera.ToCameraSpace(objectBounds[objectIndices[i]].Centre).Z, objectIndices[i]);
+        }
 
-            _order[slot] = objectIndex;
-            _negatedDepths[slot] = negatedDepth;
+        _keys.AsSpan().Sort();
+        for (var i = 0; i < _keys.Length; i++)
+        {
+            _order[i] = _keys[i].ObjectIndex;
         }
 
         return _order;

@@ -65,6 +65,16 @@ public sealed class OutputFileTests : IDisposable
     }
 
     [SkippableFact]
+    public void Export_OntoAFileThatWasReadThroughALinkedFolder_IsRefused()
+    {
+        Skip.If(OperatingSystem.IsWindows(), "links need rights there");
+        Directory.CreateSymbolicLink(_folder["elsewhere"], _folder.Path);
+        var (exitCode, _, error) = AppProcess.Run(_folder.Path, "export", "cube.obj", "--output", "elsewhere/cube.obj");
+        Assert.Equal((2, "error: elsewhere/cube.obj is one of the files that are read, and is not overwritten"), (exitCode, error.Trim()));
+        Assert.Equal(SampleFiles.Cube, File.ReadAllText(_folder["cube.obj"]));
+    }
+
+    [SkippableFact]
     public void Export_IntoAPipeThatNothingReads_IsAnErrorInsteadOfAWait()
     {
         Skip.If(OperatingSystem.IsWindows() || Shell("mkfifo pipe.obj").ExitCode != 0, "there are no named pipes");

@@ -18,6 +18,7 @@ internal sealed record EditedFile(string SavedText, string Text)
         var before = SavedText.Split('\n');
         var after = Text.Split('\n');
         var lines = present.Split('\n');
+        var rebased = lines.ToArray();
         if (before.Length != after.Length)
         {
             return null;
@@ -30,16 +31,16 @@ internal sealed record EditedFile(string SavedText, string Text)
                 continue;
             }
 
-            // The line may have moved, if there is only one like it.
+            // The line may have moved, if there is only one like it: among those on the disk, not those that were changed already.
             var place = i < lines.Length && lines[i] == before[i] ? i : Array.IndexOf(lines, before[i]);
             if (place < 0 || (place != i && Array.LastIndexOf(lines, before[i]) != place))
             {
                 return null;
             }
 
-            lines[place] = after[i];
+            rebased[place] = after[i];
         }
 
-        return new(present, string.Join('\n', lines));
+        return new(present, string.Join('\n', rebased));
     }
 }

@@ -136,7 +136,7 @@ public sealed class PromptTests : IDisposable
     }
 
     [Fact]
-    public void UndoHistory_KeepsAHundredStates()
+    public void UndoHistory_KeepsAHundredSteps()
     {
         var history = new UndoHistory<int>(0);
         for (var i = 1; i <= 150; i++)
@@ -151,7 +151,7 @@ public sealed class PromptTests : IDisposable
             count++;
         }
 
-        Assert.Equal((99, 51), (count, history.Present));
+        Assert.Equal((100, 50), (count, history.Present));
         Assert.True(history.TryRedo());
         history.Record(52);
         Assert.True(history.TryRedo());

@@ -97,6 +97,18 @@ public sealed class AssetLoaderTests : IDisposable
     }
 
     [Fact]
+    public void Check_OfAFaultyMeshThatIsNamedOften_ReadsItOnce()
+    {
+        _folder.Write("faulty.obj", Triangle + new string('\n', 1_000_000) + "v 1 2\n");
+        _folder.Write("s.sdo", string.Concat(Enumerable.Repeat("o \"faulty.obj\" #\n", 20_000)));
+        var before = GC.GetAllocatedBytesForCurrentThread();
+        var fault = Assert.Single(AssetLoader.Check(_folder["s.sdo"]));
+        Assert.EndsWith("faulty.obj", fault.File);
+        // Read as often as it is named it would be 20 GB.
+        Assert.InRange(GC.GetAllocatedBytesForCurrentThread() - before, 0, 1_000_000_000);
+    }
+
+    [Fact]
     public void Load_OfNamesInAFractal_IsRelativeToTheFractal()
     {
         _folder.Write("sub/b.obj", Triangle);

@@ -87,6 +87,8 @@ public sealed class EditingTests : IDisposable
         Assert.Null(edited.Rebase("a\nother\nc\n"));
         Assert.Null(edited.Rebase("b\na\nc\nb\n"));
         Assert.Null(new EditedFile("a\n", "a\nmore\n").Rebase("b\n"));
+        // A line that the edit itself has made is none of the file's.
+        Assert.Equal("X\nB\nC", new EditedFile("A\nB", "B\nC").Rebase("X\nA\nB")?.Text);
     }
 
     [Fact]
