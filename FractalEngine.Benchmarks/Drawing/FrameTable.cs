@@ -20,7 +20,7 @@ internal sealed class FrameTable(int rounds, int samples, bool withTruth, TextWr
 {
     /// <summary>Names of the table's columns.</summary>
     public static readonly string[] Columns =
-        ["picture", "drawn", "instances", "ms", "choosing_ms", "to_every_instance_db", "to_the_truth_db", "slowest_ms"];
+        ["frame", "drawn", "instances", "ms", "culling_ms", "to_every_instance_db", "to_the_truth_db", "slowest_ms"];
 
     private const int Supersampling = 6;
     private const int InstanceBudget = 20_000_000;

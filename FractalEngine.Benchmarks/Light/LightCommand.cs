@@ -26,7 +26,8 @@ internal static class LightCommand
 
     private static readonly RenderSettings Plain = new() { Shadows = false, AmbientOcclusion = false };
 
-    private static readonly string[] Columns =
+    /// <summary>Names of the columns of the table of shadows.</summary>
+    public static readonly string[] Columns =
     [
         "scene", "width", "height", "facing_pixels", "wrong_percent_resting", "wrong_percent_moving", "samples_of_truth",
         "db_vertex", "db_without_shadows", "db_with_shadows", "db_with_occlusion", "frame_ms_without_shadows", "frame_ms_with_shadows",

@@ -23,7 +23,7 @@ internal static class FirstFrameTable
         using var context = new OffscreenContext();
         using var frame = new FrameRenderer(context);
         var openingTime = openingWatch.Elapsed.TotalMilliseconds;
-        var table = options.CreateTable("first-picture.csv", "file", "run", "faces", "load_ms", "prepare_ms", "draw_ms", "total_ms");
+        var table = options.CreateTable("first-frame.csv", "file", "run", "faces", "load_ms", "prepare_ms", "draw_ms", "total_ms");
         table.GraphicsDriver = context.DriverName;
         table.Add(null, "context alone", null, null, null, null, RoundMilliseconds(openingTime));
         var firstFile = Path.Combine(FractalCase.Assets, "fractals", "menger.fdo");

@@ -9,7 +9,7 @@ internal static class LoadingCommand
     private const string Usage = """
         loading [--quick] [--output FOLDER]
           What do loading, parsing and expanding cost? Writes to docs/benchmarks unless stated:
-          loading.csv, expansion.csv and, where there is a display, first-picture.csv.
+          loading.csv, expansion.csv and, where there is a display, first-frame.csv.
         """;
 
     /// <summary>Runs the command and returns the exit code.</summary>
@@ -29,7 +29,7 @@ internal static class LoadingCommand
         }
         catch (GraphicsUnavailableException exception)
         {
-            Console.WriteLine($"first-picture.csv is skipped: {exception.Message}");
+            Console.WriteLine($"first-frame.csv is skipped: {exception.Message}");
         }
 
         return 0;
