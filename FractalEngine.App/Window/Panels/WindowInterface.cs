@@ -168,11 +168,11 @@ internal sealed class WindowInterface
         {
             MarkDimensions(ui);
             // Behind all panels.
+            _gizmo.Build(ui);
             _sectionHandle.Build(ui);
             _handles.Build(ui);
             ui.MenuBar(() => BuildMenus(ui));
             ui.Panels([.. _panels.Select(static pair => pair.Panel)], ui.FreeArea.Width < MinWidthForTexts * ui.Scale ? 2 : 0);
-            _gizmo.Build(ui);
         }
 
         _keyList.Build(ui);
