@@ -314,7 +314,7 @@ internal sealed class SceneWindow : IDisposable
         _overlay.FrameCounts = _windowRenderer.CountFrames((long)(start / FrameTime));
         _overlay.TraceText = _tracing.StatusText;
         _loader.TitleNote = _overlay.TraceText;
-        _overlay.HidesPhysics = _interface.IsShown && (_interface.IsOpen("physics") || !_interface.HasRoomForTexts);
+        _overlay.HidesPhysics = _interface.IsShown && !_interface.HasRoomForPhysics;
         _overlay.MessageReplacesStatus = _interface.IsShown && !_interface.HasRoomForTexts;
         _actions.Document = Document;
         _interface.Update(_window.Width, _window.Height);

@@ -264,7 +264,8 @@ public sealed partial class UserInterface
         var width = (lines.Max(static line => line.Length) * CellWidth) + (2 * Gap);
         var height = (lines.Length * LineHeight) + (2 * Gap);
         var (x, y) = isBesides ? PlaceBesides(_tooltipOwner, right, width, height)
-            : IsModal ? PlaceBelowPointer(width, height) : (0, _height - height);
+            : IsModal && _tooltipOwner.Bottom > _height - height ? PlaceBelowPointer(width, height)
+            : (Math.Min(_tooltipOwner.X, _width - width), _height - height);
         var bounds = new UiRect(x, y, width, height);
         Fill(bounds, Theme.Title, 2);
         Frame(bounds, Theme.Border);
