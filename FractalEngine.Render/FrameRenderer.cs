@@ -234,7 +234,7 @@ public sealed class FrameRenderer : IDisposable
         }
 
         var area = ui?.OverlayArea ?? new(0, 0, _resolvedTarget.Width, _resolvedTarget.Height);
-        _overlayPass.Draw(overlay, area, _resolvedTarget.Width, _resolvedTarget.Height);
+        _overlayPass.Draw(overlay, area, ui?.Sheet.CellHeight, _resolvedTarget.Width, _resolvedTarget.Height);
         if (ui is not null && isInFront)
         {
             _overlayPass.Draw(ui, _resolvedTarget.Width, _resolvedTarget.Height);

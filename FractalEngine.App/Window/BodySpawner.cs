@@ -22,6 +22,9 @@ internal static class BodySpawner
     // Radii of a dropped sphere that are free around it.
     private const double FreeRadii = 1.5;
 
+    // Fraction of the scene's size by which rounding may miss a wanted distance.
+    private const double Rounding = 1e-9;
+
     private const int MaxSearchSteps = 256;
 
     private const double SphereRestitution = 0.6;
@@ -169,7 +172,8 @@ internal static class BodySpawner
                 return sceneSize;
             }
 
-            if (closest.Distance < room)
+            // A step straight at a surface ends where the room does.
+            if (closest.Distance < room - (Rounding * sceneSize))
             {
                 return found;
             }

@@ -30,6 +30,7 @@ internal sealed class Document : IDisposable
         FileEdits? edits = null)
     {
         File = file;
+        IsReload = previous is not null;
         Edits = edits ?? FileEdits.None;
         Tool = new(this);
         Section = previous?.Section ?? new(options.Section);
@@ -64,6 +65,9 @@ internal sealed class Document : IDisposable
 
     /// <summary>The loaded file with its scene.</summary>
     public LoadedFile File { get; }
+
+    /// <summary>Whether this replaces the same document before its files were changed.</summary>
+    public bool IsReload { get; }
 
     /// <summary>The renderer of the scene.</summary>
     public SceneRenderer Renderer { get; }

@@ -45,6 +45,7 @@ internal sealed class MovedScene(LoadedScene scene)
                 .Select(ball => Transformation.At(body.BallCentre(ball), body.BallRadius(ball))))
             .Select(placement => new PlacedModel(new(_sphere ??= new(MeshGenerators.Create("icosphere", 0, SphereFaceCount)))
             {
+                Name = "ball",
                 Placement = placement,
                 Colour = SphereInstance.Colour,
             }));

@@ -64,7 +64,7 @@ internal sealed class ScenePhysics : IDisposable
     }
 
     /// <summary>True while bodies, objects or the player move, so that <see cref="Advance"/> must be called.</summary>
-    public bool IsRunning => !IsPaused && World is { } world && (world.IsMoving || IsWalking);
+    public bool IsRunning => !IsPaused && Speed > 0 && World is { } world && (world.IsMoving || IsWalking);
 
     /// <summary>Whether the simulation is paused.</summary>
     public bool IsPaused { get; private set; }

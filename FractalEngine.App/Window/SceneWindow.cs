@@ -78,6 +78,9 @@ internal sealed class SceneWindow : IDisposable
 
     private Document? Document => _loader.Document;
 
+    /// <summary>Whether the last frame was coarse, and nothing moves any more.</summary>
+    private bool NeedsFullFrame => _windowRenderer.IsReducedQuality && Document?.IsMoving != true;
+
     private bool NeedsRefresh => (_isVisible || !_options.IdleWhenUnchanged) && _redraw != Redraw.None;
 
     private void Run()
@@ -284,9 +287,8 @@ internal sealed class SceneWindow : IDisposable
         }
 
         // The last frame of a movement was coarse and one view behind, so a full one follows it.
-        var hasStopped = _windowRenderer.IsReducedQuality && Document?.IsMoving != true;
         var isFrameDue = !_options.IdleWhenUnchanged && now - _lastRefresh >= FrameTime;
-        if (hasStopped || isFrameDue)
+        if (NeedsFullFrame || isFrameDue)
         {
             _redraw |= Redraw.Scene;
         }
@@ -312,7 +314,7 @@ internal sealed class SceneWindow : IDisposable
         _overlay.FrameCounts = _windowRenderer.CountFrames((long)(start / FrameTime));
         _overlay.TraceText = _tracing.StatusText;
         _loader.TitleNote = _overlay.TraceText;
-        _overlay.HidesPhysics = _interface.IsShown && (_interface.IsOpen("physics") || !_interface.HasRoomForTexts);
+        _overlay.HidesPhysics = _interface.IsShown && !_interface.HasRoomForPhysics;
         _overlay.MessageReplacesStatus = _interface.IsShown && !_interface.HasRoomForTexts;
         _actions.Document = Document;
         _interface.Update(_window.Width, _window.Height);
@@ -321,6 +323,12 @@ internal sealed class SceneWindow : IDisposable
         if (needsDraw)
         {
             _windowRenderer.RecordFrameTime(_clock.Elapsed - start);
+        }
+
+        if (NeedsFullFrame)
+        {
+            // After a preview, as soon as the events until now are handled.
+            _redraw |= Redraw.Scene;
         }
     }
 

@@ -7,7 +7,8 @@ namespace FractalEngine.App.Window;
 
 /// <summary>
 /// Draws the frames of a window. While the camera moves, frames are coarser and one view behind, so that the instances of the next frame
-/// are culled while one is drawn. When it stops, a full frame follows.
+/// are culled while one is drawn. When it stops, a full frame follows. The first frame of a file is a preview: one sample a pixel, coarse
+/// detail and no shadows, since full frames of large scenes take seconds without a GPU.
 /// </summary>
 /// <param name="frame">The frame renderer of the window.</param>
 internal sealed class WindowRenderer(FrameRenderer frame)
@@ -21,7 +22,7 @@ internal sealed class WindowRenderer(FrameRenderer frame)
     /// <summary>The camera's view at the time of the last frame; null before the first frame of a document.</summary>
     public View? LatestView { get; private set; }
 
-    /// <summary>True when the last frame was drawn for a moving camera.</summary>
+    /// <summary>True when the last frame was a preview or drawn for a moving camera, so that a full one must follow.</summary>
     public bool IsReducedQuality { get; private set; }
 
     /// <summary>Counts a frame that is presented again, below a new overlay.</summary>
@@ -58,6 +59,16 @@ internal sealed class WindowRenderer(FrameRenderer frame)
 
         var view = document.UpdateView((double)width / height);
         LatestView = view;
+        if (_shownView is null && !document.IsReload)
+        {
+            IsReducedQuality = true;
+            _shownView = view;
+            _nextView = view;
+            var preview = _adaptiveQuality.Adapt(settings) with { Shadows = false };
+            frame.Draw(document.Renderer, view, width, height, preview);
+            return preview;
+        }
+
         if (!IsReducedQuality)
         {
             _shownView = view;

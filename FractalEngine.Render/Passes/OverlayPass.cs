@@ -9,28 +9,29 @@ internal sealed class OverlayPass(GlResources resources) : IDisposable
     private readonly GlyphAtlas _atlas = GlyphAtlas.Shared;
     private readonly QuadBatch _panelBatch = new(resources);
     private QuadBatch? _interfaceBatch;
-    private (OverlayPanel[] Panels, UiRect Area, int Width, int Height)? _lastKey;
+    private (OverlayPanel[] Panels, UiRect Area, int? LineHeight, int Width, int Height)? _lastKey;
     private (UserInterface Interface, int Version, int Width, int Height)? _lastInterface;
 
     /// <summary>Draws panels into the bound framebuffer.</summary>
     /// <param name="panels">Panels to draw; none draws nothing.</param>
     /// <param name="area">The part of the frame that the panels stand in.</param>
+    /// <param name="lineHeight">Wanted height of a line of text in pixels; null for one that follows the area.</param>
     /// <param name="width">Width of the framebuffer in pixels.</param>
     /// <param name="height">Height of the framebuffer in pixels.</param>
-    public void Draw(IReadOnlyList<OverlayPanel> panels, UiRect area, int width, int height)
+    public void Draw(IReadOnlyList<OverlayPanel> panels, UiRect area, int? lineHeight, int width, int height)
     {
         if (panels.Count == 0)
         {
             return;
         }
 
-        if (_lastKey is not { } last || (last.Area, last.Width, last.Height) != (area, width, height)
+        if (_lastKey is not { } last || (last.Area, last.LineHeight, last.Width, last.Height) != (area, lineHeight, width, height)
             || !last.Panels.SequenceEqual(panels))
         {
-            var layout = OverlayLayout.Create(_atlas, panels, area.Width, area.Height);
+            var layout = OverlayLayout.Create(_atlas, panels, area.Width, area.Height, lineHeight);
             var quads = layout.Quads.ConvertAll(quad => quad with { X = quad.X + area.X, Y = quad.Y + area.Y });
             _panelBatch.Upload(quads, _atlas.Sheets[layout.SheetIndex], width, height);
-            _lastKey = ([.. panels], area, width, height);
+            _lastKey = ([.. panels], area, lineHeight, width, height);
         }
 
         _panelBatch.Draw();

@@ -40,10 +40,12 @@ internal static class SceneBounds
         var sceneBounds = scene.Source.Bounds;
         if (hasDynamicObjects)
         {
-            bounds = BoundingBox.Union(bounds, Enlarge(sceneBounds, DynamicMargin));
+            bounds = BoundingBox.Union(bounds, Enlarge(sceneBounds));
         }
 
-        var sphereLimits = Enlarge(sceneBounds, SphereLimit);
+        // Of the diagonal: flat scenes have no height, but balls above them.
+        var margin = SphereLimit * sceneBounds.Diagonal * Vector.One;
+        var sphereLimits = new BoundingBox(sceneBounds.Minimum - margin, sceneBounds.Maximum + margin);
         var grid = SphereGrid * sceneBounds.Diagonal;
         foreach (var (centre, radius) in spheres)
         {
@@ -57,8 +59,8 @@ internal static class SceneBounds
         return bounds;
     }
 
-    private static BoundingBox Enlarge(BoundingBox box, double factor) =>
-        new(box.Minimum - (factor * box.Size), box.Maximum + (factor * box.Size));
+    private static BoundingBox Enlarge(BoundingBox box) =>
+        new(box.Minimum - (DynamicMargin * box.Size), box.Maximum + (DynamicMargin * box.Size));
 
     private static Vector RoundDown(Vector v, double grid) =>
         new(grid * Math.Floor(v.X / grid), grid * Math.Floor(v.Y / grid), grid * Math.Floor(v.Z / grid));

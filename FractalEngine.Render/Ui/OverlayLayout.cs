@@ -7,6 +7,9 @@ internal sealed class OverlayLayout
     private const double TextRows = 45;
     private const double TextColumns = 78;
 
+    // Stands between the parts of a line, and is dropped where a line breaks.
+    private const string PartSeparator = " · ";
+
     // So dark over a white scene, too, that all texts contrast with it by 4.5:1.
     internal static readonly (float Red, float Green, float Blue, float Alpha) PanelColour = (0.055f, 0.065f, 0.085f, 0.85f);
     private static readonly (float, float, float, float) TrackColour = (1, 1, 1, 0.14f);
@@ -40,9 +43,12 @@ internal sealed class OverlayLayout
     /// <param name="panels">Panels in the order in which they are stacked, away from their anchor.</param>
     /// <param name="width">Width of the frame in pixels.</param>
     /// <param name="height">Height of the frame in pixels.</param>
-    public static OverlayLayout Create(GlyphAtlas atlas, IReadOnlyList<OverlayPanel> panels, int width, int height)
+    /// <param name="preferredLineHeight">Wanted height of a line in pixels; null for one that follows the frame.</param>
+    public static OverlayLayout Create(
+        GlyphAtlas atlas, IReadOnlyList<OverlayPanel> panels, int width, int height, int? preferredLineHeight = null)
     {
-        for (var sheet = PreferredSheet(atlas, width, height); ; sheet--)
+        var lineHeight = preferredLineHeight ?? 1.2 * Math.Min(height / TextRows, width / TextColumns);
+        for (var sheet = ClosestSheet(atlas, lineHeight); ; sheet--)
         {
             var layout = new OverlayLayout(atlas, sheet, width, height);
             var fits = true;
@@ -59,9 +65,8 @@ internal sealed class OverlayLayout
         }
     }
 
-    private static int PreferredSheet(GlyphAtlas atlas, int width, int height)
+    private static int ClosestSheet(GlyphAtlas atlas, double lineHeight)
     {
-        var lineHeight = 1.2 * Math.Min(height / TextRows, width / TextColumns);
         var closest = 0;
         for (var i = 1; i < atlas.Sheets.Count; i++)
         {
@@ -175,7 +180,10 @@ internal sealed class OverlayLayout
         return (x, y);
     }
 
-    /// <summary>Breaks lines of one column at blanks so that they fit the frame. A word that is too long is broken anywhere.</summary>
+    /// <summary>
+    /// Breaks lines of one column so that they fit the frame: between their parts, else at blanks. A word that is too long is broken
+    /// anywhere.
+    /// </summary>
     private List<OverlayLine> Wrap(IReadOnlyList<OverlayLine> lines)
     {
         var columns = Math.Max(8, (_frameSize.Width - (2 * Margin) - (2 * Padding)) / Sheet.CellWidth);
@@ -187,9 +195,12 @@ internal sealed class OverlayLayout
             var rest = line.Text;
             while (line.SecondColumn is null && rest.Length > columns)
             {
-                var end = rest.LastIndexOf(' ', columns) is > 0 and var blank ? blank : columns;
+                var end = rest.LastIndexOf(PartSeparator, columns, StringComparison.Ordinal) is > 0 and var part ? part
+                    : rest.LastIndexOf(' ', columns) is > 0 and var blank ? blank
+                    : columns;
                 wrapped.Add(line with { Text = rest[..end] });
-                rest = rest[end..].TrimStart();
+                rest = rest[end..];
+                rest = rest.StartsWith(PartSeparator, StringComparison.Ordinal) ? rest[PartSeparator.Length..] : rest.TrimStart();
             }
 
             wrapped.Add(line with { Text = rest });

@@ -256,13 +256,16 @@ public sealed partial class UserInterface
 
         _layer = 2;
         _clip = new(0, 0, _width, _height);
-        var besides = Math.Max(_tooltipOwner.X, _width - _tooltipOwner.Right) - (2 * Gap);
+        var (left, right) = TooltipSpan();
+        var besides = Math.Max(_tooltipOwner.X - left, right - _tooltipOwner.Right) - (2 * Gap);
         var isBesides = besides >= MinTooltipColumns * CellWidth;
         var columns = Math.Max(1, Math.Min(MaxTooltipColumns, ((isBesides ? besides : _width) / CellWidth) - 2));
         var lines = Wrap(_tooltip, columns).ToArray();
         var width = (lines.Max(static line => line.Length) * CellWidth) + (2 * Gap);
         var height = (lines.Length * LineHeight) + (2 * Gap);
-        var (x, y) = isBesides ? PlaceBesides(_tooltipOwner, width, height) : PlaceBelowPointer(width, height);
+        var (x, y) = isBesides ? PlaceBesides(_tooltipOwner, right, width, height)
+            : IsModal && _tooltipOwner.Bottom > _height - height ? PlaceBelowPointer(width, height)
+            : (Math.Min(_tooltipOwner.X, _width - width), _height - height);
         var bounds = new UiRect(x, y, width, height);
         Fill(bounds, Theme.Title, 2);
         Frame(bounds, Theme.Border);
@@ -272,10 +275,18 @@ public sealed partial class UserInterface
         }
     }
 
+    /// <summary>
+    /// Returns how far a tooltip may reach to the left and right: to the panels on the other side, unless a menu or dialog is in front.
+    /// Between narrow columns there is no room, and the tooltip stands at the lower edge of the frame.
+    /// </summary>
+    private (int Left, int Right) TooltipSpan() => IsModal
+        ? (0, _width)
+        : (_tooltipOwner.X >= FreeArea.X ? FreeArea.X : 0, _tooltipOwner.Right <= FreeArea.Right ? FreeArea.Right : _width);
+
     /// <summary>Places a tooltip beside its panel or menu, of which it covers no row.</summary>
-    private (int X, int Y) PlaceBesides(UiRect owner, int width, int height)
+    private (int X, int Y) PlaceBesides(UiRect owner, int right, int width, int height)
     {
-        var x = owner.Right + Gap + width <= _width ? owner.Right + Gap : owner.X - Gap - width;
+        var x = owner.Right + Gap + width <= right ? owner.Right + Gap : owner.X - Gap - width;
         return (x, Math.Clamp((int)_input.Y - (height / 2), 0, Math.Max(0, _height - height)));
     }
 

@@ -96,6 +96,11 @@ public sealed partial class UserInterface
     /// <summary>The part of the frame that no menu bar and no docked panel covers.</summary>
     public UiRect FreeArea { get; private set; }
 
+    /// <summary>
+    /// What <see cref="FreeArea"/> is once all panels are added, for what is added before them so that it stays behind.
+    /// </summary>
+    public UiRect SceneArea { get; private set; }
+
     /// <summary>The part of the frame for texts over it: the free one where that is wide enough, else all below the menu bar.</summary>
     internal UiRect OverlayArea => FreeArea.Width >= 0.4 * _width || FreeArea.Height <= 0
         ? FreeArea
@@ -381,6 +386,12 @@ public sealed partial class UserInterface
         {
             _focus = 0;
             _editing = 0;
+        }
+
+        if (SceneArea != FreeArea)
+        {
+            SceneArea = FreeArea;
+            _buildsAgain = true;
         }
 
         DrawTooltip();

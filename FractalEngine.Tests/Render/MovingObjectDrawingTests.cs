@@ -83,6 +83,21 @@ public sealed class MovingObjectDrawingTests
         Assert.Equal(without.Pixels, Draw(frame, renderer).Pixels);
     }
 
+    [SkippableFact]
+    public void Bounds_OfASphereAboveAFlatScene_IncludeIt()
+    {
+        using var context = GlTests.OpenContext();
+        var flat = new MeshModel(Shapes.Square());
+        var scene = new LoadedScene(new Scene(), [new(new SceneObject("flat", Transformation.Identity), flat)]);
+        using var renderer = new SceneRenderer(context, DrawableScene.Prepare(scene, Settings));
+        var size = renderer.Bounds.Diagonal;
+        // Clip planes follow from the bounds, so that the sphere would not be drawn.
+        renderer.Spheres = [new(new(size, size, size), 0.1)];
+        Assert.Equal(0, renderer.Bounds.DistanceSquared(new(size, size, size)));
+        renderer.Spheres = [new(new(9 * size, 9 * size, 9 * size), 0.1)];
+        Assert.NotEqual(0, renderer.Bounds.DistanceSquared(new(9 * size, 9 * size, 9 * size)));
+    }
+
     private static PixelImage Draw(FrameRenderer frame, SceneRenderer renderer)
     {
         frame.Draw(renderer, View.Of(renderer.Scene.Source, (double)Width / Height, Camera), Width, Height, Settings);

@@ -19,10 +19,10 @@ internal sealed class AxisGizmo(WindowActions actions)
         ("-x", -Vector.I, new(0.32, 0.13, 0.13)), ("-y", -Vector.J, new(0.13, 0.26, 0.11)), ("-z", -Vector.K, new(0.13, 0.18, 0.36)),
     ];
 
-    /// <summary>Adds the knobs, the nearest in front.</summary>
+    /// <summary>Adds the knobs, the nearest in front of the others. Panels that are added later lie before them.</summary>
     public void Build(UserInterface ui)
     {
-        if (actions.Document is not { Physics.IsWalking: false } document || ui.FreeArea is not { Width: > 200, Height: > 160 } area)
+        if (actions.Document is not { Physics.IsWalking: false } document || ui.SceneArea is not { Width: > 200, Height: > 160 } area)
         {
             return;
         }

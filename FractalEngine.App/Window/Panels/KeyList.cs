@@ -47,9 +47,10 @@ internal sealed class KeyList
         foreach (var action in actions)
         {
             var keys = _bindings.TextOf(action);
-            if (action.IsCommand && keys.Length > 0)
+            var label = keys.Length > 0 ? keys : $"{action.Menu} menu";
+            if (action.IsCommand)
             {
-                if (ui.Button(keys))
+                if (ui.Button(label))
                 {
                     ui.CloseDialog();
                     _choose(action);
@@ -57,7 +58,7 @@ internal sealed class KeyList
             }
             else
             {
-                ui.Paragraph(keys.Length > 0 ? keys : $"{action.Menu} menu");
+                ui.Paragraph(label);
             }
 
             ui.Paragraph(action.Help);

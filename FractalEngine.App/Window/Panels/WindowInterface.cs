@@ -15,6 +15,9 @@ internal sealed class WindowInterface
     // Below this width at scale 1, two columns of panels leave no room for texts between them, which stand below them then.
     private const double MinWidthForTexts = 1000;
 
+    // The widest texts about bodies, and the knobs of the axes.
+    private const double MinWidthForPhysics = 620;
+
     private readonly WindowActions _actions;
     private readonly Action<string> _report;
     private readonly string? _settingsPath;
@@ -106,6 +109,9 @@ internal sealed class WindowInterface
     /// <summary>Whether there is room for texts between the panels.</summary>
     public bool HasRoomForTexts => Ui.FreeArea.Width >= 0.4 * _width;
 
+    /// <summary>Whether there is room for the texts about bodies beside the knobs of the axes.</summary>
+    public bool HasRoomForPhysics => !IsOpen("physics") && SceneWidth >= MinWidthForPhysics;
+
     /// <summary>Shows or hides the menu bar and all panels.</summary>
     public void ToggleAll() => _settings = _settings with { ShowsMenu = !_settings.ShowsMenu };
 
@@ -158,6 +164,9 @@ internal sealed class WindowInterface
 
     private WindowSettings? _saved;
 
+    // Pixels at scale 1.
+    private double SceneWidth => Ui.SceneArea.Width / Ui.Scale;
+
     private UiPanel PanelOf(string name) => _panels.First(pair => pair.Name == name).Panel;
 
     private void Choose(WindowAction action) => _chosen.Enqueue(action);
@@ -168,11 +177,11 @@ internal sealed class WindowInterface
         {
             MarkDimensions(ui);
             // Behind all panels.
+            _gizmo.Build(ui);
             _sectionHandle.Build(ui);
             _handles.Build(ui);
             ui.MenuBar(() => BuildMenus(ui));
             ui.Panels([.. _panels.Select(static pair => pair.Panel)], ui.FreeArea.Width < MinWidthForTexts * ui.Scale ? 2 : 0);
-            _gizmo.Build(ui);
         }
 
         _keyList.Build(ui);

@@ -80,6 +80,32 @@ public class OverlayWordsTests
     });
 
     [Fact]
+    public void DropSphere_StraightAtAFace_IsJustBeforeIt()
+    {
+        for (var i = 0; i < 50; i++)
+        {
+            // A step towards the face ends at the wanted distance, but for rounding.
+            var world = new PhysicsWorld(new Scene { Objects = [new SceneObject(Shapes.Cube())] });
+            var camera = new Camera(new(0, 0, -8 - (i / 7.0)), Vector.Zero, 60);
+            BodySpawner.DropSphere(world, 5.2, camera);
+            var ball = Assert.Single(world.Bodies);
+            Assert.InRange(-ball.Position.Z, 0.5 + ball.Radius, 1);
+        }
+    }
+
+    [Fact]
+    public void IsRunning_AtSpeedZero_IsFalse()
+    {
+        using var built = new ManualResetEventSlim();
+        using var physics = new ScenePhysics(LoadedScene.Of(new() { Objects = [new SceneObject(Floor)] }), built.Set);
+        Assert.True(built.Wait(Polling.Deadline));
+        physics.DropSphere(Camera.Default with { Position = new(0, 2, 0) });
+        Assert.True(physics.IsRunning);
+        physics.Speed = 0;
+        Assert.False(physics.IsRunning);
+    }
+
+    [Fact]
     public void HasGround_OfAPlayer_TellsFloorFromVoid()
     {
         var world = new PhysicsWorld(new Scene { Objects = [new SceneObject(Floor)] });

@@ -53,12 +53,45 @@ public sealed class WindowRendererTests : IDisposable
     }
 
     [SkippableFact]
+    public void Draw_OfTheFirstFrame_IsAPreviewThatAFullOneFollows()
+    {
+        using var window = Open();
+        using var frame = new FrameRenderer(window);
+        using var document = Load(window);
+        var windowRenderer = new WindowRenderer(frame);
+        var preview = windowRenderer.Draw(document, Settings, Width, Height);
+        Assert.Equal((false, 0, true), (preview.Shadows, preview.Samples, windowRenderer.IsReducedQuality));
+        // A capture is never a preview.
+        var captured = windowRenderer.Capture(document, Settings, Width, Height);
+        Assert.Same(Settings, windowRenderer.Draw(document, Settings, Width, Height));
+        Assert.False(windowRenderer.IsReducedQuality);
+        Assert.Equal(captured.Pixels, frame.Capture().Pixels);
+        // `Reset` is called before the first frame of another file.
+        windowRenderer.Reset();
+        Assert.Equal(0, windowRenderer.Draw(document, Settings, Width, Height).Samples);
+    }
+
+    [SkippableFact]
+    public void Draw_OfAReloadedFile_IsNoPreview()
+    {
+        using var window = Open();
+        using var frame = new FrameRenderer(window);
+        using var document = Load(window);
+        using var reloaded = Load(window, document);
+        var windowRenderer = new WindowRenderer(frame);
+        Assert.Same(Settings, windowRenderer.Draw(reloaded, Settings, Width, Height));
+        Assert.False(windowRenderer.IsReducedQuality);
+    }
+
+    [SkippableFact]
     public void Report_OfAFrame_CountsWhatWasCulled()
     {
         using var window = Open();
         using var frame = new FrameRenderer(window);
         using var document = Load(window);
         var windowRenderer = new WindowRenderer(frame);
+        // The preview, and two full frames.
+        windowRenderer.Draw(document, Settings, Width, Height);
         windowRenderer.Draw(document, Settings, Width, Height);
         windowRenderer.Draw(document, Settings, Width, Height);
         windowRenderer.CountPresentedAgain();
@@ -71,7 +104,7 @@ public sealed class WindowRendererTests : IDisposable
         Assert.Equal("1 of 2 objects", rows["back-face culling"]);
         // The buffers are the instances of the near cube, both objects and the lights.
         Assert.Equal("4 uploads skipped, 0 made", rows["buffer reuse"]);
-        Assert.Equal("57 frames skipped, 2 drawn, 1 reused", rows["idle"]);
+        Assert.Equal("56 frames skipped, 3 drawn, 1 reused", rows["idle"]);
     }
 
     [SkippableFact]
@@ -103,7 +136,7 @@ public sealed class WindowRendererTests : IDisposable
         }
     }
 
-    private Document Load(RenderWindow window)
+    private Document Load(RenderWindow window, Document? previous = null)
     {
         _folder.Write("near.obj", SampleFiles.Cube);
         _folder.Write("far.obj", SampleFiles.Cube);
@@ -112,6 +145,6 @@ public sealed class WindowRendererTests : IDisposable
                 _folder.Write("scene.sdo", "c (0.6, 0.9, -3) (-0.2, -0.2, 0) 60\no \"near.obj\" #\no \"far.obj\" ((0, 0, -9), #, #)\n"));
         var preparation = new ScenePreparation(file.Scene, Settings);
         preparation.PrepareVisible(View.Of(file.Scene, window.Aspect), window.Aspect);
-        return new(window, file, preparation, new() { Settings = Settings });
+        return new(window, file, preparation, new() { Settings = Settings }, previous);
     }
 }

@@ -105,6 +105,25 @@ public sealed class OverlayTests
     }
 
     [Fact]
+    public void Text_LongLineOfParts_IsWrappedBetweenThem()
+    {
+        var layout = OverlayLayout.Create(Atlas, [OverlayPanel.OfText(OverlayAnchor.TopLeft, "a part of words · another part · H: keys")], 290, 300);
+        // The second line begins with the last part, without the separator.
+        var rows = layout.Quads.Where(static quad => quad.Glyph >= 0).GroupBy(static quad => quad.Y).OrderBy(static row => row.Key).ToArray();
+        Assert.Equal(2, rows.Length);
+        Assert.Equal(Atlas.GlyphOf('H'), (int)rows[1].MinBy(static quad => quad.X)!.Glyph);
+    }
+
+    [Theory]
+    [InlineData(null, 16)]
+    [InlineData(32, 32)]
+    public void Text_OfAWantedHeight_HasIt(int? wanted, int closest)
+    {
+        var layout = OverlayLayout.Create(Atlas, [OverlayPanel.OfText(OverlayAnchor.TopLeft, "text")], 700, 400, wanted);
+        Assert.InRange(Atlas.Sheets[layout.SheetIndex].CellHeight, closest - 2, closest + 2);
+    }
+
+    [Fact]
     public void Table_TwoColumns_AlignsTheSecond()
     {
         var panels = new[] { OverlayPanel.OfTable(OverlayAnchor.TopLeft, "Keys", [("W", "||"), ("LONGER", "||")]) };

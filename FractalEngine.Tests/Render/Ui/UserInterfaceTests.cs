@@ -388,6 +388,47 @@ public class UserInterfaceTests
         Assert.True(UiText.Find(_ui, "explains two").X > _panel.Bounds.Right || UiText.Find(_ui, "explains two").X < _panel.Bounds.X);
     }
 
+    [Theory]
+    [InlineData(700, 400)]
+    [InlineData(900, 600)]
+    [InlineData(1280, 720)]
+    public void Tooltip_BetweenTwoColumns_CoversNoPanel(int width, int height)
+    {
+        var panels = new[] { UiDock.Left, UiDock.Right }.Select(dock => new UiPanel($"{dock}", ui =>
+        {
+            ui.Button($"at the {dock}");
+            ui.Tooltip("explains the button in so many words that they need more than one line beside a panel");
+        })
+        {
+            IsOpen = true,
+            Dock = dock,
+        }).ToArray();
+        var ui = new UserInterface(ui => ui.Panels([.. panels], bottomMargin: 2));
+        ui.Update(width, height);
+        foreach (var panel in panels)
+        {
+            var (x, y) = UiText.Find(ui, $"at the {panel.Dock}");
+            ui.Handle(new MouseMoved(x, y, 1, 1));
+            var (left, middle) = UiText.Find(ui, "explains the", centred: false);
+            Assert.DoesNotContain(panels, other => other.Bounds.Contains(left, middle));
+            Assert.InRange(middle, 0, height);
+        }
+    }
+
+    [Fact]
+    public void SceneArea_BeforePanelsAreAdded_IsTheAreaWithoutThem()
+    {
+        var seen = default(UiRect);
+        var panel = new UiPanel("one", static ui => ui.Label("text")) { IsOpen = true, Dock = UiDock.Right };
+        var ui = new UserInterface(ui =>
+        {
+            seen = ui.SceneArea;
+            ui.Panels([panel]);
+        });
+        ui.Update(800, 600);
+        Assert.Equal(new(0, 0, panel.Bounds.X, 600), seen);
+    }
+
     [Fact]
     public void Columns_OfManyPanels_ShareTheHeight()
     {

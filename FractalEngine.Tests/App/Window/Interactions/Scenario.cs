@@ -8,6 +8,7 @@ namespace FractalEngine.Tests.App.Window.Interactions;
 internal sealed class Scenario : IDisposable
 {
     private const int Width = 900;
+    private const int Height = 700;
 
     // Of a panel at scale 1.
     private const int PanelWidth = 297;
@@ -215,9 +216,9 @@ internal sealed class Scenario : IDisposable
         s.Window.Send("key Escape");
     };
 
-    /// <summary>The frame comes to have a size.</summary>
-    public static Action<Scenario> SizeIs(int width, int height) => s =>
-        Polling.WaitUntil(() => s.Window.Screenshot() is { } image && (image.Width, image.Height) == (width, height), "size");
+    /// <summary>The frame comes to be larger than the window was at first, as far as the program knows.</summary>
+    public static Action<Scenario> IsLarger { get; } = static s =>
+        Polling.WaitUntil(() => s.Window.Screenshot() is { Width: > Width, Height: > Height }, "larger frame");
 
     /// <summary>A pixel of the frame comes to be the background, or something else.</summary>
     public static Action<Scenario> PixelIsBackground(int x, int y, bool isBackground) => s => Polling.WaitUntil(
