@@ -76,7 +76,7 @@ internal sealed class BackgroundLoad
         {
             return _task.GetAwaiter().GetResult();
         }
-        catch (FractalEngineException exception)
+        catch (Exception exception) when (exception is FractalEngineException or OutOfMemoryException)
         {
             var failure = Failure.Of(exception);
             exitCode = failure.ExitCode;

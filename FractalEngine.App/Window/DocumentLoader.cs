@@ -1,4 +1,5 @@
 using FractalEngine.App.Window.Editing;
+using FractalEngine.Core;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Render;
 using FractalEngine.Render.Preparation;
@@ -160,7 +161,7 @@ internal sealed class DocumentLoader(
         ExitCode = Document is null ? exitCode : ExitCode;
         var redraw = loaded is not var (file, preparation) ? Refuse(load, error!, now)
             : WasEditedDuring(load) ? KeepEdited(load)
-            : Show(load, file, preparation);
+            : Show(load, file, preparation, now);
         if (_next is { } next)
         {
             _next = null;
@@ -180,29 +181,35 @@ internal sealed class DocumentLoader(
         return Redraw.Overlay;
     }
 
-    private Redraw Show(BackgroundLoad load, LoadedFile file, ScenePreparation preparation)
+    private Redraw Show(BackgroundLoad load, LoadedFile file, ScenePreparation preparation, TimeSpan now)
     {
         var isSameFile = load.Previous is not null && load.Previous == Document && load.Path == _path;
         var previous = load.Previous == Document ? load.Previous : null;
-        if (previous is null)
+        Document document;
+        try
         {
-            Document?.Dispose();
-            Document = null;
+            // Before anything of the present document is given up: the driver may refuse what is new.
+            document = new(window, file, preparation, options, previous, previous?.Edits ?? FileEdits.None);
+        }
+        catch (Exception exception) when (exception is FractalEngineException or OutOfMemoryException)
+        {
+            return Refuse(load, Failure.Of(exception).Text, now);
         }
 
         if (previous is null)
         {
+            Document?.Dispose();
             _edits = FileEdits.None;
         }
         else if (!isSameFile && previous.File.Kind == FileKind.Scene)
         {
             // The scene has another file now, which has all that was changed.
-            previous.ForgetEdits(previous.File.Path);
-            _edits = previous.Edits;
+            document.ForgetEdits(previous.File.Path);
+            _edits = document.Edits;
         }
 
         var known = previous?.File.Warnings.Select(static warning => warning.ToString()).ToHashSet() ?? [];
-        Document = new(window, file, preparation, options, previous, previous?.Edits ?? FileEdits.None);
+        Document = document;
         _path = load.Path;
         _pendingFault = null;
         overlay.Error = null;
@@ -280,13 +287,23 @@ internal sealed class DocumentLoader(
             return Redraw.None;
         }
 
-        var scene = document.FirstSightLoader.TakeScene();
-        overlay.Progress = document.FirstSightLoader.Progress;
-        if (scene is null)
+        try
         {
+            var scene = document.FirstSightLoader.TakeScene();
+            overlay.Progress = document.FirstSightLoader.Progress;
+            return scene is null ? Redraw.Overlay : ShowPrepared(document, scene);
+        }
+        catch (Exception exception) when (exception is FractalEngineException or OutOfMemoryException)
+        {
+            // What was prepared before stays on the screen.
+            overlay.Error = Failure.Of(exception).Text;
+            Console.Error.WriteLine(overlay.Error);
             return Redraw.Overlay;
         }
+    }
 
+    private Redraw ShowPrepared(Document document, DrawableScene scene)
+    {
         foreach (var notice in scene.Notices.Skip(document.Renderer.Scene.Notices.Length))
         {
             Console.Error.WriteLine(notice);

@@ -15,6 +15,7 @@ internal sealed class FirstSightLoader(ScenePreparation preparation, Action comp
     private volatile Task? _task;
     private bool _isDisposed;
     private bool _isBaking;
+    private bool _hasFailed;
 
     /// <summary>True from <see cref="Start"/> until <see cref="TakeScene"/> has returned the new scene.</summary>
     public bool IsRunning => _task is not null;
@@ -28,7 +29,7 @@ internal sealed class FirstSightLoader(ScenePreparation preparation, Action comp
     /// <param name="settings">Settings of the frame, which may need no light within fractals.</param>
     public void Start(View view, double aspect, RenderSettings settings)
     {
-        if (_task is not null)
+        if (_task is not null || _hasFailed)
         {
             return;
         }
@@ -71,7 +72,7 @@ internal sealed class FirstSightLoader(ScenePreparation preparation, Action comp
     }
 
     /// <summary>Returns the scene with newly prepared models, or null while there are none.</summary>
-    /// <remarks>Throws the exception of a preparation that has failed.</remarks>
+    /// <remarks>Throws the exception of a preparation that has failed. Nothing more is prepared then.</remarks>
     public DrawableScene? TakeScene()
     {
         if (_task is not { IsCompleted: true } task)
@@ -80,6 +81,7 @@ internal sealed class FirstSightLoader(ScenePreparation preparation, Action comp
         }
 
         _task = null;
+        _hasFailed = task.IsFaulted;
         task.GetAwaiter().GetResult();
         return preparation.Scene;
     }

@@ -3,6 +3,7 @@ using System.Globalization;
 using System.Numerics;
 using FractalEngine.App.Window.Actions;
 using FractalEngine.Core;
+using FractalEngine.Core.Files;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Fractals;
 using FractalEngine.Parsing.Text;
@@ -20,6 +21,7 @@ internal sealed class FractalPanel(WindowActions actions)
     private string? _chosen;
     private string? _path;
     private string _text = "";
+    private FileStamp? _stamp;
     private string? _problem;
     private ImmutableArray<FractalNumber> _numbers = [];
 
@@ -86,14 +88,24 @@ internal sealed class FractalPanel(WindowActions actions)
     {
         try
         {
-            var text = actions.Document!.Edits.TextOf(path);
+            var edits = actions.Document!.Edits;
+            // A panel is built at each movement over it, and the file is read when it has changed.
+            FileStamp? stamp = edits.Files.ContainsKey(path) ? null : FileStamp.Of(path);
+            if (path == _path && stamp is not null && stamp == _stamp)
+            {
+                return _problem is null;
+            }
+
+            _stamp = stamp;
+            var text = edits.TextOf(path);
             if (path != _path || text != _text)
             {
                 _path = path;
                 _text = text;
                 _numbers = FractalNumber.FindAll(new SourceText(Path.GetFileName(path), text));
-                _problem = null;
             }
+
+            _problem = null;
         }
         catch (FractalEngineException exception)
         {

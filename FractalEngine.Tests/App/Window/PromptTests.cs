@@ -153,12 +153,12 @@ public sealed class PromptTests : IDisposable
 
         Assert.Equal((100, 50), (count, history.Present));
         Assert.True(history.TryRedo());
-        history.Record(52);
+        history.Record(51);
         Assert.True(history.TryRedo());
         history.Record(-1);
         Assert.False(history.TryRedo());
         Assert.True(history.TryUndo());
-        Assert.Equal(53, history.Present);
+        Assert.Equal(52, history.Present);
     }
 
     private static void Press(Prompt prompt, params Key[] keys)
