@@ -12,6 +12,8 @@ internal static class StandardInput
     // A shell passes a pipe under these names, which can't be opened as a file.
     private static readonly string[] Paths = [Name, "/dev/stdin", "/dev/fd/0", "/proc/self/fd/0"];
 
+    private static bool _isRead;
+
     /// <summary>Returns whether a path means the standard input.</summary>
     public static bool IsNamedBy(string path) => Paths.Contains(path);
 
@@ -19,8 +21,15 @@ internal static class StandardInput
     /// <param name="name">Name of the text in messages.</param>
     /// <param name="maxBytes">Size limit; more is refused.</param>
     /// <exception cref="SourceException">The input is closed, unreadable, too large, or no text.</exception>
+    /// <exception cref="UsageException">It was read before.</exception>
     public static SourceText Read(string name, long maxBytes)
     {
+        if (_isRead)
+        {
+            throw new UsageException("the standard input is named twice, and can be read once");
+        }
+
+        _isRead = true;
         if (IsClosed())
         {
             throw new SourceException(name, "the standard input is closed");

@@ -44,9 +44,10 @@ internal static class ExportCommand
             throw new UsageException($"{path} has no recursive fractal, so --depth has no effect");
         }
 
+        var faceCount = 0L;
         report.Measure("write", () => OutputFile.Write(
-            output, stream => ObjWriter.Write(file.Scene, stream, FractalLimits.MaxExportedFaces)));
-        report.Written(output, $"{FileSummary.CountFaces(file)} faces");
+            output, stream => faceCount = ObjWriter.Write(file.Scene, stream, FractalLimits.MaxExportedFaces)));
+        report.Written(output, faceCount == 1 ? "1 face" : FormattableString.Invariant($"{faceCount} faces"));
         return ExitCode.Done;
     }
 }

@@ -19,6 +19,9 @@ namespace FractalEngine.App.Commands;
 /// </summary>
 internal static class QueryCommand
 {
+    // As a part of the coordinates; rounding alone leaves far less.
+    private const double MaxCertainError = 1e-9;
+
     /// <summary>Creates the command with its arguments and options.</summary>
     public static Command Create()
     {
@@ -65,7 +68,7 @@ internal static class QueryCommand
                 (null, not null) when HasOptionOfPoints(result) =>
                     throw new UsageException("--collider, --within, --epsilon and --error-bound need --points"),
                 (null, { } raysPath) => RayQueries.Run(
-                    ConsoleLoader.Load(path, options), raysPath, result.GetValue(json), result.GetValue(header)),
+                    path, options, raysPath, result.GetValue(json), result.GetValue(header)),
                 _ => throw new UsageException("expected either --points or --rays"),
             };
         });
@@ -78,6 +81,7 @@ internal static class QueryCommand
     private static int Run(
         string path, LoadOptions options, string pointsPath, ColliderKind kind, double maxDistance, double epsilon, ResultFormat format)
     {
+        RequireOneInput(path, pointsPath);
         var file = ConsoleLoader.Load(path, options);
         var points = PointsParser.Parse(StandardInput.IsNamedBy(pointsPath)
             ? StandardInput.Read(pointsPath, ParsingLimits.MaxPointsBytes)
@@ -90,9 +94,26 @@ internal static class QueryCommand
         var context = new QueryContext();
         BatchQuery.FindClosest(collider, points.AsMemory(), results, context, maxDistance, epsilon);
         WriteReport(file, collider, points.Length, context, buildTime, clock.Elapsed);
+        if (kind == ColliderKind.Exact && epsilon == 0 && !format.ErrorBound && results.Count(IsUncertain) is > 0 and var count)
+        {
+            WriteReportLine($"uncertain {count}: the search met its limit of work, and --error-bound prints how far it may be wrong");
+        }
+
         Console.Out.Write(FormatResults(results, format));
         return ExitCode.Done;
     }
+
+    /// <exception cref="UsageException">Both are the standard input.</exception>
+    internal static void RequireOneInput(string path, string listPath)
+    {
+        if (StandardInput.IsNamedBy(path) && StandardInput.IsNamedBy(listPath))
+        {
+            throw new UsageException("the standard input is named twice, and can be read once");
+        }
+    }
+
+    private static bool IsUncertain(BatchResult result) => result.IsFound
+        && result.Closest.ErrorBound > MaxCertainError * (result.Closest.Distance + result.Closest.Point.MaxAbsComponent());
 
     private static SceneCollider BuildCollider(LoadedFile file, ColliderKind kind)
     {

@@ -2,6 +2,7 @@ using System.Collections.Immutable;
 using System.Diagnostics;
 using System.Globalization;
 using System.Text;
+using FractalEngine.Core;
 using FractalEngine.Core.Collision;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Rays;
@@ -16,15 +17,19 @@ namespace FractalEngine.App.Commands;
 internal static class RayQueries
 {
     /// <summary>Casts rays at a file, and prints what they hit.</summary>
-    /// <param name="file">The loaded file.</param>
+    /// <param name="path">Path of the file.</param>
+    /// <param name="options">Options for loading it.</param>
     /// <param name="raysPath">The list of rays.</param>
     /// <param name="json">True for a JSON array, false for lines.</param>
     /// <param name="header">True for a first line with the names of the columns.</param>
-    public static int Run(LoadedFile file, string raysPath, bool json, bool header)
+    public static int Run(string path, LoadOptions options, string raysPath, bool json, bool header)
     {
+        QueryCommand.RequireOneInput(path, raysPath);
+        var file = ConsoleLoader.Load(path, options);
         var rays = RaysParser.Parse(StandardInput.IsNamedBy(raysPath)
             ? StandardInput.Read(raysPath, ParsingLimits.MaxPointsBytes)
             : SourceText.Read(raysPath, raysPath, ParsingLimits.MaxPointsBytes));
+        RequireCoordinates(file, rays);
         var clock = Stopwatch.StartNew();
         var caster = new SceneRayCaster(file.Scene);
         var context = new QueryContext();
@@ -38,6 +43,24 @@ internal static class RayQueries
 
         Console.Out.Write(json ? FormatJson(results) : FormatLines(results, header));
         return ExitCode.Done;
+    }
+
+    /// <exception cref="FractalEngineException">The scene or a ray is beyond <see cref="RayCaster.CoordinateLimit"/>.</exception>
+    private static void RequireCoordinates(LoadedFile file, ImmutableArray<Ray> rays)
+    {
+        var bounds = file.Scene.Bounds;
+        var reach = bounds.IsEmpty ? 0 : Math.Max(bounds.Minimum.MaxAbsComponent(), bounds.Maximum.MaxAbsComponent());
+        foreach (var ray in rays)
+        {
+            reach = Math.Max(reach, ray.Origin.MaxAbsComponent());
+        }
+
+        if (reach > RayCaster.CoordinateLimit)
+        {
+            throw new FractalEngineException(ErrorKind.Limit, string.Create(
+                CultureInfo.InvariantCulture,
+                $"the scene or a ray reaches beyond the limit of {RayCaster.CoordinateLimit:R} for the coordinates of rays"));
+        }
     }
 
     private static StringBuilder FormatLines(ImmutableArray<RayResult> results, bool header)

@@ -51,7 +51,8 @@ internal static class SimulateCommand
     private static int Run(
         string path, LoadOptions options, double seconds, double step, long every, ColliderKind? collider, string? output)
     {
-        var steps = Math.Max(0, Math.Ceiling((seconds / step) - StepTolerance));
+        // A time that is shorter than a step takes one.
+        var steps = Math.Max(seconds > 0 ? 1 : 0, Math.Ceiling((seconds / step) - StepTolerance));
         if (steps > MaxSteps)
         {
             throw new FractalEngineException(ErrorKind.Limit, FormattableString.Invariant(

@@ -41,7 +41,7 @@ public static class FractalGenerator
     {
         // What no array holds is refused at once, whatever the caller allows.
         maxInstances = Math.Min(maxInstances, Array.MaxLength);
-        if (FractalSteps.CountUpTo(fractal.Description.Steps, maxInstances).IsZero && !fractal.Description.IsInfinite)
+        if (FractalSteps.HasAtMostInstances(fractal.Description.Steps, 0))
         {
             return default;
         }

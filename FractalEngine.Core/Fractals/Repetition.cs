@@ -23,15 +23,16 @@ public sealed class Repetition : FractalStep
         }
 
         Body = body;
-        Count = count;
         LevelsPerRound = FractalSteps.LevelCount(body)!.Value;
+        // A round without levels adds nothing, however often.
+        Count = LevelsPerRound == 0 ? 0 : count;
         NestingDepth = 1 + body.Max(step => step.NestingDepth);
     }
 
     /// <summary>The steps of one round, outermost first.</summary>
     public ImmutableArray<FractalStep> Body { get; }
 
-    /// <summary>Number of rounds; null for infinitely many.</summary>
+    /// <summary>Number of rounds; null for infinitely many. 0 for rounds without levels.</summary>
     public int? Count { get; }
 
     /// <summary>Number of sets that one round passes through.</summary>

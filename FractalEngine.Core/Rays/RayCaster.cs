@@ -18,6 +18,11 @@ namespace FractalEngine.Core.Rays;
 /// </remarks>
 public abstract class RayCaster
 {
+    /// <summary>
+    /// Coordinates up to here are in the range of the search: products of four lengths are doubles. Shapes and rays beyond may be missed.
+    /// </summary>
+    public const double CoordinateLimit = 1e75;
+
     // Squares of lengths that are accurate.
     private const double MinSquaredLength = 1e-200;
     private const double MaxSquaredLength = 1e200;

@@ -27,7 +27,8 @@ public sealed class ObjWriter
     /// <param name="stream">Receives UTF-8 text.</param>
     /// <param name="maxFaces">Largest number of faces that may be written.</param>
     /// <exception cref="FractalLimitException">The scene has more faces. Nothing is written then.</exception>
-    public static void Write(LoadedScene scene, Stream stream, long maxFaces)
+    /// <returns>Number of faces that were written: instances that coincide are written once.</returns>
+    public static long Write(LoadedScene scene, Stream stream, long maxFaces)
     {
         var writer = new ObjWriter(stream);
         var objects = scene.Objects.Select(placed => (Placed: placed, Instances: ExpandInstances(placed.Model, maxFaces))).ToArray();
@@ -46,6 +47,7 @@ public sealed class ObjWriter
         }
 
         writer._text.Flush();
+        return faceCount;
     }
 
     private static string ObjectName(PlacedModel placed) =>

@@ -16,7 +16,7 @@ internal sealed record FractalInstances(ImmutableArray<AffineMap> Maps, string? 
     public static FractalInstances Expand(string name, Fractal fractal, RenderSettings settings)
     {
         var faceCount = fractal.BaseMesh.FaceCount;
-        if (faceCount == 0)
+        if (faceCount == 0 || FractalSteps.HasAtMostInstances(fractal.Description.Steps, 0))
         {
             return new([], null);
         }

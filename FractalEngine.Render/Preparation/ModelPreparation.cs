@@ -114,7 +114,9 @@ internal static class ModelPreparation
     private static ImmutableArray<AffineMap> Expand(
         string name, Fractal fractal, RenderSettings settings, ImmutableArray<string>.Builder notices)
     {
-        var (maps, notice) = FractalInstances.Expand(name, fractal, settings);
+        // A fractal without a hierarchy is drawn with no more instances than culling would leave.
+        var budget = Math.Min(settings.InstanceBudget, settings.Culling?.InstanceBudget ?? int.MaxValue);
+        var (maps, notice) = FractalInstances.Expand(name, fractal, settings with { InstanceBudget = budget });
         if (notice is not null)
         {
             notices.Add(notice);

@@ -39,6 +39,46 @@ public sealed class CommandLineTests : IDisposable
         Assert.Equal(JsonValueKind.Null, info.RootElement.GetProperty("prepareMilliseconds").ValueKind);
     }
 
+    /// <summary>A set without maps leaves nothing, however often it is repeated.</summary>
+    [Fact]
+    public void Commands_OnAnEmptyFractalWithoutEnd_FindNothing()
+    {
+        _folder.Write("empty.fdo", "x. \"cube.obj\"\nz<x>. [] x\n<$>. z\n");
+        _folder.Write("points.txt", "0 0 5\n");
+        var (exitCode, output, _) = Run("query", "empty.fdo", "--points", "points.txt");
+        Assert.Equal((0, "none\n"), (exitCode, output));
+        Assert.Equal((0, "wrote empty.obj: 0 faces"), Written(Run("export", "empty.fdo", "--output", "empty.obj")));
+    }
+
+    [Fact]
+    public void Export_OfInstancesThatCoincide_StatesTheFacesOfTheFile()
+    {
+        _folder.Write("double.fdo", "v 0.5 0.5 0.5\nt.a. (a, #, #)\nx. \"cube.obj\"\nz<x>. [#, #] x\n<$>. z 5\n");
+        Assert.Equal((0, "wrote double.obj: 12 faces"), Written(Run("export", "double.fdo", "--output", "double.obj")));
+        Assert.StartsWith("# Mesh count: 12", File.ReadAllText(_folder["double.obj"]));
+    }
+
+    [Theory]
+    [InlineData("--points")]
+    [InlineData("--rays")]
+    public void Query_OfTheStandardInputTwice_IsRefused(string list)
+    {
+        var (exitCode, _, error) = Run("query", "-", list, "-");
+        Assert.Equal((2, "error: the standard input is named twice, and can be read once\n"), (exitCode, error));
+    }
+
+    [Fact]
+    public void Query_OfRaysBeyondTheirRange_ExitsWith3()
+    {
+        _folder.Write("rays.txt", "0 0 1e76 0 0 -1\n");
+        var (exitCode, output, error) = Run("query", "cube.obj", "--rays", "rays.txt");
+        Assert.Equal((3, ""), (exitCode, output));
+        Assert.Contains("limit of 1E+75", error);
+    }
+
+    private static (int ExitCode, string Text) Written(AppResult result) =>
+        (result.ExitCode, string.Join(',', (result.Output + result.Error).Split(',')[..1]));
+
     [Fact]
     public void Info_WithPrepare_MeasuresThatToo()
     {

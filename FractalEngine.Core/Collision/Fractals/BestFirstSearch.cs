@@ -28,7 +28,13 @@ internal sealed class BestFirstSearch(FractalHierarchy hierarchy, TriangleBvh bv
         var simdPosition = SimdAffineMap.ToVector256(position);
         var expandedChildren = search.ExpandedChildren;
         expandedChildren.Clear();
-        Expand(new(hierarchy.Root, hierarchy.Levels, new(map), new(map.Inverse()), -1, 0, 0), simdPosition, expandedChildren, ref search);
+        var root = new SearchNode(hierarchy.Root, hierarchy.Levels, new(map), new(map.Inverse()), -1, 0, 0);
+        if (search.ClosestFace < 0)
+        {
+            Descend(root, simdPosition, ref search);
+        }
+
+        Expand(in root, simdPosition, expandedChildren, ref search);
         while (expandedChildren.TryTake(out var expandedChild))
         {
             var cutoffSquared = search.CutoffSquared / search.BoundFactor;
@@ -50,16 +56,7 @@ internal sealed class BestFirstSearch(FractalHierarchy hierarchy, TriangleBvh bv
         ref FractalSearchState search)
     {
         ref readonly var parent = ref expandedChildren.Node(expandedChild.ParentNode);
-        var child = parent.SubFractal.Children[expandedChild.ChildIndex];
-        var remainingLevels = child.RemainingLevels(parent.RemainingLevels);
-        SearchNode node = new(
-            hierarchy.At(child, remainingLevels),
-            remainingLevels,
-            SimdAffineMap.Compose(in parent.Map, in child.SimdMap),
-            SimdAffineMap.Compose(in child.InverseSimdMap, in parent.Inverse),
-            expandedChild.ParentNode,
-            expandedChild.ChildIndex,
-            parent.Depth + 1);
+        var node = Enter(in parent, expandedChild.ChildIndex, expandedChild.ParentNode);
         if (!expandedChild.IsRefined)
         {
             search.BoundTests++;
@@ -76,9 +73,7 @@ internal sealed class BestFirstSearch(FractalHierarchy hierarchy, TriangleBvh bv
             }
         }
 
-        var isLeaf = remainingLevels == 0 || node.Depth >= FractalSearchState.MaxDepth
-            || node.SubFractal.RadiusSquared * node.Map.FrobeniusNormSquared() <= search.MinRadiusSquared;
-        if (isLeaf)
+        if (IsLeaf(in node, in search))
         {
             TestTriangles(in node, position, expandedChildren, ref search);
         }
@@ -88,13 +83,61 @@ internal sealed class BestFirstSearch(FractalHierarchy hierarchy, TriangleBvh bv
         }
     }
 
+    /// <summary>
+    /// Finds some triangle: goes down to the child that seems closest, level by level. So a search that meets its limit of work has a
+    /// result, and its bounds exclude something from the start.
+    /// </summary>
+    private void Descend(SearchNode node, Vector256<double> position, ref FractalSearchState search)
+    {
+        while (!IsLeaf(in node, in search))
+        {
+            var queue = QueueChildren(in node, position, ref search);
+            if (!queue.TryPeek(search.CutoffSquared, out var child))
+            {
+                return;
+            }
+
+            search.RecordChild(node.Depth, child);
+            node = Enter(in node, child, -1);
+        }
+
+        if (AffineFrame.TryFindTriangle(bvh, position, in node.Map, ref search, out var closest))
+        {
+            search.UpdateClosest(closest.DistanceSquared, closest.FaceIndex, node.Depth);
+        }
+    }
+
+    private SearchNode Enter(in SearchNode parent, int childIndex, int parentNode)
+    {
+        var child = parent.SubFractal.Children[childIndex];
+        var remainingLevels = child.RemainingLevels(parent.RemainingLevels);
+        return new(
+            hierarchy.At(child, remainingLevels),
+            remainingLevels,
+            SimdAffineMap.Compose(in parent.Map, in child.SimdMap),
+            SimdAffineMap.Compose(in child.InverseSimdMap, in parent.Inverse),
+            parentNode,
+            childIndex,
+            parent.Depth + 1);
+    }
+
+    private static bool IsLeaf(in SearchNode node, in FractalSearchState search) =>
+        node.RemainingLevels == 0 || node.Depth >= FractalSearchState.MaxDepth
+        || node.SubFractal.RadiusSquared * node.Map.FrobeniusNormSquared() <= search.MinRadiusSquared;
+
+    private static ChildQueue QueueChildren(in SearchNode node, Vector256<double> position, ref FractalSearchState search)
+    {
+        var queue = new ChildQueue(search.ScratchSlice(0, ChildQueue.ValuesPerChild * node.SubFractal.PaddedCount));
+        TransformedBoxDistance.FillQueue(in queue, node.SubFractal, position, in node.Map);
+        search.BoundTests += node.SubFractal.Children.Length;
+        return queue;
+    }
+
     private static void Expand(
         in SearchNode node, Vector256<double> position, ExpandedChildren expandedChildren, ref FractalSearchState search)
     {
         var subFractal = node.SubFractal;
-        ChildQueue queue = new(search.ScratchSlice(0, ChildQueue.ValuesPerChild * subFractal.PaddedCount));
-        TransformedBoxDistance.FillQueue(in queue, subFractal, position, in node.Map);
-        search.BoundTests += subFractal.Children.Length;
+        var queue = QueueChildren(in node, position, ref search);
         var parent = expandedChildren.AddNode(in node, MaxNodes);
         for (var i = 0; i < subFractal.Children.Length; i++)
         {

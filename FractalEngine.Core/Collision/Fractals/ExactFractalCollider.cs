@@ -148,6 +148,12 @@ public sealed class ExactFractalCollider : Collider
         if (search.ClosestFace < 0)
         {
             closest = default;
+            if (!search.IsComplete)
+            {
+                throw new FractalLimitException(
+                    "the search has met its limit of work, and knows neither a point within the radius nor that there is none");
+            }
+
             return NeedsExactRetry(maxDistance, epsilon)
                 && FindClosestInImage(in position, in map, isSimilarity, maxDistance, 0, context, out closest);
         }

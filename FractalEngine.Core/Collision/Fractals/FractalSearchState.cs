@@ -84,6 +84,9 @@ internal ref struct FractalSearchState
     /// <summary>Lower bound of the squared distance of all that was left open at the limit of work; infinite when nothing was.</summary>
     public double OpenBoundSquared { get; private set; }
 
+    /// <summary>True when nothing was left open that may be closer than what was found.</summary>
+    public readonly bool IsComplete => double.IsPositiveInfinity(OpenBoundSquared);
+
     /// <summary>True when a search may do no more work.</summary>
     public readonly bool HasMetWorkLimit => BoundTests >= MaxWork;
 

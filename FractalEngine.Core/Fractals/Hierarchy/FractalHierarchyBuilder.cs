@@ -19,6 +19,9 @@ internal sealed class FractalHierarchyBuilder
 
     private readonly Fractal _fractal;
     private readonly bool _doublesPowers;
+
+    // A set without maps on any level leaves nothing, however often it is repeated.
+    private readonly bool _isEmpty;
     private readonly LevelUnion _union;
     private readonly SubFractalFactory _subFractalFactory;
     private readonly Dictionary<TransformationSet, MapSet> _sets = new(ReferenceEqualityComparer.Instance);
@@ -34,6 +37,7 @@ internal sealed class FractalHierarchyBuilder
     {
         _fractal = fractal;
         _doublesPowers = doublesPowers;
+        _isEmpty = FractalSteps.CountUpTo(fractal.Description.Steps, 1).IsZero;
         HasOnlySimilarities = fractal.Description.Steps.All(HasOnlySimilarMaps);
         _union = new(Built, new(fractal));
         _subFractalFactory = new(fractal.BaseMesh, HasOnlySimilarities);
@@ -117,7 +121,7 @@ internal sealed class FractalHierarchyBuilder
         var period = hasOnlySets ? repetition.Body.Length : int.MaxValue;
         // Two rounds are built in any case: children may skip a round of levels, and must meet the same sets there.
         var nextAttempt = 2;
-        for (var round = 0; round < (repetition.Count ?? int.MaxValue); round++)
+        for (var round = 0; round < (repetition.Count ?? (_isEmpty ? 1 : int.MaxValue)); round++)
         {
             if (hasOnlySets && round >= nextAttempt)
             {

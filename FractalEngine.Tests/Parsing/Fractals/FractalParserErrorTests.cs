@@ -152,6 +152,14 @@ public class FractalParserErrorTests
         """);
 
     [Fact]
+    public void Recursive_OfARoundWithoutLevels_IsItsBase()
+    {
+        var fractal = Samples.ParseFractal("x. \"b.obj\"\nr<x>. [#] x\ns<x>. r 0\n<$>. s");
+        Assert.False(fractal.Description.IsInfinite);
+        Assert.Equal(0, fractal.Description.Steps.Sum(step => step.LevelCount));
+    }
+
+    [Fact]
     public void Recursive_OnSomethingBelowItsBase_IsRefused() => Fails("x. \"b.obj\"\ny. [#] x\nz<y>. [#] x\n<$>. z 2", """
         test.fdo:3:7: error: the body of the recursive 'z' is not built on its base 'y'
           z<y>. [#] x
