@@ -27,6 +27,9 @@ internal sealed class TracedScene
     private readonly Vector[] _colours;
     private readonly Vector[] _gradientEnds;
 
+    // What multiplies the colours of an object's materials.
+    private readonly Vector[] _tints;
+
     /// <summary>Prepares a scene: its surfaces, and its objects for rays.</summary>
     /// <param name="scene">With its models loaded.</param>
     /// <param name="settings">The crease angle.</param>
@@ -44,6 +47,7 @@ internal sealed class TracedScene
         _colours = [.. _objects.Select(static (placed, index) => TracedMaterial.ToLinear(DrawableScene.ColourOf(placed, index)))];
         _gradientEnds = [.. _objects.Select((placed, index) =>
             placed.Declaration.Gradient is { } gradient ? TracedMaterial.ToLinear(gradient.EndColour) : _colours[index])];
+        _tints = [.. _objects.Select(static placed => TracedMaterial.ToLinear(placed.Declaration.Colour ?? Colour.White))];
         IsSeeThrough = _models.Any(static model => model.IsSeeThrough);
         Notices = notices.ToImmutable();
         _offset = SurfaceOffset * scene.Bounds.FiniteDiagonalOr(1);
@@ -62,6 +66,7 @@ internal sealed class TracedScene
         _models = scene._models;
         _colours = scene._colours;
         _gradientEnds = scene._gradientEnds;
+        _tints = scene._tints;
         IsSeeThrough = scene.IsSeeThrough;
         Notices = scene.Notices;
         _zoom = zoom;
@@ -174,7 +179,7 @@ internal sealed class TracedScene
         var faceNormal = hit.IsFrontFace ? hit.Normal : -hit.Normal;
         var normal = OrientedNormal(
             map.Linear.Cofactors() * model.InterpolateNormal(hit.FaceIndex, hit.Barycentrics), faceNormal, hit.IsFrontFace, map, direction);
-        var colour = material.Diffuse ?? ObjectColour(index, context);
+        var colour = material.Diffuse?.Stretch(_tints[_zoom?.ObjectIndex ?? index]) ?? ObjectColour(index, context);
         colour = colour.Stretch(model.InterpolateColour(hit.FaceIndex, hit.Barycentrics));
         var opacity = material.Opacity;
         if (material.IsTextured && model.TryGetTextureTriangle(hit.FaceIndex, out var corners, out var coordinates))

@@ -1,0 +1,48 @@
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Render;
+using FractalEngine.Render.Tracing;
+
+namespace FractalEngine.Tests.Render.Tracing;
+
+/// <summary>What a material, the object's colour, a texture and colours of vertices make of a traced surface.</summary>
+[Collection(GlTests.Name)]
+public sealed class TracedMaterialTests : IDisposable
+{
+    // The square of half size 1 fills the frame from edge to edge.
+    private static readonly View Square = new(Camera.Default, Projection.Orthographic) { OrthographicHeight = 2 };
+
+    private readonly TexturedScenes _scenes = new();
+
+    public void Dispose() => _scenes.Dispose();
+
+    [SkippableFact]
+    public void Material_OfAnObjectWithAColour_IsTracedAsItIsDrawn()
+    {
+        var texture = _scenes.CreateTexture("even.png", 4, 4, (_, _) => (200, 180, 160, 255));
+        var scene = Scene(TexturedScenes.CreateSquare(1, new("m") { Texture = texture, Diffuse = new(0.5, 1, 0.9) }), new(1, 0.5, 0.7));
+
+        var drawn = RenderScenes.Draw(scene, Square, 20, 20)[10, 10];
+        var traced = Trace(scene, 4).ToImage()[10, 10];
+
+        // One step is the rounding from sRGB to light and back.
+        Assert.InRange(traced.Red - drawn.Red, -1, 1);
+        Assert.InRange(traced.Green - drawn.Green, -1, 1);
+        Assert.InRange(traced.Blue - drawn.Blue, -1, 1);
+    }
+
+    private static LoadedScene Scene(Model model, Colour? colour) => RenderScenes.Scene(
+        new Scene { Background = Colour.Black, Lights = [RenderScenes.FullLight] }, (model, Transformation.Identity, colour));
+
+    private static PathTracer Trace(LoadedScene scene, int samples)
+    {
+        var tracer = new PathTracer(scene, Square, 20, 20);
+        for (var i = 0; i < samples; i++)
+        {
+            tracer.AddSample();
+        }
+
+        return tracer;
+    }
+}
