@@ -22,11 +22,14 @@ internal sealed class TracedMaterial
     /// <summary>The surface without a material: the object's own colour, matt.</summary>
     public static TracedMaterial Default { get; } = new();
 
-    /// <summary>The diffuse colour; null for the object's own.</summary>
-    public Vector? Diffuse { get; private init; }
+    /// <summary>The colour, which that of object, vertices and texture multiply; null for the object's own.</summary>
+    public Vector? BaseColour { get; private init; }
 
-    /// <summary>The part of light that is mirrored where it falls straight onto the surface.</summary>
+    /// <summary>The part of light that what is not metal mirrors where it falls straight onto the surface.</summary>
     public Vector Specular { get; private init; }
+
+    /// <summary>The share of metal, which mirrors in its colour and scatters nothing, from 0 to 1.</summary>
+    public double Metalness { get; private init; }
 
     /// <summary>The roughness of the mirrored part: α of the distribution of GGX.</summary>
     public double Roughness { get; private init; } = 1;
@@ -61,14 +64,13 @@ internal sealed class TracedMaterial
     public static TracedMaterial Create(DrawableMaterial drawable, ICollection<string> notices)
     {
         var material = drawable.Material;
-        var diffuse = ToLinear(material.Diffuse);
-        var metalness = material.Metalness ?? 0;
         var isPhysical = material.Roughness is not null || material.Metalness is not null;
         return new()
         {
-            Diffuse = (1 - metalness) * diffuse,
+            BaseColour = ToLinear(material.Diffuse),
+            Metalness = material.Metalness ?? 0,
             Specular = isPhysical
-                ? ((1 - metalness) * DielectricReflectance * Vector.One) + (metalness * diffuse)
+                ? DielectricReflectance * Vector.One
                 : new(material.Specular.Red, material.Specular.Green, material.Specular.Blue),
             // An exponent and a roughness with highlights of the same width (Walter and others, EGSR 2007).
             Roughness = Math.Max(MinRoughness, isPhysical
@@ -82,6 +84,20 @@ internal sealed class TracedMaterial
             Bump = Load(material.BumpTexture, notices),
             Normals = Load(material.NormalTexture, notices),
         };
+    }
+
+    /// <summary>Divides light between what the surface scatters and what it mirrors.</summary>
+    /// <param name="colour">Of the point, with texture and all else that multiplies it, linear light.</param>
+    /// <returns>The parts of light that are scattered, and mirrored where it falls straight onto the surface.</returns>
+    public (Vector Diffuse, Vector Specular) Divide(Vector colour)
+    {
+        if (Metalness == 0)
+        {
+            return (colour.Stretch(Vector.One - Specular), Specular);
+        }
+
+        var specular = ((1 - Metalness) * Specular) + (Metalness * colour);
+        return ((1 - Metalness) * colour.Stretch(Vector.One - specular), specular);
     }
 
     /// <summary>Converts a colour to linear light: red, green, blue.</summary>

@@ -179,7 +179,7 @@ internal sealed class TracedScene
         var faceNormal = hit.IsFrontFace ? hit.Normal : -hit.Normal;
         var normal = OrientedNormal(
             map.Linear.Cofactors() * model.InterpolateNormal(hit.FaceIndex, hit.Barycentrics), faceNormal, hit.IsFrontFace, map, direction);
-        var colour = material.Diffuse?.Stretch(_tints[_zoom?.ObjectIndex ?? index]) ?? ObjectColour(index, context);
+        var colour = material.BaseColour?.Stretch(_tints[_zoom?.ObjectIndex ?? index]) ?? ObjectColour(index, context);
         colour = colour.Stretch(model.InterpolateColour(hit.FaceIndex, hit.Barycentrics));
         var opacity = material.Opacity;
         if (material.IsTextured && model.TryGetTextureTriangle(hit.FaceIndex, out var corners, out var coordinates))
@@ -196,9 +196,8 @@ internal sealed class TracedScene
             normal = SurfaceDetail.Apply(material, normal, map.Linear, corners, coordinates, u, v, direction);
         }
 
-        return new(
-            hit.Point, faceNormal, normal, colour.Stretch(Vector.One - material.Specular), material.Specular, material.Roughness,
-            material.Emission, opacity);
+        var (diffuse, specular) = material.Divide(colour);
+        return new(hit.Point, faceNormal, normal, diffuse, specular, material.Roughness, material.Emission, opacity);
     }
 
     /// <summary>Brings an interpolated normal to the side that the ray comes from; the face's own where there is none.</summary>

@@ -32,6 +32,24 @@ public sealed class TracedMaterialTests : IDisposable
         Assert.InRange(traced.Blue - drawn.Blue, -1, 1);
     }
 
+    [Fact]
+    public void Metal_ThatIsTexturedAndTinted_MirrorsInThatColour()
+    {
+        var texture = _scenes.CreateTexture("even.png", 4, 4, (_, _) => (200, 180, 160, 255));
+        var material = new Material("m") { Texture = texture, Diffuse = new(0.5, 1, 0.9), Metalness = 1, Roughness = 0.1 };
+        var vertexColour = new Colour(1, 0.6, 1);
+        var mesh = TexturedScenes.TexturedSquare(1).WithColours(
+            [.. Enumerable.Repeat((double[])[vertexColour.Red, vertexColour.Green, vertexColour.Blue], 4).SelectMany(c => c)]);
+        var tint = new Colour(1, 0.5, 0.7);
+
+        var traced = Trace(Scene(TexturedScenes.WithMaterial(mesh, material), tint), 16).RadianceAt(10, 10);
+
+        // A metal sends back its colour of what falls straight onto it, under white light from all around.
+        var expected = new[] { material.Diffuse, tint, vertexColour, new Colour(200 / 255.0, 180 / 255.0, 160 / 255.0) }
+            .Aggregate(Vector.One, static (product, colour) => product.Stretch(TracedMaterial.ToLinear(colour)));
+        Assert.InRange((traced - expected).Length(), 0, 0.005);
+    }
+
     private static LoadedScene Scene(Model model, Colour? colour) => RenderScenes.Scene(
         new Scene { Background = Colour.Black, Lights = [RenderScenes.FullLight] }, (model, Transformation.Identity, colour));
 
