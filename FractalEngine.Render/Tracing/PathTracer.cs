@@ -250,15 +250,17 @@ public sealed class PathTracer
     private Vector TracePixel(int x, int y, int sample, QueryContext context)
     {
         var samples = new SampleSequence((y * Width) + x, sample, _seed);
-        return Trace(_camera.CreateRay(x, y, samples.Next(), out var footprint), footprint, ref samples, context);
+        var ray = _camera.CreateRay(x, y, samples.Next(), out var footprint, out var clip);
+        return Trace(ray, footprint, clip, ref samples, context);
     }
 
     /// <summary>Follows one path, and returns the radiance that comes along it.</summary>
-    private Vector Trace(Ray ray, RayFootprint footprint, ref SampleSequence samples, QueryContext context)
+    private Vector Trace(
+        Ray ray, RayFootprint footprint, (double Near, double Far) clip, ref SampleSequence samples, QueryContext context)
     {
         var radiance = Vector.Zero;
         var throughput = Vector.One;
-        var (minDistance, maxDistance) = _camera.Clip;
+        var (minDistance, maxDistance) = clip;
         var layers = 0;
         // Fog is between the eye and the first surface only.
         var distanceBefore = 0.0;
