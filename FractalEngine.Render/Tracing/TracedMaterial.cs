@@ -15,6 +15,9 @@ internal sealed class TracedMaterial
     // Smoother surfaces are as rough as this: a mirror's highlight of a point of light would never be hit.
     private const double MinRoughness = 0.02;
 
+    // As bright as the brightest light of a scene.
+    private const double MaxEmission = 1e9;
+
     private TracedMaterial()
     {
     }
@@ -59,6 +62,10 @@ internal sealed class TracedMaterial
     public bool IsTextured => Texture is not null || Bump is not null || Normals is not null;
 
     /// <summary>Prepares a material for tracing.</summary>
+    /// <remarks>
+    /// Numbers beyond their range are limited: a surface that sent back more light than it gets, or less than none, would have paths of
+    /// light without end.
+    /// </remarks>
     /// <param name="drawable">With its decoded texture.</param>
     /// <param name="notices">Receives a sentence for each texture that can't be decoded.</param>
     public static TracedMaterial Create(DrawableMaterial drawable, ICollection<string> notices)
@@ -67,17 +74,17 @@ internal sealed class TracedMaterial
         var isPhysical = material.Roughness is not null || material.Metalness is not null;
         return new()
         {
-            BaseColour = ToLinear(material.Diffuse),
-            Metalness = material.Metalness ?? 0,
+            BaseColour = Limit(ToLinear(material.Diffuse), 1),
+            Metalness = Limit(material.Metalness ?? 0, 1),
             Specular = isPhysical
                 ? DielectricReflectance * Vector.One
-                : new(material.Specular.Red, material.Specular.Green, material.Specular.Blue),
+                : Limit(new Vector(material.Specular.Red, material.Specular.Green, material.Specular.Blue), 1),
             // An exponent and a roughness with highlights of the same width (Walter and others, EGSR 2007).
             Roughness = Math.Max(MinRoughness, isPhysical
-                ? Math.Pow(material.Roughness ?? 1, 2)
+                ? Math.Pow(Limit(material.Roughness ?? 1, 1), 2)
                 : Math.Sqrt(2 / (Math.Max(0, material.SpecularExponent) + 2))),
-            Emission = new(material.Emission.Red, material.Emission.Green, material.Emission.Blue),
-            Opacity = material.Opacity,
+            Emission = Limit(new Vector(material.Emission.Red, material.Emission.Green, material.Emission.Blue), MaxEmission),
+            Opacity = Limit(material.Opacity, 1),
             IsCutOut = drawable.IsCutOut,
             IsSeeThrough = drawable.IsTransparent || drawable.IsCutOut,
             Texture = drawable.Texture is { } texture && material.Texture is { } mapping ? new(texture.Image, mapping) : null,
@@ -106,6 +113,11 @@ internal sealed class TracedMaterial
         var (red, green, blue) = colour.ToLinear();
         return new(red, green, blue);
     }
+
+    private static Vector Limit(Vector colour, double max) => new(Limit(colour.X, max), Limit(colour.Y, max), Limit(colour.Z, max));
+
+    // 0 for what is no number, too.
+    private static double Limit(double number, double max) => number > 0 ? Math.Min(number, max) : 0;
 
     private static TracedTexture? Load(MaterialTexture? texture, ICollection<string> notices)
     {

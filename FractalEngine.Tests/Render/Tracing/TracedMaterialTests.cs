@@ -1,6 +1,7 @@
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Parsing.Meshes;
 using FractalEngine.Render;
 using FractalEngine.Render.Tracing;
 
@@ -48,6 +49,41 @@ public sealed class TracedMaterialTests : IDisposable
         var expected = new[] { material.Diffuse, tint, vertexColour, new Colour(200 / 255.0, 180 / 255.0, 160 / 255.0) }
             .Aggregate(Vector.One, static (product, colour) => product.Stretch(TracedMaterial.ToLinear(colour)));
         Assert.InRange((traced - expected).Length(), 0, 0.005);
+    }
+
+    public static TheoryData<string> Extremes =>
+    [
+        "Kd -1", "Kd 5", "Kd 1e308", "Ks -1", "Ks 5", "Ks 1e308", "Ke -1", "Ke 1e308", "Ns -1", "Ns 1e308", "Pm -3", "Pm 5", "Pm 1e308",
+        "Pr -1", "Pr 5", "Pr 1e200", "Kd 5\nPm 1", "Ks 5\nNs 1e308", "Kd 1\nPm 1\nPr 0", "Kd -1\nPm 0.5\nKe 1e308",
+    ];
+
+    [Theory]
+    [MemberData(nameof(Extremes))]
+    public void Material_WithNumbersBeyondTheirRange_GivesLightThatIsNeitherNegativeNorEndless(string statements)
+    {
+        var material = MtlParser.Parse(new("a.mtl", $"newmtl m\n{statements}\n")).Materials["m"];
+        // A single path that is mirrored by chance counts for as many as 25. What glows is bright.
+        var maxRadiance = material.Emission == Colour.Black ? 25 : 1.0001e9;
+        var sphere = TexturedScenes.WithMaterial(RenderScenes.Sphere(6), material);
+
+        var tracer = Trace(Scene(sphere, null), 4);
+
+        for (var i = 0; i < 20 * 20; i++)
+        {
+            var (red, green, blue) = tracer.RadianceAt(i % 20, i / 20);
+            Assert.InRange(Math.Min(red, Math.Min(green, blue)), 0, maxRadiance);
+            Assert.InRange(Math.Max(red, Math.Max(green, blue)), 0, maxRadiance);
+        }
+    }
+
+    [Fact]
+    public void Texture_ScaledBeyondTheRangeOfNumbers_HasAColour()
+    {
+        var texture = _scenes.CreateTexture("even.png", 4, 4, (_, _) => (255, 255, 255, 255)) with { Scale = (1e308, 1e308) };
+        var scene = Scene(TexturedScenes.WithMaterial(
+            RenderScenes.Square(1).WithTextureCoordinates([0, 0, 9, 0, 0, 9, 9, 9], [0, 2, 1, 1, 2, 3]), new("m") { Texture = texture }), null);
+
+        Assert.Equal(1, Trace(scene, 1).RadianceAt(15, 15).X, 1e-6);
     }
 
     private static LoadedScene Scene(Model model, Colour? colour) => RenderScenes.Scene(
