@@ -51,7 +51,8 @@ public sealed class PathTracer
     private readonly double _fogDensity;
     private readonly Vector _fogColour;
     private readonly int _seed;
-    private readonly float[] _sums;
+    // In single precision, a million samples would add to a bright pixel no more.
+    private readonly double[] _sums;
     private readonly int[] _rowSamples;
     private bool _isAffordable;
 
@@ -99,7 +100,7 @@ public sealed class PathTracer
         _seed = seed;
         Width = width;
         Height = height;
-        _sums = new float[3 * width * height];
+        _sums = new double[3 * width * height];
         _rowSamples = new int[height];
     }
 
@@ -241,9 +242,9 @@ public sealed class PathTracer
         {
             var pixel = (y * Width) + x;
             var radiance = TracePixel(x, y, sample, context);
-            _sums[3 * pixel] += (float)radiance.X;
-            _sums[(3 * pixel) + 1] += (float)radiance.Y;
-            _sums[(3 * pixel) + 2] += (float)radiance.Z;
+            _sums[3 * pixel] += radiance.X;
+            _sums[(3 * pixel) + 1] += radiance.Y;
+            _sums[(3 * pixel) + 2] += radiance.Z;
         }
     }
 

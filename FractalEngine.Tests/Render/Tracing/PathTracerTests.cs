@@ -180,6 +180,16 @@ public class PathTracerTests
     }
 
     [Fact]
+    public void AddSample_ManyTimes_AddsTheLastOneAsExactlyAsTheFirst()
+    {
+        // Away from all surfaces, each sample is the background. Single precision would lose a ten thousandth of their sum.
+        var scene = Scene([WhiteSky], Matt(Shapes.Sphere(1), Colour.White)) with { Background = FromLinear(0.1) };
+        var camera = new Camera(new(0, 0, -5), new(0, Math.PI, 0), 40);
+
+        Assert.Equal(0.1, Trace(scene, camera, 1, 100_000, threads: 1).RadianceAt(0, 0).X, 1e-9);
+    }
+
+    [Fact]
     public void AddSample_ThatIsCancelled_ThrowsAndKeepsWhatIsThere()
     {
         var tracer = Trace(Scene([WhiteSky], Matt(Shapes.Sphere(1), Colour.White)), Camera.Default, 8, 2);
