@@ -16,12 +16,12 @@ namespace FractalEngine.Render.Tracing;
 /// </summary>
 /// <remarks>
 /// Light is that of drawn frames (<see cref="TracedLights"/>), with shadows: the scene's lights are sampled directly at each hit, and the
-/// ambient light comes from all directions that no surface hides. Paths end by chance, by up to <see cref="MaxBounces"/> surfaces. The same
-/// seed gives the same bits on any number of threads.
+/// ambient light comes from all directions that no surface hides. Paths end by chance, and go on from up to <see cref="MaxBounces"/>
+/// surfaces. The same seed gives the same bits on any number of threads.
 /// </remarks>
 public sealed class PathTracer
 {
-    /// <summary>Largest number of surfaces that a path of light touches.</summary>
+    /// <summary>Largest number of surfaces that a path of light goes on from. It touches one more.</summary>
     public const int MaxBounces = 8;
 
     // From this bounce on, dark paths end by chance.

@@ -76,7 +76,7 @@ public class PathTracerTests
         var camera = new Camera(new(0.1, 0.2, -4), Vector.Zero, 30);
         var tracer = Trace(Scene([WhiteSky], new SceneObject(fractal) { Colour = Colour.White }), camera, 12, 128);
 
-        // Paths that end after eight surfaces are dark: few, in holes.
+        // Paths that would go on from a ninth surface are dark: few, in holes.
         Assert.InRange(Mean(tracer), 0.97, 1.003);
     }
 
