@@ -1,7 +1,5 @@
 using FractalEngine.Core.Geometry;
-using FractalEngine.Core.Images;
 using FractalEngine.Core.Maths;
-using FractalEngine.Render.Images;
 using FractalEngine.Render.Preparation;
 
 namespace FractalEngine.Render.Tracing;
@@ -67,8 +65,8 @@ internal sealed class TracedMaterial
     /// light without end.
     /// </remarks>
     /// <param name="drawable">With its decoded texture.</param>
-    /// <param name="notices">Receives a sentence for each texture that can't be decoded.</param>
-    public static TracedMaterial Create(DrawableMaterial drawable, ICollection<string> notices)
+    /// <param name="textures">Decodes the maps of heights and normals.</param>
+    public static TracedMaterial Create(DrawableMaterial drawable, TextureCache textures)
     {
         var material = drawable.Material;
         var isPhysical = material.Roughness is not null || material.Metalness is not null;
@@ -88,8 +86,8 @@ internal sealed class TracedMaterial
             IsCutOut = drawable.IsCutOut,
             IsSeeThrough = drawable.IsTransparent || drawable.IsCutOut,
             Texture = drawable.Texture is { } texture && material.Texture is { } mapping ? new(texture.Image, mapping) : null,
-            Bump = Load(material.BumpTexture, notices),
-            Normals = Load(material.NormalTexture, notices),
+            Bump = Load(material.BumpTexture, textures),
+            Normals = Load(material.NormalTexture, textures),
         };
     }
 
@@ -119,22 +117,6 @@ internal sealed class TracedMaterial
     // 0 for what is no number, too.
     private static double Limit(double number, double max) => number > 0 ? Math.Min(number, max) : 0;
 
-    private static TracedTexture? Load(MaterialTexture? texture, ICollection<string> notices)
-    {
-        if (texture is null)
-        {
-            return null;
-        }
-
-        try
-        {
-            PixelImage image = ImageFile.Load(texture.Path);
-            return new(image, texture);
-        }
-        catch (IOException exception)
-        {
-            notices.Add($"{texture.Path}:1:1: warning: the texture can't be decoded, traced without it: {exception.Message}");
-            return null;
-        }
-    }
+    private static TracedTexture? Load(MaterialTexture? texture, TextureCache textures) =>
+        texture is not null && textures.GetImage(texture.Path) is { } image ? new(image, texture) : null;
 }

@@ -41,8 +41,7 @@ internal sealed class TracedScene
         _objects = scene.Objects;
         var notices = ImmutableArray.CreateBuilder<string>();
         var textures = new TextureCache(notices, shareTextures: true, []);
-        var models = scene.Models.ToDictionary(
-            static model => model, model => new TracedModel(model, settings.CreaseAngle, textures, notices));
+        var models = scene.Models.ToDictionary(static model => model, model => new TracedModel(model, settings.CreaseAngle, textures));
         _models = [.. _objects.Select(placed => models[placed.Model])];
         _colours = [.. _objects.Select(static (placed, index) => TracedMaterial.ToLinear(DrawableScene.ColourOf(placed, index)))];
         _gradientEnds = [.. _objects.Select((placed, index) =>

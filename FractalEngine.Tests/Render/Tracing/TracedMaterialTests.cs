@@ -1,8 +1,10 @@
+using System.Collections.Immutable;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Meshes;
 using FractalEngine.Render;
+using FractalEngine.Render.Preparation;
 using FractalEngine.Render.Tracing;
 
 namespace FractalEngine.Tests.Render.Tracing;
@@ -84,6 +86,24 @@ public sealed class TracedMaterialTests : IDisposable
             RenderScenes.Square(1).WithTextureCoordinates([0, 0, 9, 0, 0, 9, 9, 9], [0, 2, 1, 1, 2, 3]), new("m") { Texture = texture }), null);
 
         Assert.Equal(1, Trace(scene, 1).RadianceAt(15, 15).X, 1e-6);
+    }
+
+    [Fact]
+    public void NormalMap_OfManyMaterials_IsDecodedOnceAndReportedOnce()
+    {
+        var texture = _scenes.CreateTexture("even.png", 2, 2, (_, _) => (128, 128, 255, 255));
+        var broken = _scenes.CreateBrokenTexture("broken.png");
+        var notices = ImmutableArray.CreateBuilder<string>();
+        var textures = new TextureCache(notices, shareTextures: true, []);
+
+        Assert.Same(textures.GetImage(texture.Path), textures.GetImage(texture.Path));
+        var scene = RenderScenes.Scene(
+            new Scene(),
+            (TexturedScenes.CreateSquare(1, new("a") { NormalTexture = broken }), Transformation.Identity, null),
+            (TexturedScenes.CreateSquare(1, new("b") { BumpTexture = broken }), Transformation.Identity, null));
+        Assert.StartsWith(
+            $"{broken.Path}:1:1: warning: the texture can't be decoded, traced without it: ",
+            Assert.Single(new PathTracer(scene, Square, 1, 1).Notices), StringComparison.Ordinal);
     }
 
     private static LoadedScene Scene(Model model, Colour? colour) => RenderScenes.Scene(
