@@ -11,8 +11,8 @@ using FractalEngine.Render.Passes;
 namespace FractalEngine.Render.Tracing;
 
 /// <summary>
-/// Draws a scene by following light backwards from the eye, without a GPU: shadows, light between surfaces, mirrors, glass. The image is
-/// noisy at first, and converges as samples are added.
+/// Draws a scene by following light backwards from the eye, without a GPU: shadows, light between surfaces, mirrors, transparency
+/// without refraction. The image is noisy at first, and converges as samples are added.
 /// </summary>
 /// <remarks>
 /// Light is that of drawn frames (<see cref="TracedLights"/>), with shadows: the scene's lights are sampled directly at each hit, and the
