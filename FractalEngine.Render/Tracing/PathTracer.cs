@@ -2,6 +2,7 @@ using System.Collections.Immutable;
 using System.Runtime.ExceptionServices;
 using FractalEngine.Core.Collision;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Images;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Rays;
@@ -45,6 +46,7 @@ public sealed class PathTracer
     private readonly Vector _eye;
     private readonly double _unit = 1;
     private readonly Scene _declared;
+    private readonly Colour _defaultBackground;
     private readonly SkyRadiance? _visibleSky;
     private readonly Vector _backgroundRadiance;
     private readonly DisplayTransform _display;
@@ -69,13 +71,12 @@ public sealed class PathTracer
         : this(
             view, width, height,
             new TracedScene(scene ?? throw new ArgumentNullException(nameof(scene)), settings ?? new()), new(scene),
-            scene.Scene with { Background = scene.Scene.Background ?? (scene.Scene.Sky is null ? (settings ?? new()).Background : null) },
-            seed)
+            WithBackground(scene.Scene, (settings ?? new()).Background), (settings ?? new()).Background, seed)
     {
     }
 
     private PathTracer(
-        View view, int width, int height, TracedScene scene, TracedLights lights, Scene declared, int seed)
+        View view, int width, int height, TracedScene scene, TracedLights lights, Scene declared, Colour background, int seed)
     {
         ArgumentNullException.ThrowIfNull(view);
         ArgumentOutOfRangeException.ThrowIfLessThan(width, 1);
@@ -91,6 +92,7 @@ public sealed class PathTracer
         _camera = new(view, width, height, FootprintPixels);
         _lights = lights;
         _declared = declared;
+        _defaultBackground = background;
         _display = DisplayTransform.Of(declared);
         // A background is shown as it is declared, whatever is done with light.
         _visibleSky = declared.Background is null ? declared.Sky?.ToRadiance() : null;
@@ -128,7 +130,7 @@ public sealed class PathTracer
     /// <summary>Number of samples that every pixel has.</summary>
     public int SampleCount => _rowSamples.Min();
 
-    /// <summary>Sentences for the user about textures that can't be decoded.</summary>
+    /// <summary>Sentences for the user about textures that can't be decoded, each when its model is prepared.</summary>
     public ImmutableArray<string> Notices => _scene.Notices;
 
     /// <summary>Prepares an image of another view of the same scene, without samples. What was prepared of the scene is shared.</summary>
@@ -137,7 +139,26 @@ public sealed class PathTracer
     /// <param name="height">Pixels, at least 1.</param>
     /// <exception cref="ArgumentOutOfRangeException">Width or height is less than 1.</exception>
     public PathTracer WithView(View view, int width, int height) =>
-        new(view, width, height, _scene, _lights, _declared, _seed) { BounceLimit = BounceLimit };
+        new(view, width, height, _scene, _lights, _declared, _defaultBackground, _seed) { BounceLimit = BounceLimit };
+
+    /// <summary>
+    /// Prepares an image of another scene, or of another state of the same one, without samples. What was prepared of models that both
+    /// show is shared: textures, normals, and hierarchies for rays.
+    /// </summary>
+    /// <param name="scene">With its models loaded.</param>
+    /// <param name="view">Camera and projection.</param>
+    /// <param name="width">Pixels, at least 1.</param>
+    /// <param name="height">Pixels, at least 1.</param>
+    /// <exception cref="ArgumentOutOfRangeException">Width or height is less than 1.</exception>
+    /// <exception cref="SingularMatrixException">The matrix of an object has no inverse.</exception>
+    public PathTracer WithScene(LoadedScene scene, View view, int width, int height)
+    {
+        ArgumentNullException.ThrowIfNull(scene);
+        return new(
+            view, width, height, _scene.WithScene(scene), new(scene), WithBackground(scene.Scene, _defaultBackground), _defaultBackground,
+            _seed)
+        { BounceLimit = BounceLimit };
+    }
 
     /// <summary>Adds one sample to each pixel.</summary>
     /// <param name="threads">The most threads to use; null for one a core.</param>
@@ -323,6 +344,9 @@ public sealed class PathTracer
             (minDistance, maxDistance) = (0, double.PositiveInfinity);
         }
     }
+
+    private static Scene WithBackground(Scene scene, Colour background) =>
+        scene with { Background = scene.Background ?? (scene.Sky is null ? background : null) };
 
     private Vector Background(Vector unitDirection) => _visibleSky is { } sky ? sky.At(unitDirection.Y) : _backgroundRadiance;
 

@@ -24,6 +24,8 @@ internal sealed class TracedScene
     private readonly double _offset;
     private readonly ImmutableArray<PlacedModel> _objects;
     private readonly TracedModel[] _models;
+    private readonly Dictionary<Model, TracedModel> _surfaces;
+    private readonly RenderSettings _settings;
     private readonly Vector[] _colours;
     private readonly Vector[] _gradientEnds;
 
@@ -34,15 +36,25 @@ internal sealed class TracedScene
     /// <param name="scene">With its models loaded.</param>
     /// <param name="settings">The crease angle.</param>
     public TracedScene(LoadedScene scene, RenderSettings settings)
+        : this(scene, settings, new(scene), [], [])
+    {
+    }
+
+    private TracedScene(
+        LoadedScene scene, RenderSettings settings, SceneRayCaster caster, Dictionary<Model, TracedModel> knownSurfaces,
+        IEnumerable<KeyValuePair<Model, DeepZoomRayCaster>> zoomCasters)
     {
         _whole = this;
-        _zoomCasters = [];
-        _caster = new SceneRayCaster(scene);
+        _settings = settings;
+        _zoomCasters = new(zoomCasters);
+        _caster = caster;
         _objects = scene.Objects;
         var notices = ImmutableArray.CreateBuilder<string>();
         var textures = new TextureCache(notices, shareTextures: true, []);
-        var models = scene.Models.ToDictionary(static model => model, model => new TracedModel(model, settings.CreaseAngle, textures));
-        _models = [.. _objects.Select(placed => models[placed.Model])];
+        _surfaces = scene.Models.ToDictionary(
+            static model => model,
+            model => knownSurfaces.GetValueOrDefault(model) ?? new TracedModel(model, settings.CreaseAngle, textures));
+        _models = [.. _objects.Select(placed => _surfaces[placed.Model])];
         _colours = [.. _objects.Select(static (placed, index) => TracedMaterial.ToLinear(DrawableScene.ColourOf(placed, index)))];
         _gradientEnds = [.. _objects.Select((placed, index) =>
             placed.Declaration.Gradient is { } gradient ? TracedMaterial.ToLinear(gradient.EndColour) : _colours[index])];
@@ -63,6 +75,8 @@ internal sealed class TracedScene
         _section = section;
         _objects = scene._objects;
         _models = scene._models;
+        _surfaces = scene._surfaces;
+        _settings = scene._settings;
         _colours = scene._colours;
         _gradientEnds = scene._gradientEnds;
         _tints = scene._tints;
@@ -71,7 +85,7 @@ internal sealed class TracedScene
         _zoom = zoom;
     }
 
-    /// <summary>Sentences for the user about textures that can't be decoded.</summary>
+    /// <summary>Sentences for the user about textures that can't be decoded, each when its model is prepared.</summary>
     public ImmutableArray<string> Notices { get; }
 
     /// <summary>True where light may pass through any surface.</summary>
@@ -86,6 +100,16 @@ internal sealed class TracedScene
     /// <param name="section">Plane that cuts the scene open, in the frame of the rays; null for none.</param>
     public TracedScene ForView(DeepZoom? zoom, SectionPlane? section) =>
         zoom is null && section is null ? _whole : new(_whole, zoom, section);
+
+    /// <summary>Prepares another scene, or another state of this one. What was prepared of models that both show is shared.</summary>
+    /// <param name="scene">With its models loaded.</param>
+    public TracedScene WithScene(LoadedScene scene)
+    {
+        var models = scene.Models.ToHashSet();
+        return new(
+            scene, _settings, ((SceneRayCaster)_whole._caster).WithScene(scene), _surfaces,
+            _zoomCasters.Where(known => models.Contains(known.Key)));
+    }
 
     /// <summary>Finds the nearest surface along a ray: a face, or the section through a solid.</summary>
     public bool TryIntersect(

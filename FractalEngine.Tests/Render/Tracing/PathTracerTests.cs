@@ -214,6 +214,25 @@ public class PathTracerTests
         Assert.Equal(Trace(scene, camera, 20, 1).ToImage().Pixels, other.ToImage().Pixels);
     }
 
+    [Fact]
+    public void WithScene_OfMovedAndOtherObjects_GivesTheImageOfANewTracer()
+    {
+        var sponge = AssetFractals.Load("menger", 2);
+        var ball = Shapes.Sphere(2);
+        var first = Scene([WhiteSky], new SceneObject(sponge), Matt(ball, Colour.White));
+        var camera = new Camera(new(0.5, 0.3, -5), Vector.Zero, 40);
+        var second = Scene(
+            [WhiteSky, new DirectionalLight(new(0, -1, 1), Colour.White, 0.5)],
+            new SceneObject(sponge) { Placement = Transformation.Identity with { Position = new(0.5, 0, 1) }, Colour = new(1, 0.5, 0) },
+            Matt(Shapes.Sphere(1), Colour.White)) with { Camera = camera, Background = new(0.2, 0.3, 0.4) };
+
+        var loaded = LoadedScene.Of(second);
+        var other = Trace(first, Camera.Default, 8, 2).WithScene(loaded, View.Of(loaded, 1), 20, 20);
+        other.AddSample();
+
+        Assert.Equal(Trace(second, camera, 20, 1).ToImage().Pixels, other.ToImage().Pixels);
+    }
+
     private static PathTracer Trace(Scene scene, Camera camera, int size, int samples, int seed = 0, int? threads = null)
     {
         var loaded = LoadedScene.Of(scene with { Camera = camera, Background = scene.Background ?? Colour.White });

@@ -106,6 +106,23 @@ public sealed class TracedMaterialTests : IDisposable
             Assert.Single(new PathTracer(scene, Square, 1, 1).Notices), StringComparison.Ordinal);
     }
 
+    [Fact]
+    public void Texture_OfASceneWhoseObjectsMove_IsNotDecodedAgain()
+    {
+        var texture = _scenes.CreateTexture("even.png", 2, 2, (_, _) => (200, 200, 200, 255));
+        var model = TexturedScenes.CreateSquare(1, new("m") { Texture = texture });
+        var tracer = Trace(Scene(model, null), 1);
+        File.Delete(texture.Path);
+
+        var moved = tracer.WithScene(Scene(model, new(1, 0.5, 1)), Square, 20, 20);
+        moved.AddSample();
+
+        Assert.Empty(moved.Notices);
+        var before = tracer.RadianceAt(10, 10);
+        var expected = before with { Y = before.Y * TracedMaterial.ToLinear(new(0, 0.5, 0)).Y };
+        Assert.InRange((moved.RadianceAt(10, 10) - expected).Length(), 0, 1e-9);
+    }
+
     private static LoadedScene Scene(Model model, Colour? colour) => RenderScenes.Scene(
         new Scene { Background = Colour.Black, Lights = [RenderScenes.FullLight] }, (model, Transformation.Identity, colour));
 
