@@ -211,7 +211,7 @@ internal sealed class MaterialLoader(
         return material;
     }
 
-    /// <summary>Returns a texture with its full path; null if there is none. As it is never decoded, a missing file needs no message.</summary>
+    /// <summary>Returns a texture with its full path; null if there is none. Never decoded, a missing file needs no message.</summary>
     private MaterialTexture? FindUnshownTexture(MaterialTexture? texture, string fullPath) =>
         texture is not null && references.FindForeign(fullPath, texture.Path) is { } path ? texture with { Path = path } : null;
 

@@ -93,16 +93,18 @@ internal sealed class TracedMaterial
 
     /// <summary>Divides light between what the surface scatters and what it mirrors.</summary>
     /// <param name="colour">Of the point, with texture and all else that multiplies it, linear light.</param>
-    /// <returns>The parts of light that are scattered, and mirrored where it falls straight onto the surface.</returns>
-    public (Vector Diffuse, Vector Specular) Divide(Vector colour)
+    /// <param name="specular">The part that is mirrored where light falls straight onto the surface.</param>
+    /// <returns>The part that is scattered.</returns>
+    public Vector Divide(Vector colour, out Vector specular)
     {
+        specular = Specular;
         if (Metalness == 0)
         {
-            return (colour.Stretch(Vector.One - Specular), Specular);
+            return colour.Stretch(Vector.One - specular);
         }
 
-        var specular = ((1 - Metalness) * Specular) + (Metalness * colour);
-        return ((1 - Metalness) * colour.Stretch(Vector.One - specular), specular);
+        specular = ((1 - Metalness) * specular) + (Metalness * colour);
+        return (1 - Metalness) * colour.Stretch(Vector.One - specular);
     }
 
     /// <summary>Converts a colour to linear light: red, green, blue.</summary>

@@ -219,7 +219,7 @@ internal sealed class TracedScene
             normal = SurfaceDetail.Apply(material, normal, map.Linear, corners, coordinates, u, v, direction);
         }
 
-        var (diffuse, specular) = material.Divide(colour);
+        var diffuse = material.Divide(colour, out var specular);
         return new(hit.Point, faceNormal, normal, diffuse, specular, material.Roughness, material.Emission, opacity);
     }
 

@@ -16,8 +16,8 @@ using Xunit.Sdk;
 namespace FractalEngine.Tests.Robustness;
 
 /// <summary>
-/// Loads changed files of the corpus, then queries, counts, traces and prepares them for drawing: a result or an error of the engine's own, in two
-/// seconds of processor time.
+/// Loads changed files of the corpus, then queries, counts, traces and prepares them for drawing: a result or an error of the engine's own,
+/// in two seconds of processor time.
 /// </summary>
 public class MutationTests(Xunit.Abstractions.ITestOutputHelper output)
 {

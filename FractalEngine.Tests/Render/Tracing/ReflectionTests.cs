@@ -124,10 +124,10 @@ public class ReflectionTests
         return new(sine, 0, cosine);
     }
 
-    /// <summary>Integrates reflectance, cosine and a weight over all directions of the light, by the facets between it and the eye.</summary>
+    /// <summary>Integrates reflectance, cosine and a weight over all directions of the light.</summary>
     private static double Integrate(TracedSurface surface, Vector toEye, Func<Vector, double> weight)
     {
-        // The facets lean by an angle θ with tan θ = α t/(1 − t): as dense as a sharp highlight needs.
+        // Over the facets between light and eye. They lean by an angle θ with tan θ = α t/(1 − t): as dense as a sharp highlight needs.
         const int Rings = 400;
         const int Spokes = 200;
         var alpha = surface.IsGlossy ? surface.Roughness : 1;

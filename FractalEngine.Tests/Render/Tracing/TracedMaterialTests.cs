@@ -82,8 +82,8 @@ public sealed class TracedMaterialTests : IDisposable
     public void Texture_ScaledBeyondTheRangeOfNumbers_HasAColour()
     {
         var texture = _scenes.CreateTexture("even.png", 4, 4, (_, _) => (255, 255, 255, 255)) with { Scale = (1e308, 1e308) };
-        var scene = Scene(TexturedScenes.WithMaterial(
-            RenderScenes.Square(1).WithTextureCoordinates([0, 0, 9, 0, 0, 9, 9, 9], [0, 2, 1, 1, 2, 3]), new("m") { Texture = texture }), null);
+        var mesh = RenderScenes.Square(1).WithTextureCoordinates([0, 0, 9, 0, 0, 9, 9, 9], [0, 2, 1, 1, 2, 3]);
+        var scene = Scene(TexturedScenes.WithMaterial(mesh, new("m") { Texture = texture }), null);
 
         Assert.Equal(1, Trace(scene, 1).RadianceAt(15, 15).X, 1e-6);
     }
