@@ -5,7 +5,7 @@ using FractalEngine.Render.Tracing;
 
 namespace FractalEngine.App.Animation;
 
-/// <summary>Traces the frames of an animation. The scene is prepared again only when a body has moved.</summary>
+/// <summary>Traces the frames of an animation. What was prepared of its models is shared.</summary>
 /// <param name="prepared">A tracer of the scene, whose preparation the frames share.</param>
 /// <param name="job">Size, background and settings of the frames.</param>
 /// <param name="trace">Samples and seed of each frame.</param>
@@ -18,7 +18,7 @@ internal sealed class TracedFrames(PathTracer prepared, RenderJob job, TracedIma
     public override PixelImage CreateFrame(View view, CancellationToken cancellation)
     {
         _tracer = _movedScene is { } scene
-            ? trace.CreateTracer(scene, view, job)
+            ? trace.CreateTracer(scene, view, job, _tracer)
             : _tracer.WithView(view, job.Size.Width, job.Size.Height);
         _movedScene = null;
         trace.AddSamples(_tracer, cancellation);

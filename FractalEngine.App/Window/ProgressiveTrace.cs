@@ -33,6 +33,7 @@ internal sealed class ProgressiveTrace(int sampleCount, RenderSettings settings,
     private CancellationTokenSource? _cancellation;
     private TraceRequest? _request;
     private bool _hasUpdate;
+    private bool _holdsScene;
 
     // Of the background: the last scene as it was prepared.
     private (TraceRequest Request, PathTracer Tracer)? _prepared;
@@ -80,6 +81,17 @@ internal sealed class ProgressiveTrace(int sampleCount, RenderSettings settings,
         }
     }
 
+    /// <summary>Ends the trace, and lets go of the scene that was prepared for it. Costs nothing where there is none.</summary>
+    public void Release()
+    {
+        Show(null);
+        if (_holdsScene)
+        {
+            _holdsScene = false;
+            _task = _task.ContinueWith(_ => _prepared = null, TaskScheduler.Default);
+        }
+    }
+
     /// <summary>Returns whether anything was published since the last call.</summary>
     /// <remarks>Throws the exception of a trace that has failed unexpectedly.</remarks>
     public bool TakeUpdate()
@@ -122,6 +134,7 @@ internal sealed class ProgressiveTrace(int sampleCount, RenderSettings settings,
     {
         var cancellation = new CancellationTokenSource();
         _cancellation = cancellation;
+        _holdsScene = true;
         _scheduler ??= new();
         // After the last view, whose preparation is used further.
         _task = _task.ContinueWith(
@@ -164,9 +177,9 @@ internal sealed class ProgressiveTrace(int sampleCount, RenderSettings settings,
     private PathTracer Prepare(TraceRequest request)
     {
         var (scene, view, width, height) = request;
-        var tracer = _prepared is { } prepared && prepared.Request.Scene == scene
-            ? prepared.Tracer.WithView(view, width, height)
-            : new PathTracer(scene, view, width, height, settings);
+        var tracer = _prepared is not { } prepared ? new PathTracer(scene, view, width, height, settings)
+            : prepared.Request.Scene == scene ? prepared.Tracer.WithView(view, width, height)
+            : prepared.Tracer.WithScene(scene, view, width, height);
         _prepared = (request, tracer);
         return tracer;
     }

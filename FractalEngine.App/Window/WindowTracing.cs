@@ -54,7 +54,14 @@ internal sealed class WindowTracing(WindowOptions options, Action published) : I
             }
         }
 
-        _trace.Show(request);
+        if (IsEnabled && document is not null)
+        {
+            _trace.Show(request);
+        }
+        else
+        {
+            _trace.Release();
+        }
     }
 
     /// <summary>Returns whether there is something new to show since the last call.</summary>

@@ -75,6 +75,22 @@ public sealed class SceneRayCaster : InstanceRayCaster
         return new(objects, _casters, BoundingBox.Union(_bounds, placed.Bounds));
     }
 
+    /// <summary>
+    /// Makes the caster of another scene, or of the same one with its objects elsewhere. The casters of models that both show are shared.
+    /// </summary>
+    /// <param name="scene">With its models loaded.</param>
+    /// <exception cref="SingularMatrixException">The matrix of an object has no inverse.</exception>
+    /// <remarks>Cost: O(n log n) for n objects. No model is prepared yet that was not before.</remarks>
+    public SceneRayCaster WithScene(LoadedScene scene)
+    {
+        ArgumentNullException.ThrowIfNull(scene);
+        return new(
+            scene.Objects,
+            scene.Models.ToDictionary(
+                model => model, model => _casters.GetValueOrDefault(model) ?? new Lazy<RayCaster>(() => RayCaster.For(model))),
+            scene.Bounds);
+    }
+
     private static RayInstance CreateInstance(Dictionary<Model, Lazy<RayCaster>> casters, int index, PlacedModel placed) =>
         new(index, casters[placed.Model], placed.ObjectToWorld, placed.Bounds);
 }

@@ -195,24 +195,24 @@ internal sealed class MaterialLoader(
                 : material.WithoutTexture();
         }
 
-        if (material.OpacityTexture is { } opacity)
-        {
-            var path = FindTextureFile(file.Source, file.OpacityTextureNameOffsets[name], fullPath, opacity.Path, "drawn opaque");
-            material = material with { OpacityTexture = path is null ? null : opacity with { Path = path } };
-        }
+        MaterialTexture? Find(MaterialTexture? named, IReadOnlyDictionary<string, int> offsets, string consequence) =>
+            named is not null && FindTextureFile(file.Source, offsets[name], fullPath, named.Path, consequence) is { } path
+                ? named with { Path = path }
+                : null;
 
         material = material with
         {
-            EmissionTexture = FindUndrawnTexture(material.EmissionTexture, fullPath),
-            BumpTexture = FindUndrawnTexture(material.BumpTexture, fullPath),
-            NormalTexture = FindUndrawnTexture(material.NormalTexture, fullPath),
+            OpacityTexture = Find(material.OpacityTexture, file.OpacityTextureNameOffsets, "drawn opaque"),
+            EmissionTexture = FindUnshownTexture(material.EmissionTexture, fullPath),
+            BumpTexture = Find(material.BumpTexture, file.BumpTextureNameOffsets, "traced without it"),
+            NormalTexture = Find(material.NormalTexture, file.NormalTextureNameOffsets, "traced without it"),
         };
         _materials[(file, name)] = new(material, record.Since(filesBefore));
         return material;
     }
 
-    /// <summary>Returns a texture with its full path; null if there is none. As it is not drawn, a missing file needs no message.</summary>
-    private MaterialTexture? FindUndrawnTexture(MaterialTexture? texture, string fullPath) =>
+    /// <summary>Returns a texture with its full path; null if there is none. Never decoded, a missing file needs no message.</summary>
+    private MaterialTexture? FindUnshownTexture(MaterialTexture? texture, string fullPath) =>
         texture is not null && references.FindForeign(fullPath, texture.Path) is { } path ? texture with { Path = path } : null;
 
     /// <summary>Returns the full path of an image, or null, with a warning about the consequence, if it can't be used.</summary>

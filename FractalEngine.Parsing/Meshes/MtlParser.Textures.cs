@@ -8,7 +8,7 @@ namespace FractalEngine.Parsing.Meshes;
 public sealed partial class MtlParser
 {
     /// <summary>Parses a texture that is drawn, and records where its name is.</summary>
-    private bool ParseDrawnTexture(
+    private bool ParseCheckedTexture(
         Cursor statement, Cursor cursor, Dictionary<string, int> nameOffsets,
         Func<Material, MaterialTexture, Material> update) =>
         ParseTexture(cursor, out var texture, out var nameOffset) && UpdateMaterial(statement, material =>

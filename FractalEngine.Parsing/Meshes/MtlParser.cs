@@ -20,6 +20,8 @@ public sealed partial class MtlParser : Parser
     private readonly Dictionary<string, Material> _materials = [];
     private readonly Dictionary<string, int> _textureNameOffsets = [];
     private readonly Dictionary<string, int> _opacityNameOffsets = [];
+    private readonly Dictionary<string, int> _bumpNameOffsets = [];
+    private readonly Dictionary<string, int> _normalNameOffsets = [];
     private Material? _current;
     private bool _hasOpacity;
     private Diagnostic? _firstFault;
@@ -56,6 +58,8 @@ public sealed partial class MtlParser : Parser
         return new(Source, _materials, _textureNameOffsets, [.. CreateWarnings()])
         {
             OpacityTextureNameOffsets = _opacityNameOffsets,
+            BumpTextureNameOffsets = _bumpNameOffsets,
+            NormalTextureNameOffsets = _normalNameOffsets,
         };
     }
 
@@ -130,16 +134,18 @@ public sealed partial class MtlParser : Parser
             "Ns" => ParseScalar(start, rest, static (material, number) => material with { SpecularExponent = number }),
             "d" => ParseOpacity(start, rest),
             "Tr" => ParseTransparency(start, rest),
-            "map_Kd" => ParseDrawnTexture(
+            "map_Kd" => ParseCheckedTexture(
                 start, rest, _textureNameOffsets, static (material, texture) => material with { Texture = texture }),
-            "map_d" => ParseDrawnTexture(
+            "map_d" => ParseCheckedTexture(
                 start, rest, _opacityNameOffsets, static (material, texture) => material with { OpacityTexture = texture }),
             "map_Ke" => ParseTexture(rest, out var emission, out _)
                 && Keep(ref _unshown, start, keyword, material => material with { EmissionTexture = emission }),
-            "map_Bump" or "map_bump" or "bump" => ParseTexture(rest, out var heights, out _)
-                && Keep(ref _tracedOnly, start, keyword, material => material with { BumpTexture = heights }),
-            "norm" => ParseTexture(rest, out var normals, out _)
-                && Keep(ref _tracedOnly, start, keyword, material => material with { NormalTexture = normals }),
+            "map_Bump" or "map_bump" or "bump" => ParseCheckedTexture(
+                start, rest, _bumpNameOffsets, static (material, texture) => material with { BumpTexture = texture })
+                && Count(ref _tracedOnly, start, keyword),
+            "norm" => ParseCheckedTexture(
+                start, rest, _normalNameOffsets, static (material, texture) => material with { NormalTexture = texture })
+                && Count(ref _tracedOnly, start, keyword),
             "Pr" => ParseScalar(rest, out var roughness)
                 && Keep(ref _tracedOnly, start, keyword, material => material with { Roughness = roughness }),
             "Pm" => ParseScalar(rest, out var metalness)
@@ -196,6 +202,11 @@ public sealed partial class MtlParser : Parser
     private bool Keep(ref UnshownStatements statements, Cursor statement, string keyword, Func<Material, Material> update)
     {
         UpdateMaterial(statement, update);
+        return Count(ref statements, statement, keyword);
+    }
+
+    private static bool Count(ref UnshownStatements statements, Cursor statement, string keyword)
+    {
         statements = statements.Count == 0 ? new(statement, keyword, 1) : statements with { Count = statements.Count + 1 };
         return true;
     }

@@ -20,4 +20,10 @@ public sealed record ParsedMtl(
 {
     /// <summary>Offset of the opacity texture's name in the text for each material that has one.</summary>
     public IReadOnlyDictionary<string, int> OpacityTextureNameOffsets { get; init; } = ReadOnlyDictionary<string, int>.Empty;
+
+    /// <summary>Offset of the bump map's name in the text for each material that has one.</summary>
+    public IReadOnlyDictionary<string, int> BumpTextureNameOffsets { get; init; } = ReadOnlyDictionary<string, int>.Empty;
+
+    /// <summary>Offset of the normal map's name in the text for each material that has one.</summary>
+    public IReadOnlyDictionary<string, int> NormalTextureNameOffsets { get; init; } = ReadOnlyDictionary<string, int>.Empty;
 }

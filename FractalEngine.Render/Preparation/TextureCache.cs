@@ -68,12 +68,15 @@ internal sealed class TextureCache(ImmutableArray<string>.Builder notices, bool 
                 : new(material with { Texture = material.Texture ?? opacity }, combined);
         }
 
-        var texture = material.Texture is { Path: var path } ? Load(path) : null;
+        var texture = material.Texture is { Path: var path } ? Load(path, "drawn grey") : null;
         var isUndecodable = material.Texture is not null && texture is null;
         return _materials[material] = new(isUndecodable ? material.WithoutTexture() : material, texture);
     }
 
-    private DrawableTexture? Load(string path)
+    /// <summary>Returns a decoded image whose pixels are no colours; null, with one notice a file, if it can't be decoded.</summary>
+    public PixelImage? GetImage(string path) => Load(path, "traced without it")?.Image;
+
+    private DrawableTexture? Load(string path, string consequence)
     {
         // A file that can't be decoded is tried and reported once.
         if (_textures.TryGetValue(path, out var cached) && (shareTextures || cached is null))
@@ -82,7 +85,7 @@ internal sealed class TextureCache(ImmutableArray<string>.Builder notices, bool 
         }
 
         var source = TextureSource.Of(path, null);
-        return _textures[path] = TakePrevious(source) ?? (Decode(path, "drawn grey") is { } image ? Add(path, image, source) : null);
+        return _textures[path] = TakePrevious(source) ?? (Decode(path, consequence) is { } image ? Add(path, image, source) : null);
     }
 
     /// <summary>Returns the texture of an image of colours, or of white, with the opacity of another; null if it can't be made.</summary>

@@ -2,6 +2,7 @@ using System.Collections.Immutable;
 using System.Runtime.ExceptionServices;
 using FractalEngine.Core.Collision;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Images;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Rays;
@@ -11,17 +12,17 @@ using FractalEngine.Render.Passes;
 namespace FractalEngine.Render.Tracing;
 
 /// <summary>
-/// Draws a scene by following light backwards from the eye, without a GPU: shadows, light between surfaces, mirrors, glass. The image is
-/// noisy at first, and converges as samples are added.
+/// Draws a scene by following light backwards from the eye, without a GPU: shadows, light between surfaces, mirrors, transparency
+/// without refraction. The image is noisy at first, and converges as samples are added.
 /// </summary>
 /// <remarks>
 /// Light is that of drawn frames (<see cref="TracedLights"/>), with shadows: the scene's lights are sampled directly at each hit, and the
-/// ambient light comes from all directions that no surface hides. Paths end by chance, by up to <see cref="MaxBounces"/> surfaces. The same
-/// seed gives the same bits on any number of threads.
+/// ambient light comes from all directions that no surface hides. Paths end by chance, and go on from up to <see cref="MaxBounces"/>
+/// surfaces. The same seed gives the same bits on any number of threads.
 /// </remarks>
 public sealed class PathTracer
 {
-    /// <summary>Largest number of surfaces that a path of light touches.</summary>
+    /// <summary>Largest number of surfaces that a path of light goes on from. It touches one more.</summary>
     public const int MaxBounces = 8;
 
     // From this bounce on, dark paths end by chance.
@@ -45,13 +46,15 @@ public sealed class PathTracer
     private readonly Vector _eye;
     private readonly double _unit = 1;
     private readonly Scene _declared;
+    private readonly Colour _defaultBackground;
     private readonly SkyRadiance? _visibleSky;
     private readonly Vector _backgroundRadiance;
     private readonly DisplayTransform _display;
     private readonly double _fogDensity;
     private readonly Vector _fogColour;
     private readonly int _seed;
-    private readonly float[] _sums;
+    // In single precision, a million samples would add to a bright pixel no more.
+    private readonly double[] _sums;
     private readonly int[] _rowSamples;
     private bool _isAffordable;
 
@@ -68,13 +71,12 @@ public sealed class PathTracer
         : this(
             view, width, height,
             new TracedScene(scene ?? throw new ArgumentNullException(nameof(scene)), settings ?? new()), new(scene),
-            scene.Scene with { Background = scene.Scene.Background ?? (scene.Scene.Sky is null ? (settings ?? new()).Background : null) },
-            seed)
+            WithBackground(scene.Scene, (settings ?? new()).Background), (settings ?? new()).Background, seed)
     {
     }
 
     private PathTracer(
-        View view, int width, int height, TracedScene scene, TracedLights lights, Scene declared, int seed)
+        View view, int width, int height, TracedScene scene, TracedLights lights, Scene declared, Colour background, int seed)
     {
         ArgumentNullException.ThrowIfNull(view);
         ArgumentOutOfRangeException.ThrowIfLessThan(width, 1);
@@ -90,6 +92,7 @@ public sealed class PathTracer
         _camera = new(view, width, height, FootprintPixels);
         _lights = lights;
         _declared = declared;
+        _defaultBackground = background;
         _display = DisplayTransform.Of(declared);
         // A background is shown as it is declared, whatever is done with light.
         _visibleSky = declared.Background is null ? declared.Sky?.ToRadiance() : null;
@@ -99,7 +102,7 @@ public sealed class PathTracer
         _seed = seed;
         Width = width;
         Height = height;
-        _sums = new float[3 * width * height];
+        _sums = new double[3 * width * height];
         _rowSamples = new int[height];
     }
 
@@ -127,7 +130,7 @@ public sealed class PathTracer
     /// <summary>Number of samples that every pixel has.</summary>
     public int SampleCount => _rowSamples.Min();
 
-    /// <summary>Sentences for the user about textures that can't be decoded.</summary>
+    /// <summary>Sentences for the user about textures that can't be decoded, each when its model is prepared.</summary>
     public ImmutableArray<string> Notices => _scene.Notices;
 
     /// <summary>Prepares an image of another view of the same scene, without samples. What was prepared of the scene is shared.</summary>
@@ -136,7 +139,26 @@ public sealed class PathTracer
     /// <param name="height">Pixels, at least 1.</param>
     /// <exception cref="ArgumentOutOfRangeException">Width or height is less than 1.</exception>
     public PathTracer WithView(View view, int width, int height) =>
-        new(view, width, height, _scene, _lights, _declared, _seed) { BounceLimit = BounceLimit };
+        new(view, width, height, _scene, _lights, _declared, _defaultBackground, _seed) { BounceLimit = BounceLimit };
+
+    /// <summary>
+    /// Prepares an image of another scene, or of another state of the same one, without samples. What was prepared of models that both
+    /// show is shared: textures, normals, and hierarchies for rays.
+    /// </summary>
+    /// <param name="scene">With its models loaded.</param>
+    /// <param name="view">Camera and projection.</param>
+    /// <param name="width">Pixels, at least 1.</param>
+    /// <param name="height">Pixels, at least 1.</param>
+    /// <exception cref="ArgumentOutOfRangeException">Width or height is less than 1.</exception>
+    /// <exception cref="SingularMatrixException">The matrix of an object has no inverse.</exception>
+    public PathTracer WithScene(LoadedScene scene, View view, int width, int height)
+    {
+        ArgumentNullException.ThrowIfNull(scene);
+        return new(
+            view, width, height, _scene.WithScene(scene), new(scene), WithBackground(scene.Scene, _defaultBackground), _defaultBackground,
+            _seed)
+        { BounceLimit = BounceLimit };
+    }
 
     /// <summary>Adds one sample to each pixel.</summary>
     /// <param name="threads">The most threads to use; null for one a core.</param>
@@ -241,24 +263,26 @@ public sealed class PathTracer
         {
             var pixel = (y * Width) + x;
             var radiance = TracePixel(x, y, sample, context);
-            _sums[3 * pixel] += (float)radiance.X;
-            _sums[(3 * pixel) + 1] += (float)radiance.Y;
-            _sums[(3 * pixel) + 2] += (float)radiance.Z;
+            _sums[3 * pixel] += radiance.X;
+            _sums[(3 * pixel) + 1] += radiance.Y;
+            _sums[(3 * pixel) + 2] += radiance.Z;
         }
     }
 
     private Vector TracePixel(int x, int y, int sample, QueryContext context)
     {
         var samples = new SampleSequence((y * Width) + x, sample, _seed);
-        return Trace(_camera.CreateRay(x, y, samples.Next(), out var footprint), footprint, ref samples, context);
+        var ray = _camera.CreateRay(x, y, samples.Next(), out var footprint, out var clip);
+        return Trace(ray, footprint, clip, ref samples, context);
     }
 
     /// <summary>Follows one path, and returns the radiance that comes along it.</summary>
-    private Vector Trace(Ray ray, RayFootprint footprint, ref SampleSequence samples, QueryContext context)
+    private Vector Trace(
+        Ray ray, RayFootprint footprint, (double Near, double Far) clip, ref SampleSequence samples, QueryContext context)
     {
         var radiance = Vector.Zero;
         var throughput = Vector.One;
-        var (minDistance, maxDistance) = _camera.Clip;
+        var (minDistance, maxDistance) = clip;
         var layers = 0;
         // Fog is between the eye and the first surface only.
         var distanceBefore = 0.0;
@@ -320,6 +344,9 @@ public sealed class PathTracer
             (minDistance, maxDistance) = (0, double.PositiveInfinity);
         }
     }
+
+    private static Scene WithBackground(Scene scene, Colour background) =>
+        scene with { Background = scene.Background ?? (scene.Sky is null ? background : null) };
 
     private Vector Background(Vector unitDirection) => _visibleSky is { } sky ? sky.At(unitDirection.Y) : _backgroundRadiance;
 

@@ -11,6 +11,7 @@ internal sealed class TracedCamera
     private readonly double _halfHeight;
     private readonly double _halfWidth;
     private readonly double _footprint;
+    private readonly (double Near, double Far) _clip;
 
     /// <summary>Prepares a view for a frame.</summary>
     /// <param name="view">Camera and projection.</param>
@@ -25,21 +26,20 @@ internal sealed class TracedCamera
         _halfHeight = view.HalfHeight;
         _halfWidth = _halfHeight * view.EffectiveAspect(width, height);
         _footprint = footprintPixels * 2 * _halfHeight / Viewport.Height;
-        Clip = view.FixedClipPlanes ?? (0, double.PositiveInfinity);
+        _clip = view.FixedClipPlanes ?? (0, double.PositiveInfinity);
     }
 
     /// <summary>The part of the frame that shows the scene, in pixels from the upper left corner.</summary>
     public (int X, int Y, int Width, int Height) Viewport { get; }
-
-    /// <summary>Smallest and largest distance that is shown.</summary>
-    public (double Near, double Far) Clip { get; }
 
     /// <summary>Makes a ray near the centre of a pixel.</summary>
     /// <param name="x">Pixel from the left, from 0.</param>
     /// <param name="y">Pixel from the top, from 0.</param>
     /// <param name="point">A point of the unit square, which the filter spreads over the pixel and its neighbours.</param>
     /// <param name="footprint">How wide the ray is.</param>
-    public Ray CreateRay(int x, int y, (double U, double V) point, out RayFootprint footprint)
+    /// <param name="clip">The smallest and the largest distance along the ray that are shown: where it meets the clip planes.</param>
+    public Ray CreateRay(
+        int x, int y, (double U, double V) point, out RayFootprint footprint, out (double Near, double Far) clip)
     {
         var across = (((x + 0.5 + Tent(point.U) - Viewport.X) / Viewport.Width) * 2) - 1;
         var down = (((y + 0.5 + Tent(point.V) - Viewport.Y) / Viewport.Height) * 2) - 1;
@@ -50,10 +50,13 @@ internal sealed class TracedCamera
             var direction = (right * axisRight) + (up * axisUp) + forward;
             var length = direction.Length();
             footprint = new(0, _footprint / length);
+            // The part along the axis is 1, so that a depth of 1 is this distance.
+            clip = (length * _clip.Near, length * _clip.Far);
             return new(_camera.Position, direction / length);
         }
 
         footprint = new(_footprint, 0);
+        clip = _clip;
         return new(_camera.Position + (right * axisRight) + (up * axisUp), forward);
     }
 

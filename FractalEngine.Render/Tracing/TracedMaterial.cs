@@ -1,7 +1,5 @@
 using FractalEngine.Core.Geometry;
-using FractalEngine.Core.Images;
 using FractalEngine.Core.Maths;
-using FractalEngine.Render.Images;
 using FractalEngine.Render.Preparation;
 
 namespace FractalEngine.Render.Tracing;
@@ -15,6 +13,9 @@ internal sealed class TracedMaterial
     // Smoother surfaces are as rough as this: a mirror's highlight of a point of light would never be hit.
     private const double MinRoughness = 0.02;
 
+    // As bright as the brightest light of a scene.
+    private const double MaxEmission = 1e9;
+
     private TracedMaterial()
     {
     }
@@ -22,11 +23,14 @@ internal sealed class TracedMaterial
     /// <summary>The surface without a material: the object's own colour, matt.</summary>
     public static TracedMaterial Default { get; } = new();
 
-    /// <summary>The diffuse colour; null for the object's own.</summary>
-    public Vector? Diffuse { get; private init; }
+    /// <summary>The colour, which that of object, vertices and texture multiply; null for the object's own.</summary>
+    public Vector? BaseColour { get; private init; }
 
-    /// <summary>The part of light that is mirrored where it falls straight onto the surface.</summary>
+    /// <summary>The part of light that what is not metal mirrors where it falls straight onto the surface.</summary>
     public Vector Specular { get; private init; }
+
+    /// <summary>The share of metal, which mirrors in its colour and scatters nothing, from 0 to 1.</summary>
+    public double Metalness { get; private init; }
 
     /// <summary>The roughness of the mirrored part: α of the distribution of GGX.</summary>
     public double Roughness { get; private init; } = 1;
@@ -56,32 +60,51 @@ internal sealed class TracedMaterial
     public bool IsTextured => Texture is not null || Bump is not null || Normals is not null;
 
     /// <summary>Prepares a material for tracing.</summary>
+    /// <remarks>
+    /// Numbers beyond their range are limited: a surface that sent back more light than it gets, or less than none, would have paths of
+    /// light without end.
+    /// </remarks>
     /// <param name="drawable">With its decoded texture.</param>
-    /// <param name="notices">Receives a sentence for each texture that can't be decoded.</param>
-    public static TracedMaterial Create(DrawableMaterial drawable, ICollection<string> notices)
+    /// <param name="textures">Decodes the maps of heights and normals.</param>
+    public static TracedMaterial Create(DrawableMaterial drawable, TextureCache textures)
     {
         var material = drawable.Material;
-        var diffuse = ToLinear(material.Diffuse);
-        var metalness = material.Metalness ?? 0;
         var isPhysical = material.Roughness is not null || material.Metalness is not null;
         return new()
         {
-            Diffuse = (1 - metalness) * diffuse,
+            BaseColour = Limit(ToLinear(material.Diffuse), 1),
+            Metalness = Limit(material.Metalness ?? 0, 1),
             Specular = isPhysical
-                ? ((1 - metalness) * DielectricReflectance * Vector.One) + (metalness * diffuse)
-                : new(material.Specular.Red, material.Specular.Green, material.Specular.Blue),
+                ? DielectricReflectance * Vector.One
+                : Limit(new Vector(material.Specular.Red, material.Specular.Green, material.Specular.Blue), 1),
             // An exponent and a roughness with highlights of the same width (Walter and others, EGSR 2007).
             Roughness = Math.Max(MinRoughness, isPhysical
-                ? Math.Pow(material.Roughness ?? 1, 2)
+                ? Math.Pow(Limit(material.Roughness ?? 1, 1), 2)
                 : Math.Sqrt(2 / (Math.Max(0, material.SpecularExponent) + 2))),
-            Emission = new(material.Emission.Red, material.Emission.Green, material.Emission.Blue),
-            Opacity = material.Opacity,
+            Emission = Limit(new Vector(material.Emission.Red, material.Emission.Green, material.Emission.Blue), MaxEmission),
+            Opacity = Limit(material.Opacity, 1),
             IsCutOut = drawable.IsCutOut,
             IsSeeThrough = drawable.IsTransparent || drawable.IsCutOut,
             Texture = drawable.Texture is { } texture && material.Texture is { } mapping ? new(texture.Image, mapping) : null,
-            Bump = Load(material.BumpTexture, notices),
-            Normals = Load(material.NormalTexture, notices),
+            Bump = Load(material.BumpTexture, textures),
+            Normals = Load(material.NormalTexture, textures),
         };
+    }
+
+    /// <summary>Divides light between what the surface scatters and what it mirrors.</summary>
+    /// <param name="colour">Of the point, with texture and all else that multiplies it, linear light.</param>
+    /// <param name="specular">The part that is mirrored where light falls straight onto the surface.</param>
+    /// <returns>The part that is scattered.</returns>
+    public Vector Divide(Vector colour, out Vector specular)
+    {
+        specular = Specular;
+        if (Metalness == 0)
+        {
+            return colour.Stretch(Vector.One - specular);
+        }
+
+        specular = ((1 - Metalness) * specular) + (Metalness * colour);
+        return (1 - Metalness) * colour.Stretch(Vector.One - specular);
     }
 
     /// <summary>Converts a colour to linear light: red, green, blue.</summary>
@@ -91,22 +114,11 @@ internal sealed class TracedMaterial
         return new(red, green, blue);
     }
 
-    private static TracedTexture? Load(MaterialTexture? texture, ICollection<string> notices)
-    {
-        if (texture is null)
-        {
-            return null;
-        }
+    private static Vector Limit(Vector colour, double max) => new(Limit(colour.X, max), Limit(colour.Y, max), Limit(colour.Z, max));
 
-        try
-        {
-            PixelImage image = ImageFile.Load(texture.Path);
-            return new(image, texture);
-        }
-        catch (IOException exception)
-        {
-            notices.Add($"{texture.Path}:1:1: warning: the texture can't be decoded, traced without it: {exception.Message}");
-            return null;
-        }
-    }
+    // 0 for what is no number, too.
+    private static double Limit(double number, double max) => number > 0 ? Math.Min(number, max) : 0;
+
+    private static TracedTexture? Load(MaterialTexture? texture, TextureCache textures) =>
+        texture is not null && textures.GetImage(texture.Path) is { } image ? new(image, texture) : null;
 }

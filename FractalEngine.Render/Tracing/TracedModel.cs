@@ -21,8 +21,7 @@ internal sealed class TracedModel
     /// <param name="model">With its mesh and materials.</param>
     /// <param name="creaseAngle">Crease angle of generated normals, degrees.</param>
     /// <param name="textures">Decodes the textures.</param>
-    /// <param name="notices">Receives a sentence for each texture that can't be decoded.</param>
-    public TracedModel(Model model, double creaseAngle, TextureCache textures, ICollection<string> notices)
+    public TracedModel(Model model, double creaseAngle, TextureCache textures)
     {
         _mesh = model.Mesh;
         _isSolid = new(() => ClosedSurface.IsSolid(model.Mesh));
@@ -44,7 +43,7 @@ internal sealed class TracedModel
                 {
                     index = materials.Count;
                     indices.Add(name, index);
-                    materials.Add(TracedMaterial.Create(textures.GetMaterial(material), notices));
+                    materials.Add(TracedMaterial.Create(textures.GetMaterial(material), textures));
                 }
 
                 ofFace.AsSpan(group.FirstFace, group.FaceCount).Fill((ushort)index);

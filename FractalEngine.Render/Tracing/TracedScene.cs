@@ -24,26 +24,41 @@ internal sealed class TracedScene
     private readonly double _offset;
     private readonly ImmutableArray<PlacedModel> _objects;
     private readonly TracedModel[] _models;
+    private readonly Dictionary<Model, TracedModel> _surfaces;
+    private readonly RenderSettings _settings;
     private readonly Vector[] _colours;
     private readonly Vector[] _gradientEnds;
+
+    // What multiplies the colours of an object's materials.
+    private readonly Vector[] _tints;
 
     /// <summary>Prepares a scene: its surfaces, and its objects for rays.</summary>
     /// <param name="scene">With its models loaded.</param>
     /// <param name="settings">The crease angle.</param>
     public TracedScene(LoadedScene scene, RenderSettings settings)
+        : this(scene, settings, new(scene), [], [])
+    {
+    }
+
+    private TracedScene(
+        LoadedScene scene, RenderSettings settings, SceneRayCaster caster, Dictionary<Model, TracedModel> knownSurfaces,
+        IEnumerable<KeyValuePair<Model, DeepZoomRayCaster>> zoomCasters)
     {
         _whole = this;
-        _zoomCasters = [];
-        _caster = new SceneRayCaster(scene);
+        _settings = settings;
+        _zoomCasters = new(zoomCasters);
+        _caster = caster;
         _objects = scene.Objects;
         var notices = ImmutableArray.CreateBuilder<string>();
         var textures = new TextureCache(notices, shareTextures: true, []);
-        var models = scene.Models.ToDictionary(
-            static model => model, model => new TracedModel(model, settings.CreaseAngle, textures, notices));
-        _models = [.. _objects.Select(placed => models[placed.Model])];
+        _surfaces = scene.Models.ToDictionary(
+            static model => model,
+            model => knownSurfaces.GetValueOrDefault(model) ?? new TracedModel(model, settings.CreaseAngle, textures));
+        _models = [.. _objects.Select(placed => _surfaces[placed.Model])];
         _colours = [.. _objects.Select(static (placed, index) => TracedMaterial.ToLinear(DrawableScene.ColourOf(placed, index)))];
         _gradientEnds = [.. _objects.Select((placed, index) =>
             placed.Declaration.Gradient is { } gradient ? TracedMaterial.ToLinear(gradient.EndColour) : _colours[index])];
+        _tints = [.. _objects.Select(static placed => TracedMaterial.ToLinear(placed.Declaration.Colour ?? Colour.White))];
         IsSeeThrough = _models.Any(static model => model.IsSeeThrough);
         Notices = notices.ToImmutable();
         _offset = SurfaceOffset * scene.Bounds.FiniteDiagonalOr(1);
@@ -60,14 +75,17 @@ internal sealed class TracedScene
         _section = section;
         _objects = scene._objects;
         _models = scene._models;
+        _surfaces = scene._surfaces;
+        _settings = scene._settings;
         _colours = scene._colours;
         _gradientEnds = scene._gradientEnds;
+        _tints = scene._tints;
         IsSeeThrough = scene.IsSeeThrough;
         Notices = scene.Notices;
         _zoom = zoom;
     }
 
-    /// <summary>Sentences for the user about textures that can't be decoded.</summary>
+    /// <summary>Sentences for the user about textures that can't be decoded, each when its model is prepared.</summary>
     public ImmutableArray<string> Notices { get; }
 
     /// <summary>True where light may pass through any surface.</summary>
@@ -82,6 +100,16 @@ internal sealed class TracedScene
     /// <param name="section">Plane that cuts the scene open, in the frame of the rays; null for none.</param>
     public TracedScene ForView(DeepZoom? zoom, SectionPlane? section) =>
         zoom is null && section is null ? _whole : new(_whole, zoom, section);
+
+    /// <summary>Prepares another scene, or another state of this one. What was prepared of models that both show is shared.</summary>
+    /// <param name="scene">With its models loaded.</param>
+    public TracedScene WithScene(LoadedScene scene)
+    {
+        var models = scene.Models.ToHashSet();
+        return new(
+            scene, _settings, ((SceneRayCaster)_whole._caster).WithScene(scene), _surfaces,
+            _zoomCasters.Where(known => models.Contains(known.Key)));
+    }
 
     /// <summary>Finds the nearest surface along a ray: a face, or the section through a solid.</summary>
     public bool TryIntersect(
@@ -174,7 +202,7 @@ internal sealed class TracedScene
         var faceNormal = hit.IsFrontFace ? hit.Normal : -hit.Normal;
         var normal = OrientedNormal(
             map.Linear.Cofactors() * model.InterpolateNormal(hit.FaceIndex, hit.Barycentrics), faceNormal, hit.IsFrontFace, map, direction);
-        var colour = material.Diffuse ?? ObjectColour(index, context);
+        var colour = material.BaseColour?.Stretch(_tints[_zoom?.ObjectIndex ?? index]) ?? ObjectColour(index, context);
         colour = colour.Stretch(model.InterpolateColour(hit.FaceIndex, hit.Barycentrics));
         var opacity = material.Opacity;
         if (material.IsTextured && model.TryGetTextureTriangle(hit.FaceIndex, out var corners, out var coordinates))
@@ -191,9 +219,8 @@ internal sealed class TracedScene
             normal = SurfaceDetail.Apply(material, normal, map.Linear, corners, coordinates, u, v, direction);
         }
 
-        return new(
-            hit.Point, faceNormal, normal, colour.Stretch(Vector.One - material.Specular), material.Specular, material.Roughness,
-            material.Emission, opacity);
+        var diffuse = material.Divide(colour, out var specular);
+        return new(hit.Point, faceNormal, normal, diffuse, specular, material.Roughness, material.Emission, opacity);
     }
 
     /// <summary>Brings an interpolated normal to the side that the ray comes from; the face's own where there is none.</summary>

@@ -60,9 +60,12 @@ internal sealed class TracedTexture(PixelImage image, MaterialTexture mapping)
         return ((int)left, (int)top, x - left, y - top);
     }
 
-    private double Fraction(double coordinate) => mapping.IsClamped
-        ? Math.Clamp(coordinate, 0, 1)
-        : coordinate - Math.Floor(coordinate);
+    private double Fraction(double coordinate)
+    {
+        var fraction = mapping.IsClamped ? Math.Clamp(coordinate, 0, 1) : coordinate - Math.Floor(coordinate);
+        // A coordinate times a large scale may be infinite, and then has no fraction.
+        return double.IsNaN(fraction) ? 0 : fraction;
+    }
 
     private int Wrap(int index, int size) => mapping.IsClamped
         ? Math.Clamp(index, 0, size - 1)

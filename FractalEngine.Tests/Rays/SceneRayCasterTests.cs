@@ -22,7 +22,7 @@ public class SceneRayCasterTests
     public void TryFindNearest_OnManyRandomScenes_EqualsEveryFace() => CheckAll(1_000_000, 20_000);
 
     [Fact]
-    public void WithObject_OfAnObjectThatMoves_EqualsTheSceneMadeAnew()
+    public void WithObjectAndWithScene_OfAnObjectThatMoves_EqualTheSceneMadeAnew()
     {
         var different = 0;
         Seeded.Run(30, random => different += CountDifferences(random));
@@ -40,6 +40,7 @@ public class SceneRayCasterTests
         Assert.Throws<ArgumentException>(() => caster.WithObject(0, new(new SceneObject(Samples.Triangle))));
         var flat = new SceneObject(placed.Model) { Placement = Transformation.Identity with { Scale = new(1, 0, 1) } };
         Assert.Throws<SingularMatrixException>(() => caster.WithObject(0, new(flat, placed.Model)));
+        Assert.Throws<SingularMatrixException>(() => caster.WithScene(scene with { Objects = [new(flat, placed.Model)] }));
     }
 
     [Fact]
@@ -116,6 +117,7 @@ public class SceneRayCasterTests
         var anew = new SceneRayCaster(moved);
         var before = new SceneRayCaster(scene);
         var caster = before.WithObject(index, placed);
+        var other = before.WithScene(moved);
         var different = 0;
         var context = new QueryContext();
         for (var i = 0; i < 200; i++)
@@ -125,6 +127,8 @@ public class SceneRayCasterTests
             Assert.Equal(isFound, caster.TryFindNearest(ray, context, out var actual, out var actualIndex));
             Assert.Equal((expectedIndex, expected), (actualIndex, actual));
             Assert.Equal(isFound, caster.HitsAny(ray, context));
+            Assert.Equal(isFound, other.TryFindNearest(ray, context, out actual, out actualIndex));
+            Assert.Equal((expectedIndex, expected), (actualIndex, actual));
             different += before.TryFindNearest(ray, context, out var old, out _) != isFound || old != expected ? 1 : 0;
         }
 

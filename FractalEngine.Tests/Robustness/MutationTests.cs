@@ -9,14 +9,15 @@ using FractalEngine.Parsing.Points;
 using FractalEngine.Parsing.Text;
 using FractalEngine.Render;
 using FractalEngine.Render.Preparation;
+using FractalEngine.Render.Tracing;
 using FractalEngine.Tests.Support;
 using Xunit.Sdk;
 
 namespace FractalEngine.Tests.Robustness;
 
 /// <summary>
-/// Loads changed files of the corpus, then queries, counts and prepares them for drawing: a result or an error of the engine's own, in two
-/// seconds of processor time.
+/// Loads changed files of the corpus, then queries, counts, traces and prepares them for drawing: a result or an error of the engine's own,
+/// in two seconds of processor time.
 /// </summary>
 public class MutationTests(Xunit.Abstractions.ITestOutputHelper output)
 {
@@ -89,6 +90,7 @@ public class MutationTests(Xunit.Abstractions.ITestOutputHelper output)
 
         Attempt(() => Query(scene));
         Attempt(() => DrawableScene.Prepare(scene, new RenderSettings { InstanceBudget = 10_000 }));
+        Attempt(() => Trace(scene));
         return true;
     }
 
@@ -102,6 +104,21 @@ public class MutationTests(Xunit.Abstractions.ITestOutputHelper output)
         catch (FractalEngineException)
         {
             // The engine has said what is wrong.
+        }
+    }
+
+    private static void Trace(LoadedScene scene)
+    {
+        const int Size = 8;
+        var tracer = new PathTracer(scene, View.Of(scene, 1), Size, Size);
+        tracer.AddSample(threads: 1);
+        for (var i = 0; i < Size * Size; i++)
+        {
+            var radiance = tracer.RadianceAt(i % Size, i / Size);
+            if (!radiance.IsFinite() || Math.Min(radiance.X, Math.Min(radiance.Y, radiance.Z)) < 0)
+            {
+                throw new XunitException($"the radiance of pixel {i} is {radiance}");
+            }
         }
     }
 

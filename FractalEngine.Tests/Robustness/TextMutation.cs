@@ -8,7 +8,7 @@ internal static class TextMutation
     private static readonly string[] Words =
     [
         "", "0", "-1", "1", "2", "4", "1e308", "-1e308", "1e-308", "1e160", "1e-200", "nan", "inf", "999999999999", "0x10", "1,5",
-        "#", "\"",
+        "#", "\"", "5", "1e200",
         "(", ")", "[", "]", "<$>.", "z", "x", "\u202E", "\u001B[31m", "é", "\uFEFF", "..", "/dev/zero",
         "\"base.obj\"", "\"scene.sdo\"", "f", "v",
         "1/", "//", "1000000", "100", "40",

@@ -1,4 +1,5 @@
 using System.Diagnostics;
+using System.Runtime.CompilerServices;
 using FractalEngine.App.Window;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Images;
@@ -80,6 +81,35 @@ public class ProgressiveTraceTests
 
         Assert.True(clock.Elapsed < TimeSpan.FromSeconds(5), $"the trace went on for {clock.Elapsed}");
         Assert.False(trace.TakeUpdate());
+    }
+
+    [Fact]
+    public void Release_OfATracedScene_LetsGoOfIt()
+    {
+        using var trace = new ProgressiveTrace(1, new(), static () => { });
+        var scene = ShowANewScene(trace);
+        Polling.WaitUntil(() => trace.State == TraceState.Done && !trace.IsBusy, "end of the trace");
+
+        trace.Release();
+        Polling.WaitUntil(() => !trace.IsBusy, "end of the background");
+        trace.Release();
+
+        Assert.Equal((TraceState.Idle, null), (trace.State, trace.Layer));
+        Polling.WaitUntil(
+            () =>
+            {
+                GC.Collect();
+                return !scene.IsAlive;
+            },
+            "end of the scene");
+    }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    private static WeakReference ShowANewScene(ProgressiveTrace trace)
+    {
+        var scene = LoadedScene.Of(new() { Objects = [new SceneObject(Shapes.Cube())] });
+        trace.Show(new(scene, Front, 8, 8));
+        return new(scene);
     }
 
     [Fact]

@@ -163,11 +163,67 @@ public sealed class MaterialLoaderTests : IDisposable
     [Fact]
     public void Load_OfTexturesThatAreNotDrawn_FindsThemOrForgetsThem()
     {
-        _folder.Write("images/heights.png", "any file");
-        _folder.Write("a.mtl", "newmtl m\nmap_Bump Images\\Heights.png\nnorm gone.png\nPr 0.5\n");
+        WritePngHeader("images/heights.png", 2, 2);
+        _folder.Write("images/glow.png", "any file");
+        _folder.Write("a.mtl", "newmtl m\nmap_Bump Images\\Heights.png\nPr 0.5\nmap_Ke images/glow.png\nnewmtl other\nmap_Ke gone.png\n");
         var loaded = Load("mtllib a.mtl\nusemtl m\nf 1 2 3\n");
-        Assert.Equal(new Material("m") { BumpTexture = new(_folder["images/heights.png"]), Roughness = 0.5 }, MaterialOf(loaded));
-        Assert.Equal("map_Bump is shown in traced images only (3 such statements in all)", Assert.Single(loaded.Warnings).Message);
+        Assert.Equal(
+            new Material("m")
+            {
+                BumpTexture = new(_folder["images/heights.png"]),
+                EmissionTexture = new(_folder["images/glow.png"]),
+                Roughness = 0.5,
+            },
+            MaterialOf(loaded));
+        Assert.Equal(
+            [
+                "map_Bump is shown in traced images only (2 such statements in all)",
+                "map_Ke is kept but not shown (2 such statements in all)",
+            ],
+            loaded.Warnings.Select(static warning => warning.Message));
+    }
+
+    [Theory]
+    [InlineData("map_Bump", 8193, 1, "the image \"a.png\" has 8193×1 pixels, more than the limit of 8192 per side")]
+    [InlineData("norm", 8193, 1, "the image \"a.png\" has 8193×1 pixels, more than the limit of 8192 per side")]
+    [InlineData("bump", 0, 5, "\"a.png\" is not a PNG, JPEG, BMP or TGA image")]
+    [InlineData("norm -clamp on", null, null, "the file \"a.png\" is not found")]
+    [InlineData("map_bump -bm 2", null, null, "the file \"a.png\" is not found")]
+    public void Load_WithABumpOrNormalMapThatCantBeUsed_WarnsAndIsSmooth(string statement, int? width, int? height, string message)
+    {
+        if (width is not null && height is not null)
+        {
+            WritePngHeader("a.png", (uint)width, (uint)height);
+        }
+
+        AssertMapIsRefused(statement, message);
+    }
+
+    [SkippableTheory]
+    [InlineData("map_Bump")]
+    [InlineData("norm")]
+    public void Load_WithAPipeForABumpOrNormalMap_DoesNotWait(string statement)
+    {
+        Skip.If(OperatingSystem.IsWindows(), "there are no pipes in the file system");
+        System.Diagnostics.Process.Start("mkfifo", _folder["a.png"]).WaitForExit();
+        AssertMapIsRefused(statement, "\"a.png\" is empty, expected an image");
+    }
+
+    [Fact]
+    public void Load_WithBumpAndNormalMaps_CountsTheirPixels()
+    {
+        foreach (var name in (string[])["a", "b", "c"])
+        {
+            WritePngHeader($"{name}.png", 8192, 8192, fileBytes: 8192 * 8192 / 8 / 1032);
+        }
+
+        _folder.Write("a.mtl", "newmtl m\nmap_Kd a.png\nmap_Bump b.png\nnorm c.png\n");
+        var loaded = Load("mtllib a.mtl\nusemtl m\nf 1 2 3\n");
+        Assert.Equal("with \"c.png\" all images have more than the limit of 134217728 pixels: traced without it",
+            loaded.Warnings.Single(static warning => !warning.ConcernsDrawnFrames).Message);
+        Assert.Equal((true, true, false), MaterialOf(loaded) is { } material
+            ? (material.Texture is not null, material.BumpTexture is not null, material.NormalTexture is not null)
+            : default);
     }
 
     [Fact]
@@ -392,6 +448,16 @@ public sealed class MaterialLoaderTests : IDisposable
         var warning = Assert.Single(file.Warnings);
         Assert.Equal(DiagnosticSeverity.Warning, warning.Severity);
         return (warning with { File = Path.GetFileName(warning.File) }).ToString();
+    }
+
+    private void AssertMapIsRefused(string statement, string message)
+    {
+        _folder.Write("a.mtl", $"newmtl m\n{statement} a.png\n");
+        var loaded = Load("mtllib a.mtl\nusemtl m\nf 1 2 3\n");
+        var warning = loaded.Warnings.Single(static warning => !warning.ConcernsDrawnFrames);
+        Assert.Equal($"{message}: traced without it", warning.Message);
+        Assert.Equal((2, statement.Length + 2), (warning.Line, warning.Column));
+        Assert.Equal(new Material("m"), MaterialOf(loaded));
     }
 
     private void AssertImageIsRefused(string message)

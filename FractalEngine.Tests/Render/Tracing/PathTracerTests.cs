@@ -76,7 +76,7 @@ public class PathTracerTests
         var camera = new Camera(new(0.1, 0.2, -4), Vector.Zero, 30);
         var tracer = Trace(Scene([WhiteSky], new SceneObject(fractal) { Colour = Colour.White }), camera, 12, 128);
 
-        // Paths that end after eight surfaces are dark: few, in holes.
+        // Paths that would go on from a ninth surface are dark: few, in holes.
         Assert.InRange(Mean(tracer), 0.97, 1.003);
     }
 
@@ -131,6 +131,22 @@ public class PathTracerTests
         Assert.Equal(0.75, Mean(tracer), 0.01);
     }
 
+    [Theory]
+    [InlineData(4, 6, 1)]
+    [InlineData(5.5, 100, 0)]
+    [InlineData(1, 4.5, 0)]
+    public void AddSample_BetweenClipPlanes_ShowsDepthsAndNotDistances(double near, double far, double expected)
+    {
+        // A wall at the depth 5. Towards the corners of the frame it is at up to 8.7 units from the eye.
+        var wall = Matt(Quad(new(-50, -50, 0), new(-50, 50, 0), new(50, 50, 0), new(50, -50, 0)), Colour.White);
+        var scene = Scene([WhiteSky], wall) with { Background = Colour.Black, Clip = (near, far) };
+
+        var tracer = Trace(scene, new(new(0, 0, -5), Vector.Zero, 90), 8, 4);
+
+        Assert.Equal(expected, tracer.RadianceAt(0, 0).X, 1e-9);
+        Assert.Equal(expected, tracer.RadianceAt(4, 4).X, 1e-9);
+    }
+
     [Fact]
     public void AddSample_WithTwoSeeds_AgreesInTheMeanAndDiffersInTheNoise()
     {
@@ -164,6 +180,16 @@ public class PathTracerTests
     }
 
     [Fact]
+    public void AddSample_ManyTimes_AddsTheLastOneAsExactlyAsTheFirst()
+    {
+        // Away from all surfaces, each sample is the background. Single precision would lose a ten thousandth of their sum.
+        var scene = Scene([WhiteSky], Matt(Shapes.Sphere(1), Colour.White)) with { Background = FromLinear(0.1) };
+        var camera = new Camera(new(0, 0, -5), new(0, Math.PI, 0), 40);
+
+        Assert.Equal(0.1, Trace(scene, camera, 1, 100_000, threads: 1).RadianceAt(0, 0).X, 1e-9);
+    }
+
+    [Fact]
     public void AddSample_ThatIsCancelled_ThrowsAndKeepsWhatIsThere()
     {
         var tracer = Trace(Scene([WhiteSky], Matt(Shapes.Sphere(1), Colour.White)), Camera.Default, 8, 2);
@@ -186,6 +212,25 @@ public class PathTracerTests
         other.AddSample();
 
         Assert.Equal(Trace(scene, camera, 20, 1).ToImage().Pixels, other.ToImage().Pixels);
+    }
+
+    [Fact]
+    public void WithScene_OfMovedAndOtherObjects_GivesTheImageOfANewTracer()
+    {
+        var sponge = AssetFractals.Load("menger", 2);
+        var ball = Shapes.Sphere(2);
+        var first = Scene([WhiteSky], new SceneObject(sponge), Matt(ball, Colour.White));
+        var camera = new Camera(new(0.5, 0.3, -5), Vector.Zero, 40);
+        var second = Scene(
+            [WhiteSky, new DirectionalLight(new(0, -1, 1), Colour.White, 0.5)],
+            new SceneObject(sponge) { Placement = Transformation.Identity with { Position = new(0.5, 0, 1) }, Colour = new(1, 0.5, 0) },
+            Matt(Shapes.Sphere(1), Colour.White)) with { Camera = camera, Background = new(0.2, 0.3, 0.4) };
+
+        var loaded = LoadedScene.Of(second);
+        var other = Trace(first, Camera.Default, 8, 2).WithScene(loaded, View.Of(loaded, 1), 20, 20);
+        other.AddSample();
+
+        Assert.Equal(Trace(second, camera, 20, 1).ToImage().Pixels, other.ToImage().Pixels);
     }
 
     private static PathTracer Trace(Scene scene, Camera camera, int size, int samples, int seed = 0, int? threads = null)
