@@ -32,7 +32,7 @@ internal sealed partial class ContactGraph
         else
         {
             _neighbours.Clear();
-            nearbyBodies.CollectOverlaps(body.Position, body.Radius + (2 * body.Reach), index, _neighbours);
+            CollectOverlaps(body.Position, body.Radius + (2 * body.Reach), index, _neighbours);
             AddNear(index, CollectionsMarshal.AsSpan(_neighbours));
         }
 

@@ -26,6 +26,7 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
     private readonly List<Island> _islands = new(InitialCapacity);
     private readonly List<int> _islandBodies = new(InitialCapacity);
     private readonly DisjointSets _sets = new();
+    private readonly NeighbourGrid _grid = new();
     private GraphBody[] _states = new GraphBody[InitialCapacity];
     private BodyMaterial[] _materials = new BodyMaterial[InitialCapacity];
     private BodyDescription?[] _descriptions = new BodyDescription?[InitialCapacity];
@@ -192,6 +193,11 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
                 NearDistance = double.NegativeInfinity,
             };
         }
+
+        if (_mayHavePairs && !nearbyBodies.HasFilters)
+        {
+            _grid.Build(_states.AsSpan(0, bodies.Count));
+        }
     }
 
     /// <summary>Makes room for as many contacts as bodies in a heap have, so that steps need not allocate.</summary>
@@ -200,6 +206,7 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
         _states = new GraphBody[2 * bodies.Count];
         _materials = new BodyMaterial[_states.Length];
         _descriptions = new BodyDescription?[_states.Length];
+        _grid.Reserve(_states.Length);
         _islandOf = new int[_states.Length];
         _next = new int[_states.Length];
         var contacts = ContactsPerBody * _states.Length;
@@ -221,7 +228,7 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
         distance = Math.Max(touchDistance, distance <= MaxEarlyDistance * body.Radius ? distance : 0);
         body.FirstNear = _near.Count;
         body.NearDistance = distance;
-        nearbyBodies.CollectOverlaps(body.Position, body.Radius + distance, index, _near);
+        CollectOverlaps(body.Position, body.Radius + distance, index, _near);
         body.NearCount = _near.Count - body.FirstNear;
         _neighbours.Clear();
         foreach (var neighbour in CollectionsMarshal.AsSpan(_near)[body.FirstNear..])
@@ -252,6 +259,19 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
         }
 
         return false;
+    }
+
+    /// <summary>Collects the bodies that a sphere overlaps where they were when they were copied.</summary>
+    private void CollectOverlaps(Vector centre, double radius, int excludedIndex, List<int> results)
+    {
+        if (_grid.IsBuilt && !nearbyBodies.HasFilters)
+        {
+            _grid.CollectOverlaps(centre, radius, excludedIndex, results);
+        }
+        else
+        {
+            nearbyBodies.CollectOverlaps(centre, radius, excludedIndex, results);
+        }
     }
 
     /// <summary>True where two bodies touch, the first of which stands for the position of both.</summary>
