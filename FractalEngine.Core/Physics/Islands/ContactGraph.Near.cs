@@ -27,7 +27,7 @@ internal sealed partial class ContactGraph
         var firstPair = _pairs.Count;
         if (2 * body.Reach <= body.NearDistance)
         {
-            AddNear(index, CollectionsMarshal.AsSpan(_near).Slice(body.FirstNear, body.NearCount));
+            AddNear(index, CollectionsMarshal.AsSpan(_searches[index / _bodiesPerSearch].Near).Slice(body.FirstNear, body.NearCount));
         }
         else
         {

@@ -11,7 +11,7 @@ namespace FractalEngine.Core.Physics.Islands;
 /// Projected Gauss–Seidel, whose changes are taken as the gradients of a nonlinear conjugate gradient method (Silcowitz, Niebe and
 /// Erleben 2010). Plain rounds pass a load on by one body each; with the conjugate directions far fewer are needed.
 /// </remarks>
-internal sealed partial class ContactSolver
+internal sealed partial class ContactSolver(int maxThreads = 1)
 {
     /// <summary>Most rounds of a solve of few contacts.</summary>
     public const int ManyRounds = 250;
@@ -44,7 +44,7 @@ internal sealed partial class ContactSolver
     // Fewer contacts are solved as soon without being copied.
     private const int MinBallRows = 8;
 
-    private readonly BallContactSolver _balls = new();
+    private readonly BallContactSolver _balls = new(maxThreads);
     private double _frictionShare = 1;
     private double _rounding;
     private SolverBody[] _bodies = new SolverBody[InitialCapacity];
@@ -167,8 +167,10 @@ internal sealed partial class ContactSolver
     /// <summary>Solves for the impulses. Those of the rows must have been given to the bodies already.</summary>
     /// <param name="rows">All contacts of an island; receive the impulses.</param>
     /// <param name="maxRounds">Number of rounds at most, fewer where there are many contacts.</param>
+    /// <param name="partOf">The part of each body, where an island has several; see <see cref="IslandParts"/>.</param>
+    /// <param name="partCount">Number of its parts.</param>
     /// <returns>False where it has not converged: then the impulses are those of the last round.</returns>
-    public bool Solve(Span<ContactRow> rows, int maxRounds = ManyRounds)
+    public bool Solve(Span<ContactRow> rows, int maxRounds = ManyRounds, ReadOnlySpan<byte> partOf = default, int partCount = 1)
     {
         if (_changes.Length < rows.Length)
         {
@@ -180,7 +182,7 @@ internal sealed partial class ContactSolver
         var isOfBalls = rows.Length > MinBallRows && !HasArms(rows);
         if (isOfBalls)
         {
-            _balls.Load(rows, _bodies);
+            _balls.Load(rows, _bodies, partOf, partCount);
         }
 
         var isConverged = Iterate(rows, isOfBalls, maxRounds);

@@ -16,6 +16,8 @@ internal sealed partial class IslandPlanner
     private const int MaxSolvesOfLarge = 25_000;
     private const int MinRoundsOfLarge = 8;
 
+    private readonly IslandParts _parts = new(bodies);
+
     private bool FindImpulses(ReadOnlySpan<int> island, Span<ContactRow> rows, double stepLength)
     {
         BounceAll(rows);
@@ -32,7 +34,15 @@ internal sealed partial class IslandPlanner
             ApplyKnownImpulses(ref row);
         }
 
-        return Solve(rows, Math.Max(MinRoundsOfLarge, MaxSolvesOfLarge / rows.Length));
+        var partCount = IslandParts.CountFor(rows.Length);
+        if (partCount > 1)
+        {
+            _parts.Cut(island, partCount);
+        }
+
+        var isConverged = _solver.Solve(rows, Math.Max(MinRoundsOfLarge, MaxSolvesOfLarge / rows.Length), _parts.PartOf, partCount);
+        Statistics = Statistics with { Rounds = Statistics.Rounds + _solver.Rounds };
+        return isConverged;
     }
 
     /// <summary>Demands that two bodies that go by their velocities after the step do not get nearer than they touch.</summary>

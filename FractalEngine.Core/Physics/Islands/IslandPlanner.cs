@@ -11,7 +11,7 @@ namespace FractalEngine.Core.Physics.Islands;
 /// The forces are constant during the step, so that each body follows a parabola. They act along the mean of the line of contact before
 /// and after the step. Along it, two balls that stay in touch do not come closer, so that the forces between them do no work.
 /// </remarks>
-internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies nearbyBodies, ContactLog contactLog)
+internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies nearbyBodies, ContactLog contactLog, int maxThreads)
 {
     // Rounds of bounces, one contact after the other: more of them are balls that pass their speed to and fro.
     private const int MaxBounceRounds = 64;
@@ -36,11 +36,11 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
     // Of what gravity and forces add to the speed: less is what the solve leaves of it, and the body rests.
     private const double RestFraction = 1e-10;
 
-    private readonly ContactSolver _solver = new();
+    private readonly ContactSolver _solver = new(maxThreads);
     private readonly ImpulseCache _cache = new();
 
     /// <summary>The contacts and islands of this step.</summary>
-    public ContactGraph Graph { get; } = new(bodies, nearbyBodies);
+    public ContactGraph Graph { get; } = new(bodies, nearbyBodies, maxThreads);
 
     /// <summary>What has been solved so far.</summary>
     public IslandStatistics Statistics { get; private set; }
@@ -57,6 +57,7 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
     {
         Graph.Group();
         _solver.Reserve(bodies.Count);
+        _parts.Reserve(bodies.Count);
         _cache.ReserveForBodies(bodies.Count);
         foreach (var island in Graph.Islands)
         {
