@@ -23,7 +23,7 @@ internal sealed class WorkerSet
     // A job that takes longer may wait for a core.
     private const int MaxSpinsForLastJob = 1000;
 
-    private readonly SemaphoreSlim _wakeUp = new(0);
+    private readonly object _wakeUp = new();
     private readonly Lock _faultLock = new();
     private Thread[] _threads = [];
     private int _isBusy;
@@ -76,10 +76,12 @@ internal sealed class WorkerSet
         _pending = count;
         var call = CallOf(_state) + 1;
         Interlocked.Exchange(ref _state, ((long)call << (2 * CountBits)) | ((long)count << CountBits));
-        var sleepers = Volatile.Read(ref _sleepers);
-        if (sleepers > 0)
+        if (Volatile.Read(ref _sleepers) > 0)
         {
-            _wakeUp.Release(sleepers);
+            lock (_wakeUp)
+            {
+                Monitor.PulseAll(_wakeUp);
+            }
         }
 
         Work(call);
@@ -144,13 +146,16 @@ internal sealed class WorkerSet
                 Thread.SpinWait(IterationsPerSpin);
             }
 
-            Interlocked.Increment(ref _sleepers);
-            if (CallOf(Volatile.Read(ref _state)) == lastCall)
+            lock (_wakeUp)
             {
-                _wakeUp.Wait();
-            }
+                Interlocked.Increment(ref _sleepers);
+                while (CallOf(Volatile.Read(ref _state)) == lastCall)
+                {
+                    Monitor.Wait(_wakeUp);
+                }
 
-            Interlocked.Decrement(ref _sleepers);
+                Interlocked.Decrement(ref _sleepers);
+            }
         }
     }
 

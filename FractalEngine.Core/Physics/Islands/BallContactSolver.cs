@@ -31,8 +31,6 @@ internal sealed partial class BallContactSolver
     // The contacts of the next round of each group, in their order.
     private int[] _active = new int[InitialCapacity];
 
-    // The places of rows in the caller's list.
-    private int[] _order = new int[InitialCapacity];
     private int _partCount;
     private bool _hasTurns;
     private bool _isFull;
@@ -56,19 +54,18 @@ internal sealed partial class BallContactSolver
     /// <summary>Copies the contacts of an island and their bodies.</summary>
     /// <param name="rows">All contacts.</param>
     /// <param name="bodies">Bodies by their index in the world.</param>
-    /// <param name="partOf">The part of each body; empty for a single part.</param>
-    /// <param name="partCount">Number of parts.</param>
-    public void Load(ReadOnlySpan<ContactRow> rows, ReadOnlySpan<SolverBody> bodies, ReadOnlySpan<byte> partOf, int partCount)
+    /// <param name="partEnds">The ends of the contacts of each part and of those between parts; empty for a single part.</param>
+    public void Load(ReadOnlySpan<ContactRow> rows, ReadOnlySpan<SolverBody> bodies, ReadOnlySpan<int> partEnds)
     {
         Reserve(rows.Length, bodies.Length);
-        Sort(rows, partOf, partCount);
+        SetGroups(rows.Length, partEnds);
         _firm = bodies.Length;
         _bodies[_firm] = default;
         _hasTurns = false;
         _share = 0;
         for (var i = 0; i < rows.Length; i++)
         {
-            ref readonly var row = ref rows[_order[i]];
+            ref readonly var row = ref rows[i];
             _bodies[row.First] = new(in bodies[row.First]);
             if (row.Second >= 0)
             {
@@ -83,7 +80,7 @@ internal sealed partial class BallContactSolver
 
         for (var i = 0; _hasTurns && i < rows.Length; i++)
         {
-            _turns[i] = new(in rows[_order[i]]);
+            _turns[i] = new(in rows[i]);
         }
     }
 
@@ -93,7 +90,7 @@ internal sealed partial class BallContactSolver
         for (var i = 0; i < rows.Length; i++)
         {
             ref readonly var row = ref _rows[i];
-            ref var stored = ref rows[_order[i]];
+            ref var stored = ref rows[i];
             stored.NormalImpulse = row.Impulse[NormalLane];
             stored.FrictionImpulse = SimdAffineMap.ToVector(row.Impulse);
             stored.TurnImpulse = _hasTurns ? SimdAffineMap.ToVector(_turns[i].Impulse) : Vector.Zero;
@@ -247,43 +244,22 @@ internal sealed partial class BallContactSolver
             _changes = new Vector256<double>[_rows.Length];
             _directions = new Vector256<double>[_rows.Length];
             _active = new int[_rows.Length];
-            _order = new int[_rows.Length];
         }
     }
 
-    /// <summary>Puts the contacts of each part together, and those between parts behind them.</summary>
-    private void Sort(ReadOnlySpan<ContactRow> rows, ReadOnlySpan<byte> partOf, int partCount)
+    private void SetGroups(int rowCount, ReadOnlySpan<int> partEnds)
     {
-        _partCount = partCount;
-        var groups = _groups.AsSpan(0, partCount + 1);
-        foreach (var group in groups)
-        {
-            group.Count = 0;
-            group.ActiveCount = 0;
-        }
-
-        foreach (ref readonly var row in rows)
-        {
-            groups[GroupOf(in row, partOf)].Count++;
-        }
-
+        _partCount = Math.Max(1, partEnds.Length - 1);
         var first = 0;
-        foreach (var group in groups)
+        for (var i = 0; i <= _partCount; i++)
         {
-            group.First = first;
-            first += group.Count;
-            group.Count = 0;
-        }
-
-        for (var i = 0; i < rows.Length; i++)
-        {
-            var group = groups[GroupOf(in rows[i], partOf)];
-            _order[group.First + group.Count++] = i;
+            var end = partEnds.Length > 0 ? partEnds[i] : rowCount;
+            _groups[i].First = first;
+            _groups[i].Count = end - first;
+            _groups[i].ActiveCount = 0;
+            first = end;
         }
     }
-
-    private int GroupOf(in ContactRow row, ReadOnlySpan<byte> partOf) => _partCount == 1 ? 0
-        : row.Second < 0 || partOf[row.First] == partOf[row.Second] ? partOf[row.First] : _partCount;
 
     private void ChooseAll(Group group)
     {

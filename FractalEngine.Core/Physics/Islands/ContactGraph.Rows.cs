@@ -8,6 +8,9 @@ internal sealed partial class ContactGraph
 {
     // Places of the pairs that are contacts, one island after the other.
     private readonly List<int> _sortedPairs = new(InitialCapacity);
+    private readonly List<int> _partPairs = new(InitialCapacity);
+    private readonly List<int> _partEnds = new(InitialCapacity);
+    private readonly int[] _partStarts = new int[IslandParts.MaxCount + 2];
     private ContactRow[] _rows = new ContactRow[InitialCapacity];
     private int[] _islandOf = new int[InitialCapacity];
     private int[] _next = new int[InitialCapacity];
@@ -18,21 +21,25 @@ internal sealed partial class ContactGraph
     {
         _islands.Clear();
         _islandBodies.Clear();
+        _partEnds.Clear();
         CollectBodies();
         SortPairs();
         _count = 0;
         for (var island = 0; island < _islands.Count; island++)
         {
             var firstRow = _count;
-            foreach (var index in BodiesOf(_islands[island]))
-            {
-                AddSurfaces(bodies[index]);
-            }
-
             var firstPair = island > 0 ? _next[island - 1] : 0;
-            foreach (var pair in CollectionsMarshal.AsSpan(_sortedPairs)[firstPair.._next[island]])
+            var pairs = CollectionsMarshal.AsSpan(_sortedPairs)[firstPair.._next[island]];
+            var partCount = _islands[island].HasCompound ? 1 : IslandParts.CountFor(pairs.Length);
+            if (partCount > 1)
             {
-                AddPair(in CollectionsMarshal.AsSpan(_pairs)[pair]);
+                _islands[island] = _islands[island] with { PartCount = partCount, FirstPartEnd = _partEnds.Count };
+                AddParts(BodiesOf(_islands[island]), pairs, partCount);
+            }
+            else
+            {
+                AddSurfaces(BodiesOf(_islands[island]));
+                AddPairs(pairs);
             }
 
             _islands[island] = _islands[island] with { FirstRow = firstRow, RowCount = _count - firstRow };
@@ -53,7 +60,7 @@ internal sealed partial class ContactGraph
                 if (root == i)
                 {
                     _islandOf[i] = _islands.Count;
-                    _islands.Add(default);
+                    _islands.Add(new(0, 0, 0, 0));
                 }
 
                 // The lowest index stands for its set, so that it has come already.
@@ -110,6 +117,67 @@ internal sealed partial class ContactGraph
                 // Each entry is the end of its island afterwards.
                 _sortedPairs[_next[_islandOf[pairs[i].First]]++] = i;
             }
+        }
+    }
+
+    /// <summary>Makes the contacts of an island part by part, and those across its cuts last.</summary>
+    private void AddParts(ReadOnlySpan<int> island, ReadOnlySpan<int> pairs, int partCount)
+    {
+        var firstRow = _count;
+        _parts.Cut(island, partCount, _states);
+        SortByParts(pairs, partCount);
+        for (var part = 0; part <= partCount; part++)
+        {
+            foreach (var index in part < partCount ? island : [])
+            {
+                if (_parts.PartOf(index) == part)
+                {
+                    AddSurfaces(bodies[index]);
+                }
+            }
+
+            AddPairs(CollectionsMarshal.AsSpan(_partPairs)[_partStarts[part].._partStarts[part + 1]]);
+            _partEnds.Add(_count - firstRow);
+        }
+    }
+
+    private void SortByParts(ReadOnlySpan<int> pairs, int partCount)
+    {
+        var known = CollectionsMarshal.AsSpan(_pairs);
+        Array.Clear(_partStarts);
+        foreach (var pair in pairs)
+        {
+            _partStarts[_parts.PartOf(in known[pair], partCount)]++;
+        }
+
+        var end = 0;
+        for (var part = 0; part <= partCount; part++)
+        {
+            end += _partStarts[part];
+            _partStarts[part] = end;
+        }
+
+        _partStarts[partCount + 1] = end;
+        CollectionsMarshal.SetCount(_partPairs, pairs.Length);
+        for (var i = pairs.Length - 1; i >= 0; i--)
+        {
+            _partPairs[--_partStarts[_parts.PartOf(in known[pairs[i]], partCount)]] = pairs[i];
+        }
+    }
+
+    private void AddSurfaces(ReadOnlySpan<int> island)
+    {
+        foreach (var index in island)
+        {
+            AddSurfaces(bodies[index]);
+        }
+    }
+
+    private void AddPairs(ReadOnlySpan<int> pairs)
+    {
+        foreach (var pair in pairs)
+        {
+            AddPair(in CollectionsMarshal.AsSpan(_pairs)[pair]);
         }
     }
 

@@ -26,6 +26,7 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
     private readonly List<int> _islandBodies = new(InitialCapacity);
     private readonly DisjointSets _sets = new();
     private readonly NeighbourGrid _grid = new();
+    private readonly IslandParts _parts = new();
     private GraphBody[] _states = new GraphBody[InitialCapacity];
     private BodyMaterial[] _materials = new BodyMaterial[InitialCapacity];
     private BodyDescription?[] _descriptions = new BodyDescription?[InitialCapacity];
@@ -37,6 +38,15 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
 
     /// <summary>The contacts of an island.</summary>
     public Span<ContactRow> RowsOf(in Island island) => _rows.AsSpan(island.FirstRow, island.RowCount);
+
+    /// <summary>
+    /// The ends of the contacts of each part of an island, and of those between parts, counted from its first; empty for a single part.
+    /// </summary>
+    public ReadOnlySpan<int> PartEndsOf(in Island island) => island.PartCount == 1 ? []
+        : CollectionsMarshal.AsSpan(_partEnds).Slice(island.FirstPartEnd, island.PartCount + 1);
+
+    /// <summary>The part of a body of an island that has several.</summary>
+    public int PartOf(int body) => _parts.PartOf(body);
 
     /// <summary>Number of contacts of all islands.</summary>
     public int RowCount { get; private set; }
@@ -184,12 +194,14 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
         _materials = new BodyMaterial[_states.Length];
         _descriptions = new BodyDescription?[_states.Length];
         _grid.Reserve(_states.Length);
+        _parts.Reserve(_states.Length);
         _islandOf = new int[_states.Length];
         _next = new int[_states.Length];
         var contacts = ContactsPerBody * _states.Length;
         ReserveSearches(NeighboursPerBody * bodies.Count, contacts);
         _pairs.EnsureCapacity(contacts);
         _sortedPairs.EnsureCapacity(contacts);
+        _partPairs.EnsureCapacity(contacts);
         _islands.EnsureCapacity(_states.Length);
         _islandBodies.EnsureCapacity(_states.Length);
         Array.Resize(ref _rows, Math.Max(contacts, _rows.Length));

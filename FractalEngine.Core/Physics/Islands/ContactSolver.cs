@@ -167,10 +167,9 @@ internal sealed partial class ContactSolver(int maxThreads = 1)
     /// <summary>Solves for the impulses. Those of the rows must have been given to the bodies already.</summary>
     /// <param name="rows">All contacts of an island; receive the impulses.</param>
     /// <param name="maxRounds">Number of rounds at most, fewer where there are many contacts.</param>
-    /// <param name="partOf">The part of each body, where an island has several; see <see cref="IslandParts"/>.</param>
-    /// <param name="partCount">Number of its parts.</param>
+    /// <param name="partEnds">The ends of the contacts of each part of the island; empty for a single part.</param>
     /// <returns>False where it has not converged: then the impulses are those of the last round.</returns>
-    public bool Solve(Span<ContactRow> rows, int maxRounds = ManyRounds, ReadOnlySpan<byte> partOf = default, int partCount = 1)
+    public bool Solve(Span<ContactRow> rows, int maxRounds = ManyRounds, ReadOnlySpan<int> partEnds = default)
     {
         if (_changes.Length < rows.Length)
         {
@@ -182,7 +181,7 @@ internal sealed partial class ContactSolver(int maxThreads = 1)
         var isOfBalls = rows.Length > MinBallRows && !HasArms(rows);
         if (isOfBalls)
         {
-            _balls.Load(rows, _bodies, partOf, partCount);
+            _balls.Load(rows, _bodies, partEnds);
         }
 
         var isConverged = Iterate(rows, isOfBalls, maxRounds);

@@ -10,6 +10,12 @@ internal readonly record struct Island(int FirstRow, int RowCount, int FirstBody
     // Contacts from which on forces and impulses are one solve.
     private const int MinRowsOfLarge = 300;
 
+    /// <summary>Number of parts that share no body, see <see cref="IslandParts"/>.</summary>
+    public int PartCount { get; init; } = 1;
+
+    /// <summary>Place of the end of its first part's contacts, where it has several.</summary>
+    public int FirstPartEnd { get; init; }
+
     /// <summary>True where one of its bodies is a compound.</summary>
     public bool HasCompound { get; init; }
 

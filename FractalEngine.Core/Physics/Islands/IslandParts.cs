@@ -6,13 +6,13 @@ namespace FractalEngine.Core.Physics.Islands;
 /// Cuts large islands into slabs with about as many bodies each. Contacts within a slab touch no body of another one, so that threads
 /// can solve slabs at the same time; those across a cut come between. The cuts depend on the bodies alone, not on the threads.
 /// </summary>
-internal sealed class IslandParts(List<Body> bodies)
+internal sealed class IslandParts
 {
     /// <summary>Number of parts at most.</summary>
     public const int MaxCount = 8;
 
     // Smaller parts have too many of their contacts across a cut.
-    private const int MinRowsOfPart = 900;
+    private const int MinPairsOfPart = 800;
 
     // Cuts are found to so many places along the slabs.
     private const int BinCount = 256;
@@ -21,11 +21,15 @@ internal sealed class IslandParts(List<Body> bodies)
     private readonly byte[] _partOfBin = new byte[BinCount];
     private byte[] _partOf = [];
 
-    /// <summary>The part of each body by its index, for the bodies of islands of more than one.</summary>
-    public ReadOnlySpan<byte> PartOf => _partOf;
+    /// <summary>The part of a body of an island that has been cut.</summary>
+    public int PartOf(int body) => _partOf[body];
 
-    /// <summary>Number of parts of an island with so many contacts.</summary>
-    public static int CountFor(int rowCount) => Math.Clamp(rowCount / MinRowsOfPart, 1, MaxCount);
+    /// <summary>Number of parts of an island with so many pairs that touch or may meet.</summary>
+    public static int CountFor(int pairCount) => Math.Clamp(pairCount / MinPairsOfPart, 1, MaxCount);
+
+    /// <summary>The part of a pair; that behind the last one for a pair across a cut.</summary>
+    public int PartOf(in BodyPair pair, int count) =>
+        pair.IsSecondFirm || _partOf[pair.First] == _partOf[pair.Second] ? _partOf[pair.First] : count;
 
     /// <summary>Makes room for the bodies of a world, so that steps allocate nothing.</summary>
     public void Reserve(int bodyCount)
@@ -39,7 +43,8 @@ internal sealed class IslandParts(List<Body> bodies)
     /// <summary>Cuts an island across its longest side.</summary>
     /// <param name="island">Indices of its bodies, for which room must have been made.</param>
     /// <param name="count">Number of parts, at most <see cref="MaxCount"/>.</param>
-    public void Cut(ReadOnlySpan<int> island, int count)
+    /// <param name="bodies">The bodies of the world.</param>
+    public void Cut(ReadOnlySpan<int> island, int count, ReadOnlySpan<GraphBody> bodies)
     {
         var min = bodies[island[0]].Position;
         var max = min;
@@ -56,7 +61,7 @@ internal sealed class IslandParts(List<Body> bodies)
         Array.Clear(_bins);
         foreach (var index in island)
         {
-            _bins[BinOf(index, axis, start, scale)]++;
+            _bins[BinOf(bodies[index].Position, axis, start, scale)]++;
         }
 
         var before = 0L;
@@ -68,10 +73,10 @@ internal sealed class IslandParts(List<Body> bodies)
 
         foreach (var index in island)
         {
-            _partOf[index] = _partOfBin[BinOf(index, axis, start, scale)];
+            _partOf[index] = _partOfBin[BinOf(bodies[index].Position, axis, start, scale)];
         }
     }
 
-    private int BinOf(int body, Vector axis, double start, double scale) =>
-        (int)Math.Min(scale * (Vector.Dot(bodies[body].Position, axis) - start), BinCount - 1);
+    private static int BinOf(Vector position, Vector axis, double start, double scale) =>
+        (int)Math.Min(scale * (Vector.Dot(position, axis) - start), BinCount - 1);
 }

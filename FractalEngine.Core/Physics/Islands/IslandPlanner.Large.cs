@@ -16,14 +16,14 @@ internal sealed partial class IslandPlanner
     private const int MaxSolvesOfLarge = 25_000;
     private const int MinRoundsOfLarge = 8;
 
-    private readonly IslandParts _parts = new(bodies);
-
-    private bool FindImpulses(ReadOnlySpan<int> island, Span<ContactRow> rows, double stepLength)
+    private bool FindImpulses(in Island island, double stepLength)
     {
+        var members = Graph.BodiesOf(in island);
+        var rows = Graph.RowsOf(in island);
         BounceAll(rows);
-        StoreVelocities(island);
+        StoreVelocities(members);
         _cache.Recall(rows);
-        foreach (var index in island)
+        foreach (var index in members)
         {
             _solver.Bodies[index].Velocity += stepLength * bodies[index].FreeAcceleration;
         }
@@ -34,15 +34,7 @@ internal sealed partial class IslandPlanner
             ApplyKnownImpulses(ref row);
         }
 
-        var partCount = IslandParts.CountFor(rows.Length);
-        if (partCount > 1)
-        {
-            _parts.Cut(island, partCount);
-        }
-
-        var isConverged = _solver.Solve(rows, Math.Max(MinRoundsOfLarge, MaxSolvesOfLarge / rows.Length), _parts.PartOf, partCount);
-        Statistics = Statistics with { Rounds = Statistics.Rounds + _solver.Rounds };
-        return isConverged;
+        return Solve(rows, Math.Max(MinRoundsOfLarge, MaxSolvesOfLarge / rows.Length), Graph.PartEndsOf(in island));
     }
 
     /// <summary>Demands that two bodies that go by their velocities after the step do not get nearer than they touch.</summary>

@@ -57,7 +57,6 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
     {
         Graph.Group();
         _solver.Reserve(bodies.Count);
-        _parts.Reserve(bodies.Count);
         _cache.ReserveForBodies(bodies.Count);
         foreach (var island in Graph.Islands)
         {
@@ -95,7 +94,7 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
             }
 
             Load(Graph.BodiesOf(in island), rows);
-            var isConverged = island.IsLarge ? FindImpulses(Graph.BodiesOf(in island), rows, stepLength)
+            var isConverged = island.IsLarge ? FindImpulses(in island, stepLength)
                 : StopApproachesAndFindForces(Graph.BodiesOf(in island), rows, stepLength);
             Statistics = new(Statistics.Solves + 1, Statistics.Rounds, Statistics.Unconverged + (isConverged ? 0 : 1));
             StorePlan(Graph.BodiesOf(in island), stepLength, island.IsLarge);
@@ -271,9 +270,9 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
         _solver.ApplyTurn(in row, row.TurnImpulse);
     }
 
-    private bool Solve(Span<ContactRow> rows, int maxRounds = ContactSolver.ManyRounds)
+    private bool Solve(Span<ContactRow> rows, int maxRounds = ContactSolver.ManyRounds, ReadOnlySpan<int> partEnds = default)
     {
-        var isConverged = _solver.Solve(rows, maxRounds);
+        var isConverged = _solver.Solve(rows, maxRounds, partEnds);
         Statistics = Statistics with { Rounds = Statistics.Rounds + _solver.Rounds };
         return isConverged;
     }
