@@ -171,7 +171,7 @@ public sealed partial class PhysicsWorld
             }
 
             _energyGuard.Check(in island);
-            if (!_energyGuard.IsFree(in island))
+            if (!island.IsFree)
             {
                 _islandMover.DampJammed(in island, seconds);
             }

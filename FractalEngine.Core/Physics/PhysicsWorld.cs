@@ -81,9 +81,10 @@ public sealed partial class PhysicsWorld
         _obstacles = new(_bodies, nearbyBodies, _queryContext, _kinematics);
         _contactLog = new(_bodies, _statics) { IsEnabled = Settings.ReportsContacts };
         _queries = new(_bodies, _statics, _obstacles, _kinematics, _queryContext);
-        _planner = new(_bodies, nearbyBodies, _contactLog, Settings.MaxThreads ?? Environment.ProcessorCount);
+        var maxThreads = Settings.MaxThreads ?? Environment.ProcessorCount;
+        _planner = new(_bodies, nearbyBodies, _contactLog, maxThreads);
         _stepper = new(Settings, _bodies, _grid, nearbyBodies, _obstacles, _islands, _planner, _queryContext, _contactLog);
-        _islandMover = new(_bodies, _planner.Graph, _grid, nearbyBodies);
+        _islandMover = new(_bodies, _planner.Graph, _grid, nearbyBodies, maxThreads);
         _energyGuard = new(_bodies, _planner.Graph, _islandMover);
         _staticOfObject = new StaticObject?[scene.Objects.Length];
         for (var i = 0; i < scene.Objects.Length; i++)

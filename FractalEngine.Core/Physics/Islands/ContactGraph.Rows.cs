@@ -1,4 +1,5 @@
 using System.Runtime.InteropServices;
+using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics.Compounds;
 
 namespace FractalEngine.Core.Physics.Islands;
@@ -42,10 +43,27 @@ internal sealed partial class ContactGraph
                 AddPairs(pairs);
             }
 
-            _islands[island] = _islands[island] with { FirstRow = firstRow, RowCount = _count - firstRow };
+            var (isFree, isPushed) = Examine(_rows.AsSpan(firstRow, _count - firstRow));
+            _islands[island] = _islands[island] with
+            {
+                FirstRow = firstRow, RowCount = _count - firstRow, IsFree = isFree, IsPushed = isPushed,
+            };
         }
 
         RowCount = _count;
+    }
+
+    private static (bool IsFree, bool IsPushed) Examine(ReadOnlySpan<ContactRow> rows)
+    {
+        var isFree = true;
+        var isPushed = false;
+        foreach (ref readonly var row in rows)
+        {
+            isFree &= row.Second >= 0;
+            isPushed |= row.SurfaceWay != Vector.Zero;
+        }
+
+        return (isFree, isPushed);
     }
 
     /// <summary>Makes an island of each set of two or more bodies, and lists its bodies.</summary>

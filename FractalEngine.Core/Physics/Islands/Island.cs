@@ -16,6 +16,12 @@ internal readonly record struct Island(int FirstRow, int RowCount, int FirstBody
     /// <summary>Place of the end of its first part's contacts, where it has several.</summary>
     public int FirstPartEnd { get; init; }
 
+    /// <summary>True where it touches nothing firm, so that its momentum is its own.</summary>
+    public bool IsFree { get; init; }
+
+    /// <summary>True where a surface that it touches, or may meet, moves.</summary>
+    public bool IsPushed { get; init; }
+
     /// <summary>True where one of its bodies is a compound.</summary>
     public bool HasCompound { get; init; }
 

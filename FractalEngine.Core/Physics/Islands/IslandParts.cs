@@ -11,6 +11,8 @@ internal sealed class IslandParts
     /// <summary>Number of parts at most.</summary>
     public const int MaxCount = 8;
 
+    private const int InitialCapacity = 256;
+
     // Smaller parts have too many of their contacts across a cut.
     private const int MinPairsOfPart = 800;
 
@@ -19,7 +21,7 @@ internal sealed class IslandParts
 
     private readonly int[] _bins = new int[BinCount];
     private readonly byte[] _partOfBin = new byte[BinCount];
-    private byte[] _partOf = [];
+    private byte[] _partOf = new byte[InitialCapacity];
 
     /// <summary>The part of a body of an island that has been cut.</summary>
     public int PartOf(int body) => _partOf[body];

@@ -17,6 +17,8 @@ internal sealed class NeighbourGrid
     private const int MaxCellsPerBody = 16;
     private const int MinCells = 4096;
 
+    private const int InitialCapacity = 256;
+
     private int[] _starts = [];
     private int[] _indices = [];
     private int[] _cells = [];
@@ -27,6 +29,8 @@ internal sealed class NeighbourGrid
     private Vector _origin;
     private double _maxRadius;
     private (int X, int Y, int Z) _size;
+
+    public NeighbourGrid() => Reserve(InitialCapacity);
 
     /// <summary>True where the last bodies were few cells apart, so that they can be searched.</summary>
     public bool IsBuilt { get; private set; }
