@@ -13,7 +13,7 @@ namespace FractalEngine.Core.Physics;
 internal sealed class WorkerSet
 {
     // A worker that waits longer for the next jobs sleeps. Within a step they follow each other in a few microseconds.
-    private const int MaxSpins = 400;
+    private const int MaxSpins = 60;
     private const int IterationsPerSpin = 20;
 
     // Bits of a number of jobs.
@@ -21,7 +21,7 @@ internal sealed class WorkerSet
     private const int CountMask = (1 << CountBits) - 1;
 
     // A job that takes longer may wait for a core.
-    private const int MaxSpinsForLastJob = 1000;
+    private const int MaxSpinsForLastJob = 30;
 
     private readonly object _wakeUp = new();
     private readonly Lock _faultLock = new();

@@ -16,13 +16,15 @@ internal sealed partial class BallContactSolver
     private const int InitialCapacity = 256;
     private const int ContactsPerBody = 4;
     private const int NormalLane = 3;
+    private const int FirmStride = 2;
+    private const int FirmCount = FirmStride * (IslandParts.MaxCount + 1);
 
     // The last group has the contacts between parts.
     private readonly Group[] _groups = [.. Enumerable.Range(0, IslandParts.MaxCount + 1).Select(static _ => new Group())];
     private readonly int _maxThreads;
     private readonly Action<int> _beginRound;
     private readonly Action<int> _endRound;
-    private Body[] _bodies = new Body[InitialCapacity + 1];
+    private Body[] _bodies = [];
     private Row[] _rows = new Row[InitialCapacity];
     private Turn[] _turns = new Turn[InitialCapacity];
     private Vector256<double>[] _changes = new Vector256<double>[InitialCapacity];
@@ -36,8 +38,10 @@ internal sealed partial class BallContactSolver
     private bool _isFull;
     private double _share;
 
-    // The body of surfaces and of bodies that do not give way: it has no velocity, and none is given to it.
-    private int _firm;
+    // The first of the bodies that stand for surfaces and for what does not give way: they have infinite mass. One of each group rests,
+    // and each moving surface has its own. Threads write zeros to them, and so they are some lines of the cache apart.
+    private int _firstFirm;
+    private int _surfaceCount;
 
     public BallContactSolver(int maxThreads)
     {
@@ -59,29 +63,55 @@ internal sealed partial class BallContactSolver
     {
         Reserve(rows.Length, bodies.Length);
         SetGroups(rows.Length, partEnds);
-        _firm = bodies.Length;
-        _bodies[_firm] = default;
+        _firstFirm = bodies.Length;
+        _surfaceCount = 0;
+        Array.Clear(_bodies, _firstFirm, FirmCount);
         _hasTurns = false;
         _share = 0;
-        for (var i = 0; i < rows.Length; i++)
+        for (var group = 0; group <= _partCount; group++)
         {
-            ref readonly var row = ref rows[i];
-            _bodies[row.First] = new(in bodies[row.First]);
-            if (row.Second >= 0)
+            for (var i = _groups[group].First; i < _groups[group].First + _groups[group].Count; i++)
             {
-                _bodies[row.Second] = new(in bodies[row.Second]);
+                Load(i, in rows[i], bodies, _firstFirm + (FirmStride * group));
             }
-
-            _rows[i] = new(in row, row.Second >= 0 ? row.Second : _firm);
-            _changes[i] = Vector256<double>.Zero;
-            _directions[i] = Vector256<double>.Zero;
-            _hasTurns |= Turn.SlowsDown(in row);
         }
 
         for (var i = 0; _hasTurns && i < rows.Length; i++)
         {
             _turns[i] = new(in rows[i]);
         }
+    }
+
+    private void Load(int index, in ContactRow row, ReadOnlySpan<SolverBody> bodies, int firm)
+    {
+        _bodies[row.First] = new(in bodies[row.First]);
+        var second = row.Second;
+        if (second >= 0)
+        {
+            _bodies[second] = new(in bodies[second]);
+        }
+        else
+        {
+            second = row.SurfaceVelocity == Vector.Zero && row.SurfaceSpin == Vector.Zero ? firm : AddSurface(in row);
+        }
+
+        _rows[index] = new(in row, second);
+        _changes[index] = Vector256<double>.Zero;
+        _directions[index] = Vector256<double>.Zero;
+        _hasTurns |= Turn.SlowsDown(in row);
+    }
+
+    /// <summary>Adds a body of infinite mass that moves like a surface.</summary>
+    private int AddSurface(in ContactRow row)
+    {
+        var index = _firstFirm + FirmCount + _surfaceCount++;
+        if (index == _bodies.Length)
+        {
+            Array.Resize(ref _bodies, 2 * _bodies.Length);
+        }
+
+        _bodies[index] = new(new SolverBody { Velocity = row.SurfaceVelocity, Spin = row.SurfaceSpin });
+        return index;
     }
 
     /// <summary>Copies the impulses and the velocities back.</summary>
@@ -95,7 +125,7 @@ internal sealed partial class BallContactSolver
             stored.FrictionImpulse = SimdAffineMap.ToVector(row.Impulse);
             stored.TurnImpulse = _hasTurns ? SimdAffineMap.ToVector(_turns[i].Impulse) : Vector.Zero;
             _bodies[row.First].CopyTo(ref bodies[row.First]);
-            if (row.Second != _firm)
+            if (row.Second < _firstFirm)
             {
                 _bodies[row.Second].CopyTo(ref bodies[row.Second]);
             }
@@ -231,9 +261,10 @@ internal sealed partial class BallContactSolver
 
     private void Reserve(int rowCount, int bodyCount)
     {
-        if (_bodies.Length <= bodyCount)
+        if (_bodies.Length < bodyCount + FirmCount)
         {
-            _bodies = new Body[bodyCount + 1];
+            // Room for a moving surface under each.
+            _bodies = new Body[(2 * bodyCount) + FirmCount];
         }
 
         if (_rows.Length < rowCount)

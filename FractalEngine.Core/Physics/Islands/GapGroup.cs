@@ -33,7 +33,7 @@ internal sealed class GapGroup
         _queue.Reserve(bodyCount, _gaps.Length);
     }
 
-    /// <summary>Removes all contacts.</summary>
+    /// <summary>Removes all contacts of the group.</summary>
     public void Clear() => _count = 0;
 
     /// <summary>Adds those contacts whose bodies are near touching.</summary>
