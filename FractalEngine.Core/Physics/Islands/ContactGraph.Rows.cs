@@ -18,7 +18,8 @@ internal sealed partial class ContactGraph
     private int _count;
 
     /// <summary>Makes islands of the joined sets, and contacts of their pairs and surfaces.</summary>
-    public void Group()
+    /// <param name="onlyImpacts">True to make none for large islands that cannot bounce, whose impacts are part of their step's solve.</param>
+    public void Group(bool onlyImpacts)
     {
         _islands.Clear();
         _islandBodies.Clear();
@@ -32,6 +33,11 @@ internal sealed partial class ContactGraph
             var firstPair = island > 0 ? _next[island - 1] : 0;
             var pairs = CollectionsMarshal.AsSpan(_sortedPairs)[firstPair.._next[island]];
             var partCount = _islands[island].HasCompound ? 1 : IslandParts.CountFor(pairs.Length);
+            if (onlyImpacts && Island.IsLargeFor(pairs.Length, _islands[island].HasCompound) && !MayBounce(BodiesOf(_islands[island])))
+            {
+                continue;
+            }
+
             if (partCount > 1)
             {
                 _islands[island] = _islands[island] with { PartCount = partCount, FirstPartEnd = _partEnds.Count };
@@ -136,6 +142,20 @@ internal sealed partial class ContactGraph
                 _sortedPairs[_next[_islandOf[pairs[i].First]]++] = i;
             }
         }
+    }
+
+    /// <summary>True where a body of some is not perfectly inelastic.</summary>
+    public bool MayBounce(ReadOnlySpan<int> island)
+    {
+        foreach (var index in island)
+        {
+            if (_materials[index].Restitution > 0)
+            {
+                return true;
+            }
+        }
+
+        return false;
     }
 
     /// <summary>Makes the contacts of an island part by part, and those across its cuts last.</summary>

@@ -26,5 +26,8 @@ internal readonly record struct Island(int FirstRow, int RowCount, int FirstBody
     public bool HasCompound { get; init; }
 
     /// <summary>True where a solve is too long to converge in each step: it goes on from step to step.</summary>
-    public bool IsLarge => RowCount >= MinRowsOfLarge && !HasCompound;
+    public bool IsLarge => IsLargeFor(RowCount, HasCompound);
+
+    /// <summary>True for a large island of so many contacts, or more.</summary>
+    public static bool IsLargeFor(int rowCount, bool hasCompound) => rowCount >= MinRowsOfLarge && !hasCompound;
 }

@@ -55,12 +55,17 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
     /// <summary>Takes away all approaching velocities of bodies that touch. They must have been joined.</summary>
     public void StopApproaches()
     {
-        Graph.Group();
+        Graph.Group(onlyImpacts: true);
         _solver.Reserve(bodies.Count);
         _cache.ReserveForBodies(bodies.Count);
         foreach (var island in Graph.Islands)
         {
             var rows = Graph.RowsOf(in island);
+            if (rows.Length == 0)
+            {
+                continue;
+            }
+
             Load(Graph.BodiesOf(in island), rows);
             if (island.IsLarge)
             {
@@ -81,7 +86,7 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
     /// <param name="stepLength">Seconds.</param>
     public void Plan(double stepLength)
     {
-        Graph.Group();
+        Graph.Group(onlyImpacts: false);
         for (var index = 0; index < Graph.Islands.Count; index++)
         {
             var island = Graph.Islands[index];
@@ -93,9 +98,7 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
                 bodies[body].HasHeapMargin = island.IsLarge;
             }
 
-            Load(Graph.BodiesOf(in island), rows);
-            var isConverged = island.IsLarge ? FindImpulses(in island, stepLength)
-                : StopApproachesAndFindForces(Graph.BodiesOf(in island), rows, stepLength);
+            var isConverged = island.IsLarge ? FindImpulses(in island, stepLength) : FindForces(in island, stepLength);
             Statistics = new(Statistics.Solves + 1, Statistics.Rounds, Statistics.Unconverged + (isConverged ? 0 : 1));
             StorePlan(Graph.BodiesOf(in island), stepLength, island.IsLarge);
             StoreTurns(Graph.BodiesOf(in island), rows, stepLength);
@@ -119,12 +122,15 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
         }
     }
 
-    private bool StopApproachesAndFindForces(ReadOnlySpan<int> island, Span<ContactRow> rows, double stepLength)
+    private bool FindForces(in Island island, double stepLength)
     {
+        var members = Graph.BodiesOf(in island);
+        var rows = Graph.RowsOf(in island);
+        Load(members, rows);
         // Of bodies that have joined without touching another: they may run into surfaces.
         var isConverged = StopApproaches(rows);
-        StoreVelocities(island);
-        return FindForces(island, rows, stepLength) && isConverged;
+        StoreVelocities(members);
+        return FindForces(members, rows, stepLength) && isConverged;
     }
 
     /// <summary>Takes away all approaching velocities: by bounces where they are fast enough, else by one solve.</summary>
