@@ -6,7 +6,7 @@ namespace FractalEngine.Core.Physics.Islands;
 internal readonly struct Gap
 {
     // Of an overlap: how much of it is taken back at once, since others will push in again.
-    private const double MaxRelaxation = 1.3;
+    private const double MaxRelaxation = 1.6;
 
     /// <summary>Index of the body on the normal's side.</summary>
     public readonly int First;

@@ -38,6 +38,7 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
 
     private readonly ContactSolver _solver = new(maxThreads);
     private readonly ImpulseCache _cache = new();
+    private readonly List<int> _rebounding = [];
 
     /// <summary>The contacts and islands of this step.</summary>
     public ContactGraph Graph { get; } = new(bodies, nearbyBodies, maxThreads);
@@ -58,6 +59,7 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
         Graph.Group(onlyImpacts: true);
         _solver.Reserve(bodies.Count);
         _cache.ReserveForBodies(bodies.Count);
+        _rebounding.EnsureCapacity(bodies.Count);
         foreach (var island in Graph.Islands)
         {
             var rows = Graph.RowsOf(in island);
@@ -334,23 +336,31 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
 
     private void StopRebounds(Span<ContactRow> rows)
     {
+        _rebounding.Clear();
+        for (var i = 0; i < rows.Length; i++)
+        {
+            // What moves pushes on those that were slower than itself, which then rebound from what they push.
+            ref readonly var row = ref rows[i];
+            if ((row.IsAhead || row.SurfaceVelocity != Vector.Zero) && row.NormalImpulse > 0)
+            {
+                _rebounding.Add(i);
+            }
+        }
+
         var isRebounding = true;
         for (var round = 0; round < MaxReboundRounds && isRebounding; round++)
         {
             isRebounding = false;
-            foreach (ref var row in rows)
+            foreach (var i in _rebounding)
             {
-                // What moves pushes on those that were slower than itself, which then rebound from what they push.
-                if ((row.IsAhead || row.SurfaceVelocity != Vector.Zero) && row.NormalImpulse > 0)
+                // It pushes less, but does not pull.
+                ref var row = ref rows[i];
+                var impulse = Math.Min(row.NormalImpulse, row.NormalMass * NormalVelocity(in row));
+                if (impulse > 0)
                 {
-                    // It pushes less, but does not pull.
-                    var impulse = Math.Min(row.NormalImpulse, row.NormalMass * NormalVelocity(in row));
-                    if (impulse > 0)
-                    {
-                        row.NormalImpulse -= impulse;
-                        _solver.Apply(in row, -impulse, Vector.Zero);
-                        isRebounding = true;
-                    }
+                    row.NormalImpulse -= impulse;
+                    _solver.Apply(in row, -impulse, Vector.Zero);
+                    isRebounding = true;
                 }
             }
         }

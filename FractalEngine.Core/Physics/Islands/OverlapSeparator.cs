@@ -27,7 +27,7 @@ internal sealed class OverlapSeparator
     // Of the smaller radius: overlaps at which a displacement ends; and the gap that is left where bodies keep a margin, so that they
     // need not be displaced again soon.
     private const double AimedOverlap = 1e-7;
-    private const double AimedGap = 0.3 * ContactTolerances.HeapMargin;
+    private const double AimedGap = 0.6 * ContactTolerances.HeapMargin;
 
     private readonly ContactGraph _graph;
     private readonly int _maxThreads;
