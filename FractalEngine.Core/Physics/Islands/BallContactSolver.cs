@@ -24,7 +24,7 @@ internal sealed partial class BallContactSolver
     private readonly int _maxThreads;
     private readonly Action<int> _beginRound;
     private readonly Action<int> _endRound;
-    private Body[] _bodies = [];
+    private Body[] _bodies = new Body[(2 * InitialCapacity) + FirmCount];
     private Row[] _rows = new Row[InitialCapacity];
     private Turn[] _turns = new Turn[InitialCapacity];
     private Vector256<double>[] _changes = new Vector256<double>[InitialCapacity];

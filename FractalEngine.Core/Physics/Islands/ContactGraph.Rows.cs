@@ -18,7 +18,7 @@ internal sealed partial class ContactGraph
     private int _count;
 
     /// <summary>Makes islands of the joined sets, and contacts of their pairs and surfaces.</summary>
-    /// <param name="onlyImpacts">True to make none for large islands that cannot bounce, whose impacts are part of their step's solve.</param>
+    /// <param name="onlyImpacts">True to make none for large islands that cannot bounce: their step's solve has their impacts.</param>
     public void Group(bool onlyImpacts)
     {
         _islands.Clear();

@@ -5,9 +5,6 @@ namespace FractalEngine.Core.Physics.Islands;
 /// <summary>What a separation of overlapping bodies needs of a contact.</summary>
 internal readonly struct Gap
 {
-    // Of an overlap: how much of it is taken back at once, since others will push in again.
-    private const double MaxRelaxation = 1.6;
-
     /// <summary>Index of the body on the normal's side.</summary>
     public readonly int First;
 
@@ -40,8 +37,8 @@ internal readonly struct Gap
 
     /// <summary>Takes from a contact what a separation needs.</summary>
     /// <param name="row">The contact.</param>
-    /// <param name="aim">Overlap at which a displacement ends, of the smaller radius.</param>
-    public Gap(in ContactRow row, double aim)
+    /// <param name="aim">What separations aim at.</param>
+    public Gap(in ContactRow row, in SeparationAim aim)
     {
         First = row.First;
         Second = row.Second;
@@ -50,8 +47,8 @@ internal readonly struct Gap
         MinDistance = row.MinDistance;
         var unit = row.IsBall ? row.MinDistance * row.SmallerRadiusShare : 0;
         Negligible = OverlapSeparator.NegligibleOverlap * unit;
-        Aimed = aim * unit;
-        Relaxation = row.IsBall && !row.IsAhead ? MaxRelaxation : 1;
+        Aimed = aim.Overlap * unit;
+        Relaxation = row.IsBall && !row.IsAhead ? aim.Relaxation : 1;
         IsPlane = !row.IsBall || row.HasFixedNormal;
         IsOneSided = row.IsBouncingAhead;
     }

@@ -39,15 +39,14 @@ internal sealed class GapGroup
     /// <summary>Adds those contacts whose bodies are near touching.</summary>
     /// <param name="rows">Contacts.</param>
     /// <param name="movers">Bodies by their index.</param>
-    /// <param name="aim">Overlap at which a displacement ends, of the smaller radius.</param>
-    /// <param name="maxGap">Of the distance at which two touch: those farther apart are not near touching.</param>
-    public void AddNear(ReadOnlySpan<ContactRow> rows, ReadOnlySpan<DisplacedBody> movers, double aim, double maxGap)
+    /// <param name="aim">Tells what is near, and what separations aim at.</param>
+    public void AddNear(ReadOnlySpan<ContactRow> rows, ReadOnlySpan<DisplacedBody> movers, in SeparationAim aim)
     {
         foreach (ref readonly var row in rows)
         {
             var offset = row.Offset + movers[row.First].Way;
             offset -= row.Second >= 0 ? movers[row.Second].Way : Vector.Zero;
-            var maxDistance = row.MinDistance * (1 + maxGap);
+            var maxDistance = row.MinDistance * (1 + aim.MaxGap);
             // The few that are more than balls are compared by their gaps.
             if (row is { IsBall: true, HasFixedNormal: false, HasArms: false } && row.SurfaceWay == Vector.Zero
                 && offset.LengthSquared() >= maxDistance * maxDistance)
@@ -55,7 +54,7 @@ internal sealed class GapGroup
                 continue;
             }
 
-            var gap = new Gap(in row, aim);
+            var gap = new Gap(in row, in aim);
             offset = OffsetOf(in gap, movers);
             var distance = gap.IsPlane ? Vector.Dot(offset, gap.Normal) : offset.Length();
             if (distance < maxDistance)

@@ -13,6 +13,9 @@ namespace FractalEngine.Core.Physics.Islands;
 /// </remarks>
 internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies nearbyBodies, ContactLog contactLog, int maxThreads)
 {
+    private const int InitialCapacity = 256;
+    private const int ContactsPerBody = 4;
+
     // Rounds of bounces, one contact after the other: more of them are balls that pass their speed to and fro.
     private const int MaxBounceRounds = 64;
 
@@ -38,7 +41,7 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
 
     private readonly ContactSolver _solver = new(maxThreads);
     private readonly ImpulseCache _cache = new();
-    private readonly List<int> _rebounding = [];
+    private readonly List<int> _rebounding = new(InitialCapacity);
 
     /// <summary>The contacts and islands of this step.</summary>
     public ContactGraph Graph { get; } = new(bodies, nearbyBodies, maxThreads);
@@ -59,7 +62,7 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
         Graph.Group(onlyImpacts: true);
         _solver.Reserve(bodies.Count);
         _cache.ReserveForBodies(bodies.Count);
-        _rebounding.EnsureCapacity(bodies.Count);
+        _rebounding.EnsureCapacity(ContactsPerBody * bodies.Count);
         foreach (var island in Graph.Islands)
         {
             var rows = Graph.RowsOf(in island);

@@ -18,17 +18,6 @@ internal sealed class OverlapSeparator
     private const int MaxRounds = 60;
     private const int MaxChoices = 4;
 
-    // Of the distance at which two touch: those farther apart are not near touching.
-    private const double MaxGap = 0.01;
-
-    // The same where something pushes bodies together: then all of a row come to touch at once.
-    private const double MaxPushedGap = 0.25;
-
-    // Of the smaller radius: overlaps at which a displacement ends; and the gap that is left where bodies keep a margin, so that they
-    // need not be displaced again soon.
-    private const double AimedOverlap = 1e-7;
-    private const double AimedGap = 0.6 * ContactTolerances.HeapMargin;
-
     private readonly ContactGraph _graph;
     private readonly int _maxThreads;
     private readonly Action<int> _choose;
@@ -39,8 +28,7 @@ internal sealed class OverlapSeparator
     private readonly GapGroup[] _groups = [.. Enumerable.Range(0, IslandParts.MaxCount + 1).Select(static _ => new GapGroup())];
     private DisplacedBody[] _movers = new DisplacedBody[InitialCapacity];
     private Island _island;
-    private double _maxGap = MaxGap;
-    private double _aim = AimedOverlap;
+    private SeparationAim _aim;
     private bool _isFirstRound;
 
     public OverlapSeparator(ContactGraph graph, int maxThreads)
@@ -86,8 +74,7 @@ internal sealed class OverlapSeparator
     public void Separate(in Island island, ReadOnlySpan<ContactRow> others)
     {
         _island = island;
-        _aim = island.IsLarge ? -AimedGap : AimedOverlap;
-        _maxGap = island.IsPushed ? MaxPushedGap : MaxGap;
+        _aim = SeparationAim.Of(in island);
         // Chosen anew as long as what was not near touching comes to overlap.
         var hasMoved = true;
         for (var choice = 0; choice < MaxChoices && hasMoved; choice++)
@@ -111,7 +98,7 @@ internal sealed class OverlapSeparator
 
         for (var i = 0; i < others.Length; i++)
         {
-            _groups[GroupOf(in others[i])].AddNear(others.Slice(i, 1), _movers, _aim, _maxGap);
+            _groups[GroupOf(in others[i])].AddNear(others.Slice(i, 1), _movers, in _aim);
         }
 
         WorkerSet.Shared.Run(_island.PartCount, _maxThreads, _choose);
@@ -142,7 +129,7 @@ internal sealed class OverlapSeparator
         return row.Second < 0 || _graph.PartOf(row.Second) == part ? part : _island.PartCount;
     }
 
-    private void Choose(int group) => _groups[group].AddNear(_graph.RowsOfPart(in _island, group), _movers, _aim, _maxGap);
+    private void Choose(int group) => _groups[group].AddNear(_graph.RowsOfPart(in _island, group), _movers, in _aim);
 
     /// <summary>Makes rounds to and fro: what the floor pushes up reaches the top of a pile in one round.</summary>
     /// <returns>True where a body has been moved.</returns>
@@ -236,7 +223,7 @@ internal sealed class OverlapSeparator
         {
             if (!row.IsBall)
             {
-                _ = GapGroup.TakeBack(new Gap(in row, _aim), _movers);
+                _ = GapGroup.TakeBack(new Gap(in row, in _aim), _movers);
             }
         }
     }
