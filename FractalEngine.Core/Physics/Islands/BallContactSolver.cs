@@ -151,7 +151,7 @@ internal sealed partial class BallContactSolver
         norm = 0;
         maxImpulse = 0;
         var maxChange = 0.0;
-        foreach (var group in _groups.AsSpan(0, _partCount + 1))
+        foreach (var group in _groups.AsSpan(0, _partCount > 1 ? _partCount + 1 : 1))
         {
             norm += group.Norm;
             maxImpulse = Math.Max(maxImpulse, group.MaxImpulse);
