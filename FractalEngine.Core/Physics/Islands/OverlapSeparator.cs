@@ -96,15 +96,15 @@ internal sealed class OverlapSeparator
             group.Clear();
         }
 
+        WorkerSet.Shared.Run(_island.PartCount, _maxThreads, _choose);
+        Choose(_island.PartCount);
         for (var i = 0; i < others.Length; i++)
         {
             _groups[GroupOf(in others[i])].AddNear(others.Slice(i, 1), _movers, in _aim);
         }
 
-        WorkerSet.Shared.Run(_island.PartCount, _maxThreads, _choose);
         if (_island.PartCount > 1)
         {
-            Choose(_island.PartCount);
             // What moves across a cut lets the contacts within its part wait, if it has some.
             foreach (ref readonly var gap in Between.Gaps)
             {
