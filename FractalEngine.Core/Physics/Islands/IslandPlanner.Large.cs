@@ -12,10 +12,6 @@ namespace FractalEngine.Core.Physics.Islands;
 /// </remarks>
 internal sealed partial class IslandPlanner
 {
-    // A solve takes as many rounds as solve so many contacts.
-    private const int MaxSolvesOfLarge = 25_000;
-    private const int MinRoundsOfLarge = 8;
-
     // Bodies are loaded in groups of so many.
     private const int BodiesPerJob = 256;
 
@@ -39,7 +35,7 @@ internal sealed partial class IslandPlanner
         WorkerSet.Shared.Run((island.BodyCount + BodiesPerJob - 1) / BodiesPerJob, maxThreads, _loadBodies ??= LoadBodies);
         WorkerSet.Shared.Run(island.PartCount, maxThreads, _beginPart ??= BeginPart);
         BeginPart(island.PartCount);
-        return Solve(rows, Math.Max(MinRoundsOfLarge, MaxSolvesOfLarge / rows.Length), Graph.PartEndsOf(in island));
+        return Solve(rows, RoundLimits.ForLarge(rows.Length), Graph.PartEndsOf(in island));
     }
 
     /// <summary>Loads a group of bodies with the velocities that they would have after the step without contacts.</summary>

@@ -16,12 +16,6 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
     private const int InitialCapacity = 256;
     private const int ContactsPerBody = 4;
 
-    // Rounds of bounces, one contact after the other: more of them are balls that pass their speed to and fro.
-    private const int MaxBounceRounds = 64;
-
-    // Rounds of the solve before it is known what bodies may meet in the step.
-    private const int MaxFirstRounds = 32;
-
     // Times that the lines of contact are corrected for how far the bodies move in the step.
     private const int MaxTurns = 4;
     private const int MinTurns = 2;
@@ -29,9 +23,6 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
 
     // Radians: lines of contact that turn by less need no further correction.
     private const double TurnTolerance = 1e-10;
-
-    // Each takes energy away, so that none must converge.
-    private const int MaxReboundRounds = 8;
 
     // Of the speed: what rounding leaves of a velocity along a normal.
     private const double RelativeTolerance = 1e-13;
@@ -41,7 +32,6 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
 
     private readonly ContactSolver _solver = new(maxThreads);
     private readonly ImpulseCache _cache = new();
-    private readonly List<int> _rebounding = new(InitialCapacity);
 
     /// <summary>The contacts and islands of this step.</summary>
     public ContactGraph Graph { get; } = new(bodies, nearbyBodies, maxThreads);
@@ -80,7 +70,7 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
             else
             {
                 // The solve of the step ends what this one leaves.
-                _ = StopApproaches(rows, island.HasCompound ? ContactSolver.ManyRounds : MaxFirstRounds);
+                _ = StopApproaches(rows, island.HasCompound ? RoundLimits.Many : RoundLimits.First);
             }
 
             StoreVelocities(Graph.BodiesOf(in island));
@@ -139,7 +129,7 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
     }
 
     /// <summary>Takes away all approaching velocities: by bounces where they are fast enough, else by one solve.</summary>
-    private bool StopApproaches(Span<ContactRow> rows, int maxRounds = ContactSolver.ManyRounds)
+    private bool StopApproaches(Span<ContactRow> rows, int maxRounds = RoundLimits.Many)
     {
         BounceAll(rows);
         var isApproaching = false;
@@ -159,7 +149,7 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
             row.MinNormalVelocity = row.IsAhead ? double.NegativeInfinity : 0;
         }
 
-        var isConverged = Solve(rows, maxRounds);
+        var isConverged = Solve(rows, RoundLimits.For(rows.Length, maxRounds));
         Log(rows);
         return isConverged;
     }
@@ -182,42 +172,6 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
 
     private void Log(in ContactRow row, double impulse) => contactLog.Add(
         row.First, row.Second, bodies[row.First].Position + row.FirstArm - (row.FirstRadius * row.Normal), row.Normal, impulse);
-
-    /// <summary>Lets all pairs bounce until none approaches fast enough any more.</summary>
-    private void BounceAll(Span<ContactRow> rows)
-    {
-        for (var round = 0; round < MaxBounceRounds && Bounce(rows); round++)
-        {
-        }
-    }
-
-    /// <summary>Lets all pairs bounce once that approach fast enough, one after the other.</summary>
-    private bool Bounce(Span<ContactRow> rows)
-    {
-        var hasBounced = false;
-        foreach (ref var row in rows)
-        {
-            var speed = -NormalVelocity(in row);
-            if (!row.IsAhead && row.Restitution > 0 && speed > Math.Max(Threshold(in row), Rounding(in row)))
-            {
-                var impulse = (1 + row.Restitution) * speed * row.NormalMass;
-                if (row.HasArms)
-                {
-                    // First alone, since it changes the slip: both together could add energy.
-                    _solver.Apply(in row, impulse, Vector.Zero);
-                }
-
-                var across = -row.FrictionMass * _solver.Slip(in row);
-                var limit = row.Friction * impulse;
-                var length = across.Length();
-                _solver.Apply(in row, row.HasArms ? 0 : impulse, length > limit ? limit / length * across : across);
-                Log(in row, impulse);
-                hasBounced = true;
-            }
-        }
-
-        return hasBounced;
-    }
 
     private double Threshold(in ContactRow row)
     {
@@ -267,7 +221,7 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
                 ApplyKnownImpulses(ref row);
             }
 
-            isConverged = Solve(rows);
+            isConverged = Solve(rows, RoundLimits.For(rows.Length));
         }
 
         return isConverged;
@@ -281,7 +235,7 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
         _solver.ApplyTurn(in row, row.TurnImpulse);
     }
 
-    private bool Solve(Span<ContactRow> rows, int maxRounds = ContactSolver.ManyRounds, ReadOnlySpan<int> partEnds = default)
+    private bool Solve(Span<ContactRow> rows, int maxRounds, ReadOnlySpan<int> partEnds = default)
     {
         var isConverged = _solver.Solve(rows, maxRounds, partEnds);
         Statistics = Statistics with { Rounds = Statistics.Rounds + _solver.Rounds };
@@ -319,53 +273,6 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
             var isStraight = isLarge && change != Vector.Zero
                 && _solver.Bodies[index].Velocity != body.Velocity + (stepLength * body.FreeAcceleration);
             body.PlannedWay = stepLength * (body.Velocity + (isStraight ? change : 0.5 * stepLength * body.NetAcceleration));
-        }
-    }
-
-    /// <summary>
-    /// Lets those stay together that meet in this step and are too slow to bounce. The forces of a whole step would throw them back.
-    /// </summary>
-    private void StopRebounds(ReadOnlySpan<int> island, Span<ContactRow> rows)
-    {
-        StopRebounds(rows);
-        foreach (var index in island)
-        {
-            var body = bodies[index];
-            var isResting = body.NetAcceleration == Vector.Zero && body.Velocity == Vector.Zero;
-            body.PlannedChange = isResting ? Vector.Zero : _solver.Bodies[index].Velocity - body.Velocity;
-            body.PlannedSpinChange = isResting ? Vector.Zero : _solver.Bodies[index].Spin - body.AngularVelocity;
-        }
-    }
-
-    private void StopRebounds(Span<ContactRow> rows)
-    {
-        _rebounding.Clear();
-        for (var i = 0; i < rows.Length; i++)
-        {
-            // What moves pushes on those that were slower than itself, which then rebound from what they push.
-            ref readonly var row = ref rows[i];
-            if ((row.IsAhead || row.SurfaceVelocity != Vector.Zero) && row.NormalImpulse > 0)
-            {
-                _rebounding.Add(i);
-            }
-        }
-
-        var isRebounding = true;
-        for (var round = 0; round < MaxReboundRounds && isRebounding; round++)
-        {
-            isRebounding = false;
-            foreach (var i in _rebounding)
-            {
-                // It pushes less, but does not pull.
-                ref var row = ref rows[i];
-                var impulse = Math.Min(row.NormalImpulse, row.NormalMass * NormalVelocity(in row));
-                if (impulse > 0)
-                {
-                    row.NormalImpulse -= impulse;
-                    _solver.Apply(in row, -impulse, Vector.Zero);
-                    isRebounding = true;
-                }
-            }
         }
     }
 }
