@@ -9,9 +9,6 @@ internal sealed partial class ContactGraph
 {
     // Places of the pairs that are contacts, one island after the other.
     private readonly List<int> _sortedPairs = new(InitialCapacity);
-    private readonly List<int> _partPairs = new(InitialCapacity);
-    private readonly List<int> _partEnds = new(InitialCapacity);
-    private readonly int[] _partStarts = new int[IslandParts.MaxCount + 2];
     private ContactRow[] _rows = new ContactRow[InitialCapacity];
     private int[] _islandOf = new int[InitialCapacity];
     private int[] _next = new int[InitialCapacity];
@@ -156,51 +153,6 @@ internal sealed partial class ContactGraph
         }
 
         return false;
-    }
-
-    /// <summary>Makes the contacts of an island part by part, and those across its cuts last.</summary>
-    private void AddParts(ReadOnlySpan<int> island, ReadOnlySpan<int> pairs, int partCount)
-    {
-        var firstRow = _count;
-        _parts.Cut(island, partCount, _states);
-        SortByParts(pairs, partCount);
-        for (var part = 0; part <= partCount; part++)
-        {
-            foreach (var index in part < partCount ? island : [])
-            {
-                if (_parts.PartOf(index) == part)
-                {
-                    AddSurfaces(bodies[index]);
-                }
-            }
-
-            AddPairs(CollectionsMarshal.AsSpan(_partPairs)[_partStarts[part].._partStarts[part + 1]]);
-            _partEnds.Add(_count - firstRow);
-        }
-    }
-
-    private void SortByParts(ReadOnlySpan<int> pairs, int partCount)
-    {
-        var known = CollectionsMarshal.AsSpan(_pairs);
-        Array.Clear(_partStarts);
-        foreach (var pair in pairs)
-        {
-            _partStarts[_parts.PartOf(in known[pair], partCount)]++;
-        }
-
-        var end = 0;
-        for (var part = 0; part <= partCount; part++)
-        {
-            end += _partStarts[part];
-            _partStarts[part] = end;
-        }
-
-        _partStarts[partCount + 1] = end;
-        CollectionsMarshal.SetCount(_partPairs, pairs.Length);
-        for (var i = pairs.Length - 1; i >= 0; i--)
-        {
-            _partPairs[--_partStarts[_parts.PartOf(in known[pairs[i]], partCount)]] = pairs[i];
-        }
     }
 
     private void AddSurfaces(ReadOnlySpan<int> island)

@@ -26,7 +26,6 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
     private readonly List<int> _islandBodies = new(InitialCapacity);
     private readonly DisjointSets _sets = new();
     private readonly NeighbourGrid _grid = new();
-    private readonly IslandParts _parts = new();
     private GraphBody[] _states = new GraphBody[InitialCapacity];
     private BodyMaterial[] _materials = new BodyMaterial[InitialCapacity];
     private BodyDescription?[] _descriptions = new BodyDescription?[InitialCapacity];
@@ -38,30 +37,6 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
 
     /// <summary>The contacts of an island.</summary>
     public Span<ContactRow> RowsOf(in Island island) => _rows.AsSpan(island.FirstRow, island.RowCount);
-
-    /// <summary>
-    /// The ends of the contacts of each part of an island, and of those between parts, counted from its first; empty for a single part.
-    /// </summary>
-    public ReadOnlySpan<int> PartEndsOf(in Island island) => island.PartCount == 1 ? []
-        : CollectionsMarshal.AsSpan(_partEnds).Slice(island.FirstPartEnd, island.PartCount + 1);
-
-    /// <summary>The contacts of a part of an island, or those between its parts.</summary>
-    /// <param name="island">The island.</param>
-    /// <param name="part">Index of the part; the number of parts for the contacts between them.</param>
-    public Span<ContactRow> RowsOfPart(in Island island, int part)
-    {
-        if (island.PartCount == 1)
-        {
-            return part == 0 ? RowsOf(in island) : [];
-        }
-
-        var ends = PartEndsOf(in island);
-        var start = part > 0 ? ends[part - 1] : 0;
-        return _rows.AsSpan(island.FirstRow + start, ends[part] - start);
-    }
-
-    /// <summary>The part of a body of an island that has several.</summary>
-    public int PartOf(int body) => _parts.PartOf(body);
 
     /// <summary>Number of contacts of all islands.</summary>
     public int RowCount { get; private set; }
