@@ -215,7 +215,7 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
             return false;
         }
 
-        var normal = (first.Position - second.Position).UnitVectorOrZero();
-        return Vector.Dot(RelativeVelocity(in pair), normal) > first.SpeedGain;
+        var offset = first.Position - second.Position;
+        return Vector.Dot(RelativeVelocity(in pair), offset) > first.SpeedGain * offset.Length();
     }
 }
