@@ -1,5 +1,4 @@
 using System.Runtime.Intrinsics;
-using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Physics.Islands;
 
