@@ -110,4 +110,14 @@ public sealed partial class PhysicsWorld
             throw CreateRangeException(body, exception);
         }
     }
+
+    // A query of a position on its way that is none.
+    private InvalidOperationException CreateRangeException(Body body, ArgumentOutOfRangeException exception) =>
+        new($"body {body.Name} has left the range of a double in step {StepCount}", exception);
+
+    private (long Faces, long Bounds) CountTests()
+    {
+        var (faces, bounds) = _parallel.CountTests();
+        return (_queryContext.Statistics.FaceTests + faces, _queryContext.Statistics.BoundTests + bounds);
+    }
 }

@@ -73,12 +73,6 @@ public sealed partial class PhysicsWorld
         LastStepCost = (faces - testsBefore.Faces, bounds - testsBefore.Bounds);
     }
 
-    private (long Faces, long Bounds) CountTests()
-    {
-        var (faces, bounds) = _parallel.CountTests();
-        return (_queryContext.Statistics.FaceTests + faces, _queryContext.Statistics.BoundTests + bounds);
-    }
-
     /// <summary>Makes one of the parts of a step.</summary>
     private void StepPart(CharacterController? character, double elapsed, double seconds)
     {
@@ -274,10 +268,6 @@ public sealed partial class PhysicsWorld
             throw CreateRangeException(body, exception);
         }
     }
-
-    // A query of a position on its way that is none.
-    private InvalidOperationException CreateRangeException(Body body, ArgumentOutOfRangeException exception) =>
-        new($"body {body.Name} has left the range of a double in step {StepCount}", exception);
 
     private void StepCharacter(CharacterController? character, double seconds)
     {

@@ -3,8 +3,8 @@ using System.Runtime.ExceptionServices;
 namespace FractalEngine.Core.Physics;
 
 /// <summary>
-/// Threads that stay between calls and share out independent jobs. The caller works too, so that a busy machine costs no more than the
-/// work itself. A call allocates nothing.
+/// Threads that stay between calls and share out independent jobs. The caller works too, and waits only for jobs that another thread has
+/// begun. A call allocates nothing.
 /// </summary>
 /// <remarks>
 /// Jobs are taken one by one, so which thread does which is chance. A job must depend on its index alone, and write to nothing that
