@@ -1,3 +1,4 @@
+using System.Diagnostics;
 using System.Globalization;
 using FractalEngine.Benchmarks.Measuring;
 using FractalEngine.Core.Geometry;
@@ -7,7 +8,8 @@ namespace FractalEngine.Benchmarks.Physics;
 
 /// <summary>
 /// How do heaps of balls behave that fall into a box or onto a floor: what does a step cost, which part of the energy is left, when do they
-/// sleep, and how many islands do not converge? All runs make the same steps, bit for bit.
+/// sleep, and how many islands do not converge? CPU time is that of one thread, and the other time that of all threads. All runs make the
+/// same steps, bit for bit.
 /// </summary>
 /// <param name="rounds">Number of rounds, the best of which counts.</param>
 /// <param name="output">Receives the rows as text.</param>
@@ -18,7 +20,7 @@ internal sealed class HeapTable(int rounds, TextWriter output, CsvTable? table)
     public static readonly string[] Columns =
     [
         "heap", "balls", "friction", "until_s", "awake_at_end", "energy_left", "largest_rise_of_energy", "islands", "unconverged_islands",
-        "cpu_ms_a_step_mean", "cpu_ms_a_step_worst", "state",
+        "cpu_ms_a_step_mean", "cpu_ms_a_step_worst", "ms_a_step_mean", "state",
     ];
 
     private const double Radius = 0.08;
@@ -38,42 +40,45 @@ internal sealed class HeapTable(int rounds, TextWriter output, CsvTable? table)
     {
         var steps = (int)(seconds * StepsPerSecond);
         var best = Enumerable.Repeat(double.PositiveInfinity, steps).ToArray();
+        var bestOfAll = Enumerable.Repeat(double.PositiveInfinity, steps).ToArray();
         var phases = new Phase[steps / StepsPerPhase];
         string? stateHash = null;
-        for (var round = 0; round < rounds; round++)
+        for (var run = 0; run < 2 * rounds; run++)
         {
-            var world = CreateWorld(count, friction, isOpen);
-            RunRound(world, best, phases);
+            var isOnOneThread = run % 2 == 0;
+            var world = CreateWorld(count, friction, isOpen, isOnOneThread ? 1 : null);
+            RunRound(world, isOnOneThread ? best : bestOfAll, phases, isOnOneThread);
             stateHash ??= world.StateHash;
             if (world.StateHash != stateHash)
             {
-                throw new InvalidOperationException("two rounds of the same steps differ");
+                throw new InvalidOperationException("two runs of the same steps differ");
             }
         }
 
         var name = isOpen ? "floor" : "box";
         WriteLine($"{count} balls, friction {friction}, {name}; state {stateHash}");
-        output.WriteLine("until   awake   energy left   largest rise   islands   unconverged   cpu ms a step   worst");
+        output.WriteLine("until   awake   energy left   largest rise   islands   unconverged   cpu ms a step   worst   ms on all threads");
         for (var i = 0; i < phases.Length; i++)
         {
             var phase = phases[i];
             var times = best.AsSpan(i * StepsPerPhase, StepsPerPhase).ToArray();
+            var meanOfAll = bestOfAll.AsSpan(i * StepsPerPhase, StepsPerPhase).ToArray().Average();
             var (end, mean, worst) = ((i + 1) * StepsPerPhase / StepsPerSecond, times.Average(), times.Max());
             output.Write(string.Create(
                 CultureInfo.InvariantCulture, $"{end,4:F1} s {phase.Awake,7} {phase.Energy,13:F4} {phase.Rise,14:E1} {phase.Islands,9}"));
-            WriteLine($"{phase.Unconverged,14} {mean,15:F2} {worst,7:F2}");
+            WriteLine($"{phase.Unconverged,14} {mean,15:F2} {worst,7:F2} {meanOfAll,19:F2}");
             table?.Add(
                 name, count, friction, end, phase.Awake, Math.Round(phase.Energy, 6), phase.Rise, phase.Islands, phase.Unconverged,
-                Math.Round(mean, 3), Math.Round(worst, 3), stateHash);
+                Math.Round(mean, 3), Math.Round(worst, 3), Math.Round(meanOfAll, 3), stateHash);
         }
 
         output.Flush();
     }
 
-    private static PhysicsWorld CreateWorld(int count, double friction, bool isOpen)
+    private static PhysicsWorld CreateWorld(int count, double friction, bool isOpen, int? maxThreads)
     {
         var side = (int)Math.Round(Math.Sqrt(count / (double)Layers));
-        var world = new PhysicsWorld();
+        var world = new PhysicsWorld(new PhysicsSettings { MaxThreads = maxThreads });
         AddWalls(world, isOpen ? 0 : 1.6 * side * Radius);
         var random = new Random(Seed);
         double Shift() => 0.01 * (random.NextDouble() - 0.5);
@@ -106,7 +111,7 @@ internal sealed class HeapTable(int rounds, TextWriter output, CsvTable? table)
         }
     }
 
-    private static void RunRound(PhysicsWorld world, double[] best, Phase[] phases)
+    private static void RunRound(PhysicsWorld world, double[] best, Phase[] phases, bool isOnOneThread)
     {
         var initialEnergy = EnergyOf(world);
         var energy = initialEnergy;
@@ -115,8 +120,10 @@ internal sealed class HeapTable(int rounds, TextWriter output, CsvTable? table)
         for (var step = 0; step < best.Length; step++)
         {
             var start = Environment.CpuUsage.UserTime;
+            var startTime = Stopwatch.GetTimestamp();
             world.Step();
-            best[step] = Math.Min(best[step], (Environment.CpuUsage.UserTime - start).TotalMilliseconds);
+            var time = isOnOneThread ? Environment.CpuUsage.UserTime - start : Stopwatch.GetElapsedTime(startTime);
+            best[step] = Math.Min(best[step], time.TotalMilliseconds);
             var after = EnergyOf(world);
             rise = Math.Max(rise, (after - energy) / initialEnergy);
             energy = after;

@@ -201,6 +201,9 @@ public sealed partial class Body
     /// <summary>True where something stops the body on its planned path that no plan knew.</summary>
     internal bool IsHeld { get; set; }
 
+    /// <summary>True once it has gone its planned way together with others, before what it met is looked at.</summary>
+    internal bool IsMovedAhead { get; set; }
+
     /// <summary>What has stopped the body on its planned path; null for nothing.</summary>
     internal Contact? PlannedHit { get; set; }
 

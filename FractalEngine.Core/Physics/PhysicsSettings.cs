@@ -32,6 +32,11 @@ public sealed record PhysicsSettings
     /// <summary>Whether <see cref="PhysicsWorld.ContactEvents"/> tells of contacts and triggers, which costs time.</summary>
     public bool ReportsContacts { get; init; }
 
+    /// <summary>
+    /// Maximum number of threads that work on one step, the caller's included. Null means one for each core. The results are the same.
+    /// </summary>
+    public int? MaxThreads { get; init; }
+
     /// <summary>Throws for settings that no world can have.</summary>
     /// <exception cref="ArgumentException">A number is not finite, or outside its range; the message names it.</exception>
     internal void Validate()
@@ -41,5 +46,6 @@ public sealed record PhysicsSettings
         ArgumentCheck.Require(SleepSpeed is null or >= 0, "the sleep speed must not be negative");
         ArgumentCheck.Require(TimeBeforeSleep >= 0, "the time before sleep must not be negative");
         ArgumentCheck.Require(MaxStepsPerAdvance > 0, "the maximum number of steps per advance must be positive");
+        ArgumentCheck.Require(MaxThreads is null or > 0, "the maximum number of threads must be positive");
     }
 }

@@ -46,8 +46,7 @@ public sealed partial class PhysicsWorld
     public void Step(double seconds)
     {
         ArgumentCheck.RequireTimeStep(seconds, nameof(seconds));
-        var faceTestsBefore = _queryContext.Statistics.FaceTests;
-        var boundTestsBefore = _queryContext.Statistics.BoundTests;
+        var testsBefore = CountTests();
         var character = Character is { IsActive: true } active ? active : null;
         _kinematics.BeginStep(_clock.Time, seconds);
         foreach (var body in _bodies)
@@ -70,7 +69,8 @@ public sealed partial class PhysicsWorld
 
         FinishEvents();
         _clock.Tick(seconds);
-        LastStepCost = (_queryContext.Statistics.FaceTests - faceTestsBefore, _queryContext.Statistics.BoundTests - boundTestsBefore);
+        var (faces, bounds) = CountTests();
+        LastStepCost = (faces - testsBefore.Faces, bounds - testsBefore.Bounds);
     }
 
     /// <summary>Makes one of the parts of a step.</summary>
@@ -123,6 +123,7 @@ public sealed partial class PhysicsWorld
     /// <summary>Finds the surfaces that bodies of islands may meet, unless they are known.</summary>
     private void FindNearSurfaces(double seconds)
     {
+        FindNearSurfacesShared(seconds);
         foreach (var body in _bodies)
         {
             if (!body.AreNearSurfacesKnown && _planner.Graph.IsJoined(body.Index))
@@ -139,6 +140,7 @@ public sealed partial class PhysicsWorld
     {
         do
         {
+            PrepareShared(character, seconds);
             foreach (var body in _bodies)
             {
                 if (!body.IsAsleep && !body.IsPrepared)
@@ -171,7 +173,7 @@ public sealed partial class PhysicsWorld
             }
 
             _energyGuard.Check(in island);
-            if (!_energyGuard.IsFree(in island))
+            if (!island.IsFree)
             {
                 _islandMover.DampJammed(in island, seconds);
             }
@@ -209,12 +211,18 @@ public sealed partial class PhysicsWorld
             _islandMover.FindUnplanned(in island, seconds);
             _islandMover.SeparateTargets(in island);
             hasHeld = false;
+            MoveShared(in island, pass, character, seconds);
             foreach (var index in _planner.Graph.BodiesOf(in island))
             {
                 var body = _bodies[index];
-                if (!body.IsHeld && (pass == 0 || body.Target != body.CheckedTarget))
+                if (body.IsMovedAhead || MustMove(body, pass))
                 {
-                    MoveBody(body, character, seconds, isPlanned: true);
+                    if (!body.IsMovedAhead)
+                    {
+                        MoveBody(body, character, seconds, isPlanned: true);
+                    }
+
+                    body.IsMovedAhead = false;
                     hasHeld |= body.IsHeld;
                     if (body.PlannedHit is { } hit && pass < MaxPasses - 2)
                     {
@@ -257,8 +265,7 @@ public sealed partial class PhysicsWorld
         }
         catch (ArgumentOutOfRangeException exception)
         {
-            // A query of a position on its way that is none.
-            throw new InvalidOperationException($"body {body.Name} has left the range of a double in step {StepCount}", exception);
+            throw CreateRangeException(body, exception);
         }
     }
 

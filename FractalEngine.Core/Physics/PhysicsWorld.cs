@@ -81,9 +81,15 @@ public sealed partial class PhysicsWorld
         _obstacles = new(_bodies, nearbyBodies, _queryContext, _kinematics);
         _contactLog = new(_bodies, _statics) { IsEnabled = Settings.ReportsContacts };
         _queries = new(_bodies, _statics, _obstacles, _kinematics, _queryContext);
-        _planner = new(_bodies, nearbyBodies, _contactLog);
+        var maxThreads = Settings.MaxThreads ?? Environment.ProcessorCount;
+        _planner = new(_bodies, nearbyBodies, _contactLog, maxThreads);
         _stepper = new(Settings, _bodies, _grid, nearbyBodies, _obstacles, _islands, _planner, _queryContext, _contactLog);
-        _islandMover = new(_bodies, _planner.Graph, _grid, nearbyBodies);
+        _islandMover = new(_bodies, _planner.Graph, _grid, nearbyBodies, maxThreads);
+        _parallel = CreateParallelSteppers(maxThreads);
+        _prepare = (stepper, body) => stepper.Prepare(body, _sharedColliders, _sharedCharacter, _gravity, _sharedSeconds);
+        _findNearSurfaces = (stepper, body) =>
+            stepper.FindNearSurfaces(body, _sharedColliders, _planner.Graph.ReachOf(body.Index), _sharedSeconds);
+        _movePlanned = MovePlanned;
         _energyGuard = new(_bodies, _planner.Graph, _islandMover);
         _staticOfObject = new StaticObject?[scene.Objects.Length];
         for (var i = 0; i < scene.Objects.Length; i++)

@@ -66,7 +66,7 @@ internal sealed class SpinFriction(List<Body> bodies)
         }
 
         solverBody.Velocity += duration * acceleration;
-        _ = _solver.Solve(rows);
+        _ = _solver.Solve(rows, RoundLimits.For(rows.Length));
         netAcceleration = (solverBody.Velocity - body.Velocity) / duration;
         spinAcceleration = (solverBody.Spin - body.AngularVelocity) / duration;
         var negligible = RestFraction * acceleration.Length();

@@ -101,6 +101,9 @@ internal sealed class StaticObjectSet(ColliderCache? cache)
             && target.WindingSign * Vector.Dot(centre - closest.Point, closest.Normal) < 0));
     }
 
+    /// <summary>True once an object has another layer or mask than others.</summary>
+    public bool HasFilters => _hasFilters;
+
     /// <summary>The colliders of one kind for what has a layer and a mask; null where there are no objects.</summary>
     public StaticColliders? CollidersOf(ColliderKind kind, int layer = 0, uint mask = Layers.All)
     {

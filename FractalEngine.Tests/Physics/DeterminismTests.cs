@@ -26,6 +26,14 @@ public class DeterminismTests
     }
 
     [Fact]
+    public void StateHash_OfAHeap_IsTheSameOnAnyNumberOfThreads()
+    {
+        var expected = HashesWhileRunning(CreateHeap(1));
+        Assert.Equal(expected, HashesWhileRunning(CreateHeap(2)));
+        Assert.Equal(expected, HashesWhileRunning(CreateHeap(5)));
+    }
+
+    [Fact]
     public void StateHash_AfterReset_IsThatOfTheFirstRun()
     {
         var world = CreateSceneWorld();
@@ -98,6 +106,20 @@ public class DeterminismTests
             });
         }
 
+        return world;
+    }
+
+    /// <summary>So many balls that threads share the parts of their island.</summary>
+    private static PhysicsWorld CreateHeap(int maxThreads)
+    {
+        var settings = new PhysicsSettings { MaxThreads = maxThreads };
+        var world = TestWorlds.Create(TestWorlds.Gravity, settings, TestWorlds.Place(PhysicsMeshes.FloorMesh()));
+        var random = new Random(3);
+        world.AddRange(Enumerable.Range(0, 700).Select(i => new BodyDescription(
+            new Vector(i % 12, 0.55 + (i / 96), i / 12 % 8) + random.Vector(0.03), 0.5)
+        {
+            Friction = 0.5, RollingFriction = i % 2 * 0.02,
+        }));
         return world;
     }
 

@@ -332,6 +332,31 @@ public class MovingObjectTests
         Near.Equal(new(0, 5.5, 0), closest.Point, 1e-12);
     }
 
+    [Theory]
+    [InlineData(2)]
+    [InlineData(5)]
+    public void Belt_UnderManyBallsThatTouch_GivesThemItsSpeed(int side)
+    {
+        var world = CreateLayer(side);
+        world.StaticObjects[0].SetBelt(2 * Vector.I);
+        // Friction of 0.5 needs less than half a second for it.
+        world.Run(60);
+        Assert.All(world.Bodies, body => Assert.InRange((body.Velocity - (2 * Vector.I)).MaxAbsComponent(), 0, 1e-9));
+    }
+
+    [Theory]
+    [InlineData(2)]
+    [InlineData(5)]
+    public void Lift_UnderManyBallsThatTouch_RaisesThemAtItsSpeed(int side)
+    {
+        var world = CreateLayer(side);
+        world.StaticObjects[0].SetMotion(Vector.J);
+        world.Run(60);
+        var top = world.StaticObjects[0].Placement.Position.Y + 0.5;
+        Assert.All(world.Bodies, body => Assert.InRange((body.Velocity - Vector.J).MaxAbsComponent(), 0, 1e-9));
+        Assert.All(world.Bodies, body => Assert.InRange(body.Position.Y - 0.5 - top, -1e-6, 1e-6));
+    }
+
     [Fact]
     public void SetMotion_ThatIsNotFinite_IsRefused()
     {
@@ -355,6 +380,18 @@ public class MovingObjectTests
         {
             Position = new(1, 0.5, 0), Radius = 0.5, Velocity = Vector.Cross(new(0, angularSpeed, 0), Vector.I),
         });
+    }
+
+    /// <summary>Rows of balls that do not turn and touch each other, on a plate.</summary>
+    private static PhysicsWorld CreateLayer(int side)
+    {
+        var world = new PhysicsWorld();
+        world.AddStatic(PhysicsMeshes.Cube, Box(new(0, -0.5, 0), new(100, 1, 100)));
+        world.AddRange(Enumerable.Range(0, side * side).Select(i => new BodyDescription(new(i % side, 0.5, i / side), 0.5)
+        {
+            Friction = 0.5, IsRotationLocked = true,
+        }));
+        return world;
     }
 
     private static PhysicsWorld CreateMill(double speed)

@@ -27,12 +27,12 @@ internal sealed partial class ContactGraph
         var firstPair = _pairs.Count;
         if (2 * body.Reach <= body.NearDistance)
         {
-            AddNear(index, CollectionsMarshal.AsSpan(_near).Slice(body.FirstNear, body.NearCount));
+            AddNear(index, CollectionsMarshal.AsSpan(_searches[index / _bodiesPerSearch].Near).Slice(body.FirstNear, body.NearCount));
         }
         else
         {
             _neighbours.Clear();
-            nearbyBodies.CollectOverlaps(body.Position, body.Radius + (2 * body.Reach), index, _neighbours);
+            CollectOverlaps(body.Position, body.Radius + (2 * body.Reach), index, _neighbours);
             AddNear(index, CollectionsMarshal.AsSpan(_neighbours));
         }
 
@@ -76,8 +76,9 @@ internal sealed partial class ContactGraph
         ref var first = ref _states[pair.First];
         ref var second = ref _states[pair.Second];
         var offset = first.Position - second.Position;
-        var gap = offset.Length() - first.Radius - second.Radius;
-        var push = (-_stepLength * Vector.Dot(RelativeVelocity(in pair), offset.UnitVectorOrZero())) - Math.Max(gap, 0);
+        var distance = offset.Length();
+        var approach = distance > 0 ? -Vector.Dot(RelativeVelocity(in pair), offset) / distance : 0;
+        var push = (_stepLength * approach) - Math.Max(distance - first.Radius - second.Radius, 0);
         first.Push = Math.Max(first.Push, push);
         second.Push = Math.Max(second.Push, push);
     }

@@ -1,4 +1,5 @@
 using System.Runtime.InteropServices;
+using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics.Compounds;
 
 namespace FractalEngine.Core.Physics.Islands;
@@ -14,31 +15,58 @@ internal sealed partial class ContactGraph
     private int _count;
 
     /// <summary>Makes islands of the joined sets, and contacts of their pairs and surfaces.</summary>
-    public void Group()
+    /// <param name="onlyImpacts">True to make none for large islands that cannot bounce: their step's solve has their impacts.</param>
+    public void Group(bool onlyImpacts)
     {
         _islands.Clear();
         _islandBodies.Clear();
+        _partEnds.Clear();
         CollectBodies();
         SortPairs();
         _count = 0;
         for (var island = 0; island < _islands.Count; island++)
         {
             var firstRow = _count;
-            foreach (var index in BodiesOf(_islands[island]))
-            {
-                AddSurfaces(bodies[index]);
-            }
-
             var firstPair = island > 0 ? _next[island - 1] : 0;
-            foreach (var pair in CollectionsMarshal.AsSpan(_sortedPairs)[firstPair.._next[island]])
+            var pairs = CollectionsMarshal.AsSpan(_sortedPairs)[firstPair.._next[island]];
+            var partCount = _islands[island].HasCompound ? 1 : IslandParts.CountFor(pairs.Length);
+            if (onlyImpacts && Island.IsLargeFor(pairs.Length, _islands[island].HasCompound) && !MayBounce(BodiesOf(_islands[island])))
             {
-                AddPair(in CollectionsMarshal.AsSpan(_pairs)[pair]);
+                continue;
             }
 
-            _islands[island] = _islands[island] with { FirstRow = firstRow, RowCount = _count - firstRow };
+            if (partCount > 1)
+            {
+                _islands[island] = _islands[island] with { PartCount = partCount, FirstPartEnd = _partEnds.Count };
+                AddParts(BodiesOf(_islands[island]), pairs, partCount);
+            }
+            else
+            {
+                AddSurfaces(BodiesOf(_islands[island]));
+                AddPairs(pairs);
+            }
+
+            var (isFree, isPushed) = Examine(_rows.AsSpan(firstRow, _count - firstRow));
+            _islands[island] = _islands[island] with
+            {
+                FirstRow = firstRow, RowCount = _count - firstRow, IsFree = isFree, IsPushed = isPushed,
+            };
         }
 
         RowCount = _count;
+    }
+
+    private static (bool IsFree, bool IsPushed) Examine(ReadOnlySpan<ContactRow> rows)
+    {
+        var isFree = true;
+        var isPushed = false;
+        foreach (ref readonly var row in rows)
+        {
+            isFree &= row.Second >= 0;
+            isPushed |= row.SurfaceWay != Vector.Zero;
+        }
+
+        return (isFree, isPushed);
     }
 
     /// <summary>Makes an island of each set of two or more bodies, and lists its bodies.</summary>
@@ -53,7 +81,7 @@ internal sealed partial class ContactGraph
                 if (root == i)
                 {
                     _islandOf[i] = _islands.Count;
-                    _islands.Add(default);
+                    _islands.Add(new(0, 0, 0, 0));
                 }
 
                 // The lowest index stands for its set, so that it has come already.
@@ -110,6 +138,36 @@ internal sealed partial class ContactGraph
                 // Each entry is the end of its island afterwards.
                 _sortedPairs[_next[_islandOf[pairs[i].First]]++] = i;
             }
+        }
+    }
+
+    /// <summary>True where a body of some is not perfectly inelastic.</summary>
+    public bool MayBounce(ReadOnlySpan<int> island)
+    {
+        foreach (var index in island)
+        {
+            if (_materials[index].Restitution > 0)
+            {
+                return true;
+            }
+        }
+
+        return false;
+    }
+
+    private void AddSurfaces(ReadOnlySpan<int> island)
+    {
+        foreach (var index in island)
+        {
+            AddSurfaces(bodies[index]);
+        }
+    }
+
+    private void AddPairs(ReadOnlySpan<int> pairs)
+    {
+        foreach (var pair in pairs)
+        {
+            AddPair(in CollectionsMarshal.AsSpan(_pairs)[pair]);
         }
     }
 

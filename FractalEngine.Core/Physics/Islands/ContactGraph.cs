@@ -7,7 +7,7 @@ namespace FractalEngine.Core.Physics.Islands;
 /// Finds which bodies touch or may meet in a step, and groups them: an island is made of two or more awake bodies that touch, directly or
 /// through others. Its order is that of the bodies' indices, whatever the order of the search.
 /// </summary>
-internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearbyBodies)
+internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearbyBodies, int maxThreads)
 {
     private const int InitialCapacity = 256;
 
@@ -21,11 +21,11 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
     private const double MaxEarlyDistance = 4;
 
     private readonly List<int> _neighbours = new(InitialCapacity);
-    private readonly List<int> _near = new(InitialCapacity);
     private readonly List<BodyPair> _pairs = new(InitialCapacity);
     private readonly List<Island> _islands = new(InitialCapacity);
     private readonly List<int> _islandBodies = new(InitialCapacity);
     private readonly DisjointSets _sets = new();
+    private readonly NeighbourGrid _grid = new();
     private GraphBody[] _states = new GraphBody[InitialCapacity];
     private BodyMaterial[] _materials = new BodyMaterial[InitialCapacity];
     private BodyDescription?[] _descriptions = new BodyDescription?[InitialCapacity];
@@ -65,27 +65,6 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
     {
         var reach = _states[body.Index].Reach;
         return (body.Position - body.PlannedStart).LengthSquared() > reach * reach;
-    }
-
-    /// <summary>Finds all pairs of bodies that touch. Only those search that may: most bodies in flight have met no other.</summary>
-    /// <param name="islands">Wakes bodies that sleep and are hit.</param>
-    /// <param name="stepLength">Seconds.</param>
-    /// <returns>True where bodies were woken, and the pairs must be collected again.</returns>
-    public bool CollectTouching(SleepIslands islands, double stepLength)
-    {
-        Begin(stepLength);
-        if (!_mayHavePairs)
-        {
-            return false;
-        }
-
-        var hasWoken = false;
-        for (var i = 0; i < bodies.Count && !hasWoken; i++)
-        {
-            hasWoken = _states[i].MaySearch && CollectTouching(i, islands);
-        }
-
-        return hasWoken || PassPushes(islands);
     }
 
     /// <summary>Joins the bodies that touch, for the impulses of what approaches.</summary>
@@ -158,7 +137,6 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
     {
         _stepLength = stepLength;
         _pairs.Clear();
-        _near.Clear();
         if (_states.Length < bodies.Count)
         {
             Grow();
@@ -192,6 +170,11 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
                 NearDistance = double.NegativeInfinity,
             };
         }
+
+        if (_mayHavePairs)
+        {
+            _grid.Build(nearbyBodies.HasFilters ? [] : _states.AsSpan(0, bodies.Count));
+        }
     }
 
     /// <summary>Makes room for as many contacts as bodies in a heap have, so that steps need not allocate.</summary>
@@ -200,74 +183,18 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
         _states = new GraphBody[2 * bodies.Count];
         _materials = new BodyMaterial[_states.Length];
         _descriptions = new BodyDescription?[_states.Length];
+        _grid.Reserve(_states.Length);
+        _parts.Reserve(_states.Length);
         _islandOf = new int[_states.Length];
         _next = new int[_states.Length];
         var contacts = ContactsPerBody * _states.Length;
-        _near.EnsureCapacity(NeighboursPerBody * bodies.Count);
+        ReserveSearches(NeighboursPerBody * bodies.Count, contacts);
         _pairs.EnsureCapacity(contacts);
         _sortedPairs.EnsureCapacity(contacts);
+        _partPairs.EnsureCapacity(contacts);
         _islands.EnsureCapacity(_states.Length);
         _islandBodies.EnsureCapacity(_states.Length);
         Array.Resize(ref _rows, Math.Max(contacts, _rows.Length));
-    }
-
-    private bool CollectTouching(int index, SleepIslands islands)
-    {
-        ref var body = ref _states[index];
-        var touchDistance = body.Radius * (body.HasHeapMargin ? ContactTolerances.HeapMargin : 0)
-            + ContactTolerances.Slop(body.Radius, body.Position);
-        // What the body may meet lies among the same neighbours.
-        var distance = 2 * ReachOf(in body);
-        distance = Math.Max(touchDistance, distance <= MaxEarlyDistance * body.Radius ? distance : 0);
-        body.FirstNear = _near.Count;
-        body.NearDistance = distance;
-        nearbyBodies.CollectOverlaps(body.Position, body.Radius + distance, index, _near);
-        body.NearCount = _near.Count - body.FirstNear;
-        _neighbours.Clear();
-        foreach (var neighbour in CollectionsMarshal.AsSpan(_near)[body.FirstNear..])
-        {
-            if ((body.Position - _states[neighbour].Position).Length() - body.Radius - _states[neighbour].Radius <= 2 * touchDistance)
-            {
-                _neighbours.Add(neighbour);
-            }
-        }
-
-        _neighbours.Sort();
-        foreach (var neighbour in _neighbours)
-        {
-            ref readonly var other = ref _states[neighbour];
-            var isFirm = !other.CanMove;
-            // Of two that search, the first one finds the pair.
-            var isInOrder = isFirm || index < neighbour;
-            if ((isInOrder || !other.MaySearch) && AreTouching(index, neighbour, isInOrder))
-            {
-                if (bodies[neighbour].IsAsleep && BallPairs.AreHitting(bodies[index], bodies[neighbour]))
-                {
-                    islands.Wake(bodies[neighbour]);
-                    return true;
-                }
-
-                _pairs.Add(isInOrder ? new(index, neighbour, isFirm, true) : new(neighbour, index, false, true));
-            }
-        }
-
-        return false;
-    }
-
-    /// <summary>True where two bodies touch, the first of which stands for the position of both.</summary>
-    private bool AreTouching(int index, int neighbour, bool isInOrder)
-    {
-        var (firstIndex, secondIndex) = isInOrder ? (index, neighbour) : (neighbour, index);
-        ref readonly var first = ref _states[firstIndex];
-        ref readonly var second = ref _states[secondIndex];
-        if (first.IsCompound || second.IsCompound)
-        {
-            return BallPairs.AreTouching(bodies[firstIndex], bodies[secondIndex]);
-        }
-
-        var gap = (first.Position - second.Position).Length() - first.Radius - second.Radius;
-        return gap <= ContactTolerances.TouchDistance(
-            Math.Min(first.Radius, second.Radius), first.Rounding, first.HasHeapMargin && second.HasHeapMargin);
     }
 
     private double ReachOf(in GraphBody body) => (_stepLength * body.Velocity.Length()) + body.Slack + body.KinematicPush;
@@ -288,7 +215,7 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
             return false;
         }
 
-        var normal = (first.Position - second.Position).UnitVectorOrZero();
-        return Vector.Dot(RelativeVelocity(in pair), normal) > first.SpeedGain;
+        var offset = first.Position - second.Position;
+        return Vector.Dot(RelativeVelocity(in pair), offset) > first.SpeedGain * offset.Length();
     }
 }

@@ -11,16 +11,8 @@ namespace FractalEngine.Core.Physics.Islands;
 /// Projected Gauss–Seidel, whose changes are taken as the gradients of a nonlinear conjugate gradient method (Silcowitz, Niebe and
 /// Erleben 2010). Plain rounds pass a load on by one body each; with the conjugate directions far fewer are needed.
 /// </remarks>
-internal sealed partial class ContactSolver
+internal sealed partial class ContactSolver(int maxThreads = 1)
 {
-    /// <summary>Most rounds of a solve of few contacts.</summary>
-    public const int ManyRounds = 250;
-
-    // Others may take as many rounds as solve so many contacts.
-    private const int MaxContactsOfManyRounds = 500;
-    private const int MaxContactSolves = 60_000;
-    private const int MinRounds = 12;
-
     // Of the largest impulse: a round that changes less has converged.
     private const double Tolerance = 1e-9;
 
@@ -44,7 +36,7 @@ internal sealed partial class ContactSolver
     // Fewer contacts are solved as soon without being copied.
     private const int MinBallRows = 8;
 
-    private readonly BallContactSolver _balls = new();
+    private readonly BallContactSolver _balls = new(maxThreads);
     private double _frictionShare = 1;
     private double _rounding;
     private SolverBody[] _bodies = new SolverBody[InitialCapacity];
@@ -166,9 +158,10 @@ internal sealed partial class ContactSolver
 
     /// <summary>Solves for the impulses. Those of the rows must have been given to the bodies already.</summary>
     /// <param name="rows">All contacts of an island; receive the impulses.</param>
-    /// <param name="maxRounds">Number of rounds at most, fewer where there are many contacts.</param>
+    /// <param name="maxRounds">Number of rounds at most, see <see cref="RoundLimits"/>.</param>
+    /// <param name="partEnds">The ends of the contacts of each part of the island; empty for a single part.</param>
     /// <returns>False where it has not converged: then the impulses are those of the last round.</returns>
-    public bool Solve(Span<ContactRow> rows, int maxRounds = ManyRounds)
+    public bool Solve(Span<ContactRow> rows, int maxRounds, ReadOnlySpan<int> partEnds = default)
     {
         if (_changes.Length < rows.Length)
         {
@@ -180,7 +173,7 @@ internal sealed partial class ContactSolver
         var isOfBalls = rows.Length > MinBallRows && !HasArms(rows);
         if (isOfBalls)
         {
-            _balls.Load(rows, _bodies);
+            _balls.Load(rows, _bodies, partEnds);
         }
 
         var isConverged = Iterate(rows, isOfBalls, maxRounds);
@@ -195,8 +188,6 @@ internal sealed partial class ContactSolver
     private bool Iterate(Span<ContactRow> rows, bool isOfBalls, int maxRounds)
     {
         var previousNorm = 0.0;
-        maxRounds = rows.Length <= MaxContactsOfManyRounds ? maxRounds
-            : Math.Min(maxRounds, Math.Max(MinRounds, MaxContactSolves / rows.Length));
         _frictionShare = 1;
         var isConverged = false;
         for (Rounds = 1; Rounds < maxRounds; Rounds++)
@@ -249,31 +240,6 @@ internal sealed partial class ContactSolver
         return false;
     }
 
-    /// <summary>Solves each contact once in the order of the list, and once in the opposite one.</summary>
-    /// <remarks>Both together make the round symmetric, as conjugate directions need it.</remarks>
-    private bool MakeRound(Span<ContactRow> rows, double tolerance, out double norm)
-    {
-        for (var i = 0; i < rows.Length; i++)
-        {
-            _changes[i] = default;
-            SolveContact(ref rows[i], ref _changes[i]);
-        }
-
-        norm = 0;
-        var maxChange = 0.0;
-        var maxImpulse = 0.0;
-        for (var i = rows.Length - 1; i >= 0; i--)
-        {
-            ref var change = ref _changes[i];
-            SolveContact(ref rows[i], ref change);
-            norm += ((change.Normal * change.Normal) + change.Across.LengthSquared()) / rows[i].NormalMass;
-            maxChange = Math.Max(maxChange, Math.Max(Math.Abs(change.Normal), change.Across.MaxAbsComponent()));
-            maxImpulse = Math.Max(maxImpulse, rows[i].NormalImpulse);
-        }
-
-        return maxChange <= Math.Max(tolerance * maxImpulse, _rounding);
-    }
-
     /// <summary>Impulses that rounding cannot tell from 0: those of bodies that barely approach have no larger digits.</summary>
     private double ComputeRounding(Span<ContactRow> rows)
     {
@@ -288,54 +254,6 @@ internal sealed partial class ContactSolver
         return RelativeRounding * impulse;
     }
 
-    private void SolveContact(ref ContactRow row, ref Direction change)
-    {
-        var missing = row.MinNormalVelocity - Vector.Dot(RelativeVelocity(in row), row.Normal);
-        var impulse = Math.Max(0, row.NormalImpulse + (row.NormalMass * missing));
-        var normalChange = impulse - row.NormalImpulse;
-        if (normalChange != 0)
-        {
-            row.NormalImpulse = impulse;
-            change.Normal += normalChange;
-            ApplyAlongNormal(in row, normalChange);
-        }
-
-        if (row.Friction > 0 && (impulse > 0 || row.FrictionImpulse != Vector.Zero))
-        {
-            var across = row.FrictionImpulse - (row.FrictionMass * Slip(in row));
-            var lengthSquared = across.LengthSquared();
-            var limit = row.Friction * impulse;
-            across = lengthSquared > limit * limit ? limit / Math.Sqrt(lengthSquared) * across : across;
-            var acrossChange = _frictionShare * (across - row.FrictionImpulse);
-            across = row.FrictionImpulse + acrossChange;
-            row.FrictionImpulse = across;
-            change.Across += acrossChange;
-            ApplyAcross(in row, acrossChange);
-        }
-
-        if (row.RollingArm + row.SpinningArm > 0 && double.IsFinite(row.TurnInertia))
-        {
-            change.Turn += StopTurning(ref row);
-        }
-    }
-
-    /// <summary>Slows down rolling and spinning as far as the normal impulse allows.</summary>
-    private Vector StopTurning(ref ContactRow row)
-    {
-        var spin = _bodies[row.First].Spin - (row.Second >= 0 ? _bodies[row.Second].Spin : row.SurfaceSpin);
-        var turn = row.TurnImpulse - (row.TurnInertia * spin);
-        var about = Vector.Dot(turn, row.Normal);
-        var rolling = turn - (about * row.Normal);
-        var length = rolling.Length();
-        var limit = row.RollingArm * row.NormalImpulse;
-        rolling = length > limit ? limit / length * rolling : rolling;
-        var spinningLimit = row.SpinningArm * row.NormalImpulse;
-        var turnChange = rolling + (Math.Clamp(about, -spinningLimit, spinningLimit) * row.Normal) - row.TurnImpulse;
-        row.TurnImpulse += turnChange;
-        ApplyTurn(in row, turnChange);
-        return turnChange;
-    }
-
     /// <summary>Gives both bodies an angular impulse.</summary>
     public void ApplyTurn(in ContactRow row, Vector turn)
     {
@@ -344,54 +262,5 @@ internal sealed partial class ContactSolver
         {
             _bodies[row.Second].Spin -= SpinChange(row.Second, turn);
         }
-    }
-
-    /// <summary>Goes on along the direction of the rounds before; at a share of 0 it begins anew.</summary>
-    private void Extrapolate(Span<ContactRow> rows, double share)
-    {
-        for (var i = 0; i < rows.Length; i++)
-        {
-            ref var direction = ref _directions[i];
-            ref readonly var change = ref _changes[i];
-            if (share > 0)
-            {
-                ref var row = ref rows[i];
-                direction.Normal *= share;
-                if (direction.Normal != 0)
-                {
-                    row.NormalImpulse += direction.Normal;
-                    ApplyAlongNormal(in row, direction.Normal);
-                }
-
-                direction.Normal += change.Normal;
-                if (row.Friction > 0)
-                {
-                    direction.Across *= share;
-                    row.FrictionImpulse += direction.Across;
-                    ApplyAcross(in row, direction.Across);
-                    direction.Across += change.Across;
-                }
-
-                if (row.RollingArm + row.SpinningArm > 0)
-                {
-                    direction.Turn *= share;
-                    row.TurnImpulse += direction.Turn;
-                    ApplyTurn(in row, direction.Turn);
-                    direction.Turn += change.Turn;
-                }
-            }
-            else
-            {
-                direction = change;
-            }
-        }
-    }
-
-    /// <summary>A change of the impulse of one contact.</summary>
-    private struct Direction
-    {
-        public double Normal;
-        public Vector Across;
-        public Vector Turn;
     }
 }

@@ -17,7 +17,7 @@ internal sealed class EnergyGuard(List<Body> bodies, ContactGraph graph, IslandM
             return;
         }
 
-        var centreVelocity = IsFree(in island) ? CentreVelocity(in island) : Vector.Zero;
+        var centreVelocity = island.IsFree ? CentreVelocity(in island) : Vector.Zero;
         var energy = EnergyAbout(in island, centreVelocity);
         var scale = energy > gain ? Math.Sqrt(1 - (gain / energy)) : 0;
         foreach (var index in graph.BodiesOf(in island))
@@ -26,7 +26,7 @@ internal sealed class EnergyGuard(List<Body> bodies, ContactGraph graph, IslandM
             bodies[index].AngularVelocity *= scale;
         }
 
-        if (scale == 0 && centreVelocity == Vector.Zero && !IsPushed(in island))
+        if (scale == 0 && centreVelocity == Vector.Zero && !island.IsPushed)
         {
             // What has lifted it has more energy than it can give back: it rests.
             _ = mover.TryReturn(in island);
@@ -52,34 +52,6 @@ internal sealed class EnergyGuard(List<Body> bodies, ContactGraph graph, IslandM
         }
 
         return gain;
-    }
-
-    /// <summary>True where a surface moves, which would overrun bodies that stay.</summary>
-    private bool IsPushed(in Island island)
-    {
-        foreach (ref readonly var row in graph.RowsOf(in island))
-        {
-            if (row.SurfaceWay != Vector.Zero)
-            {
-                return true;
-            }
-        }
-
-        return false;
-    }
-
-    /// <summary>True for an island that touches nothing firm, whose momentum is its own.</summary>
-    public bool IsFree(in Island island)
-    {
-        foreach (ref readonly var row in graph.RowsOf(in island))
-        {
-            if (row.Second < 0)
-            {
-                return false;
-            }
-        }
-
-        return true;
     }
 
     private Vector CentreVelocity(in Island island)

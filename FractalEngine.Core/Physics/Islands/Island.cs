@@ -10,9 +10,24 @@ internal readonly record struct Island(int FirstRow, int RowCount, int FirstBody
     // Contacts from which on forces and impulses are one solve.
     private const int MinRowsOfLarge = 300;
 
+    /// <summary>Number of parts that share no body, see <see cref="IslandParts"/>.</summary>
+    public int PartCount { get; init; } = 1;
+
+    /// <summary>Place of the end of its first part's contacts, where it has several.</summary>
+    public int FirstPartEnd { get; init; }
+
+    /// <summary>True where it touches nothing firm, so that its momentum is its own.</summary>
+    public bool IsFree { get; init; }
+
+    /// <summary>True where a surface that it touches, or may meet, moves.</summary>
+    public bool IsPushed { get; init; }
+
     /// <summary>True where one of its bodies is a compound.</summary>
     public bool HasCompound { get; init; }
 
     /// <summary>True where a solve is too long to converge in each step: it goes on from step to step.</summary>
-    public bool IsLarge => RowCount >= MinRowsOfLarge && !HasCompound;
+    public bool IsLarge => IsLargeFor(RowCount, HasCompound);
+
+    /// <summary>True for a large island of so many contacts, or more.</summary>
+    public static bool IsLargeFor(int rowCount, bool hasCompound) => rowCount >= MinRowsOfLarge && !hasCompound;
 }

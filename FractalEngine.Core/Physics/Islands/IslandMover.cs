@@ -7,7 +7,8 @@ namespace FractalEngine.Core.Physics.Islands;
 /// Moves the bodies of an island all at once, to where their plan leads them. What the solve has left of overlaps is taken back; what it
 /// did not foresee keeps bodies where they were, so that none ever enters another.
 /// </summary>
-internal sealed class IslandMover(List<Body> bodies, ContactGraph graph, BodyGrid grid, NearbyBodies nearbyBodies)
+internal sealed class IslandMover(
+    List<Body> bodies, ContactGraph graph, BodyGrid grid, NearbyBodies nearbyBodies, int maxThreads)
 {
     private const int InitialCapacity = 256;
 
@@ -21,7 +22,7 @@ internal sealed class IslandMover(List<Body> bodies, ContactGraph graph, BodyGri
     private const double JamFraction = 0.25;
     private const int MaxJammedSteps = 8;
 
-    private readonly OverlapSeparator _separator = new();
+    private readonly OverlapSeparator _separator = new(graph, maxThreads);
     private readonly List<int> _neighbours = new(InitialCapacity);
 
     // Contacts that no plan knew.
@@ -174,7 +175,7 @@ internal sealed class IslandMover(List<Body> bodies, ContactGraph graph, BodyGri
             _separator.SetBody(index, body.Target - body.PlannedStart, body.IsHeld ? 0 : 1 / body.Description.Mass);
         }
 
-        _separator.Separate(graph.RowsOf(in island), CollectionsMarshal.AsSpan(_unplanned), island.IsLarge);
+        _separator.Separate(in island, CollectionsMarshal.AsSpan(_unplanned));
         foreach (var index in members)
         {
             if (_separator.HasMoved(index))

@@ -12,27 +12,54 @@ namespace FractalEngine.Core.Physics.Islands;
 /// </remarks>
 internal sealed partial class IslandPlanner
 {
-    // A solve takes as many rounds as solve so many contacts.
-    private const int MaxSolvesOfLarge = 25_000;
-    private const int MinRoundsOfLarge = 8;
+    // Bodies are loaded in groups of so many.
+    private const int BodiesPerJob = 256;
 
-    private bool FindImpulses(ReadOnlySpan<int> island, Span<ContactRow> rows, double stepLength)
+    private Island _large;
+    private double _largeStepLength;
+    private Action<int>? _loadBodies;
+    private Action<int>? _beginPart;
+
+    private bool FindImpulses(in Island island, double stepLength)
     {
-        BounceAll(rows);
-        StoreVelocities(island);
-        _cache.Recall(rows);
-        foreach (var index in island)
+        _large = island;
+        _largeStepLength = stepLength;
+        var rows = Graph.RowsOf(in island);
+        if (Graph.MayBounce(Graph.BodiesOf(in island)))
         {
-            _solver.Bodies[index].Velocity += stepLength * bodies[index].FreeAcceleration;
+            Load(Graph.BodiesOf(in island), rows);
+            BounceAll(rows);
+            StoreVelocities(Graph.BodiesOf(in island));
         }
 
+        WorkerSet.Shared.Run((island.BodyCount + BodiesPerJob - 1) / BodiesPerJob, maxThreads, _loadBodies ??= LoadBodies);
+        WorkerSet.Shared.Run(island.PartCount, maxThreads, _beginPart ??= BeginPart);
+        BeginPart(island.PartCount);
+        return Solve(rows, RoundLimits.ForLarge(rows.Length), Graph.PartEndsOf(in island));
+    }
+
+    /// <summary>Loads a group of bodies with the velocities that they would have after the step without contacts.</summary>
+    private void LoadBodies(int job)
+    {
+        var members = Graph.BodiesOf(in _large);
+        foreach (var index in members[(job * BodiesPerJob)..Math.Min(members.Length, (job + 1) * BodiesPerJob)])
+        {
+            _solver.Load(index, bodies[index]);
+            _solver.Bodies[index].Velocity += _largeStepLength * bodies[index].FreeAcceleration;
+        }
+    }
+
+    /// <summary>Sets what the solve demands of the contacts of a part, and from which impulses it begins.</summary>
+    private void BeginPart(int part)
+    {
+        var rows = Graph.RowsOfPart(in _large, part);
+        _cache.Recall(rows);
         foreach (ref var row in rows)
         {
-            SetDistanceConstraint(ref row, stepLength);
+            _solver.ComputeMasses(ref row);
+            SetDistanceConstraint(ref row, _largeStepLength);
             ApplyKnownImpulses(ref row);
         }
-
-        return Solve(rows, Math.Max(MinRoundsOfLarge, MaxSolvesOfLarge / rows.Length));
     }
 
     /// <summary>Demands that two bodies that go by their velocities after the step do not get nearer than they touch.</summary>

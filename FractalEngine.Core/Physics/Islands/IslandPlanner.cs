@@ -11,13 +11,10 @@ namespace FractalEngine.Core.Physics.Islands;
 /// The forces are constant during the step, so that each body follows a parabola. They act along the mean of the line of contact before
 /// and after the step. Along it, two balls that stay in touch do not come closer, so that the forces between them do no work.
 /// </remarks>
-internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies nearbyBodies, ContactLog contactLog)
+internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies nearbyBodies, ContactLog contactLog, int maxThreads)
 {
-    // Rounds of bounces, one contact after the other: more of them are balls that pass their speed to and fro.
-    private const int MaxBounceRounds = 64;
-
-    // Rounds of the solve before it is known what bodies may meet in the step.
-    private const int MaxFirstRounds = 32;
+    private const int InitialCapacity = 256;
+    private const int ContactsPerBody = 4;
 
     // Times that the lines of contact are corrected for how far the bodies move in the step.
     private const int MaxTurns = 4;
@@ -27,20 +24,17 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
     // Radians: lines of contact that turn by less need no further correction.
     private const double TurnTolerance = 1e-10;
 
-    // Each takes energy away, so that none must converge.
-    private const int MaxReboundRounds = 8;
-
     // Of the speed: what rounding leaves of a velocity along a normal.
     private const double RelativeTolerance = 1e-13;
 
     // Of what gravity and forces add to the speed: less is what the solve leaves of it, and the body rests.
     private const double RestFraction = 1e-10;
 
-    private readonly ContactSolver _solver = new();
+    private readonly ContactSolver _solver = new(maxThreads);
     private readonly ImpulseCache _cache = new();
 
     /// <summary>The contacts and islands of this step.</summary>
-    public ContactGraph Graph { get; } = new(bodies, nearbyBodies);
+    public ContactGraph Graph { get; } = new(bodies, nearbyBodies, maxThreads);
 
     /// <summary>What has been solved so far.</summary>
     public IslandStatistics Statistics { get; private set; }
@@ -55,12 +49,18 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
     /// <summary>Takes away all approaching velocities of bodies that touch. They must have been joined.</summary>
     public void StopApproaches()
     {
-        Graph.Group();
+        Graph.Group(onlyImpacts: true);
         _solver.Reserve(bodies.Count);
         _cache.ReserveForBodies(bodies.Count);
+        _rebounding.EnsureCapacity(ContactsPerBody * bodies.Count);
         foreach (var island in Graph.Islands)
         {
             var rows = Graph.RowsOf(in island);
+            if (rows.Length == 0)
+            {
+                continue;
+            }
+
             Load(Graph.BodiesOf(in island), rows);
             if (island.IsLarge)
             {
@@ -70,7 +70,7 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
             else
             {
                 // The solve of the step ends what this one leaves.
-                _ = StopApproaches(rows, island.HasCompound ? ContactSolver.ManyRounds : MaxFirstRounds);
+                _ = StopApproaches(rows, island.HasCompound ? RoundLimits.Many : RoundLimits.First);
             }
 
             StoreVelocities(Graph.BodiesOf(in island));
@@ -81,7 +81,7 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
     /// <param name="stepLength">Seconds.</param>
     public void Plan(double stepLength)
     {
-        Graph.Group();
+        Graph.Group(onlyImpacts: false);
         for (var index = 0; index < Graph.Islands.Count; index++)
         {
             var island = Graph.Islands[index];
@@ -93,9 +93,7 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
                 bodies[body].HasHeapMargin = island.IsLarge;
             }
 
-            Load(Graph.BodiesOf(in island), rows);
-            var isConverged = island.IsLarge ? FindImpulses(Graph.BodiesOf(in island), rows, stepLength)
-                : StopApproachesAndFindForces(Graph.BodiesOf(in island), rows, stepLength);
+            var isConverged = island.IsLarge ? FindImpulses(in island, stepLength) : FindForces(in island, stepLength);
             Statistics = new(Statistics.Solves + 1, Statistics.Rounds, Statistics.Unconverged + (isConverged ? 0 : 1));
             StorePlan(Graph.BodiesOf(in island), stepLength, island.IsLarge);
             StoreTurns(Graph.BodiesOf(in island), rows, stepLength);
@@ -119,16 +117,19 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
         }
     }
 
-    private bool StopApproachesAndFindForces(ReadOnlySpan<int> island, Span<ContactRow> rows, double stepLength)
+    private bool FindForces(in Island island, double stepLength)
     {
+        var members = Graph.BodiesOf(in island);
+        var rows = Graph.RowsOf(in island);
+        Load(members, rows);
         // Of bodies that have joined without touching another: they may run into surfaces.
         var isConverged = StopApproaches(rows);
-        StoreVelocities(island);
-        return FindForces(island, rows, stepLength) && isConverged;
+        StoreVelocities(members);
+        return FindForces(members, rows, stepLength) && isConverged;
     }
 
     /// <summary>Takes away all approaching velocities: by bounces where they are fast enough, else by one solve.</summary>
-    private bool StopApproaches(Span<ContactRow> rows, int maxRounds = ContactSolver.ManyRounds)
+    private bool StopApproaches(Span<ContactRow> rows, int maxRounds = RoundLimits.Many)
     {
         BounceAll(rows);
         var isApproaching = false;
@@ -148,7 +149,7 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
             row.MinNormalVelocity = row.IsAhead ? double.NegativeInfinity : 0;
         }
 
-        var isConverged = Solve(rows, maxRounds);
+        var isConverged = Solve(rows, RoundLimits.For(rows.Length, maxRounds));
         Log(rows);
         return isConverged;
     }
@@ -171,42 +172,6 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
 
     private void Log(in ContactRow row, double impulse) => contactLog.Add(
         row.First, row.Second, bodies[row.First].Position + row.FirstArm - (row.FirstRadius * row.Normal), row.Normal, impulse);
-
-    /// <summary>Lets all pairs bounce until none approaches fast enough any more.</summary>
-    private void BounceAll(Span<ContactRow> rows)
-    {
-        for (var round = 0; round < MaxBounceRounds && Bounce(rows); round++)
-        {
-        }
-    }
-
-    /// <summary>Lets all pairs bounce once that approach fast enough, one after the other.</summary>
-    private bool Bounce(Span<ContactRow> rows)
-    {
-        var hasBounced = false;
-        foreach (ref var row in rows)
-        {
-            var speed = -NormalVelocity(in row);
-            if (!row.IsAhead && row.Restitution > 0 && speed > Math.Max(Threshold(in row), Rounding(in row)))
-            {
-                var impulse = (1 + row.Restitution) * speed * row.NormalMass;
-                if (row.HasArms)
-                {
-                    // First alone, since it changes the slip: both together could add energy.
-                    _solver.Apply(in row, impulse, Vector.Zero);
-                }
-
-                var across = -row.FrictionMass * _solver.Slip(in row);
-                var limit = row.Friction * impulse;
-                var length = across.Length();
-                _solver.Apply(in row, row.HasArms ? 0 : impulse, length > limit ? limit / length * across : across);
-                Log(in row, impulse);
-                hasBounced = true;
-            }
-        }
-
-        return hasBounced;
-    }
 
     private double Threshold(in ContactRow row)
     {
@@ -256,7 +221,7 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
                 ApplyKnownImpulses(ref row);
             }
 
-            isConverged = Solve(rows);
+            isConverged = Solve(rows, RoundLimits.For(rows.Length));
         }
 
         return isConverged;
@@ -270,9 +235,9 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
         _solver.ApplyTurn(in row, row.TurnImpulse);
     }
 
-    private bool Solve(Span<ContactRow> rows, int maxRounds = ContactSolver.ManyRounds)
+    private bool Solve(Span<ContactRow> rows, int maxRounds, ReadOnlySpan<int> partEnds = default)
     {
-        var isConverged = _solver.Solve(rows, maxRounds);
+        var isConverged = _solver.Solve(rows, maxRounds, partEnds);
         Statistics = Statistics with { Rounds = Statistics.Rounds + _solver.Rounds };
         return isConverged;
     }
@@ -308,45 +273,6 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
             var isStraight = isLarge && change != Vector.Zero
                 && _solver.Bodies[index].Velocity != body.Velocity + (stepLength * body.FreeAcceleration);
             body.PlannedWay = stepLength * (body.Velocity + (isStraight ? change : 0.5 * stepLength * body.NetAcceleration));
-        }
-    }
-
-    /// <summary>
-    /// Lets those stay together that meet in this step and are too slow to bounce. The forces of a whole step would throw them back.
-    /// </summary>
-    private void StopRebounds(ReadOnlySpan<int> island, Span<ContactRow> rows)
-    {
-        StopRebounds(rows);
-        foreach (var index in island)
-        {
-            var body = bodies[index];
-            var isResting = body.NetAcceleration == Vector.Zero && body.Velocity == Vector.Zero;
-            body.PlannedChange = isResting ? Vector.Zero : _solver.Bodies[index].Velocity - body.Velocity;
-            body.PlannedSpinChange = isResting ? Vector.Zero : _solver.Bodies[index].Spin - body.AngularVelocity;
-        }
-    }
-
-    private void StopRebounds(Span<ContactRow> rows)
-    {
-        var isRebounding = true;
-        for (var round = 0; round < MaxReboundRounds && isRebounding; round++)
-        {
-            isRebounding = false;
-            foreach (ref var row in rows)
-            {
-                // What moves pushes on those that were slower than itself, which then rebound from what they push.
-                if ((row.IsAhead || row.SurfaceVelocity != Vector.Zero) && row.NormalImpulse > 0)
-                {
-                    // It pushes less, but does not pull.
-                    var impulse = Math.Min(row.NormalImpulse, row.NormalMass * NormalVelocity(in row));
-                    if (impulse > 0)
-                    {
-                        row.NormalImpulse -= impulse;
-                        _solver.Apply(in row, -impulse, Vector.Zero);
-                        isRebounding = true;
-                    }
-                }
-            }
         }
     }
 }

@@ -1,11 +1,10 @@
-using System.Runtime.CompilerServices;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Physics.Islands;
 
 /// <summary>
 /// Takes back the overlaps that the solve of an island has left, by displacements alone: one contact after the other, and again, until
-/// all of them are negligible.
+/// all of them are negligible. The parts of a large island are separated on all threads, and then the contacts between them.
 /// </summary>
 internal sealed class OverlapSeparator
 {
@@ -19,31 +18,33 @@ internal sealed class OverlapSeparator
     private const int MaxRounds = 60;
     private const int MaxChoices = 4;
 
-    // Of the distance at which two touch: those farther apart are not near touching.
-    private const double MaxGap = 0.01;
+    private readonly ContactGraph _graph;
+    private readonly int _maxThreads;
+    private readonly Action<int> _choose;
+    private readonly Action<int> _separate;
+    private readonly Action<int> _takeBackSurfaces;
 
-    // The same where something pushes bodies together: then all of a row come to touch at once.
-    private const double MaxPushedGap = 0.25;
+    // One for each part, and behind them one for the contacts between parts.
+    private readonly GapGroup[] _groups = [.. Enumerable.Range(0, IslandParts.MaxCount + 1).Select(static _ => new GapGroup())];
+    private DisplacedBody[] _movers = new DisplacedBody[InitialCapacity];
+    private Island _island;
+    private SeparationAim _aim;
+    private bool _isFirstRound;
 
-    // Squares of shorter offsets lose digits.
-    private const double MinDistance = 1e-140;
+    public OverlapSeparator(ContactGraph graph, int maxThreads)
+    {
+        _graph = graph;
+        _maxThreads = maxThreads;
+        _choose = Choose;
+        _separate = SeparatePart;
+        _takeBackSurfaces = TakeBackSurfaces;
+        foreach (var group in _groups)
+        {
+            group.Reserve(InitialCapacity, ContactsPerBody * InitialCapacity);
+        }
+    }
 
-    // Of an overlap: how much of it is taken back at once, since others will push in again.
-    private const double Relaxation = 1.3;
-
-    // Of the smaller radius: overlaps at which a displacement ends; and the gap that is left where bodies keep a margin, so that they
-    // need not be displaced again soon.
-    private const double AimedOverlap = 1e-7;
-    private const double AimedGap = 0.3 * ContactTolerances.HeapMargin;
-
-    // Of the distance at which two touch: a shorter displacement makes no others overlap.
-    private const double NegligibleShift = 0.1 * NegligibleOverlap;
-
-    private Mover[] _movers = new Mover[InitialCapacity];
-    private Gap[] _gaps = new Gap[InitialCapacity];
-    private readonly GapQueue _queue = new();
-    private double _maxGap = MaxGap;
-    private double _aim = AimedOverlap;
+    private GapGroup Between => _groups[_island.PartCount];
 
     /// <summary>Grows the arrays to the bodies of a world, so that its steps allocate nothing.</summary>
     public void Reserve(int bodyCount)
@@ -51,8 +52,10 @@ internal sealed class OverlapSeparator
         if (_movers.Length < bodyCount)
         {
             Array.Resize(ref _movers, Math.Max(bodyCount, 2 * _movers.Length));
-            Array.Resize(ref _gaps, Math.Max(ContactsPerBody * _movers.Length, _gaps.Length));
-            _queue.Reserve(_movers.Length, _gaps.Length);
+            foreach (var group in _groups)
+            {
+                group.Reserve(_movers.Length, ContactsPerBody * _movers.Length);
+            }
         }
     }
 
@@ -66,211 +69,162 @@ internal sealed class OverlapSeparator
     public bool HasMoved(int index) => _movers[index].HasMoved;
 
     /// <summary>Separates all bodies of an island, whose ways must have been set.</summary>
-    /// <param name="rows">Contacts of the island.</param>
+    /// <param name="island">The island. Balls of a large one keep a margin, see <see cref="ContactTolerances.HeapMargin"/>.</param>
     /// <param name="others">Contacts that no plan knew.</param>
-    /// <param name="keepsMargin">True for a large island, see <see cref="ContactTolerances.HeapMargin"/>.</param>
-    public void Separate(Span<ContactRow> rows, Span<ContactRow> others, bool keepsMargin)
+    public void Separate(in Island island, ReadOnlySpan<ContactRow> others)
     {
-        _aim = keepsMargin ? -AimedGap : AimedOverlap;
-        if (_gaps.Length < rows.Length + others.Length)
-        {
-            _gaps = new Gap[2 * (rows.Length + others.Length)];
-            _queue.Reserve(_movers.Length, _gaps.Length);
-        }
-
-        _maxGap = IsPushed(rows) ? MaxPushedGap : MaxGap;
+        _island = island;
+        _aim = SeparationAim.Of(in island);
         // Chosen anew as long as what was not near touching comes to overlap.
         var hasMoved = true;
         for (var choice = 0; choice < MaxChoices && hasMoved; choice++)
         {
-            var gaps = _gaps.AsSpan(0, Choose(others, Choose(rows, 0)));
-            Enqueue(gaps);
-            hasMoved = MakeRound(gaps, isBackwards: false);
-            // To and fro: what the floor pushes up reaches the top of a pile in one round.
-            for (var round = 1; round < MaxRounds && MakeRound(gaps, isBackwards: round % 2 == 1); round++)
-            {
-            }
+            ChooseAll(others);
+            hasMoved = island.PartCount == 1 ? SeparateWhole() : SeparateParts();
         }
 
         // Last, since what is firm gives way to nothing.
-        TakeBackSurfaces(rows);
+        WorkerSet.Shared.Run(island.PartCount, _maxThreads, _takeBackSurfaces);
         TakeBackSurfaces(others);
     }
 
-    private static bool IsPushed(ReadOnlySpan<ContactRow> rows)
+    /// <summary>Chooses the contacts that are near touching.</summary>
+    private void ChooseAll(ReadOnlySpan<ContactRow> others)
     {
-        foreach (ref readonly var row in rows)
+        foreach (var group in _groups.AsSpan(0, _island.PartCount + 1))
         {
-            if (row.SurfaceWay != Vector.Zero)
-            {
-                return true;
-            }
+            group.Clear();
         }
 
-        return false;
+        WorkerSet.Shared.Run(_island.PartCount, _maxThreads, _choose);
+        Choose(_island.PartCount);
+        for (var i = 0; i < others.Length; i++)
+        {
+            _groups[GroupOf(in others[i])].AddNear(others.Slice(i, 1), _movers, in _aim);
+        }
+
+        if (_island.PartCount > 1)
+        {
+            // What moves across a cut lets the contacts within its part wait, if it has some.
+            foreach (ref readonly var gap in Between.Gaps)
+            {
+                _groups[_graph.PartOf(gap.First)].ClearListOf(gap.First);
+                _groups[_graph.PartOf(gap.Second)].ClearListOf(gap.Second);
+            }
+
+            Between.Enqueue(_movers.Length);
+        }
+
+        _isFirstRound = true;
     }
 
-    private int Choose(Span<ContactRow> rows, int count)
+    private int GroupOf(in ContactRow row)
     {
-        foreach (ref readonly var row in rows)
+        if (_island.PartCount == 1)
         {
-            var gap = new Gap(in row, _aim);
-            var offset = OffsetOf(in gap);
-            var distance = gap.IsPlane ? Vector.Dot(offset, gap.Normal) : offset.Length();
-            if (distance < gap.MinDistance * (1 + _maxGap))
-            {
-                _gaps[count++] = gap;
-            }
+            return 0;
         }
 
-        return count;
+        var part = _graph.PartOf(row.First);
+        return row.Second < 0 || _graph.PartOf(row.Second) == part ? part : _island.PartCount;
     }
 
-    private void Enqueue(ReadOnlySpan<Gap> gaps)
+    private void Choose(int group) => _groups[group].AddNear(_graph.RowsOfPart(in _island, group), _movers, in _aim);
+
+    /// <summary>Makes rounds to and fro: what the floor pushes up reaches the top of a pile in one round.</summary>
+    /// <returns>True where a body has been moved.</returns>
+    private bool SeparateWhole()
     {
-        foreach (ref readonly var gap in gaps)
+        _groups[0].Enqueue(_movers.Length);
+        var hasMoved = _groups[0].MakeRound(_movers, isBackwards: false);
+        for (var round = 1; round < MaxRounds && _groups[0].MakeRound(_movers, isBackwards: round % 2 == 1); round++)
         {
-            _queue.ClearListsOf(gap.First, gap.Second);
-        }
-
-        for (var i = 0; i < gaps.Length; i++)
-        {
-            _queue.Add(i, gaps[i].First, gaps[i].Second);
-        }
-
-        _queue.WaitForAll(gaps.Length);
-    }
-
-    /// <summary>Tests all contacts that wait.</summary>
-    /// <returns>True where bodies have been moved, so that others wait.</returns>
-    private bool MakeRound(ReadOnlySpan<Gap> gaps, bool isBackwards)
-    {
-        var hasMoved = false;
-        var index = isBackwards ? gaps.Length : -1;
-        while (isBackwards ? _queue.TryTakePrevious(ref index) : _queue.TryTakeNext(ref index))
-        {
-            ref readonly var gap = ref gaps[index];
-            if (TakeBack(in gap))
-            {
-                hasMoved = true;
-                _queue.WaitForContactsOf(gap.First);
-                if (gap.Second >= 0)
-                {
-                    _queue.WaitForContactsOf(gap.Second);
-                }
-            }
         }
 
         return hasMoved;
     }
 
-    private void TakeBackSurfaces(Span<ContactRow> rows)
+    /// <summary>Makes rounds to and fro within each part, and then across the cuts.</summary>
+    /// <returns>True where a body has been moved.</returns>
+    private bool SeparateParts()
+    {
+        var hasMoved = false;
+        var isMoving = true;
+        for (var round = 0; round < MaxRounds && isMoving; round += 2)
+        {
+            WorkerSet.Shared.Run(_island.PartCount, _maxThreads, _separate);
+            _isFirstRound = false;
+            isMoving = SeparateBetween();
+            foreach (var group in _groups.AsSpan(0, _island.PartCount))
+            {
+                isMoving |= group.HasMoved;
+            }
+
+            hasMoved |= isMoving;
+        }
+
+        return hasMoved;
+    }
+
+    private void SeparatePart(int part)
+    {
+        var group = _groups[part];
+        if (_isFirstRound)
+        {
+            group.Enqueue(_movers.Length);
+        }
+
+        group.HasMoved = false;
+        if (group.MakeRound(_movers, isBackwards: false))
+        {
+            _ = group.MakeRound(_movers, isBackwards: true);
+        }
+    }
+
+    private bool SeparateBetween()
+    {
+        var group = Between;
+        group.HasMoved = false;
+        foreach (ref readonly var gap in group.Gaps)
+        {
+            PassOn(gap.First, group);
+            PassOn(gap.Second, group);
+        }
+
+        if (group.MakeRound(_movers, isBackwards: false))
+        {
+            _ = group.MakeRound(_movers, isBackwards: true);
+        }
+
+        foreach (ref readonly var gap in group.Gaps)
+        {
+            PassOn(gap.First, _groups[_graph.PartOf(gap.First)]);
+            PassOn(gap.Second, _groups[_graph.PartOf(gap.Second)]);
+        }
+
+        return group.HasMoved;
+    }
+
+    /// <summary>Lets the contacts of a body wait that has just been moved by those of another group.</summary>
+    private void PassOn(int body, GapGroup group)
+    {
+        if (_movers[body].HasJustMoved)
+        {
+            _movers[body].HasJustMoved = false;
+            group.WaitForContactsOf(body);
+        }
+    }
+
+    private void TakeBackSurfaces(int part) => TakeBackSurfaces(_graph.RowsOfPart(in _island, part));
+
+    private void TakeBackSurfaces(ReadOnlySpan<ContactRow> rows)
     {
         foreach (ref readonly var row in rows)
         {
             if (!row.IsBall)
             {
-                _ = TakeBack(new Gap(in row, _aim));
+                _ = GapGroup.TakeBack(new Gap(in row, in _aim), _movers);
             }
-        }
-    }
-
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private Vector OffsetOf(in Gap gap) => gap.Second >= 0
-        ? gap.Offset + (_movers[gap.First].Way - _movers[gap.Second].Way) : gap.Offset + _movers[gap.First].Way;
-
-    /// <summary>Moves two overlapping bodies apart, the lighter one farther.</summary>
-    /// <returns>True where that may have made others overlap.</returns>
-    private bool TakeBack(in Gap gap)
-    {
-        var offset = OffsetOf(in gap);
-        double distance;
-        if (gap.IsPlane)
-        {
-            distance = Vector.Dot(offset, gap.Normal);
-            if (distance >= gap.MinDistance - gap.Negligible)
-            {
-                return false;
-            }
-        }
-        else
-        {
-            var least = gap.MinDistance - gap.Negligible;
-            var lengthSquared = offset.LengthSquared();
-            if (lengthSquared >= least * least)
-            {
-                return false;
-            }
-
-            distance = Math.Sqrt(lengthSquared);
-        }
-
-        var normal = gap.IsPlane ? gap.Normal : distance > MinDistance ? (1 / distance) * offset : offset.UnitVectorOrZero();
-        ref var first = ref _movers[gap.First];
-        var firstWeight = first.InverseMass;
-        var secondWeight = gap.Second >= 0 ? _movers[gap.Second].InverseMass : 0;
-        if (gap.IsOneSided && secondWeight > 0 && firstWeight > 0)
-        {
-            // The faster one ends where it touches.
-            var isFirstFaster = first.Way.LengthSquared() >= _movers[gap.Second].Way.LengthSquared();
-            firstWeight = isFirstFaster ? firstWeight : 0;
-            secondWeight = isFirstFaster ? 0 : secondWeight;
-        }
-
-        var sum = firstWeight + secondWeight;
-        if (sum == 0)
-        {
-            return false;
-        }
-
-        var overlap = gap.MinDistance - distance;
-        var shift = ((gap.Relaxation * overlap) - gap.Aimed) / sum * normal;
-        first.Way += firstWeight * shift;
-        first.HasMoved = true;
-        if (gap.Second >= 0)
-        {
-            _movers[gap.Second].Way -= secondWeight * shift;
-            _movers[gap.Second].HasMoved = true;
-        }
-
-        return overlap > NegligibleShift * gap.MinDistance;
-    }
-
-    /// <summary>What a separation needs of a body.</summary>
-    private struct Mover
-    {
-        public Vector Way;
-        public double InverseMass;
-        public bool HasMoved;
-    }
-
-    /// <summary>What a separation needs of a contact.</summary>
-    private readonly struct Gap
-    {
-        public readonly int First;
-        public readonly int Second;
-        public readonly Vector Offset;
-        public readonly Vector Normal;
-        public readonly double MinDistance;
-        public readonly double Negligible;
-        public readonly double Aimed;
-        public readonly double Relaxation;
-        public readonly bool IsPlane;
-        public readonly bool IsOneSided;
-
-        public Gap(in ContactRow row, double aim)
-        {
-            First = row.First;
-            Second = row.Second;
-            Offset = row.HasArms ? row.Offset + row.TurnShift - row.SurfaceWay : row.Offset - row.SurfaceWay;
-            Normal = row.Normal;
-            MinDistance = row.MinDistance;
-            var unit = row.IsBall ? row.MinDistance * row.SmallerRadiusShare : 0;
-            Negligible = NegligibleOverlap * unit;
-            Aimed = aim * unit;
-            Relaxation = row.IsBall && !row.IsAhead ? OverlapSeparator.Relaxation : 1;
-            IsPlane = !row.IsBall || row.HasFixedNormal;
-            IsOneSided = row.IsBouncingAhead;
         }
     }
 }

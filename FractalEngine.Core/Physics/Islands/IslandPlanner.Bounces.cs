@@ -1,0 +1,98 @@
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Physics.Islands;
+
+/// <content>What bounces before the solve of a step, and what may not rebound after it.</content>
+internal sealed partial class IslandPlanner
+{
+    // Rounds of bounces, one contact after the other: more of them are balls that pass their speed to and fro.
+    private const int MaxBounceRounds = 64;
+
+    // Each takes energy away, so that none must converge.
+    private const int MaxReboundRounds = 8;
+
+    private readonly List<int> _rebounding = new(InitialCapacity);
+
+    /// <summary>Lets all pairs bounce until none approaches fast enough any more.</summary>
+    private void BounceAll(Span<ContactRow> rows)
+    {
+        for (var round = 0; round < MaxBounceRounds && Bounce(rows); round++)
+        {
+        }
+    }
+
+    /// <summary>Lets all pairs bounce once that approach fast enough, one after the other.</summary>
+    private bool Bounce(Span<ContactRow> rows)
+    {
+        var hasBounced = false;
+        foreach (ref var row in rows)
+        {
+            var speed = -NormalVelocity(in row);
+            if (!row.IsAhead && row.Restitution > 0 && speed > Math.Max(Threshold(in row), Rounding(in row)))
+            {
+                var impulse = (1 + row.Restitution) * speed * row.NormalMass;
+                if (row.HasArms)
+                {
+                    // First alone, since it changes the slip: both together could add energy.
+                    _solver.Apply(in row, impulse, Vector.Zero);
+                }
+
+                var across = -row.FrictionMass * _solver.Slip(in row);
+                var limit = row.Friction * impulse;
+                var length = across.Length();
+                _solver.Apply(in row, row.HasArms ? 0 : impulse, length > limit ? limit / length * across : across);
+                Log(in row, impulse);
+                hasBounced = true;
+            }
+        }
+
+        return hasBounced;
+    }
+
+    /// <summary>
+    /// Lets those stay together that meet in this step and are too slow to bounce. The forces of a whole step would throw them back.
+    /// </summary>
+    private void StopRebounds(ReadOnlySpan<int> island, Span<ContactRow> rows)
+    {
+        StopRebounds(rows);
+        foreach (var index in island)
+        {
+            var body = bodies[index];
+            var isResting = body.NetAcceleration == Vector.Zero && body.Velocity == Vector.Zero;
+            body.PlannedChange = isResting ? Vector.Zero : _solver.Bodies[index].Velocity - body.Velocity;
+            body.PlannedSpinChange = isResting ? Vector.Zero : _solver.Bodies[index].Spin - body.AngularVelocity;
+        }
+    }
+
+    private void StopRebounds(Span<ContactRow> rows)
+    {
+        _rebounding.Clear();
+        for (var i = 0; i < rows.Length; i++)
+        {
+            // What moves pushes on those that were slower than itself, which then rebound from what they push.
+            ref readonly var row = ref rows[i];
+            if ((row.IsAhead || row.SurfaceVelocity != Vector.Zero) && row.NormalImpulse > 0)
+            {
+                _rebounding.Add(i);
+            }
+        }
+
+        var isRebounding = true;
+        for (var round = 0; round < MaxReboundRounds && isRebounding; round++)
+        {
+            isRebounding = false;
+            foreach (var i in _rebounding)
+            {
+                // It pushes less, but does not pull.
+                ref var row = ref rows[i];
+                var impulse = Math.Min(row.NormalImpulse, row.NormalMass * NormalVelocity(in row));
+                if (impulse > 0)
+                {
+                    row.NormalImpulse -= impulse;
+                    _solver.Apply(in row, -impulse, Vector.Zero);
+                    isRebounding = true;
+                }
+            }
+        }
+    }
+}
