@@ -19,6 +19,7 @@ internal static class SceneWorld
     {
         try
         {
+            PhysicsLimits.RequireRange(scene);
             var world = new PhysicsWorld(scene, settings);
             PhysicsLimits.Require(world.Bodies);
             PhysicsLimits.RequireRange(world);

@@ -29,7 +29,7 @@ internal static class RayQueries
         var rays = RaysParser.Parse(StandardInput.IsNamedBy(raysPath)
             ? StandardInput.Read(raysPath, ParsingLimits.MaxPointsBytes)
             : SourceText.Read(raysPath, raysPath, ParsingLimits.MaxPointsBytes));
-        RequireCoordinates(file, rays);
+        RequireCoordinates(file);
         var clock = Stopwatch.StartNew();
         var caster = new SceneRayCaster(file.Scene);
         var context = new QueryContext();
@@ -45,21 +45,16 @@ internal static class RayQueries
         return ExitCode.Done;
     }
 
-    /// <exception cref="FractalEngineException">The scene or a ray is beyond <see cref="RayCaster.CoordinateLimit"/>.</exception>
-    private static void RequireCoordinates(LoadedFile file, ImmutableArray<Ray> rays)
+    /// <exception cref="FractalEngineException">The scene is beyond <see cref="RayCaster.CoordinateLimit"/>.</exception>
+    private static void RequireCoordinates(LoadedFile file)
     {
         var bounds = file.Scene.Bounds;
         var reach = bounds.IsEmpty ? 0 : Math.Max(bounds.Minimum.MaxAbsComponent(), bounds.Maximum.MaxAbsComponent());
-        foreach (var ray in rays)
-        {
-            reach = Math.Max(reach, ray.Origin.MaxAbsComponent());
-        }
-
         if (reach > RayCaster.CoordinateLimit)
         {
             throw new FractalEngineException(ErrorKind.Limit, string.Create(
                 CultureInfo.InvariantCulture,
-                $"the scene or a ray reaches beyond the limit of {RayCaster.CoordinateLimit:R} for the coordinates of rays"));
+                $"the scene reaches beyond the limit of {RayCaster.CoordinateLimit:R} for the coordinates of rays"));
         }
     }
 

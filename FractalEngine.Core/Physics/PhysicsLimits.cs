@@ -17,6 +17,12 @@ public static class PhysicsLimits
     /// <summary>Largest coordinate of positions, velocities and gravity in size: the squares of larger ones leave a double.</summary>
     public const double MaxCoordinate = 1e150;
 
+    /// <summary>Largest angular velocity of an object that moves by itself, degrees a second: more turns a step say nothing.</summary>
+    public const double MaxSpin = 1e9;
+
+    /// <summary>Largest mass of a body, and the inverse of the smallest, kg: products of several masses stay doubles.</summary>
+    public const double MaxMass = 1e60;
+
     /// <summary>All limits of physics, in the order of a listing.</summary>
     public static ImmutableArray<Limit> All { get; } = [BodiesAtOnePlace];
 
@@ -32,6 +38,32 @@ public static class PhysicsLimits
         {
             Require(body.Position, "the position", body);
             Require(body.Velocity, "the velocity", body);
+            if (!(body.Description.Mass is >= 1 / MaxMass and <= MaxMass))
+            {
+                throw Error("the mass", $"body {body.Name}", "from 1e-60 to 1e60", body.Description.ObjectIndex);
+            }
+        }
+    }
+
+    /// <summary>Throws where an object of a scene moves by itself, or its belt, faster than bodies may.</summary>
+    /// <exception cref="SceneObjectException">The limit is exceeded; the message names it, and the object.</exception>
+    public static void RequireRange(LoadedScene scene)
+    {
+        ArgumentNullException.ThrowIfNull(scene);
+        for (var i = 0; i < scene.Objects.Length; i++)
+        {
+            var declared = scene.Objects[i].Declaration;
+            var name = declared.Name ?? declared.DisplayName;
+            if (declared.Belt.MaxAbsComponent() > MaxCoordinate)
+            {
+                throw Error("the belt", name, "of 1e150", i);
+            }
+
+            if (declared.Motion is { } motion
+                && (motion.Velocity.MaxAbsComponent() > MaxCoordinate || motion.Spin.MaxAbsComponent() > MaxSpin))
+            {
+                throw Error("the motion", name, "of 1e150 units and 1e9 degrees a second", i);
+            }
         }
     }
 
@@ -58,13 +90,16 @@ public static class PhysicsLimits
 
     private static void Require(Vector vector, string name, Body? body = null)
     {
-        if (vector.MaxAbsComponent() <= MaxCoordinate)
+        if (!(vector.MaxAbsComponent() <= MaxCoordinate))
         {
-            return;
+            throw Error(name, body is null ? null : $"body {body.Name}", "of 1e150", body?.Description.ObjectIndex);
         }
+    }
 
-        var message = $"{name}{(body is null ? "" : $" of body {body.Name}")} is beyond the limit of 1e150 of physics";
-        throw body?.Description.ObjectIndex is { } index
+    private static FractalEngineException Error(string quantity, string? name, string limit, int? objectIndex)
+    {
+        var message = $"{quantity}{(name is null ? "" : $" of {name}")} is beyond the limit {limit} of physics";
+        return objectIndex is { } index
             ? new SceneObjectException(index, ErrorKind.Limit, message)
             : new FractalEngineException(ErrorKind.Limit, message);
     }

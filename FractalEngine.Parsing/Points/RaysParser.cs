@@ -55,9 +55,15 @@ public sealed class RaysParser : Parser
 
             var direction = new Vector(x, y, z);
 
-            if (Math.Max(origin.MaxAbsComponent(), direction.MaxAbsComponent()) > Collider.MaxCoordinate)
+            if (origin.MaxAbsComponent() > RayCaster.CoordinateLimit)
             {
-                throw Error(start, $"a coordinate is beyond the limit of {Collider.MaxCoordinate:R} for distances", isLimitExceeded: true);
+                throw Error(start, $"a coordinate is beyond the limit of {RayCaster.CoordinateLimit:R} for rays", isLimitExceeded: true);
+            }
+
+            if (direction.MaxAbsComponent() > Collider.MaxCoordinate)
+            {
+                throw Error(
+                    directionStart, $"a direction is beyond the limit of {Collider.MaxCoordinate:R} for lengths", isLimitExceeded: true);
             }
 
             if (direction == Vector.Zero)

@@ -63,6 +63,28 @@ public sealed class SimulateCommandTests : IDisposable
         Assert.StartsWith($"{subject} is beyond the limit of 1e150 of physics", error, StringComparison.Ordinal);
     }
 
+    [Theory]
+    [InlineData("mass 1e70", "far.sdo:1:1: error: the mass of body #0 is beyond the limit from 1e-60 to 1e60 of physics")]
+    [InlineData("mass 1\no \"cube.obj\" # belt (1e200, 0, 0)", "far.sdo:2:1: error: the belt of cube.obj is beyond the limit of 1e150")]
+    [InlineData("mass 1\no \"cube.obj\" # moving velocity (1e200, 0, 0)", "far.sdo:2:1: error: the motion of cube.obj is beyond")]
+    [InlineData("mass 1\no \"cube.obj\" # moving spin (0, 1e12, 0)", "far.sdo:2:1: error: the motion of cube.obj is beyond")]
+    public void Simulate_BeyondTheRangeOfMassesAndMotions_NamesTheLimit(string options, string message)
+    {
+        _folder.Write("far.sdo", $"p \"cube.obj\" # 0.5 {options}\n");
+        var (exitCode, _, error) = Run("simulate", "far.sdo", "--seconds", "2");
+        Assert.Equal(3, exitCode);
+        Assert.StartsWith(message, error, StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void Simulate_ForLessThanAStep_TakesOne()
+    {
+        _folder.Write("one.sdo", "p \"cube.obj\" # 0.5\n");
+        var (exitCode, _, error) = Run("simulate", "one.sdo", "--seconds", "1", "--step", "1000000");
+        Assert.Equal(0, exitCode);
+        Assert.Contains("steps 1\n", error);
+    }
+
     [Fact]
     public void Simulate_UntilAllBodiesRest_ReportsThemAsleep()
     {

@@ -22,8 +22,8 @@ public class RaysParserTests
     [InlineData("1 2 3 0 0 0\n", 1, 7, "a direction of length 0")]
     [InlineData("1 2 x 0 0 1\n", 1, 5, "number")]
     [InlineData("1 2 3 0 0 nan\n", 1, 11, "number")]
-    [InlineData("1e301 2 3 0 0 1\n", 1, 1, "beyond the limit of 1E+150")]
-    [InlineData("1 2 3 0 1e301 1\n", 1, 1, "beyond the limit of 1E+150")]
+    [InlineData("1e301 2 3 0 0 1\n", 1, 1, "beyond the limit of 1E+75")]
+    [InlineData("1 2 3 0 1e301 1\n", 1, 7, "beyond the limit of 1E+150")]
     public void Parse_OfAWrongLine_NamesItsPlace(string text, int line, int column, string message)
     {
         var exception = Assert.Throws<SourceException>(() => Parse(text));
