@@ -28,7 +28,8 @@ draw() { run render "$2" --output "$images/$1.png" --resolution "$3" "${@:4}"; }
 window() {
     local name="$1" file="$2"
     shift 2
-    xvfb-run -a -s '-screen 0 1280x720x24' bash -c '
+    # With the panels of a first start, and none that are remembered.
+    XDG_CONFIG_HOME="$work/$name" xvfb-run -a -s '-screen 0 1280x720x24' bash -c '
         out="$1" file="$2"; shift 2
         "${@:1:2}" view "$file" --no-trace --resolution 1280x720 >/dev/null 2>&1 & pid=$!
         shift 2

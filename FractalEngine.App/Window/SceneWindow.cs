@@ -35,6 +35,7 @@ internal sealed class SceneWindow : IDisposable
     private readonly Stopwatch _clock = Stopwatch.StartNew();
     private TimeSpan _lastAdvance;
     private TimeSpan _lastRefresh;
+    private TimeSpan _refreshTime;
     private Redraw _redraw = Redraw.Overlay | Redraw.Scene;
     private bool _isClosing;
     private bool _isVisible = true;
@@ -252,7 +253,9 @@ internal sealed class SceneWindow : IDisposable
             _redraw |= Redraw.Scene;
         }
 
-        if (Document?.Tool.Handle(windowEvent, (Math.Max(1, _window.Width), Math.Max(1, _window.Height)), _clock.Elapsed) is { } message)
+        // A slow frame between two clicks does not part a double click.
+        var time = _clock.Elapsed - _refreshTime;
+        if (Document?.Tool.Handle(windowEvent, (Math.Max(1, _window.Width), Math.Max(1, _window.Height)), time) is { } message)
         {
             _overlay.ShowMessage(message, _clock.Elapsed);
             _redraw |= Redraw.Scene;
@@ -325,6 +328,7 @@ internal sealed class SceneWindow : IDisposable
             _windowRenderer.RecordFrameTime(_clock.Elapsed - start);
         }
 
+        _refreshTime += _clock.Elapsed - start;
         if (NeedsFullFrame)
         {
             // After a preview, as soon as the events until now are handled.

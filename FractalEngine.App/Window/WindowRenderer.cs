@@ -1,5 +1,6 @@
 using FractalEngine.Core.Images;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Parsing.Assets;
 using FractalEngine.Render;
 using FractalEngine.Render.Ui;
 
@@ -7,7 +8,7 @@ namespace FractalEngine.App.Window;
 
 /// <summary>
 /// Draws the frames of a window. While the camera moves, frames are coarser and one view behind, so that the instances of the next frame
-/// are culled while one is drawn. When it stops, a full frame follows. The first frame of a file is a preview: one sample a pixel, coarse
+/// are culled while one is drawn. When it stops, a full frame follows. The first frame of a scene is a preview: one sample a pixel, coarse
 /// detail and no shadows, since full frames of large scenes take seconds without a GPU.
 /// </summary>
 /// <param name="frame">The frame renderer of the window.</param>
@@ -59,7 +60,7 @@ internal sealed class WindowRenderer(FrameRenderer frame)
 
         var view = document.UpdateView((double)width / height);
         LatestView = view;
-        if (_shownView is null && !document.IsReload)
+        if (_shownView is null && document is { IsReload: false, File.Kind: FileKind.Scene })
         {
             IsReducedQuality = true;
             _shownView = view;

@@ -25,6 +25,9 @@ internal sealed class FractalPanel(WindowActions actions)
     private string? _problem;
     private ImmutableArray<FractalNumber> _numbers = [];
 
+    // What the file says about each of them.
+    private ImmutableArray<string?> _comments = [];
+
     // The numbers at the beginning of the present drag, which the ends of the sliders follow.
     private ImmutableArray<FractalNumber> _startNumbers = [];
     private int _startInteraction = -1;
@@ -103,6 +106,7 @@ internal sealed class FractalPanel(WindowActions actions)
                 _path = path;
                 _text = text;
                 _numbers = FractalNumber.FindAll(new SourceText(Path.GetFileName(path), text));
+                _comments = [.. _numbers.Select(number => FractalComments.Above(text, number.Offset))];
             }
 
             _problem = null;
@@ -124,6 +128,17 @@ internal sealed class FractalPanel(WindowActions actions)
             _startNumbers = _numbers;
         }
 
+        // First, since it changes most.
+        ui.Row(1);
+        for (var i = 0; i < _numbers.Length; i++)
+        {
+            if (_numbers[i].Role == FractalNumberRole.Depth)
+            {
+                BuildSlider(ui, i, $"depth of {_numbers[i].Name}", 0, Math.Max(8, _startNumbers[i].Value + 2), 1);
+                Explain(ui, i);
+            }
+        }
+
         string? name = null;
         var vectorCount = _numbers.Count(static number => number.Component == 2 && number.Role is not FractalNumberRole.Argument);
         for (var i = 0; i < _numbers.Length; i++)
@@ -138,8 +153,6 @@ internal sealed class FractalPanel(WindowActions actions)
 
             if (number.Role == FractalNumberRole.Depth)
             {
-                ui.Row(1);
-                BuildSlider(ui, i, $"depth of {number.Name}", 0, Math.Max(8, _startNumbers[i].Value + 2), 1);
                 continue;
             }
 
@@ -153,6 +166,15 @@ internal sealed class FractalPanel(WindowActions actions)
 
             var (minimum, maximum, step) = RangeOf(_startNumbers[i]);
             BuildSlider(ui, i, Axes[number.Component].ToString(), minimum, maximum, step);
+            Explain(ui, i);
+        }
+    }
+
+    private void Explain(UserInterface ui, int index)
+    {
+        if (_comments[index] is { } comment)
+        {
+            ui.Tooltip(comment);
         }
     }
 

@@ -107,9 +107,11 @@ public sealed class OverlayTests
     [Fact]
     public void Text_LongLineOfParts_IsWrappedBetweenThem()
     {
-        var layout = OverlayLayout.Create(Atlas, [OverlayPanel.OfText(OverlayAnchor.TopLeft, "a part of words · another part · H: keys")], 290, 300);
+        var panel = OverlayPanel.OfText(OverlayAnchor.TopLeft, "a part of words · another part · H: keys");
+        var layout = OverlayLayout.Create(Atlas, [panel], 290, 300);
         // The second line begins with the last part, without the separator.
-        var rows = layout.Quads.Where(static quad => quad.Glyph >= 0).GroupBy(static quad => quad.Y).OrderBy(static row => row.Key).ToArray();
+        var glyphs = layout.Quads.Where(static quad => quad.Glyph >= 0);
+        var rows = glyphs.GroupBy(static quad => quad.Y).OrderBy(static row => row.Key).ToArray();
         Assert.Equal(2, rows.Length);
         Assert.Equal(Atlas.GlyphOf('H'), (int)rows[1].MinBy(static quad => quad.X)!.Glyph);
     }

@@ -116,8 +116,9 @@ internal static partial class InteractionTable
     private static IEnumerable<Interaction> OfFractal =>
     [
         new("depth by the arrow keys", "row.fdo",
-            [Keys("F4"), Shows("depth of z"), Keys("shift+Tab Right Right"), Title("row.fdo*"), Save("row.fdo")],
+            [Keys("F4"), Shows("depth of z"), Keys("Tab Tab Right Right"), Title("row.fdo*"), Save("row.fdo")],
             [FrameDiffers(0.001), FileHas("<$>. z   5\n# kept too\n", "row.fdo")]),
+        new("a number is explained by the file's comment", "row.fdo", [Keys("F4"), PointAt("0.5")], [Shows("kept: three cubes")]),
         new("drag of a number is one step", "row.fdo",
             [Keys("F4"), Slide(40, "position", 0, 3, 1), Title("row.fdo*"), FrameDiffers(0.001), Keys("ctrl+z")],
             [FrameIsAsBefore, Title("row.fdo -"), Keys("ctrl+z"), FrameIsAsBefore]),
