@@ -61,6 +61,9 @@ internal sealed class ShadowFit
     /// <summary>For each light, the index of its first view and their number; without any where it casts no shadow.</summary>
     public List<(int First, int Count)> Ranges { get; } = [];
 
+    /// <summary>Lights with a position that are so far away that they are parallel: bit i for light i.</summary>
+    public int DistantLights { get; private set; }
+
     /// <summary>Number of maps that are not needed: their light is dark, or lights nothing visible.</summary>
     public int SkippedCount { get; private set; }
 
@@ -82,6 +85,7 @@ internal sealed class ShadowFit
     {
         _keepsIdleViews = !cullsLights;
         SkippedCount = 0;
+        DistantLights = 0;
         _views.Clear();
         _weights.Clear();
         Ranges.Clear();
@@ -161,6 +165,7 @@ internal sealed class ShadowFit
         if (distance > 100 * receivers.Diagonal)
         {
             // From so far away the light is parallel.
+            DistantLights |= 1 << Ranges.Count;
             AddParallelViews((receivers.Centre - position).UnitVector(), in frame, origin, receivers, casters, fitsToView, weight);
             return;
         }

@@ -71,6 +71,9 @@ internal sealed class ShadowPass : IDisposable
     /// <summary>Whether any parallel light has several depth maps.</summary>
     public bool HasSlices { get; private set; }
 
+    /// <summary>Lights with a position that are so far away that their shadows are parallel: bit i for light i.</summary>
+    public int DistantLights { get; private set; }
+
     /// <summary>Number of depth maps of the frame.</summary>
     public int MapCount { get; private set; }
 
@@ -131,6 +134,7 @@ internal sealed class ShadowPass : IDisposable
         var fitsToView = settings.FitShadowsToView || _zoom is not null;
         var receivers = _zoom is null ? StandingBounds(bounds) : new(-reach * Vector.One, reach * Vector.One);
         _fit.Fit(_lights, in frame, origin, unitsPerSceneUnit, receivers, casters, fitsToView, settings.LightCulling);
+        DistantLights = _fit.DistantLights;
         SkippedMapCount = _fit.SkippedCount;
         foreach (var view in _fit.Views)
         {
