@@ -1,6 +1,6 @@
 namespace FractalEngine.Core.Visibility;
 
-/// <summary>Tells for the directions of a turned frame which ones of another frame they are, and takes masks from one to the other.</summary>
+/// <summary>Takes masks from one frame to another, whose directions lie closest to directions of the first.</summary>
 internal sealed class SkyTurns
 {
     private const int BitsPerDigit = 4;
