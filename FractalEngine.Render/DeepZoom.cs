@@ -1,5 +1,6 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Maths;
 using FractalEngine.Core.Visibility;
 
 namespace FractalEngine.Render;
@@ -19,4 +20,14 @@ public sealed record DeepZoom(int ObjectIndex, ImmutableArray<LodRoot> Roots, do
 
     /// <inheritdoc/>
     public override int GetHashCode() => HashCode.Combine(ObjectIndex, LogUnit, Roots.Length);
+
+    /// <summary>Moves the roots from the camera to an eye beside it.</summary>
+    /// <param name="eye">Position relative to the camera, in the unit of the address.</param>
+    internal DeepZoom AboutEye(Vector eye) => this with
+    {
+        Roots = [.. Roots.Select(root => root with
+        {
+            FrameToCamera = root.FrameToCamera with { Translation = root.FrameToCamera.Translation - eye },
+        })],
+    };
 }

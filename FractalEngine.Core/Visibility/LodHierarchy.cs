@@ -15,6 +15,7 @@ public sealed class LodHierarchy
     private readonly LevelRegion[] _regions;
     private readonly Lock _bakeLock = new();
     private SkySides? _sides;
+    private VisibleSides? _visibleSides;
     private SkyMasks?[] _lastSkyMasks = [];
 
     // Set on the thread that bakes, after all masks.
@@ -38,6 +39,9 @@ public sealed class LodHierarchy
 
     /// <summary>Points of the base mesh that stand for its sides.</summary>
     internal SkySides Sides => _sides ??= new(Mesh);
+
+    /// <summary>Tells which of these an eye sees.</summary>
+    internal VisibleSides VisibleSides => _visibleSides ??= new(Mesh);
 
     /// <summary>Number of levels of the whole fractal; a huge number where they are infinitely many.</summary>
     internal long LevelCount { get; }

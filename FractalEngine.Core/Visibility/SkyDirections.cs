@@ -1,7 +1,5 @@
-using System.Numerics;
 using System.Runtime.Intrinsics;
 using FractalEngine.Core.Maths;
-using Vector = FractalEngine.Core.Maths.Vector;
 
 namespace FractalEngine.Core.Visibility;
 
@@ -11,13 +9,19 @@ internal static class SkyDirections
     /// <summary>Number of directions, one for each bit of a mask.</summary>
     public const int Count = 64;
 
-    // The normals of the six sides come first, then one along each direction.
-    private const int AxisNormals = SkySides.Count;
+    private const int Lanes = 8;
 
     private static readonly Vector[] Directions = [.. Enumerable.Range(0, Count).Select(Spiral)];
 
-    // For each normal and each byte of a mask, the part of the light that its set bits let through: [normals × 8 × 256].
-    private static readonly float[] Parts = ComputeParts();
+    // x of all directions, then y, then z: [3 × 64].
+    private static readonly float[] Components =
+    [
+        .. Directions.Select(static direction => (float)direction.X), .. Directions.Select(static direction => (float)direction.Y),
+        .. Directions.Select(static direction => (float)direction.Z),
+    ];
+
+    // For each side, the part of the light that comes from each direction: [6 × 64].
+    private static readonly float[] Weights = [.. Enumerable.Range(0, SkySides.Count).SelectMany(WeightsOf)];
 
     /// <summary>Returns the direction that belongs to a bit.</summary>
     /// <param name="index">Index of its bit.</param>
@@ -47,18 +51,6 @@ internal static class SkyDirections
         return best;
     }
 
-    /// <summary>Finds the normal for which parts are known that is closest to a vector: its index.</summary>
-    /// <param name="normal">Of any length: x, y, z, 0.</param>
-    public static int NearestNormal(Vector256<double> normal)
-    {
-        const double NearlyOne = 1 - 1e-6;
-        var side = SkySides.Of(normal);
-        var component = normal[side % 3];
-        return component * component > NearlyOne * Vector256.Dot(normal, normal)
-            ? side
-            : AxisNormals + Nearest(SimdAffineMap.ToVector(normal));
-    }
-
     /// <summary>Tells whether a map keeps all directions, up to rounding: it only scales, evenly.</summary>
     public static bool AreParallel(Matrix linear)
     {
@@ -69,17 +61,52 @@ internal static class SkyDirections
 
     /// <summary>Computes the part of an even sky's light that reaches a surface, from 0 to 1.</summary>
     /// <param name="mask">Directions in which the sky is free.</param>
-    /// <param name="normal">Index of the surface's normal.</param>
-    public static float VisiblePart(ulong mask, int normal)
+    /// <param name="normal">Normal of the surface of any length: x, y, z, 0.</param>
+    public static float VisiblePart(ulong mask, Vector256<double> normal)
     {
-        var table = Parts.AsSpan(normal * 8 * 256, 8 * 256);
-        var sum = 0f;
-        for (var i = 0; i < 8; i++)
+        // Only the direction matters, but squares and single precision would underflow.
+        var (x, y, z) = (normal[0], normal[1], normal[2]);
+        var scale = 1 / Math.Max(Math.Abs(x), Math.Max(Math.Abs(y), Math.Abs(z)));
+        return VisiblePart(
+            mask, Vector256.Create((float)(scale * x)), Vector256.Create((float)(scale * y)), Vector256.Create((float)(scale * z)));
+    }
+
+    /// <summary>Computes the part of an even sky's light that reaches a side, from 0 to 1.</summary>
+    /// <param name="mask">Directions in which the sky is free.</param>
+    /// <param name="side">Index of the side.</param>
+    public static float VisiblePart(ulong mask, int side)
+    {
+        ref var weights = ref Weights[side * Count];
+        var sum = Vector256<float>.Zero;
+        for (nuint i = 0; i < Count; i += Lanes)
         {
-            sum += table[(i * 256) + (int)((mask >> (8 * i)) & 255)];
+            sum += Vector256.LoadUnsafe(ref weights, i) & LanesOf(mask >> (int)i);
         }
 
-        return sum;
+        return Vector256.Sum(sum);
+    }
+
+    private static float VisiblePart(ulong mask, Vector256<float> x, Vector256<float> y, Vector256<float> z)
+    {
+        ref var components = ref Components[0];
+        var (sum, whole) = (Vector256<float>.Zero, Vector256<float>.Zero);
+        for (nuint i = 0; i < Count; i += Lanes)
+        {
+            var cosine = (x * Vector256.LoadUnsafe(ref components, i)) + (y * Vector256.LoadUnsafe(ref components, i + Count))
+                + (z * Vector256.LoadUnsafe(ref components, i + (2 * Count)));
+            cosine = Vector256.Max(cosine, Vector256<float>.Zero);
+            whole += cosine;
+            sum += cosine & LanesOf(mask >> (int)i);
+        }
+
+        return Vector256.Sum(sum) / Vector256.Sum(whole);
+    }
+
+    /// <summary>Turns the lowest bits into lanes of ones or zeros.</summary>
+    private static Vector256<float> LanesOf(ulong bits)
+    {
+        var bitOfLane = Vector256.Create(1, 2, 4, 8, 16, 32, 64, 128);
+        return Vector256.Equals(Vector256.Create((int)bits) & bitOfLane, bitOfLane).AsSingle();
     }
 
     /// <summary>Points of a spiral from pole to pole, each as far from the last one as the golden angle.</summary>
@@ -91,28 +118,10 @@ internal static class SkyDirections
         return new(radius * cosine, z, radius * sine);
     }
 
-    private static float[] ComputeParts()
+    private static IEnumerable<float> WeightsOf(int side)
     {
-        var parts = new float[(AxisNormals + Count) * 8 * 256];
-        for (var normal = 0; normal < AxisNormals + Count; normal++)
-        {
-            var unit = normal >= AxisNormals ? Directions[normal - AxisNormals] : SkySides.NormalOf(normal);
-            var whole = Directions.Sum(direction => Math.Max(0, Vector.Dot(direction, unit)));
-            for (var i = 0; i < 8; i++)
-            {
-                for (var bits = 0; bits < 256; bits++)
-                {
-                    var sum = 0.0;
-                    for (var rest = bits; rest != 0; rest &= rest - 1)
-                    {
-                        sum += Math.Max(0, Vector.Dot(Directions[(8 * i) + BitOperations.TrailingZeroCount(rest)], unit));
-                    }
-
-                    parts[(((normal * 8) + i) * 256) + bits] = (float)(sum / whole);
-                }
-            }
-        }
-
-        return parts;
+        var normal = SkySides.NormalOf(side);
+        var whole = Directions.Sum(direction => Math.Max(0, Vector.Dot(direction, normal)));
+        return Directions.Select(direction => (float)(Math.Max(0, Vector.Dot(direction, normal)) / whole));
     }
 }

@@ -258,19 +258,19 @@ internal sealed class SkyMaskBaker
     }
 
     /// <summary>Tells for each direction which one it is under a map; null where it is the same.</summary>
-    private static byte[]? TurnsOf(Matrix map)
+    private static SkyTurns? TurnsOf(Matrix map)
     {
         if (SkyDirections.AreParallel(map))
         {
             return null;
         }
 
-        var turns = new byte[SkyDirections.Count];
-        for (var i = 0; i < turns.Length; i++)
+        Span<byte> sources = stackalloc byte[SkyDirections.Count];
+        for (var i = 0; i < sources.Length; i++)
         {
-            turns[i] = (byte)SkyDirections.Nearest(map * SkyDirections.At(i));
+            sources[i] = (byte)SkyDirections.Nearest(map * SkyDirections.At(i));
         }
 
-        return turns;
+        return new(sources);
     }
 }

@@ -31,9 +31,9 @@ internal static class SkyMaskTest
             if (occluder.TrySample(node, levels, random, sample))
             {
                 var free = occluder.FreeDirections(node, levels, -1, sample.Point, SkyDirections.Above(sample.Normal));
-                var truth = SkyDirections.VisiblePart(free, SkyDirections.NearestNormal(SimdAffineMap.ToVector256(sample.Normal)));
+                var truth = SkyDirections.VisiblePart(free, SimdAffineMap.ToVector256(sample.Normal));
                 path.Set(sample.Steps);
-                path.ComputeParts(hierarchy, sample.Leaf!, sample.Steps.Count, parts);
+                path.ComputeParts(hierarchy, sample.Leaf!, sample.Steps.Count, VisibleSides.All, parts);
                 var part = SkySides.Blend(parts, (sample.FromMesh.Linear.Transpose() * sample.Normal).UnitVector());
                 // As far apart as the values of an image are.
                 var (shown, shownTruth) = (Math.Sqrt(part), Math.Sqrt(truth));

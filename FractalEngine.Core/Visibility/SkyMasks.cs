@@ -1,3 +1,4 @@
+using System.Runtime.CompilerServices;
 using System.Runtime.Intrinsics;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
@@ -26,6 +27,11 @@ internal sealed class SkyMasks
     // Thickness of the outermost cells, by the size of the box.
     private const double ThinCell = 0.01;
 
+
+    private static readonly Vector256<double> LastThird = Vector256.Create(GridSize - 3.0);
+    private static readonly Vector256<double> FirstThinEnd = Vector256.Create(ThinCell);
+    private static readonly Vector256<double> LastThinStart = Vector256.Create(1 - ThinCell);
+
     private readonly ulong[][]? _masks;
     private readonly Child[] _children;
 
@@ -43,55 +49,57 @@ internal sealed class SkyMasks
 
     /// <summary>Size of the tables in bytes.</summary>
     public int ByteCount =>
-        (_masks?.Sum(static masks => sizeof(ulong) * masks.Length) ?? 0) + _children.Sum(static child => child.Turns?.Length ?? 0);
+        (_masks?.Sum(static masks => sizeof(ulong) * masks.Length) ?? 0) + _children.Sum(static child => child.Turns?.ByteCount ?? 0);
 
     /// <summary>Returns what is left when siblings are taken to hide nothing: how frames are turned.</summary>
     public SkyMasks WithoutMasks() => new(null, _children);
 
-    /// <summary>Maps what a surface sees from a child's frame to the node's.</summary>
-    /// <param name="child">Index of the child that the surface is part of.</param>
-    /// <param name="point">Point just before the surface, in the child's frame: x, y, z, 0.</param>
-    /// <param name="normal">Normal of the surface of any length, x, y, z, 0; in the child's frame before, in the node's after.</param>
-    /// <param name="mask">Free directions of the frame in which masks were known last; in the node's frame after.</param>
-    public void Apply(int child, Vector256<double> point, ref Vector256<double> normal, ref ulong mask)
+    /// <summary>Maps what sides see from a child's frame to the node's; their points stay in the child's.</summary>
+    /// <param name="child">Index of the child that the sides are part of.</param>
+    /// <param name="sights">What they see.</param>
+    public void Apply(int child, Span<SkySight> sights)
     {
         ref readonly var data = ref _children[child];
-        var side = SkySides.Of(normal);
-        if (data.Turns is { } turns && mask != ulong.MaxValue)
+        var masks = _masks?[child];
+        var turns = data.Turns;
+        foreach (ref var sight in sights)
         {
-            var turned = 0ul;
-            for (var i = 0; i < turns.Length; i++)
+            if (turns is not null && sight.Mask != ulong.MaxValue)
             {
-                turned |= ((mask >> turns[i]) & 1) << i;
+                sight.Mask = turns.Apply(sight.Mask);
             }
 
-            mask = turned;
-        }
+            if (masks is not null)
+            {
+                var side = sight.IsTurned ? SkySides.Of(sight.Normal) : sight.Side;
+                sight.Mask &= masks[(CellOf(in data, sight.Point) * SkySides.Count) + side];
+            }
 
-        if (_masks is not null)
-        {
-            mask &= _masks[child][(CellOf(in data, point) * SkySides.Count) + side];
         }
 
         if (data.NormalMap is { } normalMap)
         {
-            normal = normalMap.ApplyLinear(normal);
+            foreach (ref var sight in sights)
+            {
+                sight.Normal = normalMap.ApplyLinear(sight.Normal);
+                sight.IsTurned = true;
+            }
         }
     }
 
     /// <summary>Finds the cell of a child's grid that is closest to a point.</summary>
     /// <param name="child">The child.</param>
     /// <param name="point">In the child's frame: x, y, z, 0.</param>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static int CellOf(in Child child, Vector256<double> point)
     {
         var place = (point - child.Origin) * child.Scale;
-        var cell = (place * (GridSize - 2)) + Vector256<double>.One;
-        cell = Vector256.Min(Vector256.Max(cell, Vector256.Create(1.5)), Vector256.Create(GridSize - 1.5));
-        var (isFirst, isLast) =
-            (Vector256.LessThan(place, Vector256.Create(ThinCell)), Vector256.GreaterThan(place, Vector256.Create(1 - ThinCell)));
-        cell = Vector256.ConditionalSelect(isFirst, Vector256<double>.Zero, cell);
-        cell = Vector256.ConditionalSelect(isLast, Vector256.Create(GridSize - 0.5), cell);
-        return (((((int)cell[2]) * GridSize) + (int)cell[1]) * GridSize) + (int)cell[0];
+        // Thirds are the cells 1 to 3; thin cells lie before and after them.
+        var third = Vector256.Floor(Vector256.Min(Vector256.Max(place * (GridSize - 2), Vector256<double>.Zero), LastThird));
+        var isInside = Vector256.GreaterThanOrEqual(place, FirstThinEnd) & Vector256<double>.One;
+        var isAfter = Vector256.GreaterThan(place, LastThinStart) & Vector256<double>.One;
+        var cell = third + isInside + isAfter;
+        return (int)cell[0] + (GridSize * ((int)cell[1] + (GridSize * (int)cell[2])));
     }
 
     /// <summary>Computes the squared distance of two cells, in cells.</summary>
@@ -110,9 +118,9 @@ internal sealed class SkyMasks
         /// <param name="box">Box in the child's frame.</param>
         /// <param name="linear">Linear part of the map to the node's frame.</param>
         /// <param name="turns">
-        /// For each direction of the node's frame, the one of the frame in which masks are known next below; null where they are parallel.
+        /// From directions of the node's frame to those of the frame in which masks are known next below; null where they are parallel.
         /// </param>
-        public Child(BoundingBox box, Matrix linear, byte[]? turns)
+        public Child(BoundingBox box, Matrix linear, SkyTurns? turns)
         {
             var (x, y, z) = box.Size;
             Origin = SimdAffineMap.ToVector256(box.Minimum);
@@ -132,7 +140,7 @@ internal sealed class SkyMasks
         public Vector256<double> Scale { get; }
 
         /// <summary>Directions of the frame below; null where it is parallel.</summary>
-        public byte[]? Turns { get; }
+        public SkyTurns? Turns { get; }
 
         /// <summary>Map of normals to the node's frame; null where the frames are parallel.</summary>
         public SimdAffineMap? NormalMap { get; }

@@ -1,5 +1,3 @@
-using FractalEngine.Core.Maths;
-
 namespace FractalEngine.Core.Visibility;
 
 /// <summary>The children that lead to the current node, and what they leave of the sky.</summary>
@@ -31,23 +29,40 @@ internal sealed class SkyPath
     /// <param name="hierarchy">Hierarchy of the path, with masks.</param>
     /// <param name="node">Node at the end of the path, which is drawn as its proxy.</param>
     /// <param name="depth">Number of steps that lead to it.</param>
-    /// <param name="parts">Receives a number from 0 to 1 for each side.</param>
-    public void ComputeParts(LodHierarchy hierarchy, LodNode node, int depth, Span<float> parts)
+    /// <param name="sides">Bits of the sides that count.</param>
+    /// <param name="parts">Receives a number from 0 to 1 for each side; 1 for those that don't count.</param>
+    public void ComputeParts(LodHierarchy hierarchy, LodNode node, int depth, int sides, Span<float> parts)
     {
-        var sides = hierarchy.Sides;
+        Span<SkySight> sights = stackalloc SkySight[SkySides.Count];
+        var count = 0;
         for (var side = 0; side < SkySides.Count; side++)
         {
-            var point = node.IsProxyIdentity ? sides[side] : node.ProxyMap.Apply(sides[side]);
-            var normal = SimdAffineMap.ToVector256(SkySides.NormalOf(side));
-            var mask = ulong.MaxValue;
-            for (var i = depth - 1; i >= 0; i--)
+            parts[side] = 1;
+            if ((sides & (1 << side)) != 0)
             {
-                var (parent, levels, child) = _steps[i];
-                hierarchy.SkyMasksAt(parent, levels)?.Apply(child, point, ref normal, ref mask);
-                point = parent.ChildMaps[child].Apply(point);
+                var point = hierarchy.Sides[side];
+                sights[count] = new(side, node.IsProxyIdentity ? point : node.ProxyMap.Apply(point));
+                count++;
             }
+        }
 
-            parts[side] = SkyDirections.VisiblePart(mask, SkyDirections.NearestNormal(normal));
+        sights = sights[..count];
+        for (var i = depth - 1; i >= 0; i--)
+        {
+            ref readonly var step = ref _steps[i];
+            hierarchy.SkyMasksAt(step.Node, step.Levels)?.Apply(step.Child, sights);
+            ref readonly var map = ref step.Node.ChildMaps[step.Child];
+            for (var j = 0; i > 0 && j < sights.Length; j++)
+            {
+                sights[j].Point = map.Apply(sights[j].Point);
+            }
+        }
+
+        foreach (ref readonly var sight in sights)
+        {
+            parts[sight.Side] = sight.IsTurned
+                ? SkyDirections.VisiblePart(sight.Mask, sight.Normal)
+                : SkyDirections.VisiblePart(sight.Mask, sight.Side);
         }
     }
 }

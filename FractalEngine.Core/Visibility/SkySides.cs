@@ -15,6 +15,9 @@ internal sealed class SkySides
     // How far before the surface the points lie, by the size of the mesh: surfaces of siblings in the same plane stay behind.
     private const double Outside = 1e-3;
 
+    private static readonly Vector256<double>[] Axes =
+        [.. Enumerable.Range(0, Count).Select(static side => SimdAffineMap.ToVector256(NormalOf(side)))];
+
     private readonly Vector256<double>[] _points = new Vector256<double>[Count];
 
     /// <summary>Finds the middle of the surfaces of each side; that of the box's side where there are none.</summary>
@@ -56,12 +59,17 @@ internal sealed class SkySides
     public static Vector NormalOf(int side) =>
         (side < 3 ? 1 : -1) * (side % 3 == 0 ? Vector.I : side % 3 == 1 ? Vector.J : Vector.K);
 
+    /// <summary>Returns the unit normal of a side: x, y, z, 0.</summary>
+    public static Vector256<double> AxisOf(int side) => Axes[side];
+
     /// <summary>Finds the side that a vector points to most.</summary>
     public static int Of(Vector256<double> normal)
     {
-        var size = Vector256.Abs(normal);
-        var axis = size[0] >= size[1] ? (size[0] >= size[2] ? 0 : 2) : size[1] >= size[2] ? 1 : 2;
-        return normal[axis] >= 0 ? axis : axis + 3;
+        var (x, y, z) = (normal[0], normal[1], normal[2]);
+        var (sizeX, sizeY, sizeZ) = (Math.Abs(x), Math.Abs(y), Math.Abs(z));
+        return sizeX >= sizeY && sizeX >= sizeZ ? (x >= 0 ? 0 : 3)
+            : sizeX < sizeY && sizeY >= sizeZ ? (y >= 0 ? 1 : 4)
+            : z >= 0 ? 2 : 5;
     }
 
     /// <summary>Computes what a surface sees from what the sides see, as the shader does.</summary>

@@ -307,7 +307,11 @@ internal sealed class StripCuller
 
         if (context.HasSkyParts)
         {
-            _skyPath.ComputeParts(context.Hierarchy, instance.Node, instance.Depth, instances.LastSkyParts());
+            // Of what is transparent or cut, inner sides are seen as well.
+            var showsOuterSides = context.CanOcclude && footprint is { IsBeyondNearPlane: true, IsSectioned: false };
+            var visibleSides = context.Hierarchy.VisibleSides.FindVisible(
+                in instanceToView, frame.IsPerspective, frame.IsMirrored, showsOuterSides ? context.WindingSign : 0);
+            _skyPath.ComputeParts(context.Hierarchy, instance.Node, instance.Depth, visibleSides, instances.LastSkyParts());
         }
     }
 }

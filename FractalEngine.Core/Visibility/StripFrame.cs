@@ -49,6 +49,7 @@ internal readonly struct StripFrame
         var samplesPerAxis = settings.IsMultisampled ? MultisampleFactor : 1;
         Position = view.Position;
         Axes = view.Axes;
+        IsMirrored = view.Axes.Determinant() < 0;
         IsPerspective = view.IsPerspective;
         Near = view.Near;
         Far = view.Far;
@@ -106,6 +107,9 @@ internal readonly struct StripFrame
 
     /// <summary>Whether instances come with the parts of the sky that they see.</summary>
     public bool HasSkyVisibility { get; }
+
+    /// <summary>Whether the camera's axes are right-handed.</summary>
+    public bool IsMirrored { get; }
 
     /// <summary>Whether pixels of the frame have several samples.</summary>
     public bool IsMultisampled { get; }

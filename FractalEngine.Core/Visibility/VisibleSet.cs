@@ -126,7 +126,8 @@ public sealed class VisibleSet
 
     /// <summary>
     /// Parts of the sky from 0 to 1 that the sides of each of <see cref="Instances"/> see, towards +x, +y, +z, −x, −y, −z of the base
-    /// mesh, [n × 6]. Meaningful where <see cref="CullingSettings.SkyVisibility"/> is on and the object's hierarchy has masks.
+    /// mesh, [n × 6]; 1 for sides that the camera does not see. Meaningful where <see cref="CullingSettings.SkyVisibility"/> is on and
+    /// the object's hierarchy has masks.
     /// </summary>
     /// <param name="objectIndex">Index of the object in the list of <see cref="Cull"/>.</param>
     /// <param name="chunk">Index of the chunk, less than <see cref="ChunkCount"/>.</param>

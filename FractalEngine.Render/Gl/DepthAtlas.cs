@@ -2,7 +2,7 @@ using OpenTK.Graphics.OpenGL4;
 
 namespace FractalEngine.Render.Gl;
 
-/// <summary>A texture of 32-bit depths that can be drawn into, read texel by texel without filtering.</summary>
+/// <summary>A texture of depths that can be drawn into, read texel by texel without filtering.</summary>
 internal sealed class DepthAtlas : GlObject
 {
     private readonly int _framebuffer;
@@ -13,18 +13,20 @@ internal sealed class DepthAtlas : GlObject
     /// <param name="label">Name of the texture, for messages.</param>
     /// <param name="width">Width in texels.</param>
     /// <param name="height">Height in texels.</param>
+    /// <param name="isFine">Whether depths are floats of 32 bits; otherwise they have 16 bits, which are read faster.</param>
     /// <exception cref="GlException">Size or memory exceed the driver's limits.</exception>
-    public DepthAtlas(GlResources resources, string label, int width, int height)
+    public DepthAtlas(GlResources resources, string label, int width, int height, bool isFine)
         : base(resources, label)
     {
         Width = width;
         Height = height;
+        IsFine = isFine;
         _framebuffer = GL.GenFramebuffer();
         _texture = GL.GenTexture();
         Resources.State.BindTexture(_texture);
+        var format = isFine ? PixelInternalFormat.DepthComponent32f : PixelInternalFormat.DepthComponent16;
         GL.TexImage2D(
-            TextureTarget.Texture2D, 0, PixelInternalFormat.DepthComponent32f, width, height, 0, PixelFormat.DepthComponent,
-            PixelType.Float, IntPtr.Zero);
+            TextureTarget.Texture2D, 0, format, width, height, 0, PixelFormat.DepthComponent, PixelType.Float, IntPtr.Zero);
         GL.TexParameter(TextureTarget.Texture2D, TextureParameterName.TextureMinFilter, (int)TextureMinFilter.Nearest);
         GL.TexParameter(TextureTarget.Texture2D, TextureParameterName.TextureMagFilter, (int)TextureMagFilter.Nearest);
         GL.BindFramebuffer(FramebufferTarget.Framebuffer, _framebuffer);
@@ -45,6 +47,9 @@ internal sealed class DepthAtlas : GlObject
 
     /// <summary>Height of the texture in texels.</summary>
     public int Height { get; }
+
+    /// <summary>Whether depths are floats of 32 bits.</summary>
+    public bool IsFine { get; }
 
     /// <summary>Makes this the framebuffer that is drawn into.</summary>
     public void Bind() => GL.BindFramebuffer(FramebufferTarget.Framebuffer, _framebuffer);

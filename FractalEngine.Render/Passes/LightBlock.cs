@@ -64,14 +64,19 @@ internal sealed class LightBlock : IDisposable
     /// Returns a loop over the lights, and the kinds of their shadows, as symbols of a shader. The loop over few lights has constant
     /// indices: without a GPU, reading a block at others takes a tenth to a fifth of a frame.
     /// </summary>
-    public static string[] SymbolsOf(ImmutableArray<Light> lights)
+    /// <param name="lights">Lights of the scene.</param>
+    /// <param name="distantLights">Lights that have a position, but are parallel for the scene: bit i for light i.</param>
+    public static string[] SymbolsOf(ImmutableArray<Light> lights, int distantLights = 0)
     {
         // Of one element at least, as there are no arrays of none.
-        var kinds = string.Join(", ", lights.Select(static light => ShadowFit.HasCube(light) ? '1' : '0').DefaultIfEmpty('0'));
+        var kinds = string.Join(", ", lights.Select(KindOfShadow).DefaultIfEmpty('0'));
         var loop = lights.Length <= MaxUnrolledLights
             ? string.Concat(Enumerable.Range(0, lights.Length).Select(static i => FormattableString.Invariant($" DO({i})")))
             : FormattableString.Invariant($" for (int i = 0; i < {lights.Length}; i++) {{ DO(i) }}");
         return [$"EACH_LIGHT(DO){loop}", $"LIGHT_KINDS int[]({kinds})"];
+
+        char KindOfShadow(Light light, int index) =>
+            light is not PointLight || (distantLights & (1 << index)) != 0 ? '0' : ShadowFit.HasCube(light) ? '1' : '2';
     }
 
     /// <summary>Returns the linear light that haze shines with: its own colour, or what stands at the horizon.</summary>

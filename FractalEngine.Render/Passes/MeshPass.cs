@@ -28,7 +28,8 @@ internal sealed class MeshPass(RenderContext context, ImmutableArray<Light> ligh
     private const int FeatureCombinations = 16384;
     private static readonly Colour WireframeColour = new(0.80, 0.83, 0.87);
 
-    private readonly string[] _lightSymbols = LightBlock.SymbolsOf(lights);
+    private string[] _lightSymbols = LightBlock.SymbolsOf(lights);
+    private int _distantLights;
 
     // Indexed by features. Each program is built when it is first needed.
     private readonly MeshProgram?[] _programs = new MeshProgram?[FeatureCombinations];
@@ -45,8 +46,10 @@ internal sealed class MeshPass(RenderContext context, ImmutableArray<Light> ligh
     /// <param name="frame">View of the frame.</param>
     /// <param name="wireframe">Whether light grey edges are drawn instead of lit surfaces.</param>
     /// <param name="features">Features of all surfaces of the frame, unless it shows edges.</param>
-    public void Begin(in FrameView frame, bool wireframe, MeshFeatures features)
+    /// <param name="distantLights">Lights with a position that are parallel in this frame: bit i for light i.</param>
+    public void Begin(in FrameView frame, bool wireframe, MeshFeatures features, int distantLights)
     {
+        SetDistantLights(distantLights);
         var section = frame.Section is null ? MeshFeatures.None : MeshFeatures.Section;
         _frameState = (frame, wireframe, section | (wireframe ? MeshFeatures.None : features));
         _frameNumber++;
@@ -124,6 +127,21 @@ internal sealed class MeshPass(RenderContext context, ImmutableArray<Light> ligh
         {
             program?.Dispose();
         }
+    }
+
+    /// <summary>Programs know the kinds of shadows. These change when a view zooms away from a light, and hardly ever else.</summary>
+    private void SetDistantLights(int distantLights)
+    {
+        if (_distantLights == distantLights)
+        {
+            return;
+        }
+
+        Dispose();
+        Array.Clear(_programs);
+        Array.Clear(_lastFrameOfProgram);
+        _distantLights = distantLights;
+        _lightSymbols = LightBlock.SymbolsOf(lights, distantLights);
     }
 
     private static MeshFeatures FeaturesOf(DrawableMaterial? material) =>

@@ -29,6 +29,7 @@ internal sealed class ObjectsPass : IDisposable
     private readonly SkyPass? _skyPass;
     private DrawableScene _scene;
     private TransparentOrder _transparentOrder;
+    private readonly OpaqueOrder _opaqueOrder = new();
     private readonly ShadowPass _shadowPass;
     private SphereBatch? _sphereBatch;
     private bool _hasSkyParts;
@@ -92,7 +93,7 @@ internal sealed class ObjectsPass : IDisposable
 
         _shadowPass.Bind();
         _hasSkyParts = EffectiveCulling.HasSkyVisibility(settings);
-        _meshPass.Begin(in frame, settings.Wireframe, FrameFeatures(settings));
+        _meshPass.Begin(in frame, settings.Wireframe, FrameFeatures(settings), _shadowPass.DistantLights);
         DrawOpaque(in frame, settings);
         if (spheres.Count > 0 && view.DeepZoom is null)
         {
@@ -138,7 +139,7 @@ internal sealed class ObjectsPass : IDisposable
     private void DrawOpaque(in FrameView frame, RenderSettings settings)
     {
         BackFaceCulledCount = 0;
-        for (var i = 0; i < _objectBlocks.Length; i++)
+        foreach (var i in _opaqueOrder.SortFrontToBack(frame.View.Camera, _transforms.Bounds))
         {
             var item = _scene.Objects[i];
             if (item.IsDynamic && settings.Culling is { FrustumCulling: true }

@@ -4,6 +4,7 @@ using FractalEngine.Core.Visibility;
 using FractalEngine.Render.Gl;
 using FractalEngine.Render.Passes;
 using FractalEngine.Render.Preparation;
+using OpenTK.Graphics.OpenGL4;
 
 namespace FractalEngine.Render.Shadows;
 
@@ -33,6 +34,29 @@ internal sealed class CasterRenderer : IDisposable
 
     /// <summary>Scene whose objects are drawn.</summary>
     public DrawableScene Scene { get; set; }
+
+    /// <summary>Sets the state in which maps are drawn.</summary>
+    /// <param name="isCut">Whether a section plane cuts the scene.</param>
+    public static void BeginMaps(bool isCut)
+    {
+        if (isCut)
+        {
+            GL.Enable(EnableCap.ClipDistance0);
+        }
+
+        GL.Enable(EnableCap.DepthTest);
+        GL.DepthMask(true);
+        GL.DepthFunc(DepthFunction.Greater);
+        // Axes of lights are left-handed, whichever way the scene is shown.
+        GL.FrontFace(FrontFaceDirection.Cw);
+    }
+
+    /// <summary>Ends drawing into maps.</summary>
+    public static void EndMaps()
+    {
+        GL.Disable(EnableCap.DepthClamp);
+        GL.Disable(EnableCap.ClipDistance0);
+    }
 
     /// <summary>Begins drawing into the map of a view.</summary>
     public void Begin(in ShadowView view)

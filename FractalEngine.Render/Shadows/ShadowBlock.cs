@@ -13,13 +13,13 @@ internal sealed class ShadowBlock(GlResources resources, bool hasReversedDepth) 
     public const int SlotCount = LightBlock.MaxLights + ShadowFit.MaxViews;
 
     private const int FloatsPerView = 24;
-    private const int EmptySlot = SlotCount - 1;
-
-    // Ranges, then sides, four integers and eight for each light; then the size of a texel, and the views.
-    private const int SidesStart = 4 * LightBlock.MaxLights;
-    private const int TexelStart = 12 * LightBlock.MaxLights;
-    private const int ViewsStart = TexelStart + 4;
     private const int SideCount = 6;
+
+    // Ranges, then sides, one vector and six for each light; then the size of a texel, and the views.
+    private const int SidesStart = 4 * LightBlock.MaxLights;
+    private const int FloatsPerCube = 4 * SideCount;
+    private const int TexelStart = SidesStart + (FloatsPerCube * LightBlock.MaxLights);
+    private const int ViewsStart = TexelStart + 4;
 
     // Distance towards the light at which a surface is compared with the map, texels: parts below a texel may be drawn as proxies there.
     private const double OffsetTexels = 1.3;
@@ -37,27 +37,32 @@ internal sealed class ShadowBlock(GlResources resources, bool hasReversedDepth) 
         IReadOnlyList<(int First, int Count)> ranges, IReadOnlyList<ShadowView> views, IReadOnlyList<(int X, int Y)> corners,
         (int Width, int Height) textureSize, Vector origin)
     {
-        var indices = MemoryMarshal.Cast<float, int>(_data.AsSpan(0, TexelStart));
+        var indices = MemoryMarshal.Cast<float, int>(_data.AsSpan(0, SidesStart));
+        // Without bounds, no slot holds any point, and sides without a scale have no map.
+        _data.AsSpan(SidesStart).Clear();
         (_data[TexelStart], _data[TexelStart + 1]) = (1f / textureSize.Width, 1f / textureSize.Height);
-        // Without bounds, no slot holds any point.
-        _data.AsSpan(ViewsStart).Clear();
         var nextSlot = LightBlock.MaxLights;
         for (var light = 0; light < ranges.Count; light++)
         {
             var (first, count) = ranges[light];
-            (indices[4 * light], indices[(4 * light) + 1]) = (nextSlot, Math.Max(0, count - 1));
-            var sides = indices.Slice(SidesStart + (8 * light), SideCount);
-            sides.Fill(count > 0 && views[first].IsCubeSide ? EmptySlot : light);
+            (indices[4 * light], indices[(4 * light) + 1]) = (nextSlot, 0);
             for (var i = first; i < first + count; i++)
             {
                 // The index of the first view is known to the shader's compiler.
-                var slot = i == first ? light : nextSlot++;
-                Write(views[i], corners[i], origin, _data.AsSpan(ViewsStart + (slot * FloatsPerView), FloatsPerView));
+                if (i == first || !views[i].IsCubeSide)
+                {
+                    var slot = i == first ? light : nextSlot++;
+                    Write(views[i], corners[i], origin, _data.AsSpan(ViewsStart + (slot * FloatsPerView), FloatsPerView));
+                }
+
                 if (views[i].IsCubeSide)
                 {
-                    sides[SideOf(views[i].Axes.V3)] = slot;
+                    var side = SidesStart + (light * FloatsPerCube) + (4 * SideOf(views[i].Axes.V3));
+                    WriteSide(views[i], corners[i], _data.AsSpan(side, 4));
                 }
             }
+
+            indices[(4 * light) + 1] = nextSlot - indices[4 * light];
         }
 
         _buffer.Upload<float>(_data, BufferUsageHint.DynamicDraw);
@@ -73,19 +78,43 @@ internal sealed class ShadowBlock(GlResources resources, bool hasReversedDepth) 
     private static int SideOf(Vector axis) =>
         Math.Abs(axis.X) > 0.5 ? (axis.X > 0 ? 0 : 1) : Math.Abs(axis.Y) > 0.5 ? (axis.Y > 0 ? 2 : 3) : axis.Z > 0 ? 4 : 5;
 
+    private static void WriteSide(in ShadowView view, (int X, int Y) corner, Span<float> target)
+    {
+        var half = 0.5 * view.Size;
+        WriteVector(target, new(corner.X + half, corner.Y + half, half / view.HalfWidth), OffsetTexels * view.TexelSize);
+    }
+
     private void Write(in ShadowView view, (int X, int Y) corner, Vector origin, Span<float> target)
+    {
+        var half = 0.5 * view.Size;
+        var (scaleX, scaleY) = (half / view.HalfWidth, half / view.HalfHeight);
+        var middle = new Vector(corner.X + half, corner.Y + half, 0);
+        var (depthScale, depthShift) = StoredDepth(in view);
+        // Shifts are added in double precision where that is possible.
+        if (view.IsPerspective)
+        {
+            WriteRows(in view, origin, new(scaleX, scaleY, 1), Vector.Zero, target);
+            WriteVector(target[20..], new(depthScale, depthShift, 1 / (scaleX * scaleX)), 1 / (scaleY * scaleY));
+        }
+        else
+        {
+            WriteRows(in view, origin, new(scaleX, scaleY, depthScale), new(middle.X, middle.Y, depthShift), target);
+            var (ratioX, ratioY) = (depthScale / scaleX, depthScale / scaleY);
+            WriteVector(target[20..], new(0, 0, -ratioX * ratioX), -ratioY * ratioY);
+        }
+
+        WriteVector(target[12..], new(corner.X + 1, corner.Y + 1, corner.X + view.Size - 1), corner.Y + view.Size - 1);
+        WriteVector(target[16..], middle, OffsetTexels * view.TexelSize);
+    }
+
+    /// <summary>Writes the map from points relative to the camera to the axes of a view.</summary>
+    private static void WriteRows(in ShadowView view, Vector origin, Vector scale, Vector shift, Span<float> target)
     {
         var (right, up, forward) = view.Axes;
         var toCamera = origin - view.Position;
-        var half = 0.5 * view.Size;
-        var (depthScale, depthShift) = StoredDepth(in view);
-        WriteVector(target, right, Vector.Dot(right, toCamera));
-        WriteVector(target[4..], up, Vector.Dot(up, toCamera));
-        // The shift is added in double precision where that is possible.
-        WriteVector(target[8..], forward, Vector.Dot(forward, toCamera) + (view.IsPerspective ? 0 : depthShift / depthScale));
-        WriteVector(target[12..], new(half / view.HalfWidth, half / view.HalfHeight, corner.X + half), corner.Y + half);
-        WriteVector(target[16..], new(corner.X + 1, corner.Y + 1, corner.X + view.Size - 1), corner.Y + view.Size - 1);
-        WriteVector(target[20..], new(depthScale, depthShift, view.IsPerspective ? 1 : 0), OffsetTexels * view.TexelSize);
+        WriteVector(target, scale.X * right, (scale.X * Vector.Dot(right, toCamera)) + shift.X);
+        WriteVector(target[4..], scale.Y * up, (scale.Y * Vector.Dot(up, toCamera)) + shift.Y);
+        WriteVector(target[8..], scale.Z * forward, (scale.Z * Vector.Dot(forward, toCamera)) + shift.Z);
     }
 
     /// <summary>

@@ -9,23 +9,12 @@ namespace FractalEngine.Render.Shadows;
 /// <summary>Decides which depth maps the lights of a scene need, and what each of them shows.</summary>
 /// <remarks>
 /// Parallel light has one map, or up to three for slices of a deep view, the nearest first. A spot light has one, a point light one for
-/// each side of a cube that faces something visible. Maps of parallel light move by whole texels and change their size in steps, so that
-/// edges of shadows stay where they are while a view turns.
+/// each side of a cube that faces something visible. <see cref="ShadowMapSizes"/> divides the texels among them.
 /// </remarks>
 internal sealed class ShadowFit
 {
     /// <summary>Maximum number of maps of all lights together.</summary>
     public const int MaxViews = 32;
-
-    // Side of the smallest and of the largest map, texels.
-    private const int MinSize = 512;
-    private const int MaxSize = 4096;
-
-    // Of the largest map, by the longer side of the frame.
-    private const double TexelsPerPixel = 3;
-
-    // All maps together, texels.
-    private const long MaxTexels = 2L * MaxSize * MaxSize;
 
     // The widest cone that has one map, degrees. Wider ones have sides of a cube.
     private const double MaxSpotAngle = 110;
@@ -37,9 +26,6 @@ internal sealed class ShadowFit
     private const double MinSliceRatio = 1.0 / 60;
     private const double TwoSlicesRatio = 3;
     private const double ThreeSlicesRatio = 8;
-
-    // The size of a map of parallel light grows in steps of this factor.
-    private const double SizeStep = 1.0905;
 
     // By depth: a texel beyond each edge, as a point is compared with four.
     private const double CubeSideHalfSize = 1.01;
@@ -60,6 +46,9 @@ internal sealed class ShadowFit
 
     /// <summary>For each light, the index of its first view and their number; without any where it casts no shadow.</summary>
     public List<(int First, int Count)> Ranges { get; } = [];
+
+    /// <summary>Lights with a position that are so far away that they are parallel: bit i for light i.</summary>
+    public int DistantLights { get; private set; }
 
     /// <summary>Number of maps that are not needed: their light is dark, or lights nothing visible.</summary>
     public int SkippedCount { get; private set; }
@@ -82,6 +71,7 @@ internal sealed class ShadowFit
     {
         _keepsIdleViews = !cullsLights;
         SkippedCount = 0;
+        DistantLights = 0;
         _views.Clear();
         _weights.Clear();
         Ranges.Clear();
@@ -110,10 +100,19 @@ internal sealed class ShadowFit
             Ranges.Add((first, _views.Count - first));
         }
 
-        AssignSizes(frame.Width, frame.Height);
-        for (var i = 0; i < _views.Count; i++)
+        ShadowMapSizes.Assign(_views, _weights, frame.Width, frame.Height);
+        ShadowMapSizes.Snap(_views);
+    }
+
+    /// <summary>Gives all views the plane that cuts the scene open, about their own eyes.</summary>
+    /// <param name="section">
+    /// In the frame of the views, which does not follow the camera unless that is in a deep zoom; null for none.
+    /// </param>
+    public void CutViews(SectionPlane? section)
+    {
+        for (var i = 0; section is { } plane && i < _views.Count; i++)
         {
-            _views[i] = _views[i].IsPerspective ? _views[i] : Snap(_views[i]);
+            _views[i] = _views[i] with { Section = plane.About(_views[i].Position) };
         }
     }
 
@@ -161,6 +160,7 @@ internal sealed class ShadowFit
         if (distance > 100 * receivers.Diagonal)
         {
             // From so far away the light is parallel.
+            DistantLights |= 1 << Ranges.Count;
             AddParallelViews((receivers.Centre - position).UnitVector(), in frame, origin, receivers, casters, fitsToView, weight);
             return;
         }
@@ -235,7 +235,7 @@ internal sealed class ShadowFit
 
             if (_region.Corners.Length > 0)
             {
-                AddView(ParallelView(axes, receivers, casters), weight);
+                AddView(ParallelShadowView.Create(axes, _region.Corners, receivers, casters), weight);
             }
         }
     }
@@ -282,74 +282,4 @@ internal sealed class ShadowFit
 
         return (near, far);
     }
-
-    /// <summary>Returns a view of parallel light that shows the region, with all that may cast a shadow onto it.</summary>
-    private ShadowView ParallelView(Matrix axes, BoundingBox receivers, BoundingBox casters)
-    {
-        var toLight = axes.Transpose();
-        var minimum = double.PositiveInfinity * Vector.One;
-        var maximum = -minimum;
-        foreach (var corner in _region.Corners)
-        {
-            minimum = Vector.Min(minimum, toLight * corner);
-            maximum = Vector.Max(maximum, toLight * corner);
-        }
-
-        var size = (maximum - minimum).MaxAbsComponent();
-        var casterCentre = toLight * casters.Centre;
-        var casterExtent = 0.5 * Vector.Dot(axes.V3.Absolute(), casters.Size);
-        var casterNear = Math.Min(casterCentre.Z - casterExtent, minimum.Z);
-        // A surface beyond the region may lie behind the same texels.
-        var receiverFar = (toLight * receivers.Centre).Z + (0.5 * Vector.Dot(axes.V3.Absolute(), receivers.Size));
-        // The eye stands before all casters, but not so far that floats about it lose a texel.
-        var margin = (0.01 * size) + (0.01 * (maximum.Z - minimum.Z));
-        var eyeDepth = Math.Max(casterNear, minimum.Z - (200 * size)) - margin;
-        var centre = 0.5 * (minimum + maximum);
-        var position = axes * new Vector(centre.X, centre.Y, eyeDepth);
-        return new(
-            position, axes, false, 0.5 * (maximum.X - minimum.X), 0.5 * (maximum.Y - minimum.Y), minimum.Z - margin - eyeDepth,
-            Math.Max(receiverFar, maximum.Z) + margin - eyeDepth, casterNear - margin - eyeDepth, 0);
-    }
-
-    /// <summary>Gives the brightest lights the largest maps, within the limit of all texels.</summary>
-    private void AssignSizes(int frameWidth, int frameHeight)
-    {
-        var largest = MinSize;
-        while (largest < MaxSize && largest < TexelsPerPixel * Math.Max(frameWidth, frameHeight))
-        {
-            largest *= 2;
-        }
-
-        var brightest = 0.0;
-        foreach (var weight in _weights)
-        {
-            brightest = Math.Max(brightest, weight);
-        }
-
-        for (var isWithinLimit = false; !isWithinLimit; largest /= 2)
-        {
-            var texels = 0L;
-            for (var i = 0; i < _views.Count; i++)
-            {
-                var size = Math.Max(MinSize / 2, _weights[i] > 0.5 * brightest ? largest : largest / 2);
-                _views[i] = _views[i] with { Size = size };
-                texels += _views[i].IsIdle ? 0 : (long)size * size;
-            }
-
-            isWithinLimit = texels <= MaxTexels || largest <= MinSize;
-        }
-    }
-
-    /// <summary>Rounds the size of a view up to a step, and moves it to a whole number of texels.</summary>
-    private static ShadowView Snap(ShadowView view)
-    {
-        var halfWidth = RoundUpToStep(view.HalfWidth * (1 + (4.0 / view.Size)));
-        var halfHeight = RoundUpToStep(view.HalfHeight * (1 + (4.0 / view.Size)));
-        var (texelWidth, texelHeight) = (2 * halfWidth / view.Size, 2 * halfHeight / view.Size);
-        var (x, y, z) = view.Axes.Transpose() * view.Position;
-        var snapped = new Vector(texelWidth * Math.Round(x / texelWidth), texelHeight * Math.Round(y / texelHeight), z);
-        return view with { Position = view.Axes * snapped, HalfWidth = halfWidth, HalfHeight = halfHeight };
-    }
-
-    private static double RoundUpToStep(double size) => Math.Pow(SizeStep, Math.Ceiling(Math.Log(size, SizeStep)));
 }

@@ -11,6 +11,10 @@ namespace FractalEngine.Render.Shadows;
 /// </summary>
 internal sealed class ShadowMaps(GlResources resources) : IDisposable
 {
+    // Number of depths in 16 bits, and the largest step between two of them, texels. Surfaces are compared 1.3 texels towards the light.
+    private const int CoarseDepths = 65536;
+    private const double MaxCoarseStep = 0.125;
+
     private readonly List<ShadowView> _drawnViews = [];
     private readonly List<(int X, int Y)> _corners = [];
     private readonly List<(int Left, int Bottom, int Right, int Top)> _dirtyRectangles = [];
@@ -45,13 +49,14 @@ internal sealed class ShadowMaps(GlResources resources) : IDisposable
         {
             _drawnViews.Clear();
             var (width, height) = AtlasLayout.Place(views, _corners);
-            if (_standing is null || (_standing.Width, _standing.Height) != (width, height))
+            var isFine = NeedsFineDepths(views);
+            if (_standing is null || (_standing.Width, _standing.Height, _standing.IsFine) != (width, height, isFine))
             {
                 _standing?.Dispose();
                 _complete?.Dispose();
                 _complete = null;
                 _standing = null;
-                _standing = new(resources, "shadow maps", width, height);
+                _standing = new(resources, "shadow maps", width, height, isFine);
             }
         }
 
@@ -92,7 +97,7 @@ internal sealed class ShadowMaps(GlResources resources) : IDisposable
         _lastMovingVersion = version;
         if (_complete is null)
         {
-            _complete = new(resources, "shadow maps with bodies", _standing!.Width, _standing.Height);
+            _complete = new(resources, "shadow maps with bodies", _standing!.Width, _standing.Height, _standing.IsFine);
             _isCopyStale = true;
         }
 
@@ -163,6 +168,20 @@ internal sealed class ShadowMaps(GlResources resources) : IDisposable
     {
         _standing?.Dispose();
         _complete?.Dispose();
+    }
+
+    /// <summary>Tells whether 16 bits are too few for the depths of any view: parallel ones have even steps.</summary>
+    private static bool NeedsFineDepths(IReadOnlyList<ShadowView> views)
+    {
+        for (var i = 0; i < views.Count; i++)
+        {
+            if (views[i].IsPerspective || views[i].Far - views[i].Near > MaxCoarseStep * CoarseDepths * views[i].TexelSize)
+            {
+                return true;
+            }
+        }
+
+        return false;
     }
 
     private bool HasSameSizes(IReadOnlyList<ShadowView> views)

@@ -7,7 +7,6 @@ using FractalEngine.Render.Gl;
 using FractalEngine.Render.Passes;
 using FractalEngine.Render.Preparation;
 using FractalEngine.Render.Windowing;
-using OpenTK.Graphics.OpenGL4;
 
 namespace FractalEngine.Render.Shadows;
 
@@ -35,7 +34,7 @@ internal sealed class ShadowPass : IDisposable
     private readonly Action<ShadowView> _drawStanding;
     private readonly List<int> _movingObjects = [];
     private SceneCuller? _lastCuller;
-    private (CullingSettings Source, CullingSettings Resolved)? _lastCulling;
+    private readonly ShadowCulling _shadowCulling = new();
     private CullingSettings? _culling;
     private DeepZoom? _zoom;
     private ShadowMaps _maps;
@@ -70,6 +69,9 @@ internal sealed class ShadowPass : IDisposable
 
     /// <summary>Whether any parallel light has several depth maps.</summary>
     public bool HasSlices { get; private set; }
+
+    /// <summary>Lights with a position that are so far away that their shadows are parallel: bit i for light i.</summary>
+    public int DistantLights { get; private set; }
 
     /// <summary>Number of depth maps of the frame.</summary>
     public int MapCount { get; private set; }
@@ -131,6 +133,7 @@ internal sealed class ShadowPass : IDisposable
         var fitsToView = settings.FitShadowsToView || _zoom is not null;
         var receivers = _zoom is null ? StandingBounds(bounds) : new(-reach * Vector.One, reach * Vector.One);
         _fit.Fit(_lights, in frame, origin, unitsPerSceneUnit, receivers, casters, fitsToView, settings.LightCulling);
+        DistantLights = _fit.DistantLights;
         SkippedMapCount = _fit.SkippedCount;
         foreach (var view in _fit.Views)
         {
@@ -194,15 +197,15 @@ internal sealed class ShadowPass : IDisposable
 
     private void DrawMaps(in FrameView frame, IReadOnlyList<SphereInstance> spheres, RenderSettings settings)
     {
-        CutViews(_zoom is null ? frame.View.Section : frame.Section);
+        _fit.CutViews(_zoom is null ? frame.View.Section : frame.Section);
         RefreshCuller();
         for (var i = 0; i < _casters.Scene.Objects.Length; i++)
         {
             _buffers.ShadowCuller.Include(i, _selection.IsSelected(i));
         }
 
-        _culling = Resolve(settings.Culling);
-        BeginDrawing(frame.Section is not null);
+        _culling = _shadowCulling.Resolve(settings.Culling);
+        CasterRenderer.BeginMaps(frame.Section is not null);
         _maps.DrawStanding(_fit.Views, _culling, _zoom, _version + _selection.Version, settings.ReuseBuffers, _drawStanding);
         DrawnMapCount = _maps.DrawnCount;
         _hasMoving = _zoom is null && (_movingObjects.Count > 0 || spheres.Count > 0);
@@ -214,39 +217,7 @@ internal sealed class ShadowPass : IDisposable
             DrawMoving(spheres);
         }
 
-        EndDrawing();
-    }
-
-    private static void BeginDrawing(bool isCut)
-    {
-        if (isCut)
-        {
-            GL.Enable(EnableCap.ClipDistance0);
-        }
-
-        GL.Enable(EnableCap.DepthTest);
-        GL.DepthMask(true);
-        GL.DepthFunc(DepthFunction.Greater);
-        // Axes of lights are left-handed, whichever way the scene is shown.
-        GL.FrontFace(FrontFaceDirection.Cw);
-    }
-
-    private static void EndDrawing()
-    {
-        GL.Disable(EnableCap.DepthClamp);
-        GL.Disable(EnableCap.ClipDistance0);
-    }
-
-    /// <summary>Gives all views the plane that cuts the scene open, about their own eyes.</summary>
-    /// <param name="section">
-    /// In the frame of the views, which does not follow the camera unless that is in a deep zoom; null for none.
-    /// </param>
-    private void CutViews(SectionPlane? section)
-    {
-        for (var i = 0; section is { } plane && i < _fit.Views.Count; i++)
-        {
-            _fit.Views[i] = _fit.Views[i] with { Section = plane.About(_fit.Views[i].Position) };
-        }
+        CasterRenderer.EndMaps();
     }
 
     /// <summary>Bounds of what stands; all bounds where nothing does.</summary>
@@ -283,41 +254,11 @@ internal sealed class ShadowPass : IDisposable
         }
     }
 
-    /// <summary>Maps have their own level of detail: that of a moving camera does not change them.</summary>
-    private CullingSettings? Resolve(CullingSettings? settings)
-    {
-        if (settings is null)
-        {
-            return null;
-        }
-
-        if (_lastCulling is not { } last || !ReferenceEquals(last.Source, settings))
-        {
-            var resolved = new CullingSettings
-            {
-                FrustumCulling = settings.FrustumCulling, OcclusionCulling = settings.OcclusionCulling, ThreadCount = settings.ThreadCount,
-            };
-            last = (settings, resolved == _culling ? _culling : resolved);
-            _lastCulling = last;
-        }
-
-        return last.Resolved;
-    }
-
     private void DrawStanding(ShadowView view)
     {
         _casters.Begin(in view);
-        _casters.DrawStatic(_culling, _zoom is null ? null : AboutEye(_zoom, view.Position), _selection);
+        _casters.DrawStatic(_culling, _zoom?.AboutEye(view.Position), _selection);
     }
-
-    /// <summary>Moves the roots of a deep zoom from the camera to the eye of a view.</summary>
-    private static DeepZoom AboutEye(DeepZoom zoom, Vector eye) => zoom with
-    {
-        Roots = [.. zoom.Roots.Select(root => root with
-        {
-            FrameToCamera = root.FrameToCamera with { Translation = root.FrameToCamera.Translation - eye },
-        })],
-    };
 
     private void DrawMoving(IReadOnlyList<SphereInstance> spheres)
     {

@@ -47,6 +47,23 @@ public sealed class ShadowTests
     }
 
     [SkippableFact]
+    public void Lamp_FarBeyondAllOthers_CastsParallelShadows()
+    {
+        // So far away that the lamp has one map, beside a dim one that has a cube of them: programs know which is which.
+        var distance = 1e5 * new Vector(-1, 1, 0);
+        var scene = CubeOverFloor(new PointLight(distance, Colour.White, 2, 10 * distance.Length()), 1, Vector.Zero);
+        var near = new PointLight(5 * Vector.J, Colour.White, 1e-3, 60);
+        scene = scene with { Scene = scene.Scene with { Lights = [near, .. scene.Scene.Lights] } };
+        foreach (var fitsToView in (bool[])[true, false])
+        {
+            var image = RenderScenes.Draw(scene, FromAbove(1, Vector.Zero), Size, Size, new() { FitShadowsToView = fitsToView });
+            var (wrong, shaded) = CountWrong(image, "sun");
+            Assert.InRange(wrong, 0, 0.004 * Size * Size);
+            Assert.InRange(shaded, 300, 10_000);
+        }
+    }
+
+    [SkippableFact]
     public void Floor_WithoutAnythingAbove_HasNoSpot()
     {
         // Neither acne nor anything else: also where light grazes.

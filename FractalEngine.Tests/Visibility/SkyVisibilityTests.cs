@@ -1,3 +1,4 @@
+using System.Runtime.Intrinsics;
 using System.Collections.Immutable;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
@@ -39,10 +40,10 @@ public class SkyVisibilityTests
             above |= SkyDirections.At(i).Y > 0 ? 1ul << i : 0;
         }
 
-        Assert.Equal(1, SkyDirections.VisiblePart(above, NearestNormal(Vector.J)), 1e-5);
-        Assert.Equal(0, SkyDirections.VisiblePart(above, NearestNormal(-Vector.J)), 1e-5);
-        Assert.Equal(0.5, SkyDirections.VisiblePart(above, NearestNormal(Vector.I)), Tolerance);
-        Assert.Equal(1, SkyDirections.VisiblePart(ulong.MaxValue, NearestNormal(new Vector(1, 2, 3))), 1e-5);
+        Assert.Equal(1, SkyDirections.VisiblePart(above, ToVector256(Vector.J)), 1e-5);
+        Assert.Equal(0, SkyDirections.VisiblePart(above, ToVector256(-Vector.J)), 1e-5);
+        Assert.Equal(0.5, SkyDirections.VisiblePart(above, ToVector256(Vector.I)), Tolerance);
+        Assert.Equal(1, SkyDirections.VisiblePart(ulong.MaxValue, ToVector256(new Vector(1, 2, 3))), 1e-5);
     }
 
     [Fact]
@@ -72,6 +73,23 @@ public class SkyVisibilityTests
         Assert.Equal(Math.Sin(Math.Atan(1 / 2.0)), parts[1], MiddleTolerance);
     }
 
+    [Theory]
+    [InlineData(-3, -3, 5, 0b100011)]
+    [InlineData(3, 3, 5, 0b111000)]
+    [InlineData(0, 0, 5, 0b100000)]
+    public void VisibleSides_OfACube_AreThoseBeforeTheEye(double x, double y, double z, int expected)
+    {
+        var sides = new VisibleSides(RenderScenes.Cube(1));
+        var map = new SimdAffineMap(AffineMap.Translate(new(x, y, z)));
+        Assert.Equal(expected, sides.FindVisible(in map, isPerspective: true, isMirroredView: false, 1));
+        // Parallel rays along z see one side.
+        Assert.Equal(0b100000, sides.FindVisible(in map, isPerspective: false, isMirroredView: false, 1) & 0b100100);
+        // From outside and from inside, the sides of all planes towards the eye, and in a mirrored frame all.
+        var open = sides.FindVisible(in map, isPerspective: true, isMirroredView: false, 0);
+        Assert.Equal(expected, open & expected);
+        Assert.Equal(VisibleSides.All, sides.FindVisible(in map, isPerspective: true, isMirroredView: true, 1));
+    }
+
     [Fact]
     public void Masks_OfADeepFractal_AreShared()
     {
@@ -95,9 +113,9 @@ public class SkyVisibilityTests
         for (var child = 0; child < root.ChildMaps.Length; child++)
         {
             path.Set(0, new(root, first.LevelCount, child));
-            path.ComputeParts(first, first.NodeAt(0), 1, parts1);
+            path.ComputeParts(first, first.NodeAt(0), 1, VisibleSides.All, parts1);
             path.Set(0, new(second.NodeAt(second.LevelCount), second.LevelCount, child));
-            path.ComputeParts(second, second.NodeAt(0), 1, parts2);
+            path.ComputeParts(second, second.NodeAt(0), 1, VisibleSides.All, parts2);
             Assert.Equal(parts1, parts2);
         }
     }
@@ -137,7 +155,7 @@ public class SkyVisibilityTests
         Assert.True(hierarchy.HasSkyMasks);
     }
 
-    private static int NearestNormal(Vector normal) => SkyDirections.NearestNormal(SimdAffineMap.ToVector256(normal));
+    private static Vector256<double> ToVector256(Vector normal) => SimdAffineMap.ToVector256(normal);
 
     private static Fractal CubesAt(ImmutableArray<Transformation> cubes) =>
         new(new FractalDescription([new Repetition([new TransformationSet(cubes)], 1)], Composition.Affine), RenderScenes.Cube(1));
@@ -153,20 +171,28 @@ public class SkyVisibilityTests
     {
         var hierarchy = LodHierarchy.Build(CubesAt(cubes));
         SkyMaskBaker.TryBake(hierarchy, 1, keepsAll: true);
+        // Each of the sides but that of +z is seen from one of two places; 1 stands for those that are not.
+        var above = PartsOf(hierarchy, cubes[0].Position, new(2000, 2000, -2000));
+        var below = PartsOf(hierarchy, cubes[0].Position, new(-2000, -2000, -2000));
+        return [.. above.Zip(below, Math.Min)];
+    }
+
+    private static float[] PartsOf(LodHierarchy hierarchy, Vector cube, Vector eye)
+    {
         var visible = new VisibleSet();
         var settings = new CullingSettings
         {
             SkyVisibility = true, FrustumCulling = false, OcclusionCulling = false, MinProjectedSize = 0, ThreadCount = 1,
         };
-        var view = new CullingView(new(0, 0, -2000), Matrix.Identity, true, 0.5, 640, 640, 1, 0.1, 10_000);
+        var view = new CullingView(eye, Matrix.Identity, true, 0.5, 640, 640, 1, 0.1, 10_000);
         visible.Cull(in view, [new(hierarchy, AffineMap.Identity, Vector.Zero, 1) { HasSkyMasks = true }], settings);
         for (var chunk = 0; chunk < VisibleSet.ChunkCount; chunk++)
         {
             var rows = visible.Instances(0, chunk);
             for (var i = 0; i < rows.Length / VisibleSet.FloatsPerInstance; i++)
             {
-                var translation = new Vector(rows[(12 * i) + 3], rows[(12 * i) + 7], rows[(12 * i) + 11] - 2000);
-                if ((translation - cubes[0].Position).Length() < 1e-3)
+                var translation = new Vector(rows[(12 * i) + 3], rows[(12 * i) + 7], rows[(12 * i) + 11]) + eye;
+                if ((translation - cube).Length() < 1e-3)
                 {
                     return visible.SkyParts(0, chunk).Slice(6 * i, 6).ToArray();
                 }

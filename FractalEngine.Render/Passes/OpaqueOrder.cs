@@ -1,0 +1,42 @@
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes;
+
+namespace FractalEngine.Render.Passes;
+
+/// <summary>
+/// Sorts the objects of a scene so that most of those that hide others are drawn first. What is hidden then needs no light.
+/// </summary>
+/// <remarks>
+/// The farthest depth of an object's box decides: what stands on a floor comes before the floor, which hides nothing of it.
+/// </remarks>
+internal sealed class OpaqueOrder
+{
+    private int[] _order = [];
+    private double[] _depths = [];
+
+    /// <summary>Returns the indices of all objects, sorted.</summary>
+    /// <param name="camera">Camera that depths are measured from.</param>
+    /// <param name="objectBounds">Bounds of all objects of the scene, world space.</param>
+    /// <remarks>Allocates nothing while the number of objects stays the same.</remarks>
+    public ReadOnlySpan<int> SortFrontToBack(Camera camera, ReadOnlySpan<BoundingBox> objectBounds)
+    {
+        if (_order.Length != objectBounds.Length)
+        {
+            _order = new int[objectBounds.Length];
+            _depths = new double[objectBounds.Length];
+        }
+
+        var forward = camera.LocalAxes.V3;
+        var extent = 0.5 * forward.Absolute();
+        for (var i = 0; i < _order.Length; i++)
+        {
+            ref readonly var box = ref objectBounds[i];
+            _order[i] = i;
+            _depths[i] = Vector.Dot(forward, box.Centre) + Vector.Dot(extent, box.Size);
+        }
+
+        _depths.AsSpan().Sort(_order.AsSpan());
+        return _order;
+    }
+}
