@@ -20,7 +20,7 @@ set multiplot layout 1,3 title 'Each optimisation disabled alone, relative to al
 set logscale y
 set yrange [0.7:60]
 set ytics ('1' 1, '2' 2, '5' 5, '10' 10, '20' 20, '50' 50)
-set xrange [0.4:8.6]
+set xrange [0.4:11.6]
 set xtics rotate by 60 right font ',11'
 set bmargin 8
 set lmargin 8
