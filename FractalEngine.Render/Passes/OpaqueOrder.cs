@@ -13,7 +13,9 @@ namespace FractalEngine.Render.Passes;
 internal sealed class OpaqueOrder
 {
     private int[] _order = [];
-    private double[] _depths = [];
+
+    // With the index, so that objects of the same depth keep the scene's order.
+    private (double Depth, int ObjectIndex)[] _keys = [];
 
     /// <summary>Returns the indices of all objects, sorted.</summary>
     /// <param name="camera">Camera that depths are measured from.</param>
@@ -24,7 +26,7 @@ internal sealed class OpaqueOrder
         if (_order.Length != objectBounds.Length)
         {
             _order = new int[objectBounds.Length];
-            _depths = new double[objectBounds.Length];
+            _keys = new (double, int)[objectBounds.Length];
         }
 
         var forward = camera.LocalAxes.V3;
@@ -32,11 +34,15 @@ internal sealed class OpaqueOrder
         for (var i = 0; i < _order.Length; i++)
         {
             ref readonly var box = ref objectBounds[i];
-            _order[i] = i;
-            _depths[i] = Vector.Dot(forward, box.Centre) + Vector.Dot(extent, box.Size);
+            _keys[i] = (Vector.Dot(forward, box.Centre) + Vector.Dot(extent, box.Size), i);
         }
 
-        _depths.AsSpan().Sort(_order.AsSpan());
+        _keys.AsSpan().Sort();
+        for (var i = 0; i < _order.Length; i++)
+        {
+            _order[i] = _keys[i].ObjectIndex;
+        }
+
         return _order;
     }
 }

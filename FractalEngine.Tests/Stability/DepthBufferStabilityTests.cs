@@ -105,8 +105,11 @@ public sealed class DepthBufferStabilityTests(ITestOutputHelper output)
         /// <summary>Counts the pixels that show the surface behind, whichever is drawn first.</summary>
         public int CountWrong(double distance, double range, double degrees, double gap)
         {
-            var (red, green) = (Square(distance, degrees, new(1, 0, 0)), Square(distance * (1 + gap), degrees, new(0, 1, 0)));
-            return CountNotRed(range, red, green) + CountNotRed(range, green, red);
+            var (red, green) = (new Colour(1, 0, 0), new Colour(0, 1, 0));
+            var behind = Square(distance * (1 + gap), degrees, green);
+            // Objects are drawn by the depth of their farthest point: with a tail, what is in front comes last.
+            return CountNotRed(range, Square(distance, degrees, red), behind)
+                + CountNotRed(range, Square(distance, degrees, red, hasTail: true), behind);
         }
 
         public void Dispose()
@@ -125,7 +128,16 @@ public sealed class DepthBufferStabilityTests(ITestOutputHelper output)
             return RenderScenes.CountDifferent(_frame.Capture(), (255, 0, 0, 255));
         }
 
-        private static (Model Model, Transformation Placement, Colour? Colour) Square(double distance, double degrees, Colour colour) =>
-            (RenderScenes.Model(RenderScenes.Square(1)), new(new(0, 0, distance), new(degrees, 0, 0), 50 * distance * Vector.One), colour);
+        private static (Model Model, Transformation Placement, Colour? Colour) Square(
+            double distance, double degrees, Colour colour, bool hasTail = false)
+        {
+            var mesh = RenderScenes.Square(1);
+            // A triangle far beside the frame.
+            var tail = new Mesh(
+                [.. mesh.Positions, 1, 1, 0, 1, 1, 0.001, 0.99, 1, 0.001],
+                [.. mesh.VertexIndices, mesh.VertexCount, mesh.VertexCount + 1, mesh.VertexCount + 2]);
+            var placement = new Transformation(new(0, 0, distance), new(degrees, 0, 0), 50 * distance * Vector.One);
+            return (RenderScenes.Model(hasTail ? tail : mesh), placement, colour);
+        }
     }
 }
