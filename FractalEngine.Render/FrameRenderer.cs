@@ -85,6 +85,12 @@ public sealed class FrameRenderer : IDisposable
         GL.Finish();
     }
 
+    /// <summary>Returns what a click on the panels of the last frame answers, see <see cref="OverlayLine.Answer"/>.</summary>
+    /// <param name="x">Pixels of the frame from its left edge.</param>
+    /// <param name="y">Pixels of the frame from its upper edge.</param>
+    /// <returns>Null beside all lines that answer something.</returns>
+    public int? AnswerAt(double x, double y) => _overlayPass.AnswerAt(x, y);
+
     /// <summary>Presents the last frame in a window.</summary>
     /// <param name="window">Window of this renderer's context.</param>
     /// <param name="overlay">Panels over the frame. They can change without drawing the scene again.</param>

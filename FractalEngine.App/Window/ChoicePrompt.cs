@@ -14,8 +14,8 @@ internal sealed class ChoicePrompt(string title, IEnumerable<string> details, pa
     public override OverlayPanel Panel { get; } = new(OverlayAnchor.Centre,
     [
         .. details.Select(static line => new OverlayLine(line)),
-        .. choices.Select(static choice => new OverlayLine(choice.Key.ToString(), choice.Text)),
-        new OverlayLine("Esc", "cancel"),
+        .. choices.Select(static (choice, index) => new OverlayLine(choice.Key.ToString(), choice.Text) { Answer = index }),
+        new OverlayLine("Esc", "cancel") { Answer = choices.Length },
     ])
     {
         Title = title,
@@ -35,8 +35,26 @@ internal sealed class ChoicePrompt(string title, IEnumerable<string> details, pa
         }
         else if (choices.FirstOrDefault(choice => choice.Key == pressed.Key) is { } chosen)
         {
-            Close();
-            chosen.Run?.Invoke();
+            Choose(chosen);
         }
+    }
+
+    /// <inheritdoc/>
+    public override void HandleAnswer(int answer)
+    {
+        if (answer == choices.Length)
+        {
+            Close();
+        }
+        else
+        {
+            Choose(choices[answer]);
+        }
+    }
+
+    private void Choose(PromptChoice choice)
+    {
+        Close();
+        choice.Run?.Invoke();
     }
 }

@@ -20,6 +20,12 @@ internal abstract class Prompt
     {
     }
 
+    /// <summary>Processes a click on a line of the panel.</summary>
+    /// <param name="answer">What the line answers.</param>
+    public virtual void HandleAnswer(int answer)
+    {
+    }
+
     /// <summary>Closes the question once it is answered.</summary>
     protected void Close() => IsClosed = true;
 }

@@ -34,6 +34,19 @@ internal sealed class PromptHost(Func<string> readClipboard)
         }
     }
 
+    /// <summary>Passes a click on a line of the open question, which answers something.</summary>
+    public void Answer(int answer)
+    {
+        if (Current is { } prompt)
+        {
+            prompt.HandleAnswer(answer);
+            if (prompt.IsClosed && Current == prompt)
+            {
+                Current = null;
+            }
+        }
+    }
+
     /// <summary>Tells that a key which this class did not take has been handled, and may have opened a question.</summary>
     public void KeyHandled() => _ignoresText = Current is not null;
 

@@ -167,7 +167,17 @@ internal sealed class SceneWindow : IDisposable
 
         var windowEvent = _interface.Bindings.Translate(physicalEvent);
         var promptBefore = _prompts.Current;
-        if (!_prompts.Handle(windowEvent))
+        if (promptBefore is not null && windowEvent is MousePressed { X: var x, Y: var y })
+        {
+            // A click beside the lines of a question is none on the scene behind it.
+            if (_frameRenderer.AnswerAt(x, y) is { } answer)
+            {
+                _prompts.Answer(answer);
+            }
+
+            _redraw |= Redraw.Overlay;
+        }
+        else if (!_prompts.Handle(windowEvent))
         {
             Handle(windowEvent);
             if (windowEvent is KeyPressed)

@@ -31,7 +31,10 @@ internal sealed class TextPrompt(
         {
             var first = Math.Clamp((_picked ?? 0) - (MaxShownSuggestions / 2), 0, Math.Max(0, Suggestions.Length - MaxShownSuggestions));
             var shown = Suggestions.Select((suggestion, index) => new OverlayLine(
-                (index == _picked ? "> " : "  ") + suggestion, null, index == _picked ? OverlayTone.Accent : OverlayTone.Dim));
+                (index == _picked ? "> " : "  ") + suggestion, null, index == _picked ? OverlayTone.Accent : OverlayTone.Dim)
+            {
+                Answer = index,
+            });
             var hiddenCount = Suggestions.Length - MaxShownSuggestions;
             return new(OverlayAnchor.Centre,
             [
@@ -95,6 +98,13 @@ internal sealed class TextPrompt(
                 _cursor = Text.Length;
                 break;
         }
+    }
+
+    /// <inheritdoc/>
+    public override void HandleAnswer(int answer)
+    {
+        _picked = answer;
+        Accept();
     }
 
     private void Accept()

@@ -12,6 +12,24 @@ internal sealed class OverlayPass(GlResources resources) : IDisposable
     private (OverlayPanel[] Panels, UiRect Area, int? LineHeight, int Width, int Height)? _lastKey;
     private (UserInterface Interface, int Version, int Width, int Height)? _lastInterface;
 
+    private (UiRect Area, int Answer)[] _answers = [];
+
+    /// <summary>Returns what a click on a line of the panels answers; null beside all such lines.</summary>
+    /// <param name="x">Pixels of the framebuffer from its left edge.</param>
+    /// <param name="y">Pixels of the framebuffer from its upper edge.</param>
+    public int? AnswerAt(double x, double y)
+    {
+        foreach (var (area, answer) in _answers)
+        {
+            if (x >= area.X && x < area.X + area.Width && y >= area.Y && y < area.Y + area.Height)
+            {
+                return answer;
+            }
+        }
+
+        return null;
+    }
+
     /// <summary>Draws panels into the bound framebuffer.</summary>
     /// <param name="panels">Panels to draw; none draws nothing.</param>
     /// <param name="area">The part of the frame that the panels stand in.</param>
@@ -22,6 +40,8 @@ internal sealed class OverlayPass(GlResources resources) : IDisposable
     {
         if (panels.Count == 0)
         {
+            _answers = [];
+            _lastKey = null;
             return;
         }
 
@@ -30,6 +50,8 @@ internal sealed class OverlayPass(GlResources resources) : IDisposable
         {
             var layout = OverlayLayout.Create(_atlas, panels, area.Width, area.Height, lineHeight);
             var quads = layout.Quads.ConvertAll(quad => quad with { X = quad.X + area.X, Y = quad.Y + area.Y });
+            _answers = [.. layout.Answers.Select(
+                item => (item.Area with { X = item.Area.X + area.X, Y = item.Area.Y + area.Y }, item.Answer))];
             _panelBatch.Upload(quads, _atlas.Sheets[layout.SheetIndex], width, height);
             _lastKey = ([.. panels], area, lineHeight, width, height);
         }

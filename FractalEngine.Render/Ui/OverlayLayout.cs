@@ -32,6 +32,9 @@ internal sealed class OverlayLayout
     /// <summary>Rectangles in drawing order.</summary>
     public List<OverlayQuad> Quads { get; } = [];
 
+    /// <summary>Where a click answers something, and what.</summary>
+    public List<(UiRect Area, int Answer)> Answers { get; } = [];
+
     private GlyphSheet Sheet => _atlas.Sheets[SheetIndex];
 
     private int Margin => Sheet.CellHeight / 2;
@@ -121,6 +124,11 @@ internal sealed class OverlayLayout
 
         foreach (var row in lines)
         {
+            if (row.Answer is { } answer)
+            {
+                Answers.Add((new(x, top, width, lineHeight), answer));
+            }
+
             AddText(row.Text, left, top, row.SecondColumn is null ? row.Tone : OverlayTone.Accent);
             AddText(row.SecondColumn ?? "", left + (firstColumn * cellWidth), top, row.Tone);
             top += lineHeight;

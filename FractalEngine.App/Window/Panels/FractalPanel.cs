@@ -103,6 +103,8 @@ internal sealed class FractalPanel(WindowActions actions)
             var text = edits.TextOf(path);
             if (path != _path || text != _text)
             {
+                // Sliders of another file have ranges of their own.
+                _startNumbers = path == _path ? _startNumbers : [];
                 _path = path;
                 _text = text;
                 _numbers = FractalNumber.FindAll(new SourceText(Path.GetFileName(path), text));

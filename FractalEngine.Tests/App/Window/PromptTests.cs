@@ -75,6 +75,26 @@ public sealed class PromptTests : IDisposable
     }
 
     [Fact]
+    public void PromptHost_OnAClickOnALine_TakesItsAnswer()
+    {
+        var host = new PromptHost(static () => "");
+        var chosen = "";
+        var prompt = new ChoicePrompt(
+            "?", ["a detail"], new PromptChoice(Key.A, "first", () => chosen += "a"), new PromptChoice(Key.B, "second", () => chosen += "b"));
+        Assert.Equal([null, 0, 1, 2], prompt.Panel.Lines.Select(static line => line.Answer));
+        host.Open(prompt);
+        host.Answer(1);
+        Assert.Equal(("b", null), (chosen, host.Current));
+        host.Open(new ChoicePrompt("?", [], new PromptChoice(Key.A, "first", () => chosen += "a")));
+        host.Answer(1);
+        Assert.Equal(("b", null), (chosen, host.Current));
+        var accepted = "";
+        host.Open(new TextPrompt("", "", text => (accepted = text) is null ? "" : null, static _ => ["one", "two"]));
+        host.Answer(1);
+        Assert.Equal(("two", null), (accepted, host.Current));
+    }
+
+    [Fact]
     public void PromptHost_OnControlV_EntersTheClipboardInOneLine()
     {
         var host = new PromptHost(static () => "b/ä c.sdo\r\n");
