@@ -80,7 +80,8 @@ public sealed class PromptTests : IDisposable
         var host = new PromptHost(static () => "");
         var chosen = "";
         var prompt = new ChoicePrompt(
-            "?", ["a detail"], new PromptChoice(Key.A, "first", () => chosen += "a"), new PromptChoice(Key.B, "second", () => chosen += "b"));
+            "?", ["a detail"],
+            new PromptChoice(Key.A, "first", () => chosen += "a"), new PromptChoice(Key.B, "second", () => chosen += "b"));
         Assert.Equal([null, 0, 1, 2], prompt.Panel.Lines.Select(static line => line.Answer));
         host.Open(prompt);
         host.Answer(1);
