@@ -26,7 +26,7 @@ internal static class StandardInput
     {
         if (_isRead)
         {
-            throw new UsageException("the standard input is named twice, and can be read once");
+            throw NamedTwice();
         }
 
         _isRead = true;
@@ -47,6 +47,18 @@ internal static class StandardInput
 
         return SourceText.Decode(bytes.GetBuffer().AsSpan(0, (int)bytes.Length), name);
     }
+
+    /// <summary>Refuses two names of the standard input before either is read.</summary>
+    /// <exception cref="UsageException">Both are the standard input.</exception>
+    public static void RequireOnce(string path1, string path2)
+    {
+        if (IsNamedBy(path1) && IsNamedBy(path2))
+        {
+            throw NamedTwice();
+        }
+    }
+
+    private static UsageException NamedTwice() => new("the standard input is named twice, and can be read once");
 
     private static void ReadAll(MemoryStream bytes, string name, long maxBytes)
     {

@@ -85,11 +85,12 @@ public sealed class FrameRenderer : IDisposable
         GL.Finish();
     }
 
-    /// <summary>Returns what a click on the panels of the last frame answers, see <see cref="OverlayLine.Answer"/>.</summary>
+    /// <summary>Returns what a click on a panel of the last frame answers, see <see cref="OverlayLine.Answer"/>.</summary>
+    /// <param name="panel">The panel, the only one of the frame with answers.</param>
     /// <param name="x">Pixels of the frame from its left edge.</param>
     /// <param name="y">Pixels of the frame from its upper edge.</param>
-    /// <returns>Null beside all lines that answer something.</returns>
-    public int? AnswerAt(double x, double y) => _overlayPass.AnswerAt(x, y);
+    /// <returns>Null beside all lines that answer something, and where the panel is not on the screen yet.</returns>
+    public int? AnswerAt(OverlayPanel panel, double x, double y) => _overlayPass.AnswerAt(panel, x, y);
 
     /// <summary>Presents the last frame in a window.</summary>
     /// <param name="window">Window of this renderer's context.</param>

@@ -81,7 +81,7 @@ internal static class QueryCommand
     private static int Run(
         string path, LoadOptions options, string pointsPath, ColliderKind kind, double maxDistance, double epsilon, ResultFormat format)
     {
-        RequireOneInput(path, pointsPath);
+        StandardInput.RequireOnce(path, pointsPath);
         var file = ConsoleLoader.Load(path, options);
         var points = PointsParser.Parse(StandardInput.IsNamedBy(pointsPath)
             ? StandardInput.Read(pointsPath, ParsingLimits.MaxPointsBytes)
@@ -103,28 +103,23 @@ internal static class QueryCommand
         return ExitCode.Done;
     }
 
-    /// <exception cref="UsageException">Both are the standard input.</exception>
-    internal static void RequireOneInput(string path, string listPath)
-    {
-        if (StandardInput.IsNamedBy(path) && StandardInput.IsNamedBy(listPath))
-        {
-            throw new UsageException("the standard input is named twice, and can be read once");
-        }
-    }
-
     private static bool IsUncertain(BatchResult result) => result.IsFound
         && result.Closest.ErrorBound > MaxCertainError * (result.Closest.Distance + result.Closest.Point.MaxAbsComponent());
 
-    private static SceneCollider BuildCollider(LoadedFile file, ColliderKind kind)
+    /// <exception cref="FractalEngineException">The scene reaches beyond a limit.</exception>
+    internal static void RequireReach(LoadedFile file, double limit, string quantity)
     {
         var bounds = file.Scene.Bounds;
-        if (!bounds.IsEmpty && Math.Max(bounds.Minimum.MaxAbsComponent(), bounds.Maximum.MaxAbsComponent()) > Collider.MaxCoordinate)
+        if (!bounds.IsEmpty && Math.Max(bounds.Minimum.MaxAbsComponent(), bounds.Maximum.MaxAbsComponent()) > limit)
         {
             throw new FractalEngineException(ErrorKind.Limit, string.Create(
-                CultureInfo.InvariantCulture,
-                $"the scene reaches beyond the limit of {Collider.MaxCoordinate:R} for the coordinates of distances"));
+                CultureInfo.InvariantCulture, $"the scene reaches beyond the limit of {limit:R} for the coordinates of {quantity}"));
         }
+    }
 
+    private static SceneCollider BuildCollider(LoadedFile file, ColliderKind kind)
+    {
+        RequireReach(file, Collider.MaxCoordinate, "distances");
         var collider = new SceneCollider(file.Scene, kind);
         collider.Build();
         return collider;

@@ -2,7 +2,6 @@ using System.Collections.Immutable;
 using System.Diagnostics;
 using System.Globalization;
 using System.Text;
-using FractalEngine.Core;
 using FractalEngine.Core.Collision;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Rays;
@@ -24,12 +23,12 @@ internal static class RayQueries
     /// <param name="header">True for a first line with the names of the columns.</param>
     public static int Run(string path, LoadOptions options, string raysPath, bool json, bool header)
     {
-        QueryCommand.RequireOneInput(path, raysPath);
+        StandardInput.RequireOnce(path, raysPath);
         var file = ConsoleLoader.Load(path, options);
         var rays = RaysParser.Parse(StandardInput.IsNamedBy(raysPath)
             ? StandardInput.Read(raysPath, ParsingLimits.MaxPointsBytes)
             : SourceText.Read(raysPath, raysPath, ParsingLimits.MaxPointsBytes));
-        RequireCoordinates(file);
+        QueryCommand.RequireReach(file, RayCaster.CoordinateLimit, "rays");
         var clock = Stopwatch.StartNew();
         var caster = new SceneRayCaster(file.Scene);
         var context = new QueryContext();
@@ -43,19 +42,6 @@ internal static class RayQueries
 
         Console.Out.Write(json ? FormatJson(results) : FormatLines(results, header));
         return ExitCode.Done;
-    }
-
-    /// <exception cref="FractalEngineException">The scene is beyond <see cref="RayCaster.CoordinateLimit"/>.</exception>
-    private static void RequireCoordinates(LoadedFile file)
-    {
-        var bounds = file.Scene.Bounds;
-        var reach = bounds.IsEmpty ? 0 : Math.Max(bounds.Minimum.MaxAbsComponent(), bounds.Maximum.MaxAbsComponent());
-        if (reach > RayCaster.CoordinateLimit)
-        {
-            throw new FractalEngineException(ErrorKind.Limit, string.Create(
-                CultureInfo.InvariantCulture,
-                $"the scene reaches beyond the limit of {RayCaster.CoordinateLimit:R} for the coordinates of rays"));
-        }
     }
 
     private static StringBuilder FormatLines(ImmutableArray<RayResult> results, bool header)

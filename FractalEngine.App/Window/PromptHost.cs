@@ -40,15 +40,21 @@ internal sealed class PromptHost(Func<string> readClipboard)
         if (Current is { } prompt)
         {
             prompt.HandleAnswer(answer);
-            if (prompt.IsClosed && Current == prompt)
-            {
-                Current = null;
-            }
+            ForgetIfAnswered(prompt);
         }
     }
 
     /// <summary>Tells that a key which this class did not take has been handled, and may have opened a question.</summary>
     public void KeyHandled() => _ignoresText = Current is not null;
+
+    /// <summary>Lets go of a question that was answered, unless the answer has opened another one.</summary>
+    private void ForgetIfAnswered(Prompt prompt)
+    {
+        if (prompt.IsClosed && Current == prompt)
+        {
+            Current = null;
+        }
+    }
 
     private bool HandleKey(KeyPressed pressed)
     {
@@ -67,11 +73,7 @@ internal sealed class PromptHost(Func<string> readClipboard)
         }
 
         prompt.HandleKey(pressed);
-        if (prompt.IsClosed && Current == prompt)
-        {
-            Current = null;
-        }
-
+        ForgetIfAnswered(prompt);
         // The text of a key follows the key. It does not belong to a question that the key has opened.
         _ignoresText = Current is not null && Current != prompt;
         return true;

@@ -167,10 +167,10 @@ internal sealed class SceneWindow : IDisposable
 
         var windowEvent = _interface.Bindings.Translate(physicalEvent);
         var promptBefore = _prompts.Current;
-        if (promptBefore is not null && windowEvent is MousePressed { X: var x, Y: var y })
+        if (promptBefore is not null && windowEvent is MousePressed pressed)
         {
             // A click beside the lines of a question is none on the scene behind it.
-            if (_frameRenderer.AnswerAt(x, y) is { } answer)
+            if (pressed.Button == MouseButton.Left && _frameRenderer.AnswerAt(promptBefore.Panel, pressed.X, pressed.Y) is { } answer)
             {
                 _prompts.Answer(answer);
             }

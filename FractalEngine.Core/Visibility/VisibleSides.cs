@@ -7,7 +7,7 @@ namespace FractalEngine.Core.Visibility;
 /// <summary>Tells which of the six sides of a base mesh an eye sees at all: of a cube, three at most.</summary>
 internal sealed class VisibleSides
 {
-    /// <summary>Bits of all sides.</summary>
+    /// <summary>The bits of all six sides of an instance, seen or not.</summary>
     public const int All = (1 << SkySides.Count) - 1;
 
     // Meshes with more planes, such as balls, show nearly all of their sides.

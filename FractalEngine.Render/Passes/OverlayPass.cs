@@ -14,11 +14,18 @@ internal sealed class OverlayPass(GlResources resources) : IDisposable
 
     private (UiRect Area, int Answer)[] _answers = [];
 
-    /// <summary>Returns what a click on a line of the panels answers; null beside all such lines.</summary>
+    /// <summary>Returns what a click on a line of a panel answers; null beside all such lines, and before the panel was drawn.</summary>
+    /// <param name="panel">The panel, the only one with answers.</param>
     /// <param name="x">Pixels of the framebuffer from its left edge.</param>
     /// <param name="y">Pixels of the framebuffer from its upper edge.</param>
-    public int? AnswerAt(double x, double y)
+    public int? AnswerAt(OverlayPanel panel, double x, double y)
     {
+        // Another question may have been drawn last.
+        if (_lastKey?.Panels.Contains(panel) != true)
+        {
+            return null;
+        }
+
         foreach (var (area, answer) in _answers)
         {
             if (x >= area.X && x < area.X + area.Width && y >= area.Y && y < area.Y + area.Height)

@@ -51,7 +51,7 @@ internal sealed class CasterRenderer : IDisposable
         GL.FrontFace(FrontFaceDirection.Cw);
     }
 
-    /// <summary>Ends drawing into maps.</summary>
+    /// <summary>Switches off what only shadow maps are drawn with: clamped depths and the clip plane of a section.</summary>
     public static void EndMaps()
     {
         GL.Disable(EnableCap.DepthClamp);

@@ -108,7 +108,7 @@ internal sealed class FractalPanel(WindowActions actions)
                 _path = path;
                 _text = text;
                 _numbers = FractalNumber.FindAll(new SourceText(Path.GetFileName(path), text));
-                _comments = [.. _numbers.Select(number => FractalComments.Above(text, number.Offset))];
+                _comments = FractalComments.Above(text, _numbers.Select(static number => number.Offset));
             }
 
             _problem = null;

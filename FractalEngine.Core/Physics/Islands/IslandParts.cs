@@ -8,7 +8,7 @@ namespace FractalEngine.Core.Physics.Islands;
 /// </summary>
 internal sealed class IslandParts
 {
-    /// <summary>Number of parts at most.</summary>
+    /// <summary>Maximum number of parts that an island is cut into.</summary>
     public const int MaxCount = 8;
 
     private const int InitialCapacity = 256;

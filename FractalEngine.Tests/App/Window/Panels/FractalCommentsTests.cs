@@ -16,5 +16,16 @@ public class FractalCommentsTests
     [InlineData("4)", null)]
     [InlineData("5", "depth")]
     public void Above_OfANumber_IsTheCommentOfItsGroup(string number, string? comment) =>
-        Assert.Equal(comment, FractalComments.Above(Text, Text.IndexOf(number, StringComparison.Ordinal)));
+        Assert.Equal(comment, Assert.Single(FractalComments.Above(Text, [Text.IndexOf(number, StringComparison.Ordinal)])));
+
+    /// <summary>To look through all that stands above each number would take minutes.</summary>
+    [Fact]
+    public void Above_OfManyNumbers_ReadsTheTextOnce()
+    {
+        var text = "# all of them\n" + string.Concat(Enumerable.Repeat("v 1 2 3\n", 200_000));
+        var start = Environment.CpuUsage.TotalTime;
+        var comments = FractalComments.Above(text, Enumerable.Range(0, 200_000).Select(i => 16 + (8 * i)));
+        Assert.InRange((Environment.CpuUsage.TotalTime - start).TotalSeconds, 0, 2);
+        Assert.All(comments, static comment => Assert.Equal("all of them", comment));
+    }
 }
