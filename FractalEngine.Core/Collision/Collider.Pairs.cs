@@ -38,8 +38,8 @@ public abstract partial class Collider
     /// <summary>Finds the closest points of two shapes under maps to the frame of the query.</summary>
     internal ClosestPair FindClosestPair(AffineMap placement, Collider other, AffineMap placementOfOther, QueryContext? context)
     {
-        var tree = CreateShapeTree();
-        var otherTree = other.CreateShapeTree();
+        var tree = ShapeTree;
+        var otherTree = other.ShapeTree;
         if (tree.IsEmpty || otherTree.IsEmpty)
         {
             throw new InvalidOperationException("a shape has no faces, so no points of the two are closest");

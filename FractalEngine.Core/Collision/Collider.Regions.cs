@@ -1,5 +1,6 @@
 using System.Collections.Immutable;
 using System.Globalization;
+using System.Runtime.InteropServices;
 using FractalEngine.Core.Collision.Fractals;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Fractals.Hierarchy;
@@ -14,8 +15,7 @@ public abstract partial class Collider
     // About a second of work.
     private const long MaxBoundTests = 1_000_000;
 
-    // A ball that is still undecided is left to the search for its closest point.
-    private const long MaxBallBoundTests = 20_000;
+    private ShapeTree? _shapeTree;
 
     /// <summary>Finds all faces within a distance of a position.</summary>
     /// <param name="position">In the shape's frame, scene units, finite.</param>
@@ -36,49 +36,38 @@ public abstract partial class Collider
     {
         ThrowIfInvalid(position, radius, 0);
         ArgumentOutOfRangeException.ThrowIfNegative(maximum);
-        var tree = CreateShapeTree();
+        context ??= new();
+        var tree = ShapeTree;
         var scale = PowerOfTwoScale(tree, position.MaxAbsComponent());
         var hits = new List<BallHit>();
-        var visitor = new BallVisitor(scale * position, scale * radius, MaxBoundTests, hits, maximum);
-        var end = ShapeWalk.Run(tree, Scaling(scale), ref visitor, (context ?? new()).Statistics);
-        if (end == ShapeWalkEnd.Completed)
+        var policy = new BallPolicy(scale * position, scale * radius, MaxBoundTests, hits, maximum);
+        var end = ShapeTraversal.Run(tree, Scaling(scale), ref policy, context);
+        if (end == TraversalEnd.Completed)
         {
-            return [.. hits.Select(CreateHit).Order(Comparer<ClosestHit>.Create(CompareHits))];
+            return CreateHits(tree, hits, scale, context);
         }
 
         var distance = radius.ToString("R", CultureInfo.InvariantCulture);
-        throw new FractalLimitException(end == ShapeWalkEnd.Found
+        throw new FractalLimitException(end == TraversalEnd.Found
             ? $"at least {hits.Count} faces lie within {distance}: expected at most {maximum}"
             : $"more than {MaxBoundTests} bounds are needed to find the faces within {distance}: at least {hits.Count} lie there");
-
-        ClosestHit CreateHit(BallHit hit) =>
-            new(hit.Distance / scale, hit.Point / scale, hit.Normal, hit.FaceIndex, [.. tree.InstancePath(hit.Path)]);
     }
 
     /// <summary>Tells whether a face meets a closed ball.</summary>
     /// <param name="centre">In the shape's frame, scene units, finite.</param>
     /// <param name="radius">Scene units, not negative; may be infinite.</param>
     /// <param name="context">Receives the costs; null where they don't matter.</param>
-    /// <returns>True when the closest distance is at most the radius. The inside of a closed shape has no faces.</returns>
+    /// <returns>
+    /// True when the closest distance is at most the radius, as <see cref="FindClosest(Vector)"/> finds it. The inside of a closed shape
+    /// has no faces.
+    /// </returns>
     /// <exception cref="ArgumentOutOfRangeException">The centre is not finite, or the radius is negative or NaN.</exception>
     /// <exception cref="FractalLimitException">The answer takes more than about a million bounds.</exception>
     /// <exception cref="NotSupportedException">The collider is not exact.</exception>
     public bool Overlaps(Vector centre, double radius, QueryContext? context = null)
     {
         ThrowIfInvalid(centre, radius, 0);
-        var tree = CreateShapeTree();
-        var scale = PowerOfTwoScale(tree, centre.MaxAbsComponent());
-        var visitor = new BallVisitor(scale * centre, scale * radius, MaxBallBoundTests);
-        context ??= new();
-        var end = ShapeWalk.Run(tree, Scaling(scale), ref visitor, context.Statistics);
-        if (end != ShapeWalkEnd.LimitMet)
-        {
-            return end == ShapeWalkEnd.Found;
-        }
-
-        var boundTests = context.Statistics.BoundTests;
-        return TryFindClosest(centre, radius, context, out _)
-            || (context.Statistics.BoundTests - boundTests >= MaxBoundTests ? throw Undecided("ball") : false);
+        return !ShapeTree.IsEmpty && (double.IsPositiveInfinity(radius) || TryFindClosest(centre, radius, context ?? new(), out _));
     }
 
     /// <summary>Tells whether a face meets a closed box.</summary>
@@ -100,21 +89,31 @@ public abstract partial class Collider
             throw new ArgumentOutOfRangeException(nameof(box), box, "expected finite corners");
         }
 
-        var tree = CreateShapeTree();
+        var tree = ShapeTree;
         if (isEmpty)
         {
             return false;
         }
 
         var scale = PowerOfTwoScale(tree, BoundingVolume.MaxAbsCoordinate(box));
-        var visitor = new BoxVisitor(new(scale * box.Minimum, scale * box.Maximum), tree.IsFractal, MaxBoundTests);
-        var end = ShapeWalk.Run(tree, Scaling(scale), ref visitor, (context ?? new()).Statistics);
-        return end == ShapeWalkEnd.LimitMet ? throw Undecided("box") : end == ShapeWalkEnd.Found;
+        var policy = new BoxPolicy(new(scale * box.Minimum, scale * box.Maximum), tree.IsFractal, MaxBoundTests);
+        return ShapeTraversal.Run(tree, Scaling(scale), ref policy, context ?? new()) switch
+        {
+            TraversalEnd.Found => true,
+            TraversalEnd.Completed => false,
+            _ => throw new FractalLimitException(
+                $"more than {MaxBoundTests} bounds are needed to tell whether the box meets a face: "
+                + "it touches too many small parts closely"),
+        };
     }
 
-    /// <summary>The shape as a tree of nodes, for questions other than the closest point of one position.</summary>
+    /// <summary>The shape as a tree of nodes, made by the first who asks.</summary>
     /// <exception cref="NotSupportedException">The collider is not exact.</exception>
-    internal virtual ShapeTree CreateShapeTree() => throw new NotSupportedException(
+    internal ShapeTree ShapeTree => _shapeTree ??= CreateShapeTree();
+
+    /// <summary>Creates the shape as a tree of nodes, for questions other than the closest point of one position.</summary>
+    /// <exception cref="NotSupportedException">The collider is not exact.</exception>
+    private protected virtual ShapeTree CreateShapeTree() => throw new NotSupportedException(
         $"{GetType().Name} finds closest points of positions only: expected an exact collider of a mesh or a fractal");
 
     private protected static AffineMap Scaling(double scale) => new(scale * Matrix.Identity, Vector.Zero);
@@ -123,13 +122,28 @@ public abstract partial class Collider
     private static double PowerOfTwoScale(ShapeTree tree, double queryMagnitude) =>
         tree.IsEmpty ? 1 : QueryScale.Of(Math.Max(queryMagnitude, BoundingVolume.MaxAbsCoordinate(tree.Box)));
 
+    /// <summary>Describes faces in the frame of the shape, in the order of the query's result.</summary>
+    private static ImmutableArray<ClosestHit> CreateHits(ShapeTree tree, List<BallHit> hits, double scale, QueryContext context)
+    {
+        var sorted = new ClosestHit[hits.Count];
+        int[]? path = null;
+        ImmutableArray<int> instancePath = [];
+        for (var i = 0; i < sorted.Length; i++)
+        {
+            var hit = hits[i];
+            instancePath = ReferenceEquals(path, hit.Path) ? instancePath : [.. tree.InstancePath(hit.Path, context)];
+            path = hit.Path;
+            sorted[i] = new(hit.Distance / scale, hit.Point / scale, hit.Normal, hit.FaceIndex, instancePath);
+        }
+
+        Array.Sort(sorted, CompareHits);
+        return ImmutableCollectionsMarshal.AsImmutableArray(sorted);
+    }
+
     private static int CompareHits(ClosestHit hit1, ClosestHit hit2)
     {
         var byDistance = hit1.Distance.CompareTo(hit2.Distance);
         var byPath = byDistance != 0 ? byDistance : hit1.InstancePath.AsSpan().SequenceCompareTo(hit2.InstancePath.AsSpan());
         return byPath != 0 ? byPath : hit1.FaceIndex.CompareTo(hit2.FaceIndex);
     }
-
-    private static FractalLimitException Undecided(string region) => new(
-        $"more than {MaxBoundTests} bounds are needed to tell whether the {region} meets a face: it touches too many small parts closely");
 }

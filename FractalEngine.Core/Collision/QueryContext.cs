@@ -21,6 +21,7 @@ public sealed class QueryContext
     private DescentBeam? _descentBeam;
     private ObjectQueue? _objectQueue;
     private RayStack? _rayStack;
+    private TraversalStack? _traversalStack;
 
     /// <summary>Counts of faces and bounding volumes that the queries of this context tested.</summary>
     public QueryStatistics Statistics { get; } = new();
@@ -48,6 +49,9 @@ public sealed class QueryContext
 
     /// <summary>The sub-fractals that a ray is inside of, made by the first ray.</summary>
     internal RayStack RayStack => _rayStack ??= new();
+
+    /// <summary>The nodes that a traversal has yet to visit, made by the first of them.</summary>
+    internal TraversalStack TraversalStack => _traversalStack ??= new();
 
     /// <summary>Memory for the numbers of a search, kept for the next search.</summary>
     internal Span<double> ScratchBuffer(int length) => _scratch.Length >= length ? _scratch : _scratch = new double[length];

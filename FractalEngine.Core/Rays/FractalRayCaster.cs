@@ -279,13 +279,13 @@ internal sealed class FractalRayCaster : RayCaster
     {
         var prefix = new int[prefixLength];
         context.RayStack.CopyPath(depth, prefix);
-        var visitor = new FlatRayVisitor(ray, search);
+        var policy = new FlatRayPolicy(ray, search);
         var node = _tree.Node(_rootLevels, prefix);
-        ShapeWalk.Run(
-            _tree, node, _tree.MinRadiusSquared(AffineMap.Identity), ref visitor, ref visitor.Search.BoundTests,
-            ref visitor.Search.FaceTests);
-        search = visitor.Search;
-        if (visitor.Path is not { } path)
+        ShapeTraversal.Run(
+            _tree, node, _tree.MinRadiusSquared(AffineMap.Identity), ref policy, context.TraversalStack, ref policy.Search.BoundTests,
+            ref policy.Search.FaceTests);
+        search = policy.Search;
+        if (policy.Path is not { } path)
         {
             return false;
         }

@@ -57,7 +57,7 @@ public sealed class HierarchyCollider(Mesh mesh) : Collider
     }
 
     /// <inheritdoc/>
-    internal override ShapeTree CreateShapeTree() => new(mesh, _bvh);
+    private protected override ShapeTree CreateShapeTree() => new(mesh, _bvh);
 
     /// <inheritdoc/>
     protected override bool FindClosestCore(Vector position, double maxDistance, double epsilon, QueryContext context,

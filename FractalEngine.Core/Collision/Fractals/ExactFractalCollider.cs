@@ -80,7 +80,7 @@ public sealed class ExactFractalCollider : Collider
         FindClosestInImage(in position, in map, isSimilarity: false, maxDistance, epsilon, context, out closest);
 
     /// <inheritdoc/>
-    internal override ShapeTree CreateShapeTree() =>
+    private protected override ShapeTree CreateShapeTree() =>
         new(_fractal.BaseMesh, _baseBvh, _hierarchy, RelativePrecision * _precisionRadius);
 
     /// <inheritdoc/>

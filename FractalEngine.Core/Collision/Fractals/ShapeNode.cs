@@ -60,6 +60,9 @@ internal readonly struct ShapeNode
     /// <summary>How far rounding may have moved what is inside, in the frame of the query.</summary>
     public double Slack => RoundingErrors.Coordinate * Reach;
 
+    /// <summary>True where the best convex solid around the node is its box in the frame of the query.</summary>
+    public bool IsBoundedByBox => SubFractal?.Solid is null or { IsBox: true } && Map.Linear.KeepsBoxesAxisAligned();
+
     /// <summary>Finds a point of a convex solid around the node that lies lowest in a direction.</summary>
     /// <param name="direction">In the frame of the query, of any length.</param>
     /// <param name="margin">How much lower the node may reach, times the length of the direction.</param>

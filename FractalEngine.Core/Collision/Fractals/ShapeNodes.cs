@@ -104,7 +104,7 @@ internal sealed class ShapeNodes
             }
         }
 
-        return _tree.InstancePath(path);
+        return _tree.InstancePath(path, new());
     }
 
     private void Add(in ShapeNode node, int parent, int childIndex, int depth) =>

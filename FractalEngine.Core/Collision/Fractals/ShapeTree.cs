@@ -110,14 +110,15 @@ internal sealed class ShapeTree(
 
     /// <summary>Names the instance that a path leads to: the index of the transformation at each level. Empty for a mesh.</summary>
     /// <param name="path">Indices of child instances from the root.</param>
-    public int[] InstancePath(ReadOnlySpan<int> path)
+    /// <param name="context">Lends its memory, and keeps the path.</param>
+    public int[] InstancePath(ReadOnlySpan<int> path, QueryContext context)
     {
         if (hierarchy is null)
         {
             return [];
         }
 
-        var context = new QueryContext();
+        context.ClearPath();
         hierarchy.ResolveInstance(path, AffineMap.Identity, context, out _);
         return context.InstancePath.ToArray();
     }

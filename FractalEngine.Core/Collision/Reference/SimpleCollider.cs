@@ -49,7 +49,7 @@ public sealed class SimpleCollider(Mesh mesh) : Collider
     }
 
     /// <inheritdoc/>
-    internal override ShapeTree CreateShapeTree() => new(mesh, bvh: null);
+    private protected override ShapeTree CreateShapeTree() => new(mesh, bvh: null);
 
     /// <inheritdoc/>
     protected override bool FindClosestCore(Vector position, double maxDistance, double epsilon, QueryContext context,

@@ -1,4 +1,5 @@
 using System.Runtime.Intrinsics;
+using FractalEngine.Core.Collision.Bvh;
 using FractalEngine.Core.Collision.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
@@ -11,18 +12,22 @@ namespace FractalEngine.Core.Rays;
 /// </summary>
 /// <param name="ray">In the frame of the fractal.</param>
 /// <param name="search">The state of the search so far.</param>
-internal struct FlatRayVisitor(LocalRay ray, RaySearch search) : IShapeVisitor
+internal struct FlatRayPolicy(LocalRay ray, RaySearch search) : ITraversalPolicy
 {
     private readonly double _error = ray.InverseScale * search.Error;
 
     /// <summary>The state of the search.</summary>
     public RaySearch Search = search;
 
-    /// <summary>The path to the nearest hit from where the walk began; null for none.</summary>
+    /// <summary>The path to the nearest hit from where the traversal began; null for none.</summary>
     public int[]? Path;
 
     /// <inheritdoc/>
     public readonly long MaxBoundTests => FractalRayCaster.MaxBoundTests;
+
+    /// <inheritdoc/>
+    /// <remarks>Flattened parts are so few that their own bounds suffice.</remarks>
+    public readonly Vector256<double> MayCountX4(VectorX4 centres, VectorX4 extents, double slack) => Vector256<double>.AllBitsSet;
 
     /// <inheritdoc/>
     public readonly double Measure(in ShapeNode node)
