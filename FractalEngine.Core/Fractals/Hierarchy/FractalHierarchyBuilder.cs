@@ -11,11 +11,11 @@ namespace FractalEngine.Core.Fractals.Hierarchy;
 /// </remarks>
 internal sealed class FractalHierarchyBuilder
 {
+    /// <summary>Stands for infinitely many rounds: no search descends so many levels.</summary>
+    public const long EndlessRounds = 1L << 40;
+
     // More mean that the bounds grow or shrink too slowly to converge.
     private const int MaxSubFractals = 4000;
-
-    // Stands for infinitely many rounds: no search descends so many levels.
-    private const long EndlessRounds = 1L << 40;
 
     private readonly Fractal _fractal;
     private readonly bool _doublesPowers;

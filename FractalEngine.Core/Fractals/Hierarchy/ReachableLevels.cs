@@ -67,6 +67,17 @@ internal static class ReachableLevels
             isReachable[index] = true;
             foreach (var child in subFractals[index].AllChildren())
             {
+                if (region.LevelCount >= FractalHierarchyBuilder.EndlessRounds)
+                {
+                    // No path crosses endless rounds, however it begins. What lies below is left out, unless a step leads there at once.
+                    if (child.Group is null)
+                    {
+                        open.Push(child.RemainingLevels(level));
+                    }
+
+                    continue;
+                }
+
                 // The children of the lowest rounds lie below the run; those of the first round above them stand for all others.
                 for (var offset = phase; child.Group is null && offset < region.LevelCount; offset += region.Period)
                 {

@@ -179,6 +179,32 @@ public class ExactFractalColliderLimitTests
         Assert.InRange(new ExactFractalCollider(Samples.Repeated(null, [.. maps])).StorageBytes, 1, 1_000_000);
     }
 
+    /// <summary>A path of an infinite fractal never comes to the levels above the base mesh, so they need not be kept.</summary>
+    [Theory]
+    [InlineData(false)]
+    [InlineData(true)]
+    public void Create_OfAnInfiniteFractalOfAHundredRotatedMaps_HasBoundedStorage(bool isSkewed)
+    {
+        var random = new Random(100);
+        var maps = Enumerable.Range(0, 100).Select(_ =>
+        {
+            var scale = 0.1 + (0.3 * random.NextDouble());
+            return new Transformation(
+                random.Vector(10), random.Vector(180), isSkewed ? new(scale, 0.2, 0.3) : scale * Vector.One);
+        }).ToArray();
+        var fractal = Samples.Repeated(null, maps);
+        var collider = new ExactFractalCollider(fractal);
+        Assert.InRange(collider.StorageBytes, 1, 160 * 1024);
+
+        // A deep version differs by less than coordinates can hold.
+        var deep = new ExactFractalCollider(fractal.WithDepth(60));
+        for (var i = 0; i < 50; i++)
+        {
+            var position = random.Vector(20);
+            Assert.Equal(deep.FindClosest(position).Distance, collider.FindClosest(position).Distance, 1e-12);
+        }
+    }
+
     /// <summary>Six maps are too many to expand two levels at once, so that each level takes a frame of the stack.</summary>
     [Theory]
     [InlineData(0)]
