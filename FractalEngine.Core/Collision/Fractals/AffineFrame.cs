@@ -56,6 +56,10 @@ internal readonly struct AffineFrame : ISearchFrame<AffineFrame>
     public double ChildCutoffSquared(in FractalSearchState search) => search.BoundCutoffSquared;
 
     /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public double ChildCutoff(in FractalSearchState search) => search.BoundCutoff;
+
+    /// <inheritdoc/>
     public Vector256<double> LocalPosition => _inverse.Apply(_position);
 
     /// <inheritdoc/>

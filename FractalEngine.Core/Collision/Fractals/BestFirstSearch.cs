@@ -92,7 +92,7 @@ internal sealed class BestFirstSearch(FractalHierarchy hierarchy, TriangleBvh bv
         while (!IsLeaf(in node, in search))
         {
             var queue = QueueChildren(in node, position, ref search);
-            if (!queue.TryPeek(search.CutoffSquared, out var child))
+            if (!queue.TryPeek(search.CutoffSquared, double.NaN, out var child))
             {
                 return;
             }

@@ -43,7 +43,7 @@ internal readonly ref struct ChildQueue(Span<double> values) : IChildQueue
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public bool TryPeek(double cutoffSquared, out int child)
+    public bool TryPeek(double cutoffSquared, double cutoff, out int child)
     {
         var cutoffs = Vector256.Create(cutoffSquared);
         var infinity = Vector256.Create(double.PositiveInfinity);
@@ -79,6 +79,9 @@ internal readonly ref struct ChildQueue(Span<double> values) : IChildQueue
 
     /// <inheritdoc/>
     public double BoundOf(int child) => Unsafe.Add(ref _values, child);
+
+    /// <inheritdoc/>
+    public bool MayContain(int child) => Unsafe.Add(ref _values, child) <= 0;
 
     /// <summary>The present key of a child.</summary>
     public double KeyOf(int child) => Unsafe.Add(ref _values, _paddedCount + child);

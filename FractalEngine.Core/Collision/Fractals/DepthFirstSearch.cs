@@ -88,7 +88,8 @@ internal sealed class DepthFirstSearch<TFrame>(FractalHierarchy hierarchy, Trian
     {
         var children = subFractal.Children;
         var cutoffSquared = frame.ChildCutoffSquared(in search);
-        var hasNext = queue.TryPeek(cutoffSquared, out var closestChild);
+        var cutoff = frame.ChildCutoff(in search);
+        var hasNext = queue.TryPeek(cutoffSquared, cutoff, out var closestChild);
         while (hasNext)
         {
             var child = children[closestChild];
@@ -96,7 +97,7 @@ internal sealed class DepthFirstSearch<TFrame>(FractalHierarchy hierarchy, Trian
             var childSubFractal = hierarchy.At(child, childLevels);
             var childFrame = frame.Enter(child);
             // While nothing excludes any child, one around the position is visited as it is; but not from far above the faces.
-            var isUrgent = childLevels < MaxUrgentLevels && !(cutoffSquared < double.PositiveInfinity) && queue.BoundOf(closestChild) <= 0;
+            var isUrgent = childLevels < MaxUrgentLevels && !(cutoffSquared < double.PositiveInfinity) && queue.MayContain(closestChild);
             if ((refined & (1UL << closestChild)) == 0
                 && frame.CanRefine(subFractal, childSubFractal, childLevels, _baseFaceCount, isUrgent, in search))
             {
@@ -106,7 +107,7 @@ internal sealed class DepthFirstSearch<TFrame>(FractalHierarchy hierarchy, Trian
                 refined |= 1UL << closestChild;
                 if (queue.Refine(closestChild, refinedBound))
                 {
-                    hasNext = queue.TryPeek(cutoffSquared, out var next);
+                    hasNext = queue.TryPeek(cutoffSquared, cutoff, out var next);
                     if (!hasNext || next != closestChild)
                     {
                         closestChild = next;
@@ -119,7 +120,8 @@ internal sealed class DepthFirstSearch<TFrame>(FractalHierarchy hierarchy, Trian
             search.RecordChild(depth, closestChild);
             Visit(childSubFractal, childLevels, ref childFrame, depth + 1, offset, ref search);
             cutoffSquared = frame.ChildCutoffSquared(in search);
-            hasNext = queue.TryPeek(cutoffSquared, out closestChild);
+            cutoff = frame.ChildCutoff(in search);
+            hasNext = queue.TryPeek(cutoffSquared, cutoff, out closestChild);
         }
     }
 

@@ -46,9 +46,9 @@ internal readonly ref struct FloatChildQueue(Span<double> values, float error) :
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public bool TryPeek(double cutoffSquared, out int child)
+    public bool TryPeek(double cutoffSquared, double cutoff, out int child)
     {
-        var cutoffs = Vector256.Create(CutoffFor(cutoffSquared));
+        var cutoffs = Vector256.Create(SquaredLimit(cutoff));
         var infinity = Vector256.Create(float.PositiveInfinity);
         var smallestKey = infinity;
         for (var i = 0; i < _paddedCount; i += LaneCount)
@@ -74,6 +74,9 @@ internal readonly ref struct FloatChildQueue(Span<double> values, float error) :
     }
 
     /// <inheritdoc/>
+    public bool MayContain(int child) => Unsafe.Add(ref _values, child) <= _error * _error;
+
+    /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public void Remove(int child) => Unsafe.Add(ref _values, child) = float.PositiveInfinity;
 
@@ -95,9 +98,9 @@ internal readonly ref struct FloatChildQueue(Span<double> values, float error) :
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private float CutoffFor(double cutoffSquared)
+    private float SquaredLimit(double cutoff)
     {
-        var cutoff = ((float)Math.Sqrt(cutoffSquared) + _error) * LimitFactor;
-        return cutoff * cutoff;
+        var limit = ((float)cutoff + _error) * LimitFactor;
+        return limit * limit;
     }
 }

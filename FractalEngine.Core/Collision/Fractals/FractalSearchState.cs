@@ -51,7 +51,7 @@ internal ref struct FractalSearchState
         OpenBoundSquared = double.PositiveInfinity;
         // A triangle at exactly the radius may seem farther by what rounding in the frames of the levels adds.
         ClosestDistanceSquared = DistanceCutoff.FromRadius(maxDistance + _tolerance);
-        CutoffSquared = ClosestDistanceSquared;
+        SetCutoff(ClosestDistanceSquared);
     }
 
     /// <summary>Squared distance of the closest triangle so far, or of the search radius.</summary>
@@ -62,6 +62,9 @@ internal ref struct FractalSearchState
 
     /// <summary>Limit for squared bounds, where the error that the caller allows is taken off.</summary>
     public readonly double BoundCutoffSquared => CutoffSquared * InverseBoundFactor;
+
+    /// <summary>Limit for bounds: the root of <see cref="BoundCutoffSquared"/>.</summary>
+    public double BoundCutoff { get; private set; }
 
     /// <summary>Squared bounds are compared with limits times this: 1/(1 + ε)².</summary>
     public double InverseBoundFactor { get; }
@@ -137,7 +140,7 @@ internal ref struct FractalSearchState
         }
 
         HasExceededBudget = true;
-        CutoffSquared = 0;
+        SetCutoff(0);
         return false;
     }
 
@@ -145,7 +148,7 @@ internal ref struct FractalSearchState
     public void ResetBudget()
     {
         HasExceededBudget = false;
-        CutoffSquared = ClosestFace < 0 ? ClosestDistanceSquared : CutoffFor(ClosestDistanceSquared);
+        SetCutoff(ClosestFace < 0 ? ClosestDistanceSquared : CutoffFor(ClosestDistanceSquared));
     }
 
     /// <summary>Records a triangle that is closer than all before, with the current path.</summary>
@@ -163,7 +166,7 @@ internal ref struct FractalSearchState
         }
 
         _path[..depth].CopyTo(_closestPath);
-        CutoffSquared = CutoffFor(distanceSquared);
+        SetCutoff(CutoffFor(distanceSquared));
     }
 
     /// <summary>Records a sub-fractal that is not searched for lack of work, unless it is excluded.</summary>
@@ -199,6 +202,12 @@ internal ref struct FractalSearchState
         }
 
         return _scratch.Slice(offset, length);
+    }
+
+    private void SetCutoff(double cutoffSquared)
+    {
+        CutoffSquared = cutoffSquared;
+        BoundCutoff = Math.Sqrt(BoundCutoffSquared);
     }
 
     // Distances that differ by no more than rounding count as equal. Otherwise positions far from small children would visit all of them.

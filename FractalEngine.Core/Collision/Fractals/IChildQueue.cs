@@ -7,12 +7,16 @@ namespace FractalEngine.Core.Collision.Fractals;
 internal interface IChildQueue
 {
     /// <summary>Finds the child with the smallest key of those whose bound is below a limit.</summary>
-    /// <param name="cutoffSquared">The limit, exclusive.</param>
+    /// <param name="cutoffSquared">Square of the limit, exclusive.</param>
+    /// <param name="cutoff">The limit itself.</param>
     /// <param name="child">Index of the child; undefined where there is none.</param>
-    bool TryPeek(double cutoffSquared, out int child);
+    bool TryPeek(double cutoffSquared, double cutoff, out int child);
 
     /// <summary>The present lower bound of a child's squared distance.</summary>
     double BoundOf(int child);
+
+    /// <summary>True for a child whose bound does not exclude the position itself.</summary>
+    bool MayContain(int child);
 
     /// <summary>Removes a child from the queue.</summary>
     void Remove(int child);

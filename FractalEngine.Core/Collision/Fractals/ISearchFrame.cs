@@ -15,6 +15,9 @@ internal interface ISearchFrame<TSelf>
     /// <summary>Computes the limit for squared bounds of children, in the units of this frame's bounds.</summary>
     double ChildCutoffSquared(in FractalSearchState search);
 
+    /// <summary>Computes the limit for bounds of children, not squared.</summary>
+    double ChildCutoff(in FractalSearchState search);
+
     /// <summary>The position of the query in the frame of the sub-fractal: x, y, z, 0.</summary>
     Vector256<double> LocalPosition { get; }
 

@@ -19,20 +19,22 @@ internal readonly struct SimilarityFrame : ISearchFrame<SimilarityFrame>
     private readonly Vector256<double> _position;
     private readonly double _scaleSquared;
     private readonly double _inverseScaleSquared;
+    private readonly double _inverseScale;
 
     /// <summary>Creates the frame of the whole fractal.</summary>
     /// <param name="position">Position of the query in the fractal's frame.</param>
     public SimilarityFrame(Vector position)
-        : this(SimdAffineMap.ToVector256(position), 1, 1)
+        : this(SimdAffineMap.ToVector256(position), 1, 1, 1)
     {
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private SimilarityFrame(Vector256<double> position, double scaleSquared, double inverseScaleSquared)
+    private SimilarityFrame(Vector256<double> position, double scaleSquared, double inverseScaleSquared, double inverseScale)
     {
         _position = position;
         _scaleSquared = scaleSquared;
         _inverseScaleSquared = inverseScaleSquared;
+        _inverseScale = inverseScale;
     }
 
     /// <inheritdoc/>
@@ -42,6 +44,10 @@ internal readonly struct SimilarityFrame : ISearchFrame<SimilarityFrame>
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public double ChildCutoffSquared(in FractalSearchState search) => search.BoundCutoffSquared * _inverseScaleSquared;
+
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public double ChildCutoff(in FractalSearchState search) => search.BoundCutoff * _inverseScale;
 
     /// <inheritdoc/>
     public Vector256<double> LocalPosition => _position;
@@ -70,7 +76,8 @@ internal readonly struct SimilarityFrame : ISearchFrame<SimilarityFrame>
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public SimilarityFrame Enter(ChildInstance child) => new(
-        child.InverseSimdMap.Apply(_position), _scaleSquared * child.ScaleSquared, _inverseScaleSquared * child.InverseScaleSquared);
+        child.InverseSimdMap.Apply(_position), _scaleSquared * child.ScaleSquared, _inverseScaleSquared * child.InverseScaleSquared,
+        _inverseScale * child.InverseScale);
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

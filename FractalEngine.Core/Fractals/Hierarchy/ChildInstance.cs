@@ -35,6 +35,7 @@ internal sealed class ChildInstance
 
         HasMapsOfLevels = areMapsOfLevels;
         InverseScaleSquared = 1 / ScaleSquared;
+        InverseScale = Math.Sqrt(InverseScaleSquared);
         _simdMap = new(map);
         _inverseSimdMap = new(inverse);
     }
@@ -75,6 +76,9 @@ internal sealed class ChildInstance
     /// <summary>Square of the factor by which the inverse map lengthens vectors; meaningful for similarities only.</summary>
     public double InverseScaleSquared { get; }
 
+    /// <summary>The factor by which the inverse map lengthens vectors; meaningful for similarities only.</summary>
+    public double InverseScale { get; }
+
     /// <summary>Upper bound of the factor by which the map lengthens vectors.</summary>
     public double OperatorNormBound { get; }
 
@@ -82,7 +86,7 @@ internal sealed class ChildInstance
     public LevelStep LevelStep { get; }
 
     /// <summary>Number of bytes of the maps and edges.</summary>
-    public long StorageBytes => (37 * sizeof(double)) + (24 * Edges.Length);
+    public long StorageBytes => (38 * sizeof(double)) + (24 * Edges.Length);
 
     /// <summary>Computes the remaining levels of the child.</summary>
     /// <param name="parentLevels">Remaining levels of the parent.</param>

@@ -54,10 +54,11 @@ public class ChildLanesTests
                 }
 
                 // Points are rounded, too.
-                var cutoffSquared = Math.Pow(Math.Sqrt(closestSquared) + (1e-13 * (position.MaxAbsComponent() + root.Radius)), 2);
-                Assert.True(queue.TryPeek(cutoffSquared, out var found), $"child {i} is excluded at {Math.Sqrt(closestSquared)}");
+                var cutoff = Math.Sqrt(closestSquared) + (1e-13 * (position.MaxAbsComponent() + root.Radius));
+                Assert.True(queue.TryPeek(cutoff * cutoff, cutoff, out var found), $"child {i} is excluded at {Math.Sqrt(closestSquared)}");
                 Assert.Equal(i, found);
-                Assert.InRange(queue.BoundOf(i), 0, cutoffSquared);
+                Assert.InRange(queue.BoundOf(i), 0, cutoff * cutoff);
+                Assert.True(queue.MayContain(i) || queue.BoundOf(i) > 0);
             }
         }
 
