@@ -7,4 +7,8 @@ namespace FractalEngine.App.Window;
 /// <param name="Projection">The projection of the view.</param>
 /// <param name="OrthographicHeight">The visible height in scene units; null where it follows the camera.</param>
 /// <param name="MoveCount">The number of moves within a fractal, whose positions the camera itself does not hold.</param>
-internal sealed record CameraPose(Camera Camera, Projection Projection, double? OrthographicHeight, long MoveCount);
+internal sealed record CameraPose(Camera Camera, Projection Projection, double? OrthographicHeight, long MoveCount)
+{
+    /// <summary>Whether the camera stands where it frames the whole scene, and has not been moved since.</summary>
+    public bool IsFramed { get; init; }
+}

@@ -18,6 +18,7 @@ internal sealed class Document : IDisposable
 
     /// <summary>Uploads the prepared models. Must be called on the window's thread.</summary>
     /// <param name="window">The window that shows the file.</param>
+    /// <param name="area">The part of the window that panels leave free.</param>
     /// <param name="file">The loaded file.</param>
     /// <param name="preparation">The preparation of the file's scene, with the visible models prepared.</param>
     /// <param name="options">The options of the window.</param>
@@ -26,17 +27,18 @@ internal sealed class Document : IDisposable
     /// </param>
     /// <param name="edits">The files that were edited and not saved; null for none.</param>
     public Document(
-        RenderWindow window, LoadedFile file, ScenePreparation preparation, WindowOptions options, Document? previous = null,
-        FileEdits? edits = null)
+        RenderWindow window, ViewArea area, LoadedFile file, ScenePreparation preparation, WindowOptions options,
+        Document? previous = null, FileEdits? edits = null)
     {
         File = file;
+        Area = area;
         IsReload = previous is not null;
         Edits = edits ?? FileEdits.None;
         Tool = new(this);
         Section = previous?.Section ?? new(options.Section);
         FirstSightLoader = new(preparation, window.Wake);
         var scene = file.Scene.Scene;
-        var camera = View.Of(file.Scene, window.Aspect).Camera;
+        var camera = View.Of(file.Scene, area.Aspect).Camera;
         FlyingCamera = new(
             file.Scene.Bounds, camera, options.Projection ?? scene.Projection, scene.OrthographicHeight, FindFractal(preparation.Scene),
             file.Scene);
@@ -65,6 +67,9 @@ internal sealed class Document : IDisposable
 
     /// <summary>The loaded file with its scene.</summary>
     public LoadedFile File { get; }
+
+    /// <summary>The part of the window that panels leave free.</summary>
+    public ViewArea Area { get; }
 
     /// <summary>Whether this replaces the same document before its files were changed.</summary>
     public bool IsReload { get; }
@@ -139,12 +144,18 @@ internal sealed class Document : IDisposable
     /// <summary>Moves what is drawn to its present place, and returns the view of the present camera.</summary>
     /// <remarks>Bodies move to their interpolated positions, and the fractal to that of the paper's zoom where it is enabled.</remarks>
     /// <param name="aspect">Width divided by height of the frame.</param>
-    public View UpdateView(double aspect) => LatestView = ComputeView(aspect);
+    /// <param name="isBesidePanels">False for a view in the middle of the frame, as if there were no panels.</param>
+    public View UpdateView(double aspect, bool isBesidePanels = true) => LatestView = ComputeView(aspect, isBesidePanels);
 
-    private View ComputeView(double aspect)
+    private View ComputeView(double aspect, bool isBesidePanels)
     {
         Physics.ApplyTo(Renderer);
-        var view = View.Of(File.Scene with { Scene = GetCurrentScene() }, aspect) with { Section = Section.Shown };
+        Tool.Measure.Follow(Physics.CurrentScene, Physics.IsRunning);
+        var view = View.Of(File.Scene with { Scene = GetCurrentScene() }, aspect) with
+        {
+            Section = Section.Shown,
+            HorizontalShift = isBesidePanels ? Area.HorizontalShift : 0,
+        };
         AddLines(view);
         if (Physics.IsWalking)
         {
@@ -201,7 +212,7 @@ internal sealed class Document : IDisposable
 
         return Physics.IsWalking
             ? WalkControls.Handle(windowEvent, Physics.Character!)
-            : CameraControls.Handle(windowEvent, (double)width / height);
+            : CameraControls.Handle(windowEvent, Area.Aspect);
     }
 
     /// <summary>Moves the flying camera by one command. Nothing happens while a player walks.</summary>
@@ -395,6 +406,11 @@ internal sealed class Document : IDisposable
             {
                 FlyingCamera.SetProjection(fileView.Projection, fileView.OrthographicHeight);
             }
+        }
+
+        if (File.Kind == FileKind.Fractal && !Physics.IsWalking)
+        {
+            FlyingCamera.FollowShape(Area.Aspect);
         }
 
         CameraControls.ContinueFrom(previous.CameraControls);

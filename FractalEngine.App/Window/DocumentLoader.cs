@@ -12,12 +12,14 @@ namespace FractalEngine.App.Window;
 /// Progress and errors are shown in the overlay. A file that can't be loaded leaves the document as it is.
 /// </summary>
 /// <param name="window">The window that shows the document.</param>
+/// <param name="area">The part of the window that panels leave free.</param>
 /// <param name="overlay">The overlay of the window.</param>
 /// <param name="options">The options of the window.</param>
 /// <param name="opened">Called with the full path of each file that was opened.</param>
 /// <param name="report">Shows a message.</param>
 internal sealed class DocumentLoader(
-    RenderWindow window, WindowOverlay overlay, WindowOptions options, Action<string> opened, Action<string> report) : IDisposable
+    RenderWindow window, ViewArea area, WindowOverlay overlay, WindowOptions options, Action<string> opened, Action<string> report)
+    : IDisposable
 {
     // A file that is faulty only because it is still being written is mended sooner.
     private static readonly TimeSpan FaultDelay = TimeSpan.FromSeconds(0.2);
@@ -132,7 +134,7 @@ internal sealed class DocumentLoader(
             }
         }
 
-        _load = new(path, options.Load with { EditedTexts = edits.Texts }, settings, window.Aspect, _cache, previous, window.Wake);
+        _load = new(path, options.Load with { EditedTexts = edits.Texts }, settings, area.Aspect, _cache, previous, window.Wake);
     }
 
     private void ShowTitle(string path)
@@ -189,7 +191,7 @@ internal sealed class DocumentLoader(
         try
         {
             // Before anything of the present document is given up: the driver may refuse what is new.
-            document = new(window, file, preparation, options, previous, previous?.Edits ?? FileEdits.None);
+            document = new(window, area, file, preparation, options, previous, previous?.Edits ?? FileEdits.None);
         }
         catch (Exception exception) when (exception is FractalEngineException or OutOfMemoryException)
         {

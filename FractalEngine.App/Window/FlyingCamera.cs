@@ -30,6 +30,9 @@ internal sealed class FlyingCamera
     // The addresses of states would fill the memory in deeper zooms. Such a state returns as exactly as a world position can.
     private const int MaxStateDepth = 10_000;
 
+    // How far a framing camera may stand from where it should, divided by its distance: framing leaves a fifth of the frame free.
+    private const double MaxDrift = 0.2;
+
     // Limits the roots that are drawn around the camera. Maps that hardly shrink lead to many ancestors of a similar size.
     private const int MaxAncestors = 1000;
 
@@ -55,7 +58,7 @@ internal sealed class FlyingCamera
         _fractal = fractal;
         _sceneBounds = bounds.IsEmpty ? new(-Vector.One, Vector.One) : bounds;
         _sceneSize = Math.Max(_sceneBounds.Diagonal, 1e-9 * (1 + _sceneBounds.Centre.MaxAbsComponent()));
-        _initialPose = new(camera, projection, orthographicHeight, 0);
+        _initialPose = new(camera, projection, orthographicHeight, 0) { IsFramed = scene is { Scene.Camera: null } };
         Pose = _initialPose;
         FocusDistance = DistanceToCentre(camera);
         ResetFractalAddress();
@@ -167,7 +170,7 @@ internal sealed class FlyingCamera
         if (distance > 0)
         {
             var rotation = CameraFraming.LookRotation(Pose.Camera.Handedness.Mirror(point));
-            Pose = Pose with { Camera = Pose.Camera with { Rotation = rotation } };
+            Pose = Pose with { Camera = Pose.Camera with { Rotation = rotation }, IsFramed = false };
             FocusDistance = distance;
         }
     }
@@ -204,7 +207,8 @@ internal sealed class FlyingCamera
 
     /// <summary>Changes the angle of view, without moving the camera.</summary>
     /// <param name="degrees">The full vertical angle, more than 0 and less than 180 degrees.</param>
-    public void SetFieldOfView(double degrees) => Pose = Pose with { Camera = Pose.Camera with { FieldOfView = degrees } };
+    public void SetFieldOfView(double degrees) =>
+        Pose = Pose with { Camera = Pose.Camera with { FieldOfView = degrees }, IsFramed = false };
 
     /// <summary>Takes a projection as it is, without moving the camera.</summary>
     /// <param name="projection">The projection of the view.</param>
@@ -266,7 +270,7 @@ internal sealed class FlyingCamera
         {
             // The fractal has been changed since.
             Pose = state.Pose;
-            MoveTo(state.WorldCamera);
+            Place(state.WorldCamera);
             return;
         }
 
@@ -277,7 +281,7 @@ internal sealed class FlyingCamera
         }
         else
         {
-            MoveTo(state.WorldCamera);
+            Place(state.WorldCamera);
         }
 
         Pose = state.Pose;
@@ -293,7 +297,7 @@ internal sealed class FlyingCamera
         else
         {
             Pose = other.Pose;
-            MoveTo(other.Camera);
+            Place(other.Camera);
         }
     }
 
@@ -304,12 +308,51 @@ internal sealed class FlyingCamera
     /// <summary>Continues from another camera in world space.</summary>
     public void MoveTo(Camera camera)
     {
+        Place(camera);
+        Pose = Pose with { IsFramed = false };
+    }
+
+    private void Place(Camera camera)
+    {
         Pose = Pose with { Camera = camera };
         FocusDistance = DistanceToCentre(camera);
         ResetFractalAddress();
     }
 
+    /// <summary>
+    /// Frames the scene again after its shape has changed, if that is where the camera stands, and if it would stand elsewhere by a fifth
+    /// of its distance: what grows out of the frame or becomes small is followed, and all else leaves the view as it is.
+    /// </summary>
+    /// <param name="aspect">Width divided by height of the frame.</param>
+    public void FollowShape(double aspect)
+    {
+        if (!Pose.IsFramed || Depth > 0)
+        {
+            return;
+        }
+
+        var present = Camera;
+        var (framed, height) = ComputeFraming(present, aspect);
+        var drift = present.LocalAxesInverse * (framed.Position - present.Position);
+        var hasDrifted = height is { } wanted
+            ? Math.Max(Math.Max(Math.Abs(drift.X), Math.Abs(drift.Y)), Math.Abs(wanted - (OrthographicHeight ?? 0))) > MaxDrift * wanted
+            : drift.Length() > MaxDrift * DistanceToCentre(framed);
+        if (hasDrifted)
+        {
+            FrameScene(present, aspect);
+        }
+    }
+
     private void FrameScene(Camera camera, double aspect)
+    {
+        var (framed, height) = ComputeFraming(camera, aspect);
+        Pose = Pose with { Camera = framed, OrthographicHeight = height };
+        FocusDistance = DistanceToCentre(Pose.Camera);
+        ResetFractalAddress();
+        Pose = Pose with { IsFramed = true };
+    }
+
+    private (Camera Camera, double? OrthographicHeight) ComputeFraming(Camera camera, double aspect)
     {
         var (framed, height) = (CameraFraming.Frame(camera, _sceneBounds, aspect), (double?)null);
         if (_scene is not null)
@@ -320,9 +363,7 @@ internal sealed class FlyingCamera
                 : (framed, null);
         }
 
-        Pose = Pose with { Camera = framed, OrthographicHeight = height };
-        FocusDistance = DistanceToCentre(Pose.Camera);
-        ResetFractalAddress();
+        return (framed, height);
     }
 
     /// <summary>Takes a moved camera. Within a fractal its position is a displacement in the present unit.</summary>
@@ -330,7 +371,7 @@ internal sealed class FlyingCamera
     {
         if (_address is null)
         {
-            Pose = Pose with { Camera = camera };
+            Pose = Pose with { Camera = camera, IsFramed = Pose.IsFramed && camera == Pose.Camera };
             return;
         }
 
@@ -342,6 +383,7 @@ internal sealed class FlyingCamera
         {
             Camera = camera with { Position = Vector.Zero },
             MoveCount = Pose.MoveCount + (displacement == Vector.Zero ? 0 : 1),
+            IsFramed = Pose.IsFramed && displacement == Vector.Zero && camera.Rotation == Pose.Camera.Rotation,
         };
     }
 

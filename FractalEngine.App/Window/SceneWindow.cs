@@ -27,6 +27,7 @@ internal sealed class SceneWindow : IDisposable
     private readonly WindowRenderer _windowRenderer;
     private readonly WindowOverlay _overlay = new();
     private readonly WindowTracing _tracing;
+    private readonly ViewArea _area;
     private readonly DocumentLoader _loader;
     private readonly WindowActions _actions;
     private readonly WindowInterface _interface;
@@ -48,7 +49,8 @@ internal sealed class SceneWindow : IDisposable
         _windowRenderer = new(_frameRenderer);
         _prompts = new(() => _window.ClipboardText);
         var recent = new RecentFiles(options.RecentFilesPath, Report);
-        _loader = new(_window, _overlay, options, recent.Add, Report);
+        _area = new(_window);
+        _loader = new(_window, _area, _overlay, options, recent.Add, Report);
         _tracing = new(options, _window.Wake);
         _files = new(_loader, _prompts, recent, Report, () => _actions!.Settings, () => _isClosing = true);
         _actions = new(_window, _windowRenderer, _overlay, _tracing, options.Settings) { Files = _files };
@@ -195,6 +197,7 @@ internal sealed class SceneWindow : IDisposable
         {
             // Keys that are held now are released while the question is open, or were pressed for it.
             Document?.ReleaseKeys();
+            _interface.ReleasePointer();
             _redraw |= Redraw.Overlay;
         }
     }
@@ -311,7 +314,7 @@ internal sealed class SceneWindow : IDisposable
     {
         var start = _clock.Elapsed;
         _lastRefresh = start;
-        var needsDraw = _redraw.HasFlag(Redraw.Scene);
+        var needsDraw = _redraw.HasFlag(Redraw.Scene) | _area.Update(_interface.Ui);
         _redraw = Redraw.None;
         if (needsDraw)
         {
@@ -327,11 +330,17 @@ internal sealed class SceneWindow : IDisposable
         _overlay.FrameCounts = _windowRenderer.CountFrames((long)(start / FrameTime));
         _overlay.TraceText = _tracing.StatusText;
         _loader.TitleNote = _overlay.TraceText;
-        _overlay.HidesPhysics = _interface.IsShown && !_interface.HasRoomForPhysics;
-        _overlay.MessageReplacesStatus = _interface.IsShown && !_interface.HasRoomForTexts;
         _actions.Document = Document;
         _interface.Update(_window.Width, _window.Height);
+        // By the panels as they are now.
+        _overlay.HidesPhysics = _interface.IsShown && !_interface.HasRoomForPhysics;
+        _overlay.MessageReplacesStatus = _interface.IsShown && !_interface.HasRoomForTexts;
         _redraw |= _actions.TakeRequested();
+        if (_area.Update(_interface.Ui) && Document is not null)
+        {
+            _redraw |= Redraw.Scene;
+        }
+
         _frameRenderer.Present(_window, _tracing.Layer, _interface.Ui, _overlay.Panels);
         if (needsDraw)
         {
