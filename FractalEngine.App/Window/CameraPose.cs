@@ -9,6 +9,8 @@ namespace FractalEngine.App.Window;
 /// <param name="MoveCount">The number of moves within a fractal, whose positions the camera itself does not hold.</param>
 internal sealed record CameraPose(Camera Camera, Projection Projection, double? OrthographicHeight, long MoveCount)
 {
-    /// <summary>Whether the camera stands where it frames the whole scene, and has not been moved since.</summary>
-    public bool IsFramed { get; init; }
+    /// <summary>
+    /// Width divided by height of the frame that the whole scene was framed for, and the camera not moved since; null for all other views.
+    /// </summary>
+    public double? FramedAspect { get; init; }
 }

@@ -9,7 +9,7 @@ internal sealed class ViewArea(RenderWindow window)
 {
     private double _widthFraction = 1;
 
-    /// <summary>How far the middle of the area is to the right of that of the frame, see <see cref="Render.View.HorizontalShift"/>.</summary>
+    /// <summary>How far the middle is to the right of that of the frame, see <see cref="Render.View.HorizontalShift"/>.</summary>
     public double HorizontalShift { get; private set; }
 
     /// <summary>Width divided by height of the area, for which scenes are framed.</summary>

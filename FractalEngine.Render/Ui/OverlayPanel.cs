@@ -32,7 +32,7 @@ public sealed record OverlayPanel(OverlayAnchor Anchor, ImmutableArray<OverlayLi
 
     /// <inheritdoc/>
     public bool Equals(OverlayPanel? other) =>
-        other is not null && Anchor == other.Anchor && IsQuestion == other.IsQuestion && Title == other.Title && Progress.Equals(other.Progress)
+        other is not null && (Anchor, IsQuestion, Title) == (other.Anchor, other.IsQuestion, other.Title) && Progress.Equals(other.Progress)
         && Lines.SequenceEqual(other.Lines);
 
     /// <inheritdoc/>

@@ -66,7 +66,8 @@ public sealed partial class UserInterface
             y += height + Gap;
         }
 
-        if (y > column.Y + (column.Height / 2))
+        // Not by the height of what is shown, which changes with a selection.
+        if (panels.Any(static panel => !panel.IsFolded))
         {
             _viewArea = new(FreeArea.X, 0, FreeArea.Width, _height);
         }

@@ -92,8 +92,8 @@ public sealed partial class UserInterface
     public UiRect SceneArea { get; private set; }
 
     /// <summary>
-    /// The part of the frame in whose middle a scene is seen: between the columns of panels that reach below the middle of the frame, or
-    /// all of it where these leave too little.
+    /// The part of the frame in whose middle a scene is seen: between the columns of panels that are not folded, or all of it where these
+    /// leave too little.
     /// </summary>
     public UiRect ViewArea { get; private set; }
 
