@@ -9,6 +9,9 @@ internal sealed partial class Document
 {
     private int? _lastInteraction;
 
+    // An undo returns to a view, which the shapes that are loaded on the way to its own must not move.
+    private bool _followsShape = true;
+
     /// <summary>The files that were edited and not saved. After an undo the document must be loaded again.</summary>
     public FileEdits Edits { get; private set; }
 
@@ -31,6 +34,7 @@ internal sealed partial class Document
             return isRedo ? "nothing to redo" : "nothing to undo";
         }
 
+        _followsShape = false;
         CameraControls.ReleaseKeys();
         FlyingCamera.Restore(History.Present.Camera);
         Edits = History.Present.Edits;
@@ -52,6 +56,7 @@ internal sealed partial class Document
         }
 
         _lastInteraction = interaction;
+        _followsShape = true;
         Edits = edits;
     }
 
@@ -126,7 +131,8 @@ internal sealed partial class Document
             }
         }
 
-        if (File.Kind == FileKind.Fractal && !Physics.IsWalking)
+        _followsShape = previous._followsShape;
+        if (File.Kind == FileKind.Fractal && !Physics.IsWalking && _followsShape)
         {
             FlyingCamera.FollowShape(Area.Aspect);
         }

@@ -48,7 +48,7 @@ internal sealed partial class FlyingCamera
     /// <param name="orthographicHeight">The initial visible height in scene units; null where it follows the camera.</param>
     /// <param name="fractal">The fractal that the camera can enter to any depth; null for none.</param>
     /// <param name="scene">The scene to frame; null to frame its bounds.</param>
-    /// <param name="framedAspect">Width divided by height of the frame that the camera frames the scene for; null for other cameras.</param>
+    /// <param name="framedAspect">Width divided by height of the frame for which the camera frames the scene; null for none.</param>
     public FlyingCamera(
         BoundingBox bounds, Camera camera, Projection projection, double? orthographicHeight, FractalLocation? fractal = null,
         LoadedScene? scene = null, double? framedAspect = null)

@@ -31,7 +31,10 @@ public sealed partial class UserInterface
         ArgumentNullException.ThrowIfNull(label);
         var rect = Next();
         var labelWidth = Math.Min(rect.Width * 2 / 5, Math.Max(2 * CellWidth, (label.Length + 1) * CellWidth));
-        if (label.Length > 0 && !Print(label, rect with { Width = labelWidth - (CellWidth / 2) }, Theme.Text) && IsHot(rect))
+        // A letter stands in the middle of its place, apart from the number of the slider before.
+        var indent = label.Length == 1 ? CellWidth / 2 : 0;
+        var place = rect with { X = rect.X + indent, Width = labelWidth - indent - (CellWidth / 4) };
+        if (label.Length > 0 && !Print(label, place, Theme.Text) && IsHot(rect))
         {
             Tooltip(label, isHot: true);
         }

@@ -4,6 +4,7 @@ using System.Numerics;
 using FractalEngine.App.Window.Actions;
 using FractalEngine.Core;
 using FractalEngine.Core.Files;
+using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Fractals;
 using FractalEngine.Parsing.Text;
@@ -21,6 +22,8 @@ internal sealed class FractalPanel(WindowActions actions)
     private string? _chosen;
     private string? _path;
     private string _text = "";
+    private FractalModel? _measured;
+    private double? _dimension;
     private FileStamp? _stamp;
     private string? _problem;
     private ImmutableArray<FractalNumber> _numbers = [];
@@ -75,14 +78,21 @@ internal sealed class FractalPanel(WindowActions actions)
         }
     }
 
-    private static void BuildFacts(UserInterface ui, FractalModel model)
+    private void BuildFacts(UserInterface ui, FractalModel model)
     {
+        if (!ReferenceEquals(model, _measured))
+        {
+            (_measured, _dimension) = (model, SimilarityDimension.Of(model.Fractal.Description));
+        }
+
         ui.Heading(model.Name);
         ui.Fact("instances", Count(model.InstanceCount));
         ui.Fact("faces", Count(model.FaceCount));
         var size = model.Bounds.Size;
         ui.Fact("size", size.IsFinite()
             ? $"{PanelWidgets.Number(size.X)} × {PanelWidgets.Number(size.Y)} × {PanelWidgets.Number(size.Z)}" : "no bounds");
+        ui.Fact("dimension", _dimension is { } dimension ? PanelWidgets.Number(dimension) : "none");
+        ui.Tooltip("similarity dimension s: the ratios r of all child instances have the sum of r^s = 1, as if the depth had no end");
         ui.Fact("composition", model.Fractal.Description.Composition.ToString().ToLowerInvariant());
     }
 
@@ -184,8 +194,9 @@ internal sealed class FractalPanel(WindowActions actions)
     private void BuildTitle(UserInterface ui, int index)
     {
         var number = _numbers[index];
-        var words = About(index) is { } about ? $": {about}" : "";
-        var title = $"{number.Role.ToString().ToLowerInvariant()} {number.Name.TrimStart('v')}{words}";
+        var vector = number.Name.TrimStart('v');
+        var meaning = $"{number.Role.ToString().ToLowerInvariant()} {vector}";
+        var title = About(index) is { } about ? $"{vector}: {about}" : meaning;
         if (_marked.Contains(number.Name))
         {
             if (_isScrolling)
@@ -204,7 +215,7 @@ internal sealed class FractalPanel(WindowActions actions)
 
         if (_comments[index] is { } comment)
         {
-            ui.Tooltip(words.Length > 0 ? title : comment);
+            ui.Tooltip($"{meaning}: {About(index) ?? comment}");
         }
     }
 

@@ -221,7 +221,8 @@ internal sealed partial class DrivenWindow : IDisposable
     private string[] SavedImages() =>
         [.. ErrorLines().Select(line => SavedImage().Match(line)).Where(match => match.Success).Select(match => match.Groups[1].Value)];
 
-    private static string RunXdotool(string commands, bool waits = true)
+    /// <summary>Runs xdotool, and returns what it prints.</summary>
+    public static string RunXdotool(string commands, bool waits = true)
     {
         var start = new ProcessStartInfo("xdotool", commands) { RedirectStandardOutput = true, RedirectStandardError = true };
         using var tool = Process.Start(start)!;

@@ -21,9 +21,11 @@ public sealed class FullScreenTests : IDisposable
         using var manager = Process.Start("openbox", ["--sm-disable"]);
         try
         {
+            Polling.WaitUntil(static () => DrivenWindow.RunXdotool("get_desktop").Trim() == "0", "window manager");
             _folder.Write("cube.obj", SampleFiles.Cube);
             using var window = DrivenWindow.Open(_folder, "cube.obj", "--resolution", "500x400");
-            Polling.WaitUntil(() => window.Screenshot() is { Width: 500, Height: 400 }, "window");
+            Polling.WaitUntil(() => window.Size == (500, 400), "window");
+            window.Send("windowactivate --sync {window}");
             window.Send("key F11");
             Polling.WaitUntil(() => window.Size is { Width: > 900, Height: > 700 }, "full screen");
             var (width, height) = window.Size;

@@ -109,6 +109,28 @@ public class UserInterfaceLayoutTests
         Assert.True(UiText.Contains(_ui, "panel is wide"));
     }
 
+    [Fact]
+    public void Progress_OfAFraction_FillsIt()
+    {
+        Show(static ui => ui.Progress(0.25, "a quarter"));
+        var quarter = FilledWidth();
+        Show(static ui => ui.Progress(0.5, "a half"));
+        Assert.Equal(2 * quarter, FilledWidth(), 2f);
+        Assert.True(UiText.Contains(_ui, "a half"));
+        Show(static ui => ui.Progress(7, "all"));
+        Assert.Equal(4 * quarter, FilledWidth(), 4f);
+    }
+
+    [Fact]
+    public void Graph_OfValues_HasAColumnForEach()
+    {
+        int Columns() => _ui.Quads.Count(quad => quad.Glyph < 0 && quad.Width == 2);
+        Show(static ui => ui.Graph([], 1));
+        var before = Columns();
+        Show(static ui => ui.Graph([0.5, 0.25, 1], 1));
+        Assert.Equal(before + 3, Columns());
+    }
+
     /// <summary>The kit of panels is small enough to be read in an hour.</summary>
     [Fact]
     public void Kit_HasAtMostTwoThousandLines()

@@ -152,6 +152,8 @@ internal static partial class InteractionTable
         new("facts follow a number", "row.fdo",
             [Keys("F4"), Shows("8"), Type("0", "depth of z")],
             [Shows("12"), FrameDiffers(0.001)]),
+        new("the dimension follows a number", "two.sdo",
+            [Keys("F4"), Click("other.fdo"), Shows("dimension"), PointAt("dimension")], [Shows("similarity dimension s")]),
     ];
 
     private static IEnumerable<Interaction> OfView =>
@@ -207,7 +209,8 @@ internal static partial class InteractionTable
         new("copy a selection", "scene.sdo",
             [OpenSelection, ClickAt(LeftAside, MiddleY), Shows("left (0)"), Keys("ctrl+c")], [ClipboardHas("object: left (0)")]),
         new("a click beside all selects nothing", "scene.sdo",
-            [OpenSelection, ClickAt(LeftAside, MiddleY), Shows("left (0)"), ClickAt(412, 600)], [Shows("Click a surface"), FrameIsAsBefore]),
+            [OpenSelection, ClickAt(LeftAside, MiddleY), Shows("left (0)"), ClickAt(412, 600)],
+            [Shows("Click a surface"), FrameIsAsBefore]),
         new("measure two points", "scene.sdo",
             [OpenSelection, Keys("m"), ClickAt(LeftAside, MiddleY), Shows("click the second point"), ClickAt(RightAside, MiddleY)],
             [Shows("two points: 2.8"), FrameDiffers(0.0005)]),
@@ -226,7 +229,8 @@ internal static partial class InteractionTable
                 Type("-1", "position", 0, 3, 1, isRight: true), Title("scene.sdo*")],
             [Shows("left to right"), Shows(" 3"), Keys("ctrl+z"), Title("scene.sdo -")]),
         new("remove a distance", "scene.sdo",
-            [OpenSelection, Keys("m"), ClickAt(LeftAside, MiddleY), ClickAt(RightAside, MiddleY), FrameDiffers(0.0005), Keys("m"), ClickAt(880, 198)],
+            [OpenSelection, Keys("m"), ClickAt(LeftAside, MiddleY), ClickAt(RightAside, MiddleY), FrameDiffers(0.0005), Keys("m"),
+                ClickAt(880, 198)],
             [FrameIsAsBefore]),
         new("Esc ends measuring, then selects nothing", "scene.sdo",
             [OpenSelection, ClickAt(LeftAside, MiddleY), Shows("left (0)"), Keys("m Escape"), Shows("left (0)"), Keys("Escape")],
@@ -237,7 +241,8 @@ internal static partial class InteractionTable
             [ClickAt(LeftX, MiddleY), Keys("6"), Drag(LeftX, MiddleY, LeftX + 40, MiddleY, key: "ctrl"), Save()],
             [FileHas("#, (1.5, 1.5, 1.5)) name \"left\"")]),
         new("turn by a handle, with a typed number after", "scene.sdo",
-            [OpenSelection, ClickAt(LeftAside, MiddleY), Keys("4"), Drag(LeftAside + 80, MiddleY, LeftAside + 60, MiddleY - 60, key: "ctrl"),
+            [OpenSelection, ClickAt(LeftAside, MiddleY), Keys("4"),
+                Drag(LeftAside + 80, MiddleY, LeftAside + 60, MiddleY - 60, key: "ctrl"),
                 Title("scene.sdo*"),
                 Type("30", "rotation in degrees", 0, 3, 1, isRight: true), Shows("30"), Save()],
             [FileHas("(30, 0, -45), #) name \"left\"")]),
