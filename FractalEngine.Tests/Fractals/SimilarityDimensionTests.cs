@@ -47,7 +47,7 @@ public class SimilarityDimensionTests
     public void Of_WhatHasNone_IsNull()
     {
         Assert.Null(SimilarityDimension.Of(new([Set([0.5, 0.5])])));
-        Assert.Null(SimilarityDimension.Of(new([new Repetition([Set([1.0, 0.5])], 4)])));
+        Assert.Null(SimilarityDimension.Of(new([new Repetition([Set([0.5, 1.0])], 4)])));
         Assert.Null(SimilarityDimension.Of(new([new Repetition([Set([0.5, 0.5])], 4)], Composition.Componentwise)));
         // One half grows as much as the other shrinks.
         Assert.Null(SimilarityDimension.Of(new([new Repetition([Set([2]), Set([0.5])], 4)])));
