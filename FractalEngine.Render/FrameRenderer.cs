@@ -233,20 +233,28 @@ public sealed class FrameRenderer : IDisposable
             _imagePass.Draw(layer);
         }
 
-        // An open menu or dialog lies over texts, which lie over panels.
-        var isInFront = ui?.IsModal == true;
+        DrawOverlay(_resolvedTarget, ui, overlay);
+        return _resolvedTarget;
+    }
+
+    private void DrawOverlay(Framebuffer target, UserInterface? ui, IReadOnlyList<OverlayPanel> overlay)
+    {
+        // An open menu, a dialog or a tooltip lies over texts, which lie over panels. A question lies over all of these.
+        var isInFront = ui is { IsModal: true } or { HasTooltip: true };
         if (ui is not null && !isInFront)
         {
-            _overlayPass.Draw(ui, _resolvedTarget.Width, _resolvedTarget.Height);
+            _overlayPass.Draw(ui, target.Width, target.Height);
         }
 
-        var area = ui?.OverlayArea ?? new(0, 0, _resolvedTarget.Width, _resolvedTarget.Height);
-        _overlayPass.Draw(overlay, area, ui?.Sheet.CellHeight, _resolvedTarget.Width, _resolvedTarget.Height);
+        var frame = new UiRect(0, 0, target.Width, target.Height);
+        var texts = overlay.Where(static panel => !panel.IsQuestion).ToArray();
+        _overlayPass.DrawTexts(texts, ui?.OverlayArea ?? frame, ui?.Sheet.CellHeight, target.Width, target.Height);
         if (ui is not null && isInFront)
         {
-            _overlayPass.Draw(ui, _resolvedTarget.Width, _resolvedTarget.Height);
+            _overlayPass.Draw(ui, target.Width, target.Height);
         }
 
-        return _resolvedTarget;
+        var questions = overlay.Where(static panel => panel.IsQuestion).ToArray();
+        _overlayPass.DrawQuestions(questions, frame, ui?.Sheet.CellHeight, target.Width, target.Height);
     }
 }

@@ -15,4 +15,8 @@ namespace FractalEngine.Render;
 /// <param name="Optimisations">Counts of the other optimisations.</param>
 public readonly record struct FrameStatistics(
     int InstanceCount, long TriangleCount, CullingStatistics Culling, double MinProjectedSize, int CullCount, long UploadedBytes,
-    TimeSpan CullWaitTime, OptimisationStatistics Optimisations);
+    TimeSpan CullWaitTime, OptimisationStatistics Optimisations)
+{
+    /// <summary>Number of calls by which the last frame drew the triangles of the scene, those of depth maps not counted.</summary>
+    public int DrawCallCount { get; init; }
+}

@@ -20,6 +20,7 @@ public sealed class SceneRenderer : IDisposable
     private IReadOnlyList<SphereInstance> _spheres = [];
     private RedundancyCounts _frameUploads;
     private RedundancyCounts _frameStateChanges;
+    private int _frameDrawCalls;
 
     /// <summary>Uploads a scene, on the context's thread.</summary>
     /// <param name="context">Context to draw in. It must outlive this renderer.</param>
@@ -77,7 +78,10 @@ public sealed class SceneRenderer : IDisposable
     /// </summary>
     public FrameStatistics Statistics => new(
         Culler.InstanceCount, Culler.TriangleCount, Culler.Statistics, Culler.MinProjectedSize, Culler.CullCount, Culler.UploadedBytes,
-        Culler.CullWaitTime, OptimisationStatistics);
+        Culler.CullWaitTime, OptimisationStatistics)
+    {
+        DrawCallCount = _frameDrawCalls,
+    };
 
     /// <summary>Size in pixels below which the last frame drew a sub-fractal as one instance.</summary>
     public double MinProjectedSize => Culler.MinProjectedSize;
@@ -190,6 +194,7 @@ public sealed class SceneRenderer : IDisposable
     {
         var uploadsBefore = UploadCounts;
         var stateChangesBefore = StateChangeCounts;
+        var drawCallsBefore = Context.Resources.State.DrawCallCount;
         CullFrame(in frame, settings);
         if (nextFrame is { } next && _effectiveCulling.Resolve(settings) is { } culling)
         {
@@ -199,6 +204,7 @@ public sealed class SceneRenderer : IDisposable
         _objectsPass.Draw(in frame, _spheres, settings);
         _frameUploads = UploadCounts - uploadsBefore;
         _frameStateChanges = StateChangeCounts - stateChangesBefore;
+        _frameDrawCalls = (int)(Context.Resources.State.DrawCallCount - drawCallsBefore);
     }
 
     private void CullFrame(in FrameView frame, RenderSettings settings)

@@ -35,6 +35,19 @@ public sealed record View(Camera Camera, Projection Projection)
             : throw new ArgumentException("expected a positive and finite aspect ratio", nameof(Aspect));
     }
 
+    /// <summary>
+    /// How far the middle of the image lies to the right of that of the frame, as a part of the frame's width: above −0.5 and below 0.5. It
+    /// moves the image where panels cover a side of the frame. Views with an <see cref="Aspect"/> stay in the middle.
+    /// </summary>
+    /// <exception cref="ArgumentException">The number is out of its range.</exception>
+    public double HorizontalShift
+    {
+        get;
+        init => field = value is > -0.5 and < 0.5
+            ? value
+            : throw new ArgumentException("expected a shift by less than half of the frame", nameof(HorizontalShift));
+    }
+
     /// <summary>Colour behind the scene; null for the scene's own, or for that of the settings where it has none.</summary>
     public Colour? Background { get; init; }
 
@@ -95,9 +108,18 @@ public sealed record View(Camera Camera, Projection Projection)
     /// <summary>Returns the part of a frame that shows the scene: all of it, or the largest centred part of the requested aspect.</summary>
     /// <param name="width">Width of the frame in pixels.</param>
     /// <param name="height">Height of the frame in pixels.</param>
-    /// <returns>A rectangle in whole pixels, from the upper left corner.</returns>
+    /// <returns>
+    /// A rectangle in whole pixels, from the upper left corner. With a <see cref="HorizontalShift"/> it reaches beyond one side of the
+    /// frame, as far as that takes to have the middle of the image in its own.
+    /// </returns>
     public (int X, int Y, int Width, int Height) Viewport(int width, int height)
     {
+        if (Aspect is null && HorizontalShift != 0)
+        {
+            var shift = ShiftInPixels(width);
+            return (Math.Min(0, 2 * shift), 0, width + (2 * Math.Abs(shift)), height);
+        }
+
         var aspect = EffectiveAspect(width, height);
         var viewportWidth = Math.Clamp((int)Math.Round(height * aspect), 1, width);
         var viewportHeight = Math.Clamp((int)Math.Round(width / aspect), 1, height);
@@ -197,7 +219,8 @@ public sealed record View(Camera Camera, Projection Projection)
         var farthestDepth = centre.Z + halfSize.Z;
         var depthScale = Projection == Projection.Perspective ? farthestDepth : 1;
         var halfHeight = HalfHeight;
-        return farthestDepth > 0 && Math.Abs(centre.X) - halfSize.X < halfHeight * (Aspect ?? aspect) * depthScale
+        var widthToHeight = Aspect ?? (aspect * (1 + (2 * Math.Abs(HorizontalShift))));
+        return farthestDepth > 0 && Math.Abs(centre.X) - halfSize.X < halfHeight * widthToHeight * depthScale
             && Math.Abs(centre.Y) - halfSize.Y < halfHeight * depthScale;
     }
 
@@ -209,7 +232,10 @@ public sealed record View(Camera Camera, Projection Projection)
     }
 
     /// <summary>Returns width divided by height of the viewport, exact where the view requests an aspect.</summary>
-    internal double EffectiveAspect(int width, int height) => Aspect ?? ((double)width / height);
+    internal double EffectiveAspect(int width, int height) =>
+        Aspect ?? ((double)(width + (2 * Math.Abs(ShiftInPixels(width)))) / height);
+
+    private int ShiftInPixels(int width) => (int)Math.Round(HorizontalShift * width);
 
     /// <summary>Returns the depth of a box's centre, and half of its extent along the viewing direction.</summary>
     private (double CentreDepth, double HalfExtent) DepthExtent(BoundingBox box)

@@ -7,4 +7,10 @@ namespace FractalEngine.App.Window;
 /// <param name="Projection">The projection of the view.</param>
 /// <param name="OrthographicHeight">The visible height in scene units; null where it follows the camera.</param>
 /// <param name="MoveCount">The number of moves within a fractal, whose positions the camera itself does not hold.</param>
-internal sealed record CameraPose(Camera Camera, Projection Projection, double? OrthographicHeight, long MoveCount);
+internal sealed record CameraPose(Camera Camera, Projection Projection, double? OrthographicHeight, long MoveCount)
+{
+    /// <summary>
+    /// Width divided by height of the frame that the whole scene was framed for, and the camera not moved since; null for all other views.
+    /// </summary>
+    public double? FramedAspect { get; init; }
+}

@@ -19,6 +19,7 @@ internal sealed class ChoicePrompt(string title, IEnumerable<string> details, pa
     ])
     {
         Title = title,
+        IsQuestion = true,
     };
 
     /// <inheritdoc/>

@@ -12,16 +12,15 @@ namespace FractalEngine.App.Window;
 /// Progress and errors are shown in the overlay. A file that can't be loaded leaves the document as it is.
 /// </summary>
 /// <param name="window">The window that shows the document.</param>
+/// <param name="area">The part of the window that panels leave free.</param>
 /// <param name="overlay">The overlay of the window.</param>
 /// <param name="options">The options of the window.</param>
 /// <param name="opened">Called with the full path of each file that was opened.</param>
 /// <param name="report">Shows a message.</param>
-internal sealed class DocumentLoader(
-    RenderWindow window, WindowOverlay overlay, WindowOptions options, Action<string> opened, Action<string> report) : IDisposable
+internal sealed partial class DocumentLoader(
+    RenderWindow window, ViewArea area, WindowOverlay overlay, WindowOptions options, Action<string> opened, Action<string> report)
+    : IDisposable
 {
-    // A file that is faulty only because it is still being written is mended sooner.
-    private static readonly TimeSpan FaultDelay = TimeSpan.FromSeconds(0.2);
-
     private readonly FileWatcher? _watcher = options.WatchesFiles ? new(window.Wake) : null;
     private readonly AssetCache _cache = new();
     private string _path = "";
@@ -132,7 +131,7 @@ internal sealed class DocumentLoader(
             }
         }
 
-        _load = new(path, options.Load with { EditedTexts = edits.Texts }, settings, window.Aspect, _cache, previous, window.Wake);
+        _load = new(path, options.Load with { EditedTexts = edits.Texts }, settings, area.Aspect, _cache, previous, window.Wake);
     }
 
     private void ShowTitle(string path)
@@ -189,7 +188,7 @@ internal sealed class DocumentLoader(
         try
         {
             // Before anything of the present document is given up: the driver may refuse what is new.
-            document = new(window, file, preparation, options, previous, previous?.Edits ?? FileEdits.None);
+            document = new(window, area, file, preparation, options, previous, previous?.Edits ?? FileEdits.None);
         }
         catch (Exception exception) when (exception is FractalEngineException or OutOfMemoryException)
         {
@@ -230,54 +229,6 @@ internal sealed class DocumentLoader(
         }
 
         return Redraw.Scene;
-    }
-
-    /// <summary>
-    /// Keeps the document, and says why the file can't be loaded: at once, or after a while if the file may be unfinished.
-    /// </summary>
-    private Redraw Refuse(BackgroundLoad load, string error, TimeSpan now)
-    {
-        var isReload = Document is not null && load.Path == _path;
-        if (Document is null || isReload)
-        {
-            // What is wrong may be mended in any file that the load has come to, or in one that was fine before.
-            _watcher?.Watch(load.Files);
-        }
-
-        if (isReload)
-        {
-            _pendingFault = (error, now + FaultDelay);
-            return Redraw.None;
-        }
-
-        Console.Error.WriteLine(error);
-        if (Document is null)
-        {
-            overlay.Error = error;
-        }
-        else
-        {
-            overlay.ShowProblem(error, now);
-        }
-
-        return Redraw.Overlay;
-    }
-
-    private Redraw PollFault(TimeSpan now)
-    {
-        if (_pendingFault is not var (error, time) || now < time)
-        {
-            return Redraw.None;
-        }
-
-        _pendingFault = null;
-        if (overlay.Error != error)
-        {
-            Console.Error.WriteLine(error);
-        }
-
-        overlay.Error = error;
-        return Redraw.Overlay;
     }
 
     private Redraw PollFirstSight()

@@ -10,7 +10,7 @@ namespace FractalEngine.App.Window;
 /// A camera that moves freely through a scene, and into a fractal to any depth. Within a fractal its position is a
 /// <see cref="FractalAddress"/>, and distances are in a unit that changes with the depth.
 /// </summary>
-internal sealed class FlyingCamera
+internal sealed partial class FlyingCamera
 {
     // Sizes of the scene per second: the scene is crossed in about three seconds.
     private const double SceneSizesPerSecond = 0.35;
@@ -27,8 +27,9 @@ internal sealed class FlyingCamera
     // Depth of the far plane divided by the distance of the farthest drawn point.
     private const double FarPlaneFactor = 1.01;
 
-    // The addresses of states would fill the memory in deeper zooms. Such a state returns as exactly as a world position can.
-    private const int MaxStateDepth = 10_000;
+    // A larger step of a zoom is divided: at the edges of a wide frame, too, one comes closer to a surface by less than its distance.
+    private const double MinZoomStep = 0.85;
+    private const int MaxZoomSteps = 200;
 
     // Limits the roots that are drawn around the camera. Maps that hardly shrink lead to many ancestors of a similar size.
     private const int MaxAncestors = 1000;
@@ -47,15 +48,16 @@ internal sealed class FlyingCamera
     /// <param name="orthographicHeight">The initial visible height in scene units; null where it follows the camera.</param>
     /// <param name="fractal">The fractal that the camera can enter to any depth; null for none.</param>
     /// <param name="scene">The scene to frame; null to frame its bounds.</param>
+    /// <param name="framedAspect">Width divided by height of the frame for which the camera frames the scene; null for none.</param>
     public FlyingCamera(
         BoundingBox bounds, Camera camera, Projection projection, double? orthographicHeight, FractalLocation? fractal = null,
-        LoadedScene? scene = null)
+        LoadedScene? scene = null, double? framedAspect = null)
     {
         _scene = scene;
         _fractal = fractal;
         _sceneBounds = bounds.IsEmpty ? new(-Vector.One, Vector.One) : bounds;
         _sceneSize = Math.Max(_sceneBounds.Diagonal, 1e-9 * (1 + _sceneBounds.Centre.MaxAbsComponent()));
-        _initialPose = new(camera, projection, orthographicHeight, 0);
+        _initialPose = new(camera, projection, orthographicHeight, 0) { FramedAspect = framedAspect };
         Pose = _initialPose;
         FocusDistance = DistanceToCentre(camera);
         ResetFractalAddress();
@@ -63,13 +65,6 @@ internal sealed class FlyingCamera
 
     /// <summary>The state of the camera, which changes with every movement.</summary>
     public CameraPose Pose { get; private set; }
-
-    /// <summary>The present state, for <see cref="Restore"/>.</summary>
-    public CameraState State =>
-        new(Pose, Camera, FocusDistance, _address is { Depth: > 0 and <= MaxStateDepth } ? _address.Clone() : null)
-        {
-            Hierarchy = _fractal?.Hierarchy,
-        };
 
     /// <summary>The camera in world space, as far as double precision can express its position.</summary>
     public Camera Camera =>
@@ -143,11 +138,24 @@ internal sealed class FlyingCamera
     /// <param name="up">Likewise upwards.</param>
     public void Zoom(double factor, double right = 0, double up = 0)
     {
+        // Many notches at once would lead through a surface, to which a single one comes closer by less than its distance.
+        var steps = Math.Clamp((int)Math.Ceiling(Math.Log(factor) / Math.Log(MinZoomStep)), 1, MaxZoomSteps);
+        for (var step = 0; step < steps; step++)
+        {
+            ZoomOnce(Math.Pow(factor, 1.0 / steps), right, up);
+        }
+    }
+
+    private void ZoomOnce(double factor, double right, double up)
+    {
         if (_address is not null)
         {
             // Zooming in leads to the closest surface, however close it is. Zooming out leads away from it by as much.
-            var maxFocusDistance = Math.Max(1, factor) * MaxFocusDistanceRatio * _address.ClosestSurfaceDistance();
-            FocusDistance = factor > 1 && _address.Depth > 0 ? maxFocusDistance : Math.Min(FocusDistance, maxFocusDistance);
+            var surfaceDistance = _address.ClosestSurfaceDistance();
+            var maxFocusDistance = Math.Max(1, factor) * MaxFocusDistanceRatio * surfaceDistance;
+            FocusDistance = factor > 1 && _address.Depth > 0 ? maxFocusDistance
+                : factor > 1 ? Math.Min(FocusDistance, maxFocusDistance)
+                : Math.Clamp(FocusDistance, surfaceDistance, maxFocusDistance);
         }
 
         var halfHeight = Projection == Projection.Orthographic && OrthographicHeight is { } height
@@ -167,7 +175,7 @@ internal sealed class FlyingCamera
         if (distance > 0)
         {
             var rotation = CameraFraming.LookRotation(Pose.Camera.Handedness.Mirror(point));
-            Pose = Pose with { Camera = Pose.Camera with { Rotation = rotation } };
+            Pose = Pose with { Camera = Pose.Camera with { Rotation = rotation }, FramedAspect = null };
             FocusDistance = distance;
         }
     }
@@ -204,7 +212,8 @@ internal sealed class FlyingCamera
 
     /// <summary>Changes the angle of view, without moving the camera.</summary>
     /// <param name="degrees">The full vertical angle, more than 0 and less than 180 degrees.</param>
-    public void SetFieldOfView(double degrees) => Pose = Pose with { Camera = Pose.Camera with { FieldOfView = degrees } };
+    public void SetFieldOfView(double degrees) =>
+        Pose = Pose with { Camera = Pose.Camera with { FieldOfView = degrees }, FramedAspect = null };
 
     /// <summary>Takes a projection as it is, without moving the camera.</summary>
     /// <param name="projection">The projection of the view.</param>
@@ -241,96 +250,12 @@ internal sealed class FlyingCamera
         Pose = Pose with { Projection = Projection.Perspective, OrthographicHeight = null };
     }
 
-    /// <summary>Moves the camera so that the whole scene is visible in the present direction.</summary>
-    /// <param name="aspect">Width divided by height of the frame.</param>
-    public void FrameScene(double aspect) => FrameScene(Camera, aspect);
-
-    /// <summary>Moves the camera so that the whole scene is visible in another direction.</summary>
-    /// <param name="direction">The direction in which the camera looks, in the axes of a camera without rotation.</param>
-    /// <param name="aspect">Width divided by height of the frame.</param>
-    public void LookAlong(Vector direction, double aspect) =>
-        FrameScene(Camera with { Rotation = CameraFraming.LookRotation(direction) }, aspect);
-
-    /// <summary>Returns to the initial camera and projection.</summary>
-    public void Reset()
-    {
-        Pose = _initialPose;
-        FocusDistance = DistanceToCentre(Pose.Camera);
-        ResetFractalAddress();
-    }
-
-    /// <summary>Returns to a state of this camera, or of one for the same fractal.</summary>
-    public void Restore(CameraState state)
-    {
-        if (!ReferenceEquals(state.Hierarchy, _fractal?.Hierarchy))
-        {
-            // The fractal has been changed since.
-            Pose = state.Pose;
-            MoveTo(state.WorldCamera);
-            return;
-        }
-
-        if (_fractal is null || state.Address is not null)
-        {
-            _address = state.Address?.Clone();
-            FocusDistance = state.FocusDistance;
-        }
-        else
-        {
-            MoveTo(state.WorldCamera);
-        }
-
-        Pose = state.Pose;
-    }
-
-    /// <summary>Shows the same view as a camera for another scene, as exactly as a world position can.</summary>
-    public void ContinueFrom(FlyingCamera other)
-    {
-        if (SharesStatesWith(other))
-        {
-            Restore(other.State);
-        }
-        else
-        {
-            Pose = other.Pose;
-            MoveTo(other.Camera);
-        }
-    }
-
-    /// <summary>Tells whether the states of another camera can be restored here.</summary>
-    public bool SharesStatesWith(FlyingCamera other) =>
-        ReferenceEquals(_fractal?.Hierarchy, other._fractal?.Hierarchy) && _fractal?.ObjectToWorld == other._fractal?.ObjectToWorld;
-
-    /// <summary>Continues from another camera in world space.</summary>
-    public void MoveTo(Camera camera)
-    {
-        Pose = Pose with { Camera = camera };
-        FocusDistance = DistanceToCentre(camera);
-        ResetFractalAddress();
-    }
-
-    private void FrameScene(Camera camera, double aspect)
-    {
-        var (framed, height) = (CameraFraming.Frame(camera, _sceneBounds, aspect), (double?)null);
-        if (_scene is not null)
-        {
-            framed = CameraFraming.FrameScene(camera, _scene, aspect);
-            (framed, height) = Projection == Projection.Orthographic
-                ? CameraFraming.FrameSceneOrthographic(framed, _scene, aspect)
-                : (framed, null);
-        }
-
-        Pose = Pose with { Camera = framed, OrthographicHeight = height };
-        FocusDistance = DistanceToCentre(Pose.Camera);
-        ResetFractalAddress();
-    }
-
     /// <summary>Takes a moved camera. Within a fractal its position is a displacement in the present unit.</summary>
     private void Apply(Camera camera)
     {
         if (_address is null)
         {
-            Pose = Pose with { Camera = camera };
+            Pose = Pose with { Camera = camera, FramedAspect = camera == Pose.Camera ? Pose.FramedAspect : null };
             return;
         }
 
@@ -342,19 +267,8 @@ internal sealed class FlyingCamera
         {
             Camera = camera with { Position = Vector.Zero },
             MoveCount = Pose.MoveCount + (displacement == Vector.Zero ? 0 : 1),
+            FramedAspect = displacement == Vector.Zero && camera.Rotation == Pose.Camera.Rotation ? Pose.FramedAspect : null,
         };
-    }
-
-    /// <summary>Computes the address of the present camera in the fractal, if the scene has one.</summary>
-    private void ResetFractalAddress()
-    {
-        if (_fractal is not null)
-        {
-            _address = new(_fractal.Hierarchy, _fractal.ObjectToWorld, Pose.Camera.Position);
-            _address.Move(Vector.Zero);
-            FocusDistance *= Math.Exp(-_address.LogUnit);
-            Pose = Pose with { Camera = Pose.Camera with { Position = Vector.Zero }, MoveCount = Pose.MoveCount + 1 };
-        }
     }
 
     private double DistanceToCentre(Camera camera)

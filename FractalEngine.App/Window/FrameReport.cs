@@ -1,3 +1,6 @@
+using System.Globalization;
+using System.Numerics;
+using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Visibility;
 using FractalEngine.Render;
 using static System.FormattableString;
@@ -24,6 +27,12 @@ internal readonly record struct FrameReport(
         return [("Last frame", CostRows(statistics)), ("Optimisations", SavingsRows(statistics, frames))];
     }
 
+    /// <summary>Number of instances of all objects together, for people.</summary>
+    private string AllInstances => Renderer.Scene.Source.Objects
+        .Aggregate((BigInteger?)BigInteger.Zero, static (sum, placed) => sum + ((placed.Model as FractalModel)?.InstanceCount
+            ?? (placed.Model is FractalModel ? null : BigInteger.One))) is not { } count ? "infinitely many"
+        : count.ToString(count < 1_000_000_000_000 ? "N0" : "E1", CultureInfo.InvariantCulture);
+
     private (string Name, string Value)[] CostRows(FrameStatistics statistics)
     {
         var drawTime = DrawTime.TotalMilliseconds;
@@ -32,7 +41,8 @@ internal readonly record struct FrameReport(
         [
             ("draw time", Invariant($"{drawTime:F1} ms")),
             ("waited for culling", Invariant($"{cullTime:F1} ms")),
-            ("instances", Invariant($"{statistics.InstanceCount:N0}")),
+            ("instances", Invariant($"{statistics.InstanceCount:N0} of {AllInstances}")),
+            ("draw calls", Invariant($"{statistics.DrawCallCount:N0}")),
             ("triangles", Invariant($"{statistics.TriangleCount:N0}")),
             ("visited nodes", Invariant($"{statistics.Culling.VisitedNodes:N0}")),
             ("proxies", Invariant($"{statistics.Culling.Proxies:N0}")),

@@ -14,7 +14,7 @@ namespace FractalEngine.App.Window;
 /// The physics of a scene in a window. Colliders are built in the background; until then the commands answer that they are not ready.
 /// </summary>
 /// <remarks>Commands return a message for the user.</remarks>
-internal sealed class ScenePhysics : IDisposable
+internal sealed partial class ScenePhysics : IDisposable
 {
     private const string OutOfRangeMessage = "a body has left the range of numbers: R resets all bodies";
 
@@ -166,83 +166,6 @@ internal sealed class ScenePhysics : IDisposable
         return true;
     }
 
-    /// <summary>Pauses the simulation, or resumes it.</summary>
-    public string TogglePause()
-    {
-        IsPaused = _isBroken || !IsPaused;
-        if (_isBroken)
-        {
-            return OutOfRangeMessage;
-        }
-
-        return IsPaused ? "paused: N makes one step" : "running";
-    }
-
-    /// <summary>Pauses the simulation, and makes one step.</summary>
-    public string StepOnce()
-    {
-        IsPaused = true;
-        if (_isBroken)
-        {
-            return OutOfRangeMessage;
-        }
-
-        return WhenReady(world =>
-        {
-            MakeSteps(() =>
-            {
-                world.Step();
-                return 1;
-            });
-            return FormattableString.Invariant($"step {world.StepCount:N0}, {world.Time:F3} s");
-        });
-    }
-
-    /// <summary>Returns all bodies and moving objects to their initial states, and removes those that were dropped.</summary>
-    public string Reset() => WhenReady(world =>
-    {
-        world.Reset();
-        _isBroken = false;
-        return "bodies reset";
-    });
-
-    /// <summary>Drops a sphere where the camera looks.</summary>
-    public string DropSphere(Camera camera) => WhenReady(world => BodySpawner.DropSphere(world, _sceneSize, camera));
-
-    /// <summary>Throws a sphere from the camera straight ahead.</summary>
-    public string ThrowSphere(Camera camera) => WhenReady(world => BodySpawner.ThrowSphere(world, _sceneSize, camera));
-
-    /// <summary>Lets the player walk, or the camera fly.</summary>
-    /// <param name="camera">The place of a new player where the scene has none.</param>
-    public string ToggleWalking(Camera camera) => WhenReady(world =>
-    {
-        if (world.Character is { IsActive: true } controller)
-        {
-            controller.IsActive = false;
-            return "flying";
-        }
-
-        if (!BodySpawner.TryActivatePlayer(world, _scene.Scene, _sceneSize, camera, out var problem))
-        {
-            return problem;
-        }
-
-        IsPaused = _isBroken;
-        return BodySpawner.HasGround(world)
-            ? "walking: W A S D move, Space jumps, P flies"
-            : "walking, but there is no ground below: P flies";
-    });
-
-    /// <summary>Switches all bodies to the next collider that fits the scene.</summary>
-    public string SwitchCollider() => WhenReady(world => ColliderSwitch.SwitchToNext(world, _scene));
-
-    /// <summary>Shows or hides the lines to closest points.</summary>
-    public string ToggleClosestPoints()
-    {
-        ShowsClosestPoints = !ShowsClosestPoints;
-        return ShowsClosestPoints ? "closest points and normals: shown" : "closest points and normals: hidden";
-    }
-
     /// <summary>Moves the drawn bodies and moving objects to their interpolated positions.</summary>
     public void ApplyTo(SceneRenderer renderer)
     {
@@ -325,8 +248,6 @@ internal sealed class ScenePhysics : IDisposable
             return null;
         }
     }
-
-    private string WhenReady(Func<PhysicsWorld, string> command) => World is { } world ? command(world) : NotReadyMessage;
 
     /// <summary>Makes and times steps. Pauses the simulation when a body leaves the range of a double.</summary>
     /// <param name="advance">Makes the steps, and returns their number.</param>

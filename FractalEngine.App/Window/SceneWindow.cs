@@ -13,7 +13,7 @@ namespace FractalEngine.App.Window;
 /// <see cref="DocumentLoader"/> loads files, <see cref="WindowActions"/> and <see cref="CameraControls"/> handle keys and mouse, and
 /// <see cref="WindowRenderer"/> draws frames.
 /// </remarks>
-internal sealed class SceneWindow : IDisposable
+internal sealed partial class SceneWindow : IDisposable
 {
     private static readonly TimeSpan FrameTime = TimeSpan.FromSeconds(1 / 60.0);
     private static readonly TimeSpan ProgressInterval = TimeSpan.FromSeconds(0.1);
@@ -27,6 +27,7 @@ internal sealed class SceneWindow : IDisposable
     private readonly WindowRenderer _windowRenderer;
     private readonly WindowOverlay _overlay = new();
     private readonly WindowTracing _tracing;
+    private readonly ViewArea _area;
     private readonly DocumentLoader _loader;
     private readonly WindowActions _actions;
     private readonly WindowInterface _interface;
@@ -48,7 +49,8 @@ internal sealed class SceneWindow : IDisposable
         _windowRenderer = new(_frameRenderer);
         _prompts = new(() => _window.ClipboardText);
         var recent = new RecentFiles(options.RecentFilesPath, Report);
-        _loader = new(_window, _overlay, options, recent.Add, Report);
+        _area = new(_window);
+        _loader = new(_window, _area, _overlay, options, recent.Add, Report);
         _tracing = new(options, _window.Wake);
         _files = new(_loader, _prompts, recent, Report, () => _actions!.Settings, () => _isClosing = true);
         _actions = new(_window, _windowRenderer, _overlay, _tracing, options.Settings) { Files = _files };
@@ -156,128 +158,6 @@ internal sealed class SceneWindow : IDisposable
         _redraw |= Redraw.Overlay;
     }
 
-    /// <summary>Passes an event to the open question, or else to the scene.</summary>
-    private void Dispatch(WindowEvent physicalEvent)
-    {
-        _actions.Document = Document;
-        if (_prompts.Current is null && HandleByInterface(physicalEvent))
-        {
-            return;
-        }
-
-        var windowEvent = _interface.Bindings.Translate(physicalEvent);
-        var promptBefore = _prompts.Current;
-        if (promptBefore is not null && windowEvent is MousePressed pressed)
-        {
-            // A click beside the lines of a question is none on the scene behind it.
-            if (pressed.Button == MouseButton.Left && _frameRenderer.AnswerAt(promptBefore.Panel, pressed.X, pressed.Y) is { } answer)
-            {
-                _prompts.Answer(answer);
-            }
-
-            _redraw |= Redraw.Overlay;
-        }
-        else if (!_prompts.Handle(windowEvent))
-        {
-            Handle(windowEvent);
-            if (windowEvent is KeyPressed)
-            {
-                _prompts.KeyHandled();
-            }
-        }
-        else
-        {
-            _redraw |= Redraw.Overlay;
-        }
-
-        _overlay.Prompt = _prompts.Current?.Panel;
-        if (_prompts.Current != promptBefore)
-        {
-            // Keys that are held now are released while the question is open, or were pressed for it.
-            Document?.ReleaseKeys();
-            _redraw |= Redraw.Overlay;
-        }
-    }
-
-    /// <summary>Passes an event to menus and panels, and runs what was chosen there.</summary>
-    /// <returns>True when the scene must not see the event.</returns>
-    private bool HandleByInterface(WindowEvent windowEvent)
-    {
-        var version = _interface.Ui.Version;
-        var isTaken = _interface.Handle(windowEvent);
-        while (_interface.TakeChosen() is { } action)
-        {
-            _redraw |= _actions.Run(action, _clock.Elapsed) | Redraw.Overlay;
-        }
-
-        _redraw |= _actions.TakeRequested();
-        if (_interface.Ui.Version != version)
-        {
-            _redraw |= Redraw.Overlay;
-        }
-
-        if (isTaken)
-        {
-            _interface.SaveSettings();
-        }
-
-        return isTaken;
-    }
-
-    private void Handle(WindowEvent windowEvent)
-    {
-        var wasMoving = Document?.IsMoving == true;
-        switch (windowEvent)
-        {
-            case KeyPressed { Key: Key.Escape } when Document?.Tool is { Selected: not null } or { Measure.IsActive: true }:
-                _redraw |= _actions.ClearSelection(_clock.Elapsed);
-                return;
-            case CloseRequested or KeyPressed { Key: Key.Escape }:
-                if (_prompts.Current is null)
-                {
-                    _files.Close();
-                }
-
-                return;
-            case WindowResized:
-                _redraw |= Redraw.Scene;
-                break;
-            case WindowExposed:
-                _redraw |= Redraw.Overlay;
-                break;
-            case VisibilityChanged visibility:
-                _isVisible = visibility.IsVisible;
-                _redraw |= Redraw.Overlay;
-                break;
-            case FileDropped dropped:
-                _files.Open(PathText.Shorten(dropped.Path));
-                break;
-            case KeyPressed { IsRepeat: false } pressed:
-                _redraw |= _actions.Handle(pressed, _clock.Elapsed);
-                _interface.SaveSettings();
-                break;
-        }
-
-        if (Document?.Handle(windowEvent, Math.Max(1, _window.Width), Math.Max(1, _window.Height)) == true)
-        {
-            _redraw |= Redraw.Scene;
-        }
-
-        // A slow frame between two clicks does not part a double click.
-        var time = _clock.Elapsed - _refreshTime;
-        if (Document?.Tool.Handle(windowEvent, (Math.Max(1, _window.Width), Math.Max(1, _window.Height)), time) is { } message)
-        {
-            _overlay.ShowMessage(message, _clock.Elapsed);
-            _redraw |= Redraw.Scene;
-        }
-
-        if (!wasMoving)
-        {
-            // Time begins to count with the event that starts a movement.
-            _lastAdvance = _clock.Elapsed;
-        }
-    }
-
     private void Advance()
     {
         var now = _clock.Elapsed;
@@ -311,7 +191,7 @@ internal sealed class SceneWindow : IDisposable
     {
         var start = _clock.Elapsed;
         _lastRefresh = start;
-        var needsDraw = _redraw.HasFlag(Redraw.Scene);
+        var needsDraw = _redraw.HasFlag(Redraw.Scene) | _area.Update(_interface.Ui);
         _redraw = Redraw.None;
         if (needsDraw)
         {
@@ -327,11 +207,17 @@ internal sealed class SceneWindow : IDisposable
         _overlay.FrameCounts = _windowRenderer.CountFrames((long)(start / FrameTime));
         _overlay.TraceText = _tracing.StatusText;
         _loader.TitleNote = _overlay.TraceText;
-        _overlay.HidesPhysics = _interface.IsShown && !_interface.HasRoomForPhysics;
-        _overlay.MessageReplacesStatus = _interface.IsShown && !_interface.HasRoomForTexts;
         _actions.Document = Document;
         _interface.Update(_window.Width, _window.Height);
+        // By the panels as they are now.
+        _overlay.HidesPhysics = _interface.IsShown && !_interface.HasRoomForPhysics;
+        _overlay.MessageReplacesStatus = _interface.IsShown && !_interface.HasRoomForTexts;
         _redraw |= _actions.TakeRequested();
+        if (_area.Update(_interface.Ui) && Document is not null)
+        {
+            _redraw |= Redraw.Scene;
+        }
+
         _frameRenderer.Present(_window, _tracing.Layer, _interface.Ui, _overlay.Panels);
         if (needsDraw)
         {

@@ -46,6 +46,7 @@ internal sealed class TextPrompt(
             ])
             {
                 Title = title,
+                IsQuestion = true,
             };
         }
     }

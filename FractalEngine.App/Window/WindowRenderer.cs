@@ -113,7 +113,8 @@ internal sealed class WindowRenderer(FrameRenderer frame)
         frame.Capture(layer, ui, overlay);
 
     /// <summary>
-    /// Captures the scene without overlay in full quality: the view on the screen while the camera moves, else the present one.
+    /// Captures the scene without overlay in full quality, in the middle of the image: the view on the screen while the camera moves, else
+    /// the present one.
     /// </summary>
     /// <remarks>Overwrites the frame, so the window must be drawn again.</remarks>
     /// <param name="document">The document to capture.</param>
@@ -122,7 +123,9 @@ internal sealed class WindowRenderer(FrameRenderer frame)
     /// <param name="height">Height of the image in pixels.</param>
     public PixelImage Capture(Document document, RenderSettings settings, int width, int height)
     {
-        var view = document.IsMoving && _shownView is { } shownView ? shownView : document.UpdateView((double)width / height);
+        var view = document.IsMoving && _shownView is { } shownView
+            ? shownView with { HorizontalShift = 0 }
+            : document.UpdateView((double)width / height, isBesidePanels: false);
         frame.Draw(document.Renderer, view, width, height, settings);
         return frame.Capture();
     }

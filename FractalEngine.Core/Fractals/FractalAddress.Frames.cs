@@ -78,7 +78,8 @@ public sealed partial class FractalAddress
     private bool TryEnter(int child)
     {
         var childToCamera = _frameToCamera * _path.CurrentNode.ChildMaps[child].ToAffineMap();
-        if (Depth >= FractalLimits.MaxDepth || IsNearlySingular(childToCamera.Linear))
+        if (Depth >= FractalLimits.MaxDepth || IsNearlySingular(childToCamera.Linear)
+            || LogUnit + (Math.Log(Math.Abs(childToCamera.Linear.Determinant())) / 3) < _smallestUnit)
         {
             return false;
         }

@@ -29,12 +29,19 @@ public sealed partial class FractalAddress
     // Among surfaces that are never far, as in a solid, distances are no smaller than this fraction of the sub-fractal's size.
     private const double MinRelativeDistance = 1e-3;
 
+    // A move tells the position to about this part of its length and of the distance before: what is smaller can't be entered by it.
+    private const double MoveResolution = 1e-16;
+
     private readonly LodHierarchy _hierarchy;
     private readonly ClosestNodeSearch _search;
     private readonly FractalPath _path;
     private double? _closestDistance;
     private AffineMap _frameToCamera;
     private int _movesSinceFrameChange;
+
+    // Natural logarithm of the smallest unit that the present move can lead to, scene units. Within a solid without a smallest level,
+    // sub-fractals are entered without end otherwise.
+    private double _smallestUnit = double.NegativeInfinity;
 
     /// <summary>Creates the address of a camera relative to the whole fractal.</summary>
     /// <param name="hierarchy">Hierarchy of the fractal.</param>
@@ -83,6 +90,8 @@ public sealed partial class FractalAddress
     public void Move(Vector displacement)
     {
         _closestDistance = null;
+        var reach = Math.Max(_frameToCamera.Translation.MaxAbsComponent(), displacement.MaxAbsComponent());
+        _smallestUnit = LogUnit + Math.Log(MoveResolution * reach);
         _frameToCamera = _frameToCamera with { Translation = _frameToCamera.Translation - displacement };
         var depth = Depth;
         UpdateFrame();

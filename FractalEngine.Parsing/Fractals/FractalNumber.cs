@@ -16,6 +16,12 @@ namespace FractalEngine.Parsing.Fractals;
 public sealed record FractalNumber(FractalNumberRole Role, string Name, int Component, int Offset, int Length, double Value)
 {
     /// <summary>
+    /// Where the call of an argument stands: the number of its set in the file and its place in the set, both from 0, and the number of
+    /// entries of the set. Null for other numbers.
+    /// </summary>
+    public (int Set, int Index, int SetSize)? Call { get; init; }
+
+    /// <summary>
     /// Lists the numbers of a fractal in their order: all components of its vectors, the arguments of its calls, and the depths of its
     /// recursives.
     /// </summary>

@@ -17,6 +17,8 @@ public sealed partial class FractalParser
     private Dictionary<int, FractalNumberRole>? _vectorRoles;
     private int _outputCount;
     private int _callCount;
+    private int _setCount;
+    private int _callIndex;
 
     /// <summary>Parses a file, and lists its numbers.</summary>
     internal static ImmutableArray<FractalNumber> FindNumbers(SourceText source)
@@ -68,7 +70,10 @@ public sealed partial class FractalParser
         _callCount += index == 0 ? 1 : 0;
         _numbers!.Add(new(
             FractalNumberRole.Argument, FormattableString.Invariant($"{name} {_callCount}"), index, start.Offset,
-            end.Offset - start.Offset, vector));
+            end.Offset - start.Offset, vector)
+        {
+            Call = (_setCount, _callIndex, 0),
+        });
 
         // Each parameter has a value of its own, by which it is recognised in the outputs.
         var markers = Enumerable.Range(0, function.ParameterCount)
@@ -81,6 +86,18 @@ public sealed partial class FractalParser
                 AddRole(vector, OutputRoles[output]);
             }
         }
+    }
+
+    /// <summary>Completes what is listed of the arguments of a set.</summary>
+    /// <param name="size">Number of entries of the set.</param>
+    private void ListSet(int size)
+    {
+        for (var i = (_numbers?.Count ?? 0) - 1; i >= 0 && _numbers![i].Call is { SetSize: 0 } call; i--)
+        {
+            _numbers[i] = _numbers[i] with { Call = call with { SetSize = size } };
+        }
+
+        _setCount++;
     }
 
     /// <summary>Records what a vector means that a function uses itself.</summary>

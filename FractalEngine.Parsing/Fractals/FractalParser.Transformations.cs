@@ -143,6 +143,7 @@ public sealed partial class FractalParser
 
         for (var first = true; rest.Current != ']'; first = false)
         {
+            _callIndex = transformations.Count;
             if ((!first && !ParseSeparator(rest, out rest)) || !ParseCall(rest, out var transformation, out rest))
             {
                 return false;
@@ -156,6 +157,7 @@ public sealed partial class FractalParser
             }
         }
 
+        ListSet(transformations.Count);
         set = new(transformations.DrainToImmutable());
         return ParseChar(rest, ']', out rest);
     }

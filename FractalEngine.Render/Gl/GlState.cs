@@ -32,6 +32,9 @@ internal sealed class GlState
         }
     }
 
+    /// <summary>Number of calls that have drawn triangles since the context was opened.</summary>
+    public long DrawCallCount { get; set; }
+
     /// <summary>Makes a vertex array current; 0 for none.</summary>
     public void BindVertexArray(int name)
     {

@@ -43,6 +43,7 @@ internal sealed class VertexArray : GlObject
         if (indexCount > 0 && instanceCount > 0)
         {
             Bind();
+            Resources.State.DrawCallCount++;
             GL.DrawElementsInstanced(
                 PrimitiveType.Triangles, indexCount, DrawElementsType.UnsignedInt, (nint)firstIndex * sizeof(uint), instanceCount);
         }

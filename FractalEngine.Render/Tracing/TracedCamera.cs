@@ -13,6 +13,9 @@ internal sealed class TracedCamera
     private readonly double _footprint;
     private readonly (double Near, double Far) _clip;
 
+    // May reach beyond the sides of the frame.
+    private readonly (int X, int Y, int Width, int Height) _image;
+
     /// <summary>Prepares a view for a frame.</summary>
     /// <param name="view">Camera and projection.</param>
     /// <param name="width">Width of the frame in pixels.</param>
@@ -22,10 +25,12 @@ internal sealed class TracedCamera
     {
         _camera = view.Camera;
         _isPerspective = view.Projection == Projection.Perspective;
-        Viewport = view.Viewport(width, height);
+        _image = view.Viewport(width, height);
+        var (left, right) = (Math.Max(0, _image.X), Math.Min(width, _image.X + _image.Width));
+        Viewport = _image with { X = left, Width = right - left };
         _halfHeight = view.HalfHeight;
         _halfWidth = _halfHeight * view.EffectiveAspect(width, height);
-        _footprint = footprintPixels * 2 * _halfHeight / Viewport.Height;
+        _footprint = footprintPixels * 2 * _halfHeight / _image.Height;
         _clip = view.FixedClipPlanes ?? (0, double.PositiveInfinity);
     }
 
@@ -41,8 +46,8 @@ internal sealed class TracedCamera
     public Ray CreateRay(
         int x, int y, (double U, double V) point, out RayFootprint footprint, out (double Near, double Far) clip)
     {
-        var across = (((x + 0.5 + Tent(point.U) - Viewport.X) / Viewport.Width) * 2) - 1;
-        var down = (((y + 0.5 + Tent(point.V) - Viewport.Y) / Viewport.Height) * 2) - 1;
+        var across = (((x + 0.5 + Tent(point.U) - _image.X) / _image.Width) * 2) - 1;
+        var down = (((y + 0.5 + Tent(point.V) - _image.Y) / _image.Height) * 2) - 1;
         var (right, up) = (across * _halfWidth, -down * _halfHeight);
         var (axisRight, axisUp, forward) = _camera.LocalAxes;
         if (_isPerspective)

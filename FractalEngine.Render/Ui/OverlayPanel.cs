@@ -13,6 +13,9 @@ public sealed record OverlayPanel(OverlayAnchor Anchor, ImmutableArray<OverlayLi
     /// <summary>Completed fraction from 0 to 1, shown as a bar below the lines; null for no bar.</summary>
     public double? Progress { get; init; }
 
+    /// <summary>Whether the panel waits for an answer, and lies over menus and panels until it has one.</summary>
+    public bool IsQuestion { get; init; }
+
     /// <summary>Creates a panel of plain lines.</summary>
     public static OverlayPanel OfText(OverlayAnchor anchor, params ReadOnlySpan<string> lines) =>
         new(anchor, [.. lines.ToArray().Select(line => new OverlayLine(line))]);
@@ -29,7 +32,7 @@ public sealed record OverlayPanel(OverlayAnchor Anchor, ImmutableArray<OverlayLi
 
     /// <inheritdoc/>
     public bool Equals(OverlayPanel? other) =>
-        other is not null && Anchor == other.Anchor && Title == other.Title && Progress.Equals(other.Progress)
+        other is not null && (Anchor, IsQuestion, Title) == (other.Anchor, other.IsQuestion, other.Title) && Progress.Equals(other.Progress)
         && Lines.SequenceEqual(other.Lines);
 
     /// <inheritdoc/>

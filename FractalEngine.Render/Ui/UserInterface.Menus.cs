@@ -14,6 +14,7 @@ public sealed partial class UserInterface
     private bool _isDialogBuilt;
     private int _menuX;
     private int _focusNext;
+    private int _menuStep;
 
     /// <summary>Adds the menu bar at the upper edge of the frame.</summary>
     /// <param name="build">Adds the menus.</param>
@@ -157,8 +158,10 @@ public sealed partial class UserInterface
         {
             BeginRoot(IdOf("dialog"), new(0, 0, _width, _height), layer: 2);
             Fill(bounds, Theme.Panel);
-            Fill(bounds with { Height = TitleHeight }, Theme.Title);
-            Print(title, new(bounds.X + Padding, bounds.Y, bounds.Width - (2 * Padding), TitleHeight), Theme.Accent);
+            var bar = bounds with { Height = TitleHeight };
+            Fill(bar, Theme.Title);
+            Print(title, bar.Inset(Padding) with { Y = bar.Y, Height = bar.Height }, Theme.Accent);
+            var isClosed = AddCloseButton(bar);
             _area = new(bounds.X + Padding, bounds.Y + TitleHeight + Padding, bounds.Width - (2 * Padding), bounds.Height);
             _cursorY = _area.Y;
             Row(1);
@@ -174,7 +177,7 @@ public sealed partial class UserInterface
             AddBody(panel, new(bounds.X, _cursorY, bounds.Width, bounds.Bottom - _cursorY));
             _clip = new(0, 0, _width, _height);
             Frame(bounds, Theme.Border);
-            if (_input.IsPressed && !bounds.Contains(_input.X, _input.Y))
+            if (isClosed || (_input.IsPressed && !bounds.Contains(_input.X, _input.Y)))
             {
                 CloseDialog();
             }
@@ -223,17 +226,8 @@ public sealed partial class UserInterface
         SwitchMenuByArrows();
     }
 
-    private void SwitchMenuByArrows()
-    {
-        var direction = (_input.TakeKey(Key.Right) ? 1 : 0) - (_input.TakeKey(Key.Left) ? 1 : 0);
-        if (direction != 0 && _openMenu is not null)
-        {
-            _isKeyTaken = true;
-            _menuStep = direction;
-        }
-    }
-
-    private void DrawTooltip()
+    /// <summary>Moves the keyboard on and opens the next menu, as arrow keys have asked for while the widgets were added.</summary>
+    private void FinishArrows()
     {
         if (_focusNext is not (0 or -1) && _focusable.IndexOf(_focusNext) is >= 0 and var index)
         {
@@ -249,53 +243,15 @@ public sealed partial class UserInterface
         }
 
         _menuStep = 0;
-        if (_tooltip is null)
-        {
-            return;
-        }
+    }
 
-        _layer = 2;
-        _clip = new(0, 0, _width, _height);
-        var (left, right) = TooltipSpan();
-        var besides = Math.Max(_tooltipOwner.X - left, right - _tooltipOwner.Right) - (2 * Gap);
-        var isBesides = besides >= MinTooltipColumns * CellWidth;
-        var columns = Math.Max(1, Math.Min(MaxTooltipColumns, ((isBesides ? besides : _width) / CellWidth) - 2));
-        var lines = Wrap(_tooltip, columns).ToArray();
-        var width = (lines.Max(static line => line.Length) * CellWidth) + (2 * Gap);
-        var height = (lines.Length * LineHeight) + (2 * Gap);
-        var (x, y) = isBesides ? PlaceBesides(_tooltipOwner, right, width, height)
-            : IsModal && _tooltipOwner.Bottom > _height - height ? PlaceBelowPointer(width, height)
-            : (Math.Min(_tooltipOwner.X, _width - width), _height - height);
-        var bounds = new UiRect(x, y, width, height);
-        Fill(bounds, Theme.Title, 2);
-        Frame(bounds, Theme.Border);
-        for (var i = 0; i < lines.Length; i++)
+    private void SwitchMenuByArrows()
+    {
+        var direction = (_input.TakeKey(Key.Right) ? 1 : 0) - (_input.TakeKey(Key.Left) ? 1 : 0);
+        if (direction != 0 && _openMenu is not null)
         {
-            Print(lines[i], new(x + Gap, y + Gap + (i * LineHeight), width, LineHeight), Theme.Text);
+            _isKeyTaken = true;
+            _menuStep = direction;
         }
     }
-
-    /// <summary>
-    /// Returns how far a tooltip may reach to the left and right: to the panels on the other side, unless a menu or dialog is in front.
-    /// Between narrow columns there is no room, and the tooltip stands at the lower edge of the frame.
-    /// </summary>
-    private (int Left, int Right) TooltipSpan() => IsModal
-        ? (0, _width)
-        : (_tooltipOwner.X >= FreeArea.X ? FreeArea.X : 0, _tooltipOwner.Right <= FreeArea.Right ? FreeArea.Right : _width);
-
-    /// <summary>Places a tooltip beside its panel or menu, of which it covers no row.</summary>
-    private (int X, int Y) PlaceBesides(UiRect owner, int right, int width, int height)
-    {
-        var x = owner.Right + Gap + width <= right ? owner.Right + Gap : owner.X - Gap - width;
-        return (x, Math.Clamp((int)_input.Y - (height / 2), 0, Math.Max(0, _height - height)));
-    }
-
-    private (int X, int Y) PlaceBelowPointer(int width, int height)
-    {
-        var x = Math.Max(0, Math.Min((int)_input.X + CellWidth, _width - width));
-        var y = (int)_input.Y + LineHeight + Gap;
-        return (x, y + height > _height ? Math.Max(0, (int)_input.Y - height - Gap) : y);
-    }
-
-    private int _menuStep;
 }

@@ -1,5 +1,4 @@
 using System.Runtime.InteropServices;
-using FractalEngine.Core.Geometry;
 using FractalEngine.Render.Windowing;
 
 namespace FractalEngine.Render.Ui;
@@ -16,13 +15,6 @@ public sealed partial class UserInterface
 {
     // Builds after an event until nothing changes any more: a widget may act on what stands before it.
     private const int MaxBuilds = 4;
-
-    // Characters in a line of a tooltip: beside a panel at least, and at most.
-    private const int MinTooltipColumns = 24;
-    private const int MaxTooltipColumns = 60;
-
-    // Half a pixel: the shader smooths edges across one, which whole pixels need not.
-    private const float SquareCorner = 0.5f;
 
     private readonly Action<UserInterface> _build;
     private readonly Func<string> _readClipboard;
@@ -49,10 +41,8 @@ public sealed partial class UserInterface
     private bool _buildsAgain;
     private bool _isKeyTaken;
     private UiRect _clip;
+    private UiRect _viewArea;
     private string? _tooltip;
-
-    // The panel, menu or knob of the widget that it explains.
-    private UiRect _tooltipOwner;
 
     /// <summary>Makes an interface that is empty until it is built.</summary>
     /// <param name="build">Adds all widgets.</param>
@@ -101,10 +91,14 @@ public sealed partial class UserInterface
     /// </summary>
     public UiRect SceneArea { get; private set; }
 
+    /// <summary>
+    /// The part of the frame in whose middle a scene is seen: between the columns of panels that are not folded, or all of it where these
+    /// leave too little.
+    /// </summary>
+    public UiRect ViewArea { get; private set; }
+
     /// <summary>The part of the frame for texts over it: the free one where that is wide enough, else all below the menu bar.</summary>
-    internal UiRect OverlayArea => FreeArea.Width >= 0.4 * _width || FreeArea.Height <= 0
-        ? FreeArea
-        : new(0, FreeArea.Y, _width, FreeArea.Height);
+    internal UiRect OverlayArea => HasRoomIn(FreeArea) || FreeArea.Height <= 0 ? FreeArea : new(0, FreeArea.Y, _width, FreeArea.Height);
 
     /// <summary>True while a widget has the keyboard.</summary>
     public bool HasFocus => _focus != 0;
@@ -198,142 +192,6 @@ public sealed partial class UserInterface
         _scopes.Pop();
     }
 
-    private bool HandleMove(MouseMoved moved)
-    {
-        var wasOver = IsOver(_input.X, _input.Y);
-        _input.X = moved.X;
-        _input.Y = moved.Y;
-        if (_isSceneDrag)
-        {
-            return false;
-        }
-
-        var isOver = IsOver(moved.X, moved.Y);
-        if (isOver || wasOver || _active != 0)
-        {
-            Rebuild();
-        }
-
-        return isOver || _active != 0;
-    }
-
-    private bool HandlePress(MousePressed pressed)
-    {
-        _input.X = pressed.X;
-        _input.Y = pressed.Y;
-        _input.Modifiers = pressed.Modifiers;
-        var isOver = IsOver(pressed.X, pressed.Y);
-        Interaction++;
-        if (!isOver)
-        {
-            var closesMenu = _openMenu is not null;
-            _openMenu = null;
-            var lookedDifferent = closesMenu || _focus != 0;
-            CommitEdit();
-            _focus = 0;
-            _isSceneDrag = !closesMenu && _dialog is null;
-            if (lookedDifferent)
-            {
-                Rebuild();
-            }
-
-            return !_isSceneDrag;
-        }
-
-        if (pressed.Button == MouseButton.Left)
-        {
-            _input.IsPressed = true;
-            _input.IsDown = true;
-            _pressX = pressed.X;
-            Rebuild();
-        }
-
-        return true;
-    }
-
-    private bool HandleRelease(MouseReleased released)
-    {
-        _input.X = released.X;
-        _input.Y = released.Y;
-        if (_isSceneDrag)
-        {
-            _isSceneDrag = false;
-            return false;
-        }
-
-        if (released.Button == MouseButton.Left && _input.IsDown)
-        {
-            _input.IsReleased = true;
-            _input.IsDown = false;
-            Rebuild();
-            return true;
-        }
-
-        return IsOver(released.X, released.Y);
-    }
-
-    private bool HandleKey(KeyPressed pressed)
-    {
-        _keyCount++;
-        _input.Modifiers = pressed.Modifiers;
-        // A key that is pressed in the middle of a drag belongs to it.
-        Interaction += _active == 0 ? 1 : 0;
-        var startsMenu = pressed.Key == Key.F10 && _menuTitles.Count > 0;
-        if (_focus == 0 && !IsModal && !startsMenu && !(pressed.Key == Key.Tab && _focusable.Count > 0))
-        {
-            return false;
-        }
-
-        if (startsMenu)
-        {
-            OpenMenu(_openMenu is null ? _menuTitles[0] : null);
-            Rebuild();
-            return true;
-        }
-
-        _input.Key = pressed.Key;
-        _isKeyTaken = false;
-        Rebuild();
-        // Screenshots are taken of dialogs, too.
-        return _isKeyTaken || (_dialog is not null && pressed.Key is not (>= Key.F1 and <= Key.F12));
-    }
-
-    private bool HandleText(TextEntered entered)
-    {
-        if (_editing == 0)
-        {
-            return IsModal;
-        }
-
-        // The text of a key follows the key. It does not belong to a field that the key has just entered.
-        if (_focusKey != _keyCount)
-        {
-            Interaction++;
-            _input.Text = entered.Text;
-            Rebuild();
-        }
-
-        return true;
-    }
-
-    private bool IsOver(double x, double y) => _dialog is not null || RootAt(x, y) != 0;
-
-    private int RootAt(double x, double y)
-    {
-        var best = 0;
-        var bestLayer = _dialog is not null ? 2 : 0;
-        foreach (var (bounds, root, layer) in _roots)
-        {
-            if (layer >= bestLayer && bounds.Contains(x, y))
-            {
-                best = root;
-                bestLayer = layer;
-            }
-        }
-
-        return best;
-    }
-
     private void Rebuild()
     {
         for (var i = 0; i < MaxBuilds; i++)
@@ -366,6 +224,7 @@ public sealed partial class UserInterface
         _tooltip = null;
         _hoverRoot = _isSceneDrag ? 0 : RootAt(_input.X, _input.Y);
         FreeArea = _clip;
+        _viewArea = _clip;
         var wasDialog = _dialog;
         _isDialogBuilt = false;
         _build(this);
@@ -388,54 +247,20 @@ public sealed partial class UserInterface
             _editing = 0;
         }
 
+        ViewArea = HasRoomIn(_viewArea) ? _viewArea : new(0, 0, _width, _height);
         if (SceneArea != FreeArea)
         {
             SceneArea = FreeArea;
             _buildsAgain = true;
         }
 
+        FinishArrows();
         DrawTooltip();
         _roots.Clear();
         _roots.AddRange(_nextRoots);
     }
 
-    /// <summary>Moves the keyboard on, closes menus, and gives the keyboard back to the scene.</summary>
-    private void HandleRemainingKeys()
-    {
-        if (_input.Key == Key.Tab && _focusable.Count > 0)
-        {
-            CommitEdit();
-            var index = _focusable.IndexOf(_focus);
-            var next = _input.IsShiftHeld ? (index <= 0 ? _focusable.Count - 1 : index - 1) : (index + 1) % _focusable.Count;
-            TakeFocus(_focusable[next]);
-            _scrollTo = _focus;
-            _isKeyTaken = true;
-        }
-        else if (_input.Key == Key.Escape && (_focus != 0 || _openMenu is not null || _dialog is not null))
-        {
-            if (_openMenu is null)
-            {
-                _dialog = null;
-            }
-
-            _openMenu = null;
-            _editing = 0;
-            _focus = 0;
-            _isKeyTaken = true;
-            _buildsAgain = true;
-        }
-    }
-
-    private void TakeFocus(int id)
-    {
-        if (_focus != id)
-        {
-            _focus = id;
-            _editing = 0;
-            _focusKey = _input.IsPressed ? -1 : _keyCount;
-            _buildsAgain = true;
-        }
-    }
+    private bool HasRoomIn(UiRect area) => area.Width >= 0.4 * _width;
 
     private int IdOf(string label)
     {
@@ -447,60 +272,5 @@ public sealed partial class UserInterface
         }
 
         return hash == 0 ? 1 : (int)hash;
-    }
-
-    private static (float, float, float, float) Tint(Colour colour, float opacity = 1) =>
-        ((float)colour.Red, (float)colour.Green, (float)colour.Blue, opacity);
-
-    private void Fill(UiRect rect, Colour colour, float radius = SquareCorner, float opacity = 1)
-    {
-        var visible = rect.Intersect(_clip);
-        if (visible is { Width: > 0, Height: > 0 })
-        {
-            _layers[_layer].Add(new(
-                visible.X, visible.Y, visible.Width, visible.Height, Tint(colour, opacity), -1,
-                visible == rect ? radius : SquareCorner));
-        }
-    }
-
-    private void Frame(UiRect rect, Colour colour)
-    {
-        var line = Math.Max(1, LineHeight / 16);
-        Fill(new(rect.X, rect.Y, rect.Width, line), colour);
-        Fill(new(rect.X, rect.Bottom - line, rect.Width, line), colour);
-        Fill(new(rect.X, rect.Y, line, rect.Height), colour);
-        Fill(new(rect.Right - line, rect.Y, line, rect.Height), colour);
-    }
-
-    /// <summary>Draws text into a rectangle, in its vertical middle. What does not fit ends in an ellipsis.</summary>
-    /// <returns>False when the text did not fit.</returns>
-    private bool Print(string text, UiRect rect, Colour colour, UiAlign align = UiAlign.Left)
-    {
-        var columns = rect.Width / CellWidth;
-        var fits = text.Length <= columns;
-        if (!fits)
-        {
-            text = columns <= 0 ? "" : text[..(columns - 1)] + "…";
-        }
-
-        var free = rect.Width - (text.Length * CellWidth);
-        var x = rect.X + (align == UiAlign.Left ? 0 : align == UiAlign.Right ? free : free / 2);
-        var y = rect.Y + ((rect.Height - LineHeight) / 2);
-        if (y < _clip.Y || y + LineHeight > _clip.Bottom)
-        {
-            return fits;
-        }
-
-        var tint = Tint(colour);
-        for (var i = 0; i < text.Length; i++)
-        {
-            var left = x + (i * CellWidth);
-            if (text[i] != ' ' && left >= _clip.X && left + CellWidth <= _clip.Right)
-            {
-                _layers[_layer].Add(new(left, y, CellWidth, LineHeight, tint, GlyphAtlas.Shared.GlyphOf(text[i]), 0));
-            }
-        }
-
-        return fits;
     }
 }

@@ -33,6 +33,9 @@ internal sealed record WindowAction(string Id, string Menu, string Name, string 
     /// <summary>True where the action can be chosen in a menu: it is no movement that goes on while a key is held.</summary>
     public bool IsCommand => Run is not null || MoveCamera is not null;
 
+    /// <summary>What the action does, without the marks of code that the manual has.</summary>
+    public string PlainHelp => Help.Replace("`", "", StringComparison.Ordinal);
+
     /// <summary>The keys or the gesture, for the user.</summary>
     public string KeyText => Gesture ?? string.Join(", ", Keys);
 }

@@ -53,7 +53,7 @@ internal sealed class WindowActions(
 
         if (action.MoveCamera is { } moveCamera)
         {
-            Document!.MoveCamera(moveCamera, window.Aspect);
+            Document!.MoveCamera(moveCamera, Document.Area.Aspect);
             return Redraw.Scene;
         }
 
@@ -109,7 +109,7 @@ internal sealed class WindowActions(
         }
 
         tool.Selected = null;
-        return Show("nothing selected") | Redraw.Scene;
+        return Show("nothing selected; Esc again closes the window") | Redraw.Scene;
     }
 
     /// <summary>Copies what is known about the selection.</summary>

@@ -34,7 +34,7 @@ internal sealed class AxisGizmo(WindowActions actions)
             var (right, up, _) = camera.LocalAxesInverse * axis;
             if (ui.Knob(label, middle.X + (Radius * ui.Scale * right), middle.Y - (Radius * ui.Scale * up), colour))
             {
-                document.MoveCamera((flying, aspect) => flying.LookAlong(camera.Handedness.Mirror(-axis), aspect), Aspect(ui, document));
+                document.MoveCamera((flying, aspect) => flying.LookAlong(camera.Handedness.Mirror(-axis), aspect), Aspect(document));
                 actions.RequestDraw();
             }
 
@@ -42,6 +42,5 @@ internal sealed class AxisGizmo(WindowActions actions)
         }
     }
 
-    private static double Aspect(UserInterface ui, Document document) =>
-        document.LatestView?.Aspect ?? ((double)ui.Width / Math.Max(1, ui.Height));
+    private static double Aspect(Document document) => document.LatestView?.Aspect ?? document.Area.Aspect;
 }

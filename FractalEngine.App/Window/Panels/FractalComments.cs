@@ -1,9 +1,11 @@
 using System.Collections.Immutable;
+using System.Globalization;
+using System.Text.RegularExpressions;
 
 namespace FractalEngine.App.Window.Panels;
 
 /// <summary>Finds what the author of a fractal's file has written about its numbers.</summary>
-internal static class FractalComments
+internal static partial class FractalComments
 {
     /// <summary>
     /// Finds the comment of each number: that above its line, or above the lines before it that begin with the same word.
@@ -37,6 +39,25 @@ internal static class FractalComments
         return [.. offsets.Select(offset => comments[LineOf(starts, offset)])];
     }
 
+    /// <summary>Returns what a comment says about one of the vectors, as in <c>1: the trunk. 2 to 4: where branches leave.</c></summary>
+    /// <param name="comment">Comment of several vectors.</param>
+    /// <param name="vector">Number of the vector, from 1.</param>
+    /// <returns>The words behind the number, without the full stop; null where the comment does not tell the vectors apart.</returns>
+    public static string? About(string comment, int vector)
+    {
+        foreach (Match match in NumberedPart().Matches(comment))
+        {
+            var first = int.Parse(match.Groups["first"].ValueSpan, CultureInfo.InvariantCulture);
+            var last = match.Groups["last"].Success ? int.Parse(match.Groups["last"].ValueSpan, CultureInfo.InvariantCulture) : first;
+            if (vector == first || vector == last || (match.Groups["word"].Value == "to" && vector > first && vector < last))
+            {
+                return match.Groups["text"].Value.TrimEnd('.', ' ');
+            }
+        }
+
+        return null;
+    }
+
     private static int LineOf(int[] starts, int offset)
     {
         var index = Array.BinarySearch(starts, offset);
@@ -44,4 +65,7 @@ internal static class FractalComments
     }
 
     private static string FirstWord(string line) => line.TrimStart().Split(' ', 2)[0];
+
+    [GeneratedRegex(@"\b(?<first>\d{1,6})(?: (?<word>to|and) (?<last>\d{1,6}))?: (?<text>.*?)(?= \d{1,6}(?: (?:to|and) \d{1,6})?: |$)")]
+    private static partial Regex NumberedPart();
 }

@@ -4,6 +4,7 @@ using System.Numerics;
 using FractalEngine.App.Window.Actions;
 using FractalEngine.Core;
 using FractalEngine.Core.Files;
+using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Fractals;
 using FractalEngine.Parsing.Text;
@@ -21,6 +22,8 @@ internal sealed class FractalPanel(WindowActions actions)
     private string? _chosen;
     private string? _path;
     private string _text = "";
+    private FractalModel? _measured;
+    private double? _dimension;
     private FileStamp? _stamp;
     private string? _problem;
     private ImmutableArray<FractalNumber> _numbers = [];
@@ -28,9 +31,10 @@ internal sealed class FractalPanel(WindowActions actions)
     // What the file says about each of them.
     private ImmutableArray<string?> _comments = [];
 
-    // The numbers at the beginning of the present drag, which the ends of the sliders follow.
-    private ImmutableArray<FractalNumber> _startNumbers = [];
-    private int _startInteraction = -1;
+    // The vectors that place the selected instance, and the selection that the panel was scrolled to.
+    private ImmutableHashSet<string> _marked = [];
+    private (ImmutableArray<int> Path, int Depth) _scrolled;
+    private bool _isScrolling;
 
     /// <summary>Adds the widgets of the panel.</summary>
     public void Build(UserInterface ui)
@@ -62,7 +66,10 @@ internal sealed class FractalPanel(WindowActions actions)
         BuildFacts(ui, model);
         if (TryRead(model.SourcePath!))
         {
-            BuildNumbers(ui);
+            MarkSelected(model);
+            // Sliders of another file have ranges of their own.
+            ui.Scope(_path!, () => BuildNumbers(ui));
+            _isScrolling = false;
         }
         else if (_problem is { } problem)
         {
@@ -71,14 +78,21 @@ internal sealed class FractalPanel(WindowActions actions)
         }
     }
 
-    private static void BuildFacts(UserInterface ui, FractalModel model)
+    private void BuildFacts(UserInterface ui, FractalModel model)
     {
+        if (!ReferenceEquals(model, _measured))
+        {
+            (_measured, _dimension) = (model, SimilarityDimension.Of(model.Fractal.Description));
+        }
+
         ui.Heading(model.Name);
         ui.Fact("instances", Count(model.InstanceCount));
         ui.Fact("faces", Count(model.FaceCount));
         var size = model.Bounds.Size;
         ui.Fact("size", size.IsFinite()
             ? $"{PanelWidgets.Number(size.X)} × {PanelWidgets.Number(size.Y)} × {PanelWidgets.Number(size.Z)}" : "no bounds");
+        ui.Fact("dimension", _dimension is { } dimension ? PanelWidgets.Number(dimension) : "none");
+        ui.Tooltip("similarity dimension s: the ratios r of all child instances have the sum of r^s = 1, as if the depth had no end");
         ui.Fact("composition", model.Fractal.Description.Composition.ToString().ToLowerInvariant());
     }
 
@@ -103,8 +117,6 @@ internal sealed class FractalPanel(WindowActions actions)
             var text = edits.TextOf(path);
             if (path != _path || text != _text)
             {
-                // Sliders of another file have ranges of their own.
-                _startNumbers = path == _path ? _startNumbers : [];
                 _path = path;
                 _text = text;
                 _numbers = FractalNumber.FindAll(new SourceText(Path.GetFileName(path), text));
@@ -124,19 +136,13 @@ internal sealed class FractalPanel(WindowActions actions)
 
     private void BuildNumbers(UserInterface ui)
     {
-        if (ui.Interaction != _startInteraction || _startNumbers.Length != _numbers.Length)
-        {
-            _startInteraction = ui.Interaction;
-            _startNumbers = _numbers;
-        }
-
         // First, since it changes most.
         ui.Row(1);
         for (var i = 0; i < _numbers.Length; i++)
         {
             if (_numbers[i].Role == FractalNumberRole.Depth)
             {
-                BuildSlider(ui, i, $"depth of {_numbers[i].Name}", 0, Math.Max(8, _startNumbers[i].Value + 2), 1);
+                BuildSlider(ui, i, $"depth of {_numbers[i].Name}", 0, Math.Max(8, _numbers[i].Value + 2), 1);
                 Explain(ui, i);
             }
         }
@@ -161,12 +167,11 @@ internal sealed class FractalPanel(WindowActions actions)
             if (name != number.Name)
             {
                 name = number.Name;
-                ui.Row(1);
-                ui.Label($"{name}: {number.Role.ToString().ToLowerInvariant()}", isDim: true);
+                BuildTitle(ui, i);
                 ui.Row(1, 1, 1);
             }
 
-            var (minimum, maximum, step) = RangeOf(_startNumbers[i]);
+            var (minimum, maximum, step) = RangeOf(_numbers[i]);
             BuildSlider(ui, i, Axes[number.Component].ToString(), minimum, maximum, step);
             Explain(ui, i);
         }
@@ -176,7 +181,67 @@ internal sealed class FractalPanel(WindowActions actions)
     {
         if (_comments[index] is { } comment)
         {
-            ui.Tooltip(comment);
+            ui.Tooltip(About(index) ?? comment);
+        }
+    }
+
+    /// <summary>Returns what the file says about one vector; null where it says nothing, or the same about all.</summary>
+    private string? About(int index) => _comments[index] is { } comment && _numbers[index].Name.StartsWith('v')
+        && int.TryParse(_numbers[index].Name.AsSpan(1), CultureInfo.InvariantCulture, out var vector)
+            ? FractalComments.About(comment, vector) : null;
+
+    /// <summary>Adds what a vector means, marked where it places the selected instance.</summary>
+    private void BuildTitle(UserInterface ui, int index)
+    {
+        var number = _numbers[index];
+        var vector = number.Name.TrimStart('v');
+        var meaning = $"{number.Role.ToString().ToLowerInvariant()} {vector}";
+        var title = About(index) is { } about ? $"{vector}: {about}" : meaning;
+        if (_marked.Contains(number.Name))
+        {
+            if (_isScrolling)
+            {
+                _isScrolling = false;
+                ui.ScrollHere(2);
+            }
+
+            ui.Heading($"▶ {title}");
+        }
+        else
+        {
+            ui.Row(1);
+            ui.Paragraph(title, isDim: true);
+        }
+
+        if (_comments[index] is { } comment)
+        {
+            ui.Tooltip($"{meaning}: {About(index) ?? comment}");
+        }
+    }
+
+    /// <summary>Marks the vectors of the call that places the selected instance, where the file tells which call that is.</summary>
+    private void MarkSelected(FractalModel model)
+    {
+        _marked = [];
+        if (actions.Document!.Tool.Selected is not { Depth: > 0 and var depth, Path: var path } selected
+            || !ReferenceEquals(selected.Object.Model, model))
+        {
+            _scrolled = default;
+            return;
+        }
+
+        var size = model.Fractal.LevelAt(depth - 1).Maps.Length;
+        var candidates = _numbers.Where(number => number.Call?.SetSize == size).ToArray();
+        if (candidates.Select(static number => number.Call!.Value.Set).Distinct().Count() == 1)
+        {
+            _marked = [.. candidates.Where(number => number.Call!.Value.Index == path[depth - 1])
+                .Select(static number => string.Create(CultureInfo.InvariantCulture, $"v{number.Value}"))];
+        }
+
+        if (_scrolled != (path, depth))
+        {
+            _scrolled = (path, depth);
+            _isScrolling = true;
         }
     }
 
@@ -187,13 +252,16 @@ internal sealed class FractalPanel(WindowActions actions)
         if (isFirst)
         {
             ui.Row(1);
-            ui.Label($"call {number.Name}: vectors", isDim: true);
+            ui.Label($"vectors of call {CallText(number.Name)}", isDim: true);
             ui.Row(1, 1, 1);
         }
 
         BuildSlider(ui, index, "v", 1, vectorCount, 1);
-        ui.Tooltip("which vector the function takes here");
+        ui.Tooltip("number of the vector that the function takes here");
     }
+
+    /// <summary>Turns "t 3" into "3, of function t".</summary>
+    private static string CallText(string name) => name.Split(' ') is [var function, var call] ? $"{call}, of function {function}" : name;
 
     private void BuildSlider(
         UserInterface ui, int index, string label, double minimum, double maximum, double step) => ui.Scope(index, () =>

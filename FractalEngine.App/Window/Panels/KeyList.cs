@@ -61,7 +61,7 @@ internal sealed class KeyList
                 ui.Paragraph(label);
             }
 
-            ui.Paragraph(action.Help);
+            ui.Paragraph(action.PlainHelp);
         }
 
         if (actions.Length == 0)

@@ -34,7 +34,7 @@ internal static class PanelWidgets
             choose(action);
         }
 
-        ui.Tooltip(action.KeyText.Length > 0 ? $"{action.Help} ({action.KeyText})" : action.Help);
+        ui.Tooltip(action.KeyText.Length > 0 ? $"{action.PlainHelp} ({action.KeyText})" : action.PlainHelp);
     }
 
     /// <summary>Adds a name and its value in one row.</summary>

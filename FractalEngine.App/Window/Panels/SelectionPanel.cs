@@ -34,6 +34,17 @@ internal sealed class SelectionPanel(WindowActions actions, Action<WindowAction>
             ui.Row(1, 1);
             ui.Action(actions, "select-up", choose);
             ui.Action(actions, "copy-selection", choose);
+            if (selected is { Depth: > 0, Object.Model.SourcePath: { } path } && path.EndsWith(".fdo", StringComparison.OrdinalIgnoreCase))
+            {
+                ui.Row(1);
+                if (ui.Button("Its numbers"))
+                {
+                    actions.Interface.Open("fractal");
+                }
+
+                ui.Tooltip("shows the panel of the fractal, where the vectors that place this part are marked");
+            }
+
             BuildPlacement(ui, document, selected.ObjectIndex);
         }
         else

@@ -52,7 +52,7 @@ internal sealed class WindowInterface
             ("scene", new("Scene", new ScenePanel(actions).Build) { Dock = UiDock.Left }),
             ("fractal", new("Fractal", new FractalPanel(actions).Build) { Dock = UiDock.Left }),
             ("view", new("View", new ViewPanel(actions, Choose).Build) { Dock = UiDock.Right }),
-            ("selection", new("Selection", new SelectionPanel(actions, Choose).Build) { Dock = UiDock.Left }),
+            ("selection", new("Selection", new SelectionPanel(actions, Choose).Build) { Dock = UiDock.Right }),
             ("physics", new("Physics", new PhysicsPanel(actions, Choose).Build) { Dock = UiDock.Right }),
             ("statistics", new("Statistics", new StatisticsPanel(actions).Build) { Dock = UiDock.Right }),
         ];
@@ -82,6 +82,13 @@ internal sealed class WindowInterface
     /// <summary>Passes an event to the widgets.</summary>
     /// <returns>True when the scene must not see it.</returns>
     public bool Handle(WindowEvent windowEvent) => Ui.Handle(windowEvent);
+
+    /// <summary>Ends what the pointer is doing to widgets, such as to point at one, since something lies before them.</summary>
+    public void ReleasePointer()
+    {
+        Ui.Handle(new FocusLost());
+        Ui.Handle(new MouseMoved(-1, -1, 0, 0));
+    }
 
     /// <summary>Returns the next action that was chosen in a menu or a panel; null for none.</summary>
     public WindowAction? TakeChosen() => _chosen.TryDequeue(out var action) ? action : null;
@@ -226,7 +233,7 @@ internal sealed class WindowInterface
                 Choose(action);
             }
 
-            ui.Tooltip(action.Help);
+            ui.Tooltip(action.PlainHelp);
         }
     }
 }

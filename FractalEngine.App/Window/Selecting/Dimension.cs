@@ -6,13 +6,18 @@ using FractalEngine.Render;
 namespace FractalEngine.App.Window.Selecting;
 
 /// <summary>A measured distance between two points.</summary>
+/// <param name="Kind">What was measured.</param>
+/// <param name="First">What was clicked first.</param>
+/// <param name="Second">What was clicked then.</param>
 /// <param name="From">The first point, in the frame that <paramref name="Viewpoint"/> tells.</param>
 /// <param name="To">The second point, likewise.</param>
 /// <param name="What">What was measured, for the user.</param>
 /// <param name="Viewpoint">Address of the camera that the points are about, in its unit; null for points in world space.</param>
-internal sealed record Dimension(Vector From, Vector To, string What, FractalAddress? Viewpoint = null)
+internal sealed record Dimension(
+    MeasureKind Kind, Selection First, Selection Second, Vector From, Vector To, string What, FractalAddress? Viewpoint = null)
 {
-    private static readonly Colour LineColour = new(0.45, 1, 0.55);
+    /// <summary>Colour of measured lines and of the point that was clicked first.</summary>
+    public static readonly Colour LineColour = new(0.45, 1, 0.55);
 
     /// <summary>Distance of the points, in the unit of their frame.</summary>
     public double Length => (To - From).Length();

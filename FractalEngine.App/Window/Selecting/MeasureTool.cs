@@ -1,21 +1,32 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Collision;
+using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Render;
 
 namespace FractalEngine.App.Window.Selecting;
 
 /// <summary>Measures distances between what the user clicks, and keeps them until they are removed.</summary>
 internal sealed class MeasureTool
 {
+    // Half the length of the mark at the first point, as a part of its distance from the camera.
+    private const double MarkSize = 0.012;
+
     private LoadedScene? _scene;
     private SceneCollider? _collider;
     private Selection? _first;
+    private LoadedScene? _followed;
+    private bool _wasMoving;
 
     /// <summary>Whether clicks measure, rather than select.</summary>
     public bool IsActive { get; private set; }
 
     /// <summary>What the next two clicks measure.</summary>
     public MeasureKind Kind { get; set; }
+
+    /// <summary>Whether the first of two points was clicked, and is marked.</summary>
+    public bool HasFirstPoint => _first is not null;
 
     /// <summary>The distances that were measured.</summary>
     public ImmutableArray<Dimension> Dimensions { get; private set; } = [];
@@ -36,7 +47,7 @@ internal sealed class MeasureTool
     {
         IsActive = !IsActive;
         _first = null;
-        return IsActive ? $"measuring: {Hint}" : "clicks select";
+        return IsActive ? $"measuring: {Hint}" : "clicks select again";
     }
 
     /// <summary>Remembers the first of two clicks, and measures at the second.</summary>
@@ -62,14 +73,58 @@ internal sealed class MeasureTool
             return "both clicks were at the same object";
         }
 
-        var dimension = Kind switch
-        {
-            MeasureKind.Points => new Dimension(first.Hit.Point, clicked.Hit.Point, "two points"),
-            MeasureKind.PointToObject => FromPoint(first, clicked, scene),
-            _ => BetweenObjects(first, clicked, scene),
-        };
+        var dimension = Measure(Kind, first, clicked, scene);
         Dimensions = Dimensions.Add(dimension);
         return $"{dimension.What}: {dimension.LengthText}";
+    }
+
+    /// <summary>Measures again what has moved or changed since, and removes what is no longer there.</summary>
+    /// <param name="scene">The scene with its bodies where they are now.</param>
+    /// <param name="isMoving">Whether bodies move: distances of whole objects wait until they stand still.</param>
+    public void Follow(LoadedScene scene, bool isMoving)
+    {
+        if ((Dimensions.IsEmpty && _first is null) || (ReferenceEquals(scene, _followed) && isMoving == _wasMoving))
+        {
+            return;
+        }
+
+        (_followed, _wasMoving) = (scene, isMoving);
+        _first = _first is null ? null : Continue(_first, scene);
+        foreach (var dimension in Dimensions)
+        {
+            if (Continue(dimension.First, scene) is not { } first || Continue(dimension.Second, scene) is not { } second)
+            {
+                Remove(dimension);
+            }
+            else if ((HasMoved(dimension.First, first) || HasMoved(dimension.Second, second))
+                && (dimension.Kind == MeasureKind.Points || !isMoving))
+            {
+                Dimensions = Dimensions.Replace(dimension, Measure(dimension.Kind, first, second, scene));
+            }
+        }
+    }
+
+    /// <summary>Adds lines for all distances, and for the first of two points, in the frame that is drawn.</summary>
+    /// <param name="lines">The list that is added to.</param>
+    /// <param name="mapOf">Maps from the frame of a viewpoint to the one that is drawn; null where that is too far away.</param>
+    public void AddLines(List<LineSegment> lines, Func<FractalAddress?, Func<Vector, Vector>?> mapOf)
+    {
+        foreach (var dimension in Dimensions)
+        {
+            if (mapOf(dimension.Viewpoint) is { } map)
+            {
+                lines.Add(dimension.Line with { From = map(dimension.From), To = map(dimension.To) });
+            }
+        }
+
+        if (_first is { } first && mapOf(first.Viewpoint) is { } mapFirst)
+        {
+            foreach (var axis in (ReadOnlySpan<Vector>)[Vector.I, Vector.J, Vector.K])
+            {
+                var arm = MarkSize * first.Hit.Distance * axis;
+                lines.Add(new(mapFirst(first.Hit.Point - arm), mapFirst(first.Hit.Point + arm), Dimension.LineColour));
+            }
+        }
     }
 
     /// <summary>Measures between points that are too deep in a fractal for world space.</summary>
@@ -85,7 +140,7 @@ internal sealed class MeasureTool
             return "the points are too different in depth to be measured";
         }
 
-        var dimension = new Dimension(map * first.Hit.Point, clicked.Hit.Point, "two points", now);
+        var dimension = new Dimension(Kind, first, clicked, map * first.Hit.Point, clicked.Hit.Point, "two points", now);
         Dimensions = Dimensions.Add(dimension);
         return $"{dimension.What}: {dimension.LengthText}";
     }
@@ -93,23 +148,31 @@ internal sealed class MeasureTool
     /// <summary>Removes a distance that was measured.</summary>
     public void Remove(Dimension dimension) => Dimensions = Dimensions.Remove(dimension);
 
-    private static Dimension FromPoint(Selection point, Selection clicked, LoadedScene scene)
-    {
-        var alone = new SceneCollider(scene with { Objects = [clicked.Object] });
-        var closest = alone.FindClosest(point.Hit.Point);
-        return new(point.Hit.Point, closest.Point, $"point to {clicked.Object.Declaration.DisplayName}");
-    }
+    private static Selection? Continue(Selection selection, LoadedScene scene) =>
+        selection.ObjectIndex < scene.Objects.Length ? selection.ContinueIn(scene.Objects[selection.ObjectIndex]) : null;
 
-    private Dimension BetweenObjects(Selection first, Selection second, LoadedScene scene)
+    private static bool HasMoved(Selection before, Selection now) =>
+        before.Object.ObjectToWorld != now.Object.ObjectToWorld || !ReferenceEquals(before.Object.Model, now.Object.Model);
+
+    private Dimension Measure(MeasureKind kind, Selection first, Selection second, LoadedScene scene)
     {
-        if (!ReferenceEquals(scene, _scene))
+        var name = second.Object.Declaration.DisplayName;
+        switch (kind)
         {
-            _collider = new(scene);
-            _scene = scene;
-        }
+            case MeasureKind.Points:
+                return new(kind, first, second, first.Hit.Point, second.Hit.Point, "two points");
+            case MeasureKind.PointToObject:
+                var alone = new SceneCollider(scene with { Objects = [second.Object] });
+                return new(kind, first, second, first.Hit.Point, alone.FindClosest(first.Hit.Point).Point, $"point to {name}");
+            default:
+                if (!ReferenceEquals(scene, _scene))
+                {
+                    _collider = new(scene);
+                    _scene = scene;
+                }
 
-        var pair = _collider!.FindClosestPair(first.ObjectIndex, second.ObjectIndex);
-        return new(
-            pair.Point, pair.OtherPoint, $"{first.Object.Declaration.DisplayName} to {second.Object.Declaration.DisplayName}");
+                var pair = _collider!.FindClosestPair(first.ObjectIndex, second.ObjectIndex);
+                return new(kind, first, second, pair.Point, pair.OtherPoint, $"{first.Object.Declaration.DisplayName} to {name}");
+        }
     }
 }

@@ -96,7 +96,7 @@ internal sealed class SelectionTool(Document document)
     }
 
     /// <summary>Whether any lines are drawn over the scene.</summary>
-    public bool HasLines => Selected is not null || !Measure.Dimensions.IsEmpty || WorldLines().Count > 0;
+    public bool HasLines => Selected is not null || !Measure.Dimensions.IsEmpty || Measure.HasFirstPoint || WorldLines().Count > 0;
 
     /// <summary>Lists the lines that belong to the scene, world space.</summary>
     public List<LineSegment> WorldLines()
@@ -126,13 +126,7 @@ internal sealed class SelectionTool(Document document)
             lines.AddRange(own.Select(line => line with { From = map(line.From), To = map(line.To) }));
         }
 
-        foreach (var dimension in Measure.Dimensions)
-        {
-            if (document.MapToDrawnFrame(dimension.Viewpoint) is { } toDrawn)
-            {
-                lines.Add(dimension.Line with { From = toDrawn(dimension.From), To = toDrawn(dimension.To) });
-            }
-        }
+        Measure.AddLines(lines, document.MapToDrawnFrame);
     }
 
     private string Click((double X, double Y) pixel, (int Width, int Height) size, TimeSpan now)
@@ -173,6 +167,7 @@ internal sealed class SelectionTool(Document document)
         var view = View.Of(scene with { Scene = document.GetCurrentScene() }, (double)size.Width / size.Height) with
         {
             Section = document.Section.Shown,
+            HorizontalShift = document.Area.HorizontalShift,
         };
         var camera = document.FlyingCamera;
         return document.VisibleDepth > 0 && !Picker.IsExactAt(camera.Log10Magnification)

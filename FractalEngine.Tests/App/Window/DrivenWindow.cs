@@ -86,6 +86,32 @@ internal sealed partial class DrivenWindow : IDisposable
         () => RunXdotool($"getwindowname {_window}") is var title && title.Contains(text, StringComparison.Ordinal) ? title : null,
         $"title with '{text}'");
 
+    /// <summary>Stops the program meanwhile, so that it learns of all input at once.</summary>
+    public void WhileStopped(Action send)
+    {
+        Signal("STOP");
+        send();
+        Signal("CONT");
+
+        void Signal(string name)
+        {
+            using var kill = Process.Start("kill", ["-s", name, $"{_process.Id}"]);
+            kill.WaitForExit();
+        }
+    }
+
+    /// <summary>Width and height of the window, as the window system knows them.</summary>
+    public (int Width, int Height) Size
+    {
+        get
+        {
+            var lines = RunXdotool($"getwindowgeometry --shell {_window}").Split('\n');
+            int Number(string name) => int.Parse(lines.First(line => line.StartsWith(name, StringComparison.Ordinal))[name.Length..],
+                CultureInfo.InvariantCulture);
+            return (Number("WIDTH="), Number("HEIGHT="));
+        }
+    }
+
     /// <summary>Takes a screenshot. All earlier input has been handled before.</summary>
     public PixelImage Screenshot() => Screenshot("key F12");
 
@@ -195,7 +221,8 @@ internal sealed partial class DrivenWindow : IDisposable
     private string[] SavedImages() =>
         [.. ErrorLines().Select(line => SavedImage().Match(line)).Where(match => match.Success).Select(match => match.Groups[1].Value)];
 
-    private static string RunXdotool(string commands, bool waits = true)
+    /// <summary>Runs xdotool, and returns what it prints.</summary>
+    public static string RunXdotool(string commands, bool waits = true)
     {
         var start = new ProcessStartInfo("xdotool", commands) { RedirectStandardOutput = true, RedirectStandardError = true };
         using var tool = Process.Start(start)!;

@@ -116,7 +116,7 @@ public sealed class PanelWindowTests : IDisposable
         using var window = Open("row.fdo");
         window.Send("key F6");
         window.FindText("Click a surface");
-        window.Send("mousemove --window {window} 400 260 click 1");
+        window.Send("mousemove --window {window} 252 260 click 1");
         window.FindText("level 3");
         window.Send("key BackSpace");
         window.FindText("level 2");

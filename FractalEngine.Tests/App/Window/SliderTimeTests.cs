@@ -30,7 +30,8 @@ public sealed class SliderTimeTests : IDisposable
         var path = _folder["fractals/tree.fdo"];
         using var window = Open();
         var overlay = new WindowOverlay();
-        using var loader = new DocumentLoader(window, overlay, new() { WatchesFiles = false }, static _ => { }, static _ => { });
+        using var loader = new DocumentLoader(
+            window, new(window), overlay, new() { WatchesFiles = false }, static _ => { }, static _ => { });
         var settings = new RenderSettings();
         loader.Open(path, settings);
         WaitForLoad(loader, settings, window);

@@ -158,7 +158,9 @@ public sealed class ToolWindowTests : IDisposable
     public void SelectionPanel_TypedNumbers_PlaceTheObject()
     {
         using var window = OpenLarge();
-        window.Send("key F6 mousemove --window {window} 450 350 click 1");
+        window.Send("key F6");
+        window.FindText("Distances");
+        window.Send("mousemove --window {window} 302 350 click 1");
         window.ClickText("Move");
         MoveAway(window);
         TypeAt(window, "position", 23, 23, "-1.25");
@@ -237,14 +239,14 @@ public sealed class ToolWindowTests : IDisposable
         using var window = OpenLarge("row.fdo");
         var before = window.Screenshot();
         window.Send("key F4");
-        TypeAt(window, "call t 1: vectors", -10, 23, "3");
+        TypeAt(window, "vectors of call 1", -10, 23, "3");
         Polling.WaitUntil(() => DrivenWindow.DifferingFraction(before, window.Screenshot()) > 0.003, "another position");
         Save(window, "row.fdo");
         Assert.Contains("z<x>. [#, t.3.2] x", File.ReadAllText(_folder["row.fdo"]), StringComparison.Ordinal);
         window.Send("key ctrl+z");
         window.WaitForTitle("row.fdo*");
         // There is no vector 9: the largest number counts, which is the one that was saved.
-        var (x, y) = window.FindText("call t 1: vectors");
+        var (x, y) = window.FindText("vectors of call 1");
         window.Send($"mousemove --window {{window}} {x - 10} {y + 23} click 1 key ctrl+a key 9 key Return");
         window.WaitForTitle("row.fdo -");
         Assert.Equal(0, window.CloseWith("key Escape"));
@@ -269,7 +271,7 @@ public sealed class ToolWindowTests : IDisposable
         var before = window.Screenshot();
         window.Send("key F4");
         // The first side branch leans farther: the angles of vector 6, by keys.
-        TypeAt(window, "v6: rotation", 200, 23, "85");
+        TypeAt(window, "6: how", 224, 46, "85");
         Polling.WaitUntil(() => DrivenWindow.DifferingFraction(before, window.Screenshot()) > 0.005, "another tree");
         window.WaitForTitle("tree.fdo*");
         Save(window, "tree.fdo");

@@ -123,6 +123,16 @@ public class UserInterfaceMenuTests
         Assert.False(UiText.Contains(_ui, "Question"));
     }
 
+    [Fact]
+    public void Dialog_ClosedByItsButton_GivesTheKeyboardBack()
+    {
+        Open();
+        Click("×");
+        Assert.False(UiText.Contains(_ui, "Question"));
+        Assert.False(_ui.IsModal);
+        Assert.False(Press(Key.W));
+    }
+
     private void Open()
     {
         _isFirst = true;

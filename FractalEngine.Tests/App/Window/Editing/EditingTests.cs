@@ -23,6 +23,19 @@ public sealed class EditingTests : IDisposable
     public void Dispose() => _folder.Dispose();
 
     [Fact]
+    public void FractalNumber_OfAnArgument_TellsWhereItsCallStands()
+    {
+        const string Text = "v 1 0 0\nv 0.5 0.5 0.5\nt.a. (a, #, 2)\nu.a.b. (a, #, b)\nx. \"a.obj\"\n"
+            + "z<x>. [#, t.1, u.1.2] [t.1] x\n<$>. z 3\n";
+        var calls = FractalNumber.FindAll(new("a.fdo", Text)).Where(static number => number.Call is not null)
+            .Select(static number => (number.Call!.Value, number.Component, number.Value)).ToArray();
+        Assert.Equal([((0, 1, 3), 0, 1.0), ((0, 2, 3), 0, 1.0), ((0, 2, 3), 1, 2.0), ((1, 0, 1), 0, 1.0)], calls);
+        Assert.All(
+            FractalNumber.FindAll(new("a.fdo", Text)),
+            static number => Assert.Equal(number.Role == FractalNumberRole.Argument, number.Call is not null));
+    }
+
+    [Fact]
     public void FindAll_OfAFractal_ListsEachNumberAtItsPlace()
     {
         var text = Fractal.Replace("y<z>. [u.1] z\n", "", StringComparison.Ordinal);

@@ -10,6 +10,10 @@ internal static partial class InteractionTable
     private const int RightX = 677;
     private const int MiddleY = 350;
 
+    // The same while a panel is open at the right edge, which the view makes room for.
+    private const int LeftAside = LeftX - 148;
+    private const int RightAside = RightX - 148;
+
     private static readonly string SceneText = InteractionFiles.Scene;
 
     /// <summary>The rows whose tests run by default; the others run in the soak.</summary>
@@ -138,9 +142,18 @@ internal static partial class InteractionTable
             [Keys("F4"), Click("other.fdo"), Shows("16"), Type("5", "depth of z")],
             [Shows("32"), Title("two.sdo*"), Save("other.fdo"), FileHas("<$>. z 5\n", "other.fdo"),
                 FileIs(InteractionFiles.Row, "row.fdo")]),
+        new("a click on an instance leads to its numbers", "row.fdo",
+            [OpenSelection, ClickAt(412, 375), Shows("level 3"), Click("Its numbers"), Shows("depth of z")],
+            [Shows("▶ position 1"), Shows("▶ scale 2"), Keys("Escape Escape"), Hides("▶ position 1")]),
+        new("a fractal that outgrows the frame is followed", "row.fdo",
+            [Keys("F4"), Type("30", "position", 0, 3, 1), Title("row.fdo*"), FrameDiffers(0.01)],
+            [PixelIsBackground(899, 350, isBackground: true), PixelIsBackground(0, 350, isBackground: true), Keys("ctrl+z"),
+                FrameIsAsBefore]),
         new("facts follow a number", "row.fdo",
             [Keys("F4"), Shows("8"), Type("0", "depth of z")],
             [Shows("12"), FrameDiffers(0.001)]),
+        new("the dimension follows a number", "two.sdo",
+            [Keys("F4"), Click("other.fdo"), Shows("dimension"), PointAt("dimension")], [Shows("similarity dimension s")]),
     ];
 
     private static IEnumerable<Interaction> OfView =>
@@ -186,7 +199,7 @@ internal static partial class InteractionTable
             [FrameDiffers(0.001), Keys("ctrl+k"), FrameIsAsBefore]),
         new("a section can't be clicked away", "scene.sdo",
             // Cut at the middle towards the eye: the near half is gone, so the click meets the section behind it.
-            [Keys("F6 k"), ClickAt(LeftX, MiddleY)], [Shows("left (0)"), Shows("distance")]),
+            [OpenSelection, Keys("k"), ClickAt(LeftAside, MiddleY)], [Shows("left (0)"), Shows("distance")]),
     ];
 
     private static IEnumerable<Interaction> OfSelection =>
@@ -194,37 +207,48 @@ internal static partial class InteractionTable
         new("double click orbits around the point", "scene.sdo",
             [PixelNote, ClickAt(RightX, MiddleY, 2)], [FrameDiffers(0.01), PixelIsBackground(450, 350, isBackground: false)]),
         new("copy a selection", "scene.sdo",
-            [Keys("F6"), ClickAt(LeftX, MiddleY), Shows("left (0)"), Keys("ctrl+c")], [ClipboardHas("object: left (0)")]),
+            [OpenSelection, ClickAt(LeftAside, MiddleY), Shows("left (0)"), Keys("ctrl+c")], [ClipboardHas("object: left (0)")]),
         new("a click beside all selects nothing", "scene.sdo",
-            [Keys("F6"), ClickAt(LeftX, MiddleY), Shows("left (0)"), ClickAt(560, 600)], [Shows("Click a surface"), FrameIsAsBefore]),
+            [OpenSelection, ClickAt(LeftAside, MiddleY), Shows("left (0)"), ClickAt(412, 600)],
+            [Shows("Click a surface"), FrameIsAsBefore]),
         new("measure two points", "scene.sdo",
-            [Keys("F6 m"), ClickAt(LeftX, MiddleY), Shows("click the second point"), ClickAt(RightX, MiddleY)],
+            [OpenSelection, Keys("m"), ClickAt(LeftAside, MiddleY), Shows("click the second point"), ClickAt(RightAside, MiddleY)],
             [Shows("two points: 2.8"), FrameDiffers(0.0005)]),
         new("measure two objects", "scene.sdo",
-            [Keys("F6"), Click("two objects"), Keys("Escape m"), ClickAt(LeftX, MiddleY), ClickAt(RightX, MiddleY)],
+            [OpenSelection, Click("two objects"), Keys("Escape m"), ClickAt(LeftAside, MiddleY), ClickAt(RightAside, MiddleY)],
             [Shows("left to right: 2")]),
         new("measure a point to an object", "scene.sdo",
-            [Keys("F6"), Click("point to object"), Keys("Escape m"), ClickAt(LeftX, MiddleY), ClickAt(RightX, MiddleY)],
+            [OpenSelection, Click("point to object"), Keys("Escape m"), ClickAt(LeftAside, MiddleY), ClickAt(RightAside, MiddleY)],
             [Shows("point to right: 2.5")]),
+        new("the first of two points is marked", "scene.sdo",
+            [OpenSelection, Keys("m"), ClickAt(LeftAside, MiddleY), Shows("click the second point")],
+            [FrameDiffers(0.00005), Keys("Escape"), Shows("Measure"), FrameIsAsBefore]),
+        new("a measured distance follows its objects", "scene.sdo",
+            [OpenSelection, Click("two objects"), Keys("Escape m"), ClickAt(LeftAside, MiddleY), ClickAt(RightAside, MiddleY),
+                Shows("left to right: 2"), Keys("m"), ClickAt(LeftAside, MiddleY), Shows("left (0)"), Keys("2"),
+                Type("-1", "position", 0, 3, 1, isRight: true), Title("scene.sdo*")],
+            [Shows("left to right"), Shows(" 3"), Keys("ctrl+z"), Title("scene.sdo -")]),
         new("remove a distance", "scene.sdo",
-            [Keys("F6 m"), ClickAt(LeftX, MiddleY), ClickAt(RightX, MiddleY), FrameDiffers(0.0005), Keys("m"), ClickAt(277, 198)],
+            [OpenSelection, Keys("m"), ClickAt(LeftAside, MiddleY), ClickAt(RightAside, MiddleY), FrameDiffers(0.0005), Keys("m"),
+                ClickAt(880, 198)],
             [FrameIsAsBefore]),
         new("Esc ends measuring, then selects nothing", "scene.sdo",
-            [Keys("F6"), ClickAt(LeftX, MiddleY), Shows("left (0)"), Keys("m Escape"), Shows("left (0)"), Keys("Escape")],
+            [OpenSelection, ClickAt(LeftAside, MiddleY), Shows("left (0)"), Keys("m Escape"), Shows("left (0)"), Keys("Escape")],
             [Shows("Click a surface"), FrameIsAsBefore]),
         new("Backspace selects the object", "row.fdo",
-            [Keys("F6"), ClickAt(560, 375), Shows("level 3"), Keys("BackSpace BackSpace BackSpace")], [Shows("the whole object")]),
+            [OpenSelection, ClickAt(412, 375), Shows("level 3"), Keys("BackSpace BackSpace BackSpace")], [Shows("the whole object")]),
         new("scale by a handle", "scene.sdo",
             [ClickAt(LeftX, MiddleY), Keys("6"), Drag(LeftX, MiddleY, LeftX + 40, MiddleY, key: "ctrl"), Save()],
             [FileHas("#, (1.5, 1.5, 1.5)) name \"left\"")]),
         new("turn by a handle, with a typed number after", "scene.sdo",
-            [Keys("F6"), ClickAt(LeftX, MiddleY), Keys("4"), Drag(LeftX + 80, MiddleY, LeftX + 60, MiddleY - 60, key: "ctrl"),
+            [OpenSelection, ClickAt(LeftAside, MiddleY), Keys("4"),
+                Drag(LeftAside + 80, MiddleY, LeftAside + 60, MiddleY - 60, key: "ctrl"),
                 Title("scene.sdo*"),
-                Type("30", "rotation in degrees", 0, 3, 1), Shows("30"), Save()],
+                Type("30", "rotation in degrees", 0, 3, 1, isRight: true), Shows("30"), Save()],
             [FileHas("(30, 0, -45), #) name \"left\"")]),
         new("select at a magnification beyond world space", "endless.fdo",
-            [Keys("F6"), Wheel(450, MiddleY, 120), ClickAt(450, MiddleY, 2), Wheel(450, MiddleY, 120), Remember, ClickAt(450, MiddleY),
-                Shows("instance at level")],
+            [OpenSelection, Wheel(LeftAside, MiddleY, 120), ClickAt(LeftAside, MiddleY, 2), Wheel(LeftAside, MiddleY, 120), Remember,
+                ClickAt(LeftAside, MiddleY), Shows("instance at level")],
             [FrameDiffers(0.0001), Shows("E-"), Keys("BackSpace BackSpace"), Shows("sub-fractal at level")])
         {
             Options = ["--detail", "60"],
@@ -252,6 +276,13 @@ internal static partial class InteractionTable
             [Title("scene.sdo"), Click("Closest points"), FrameIsAsBefore]),
         new("walk and fly again", "scene.sdo", [Keys("F5"), Click("Walk"), Keys("Escape p")], [Title("scene.sdo")]),
     ];
+
+    /// <summary>Opens the panel of the selection, beside which the view stands from then on.</summary>
+    private static Action<Scenario> OpenSelection => static s =>
+    {
+        Keys("F6")(s);
+        Shows("Distances")(s);
+    };
 
     private static Action<Scenario> PixelNote => PixelIsBackground(560, 600, isBackground: true);
 }

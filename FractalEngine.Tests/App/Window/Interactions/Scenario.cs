@@ -91,6 +91,15 @@ internal sealed class Scenario : IDisposable
     /// <summary>Clicks a pixel with a button, once or more.</summary>
     public static Action<Scenario> ClickAt(int x, int y, int count = 1, int button = 1) => s => s.ClickPixel(x, y, count, button);
 
+    /// <summary>
+    /// Clicks a text twice, so that the program learns of the second click before it can show what the first one leads to.
+    /// </summary>
+    public static Action<Scenario> ClickTwiceAtOnce(string text) => s =>
+    {
+        var (x, y) = s.Window.FindText(text);
+        s.Window.WhileStopped(() => s.ClickPixel(x, y, 2));
+    };
+
     /// <summary>Clicks one of the columns of a row of a panel, so many rows below a text.</summary>
     public static Action<Scenario> ClickColumn(string text, int column, int columns = 3, int rows = 1, bool isRight = false) => s =>
     {

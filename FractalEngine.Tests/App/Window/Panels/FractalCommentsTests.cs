@@ -18,6 +18,25 @@ public class FractalCommentsTests
     public void Above_OfANumber_IsTheCommentOfItsGroup(string number, string? comment) =>
         Assert.Equal(comment, Assert.Single(FractalComments.Above(Text, [Text.IndexOf(number, StringComparison.Ordinal)])));
 
+    [Theory]
+    [InlineData(1, "where the leader goes on")]
+    [InlineData(2, "where branches leave")]
+    [InlineData(3, "where branches leave")]
+    [InlineData(4, "where branches leave")]
+    [InlineData(5, "as thick as 0.5 of the first")]
+    [InlineData(6, "thinner: by half")]
+    [InlineData(7, null)]
+    [InlineData(8, "thinner: by half")]
+    [InlineData(9, null)]
+    public void About_AVector_IsWhatTheCommentSaysOfIt(int vector, string? words) => Assert.Equal(
+        words,
+        FractalComments.About(
+            "All: 1: where the leader goes on. 2 to 4: where branches leave. 5: as thick as 0.5 of the first. 6 and 8: thinner: by half.",
+            vector));
+
+    [Fact]
+    public void About_WithoutNumbers_IsNothing() => Assert.Null(FractalComments.About("kept: three cubes", 1));
+
     /// <summary>To look through all that stands above each number would take minutes.</summary>
     [Fact]
     public void Above_OfManyNumbers_ReadsTheTextOnce()

@@ -1,0 +1,130 @@
+using FractalEngine.Render.Windowing;
+
+namespace FractalEngine.App.Window;
+
+/// <content>Passes events to questions, panels, tools and the camera.</content>
+internal sealed partial class SceneWindow
+{
+    /// <summary>Passes an event to the open question, or else to the scene.</summary>
+    private void Dispatch(WindowEvent physicalEvent)
+    {
+        _actions.Document = Document;
+        if (_prompts.Current is null && HandleByInterface(physicalEvent))
+        {
+            return;
+        }
+
+        var windowEvent = _interface.Bindings.Translate(physicalEvent);
+        var promptBefore = _prompts.Current;
+        if (promptBefore is not null && windowEvent is MousePressed pressed)
+        {
+            // A click beside the lines of a question is none on the scene behind it.
+            if (pressed.Button == MouseButton.Left && _frameRenderer.AnswerAt(promptBefore.Panel, pressed.X, pressed.Y) is { } answer)
+            {
+                _prompts.Answer(answer);
+            }
+
+            _redraw |= Redraw.Overlay;
+        }
+        else if (!_prompts.Handle(windowEvent))
+        {
+            Handle(windowEvent);
+            if (windowEvent is KeyPressed)
+            {
+                _prompts.KeyHandled();
+            }
+        }
+        else
+        {
+            _redraw |= Redraw.Overlay;
+        }
+
+        _overlay.Prompt = _prompts.Current?.Panel;
+        if (_prompts.Current != promptBefore)
+        {
+            // Keys that are held now are released while the question is open, or were pressed for it.
+            Document?.ReleaseKeys();
+            _interface.ReleasePointer();
+            _redraw |= Redraw.Overlay;
+        }
+    }
+
+    /// <summary>Passes an event to menus and panels, and runs what was chosen there.</summary>
+    /// <returns>True when the scene must not see the event.</returns>
+    private bool HandleByInterface(WindowEvent windowEvent)
+    {
+        var version = _interface.Ui.Version;
+        var isTaken = _interface.Handle(windowEvent);
+        while (_interface.TakeChosen() is { } action)
+        {
+            _redraw |= _actions.Run(action, _clock.Elapsed) | Redraw.Overlay;
+        }
+
+        _redraw |= _actions.TakeRequested();
+        if (_interface.Ui.Version != version)
+        {
+            _redraw |= Redraw.Overlay;
+        }
+
+        if (isTaken)
+        {
+            _interface.SaveSettings();
+        }
+
+        return isTaken;
+    }
+
+    private void Handle(WindowEvent windowEvent)
+    {
+        var wasMoving = Document?.IsMoving == true;
+        switch (windowEvent)
+        {
+            case KeyPressed { Key: Key.Escape } when Document?.Tool is { Selected: not null } or { Measure.IsActive: true }:
+                _redraw |= _actions.ClearSelection(_clock.Elapsed);
+                return;
+            case CloseRequested or KeyPressed { Key: Key.Escape }:
+                if (_prompts.Current is null)
+                {
+                    _files.Close();
+                }
+
+                return;
+            case WindowResized:
+                _redraw |= Redraw.Scene;
+                break;
+            case WindowExposed:
+                _redraw |= Redraw.Overlay;
+                break;
+            case VisibilityChanged visibility:
+                _isVisible = visibility.IsVisible;
+                _redraw |= Redraw.Overlay;
+                break;
+            case FileDropped dropped:
+                _files.Open(PathText.Shorten(dropped.Path));
+                break;
+            case KeyPressed { IsRepeat: false } pressed:
+                _redraw |= _actions.Handle(pressed, _clock.Elapsed);
+                _interface.SaveSettings();
+                break;
+        }
+
+        if (Document?.Handle(windowEvent, Math.Max(1, _window.Width), Math.Max(1, _window.Height)) == true)
+        {
+            _redraw |= Redraw.Scene;
+        }
+
+        // A slow frame between two clicks does not part a double click.
+        var time = _clock.Elapsed - _refreshTime;
+        if (Document?.Tool.Handle(windowEvent, (Math.Max(1, _window.Width), Math.Max(1, _window.Height)), time) is { } message)
+        {
+            _overlay.ShowMessage(message, _clock.Elapsed);
+            _redraw |= Redraw.Scene;
+        }
+
+        if (!wasMoving)
+        {
+            // Time begins to count with the event that starts a movement.
+            _lastAdvance = _clock.Elapsed;
+        }
+    }
+}

@@ -1,0 +1,29 @@
+using FractalEngine.Render.Ui;
+using FractalEngine.Render.Windowing;
+
+namespace FractalEngine.App.Window;
+
+/// <summary>The part of a window that panels leave to the scene, in whose middle the view is centred.</summary>
+/// <param name="window">The window, whose frame is larger.</param>
+internal sealed class ViewArea(RenderWindow window)
+{
+    private double _widthFraction = 1;
+
+    /// <summary>How far the middle is to the right of that of the frame, see <see cref="Render.View.HorizontalShift"/>.</summary>
+    public double HorizontalShift { get; private set; }
+
+    /// <summary>Width divided by height of the area, for which scenes are framed.</summary>
+    public double Aspect => _widthFraction * window.Aspect;
+
+    /// <summary>Takes over where the panels are.</summary>
+    /// <returns>True when the view must be drawn anew.</returns>
+    public bool Update(UserInterface ui)
+    {
+        var width = Math.Max(1, ui.Width);
+        var shift = ((ui.ViewArea.X + (0.5 * ui.ViewArea.Width)) / width) - 0.5;
+        var hasChanged = shift != HorizontalShift;
+        HorizontalShift = shift;
+        _widthFraction = ui.ViewArea.Width > 0 ? (double)ui.ViewArea.Width / width : 1;
+        return hasChanged;
+    }
+}
