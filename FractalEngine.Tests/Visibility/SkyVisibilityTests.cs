@@ -125,6 +125,24 @@ public class SkyVisibilityTests
         Assert.Equal(VisibleSides.All, sides.FindVisible(in map, isPerspective: true, isMirroredView: true, 1));
     }
 
+    [Theory]
+    [InlineData(-3, -3, 5, true, 0b100011)]
+    [InlineData(3, 3, 5, true, 0b111000)]
+    [InlineData(-3, 3, -5, true, 0b010101)]
+    // Parallel rays come from −z, wherever the mesh is.
+    [InlineData(-3, 3, -5, false, 0b100011)]
+    public void FindFacing_GivesTheSidesTowardsTheEye(double x, double y, double z, bool isPerspective, int expected)
+    {
+        var sides = new VisibleSides(RenderScenes.Sphere(8));
+        foreach (var scale in (double[])[0.5, -0.5])
+        {
+            var map = new SimdAffineMap(new AffineMap(Matrix.Diagonal(new(1, scale, 1)), new(x, y, z)));
+            // A mirrored frame has its sides of ±y exchanged.
+            var mirrored = (expected & 0b101101) | ((expected & 0b010010) == 2 ? 16 : 2);
+            Assert.Equal(scale > 0 || !isPerspective ? expected : mirrored, sides.FindFacing(in map, isPerspective));
+        }
+    }
+
     [Fact]
     public void Masks_OfADeepFractal_AreShared()
     {
