@@ -38,7 +38,8 @@ words() {
     case "$1" in
         front | growth | loading | precision | rays | trace | light) echo "$1 ${quick:+--quick}" ;;
         frames) echo "frames ${quick:+menger:5:afar menger:5:inside --rounds 1 --no-truth}" ;;
-        skips | physics) echo "$1 ${quick:+--rounds 1}" ;;
+        skips) echo "skips ${quick:+--rounds 1} --images docs/benchmarks/skips" ;;
+        physics) echo "physics ${quick:+--rounds 1}" ;;
         # The paper's models have one size, and a window one cost.
         window | paper) echo "$1" ;;
         # BenchmarkDotNet, with few iterations: what has to be told apart is measured in turns, by the commands.

@@ -98,7 +98,12 @@ internal static class RenderCommand
     private static PixelImage Trace(
         LoadedScene scene, View view, RenderJob job, TracedImage trace, string output, WrittenReport report)
     {
-        view = job.ZoomLevels > 0 ? Zoom(DrawableScene.Prepare(scene, job.Settings), view, job) : view;
+        if (job.ZoomLevels > 0)
+        {
+            // The way down is found on what would be drawn, without its light.
+            view = Zoom(DrawableScene.Prepare(scene, job.Settings with { AmbientOcclusion = false }), view, job);
+        }
+
         var image = trace.Draw(scene, view, job, report, out var isComplete);
         Write(image, output, report);
         return isComplete ? image : throw new OperationCanceledException("interrupted");

@@ -27,8 +27,31 @@ internal static class ImageError
         return 20 * Math.Log10(255 / Math.Sqrt(sum / (0.75 * image1.Pixels.Length)));
     }
 
+    /// <summary>Creates an image of a difference: grey where there is none, brighter and darker by some times what there is.</summary>
+    public static PixelImage Difference(PixelImage image, PixelImage reference, int factor)
+    {
+        var pixels = new byte[image.Pixels.Length];
+        for (var i = 0; i < pixels.Length; i++)
+        {
+            var difference = image.Pixels[i] - reference.Pixels[i];
+            pixels[i] = i % 4 == 3 ? byte.MaxValue : (byte)Math.Clamp(128 + (factor * difference), 0, 255);
+        }
+
+        return new(image.Width, image.Height, pixels);
+    }
+
     /// <summary>Creates a smaller image: each pixel is the mean of a square of pixels, in linear light.</summary>
-    public static PixelImage Downsample(PixelImage image, int factor)
+    public static PixelImage Downsample(PixelImage image, int factor) => Filter(image, factor, [.. Enumerable.Repeat(1.0, factor)]);
+
+    /// <summary>
+    /// Creates a smaller image as <see cref="Render.Tracing.PathTracer"/> filters its samples: pixels count the less the farther they are
+    /// from the middle, down to nothing at the middles of the neighbours, in linear light.
+    /// </summary>
+    public static PixelImage DownsampleAsTraced(PixelImage image, int factor) =>
+        Filter(image, factor, [.. Enumerable.Range(0, 2 * factor).Select(i => factor - Math.Abs(i + 0.5 - factor))]);
+
+    /// <summary>Weighs squares of pixels around the middles of the new ones; the border counts for what lies beyond it.</summary>
+    private static PixelImage Filter(PixelImage image, int factor, double[] weights)
     {
         var linear = new double[256];
         for (var i = 0; i < 256; i++)
@@ -38,21 +61,25 @@ internal static class ImageError
         }
 
         var (width, height) = (image.Width / factor, image.Height / factor);
+        var before = (weights.Length - factor) / 2;
+        var whole = weights.Sum() * weights.Sum();
         var pixels = new byte[4 * width * height];
         Parallel.For(0, height, y =>
         {
             for (var i = 0; i < 4 * width; i++)
             {
                 var sum = 0.0;
-                for (var row = y * factor; row < (y + 1) * factor; row++)
+                for (var down = 0; down < weights.Length; down++)
                 {
-                    for (var column = i / 4 * factor; column < ((i / 4) + 1) * factor; column++)
+                    var row = Math.Clamp((y * factor) + down - before, 0, image.Height - 1);
+                    for (var across = 0; across < weights.Length; across++)
                     {
-                        sum += linear[image.Pixels[(4 * ((row * image.Width) + column)) + (i % 4)]];
+                        var column = Math.Clamp((i / 4 * factor) + across - before, 0, image.Width - 1);
+                        sum += weights[down] * weights[across] * linear[image.Pixels[(4 * ((row * image.Width) + column)) + (i % 4)]];
                     }
                 }
 
-                var mean = sum / (factor * factor);
+                var mean = sum / whole;
                 var value = mean <= 0.0031308 ? 12.92 * mean : (1.055 * Math.Pow(mean, 1 / 2.4)) - 0.055;
                 pixels[(y * 4 * width) + i] = (byte)Math.Round(255 * value);
             }

@@ -1,3 +1,4 @@
+using FractalEngine.Core.Visibility;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Render;
 
@@ -12,17 +13,25 @@ namespace FractalEngine.Benchmarks.Drawing;
 internal sealed record OptimisationCase(
     string Name, LoadOptions Load, RenderSettings Settings, string Unit, Func<OptimisationSample, long> CounterOf)
 {
-    /// <summary>All optimisations on, then each switched off alone.</summary>
-    public static IReadOnlyList<OptimisationCase> All { get; } = CreateAll(new(), new() { Samples = 0 });
+    /// <summary>
+    /// Most instances of a frame: so many that no case reaches them. With fewer, a frame of more instances shows less detail, and its image
+    /// would tell of that.
+    /// </summary>
+    public const int InstanceBudget = 20_000_000;
 
-    private static OptimisationCase[] CreateAll(LoadOptions load, RenderSettings settings) =>
+    /// <summary>All optimisations on, then each switched off alone.</summary>
+    public static IReadOnlyList<OptimisationCase> All { get; } = CreateAll(
+        new(), new() { Samples = 0, Culling = new() { InstanceBudget = InstanceBudget } }, new() { InstanceBudget = InstanceBudget });
+
+    private static OptimisationCase[] CreateAll(LoadOptions load, RenderSettings settings, CullingSettings culling) =>
     [
         new("all optimisations", load, settings, "", static _ => 0),
         new("- backface-culling", load, settings with { BackFaceCulling = false }, "back-face culled objects",
             static sample => sample.StillStatistics.Optimisations.BackFaceCulledCount),
-        new("- frustum-culling", load, settings with { Culling = new() { FrustumCulling = false } }, "nodes outside",
+        new("- frustum-culling", load, settings with { Culling = culling with { FrustumCulling = false } }, "nodes outside",
             static sample => sample.StillStatistics.Culling.OutsideFrustum),
-        new("- occlusion-culling", load, settings with { Culling = new() { OcclusionCulling = false } }, "nodes hidden or without coverage",
+        new("- occlusion-culling", load, settings with { Culling = culling with { OcclusionCulling = false } },
+            "nodes hidden or without coverage",
             static sample => sample.StillStatistics.Culling.Occluded + sample.StillStatistics.Culling.ZeroCoverage),
         new("- light-culling", load, settings with { LightCulling = false }, "shadow maps skipped",
             static sample => sample.StillStatistics.Optimisations.SkippedShadowMaps),

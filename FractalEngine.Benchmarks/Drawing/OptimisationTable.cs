@@ -1,9 +1,11 @@
 using System.Diagnostics;
 using System.Globalization;
 using FractalEngine.Benchmarks.Measuring;
+using FractalEngine.Core.Images;
 using FractalEngine.Core.Maths;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Render;
+using FractalEngine.Render.Images;
 using FractalEngine.Render.Preparation;
 using FractalEngine.Render.Windowing;
 
@@ -16,17 +18,21 @@ namespace FractalEngine.Benchmarks.Drawing;
 /// <param name="rounds">Number of rounds, the best of which counts.</param>
 /// <param name="output">Receives the rows as text.</param>
 /// <param name="table">Receives the rows too, unless it is null.</param>
-internal sealed class OptimisationTable(int rounds, TextWriter output, CsvTable? table)
+/// <param name="images">Folder that receives the images; null for none.</param>
+internal sealed class OptimisationTable(int rounds, TextWriter output, CsvTable? table, string? images)
 {
     /// <summary>Names of the table's columns.</summary>
     public static readonly string[] Columns =
     [
-        "scene", "switched_off", "start_ms", "moving_ms", "standing_ms", "allocated_bytes", "to_the_first_db", "counter",
-        "count_with_all_skips", "count",
+        "scene", "switched_off", "start_ms", "moving_ms", "standing_ms", "allocated_bytes", "to_the_first_db", "instance_budget",
+        "counter", "count_with_all_skips", "count",
     ];
 
     private const int MovingFrames = 5;
     private const int StillFrames = 3;
+
+    // By how much differences are larger in their image than they are.
+    private const int DifferenceFactor = 8;
 
     // Step of the camera between two moving frames, as a fraction of the scene's size.
     private const double CameraStep = 2e-4;
@@ -107,6 +113,11 @@ internal sealed class OptimisationTable(int rounds, TextWriter output, CsvTable?
         var ratio = ImageError.PeakSignalToNoiseRatio(sample.StillImage, first.StillImage);
         var difference = double.IsPositiveInfinity(ratio) ? "the same" : FormattableString.Invariant($"{ratio:F1} dB");
         var isCounted = optimisation.Unit.Length > 0;
+        if (!isCounted || !double.IsPositiveInfinity(ratio))
+        {
+            SaveImages(isCounted ? scene + optimisation.Name[1..].Replace(' ', '-') : scene, sample.StillImage, first.StillImage);
+        }
+
         var firstCount = optimisation.CounterOf(first);
         var count = optimisation.CounterOf(sample);
         var counted = isCounted ? FormattableString.Invariant($"{optimisation.Unit}: {firstCount:N0}, now {count:N0}") : "";
@@ -121,9 +132,25 @@ internal sealed class OptimisationTable(int rounds, TextWriter output, CsvTable?
             Math.Round(sample.StillMilliseconds, 3),
             sample.AllocatedBytes,
             double.IsPositiveInfinity(ratio) ? null : Math.Round(ratio, 2),
+            OptimisationCase.InstanceBudget,
             isCounted ? optimisation.Unit : null,
             isCounted ? firstCount : null,
             isCounted ? count : null);
+    }
+
+    private void SaveImages(string name, PixelImage image, PixelImage first)
+    {
+        if (images is null)
+        {
+            return;
+        }
+
+        image.SavePng(Path.Combine(images, name + ".png"));
+        // The first image is its own reference.
+        if (!ReferenceEquals(image, first))
+        {
+            ImageError.Difference(image, first, DifferenceFactor).SavePng(Path.Combine(images, name + "-difference.png"));
+        }
     }
 
     private void WriteLine(FormattableString text) => output.WriteLine(text.ToString(CultureInfo.InvariantCulture));

@@ -6,9 +6,10 @@ namespace FractalEngine.Benchmarks.Drawing;
 internal static class OptimisationsCommand
 {
     private const string Usage = """
-        skips [SCENE.sdo ...] [--rounds N] [--output FOLDER]
+        skips [SCENE.sdo ...] [--rounds N] [--images FOLDER] [--output FOLDER]
           What each optimisation saves, switched off alone.
           For the gallery, a scene of textures and a crowd of 400 objects, or the named files.
+          --images: also the image of each scene, and those that differ from it, with eight times the difference.
           --output: also as skips.csv.
         """;
 
@@ -18,10 +19,12 @@ internal static class OptimisationsCommand
     {
         var rounds = 3;
         string? folder = null;
+        string? images = null;
         var files = new List<string>();
         var parser = new CommandLineParser(Usage)
             .Count("--rounds", count => rounds = count)
             .Option("--output", value => folder = value)
+            .Option("--images", value => images = Directory.CreateDirectory(value).FullName)
             .Names(File.Exists, files);
         if (!parser.TryParse(args))
         {
@@ -30,7 +33,7 @@ internal static class OptimisationsCommand
 
         var command = FormattableString.Invariant($"skips{string.Concat(files.Select(file => " " + file))} --rounds {rounds}");
         var csv = folder is null ? null : new CsvTable(Path.Combine(folder, "skips.csv"), command, OptimisationTable.Columns);
-        Write(new(rounds, Console.Out, csv), files);
+        Write(new(rounds, Console.Out, csv, images), files);
         csv?.Save();
         return 0;
     }

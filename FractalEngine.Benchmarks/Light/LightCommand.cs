@@ -47,7 +47,7 @@ internal static class LightCommand
             .Flag("--quick", () => isQuick = true)
             .Flag("--no-truth", () => hasTruth = false)
             .Option("--output", value => folder = value)
-            .Option("--images", value => images = value)
+            .Option("--images", value => images = Directory.CreateDirectory(value).FullName)
             .Names(static name => name == "occlusion" || File.Exists(PathOf(name)), scenes);
         if (!parser.TryParse(args))
         {

@@ -26,6 +26,9 @@ internal sealed class SkyMaskBaker
     private const int ProbedLines = 30;
     private const long MaxMeanVisits = 500;
 
+    // The longest chain of only children that is followed to the next masks: an infinite one has none.
+    private const int MaxOnlyChildren = 1000;
+
     private readonly SkyOccluder _occluder;
 
     private readonly LodHierarchy _hierarchy;
@@ -248,13 +251,15 @@ internal sealed class SkyMaskBaker
     {
         var linear = node.ChildMaps[child].ToAffineMap().Linear;
         var (below, belowLevels) = _occluder.ChildOf(node, levels, child);
-        while (below.ChildMaps.Length == 1)
+        for (var i = 0; i < MaxOnlyChildren && below.ChildMaps.Length == 1; i++)
         {
+            // Only directions matter: the product of many small maps would underflow.
+            linear /= linear.MaxAbsEntry();
             linear *= below.ChildMaps[0].ToAffineMap().Linear;
             (below, belowLevels) = _occluder.ChildOf(below, belowLevels, 0);
         }
 
-        return linear.Inverse();
+        return (linear / linear.MaxAbsEntry()).Inverse();
     }
 
     /// <summary>Tells for each direction which one it is under a map; null where it is the same.</summary>

@@ -1,5 +1,4 @@
 using System.Numerics;
-using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using Vector = FractalEngine.Core.Maths.Vector;
 
@@ -21,9 +20,12 @@ internal sealed class SkyOccluder
     // A ray that enters more nodes goes no further. Where parts overlap, level within level, it would enter nearly all of them.
     private const int MaxVisits = 20_000;
 
+    // Rays go no deeper below the node that they are cast at: parts that don't shrink, level after level, would exhaust the stack.
+    private const int MaxDepth = 200;
+
     private readonly LodHierarchy _hierarchy;
     private readonly int _windingSign;
-    private readonly Dictionary<(LodNode, long), Solid> _solids = [];
+    private readonly Dictionary<(LodNode, long), SkyChildren> _children = [];
     private readonly (Vector A, Vector Edge1, Vector Edge2)[] _triangles;
 
     /// <summary>Collects the nodes that are reached from the whole.</summary>
@@ -52,7 +54,7 @@ internal sealed class SkyOccluder
     public long LastLevels { get; }
 
     /// <summary>Returns the child of a node, with the levels that it has left.</summary>
-    public (LodNode Node, long Levels) ChildOf(LodNode node, long levels, int child) => SolidOf(node, levels).Children[child];
+    public (LodNode Node, long Levels) ChildOf(LodNode node, long levels, int child) => ChildrenOf(node, levels).Nodes[child];
 
     /// <summary>Tells which directions are free of some.</summary>
     /// <param name="node">Node whose children stop rays.</param>
@@ -77,13 +79,13 @@ internal sealed class SkyOccluder
     public ulong FreeDirections(
         LodNode node, long levels, int excludedChild, Vector point, ulong directions, ref long visitCount)
     {
-        var solid = SolidOf(node, levels);
+        var children = ChildrenOf(node, levels);
         var free = 0ul;
         for (var rest = directions; rest != 0; rest &= rest - 1)
         {
             var i = BitOperations.TrailingZeroCount(rest);
             var remainingVisits = MaxVisits;
-            free |= IsBlocked(solid, excludedChild, point, SkyDirections.At(i), 1, ref remainingVisits) ? 0 : 1ul << i;
+            free |= IsBlocked(children, excludedChild, point, SkyDirections.At(i), 1, 0, ref remainingVisits) ? 0 : 1ul << i;
             visitCount += MaxVisits - remainingVisits;
         }
 
@@ -130,7 +132,7 @@ internal sealed class SkyOccluder
         return new(radius * cosine, radius * sine, z);
     }
 
-    private Solid SolidOf(LodNode node, long levels) => _solids[KeyOf(node, levels)];
+    private SkyChildren ChildrenOf(LodNode node, long levels) => _children[KeyOf(node, levels)];
 
     private (LodNode, long) KeyOf(LodNode node, long levels) => (node, levels <= LastLevels ? levels : long.MaxValue);
 
@@ -156,7 +158,7 @@ internal sealed class SkyOccluder
 
         for (var i = 0; i < Nodes.Count; i++)
         {
-            foreach (var (child, childLevels) in SolidOf(Nodes[i].Node, Nodes[i].Levels).Children)
+            foreach (var (child, childLevels) in ChildrenOf(Nodes[i].Node, Nodes[i].Levels).Nodes)
             {
                 Add(child, childLevels);
             }
@@ -164,9 +166,9 @@ internal sealed class SkyOccluder
 
         void Add(LodNode node, long levels)
         {
-            if (!node.IsEmpty && !_solids.ContainsKey(KeyOf(node, levels)))
+            if (!node.IsEmpty && !_children.ContainsKey(KeyOf(node, levels)))
             {
-                _solids[KeyOf(node, levels)] = new(_hierarchy, node, levels);
+                _children[KeyOf(node, levels)] = new(_hierarchy, node, levels);
                 Nodes.Add((node, levels));
             }
         }
@@ -180,22 +182,23 @@ internal sealed class SkyOccluder
             return;
         }
 
-        if (node.ChildMaps.Length == 0 || size < MinRelativeSize)
+        if (node.ChildMaps.Length == 0 || size < MinRelativeSize || depth >= MaxDepth)
         {
             FindNearestTriangle(node, origin, direction, toRoot, depth, sample);
             return;
         }
 
-        var solid = SolidOf(node, levels);
+        var children = ChildrenOf(node, levels);
         var inverseDirection = new Vector(1 / direction.X, 1 / direction.Y, 1 / direction.Z);
-        for (var i = 0; i < solid.Boxes.Length; i++)
+        for (var i = 0; i < children.Count; i++)
         {
-            if (EntryOf(solid.Boxes[i], origin, inverseDirection) < sample.Distance)
+            if (children.EntryOf(i, origin, inverseDirection) < sample.Distance)
             {
                 sample.SetStep(depth, new(node, levels, i));
                 FindNearest(
-                    solid.Children[i].Node, solid.Children[i].Levels, solid.Inverses[i] * origin, solid.Inverses[i].Linear * direction,
-                    toRoot * node.ChildMaps[i].ToAffineMap(), size * solid.SizeRatios[i], depth + 1, sample);
+                    children.Nodes[i].Node, children.Nodes[i].Levels,
+                    children.Inverses[i] * origin, children.Inverses[i].Linear * direction,
+                    toRoot * node.ChildMaps[i].ToAffineMap(), size * children.SizeRatios[i], depth + 1, sample);
             }
         }
     }
@@ -205,7 +208,7 @@ internal sealed class SkyOccluder
         (origin, direction) = ToMesh(node, origin, direction);
         for (var i = 0; i < _triangles.Length; i++)
         {
-            var distance = Cross(in _triangles[i], origin, direction);
+            var distance = IntersectTriangle(in _triangles[i], origin, direction);
             if (distance < sample.Distance)
             {
                 sample.SetNearest(distance, i, node, depth, node.IsProxyIdentity ? toRoot : toRoot * node.ProxyMap.ToAffineMap());
@@ -215,12 +218,12 @@ internal sealed class SkyOccluder
 
     /// <summary>Tells whether a ray hits a child of a node, all in the node's frame.</summary>
     private bool IsBlocked(
-        Solid solid, int excludedChild, Vector origin, Vector direction, double size, ref int remainingVisits)
+        SkyChildren children, int excludedChild, Vector origin, Vector direction, double size, int depth, ref int remainingVisits)
     {
         var inverseDirection = new Vector(1 / direction.X, 1 / direction.Y, 1 / direction.Z);
-        for (var i = 0; i < solid.Boxes.Length; i++)
+        for (var i = 0; i < children.Count; i++)
         {
-            if (i == excludedChild || double.IsPositiveInfinity(EntryOf(solid.Boxes[i], origin, inverseDirection)))
+            if (i == excludedChild || double.IsPositiveInfinity(children.EntryOf(i, origin, inverseDirection)))
             {
                 continue;
             }
@@ -232,12 +235,12 @@ internal sealed class SkyOccluder
 
             remainingVisits--;
 
-            var (child, childLevels) = solid.Children[i];
-            var (childOrigin, childDirection) = (solid.Inverses[i] * origin, solid.Inverses[i].Linear * direction);
-            var childSize = size * solid.SizeRatios[i];
-            if (child.ChildMaps.Length == 0 || childSize < MinRelativeSize
+            var (child, childLevels) = children.Nodes[i];
+            var (childOrigin, childDirection) = (children.Inverses[i] * origin, children.Inverses[i].Linear * direction);
+            var childSize = size * children.SizeRatios[i];
+            if (child.ChildMaps.Length == 0 || childSize < MinRelativeSize || depth >= MaxDepth
                 ? HitsMesh(child, childOrigin, childDirection)
-                : IsBlocked(SolidOf(child, childLevels), -1, childOrigin, childDirection, childSize, ref remainingVisits))
+                : IsBlocked(ChildrenOf(child, childLevels), -1, childOrigin, childDirection, childSize, depth + 1, ref remainingVisits))
             {
                 return true;
             }
@@ -252,7 +255,7 @@ internal sealed class SkyOccluder
         (origin, direction) = ToMesh(node, origin, direction);
         foreach (ref readonly var triangle in _triangles.AsSpan())
         {
-            if (double.IsFinite(Cross(in triangle, origin, direction)))
+            if (double.IsFinite(IntersectTriangle(in triangle, origin, direction)))
             {
                 return true;
             }
@@ -273,7 +276,7 @@ internal sealed class SkyOccluder
     }
 
     /// <summary>Finds where a ray enters the front of a triangle: multiples of its direction, infinite where it misses.</summary>
-    private double Cross(in (Vector A, Vector Edge1, Vector Edge2) triangle, Vector origin, Vector direction)
+    private double IntersectTriangle(in (Vector A, Vector Edge1, Vector Edge2) triangle, Vector origin, Vector direction)
     {
         // T. Möller and B. Trumbore, "Fast, minimum storage ray/triangle intersection", 1997.
         var across = Vector.Cross(direction, triangle.Edge2);
@@ -289,48 +292,5 @@ internal sealed class SkyOccluder
         var v = Vector.Dot(direction, normal) / determinant;
         var distance = Vector.Dot(triangle.Edge2, normal) / determinant;
         return u >= 0 && v >= 0 && u + v <= 1 && distance > 0 ? distance : double.PositiveInfinity;
-    }
-
-    /// <summary>Finds where a ray enters a box: multiples of its direction, infinite where it misses.</summary>
-    private static double EntryOf(BoundingBox box, Vector origin, Vector inverseDirection)
-    {
-        var toMinimum = (box.Minimum - origin).Stretch(inverseDirection);
-        var toMaximum = (box.Maximum - origin).Stretch(inverseDirection);
-        var first = Vector.Min(toMinimum, toMaximum);
-        var last = Vector.Max(toMinimum, toMaximum);
-        var entry = Math.Max(first.X, Math.Max(first.Y, first.Z));
-        var exit = Math.Min(last.X, Math.Min(last.Y, last.Z));
-        return exit > 0 && entry <= exit ? entry : double.PositiveInfinity;
-    }
-
-    /// <summary>A node as rays meet it: its children with their boxes and inverse maps.</summary>
-    private sealed class Solid
-    {
-        public Solid(LodHierarchy hierarchy, LodNode node, long levels)
-        {
-            var count = node.ChildMaps.Length;
-            Children = new (LodNode, long)[count];
-            Inverses = new AffineMap[count];
-            Boxes = new BoundingBox[count];
-            SizeRatios = new double[count];
-            for (var i = 0; i < count; i++)
-            {
-                var childLevels = node.ChildLevelSteps[i].RemainingLevels(levels);
-                var child = hierarchy.NodeAt(childLevels);
-                var map = node.ChildMaps[i].ToAffineMap();
-                Children[i] = (child, childLevels);
-                Inverses[i] = map.Inverse();
-                Boxes[i] = child.Box.Transform(map);
-                SizeRatios[i] = Boxes[i].Diagonal / node.Box.Diagonal;
-            }
-        }
-
-        public (LodNode Node, long Levels)[] Children { get; }
-
-        public AffineMap[] Inverses { get; }
-
-        public BoundingBox[] Boxes { get; }
-
-        public double[] SizeRatios { get; }
     }
 }

@@ -307,11 +307,7 @@ internal sealed class StripCuller
 
         if (context.HasSkyParts)
         {
-            // Of what is transparent or cut, inner sides are seen as well.
-            var showsOuterSides = context.CanOcclude && footprint is { IsBeyondNearPlane: true, IsSectioned: false };
-            var visibleSides = context.Hierarchy.VisibleSides.FindVisible(
-                in instanceToView, frame.IsPerspective, frame.IsMirrored, showsOuterSides ? context.WindingSign : 0);
-            _skyPath.ComputeParts(context.Hierarchy, instance.Node, instance.Depth, visibleSides, instances.LastSkyParts());
+            _skyPath.AddParts(in context, in instance, in instanceToView, in footprint, instances.LastSkyParts());
         }
     }
 }

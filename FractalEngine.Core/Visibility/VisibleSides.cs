@@ -20,6 +20,7 @@ internal sealed class VisibleSides
     private readonly Vector256<double>[] _planes;
     private readonly int[] _frontSides;
     private readonly int[] _backSides;
+    private readonly Vector _centre;
 
     /// <summary>Collects the planes of a mesh, unless its shading has normals of its own.</summary>
     public VisibleSides(Mesh mesh)
@@ -37,6 +38,7 @@ internal sealed class VisibleSides
             }
         }
 
+        _centre = mesh.FaceCount > 0 ? mesh.Bounds.Centre : Vector.Zero;
         _planes = planes.Count <= MaxPlanes ? [.. planes] : [];
         _frontSides = [.. _planes.Select(static plane => SidesOf(SimdAffineMap.ToVector(plane)))];
         _backSides = [.. _planes.Select(static plane => SidesOf(-SimdAffineMap.ToVector(plane)))];
@@ -57,22 +59,13 @@ internal sealed class VisibleSides
     /// </param>
     public int FindVisible(in SimdAffineMap meshToView, bool isPerspective, bool isMirroredView, int windingSign)
     {
-        var (v1, v2, v3) =
-            (SimdAffineMap.ToVector(meshToView.V1), SimdAffineMap.ToVector(meshToView.V2), SimdAffineMap.ToVector(meshToView.V3));
-        var normal1 = Vector.Cross(v2, v3);
-        var determinant = Vector.Dot(v1, normal1);
         // In mirrored frames, front faces are back faces. These are rare, and flat frames have no inverse.
-        if (_planes.Length == 0 || !(isMirroredView ? determinant < 0 : determinant > 0))
+        if (_planes.Length == 0 || FindEye(in meshToView, isPerspective, out var determinant) is var eye
+            && !(isMirroredView ? determinant < 0 : determinant > 0))
         {
             return All;
         }
 
-        // The eye in the frame of the mesh, times the determinant; a direction with parallel rays.
-        var towardsEye = isPerspective ? -SimdAffineMap.ToVector(meshToView.Translation) : -Vector.K;
-        var eye = Vector256.Create(
-            Vector.Dot(normal1, towardsEye), Vector.Dot(Vector.Cross(v3, v1), towardsEye), Vector.Dot(Vector.Cross(v1, v2), towardsEye),
-            isPerspective ? determinant : 0);
-        eye *= Math.Sign(determinant);
         var size = Margin * Vector256.Abs(eye);
         var sides = 0;
         for (var i = 0; i < _planes.Length; i++)
@@ -84,6 +77,36 @@ internal sealed class VisibleSides
         }
 
         return sides;
+    }
+
+    /// <summary>
+    /// Finds the sides that face the eye, three at most: what an eye sees of a surface, outer or inner sides, faces mainly these.
+    /// </summary>
+    /// <param name="meshToView">As for <see cref="FindVisible"/>.</param>
+    /// <param name="isPerspective">As for <see cref="FindVisible"/>.</param>
+    public int FindFacing(in SimdAffineMap meshToView, bool isPerspective)
+    {
+        var eye = FindEye(in meshToView, isPerspective, out var determinant);
+        if (determinant == 0)
+        {
+            return All;
+        }
+
+        var (x, y, z) = SimdAffineMap.ToVector(eye) - (eye[3] * _centre);
+        return (x >= 0 ? 1 : 8) | (y >= 0 ? 2 : 16) | (z >= 0 ? 4 : 32);
+    }
+
+    /// <summary>Finds the eye in the frame of the mesh: homogeneous coordinates, whose last one is 0 for a direction.</summary>
+    private static Vector256<double> FindEye(in SimdAffineMap meshToView, bool isPerspective, out double determinant)
+    {
+        var (v1, v2, v3) =
+            (SimdAffineMap.ToVector(meshToView.V1), SimdAffineMap.ToVector(meshToView.V2), SimdAffineMap.ToVector(meshToView.V3));
+        var normal1 = Vector.Cross(v2, v3);
+        determinant = Vector.Dot(v1, normal1);
+        var towardsEye = isPerspective ? -SimdAffineMap.ToVector(meshToView.Translation) : -Vector.K;
+        return Math.Sign(determinant) * Vector256.Create(
+            Vector.Dot(normal1, towardsEye), Vector.Dot(Vector.Cross(v3, v1), towardsEye), Vector.Dot(Vector.Cross(v1, v2), towardsEye),
+            isPerspective ? determinant : 0);
     }
 
     private static int SidesOf(Vector normal)

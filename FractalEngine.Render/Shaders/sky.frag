@@ -12,9 +12,21 @@ in vec3 pixelDirection;
 
 out vec4 fragment;
 
+// What keeps a slow gradient from showing bands: less than half a step of the screen's 256 values more or less, by B. Bayer's ordered
+// 8 x 8 pattern ("An optimum method for two-level rendition of continuous-tone pictures", 1973). Render.Images.OrderedDither is the same.
+float dither(ivec2 pixel)
+{
+    int x = pixel.x ^ pixel.y;
+    int rank = ((x & 1) << 5) | ((pixel.y & 1) << 4) | ((x & 2) << 2) | ((pixel.y & 2) << 1) | ((x & 4) >> 1) | ((pixel.y & 4) >> 2);
+    return (float(rank) + 0.5) / 64.0 - 0.5;
+}
+
 void main()
 {
     float height = normalize(pixelDirection).y;
     vec3 light = height >= 0.0 ? mix(horizon, zenith, height) : mix(horizon, ground, sqrt(-height));
-    fragment = vec4(toScreen(light), 1.0);
+    vec3 shown = toScreen(light);
+    // Steps of sRGB (IEC 61966-2-1) in linear light.
+    vec3 step256 = max(2.4 / 1.055 * pow(shown, vec3(1.4 / 2.4)), vec3(1.0 / 12.92)) / 255.0;
+    fragment = vec4(shown + dither(ivec2(gl_FragCoord.xy)) * step256, 1.0);
 }

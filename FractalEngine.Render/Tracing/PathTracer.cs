@@ -34,9 +34,8 @@ public sealed class PathTracer
     // Parts of a fractal of a smaller radius than so many pixels are traced as one.
     private const double FootprintPixels = 0.25;
 
-    // How much wider rays of scattered light and rays towards a light become: their images are soft, or far away.
+    // How much wider rays of scattered light become: their images are soft.
     private const double ScatteredSpread = 0.03;
-    private const double ShadowSpread = 1e-3;
 
     private readonly TracedScene _scene;
     private readonly TracedLights _lights;
@@ -47,15 +46,12 @@ public sealed class PathTracer
     private readonly double _unit = 1;
     private readonly Scene _declared;
     private readonly Colour _defaultBackground;
-    private readonly SkyRadiance? _visibleSky;
-    private readonly Vector _backgroundRadiance;
+    private readonly TracedBackground _background;
     private readonly DisplayTransform _display;
     private readonly double _fogDensity;
     private readonly Vector _fogColour;
     private readonly int _seed;
-    // In single precision, a million samples would add to a bright pixel no more.
-    private readonly double[] _sums;
-    private readonly int[] _rowSamples;
+    private readonly RadianceImage _image;
     private bool _isAffordable;
 
     /// <summary>Prepares an image without samples.</summary>
@@ -71,7 +67,7 @@ public sealed class PathTracer
         : this(
             view, width, height,
             new TracedScene(scene ?? throw new ArgumentNullException(nameof(scene)), settings ?? new()), new(scene),
-            WithBackground(scene.Scene, (settings ?? new()).Background), (settings ?? new()).Background, seed)
+            TracedBackground.DeclaredIn(scene.Scene, (settings ?? new()).Background), (settings ?? new()).Background, seed)
     {
     }
 
@@ -94,16 +90,13 @@ public sealed class PathTracer
         _declared = declared;
         _defaultBackground = background;
         _display = DisplayTransform.Of(declared);
-        // A background is shown as it is declared, whatever is done with light.
-        _visibleSky = declared.Background is null ? declared.Sky?.ToRadiance() : null;
-        _backgroundRadiance = _display.Invert(TracedMaterial.ToLinear(declared.Background ?? RenderSettings.DefaultBackground));
+        _background = new(declared, _display);
         _fogDensity = _unit * (declared.Fog?.Density ?? 0);
         _fogColour = LightBlock.FogColour(declared);
         _seed = seed;
         Width = width;
         Height = height;
-        _sums = new double[3 * width * height];
-        _rowSamples = new int[height];
+        _image = new(width, height);
     }
 
     /// <summary>Width of the image in pixels.</summary>
@@ -128,7 +121,7 @@ public sealed class PathTracer
     } = MaxBounces;
 
     /// <summary>Number of samples that every pixel has.</summary>
-    public int SampleCount => _rowSamples.Min();
+    public int SampleCount => _image.RowSamples.Min();
 
     /// <summary>Sentences for the user about textures that can't be decoded, each when its model is prepared.</summary>
     public ImmutableArray<string> Notices => _scene.Notices;
@@ -155,7 +148,7 @@ public sealed class PathTracer
     {
         ArgumentNullException.ThrowIfNull(scene);
         return new(
-            view, width, height, _scene.WithScene(scene), new(scene), WithBackground(scene.Scene, _defaultBackground), _defaultBackground,
+            view, width, height, _scene.WithScene(scene), new(scene), TracedBackground.DeclaredIn(scene.Scene, _defaultBackground), _defaultBackground,
             _seed)
         { BounceLimit = BounceLimit };
     }
@@ -189,7 +182,7 @@ public sealed class PathTracer
         {
             if (y < top || y >= top + height)
             {
-                _rowSamples[y] = sample + 1;
+                _image.RowSamples[y] = sample + 1;
             }
         }
 
@@ -197,10 +190,10 @@ public sealed class PathTracer
         {
             Parallel.For(top, top + height, options, static () => new QueryContext(), (y, _, context) =>
             {
-                if (_rowSamples[y] == sample)
+                if (_image.RowSamples[y] == sample)
                 {
                     AddRow(y, sample, context);
-                    _rowSamples[y]++;
+                    _image.RowSamples[y]++;
                 }
 
                 return context;
@@ -214,58 +207,21 @@ public sealed class PathTracer
     }
 
     /// <summary>Converts the present image to sRGB.</summary>
-    public PixelImage ToImage()
-    {
-        var pixels = new byte[4 * Width * Height];
-        var letterbox = FrameRenderer.LetterboxColour(_declared.Background ?? RenderSettings.DefaultBackground);
-        var (left, top, width, height) = _camera.Viewport;
-        for (var y = 0; y < Height; y++)
-        {
-            for (var x = 0; x < Width; x++)
-            {
-                var target = pixels.AsSpan(4 * ((y * Width) + x), 4);
-                target[3] = byte.MaxValue;
-                if (x < left || x >= left + width || y < top || y >= top + height)
-                {
-                    (target[0], target[1], target[2]) = (ToByte(letterbox.Red), ToByte(letterbox.Green), ToByte(letterbox.Blue));
-                    continue;
-                }
-
-                var sum = _sums.AsSpan(3 * ((y * Width) + x), 3);
-                var scale = 1.0 / Math.Max(1, _rowSamples[y]);
-                var (red, green, blue) = _display.Apply(new(sum[0] * scale, sum[1] * scale, sum[2] * scale));
-                (target[0], target[1], target[2]) = (ToByte(ToSrgb(red)), ToByte(ToSrgb(green)), ToByte(ToSrgb(blue)));
-            }
-        }
-
-        return new(Width, Height, pixels);
-    }
+    public PixelImage ToImage() => _image.ToImage(
+        _display, _camera.Viewport, FrameRenderer.LetterboxColour(_declared.Background ?? RenderSettings.DefaultBackground),
+        _background.IsSky);
 
     /// <summary>The mean radiance of a pixel so far, linear light: red, green, blue.</summary>
     /// <param name="x">From the left, from 0.</param>
     /// <param name="y">From the top, from 0.</param>
-    public Vector RadianceAt(int x, int y)
-    {
-        var sum = _sums.AsSpan(3 * ((y * Width) + x), 3);
-        return new Vector(sum[0], sum[1], sum[2]) / Math.Max(1, _rowSamples[y]);
-    }
-
-    private static byte ToByte(double component) => (byte)Math.Round(255 * Math.Clamp(component, 0, 1));
-
-    /// <summary>The curve of IEC 61966-2-1, from linear light.</summary>
-    private static double ToSrgb(double linear) =>
-        linear <= 0.0031308 ? 12.92 * linear : (1.055 * Math.Pow(linear, 1 / 2.4)) - 0.055;
+    public Vector RadianceAt(int x, int y) => _image.At(x, y);
 
     private void AddRow(int y, int sample, QueryContext context)
     {
         var (left, _, width, _) = _camera.Viewport;
         for (var x = left; x < left + width; x++)
         {
-            var pixel = (y * Width) + x;
-            var radiance = TracePixel(x, y, sample, context);
-            _sums[3 * pixel] += radiance.X;
-            _sums[(3 * pixel) + 1] += radiance.Y;
-            _sums[(3 * pixel) + 2] += radiance.Z;
+            _image.Add(x, y, TracePixel(x, y, sample, context));
         }
     }
 
@@ -290,7 +246,7 @@ public sealed class PathTracer
         {
             if (!_scene.TryIntersect(in ray, footprint, minDistance, maxDistance, context, out var surface))
             {
-                return radiance + throughput.Stretch(bounce == 0 ? Background(ray.Direction) : _lights.Surroundings(ray.Direction));
+                return radiance + throughput.Stretch(bounce == 0 ? _background.At(ray.Direction) : _lights.Surroundings(ray.Direction));
             }
 
             var passed = (surface.Position - ray.Origin).Length();
@@ -320,7 +276,8 @@ public sealed class PathTracer
             radiance += throughput.Stretch(surface.Emission);
             var width = footprint.RadiusAt(passed);
             var origin = surface.Position + (_scene.OffsetAt(surface.Position) * surface.FaceNormal);
-            radiance += throughput.Stretch(DirectLight(in surface, origin, -ray.Direction, width, ref samples, context));
+            radiance += throughput.Stretch(_lights.Reflected(
+                in surface, _eye + (_unit * surface.Position), origin, -ray.Direction, width, _scene, _unit, ref samples, context));
             if (++bounce > BounceLimit
                 || !Reflection.TrySample(in surface, -ray.Direction, ref samples, out var direction, out var weight, out var spread))
             {
@@ -343,30 +300,5 @@ public sealed class PathTracer
             footprint = new(width, footprint.Spread + (spread * ScatteredSpread));
             (minDistance, maxDistance) = (0, double.PositiveInfinity);
         }
-    }
-
-    private static Scene WithBackground(Scene scene, Colour background) =>
-        scene with { Background = scene.Background ?? (scene.Sky is null ? background : null) };
-
-    private Vector Background(Vector unitDirection) => _visibleSky is { } sky ? sky.At(unitDirection.Y) : _backgroundRadiance;
-
-    /// <summary>Adds up the light that reaches a surface from the scene's lights, and goes on towards the eye.</summary>
-    private Vector DirectLight(
-        in TracedSurface surface, Vector origin, Vector toEye, double width, ref SampleSequence samples, QueryContext context)
-    {
-        var sum = Vector.Zero;
-        for (var i = 0; i < _lights.Count; i++)
-        {
-            var incoming = _lights.Incoming(
-                i, _eye + (_unit * surface.Position), ref samples, out var toLight, out var distance);
-            var reflected = incoming.Stretch(Reflection.Evaluate(in surface, toEye, toLight));
-            if (reflected != Vector.Zero)
-            {
-                sum += _scene.Transmittance(
-                    new(origin, toLight), new(width, ShadowSpread), distance / _unit, context) * reflected;
-            }
-        }
-
-        return sum;
     }
 }

@@ -1,3 +1,4 @@
+using FractalEngine.Core.Collision;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Render.Passes;
@@ -11,6 +12,9 @@ namespace FractalEngine.Render.Tracing;
 /// </remarks>
 internal sealed class TracedLights
 {
+    // How much wider rays towards a light become: what they meet may be far away.
+    private const double ShadowSpread = 1e-3;
+
     private readonly Emitter[] _emitters;
     private readonly Vector _colourAtHorizon;
     private readonly Vector _colourSlope;
@@ -63,6 +67,34 @@ internal sealed class TracedLights
         }
 
         return strength * emitter.Colour;
+    }
+
+    /// <summary>Adds up the light that reaches a surface from all lights, and goes on towards the eye.</summary>
+    /// <param name="surface">The surface.</param>
+    /// <param name="position">Its place in world space.</param>
+    /// <param name="origin">Point just before it, in the space of the traced scene.</param>
+    /// <param name="toEye">Unit direction towards the eye.</param>
+    /// <param name="width">Radius of the rays there.</param>
+    /// <param name="scene">Casts the shadows.</param>
+    /// <param name="unit">Unit of the traced scene's space, in units of world space.</param>
+    /// <param name="samples">Choose points of lights that have a size.</param>
+    /// <param name="context">Memory of the rays.</param>
+    public Vector Reflected(
+        in TracedSurface surface, Vector position, Vector origin, Vector toEye, double width, TracedScene scene, double unit,
+        ref SampleSequence samples, QueryContext context)
+    {
+        var sum = Vector.Zero;
+        for (var i = 0; i < Count; i++)
+        {
+            var incoming = Incoming(i, position, ref samples, out var toLight, out var distance);
+            var reflected = incoming.Stretch(Reflection.Evaluate(in surface, toEye, toLight));
+            if (reflected != Vector.Zero)
+            {
+                sum += scene.Transmittance(new(origin, toLight), new(width, ShadowSpread), distance / unit, context) * reflected;
+            }
+        }
+
+        return sum;
     }
 
     /// <summary>As in lighting.glsl: by the inverse square, 1 at a tenth of the range, 0 from the range on.</summary>

@@ -65,6 +65,28 @@ public class ImageErrorTests
     }
 
     [Fact]
+    public void DownsampleAsTraced_OfAnEdge_SpreadsItOverTheNeighbours()
+    {
+        // Twelve pixels, six of them white, become three: a tent has an eighth of its area beyond the border of its pixel. The middle pixel
+        // has the edge in its middle.
+        byte[] row = [.. Enumerable.Range(0, 12).SelectMany(static x => Grey(1, 1, (byte)(x < 6 ? 0 : 255)).Pixels)];
+        var image = new PixelImage(12, 12, [.. Enumerable.Repeat(row, 12).SelectMany(static pixels => pixels)]);
+        Assert.Equal(188, ImageError.DownsampleAsTraced(image, 4)[1, 1].Red);
+        var shifted = new PixelImage(8, 8, [.. Enumerable.Repeat(row[8..40], 8).SelectMany(static pixels => pixels)]);
+        // sRGB of an eighth, and of seven eighths.
+        Assert.Equal((99, 240), (ImageError.DownsampleAsTraced(shifted, 4)[0, 1].Red, ImageError.DownsampleAsTraced(shifted, 4)[1, 1].Red));
+    }
+
+    [Fact]
+    public void Difference_IsGreyWhereNothingDiffers()
+    {
+        var difference = ImageError.Difference(Grey(2, 1, 100), Grey(2, 1, 101), 8);
+        Assert.Equal((120, 120, 120, 255), difference[0, 0]);
+        Assert.Equal((128, 128, 128, 255), ImageError.Difference(Grey(1, 1, 7), Grey(1, 1, 7), 8)[0, 0]);
+        Assert.Equal(255, ImageError.Difference(Grey(1, 1, 255), Grey(1, 1, 0), 8)[0, 0].Red);
+    }
+
+    [Fact]
     public void Downsample_OfFourColours_KeepsTheirPlaces()
     {
         // Each colour fills 2 × 2 pixels.

@@ -1,6 +1,8 @@
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Images;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Render.Images;
 using FractalEngine.Render.Passes;
 using FractalEngine.Render.Tracing;
 
@@ -67,6 +69,68 @@ public sealed class SkyTests
         Assert.InRange(share, 0, 0.03);
     }
 
+    [SkippableTheory]
+    [InlineData(false)]
+    [InlineData(true)]
+    public void Sky_OfASlowGradient_HasNoBands(bool isTraced)
+    {
+        // Three values of 256 from the horizon to the zenith, of which the image shows half. Rounded alike everywhere, pixels of a block
+        // are up to half a value off, all of them.
+        var sky = new Sky(new(0.51, 0.51, 0.51), new(0.5, 0.5, 0.5), new(0.49, 0.49, 0.49));
+        var scene = SkyAlone(new() { Sky = sky });
+        const int Size = 64;
+        const int Block = 8;
+        var image = isTraced ? Traced(scene, Size) : RenderScenes.Draw(scene, RenderScenes.FrontView, Size, Size);
+        var halfHeight = RenderScenes.FrontView.HalfHeight;
+        for (var top = 0; top < Size; top += Block)
+        {
+            for (var left = 0; left < Size; left += Block)
+            {
+                var (sum, expected) = (0.0, 0.0);
+                for (var y = top; y < top + Block; y++)
+                {
+                    for (var x = left; x < left + Block; x++)
+                    {
+                        var right = (((x + 0.5) * 2 / Size) - 1) * halfHeight;
+                        var up = (1 - ((y + 0.5) * 2 / Size)) * halfHeight;
+                        sum += image[x, y].Green;
+                        expected += 255 * Srgb(sky.ToRadiance().At(new Vector(right, up, 1).UnitVector().Y).Y);
+                    }
+                }
+
+                Assert.Equal(expected / (Block * Block), sum / (Block * Block), 0.1);
+            }
+        }
+    }
+
+    [SkippableFact]
+    public void Sky_OfOneColour_IsShownAsIs_AndNothingElseIsDithered()
+    {
+        var colour = new Colour(51 / 255.0, 0.6, 204 / 255.0);
+        var scene = SkyAlone(new() { Sky = new(colour, colour, colour) });
+        Assert.Equal(0, RenderScenes.CountDifferent(Traced(scene, 40), (51, 153, 204, 255)));
+        // A driver's conversion to sRGB may be off by more than half a value (OpenGL 3.3, 4.1.8): offsets close to half may cross.
+        var drawn = RenderScenes.Draw(scene, RenderScenes.FrontView, 40, 40);
+        for (var i = 0; i < drawn.Pixels.Length; i++)
+        {
+            Assert.InRange(drawn.Pixels[i] - new[] { 51, 153, 204, 255 }[i % 4], -1, 1);
+        }
+
+        Assert.Equal(drawn.Pixels, RenderScenes.Draw(scene, RenderScenes.FrontView, 40, 40).Pixels);
+        // Between two values, but no sky: one of them everywhere.
+        var plain = SkyAlone(new() { Background = new(100.4 / 255, 100.4 / 255, 100.4 / 255) });
+        Assert.Equal(0, RenderScenes.CountDifferent(RenderScenes.Draw(plain, RenderScenes.FrontView, 40, 40), (100, 100, 100, 255)));
+        Assert.Equal(0, RenderScenes.CountDifferent(Traced(plain, 40), (100, 100, 100, 255)));
+    }
+
+    [Fact]
+    public void OrderedDither_HasEachOffsetOnce_AndRepeats()
+    {
+        var offsets = Enumerable.Range(0, 64).Select(static i => OrderedDither.At(i % 8, i / 8)).Order().ToArray();
+        Assert.Equal(Enumerable.Range(0, 64).Select(static i => ((i + 0.5) / 64) - 0.5), offsets);
+        Assert.Equal(OrderedDither.At(3, 5), OrderedDither.At(3 + 8, 5 + 80));
+    }
+
     [SkippableFact]
     public void Background_BesideASky_IsShownAsItIs()
     {
@@ -103,6 +167,23 @@ public sealed class SkyTests
         Assert.Equal(0.5, Lit(scene, 0), 0.03);
         Assert.Equal(0, Lit(scene, 1.1 * radius), 0.02);
     }
+
+    /// <summary>A scene whose only object is behind the camera.</summary>
+    private static LoadedScene SkyAlone(Scene scene) => RenderScenes.Scene(
+        scene, (RenderScenes.Model(RenderScenes.Cube(0.1)), RenderScenes.TranslatedTo(0, 0, -20), null));
+
+    private static PixelImage Traced(LoadedScene scene, int size)
+    {
+        var tracer = new PathTracer(scene, RenderScenes.FrontView, size, size);
+        for (var i = 0; i < 16; i++)
+        {
+            tracer.AddSample();
+        }
+
+        return tracer.ToImage();
+    }
+
+    private static double Srgb(double linear) => (1.055 * Math.Pow(linear, 1 / 2.4)) - 0.055;
 
     private static Mesh Quad(double half, double y) => new(
         [-half, y, -half, -half, y, half, half, y, half, half, y, -half], [0, 1, 2, 0, 2, 3]);

@@ -31,6 +31,41 @@ public class SkyVisibilityTests
         Assert.False(hierarchy.HasSkyMasks);
     }
 
+    [Theory]
+    // A thousandth of its size a level further: after a hundred levels, sizes underflow.
+    [InlineData(400, 1e-3)]
+    // Half a turn a level further.
+    [InlineData(1_000_000_000, 1)]
+    public void Bake_OfALongChainOfOnlyChildren_Ends(int depth, double scale)
+    {
+        // Two cubes side by side, each at the end of a chain.
+        var pair = new Repetition([new TransformationSet([Move(-2, 0, 0), new(new(2, 0, 0), new(0, 30, 0), Vector.One)])], 1);
+        var chain = new Repetition([new TransformationSet([new(Vector.Zero, new(0, 180, 0), scale * Vector.One)])], depth);
+        var hierarchy = LodHierarchy.Build(new Fractal(new FractalDescription([pair, chain], Composition.Affine), RenderScenes.Cube(1)));
+        ProcessorTime.RunWithin(10, () => hierarchy.BakeSkyMasks(1));
+        Assert.True(hierarchy.IsSkyBaked);
+    }
+
+    [Theory]
+    // From the plane of a side, along it: through the box, and past it.
+    [InlineData(1, 0, -5, 0, 4)]
+    [InlineData(-1, 0, -5, 0, 4)]
+    [InlineData(1, 3, -5, 0, double.PositiveInfinity)]
+    // Beside it, and behind it.
+    [InlineData(1.5, 0, -5, 0, double.PositiveInfinity)]
+    [InlineData(1, 0, 5, 0, double.PositiveInfinity)]
+    // Across.
+    [InlineData(0, 0, -5, 0.1, 4)]
+    public void EntryOf_ARayWithinASide_IsThatOfTheBox(double x, double y, double z, double across, double expected)
+    {
+        var hierarchy = LodHierarchy.Build(CubesAt([Move(0, 0, 0), Move(100, 0, 0)]));
+        var whole = hierarchy.NodeAt(hierarchy.LevelCount);
+        var children = new SkyChildren(hierarchy, whole, hierarchy.LevelCount);
+        var child = Array.FindIndex(whole.ChildMaps, static map => map.ToAffineMap().Translation == Vector.Zero);
+        Assert.Equal(expected, children.EntryOf(child, new(x, y, z), new(1 / across, 1 / 0.0, 1)), 1e-9);
+        Assert.Equal(expected, children.EntryOf(child, new(x, y, z), new(1 / -across, 1 / -0.0, 1)), 1e-9);
+    }
+
     [Fact]
     public void VisiblePart_OfAHalfSky_IsAHalfForSurfacesUpright()
     {
@@ -88,6 +123,24 @@ public class SkyVisibilityTests
         var open = sides.FindVisible(in map, isPerspective: true, isMirroredView: false, 0);
         Assert.Equal(expected, open & expected);
         Assert.Equal(VisibleSides.All, sides.FindVisible(in map, isPerspective: true, isMirroredView: true, 1));
+    }
+
+    [Theory]
+    [InlineData(-3, -3, 5, true, 0b100011)]
+    [InlineData(3, 3, 5, true, 0b111000)]
+    [InlineData(-3, 3, -5, true, 0b010101)]
+    // Parallel rays come from −z, wherever the mesh is.
+    [InlineData(-3, 3, -5, false, 0b100011)]
+    public void FindFacing_GivesTheSidesTowardsTheEye(double x, double y, double z, bool isPerspective, int expected)
+    {
+        var sides = new VisibleSides(RenderScenes.Sphere(8));
+        foreach (var scale in (double[])[0.5, -0.5])
+        {
+            var map = new SimdAffineMap(new AffineMap(Matrix.Diagonal(new(1, scale, 1)), new(x, y, z)));
+            // A mirrored frame has its sides of ±y exchanged.
+            var mirrored = (expected & 0b101101) | ((expected & 0b010010) == 2 ? 16 : 2);
+            Assert.Equal(scale > 0 || !isPerspective ? expected : mirrored, sides.FindFacing(in map, isPerspective));
+        }
     }
 
     [Fact]

@@ -1,0 +1,33 @@
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Render.Passes;
+
+namespace FractalEngine.Render.Tracing;
+
+/// <summary>What is seen behind everything: the sky, or one colour.</summary>
+internal readonly struct TracedBackground
+{
+    private readonly SkyRadiance? _sky;
+    private readonly Vector _radiance;
+
+    /// <summary>Prepares the background of a scene.</summary>
+    public TracedBackground(Scene scene, DisplayTransform display)
+    {
+        _sky = scene.Background is null ? scene.Sky?.ToRadiance() : null;
+        // A background is shown as it is declared, whatever is done with light.
+        _radiance = display.Invert(TracedMaterial.ToLinear(scene.Background ?? RenderSettings.DefaultBackground));
+    }
+
+    /// <summary>Whether it is the sky.</summary>
+    public bool IsSky => _sky is not null;
+
+    /// <summary>Returns a scene with a background of its own, unless it shows the sky.</summary>
+    /// <param name="scene">A scene.</param>
+    /// <param name="background">Colour of the background where it declares none.</param>
+    public static Scene DeclaredIn(Scene scene, Colour background) =>
+        scene with { Background = scene.Background ?? (scene.Sky is null ? background : null) };
+
+    /// <summary>The radiance that is seen in a direction.</summary>
+    public Vector At(Vector unitDirection) => _sky is { } sky ? sky.At(unitDirection.Y) : _radiance;
+}
