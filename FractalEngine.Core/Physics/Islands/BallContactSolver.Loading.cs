@@ -43,7 +43,7 @@ internal sealed partial class BallContactSolver
         }
         else
         {
-            second = row.SurfaceVelocity == Vector.Zero && row.SurfaceSpin == Vector.Zero ? firm : AddSurface(in row);
+            second = row.IsOnMovingSurface ? AddSurface(in row) : firm;
         }
 
         _rows[index] = new(in row, second);

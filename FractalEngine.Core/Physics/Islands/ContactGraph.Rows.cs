@@ -35,18 +35,20 @@ internal sealed partial class ContactGraph
                 continue;
             }
 
+            bool isFree;
+            bool isPushed;
             if (partCount > 1)
             {
                 _islands[island] = _islands[island] with { PartCount = partCount, FirstPartEnd = _partEnds.Count };
-                AddParts(BodiesOf(_islands[island]), pairs, partCount);
+                (isFree, isPushed) = AddParts(BodiesOf(_islands[island]), pairs, partCount);
             }
             else
             {
                 AddSurfaces(BodiesOf(_islands[island]));
                 AddPairs(pairs);
+                (isFree, isPushed) = Examine(_rows.AsSpan(firstRow, _count - firstRow));
             }
 
-            var (isFree, isPushed) = Examine(_rows.AsSpan(firstRow, _count - firstRow));
             _islands[island] = _islands[island] with
             {
                 FirstRow = firstRow, RowCount = _count - firstRow, IsFree = isFree, IsPushed = isPushed,
@@ -210,7 +212,7 @@ internal sealed partial class ContactGraph
     {
         if (!_states[pair.First].IsCompound && !_states[pair.Second].IsCompound)
         {
-            AddBalls(in pair);
+            SetBalls(ref AddRow(), in pair);
             return;
         }
 
@@ -239,12 +241,11 @@ internal sealed partial class ContactGraph
         RemoveRestitution(ref row, in pair);
     }
 
-    /// <summary>Adds the contact of two bodies that are one ball each.</summary>
-    private void AddBalls(in BodyPair pair)
+    /// <summary>Sets the contact of two bodies that are one ball each.</summary>
+    private void SetBalls(ref ContactRow row, in BodyPair pair)
     {
         ref readonly var first = ref _states[pair.First];
         ref readonly var second = ref _states[pair.Second];
-        ref var row = ref AddRow();
         row.First = pair.First;
         row.Second = pair.IsSecondFirm ? ContactRow.Firm : pair.Second;
         row.IsAhead = !pair.IsTouching;
@@ -259,12 +260,16 @@ internal sealed partial class ContactGraph
 
     private ref ContactRow AddRow()
     {
-        if (_count == _rows.Length)
-        {
-            Array.Resize(ref _rows, 2 * _rows.Length);
-        }
-
-        _rows[_count] = default;
+        ReserveRows(_count + 1);
+        ContactRow.Clear(ref _rows[_count]);
         return ref _rows[_count++];
+    }
+
+    private void ReserveRows(int count)
+    {
+        if (_rows.Length < count)
+        {
+            Array.Resize(ref _rows, Math.Max(count, 2 * _rows.Length));
+        }
     }
 }
