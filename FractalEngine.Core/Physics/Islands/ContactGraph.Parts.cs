@@ -12,7 +12,7 @@ internal sealed partial class ContactGraph
     private readonly List<int> _partBodies = new(InitialCapacity);
     private readonly int[] _partBodyEnds = new int[IslandParts.MaxCount];
     private readonly int[] _partRows = new int[IslandParts.MaxCount + 1];
-    private readonly (bool IsFree, bool IsPushed)[] _partKinds = new (bool IsFree, bool IsPushed)[IslandParts.MaxCount + 1];
+    private readonly RowKinds[] _partKinds = new RowKinds[IslandParts.MaxCount + 1];
     private Action<int>? _countSurfaces;
     private Action<int>? _fillPart;
     private int _partCount;
@@ -42,7 +42,7 @@ internal sealed partial class ContactGraph
     public int PartOf(int body) => _parts.PartOf(body);
 
     /// <summary>Makes the contacts of an island part by part, and those across its cuts last. Threads share the parts.</summary>
-    private (bool IsFree, bool IsPushed) AddParts(ReadOnlySpan<int> island, ReadOnlySpan<int> pairs, int partCount)
+    private RowKinds AddParts(ReadOnlySpan<int> island, ReadOnlySpan<int> pairs, int partCount)
     {
         var firstRow = _count;
         _partCount = partCount;
@@ -61,14 +61,13 @@ internal sealed partial class ContactGraph
 
         ReserveRows(_count);
         WorkerSet.Shared.Run(partCount + 1, maxThreads, _fillPart ??= FillPart);
-        var (isFree, isPushed) = (true, false);
-        foreach (var kind in _partKinds.AsSpan(0, partCount + 1))
+        var kinds = RowKinds.None;
+        foreach (var part in _partKinds.AsSpan(0, partCount + 1))
         {
-            isFree &= kind.IsFree;
-            isPushed |= kind.IsPushed;
+            kinds |= part;
         }
 
-        return (isFree, isPushed);
+        return kinds;
     }
 
     private ReadOnlySpan<int> BodiesOfPart(int part)

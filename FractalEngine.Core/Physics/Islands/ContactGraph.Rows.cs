@@ -35,40 +35,43 @@ internal sealed partial class ContactGraph
                 continue;
             }
 
-            bool isFree;
-            bool isPushed;
+            RowKinds kinds;
             if (partCount > 1)
             {
                 _islands[island] = _islands[island] with { PartCount = partCount, FirstPartEnd = _partEnds.Count };
-                (isFree, isPushed) = AddParts(BodiesOf(_islands[island]), pairs, partCount);
+                kinds = AddParts(BodiesOf(_islands[island]), pairs, partCount);
             }
             else
             {
                 AddSurfaces(BodiesOf(_islands[island]));
                 AddPairs(pairs);
-                (isFree, isPushed) = Examine(_rows.AsSpan(firstRow, _count - firstRow));
+                kinds = Examine(_rows.AsSpan(firstRow, _count - firstRow));
             }
 
             _islands[island] = _islands[island] with
             {
-                FirstRow = firstRow, RowCount = _count - firstRow, IsFree = isFree, IsPushed = isPushed,
+                FirstRow = firstRow,
+                RowCount = _count - firstRow,
+                IsFree = !kinds.HasFlag(RowKinds.Firm),
+                IsPushed = kinds.HasFlag(RowKinds.Pushing),
+                HasMovingSurface = kinds.HasFlag(RowKinds.Moving),
             };
         }
 
         RowCount = _count;
     }
 
-    private static (bool IsFree, bool IsPushed) Examine(ReadOnlySpan<ContactRow> rows)
+    private static RowKinds Examine(ReadOnlySpan<ContactRow> rows)
     {
-        var isFree = true;
-        var isPushed = false;
+        var kinds = RowKinds.None;
         foreach (ref readonly var row in rows)
         {
-            isFree &= row.Second >= 0;
-            isPushed |= row.SurfaceWay != Vector.Zero;
+            kinds |= row.Second >= 0 ? RowKinds.None : RowKinds.Firm;
+            kinds |= row.SurfaceWay != Vector.Zero ? RowKinds.Pushing : RowKinds.None;
+            kinds |= row.IsOnMovingSurface ? RowKinds.Moving : RowKinds.None;
         }
 
-        return (isFree, isPushed);
+        return kinds;
     }
 
     /// <summary>Makes an island of each set of two or more bodies, and lists its bodies.</summary>
@@ -271,5 +274,15 @@ internal sealed partial class ContactGraph
         {
             Array.Resize(ref _rows, Math.Max(count, 2 * _rows.Length));
         }
+    }
+
+    /// <summary>What is among contacts: something firm, what pushes, and what moves.</summary>
+    [Flags]
+    private enum RowKinds
+    {
+        None = 0,
+        Firm = 1,
+        Pushing = 2,
+        Moving = 4,
     }
 }
