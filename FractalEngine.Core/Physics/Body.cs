@@ -204,6 +204,9 @@ public sealed partial class Body
     /// <summary>True once it has gone its planned way together with others, before what it met is looked at.</summary>
     internal bool IsMovedAhead { get; set; }
 
+    /// <summary>True once it has ended its step together with others, and has still to tell those around it.</summary>
+    internal bool IsFinished { get; set; }
+
     /// <summary>What has stopped the body on its planned path; null for nothing.</summary>
     internal Contact? PlannedHit { get; set; }
 

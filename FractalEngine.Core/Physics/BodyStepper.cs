@@ -152,6 +152,7 @@ internal sealed class BodyStepper
 
         EndCount(body, faceTests, boundTests);
         Finish(body, stepLength, stepIndex);
+        Settle(body);
     }
 
     /// <summary>Moves a body of an island, before it is known whether all of them have room.</summary>
@@ -172,7 +173,7 @@ internal sealed class BodyStepper
         EndCount(body, faceTests, boundTests);
     }
 
-    /// <summary>Ends the step of a body of an island, whose position is known.</summary>
+    /// <summary>Ends the step of a body of an island, whose position is known. It has to settle then.</summary>
     /// <inheritdoc cref="Step"/>
     public void FinishPlanned(Body body, StaticColliders? staticColliders, double stepLength, long stepIndex)
     {
@@ -190,6 +191,15 @@ internal sealed class BodyStepper
 
         EndCount(body, faceTests, boundTests);
         Finish(body, stepLength, stepIndex);
+    }
+
+    /// <summary>Tells others where a body is that has ended its step: it wakes what may have lain on it. One thread at a time.</summary>
+    public void Settle(Body body)
+    {
+        body.IsFinished = false;
+        _islands.WakeLeft(body);
+        // Last, so that what was collected for this body serves its islands too.
+        _grid.Update(body.Index);
     }
 
     /// <summary>Moves a body on that a kinematic object has overrun, at the end of the step.</summary>
@@ -229,8 +239,7 @@ internal sealed class BodyStepper
         body.Turn(stepLength);
         var sleepSpeed = _settings.SleepSpeed ?? SleepSpeedFraction * Math.Sqrt(body.FreeAcceleration.Length() * body.Radius);
         _islands.Update(body, sleepSpeed, _settings.TimeBeforeSleep, stepLength);
-        // Last, so that what was collected for this body serves its islands too.
-        _grid.Update(body.Index);
+        body.IsFinished = true;
     }
 
     /// <summary>Makes a body the mover of the obstacles.</summary>

@@ -70,6 +70,21 @@ internal sealed class ContactSet
         }
     }
 
+    /// <summary>Number of surfaces among the contacts.</summary>
+    public int SurfaceCount
+    {
+        get
+        {
+            var count = 0;
+            for (var i = 0; i < Count; i++)
+            {
+                count += _contacts[i].IsBody ? 0 : 1;
+            }
+
+            return count;
+        }
+    }
+
     /// <summary>True where a surface is touched that moves.</summary>
     public bool HasMovingSurface
     {

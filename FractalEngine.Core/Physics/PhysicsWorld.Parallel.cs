@@ -10,6 +10,7 @@ public sealed partial class PhysicsWorld
     private readonly Action<BodyStepper, Body> _prepare;
     private readonly Action<BodyStepper, Body> _findNearSurfaces;
     private readonly Action<BodyStepper, Body> _movePlanned;
+    private readonly Action<BodyStepper, Body> _finishPlanned;
     private StaticColliders? _sharedColliders;
     private CharacterController? _sharedCharacter;
     private double _sharedSeconds;
@@ -94,6 +95,25 @@ public sealed partial class PhysicsWorld
         }
 
         _parallel.Run(_movePlanned);
+    }
+
+    /// <summary>Ends the step of the balls of an island.</summary>
+    private void FinishShared(in Island island, double seconds)
+    {
+        if (!ParallelSteppers.AreMany(island.BodyCount) || !TryBeginShared(character: null, seconds))
+        {
+            return;
+        }
+
+        foreach (var index in _planner.Graph.BodiesOf(in island))
+        {
+            if (MayShare(_bodies[index]))
+            {
+                _parallel.Bodies.Add(_bodies[index]);
+            }
+        }
+
+        _parallel.Run(_finishPlanned);
     }
 
     private static bool MustMove(Body body, int pass) => !body.IsHeld && (pass == 0 || body.Target != body.CheckedTarget);

@@ -165,23 +165,27 @@ public sealed partial class PhysicsWorld
         _islandMover.ReturnOverlapping();
         foreach (var island in _planner.Graph.Islands)
         {
-            var members = _planner.Graph.BodiesOf(in island);
-            foreach (var index in members)
-            {
-                _bodies[index].Velocity += _bodies[index].PlannedChange;
-                _bodies[index].AngularVelocity += _bodies[index].PlannedSpinChange;
-            }
-
-            _energyGuard.Check(in island);
+            _energyGuard.FinishVelocities(in island);
             if (!island.IsFree)
             {
                 _islandMover.DampJammed(in island, seconds);
             }
 
-            foreach (var index in members)
+            FinishIsland(in island, seconds);
+        }
+    }
+
+    private void FinishIsland(in Island island, double seconds)
+    {
+        FinishShared(in island, seconds);
+        foreach (var index in _planner.Graph.BodiesOf(in island))
+        {
+            if (!_bodies[index].IsFinished)
             {
                 _stepper.FinishPlanned(_bodies[index], CollidersOf(_bodies[index]), seconds, StepCount);
             }
+
+            _stepper.Settle(_bodies[index]);
         }
     }
 

@@ -90,7 +90,8 @@ public sealed partial class PhysicsWorld
         _findNearSurfaces = (stepper, body) =>
             stepper.FindNearSurfaces(body, _sharedColliders, _planner.Graph.ReachOf(body.Index), _sharedSeconds);
         _movePlanned = MovePlanned;
-        _energyGuard = new(_bodies, _planner.Graph, _islandMover);
+        _finishPlanned = (stepper, body) => stepper.FinishPlanned(body, _sharedColliders, _sharedSeconds, StepCount);
+        _energyGuard = new(_bodies, _planner.Graph, _islandMover, maxThreads);
         _staticOfObject = new StaticObject?[scene.Objects.Length];
         for (var i = 0; i < scene.Objects.Length; i++)
         {

@@ -16,7 +16,7 @@ internal sealed class SleepIslands(List<Body> bodies, NearbyBodies nearbyBodies)
     /// <summary>True where a body may sleep; else nothing need be woken.</summary>
     public bool HasSleeping { get; set; }
 
-    /// <summary>Puts a body to sleep that has barely moved for some time; one that moves wakes what touched it before.</summary>
+    /// <summary>Puts a body to sleep that has barely moved for some time, unless it is of an island.</summary>
     /// <param name="body">Awake, after its step.</param>
     /// <param name="sleepSpeed">Average speed below which it counts as resting, units per second; at 0 it never rests.</param>
     /// <param name="timeBeforeSleep">Seconds for which it must rest.</param>
@@ -36,9 +36,14 @@ internal sealed class SleepIslands(List<Body> bodies, NearbyBodies nearbyBodies)
             body.Sleep();
             HasSleeping = true;
         }
-        else if (!isResting && HasSleeping)
+    }
+
+    /// <summary>Wakes what touched a body before its step that moves: what slept on it may have lost its support.</summary>
+    /// <param name="body">Has been updated.</param>
+    public void WakeLeft(Body body)
+    {
+        if (HasSleeping && body.SleepTimer == 0)
         {
-            // A body that slept on this one may have lost its support.
             WakeOverlapping(body.PreviousPosition, body.PreviousScale * body.Description.Radius, body.Index);
         }
     }

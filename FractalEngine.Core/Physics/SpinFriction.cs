@@ -47,7 +47,11 @@ internal sealed class SpinFriction(List<Body> bodies)
         for (var i = 0; i < rows.Length; i++)
         {
             rows[i] = CreateRow(body, body.Contacts[i], position);
-            rows[i].SurfaceVelocity = body.Contacts[i].SurfaceVelocity(position);
+            if (body.Contacts[i].Kinematic is not null)
+            {
+                rows[i].SetSurface(body.Contacts[i].SurfaceVelocity(position), Vector.Zero, Vector.Zero);
+            }
+
             _solver.ComputeMasses(ref rows[i]);
         }
 
@@ -84,9 +88,9 @@ internal sealed class SpinFriction(List<Body> bodies)
         {
             if (body.Contacts[i].Kinematic is { } kinematic && kinematic.AngularVelocity != Vector.Zero)
             {
-                rows[i].SurfaceSpin = kinematic.AngularVelocity;
-                rows[i].SurfaceVelocity +=
-                    duration * Vector.Cross(kinematic.AngularVelocity, body.Velocity - kinematic.Velocity);
+                rows[i].SetSurface(
+                    rows[i].SurfaceVelocity + (duration * Vector.Cross(kinematic.AngularVelocity, body.Velocity - kinematic.Velocity)),
+                    kinematic.AngularVelocity, Vector.Zero);
             }
         }
     }

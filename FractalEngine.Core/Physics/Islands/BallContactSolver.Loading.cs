@@ -6,50 +6,176 @@ namespace FractalEngine.Core.Physics.Islands;
 /// <content>How contacts and bodies are copied before a solve, and back after it.</content>
 internal sealed partial class BallContactSolver
 {
-    /// <summary>Copies the contacts of an island and their bodies.</summary>
-    /// <param name="rows">All contacts.</param>
+    private const int BodiesPerJob = 256;
+
+    private ContactGraph? _graph;
+    private SolverBody[] _solverBodies = [];
+    private Island _island;
+
+    /// <summary>Copies contacts and their bodies.</summary>
+    /// <param name="rows">All contacts of an island.</param>
     /// <param name="bodies">Bodies by their index in the world.</param>
-    /// <param name="partEnds">The ends of the contacts of each part and of those between parts; empty for a single part.</param>
-    public void Load(ReadOnlySpan<ContactRow> rows, ReadOnlySpan<SolverBody> bodies, ReadOnlySpan<int> partEnds)
+    public void Load(Span<ContactRow> rows, ReadOnlySpan<SolverBody> bodies)
     {
-        Reserve(rows.Length, bodies.Length);
-        SetGroups(rows.Length, partEnds);
-        _firstFirm = bodies.Length;
+        Begin(rows.Length, bodies.Length, []);
+        foreach (ref readonly var row in rows)
+        {
+            _bodies[row.First] = new(in bodies[row.First]);
+            if (row.Second >= 0)
+            {
+                _bodies[row.Second] = new(in bodies[row.Second]);
+            }
+        }
+
+        Load(_groups[0], rows, _firstFirm);
+        LoadTurns(_groups[0], rows);
+    }
+
+    /// <summary>Copies the contacts of a large island and their bodies, on all threads.</summary>
+    /// <param name="graph">Has the island's contacts.</param>
+    /// <param name="island">The island.</param>
+    /// <param name="bodies">Bodies by their index in the world.</param>
+    /// <returns>The largest impulse that would stop a contact's bodies.</returns>
+    public double Load(ContactGraph graph, in Island island, SolverBody[] bodies)
+    {
+        _graph = graph;
+        _island = island;
+        _solverBodies = bodies;
+        Begin(island.RowCount, bodies.Length, graph.PartEndsOf(in island));
+        var groupCount = ContactGraph.GroupCountOf(in island);
+        WorkerSet.Shared.Run((island.BodyCount + BodiesPerJob - 1) / BodiesPerJob, _maxThreads, _loadBodies);
+        // Surfaces that move become bodies in the order of their contacts.
+        WorkerSet.Shared.Run(groupCount, island.HasMovingSurface ? 1 : _maxThreads, _loadGroup);
+        var largest = 0.0;
+        foreach (var group in _groups.AsSpan(0, groupCount))
+        {
+            largest = Math.Max(largest, group.LargestImpulse);
+            LoadTurns(group, graph.RowsOf(in island));
+        }
+
+        return largest;
+    }
+
+    /// <summary>Copies the impulses and the velocities back.</summary>
+    public void Store(Span<ContactRow> rows, Span<SolverBody> bodies)
+    {
+        for (var i = 0; i < rows.Length; i++)
+        {
+            ref readonly var row = ref _rows[i];
+            Store(i, ref rows[i]);
+            _bodies[row.First].CopyTo(ref bodies[row.First]);
+            if (row.Second < _firstFirm)
+            {
+                _bodies[row.Second].CopyTo(ref bodies[row.Second]);
+            }
+        }
+    }
+
+    /// <summary>Copies the impulses and the velocities of a large island back, on all threads.</summary>
+    public void Store()
+    {
+        WorkerSet.Shared.Run(ContactGraph.GroupCountOf(in _island), _maxThreads, _storeGroup);
+        WorkerSet.Shared.Run((_island.BodyCount + BodiesPerJob - 1) / BodiesPerJob, _maxThreads, _storeBodies);
+    }
+
+    private ReadOnlySpan<int> MembersOf(int job)
+    {
+        var members = _graph!.BodiesOf(in _island);
+        return members[(job * BodiesPerJob)..Math.Min(members.Length, (job + 1) * BodiesPerJob)];
+    }
+
+    private void LoadBodies(int job)
+    {
+        foreach (var index in MembersOf(job))
+        {
+            _bodies[index] = new(in _solverBodies[index]);
+        }
+    }
+
+    private void StoreBodies(int job)
+    {
+        foreach (var index in MembersOf(job))
+        {
+            _bodies[index].CopyTo(ref _solverBodies[index]);
+        }
+    }
+
+    private void LoadGroup(int index)
+    {
+        var group = _groups[index];
+        var rows = _graph!.RowsOf(in _island);
+        Load(group, rows, _firstFirm + (FirmStride * index));
+        var largest = 0.0;
+        foreach (ref readonly var row in rows.Slice(group.First, group.Count))
+        {
+            largest = Math.Max(largest, ContactSolver.LargestImpulse(in row, _solverBodies));
+        }
+
+        group.LargestImpulse = largest;
+    }
+
+    private void StoreGroup(int index)
+    {
+        var group = _groups[index];
+        var rows = _graph!.RowsOf(in _island);
+        for (var i = group.First; i < group.First + group.Count; i++)
+        {
+            Store(i, ref rows[i]);
+        }
+    }
+
+    private void Begin(int rowCount, int bodyCount, ReadOnlySpan<int> partEnds)
+    {
+        Reserve(rowCount, bodyCount);
+        SetGroups(rowCount, partEnds);
+        _firstFirm = bodyCount;
         _surfaceCount = 0;
         Array.Clear(_bodies, _firstFirm, FirmCount);
         _hasTurns = false;
         _share = 0;
-        for (var group = 0; group <= _partCount; group++)
+    }
+
+    private void Load(Group group, ReadOnlySpan<ContactRow> rows, int firm)
+    {
+        var hasTurns = false;
+        for (var i = group.First; i < group.First + group.Count; i++)
         {
-            for (var i = _groups[group].First; i < _groups[group].First + _groups[group].Count; i++)
-            {
-                Load(i, in rows[i], bodies, _firstFirm + (FirmStride * group));
-            }
+            ref readonly var row = ref rows[i];
+            _rows[i] = new(in row, row.Second >= 0 ? row.Second : row.IsOnMovingSurface ? AddSurface(in row) : firm);
+            _changes[i] = Vector256<double>.Zero;
+            _directions[i] = Vector256<double>.Zero;
+            hasTurns |= Turn.SlowsDown(in row);
         }
 
-        for (var i = 0; _hasTurns && i < rows.Length; i++)
+        group.HasTurns = hasTurns;
+    }
+
+    private void LoadTurns(Group group, ReadOnlySpan<ContactRow> rows)
+    {
+        if (!group.HasTurns)
+        {
+            return;
+        }
+
+        if (!_hasTurns)
+        {
+            // Those of groups that have none are read as well.
+            Array.Clear(_turns);
+            _hasTurns = true;
+        }
+
+        for (var i = group.First; i < group.First + group.Count; i++)
         {
             _turns[i] = new(in rows[i]);
         }
     }
 
-    private void Load(int index, in ContactRow row, ReadOnlySpan<SolverBody> bodies, int firm)
+    private void Store(int index, ref ContactRow stored)
     {
-        _bodies[row.First] = new(in bodies[row.First]);
-        var second = row.Second;
-        if (second >= 0)
-        {
-            _bodies[second] = new(in bodies[second]);
-        }
-        else
-        {
-            second = row.SurfaceVelocity == Vector.Zero && row.SurfaceSpin == Vector.Zero ? firm : AddSurface(in row);
-        }
-
-        _rows[index] = new(in row, second);
-        _changes[index] = Vector256<double>.Zero;
-        _directions[index] = Vector256<double>.Zero;
-        _hasTurns |= Turn.SlowsDown(in row);
+        ref readonly var row = ref _rows[index];
+        stored.NormalImpulse = row.Impulse[NormalLane];
+        stored.FrictionImpulse = SimdAffineMap.ToVector(row.Impulse);
+        stored.TurnImpulse = _hasTurns ? SimdAffineMap.ToVector(_turns[index].Impulse) : Vector.Zero;
     }
 
     /// <summary>Adds a body of infinite mass that moves like a surface.</summary>
@@ -63,24 +189,6 @@ internal sealed partial class BallContactSolver
 
         _bodies[index] = new(new SolverBody { Velocity = row.SurfaceVelocity, Spin = row.SurfaceSpin });
         return index;
-    }
-
-    /// <summary>Copies the impulses and the velocities back.</summary>
-    public void Store(Span<ContactRow> rows, Span<SolverBody> bodies)
-    {
-        for (var i = 0; i < rows.Length; i++)
-        {
-            ref readonly var row = ref _rows[i];
-            ref var stored = ref rows[i];
-            stored.NormalImpulse = row.Impulse[NormalLane];
-            stored.FrictionImpulse = SimdAffineMap.ToVector(row.Impulse);
-            stored.TurnImpulse = _hasTurns ? SimdAffineMap.ToVector(_turns[i].Impulse) : Vector.Zero;
-            _bodies[row.First].CopyTo(ref bodies[row.First]);
-            if (row.Second < _firstFirm)
-            {
-                _bodies[row.Second].CopyTo(ref bodies[row.Second]);
-            }
-        }
     }
 
     private void Reserve(int rowCount, int bodyCount)

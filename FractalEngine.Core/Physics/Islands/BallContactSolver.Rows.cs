@@ -174,6 +174,6 @@ internal sealed partial class BallContactSolver
             IsSlowedDown = SlowsDown(in row);
         }
 
-        public static bool SlowsDown(in ContactRow row) => row.RollingArm + row.SpinningArm > 0 && double.IsFinite(row.TurnInertia);
+        public static bool SlowsDown(in ContactRow row) => row.IsSlowedDown && double.IsFinite(row.TurnInertia);
     }
 }

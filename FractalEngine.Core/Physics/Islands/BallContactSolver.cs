@@ -23,6 +23,10 @@ internal sealed partial class BallContactSolver
     private readonly int _maxThreads;
     private readonly Action<int> _beginRound;
     private readonly Action<int> _endRound;
+    private readonly Action<int> _loadBodies;
+    private readonly Action<int> _loadGroup;
+    private readonly Action<int> _storeBodies;
+    private readonly Action<int> _storeGroup;
     private Body[] _bodies = new Body[(2 * InitialCapacity) + FirmCount];
     private Row[] _rows = new Row[InitialCapacity];
     private Turn[] _turns = new Turn[InitialCapacity];
@@ -47,6 +51,10 @@ internal sealed partial class BallContactSolver
         _maxThreads = maxThreads;
         _beginRound = BeginRound;
         _endRound = EndRound;
+        _loadBodies = LoadBodies;
+        _loadGroup = LoadGroup;
+        _storeBodies = StoreBodies;
+        _storeGroup = StoreGroup;
     }
 
     /// <summary>Part of a change of friction that is made, from 0 to 1.</summary>
@@ -221,5 +229,9 @@ internal sealed partial class BallContactSolver
         public double MaxChange { get; set; }
 
         public double MaxImpulse { get; set; }
+
+        public double LargestImpulse { get; set; }
+
+        public bool HasTurns { get; set; }
     }
 }

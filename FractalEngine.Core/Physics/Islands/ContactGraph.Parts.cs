@@ -9,6 +9,13 @@ internal sealed partial class ContactGraph
     private readonly List<int> _partPairs = new(InitialCapacity);
     private readonly List<int> _partEnds = new(InitialCapacity);
     private readonly int[] _partStarts = new int[IslandParts.MaxCount + 2];
+    private readonly List<int> _partBodies = new(InitialCapacity);
+    private readonly int[] _partBodyEnds = new int[IslandParts.MaxCount];
+    private readonly int[] _partRows = new int[IslandParts.MaxCount + 1];
+    private readonly RowKinds[] _partKinds = new RowKinds[IslandParts.MaxCount + 1];
+    private Action<int>? _countSurfaces;
+    private Action<int>? _fillPart;
+    private int _partCount;
 
     /// <summary>
     /// The ends of the contacts of each part of an island, and of those between parts, counted from its first; empty for a single part.
@@ -31,27 +38,112 @@ internal sealed partial class ContactGraph
         return _rows.AsSpan(island.FirstRow + start, ends[part] - start);
     }
 
+    /// <summary>Number of ranges that <see cref="RowsOfPart"/> cuts an island's contacts into.</summary>
+    public static int GroupCountOf(in Island island) => island.PartCount == 1 ? 1 : island.PartCount + 1;
+
+    /// <summary>Index of the first contact of a part of an island, or between its parts, among the contacts of the island.</summary>
+    public int FirstRowOfPart(in Island island, int part) => part == 0 ? 0 : PartEndsOf(in island)[part - 1];
+
     /// <summary>The part of a body of an island that has several.</summary>
     public int PartOf(int body) => _parts.PartOf(body);
 
-    /// <summary>Makes the contacts of an island part by part, and those across its cuts last.</summary>
-    private void AddParts(ReadOnlySpan<int> island, ReadOnlySpan<int> pairs, int partCount)
+    /// <summary>Makes the contacts of an island part by part, and those across its cuts last. Threads share the parts.</summary>
+    private RowKinds AddParts(ReadOnlySpan<int> island, ReadOnlySpan<int> pairs, int partCount)
     {
         var firstRow = _count;
+        _partCount = partCount;
         _parts.Cut(island, partCount, _states);
         SortByParts(pairs, partCount);
+        SortBodiesByParts(island, partCount);
+        WorkerSet.Shared.Run(partCount, maxThreads, _countSurfaces ??= CountSurfaces);
+        _partRows[partCount] = 0;
         for (var part = 0; part <= partCount; part++)
         {
-            foreach (var index in part < partCount ? island : [])
+            var count = _partRows[part] + _partStarts[part + 1] - _partStarts[part];
+            _partRows[part] = _count;
+            _count += count;
+            _partEnds.Add(_count - firstRow);
+        }
+
+        ReserveRows(_count);
+        WorkerSet.Shared.Run(partCount + 1, maxThreads, _fillPart ??= FillPart);
+        var kinds = RowKinds.None;
+        foreach (var part in _partKinds.AsSpan(0, partCount + 1))
+        {
+            kinds |= part;
+        }
+
+        return kinds;
+    }
+
+    private ReadOnlySpan<int> BodiesOfPart(int part)
+    {
+        var first = part > 0 ? _partBodyEnds[part - 1] : 0;
+        return part < _partCount ? CollectionsMarshal.AsSpan(_partBodies)[first.._partBodyEnds[part]] : [];
+    }
+
+    private void CountSurfaces(int part)
+    {
+        var count = 0;
+        foreach (var index in BodiesOfPart(part))
+        {
+            count += bodies[index].Contacts.SurfaceCount + bodies[index].NearSurfaces.Count;
+        }
+
+        _partRows[part] = count;
+    }
+
+    private void FillPart(int part)
+    {
+        var place = _partRows[part];
+        foreach (var index in BodiesOfPart(part))
+        {
+            var body = bodies[index];
+            for (var i = 0; i < body.Contacts.Count; i++)
             {
-                if (_parts.PartOf(index) == part)
+                if (body.Contacts[i] is { IsBody: false } contact)
                 {
-                    AddSurfaces(bodies[index]);
+                    _rows[place++] = ContactRows.OfSurface(body, 0, in contact, isAhead: false, _stepLength);
                 }
             }
 
-            AddPairs(CollectionsMarshal.AsSpan(_partPairs)[_partStarts[part].._partStarts[part + 1]]);
-            _partEnds.Add(_count - firstRow);
+            for (var i = 0; i < body.NearSurfaces.Count; i++)
+            {
+                _rows[place++] = ContactRows.OfNearSurface(body, 0, in body.NearSurfaces[i], _stepLength);
+            }
+        }
+
+        var pairs = CollectionsMarshal.AsSpan(_pairs);
+        foreach (var pair in CollectionsMarshal.AsSpan(_partPairs)[_partStarts[part].._partStarts[part + 1]])
+        {
+            ref var row = ref _rows[place++];
+            ContactRow.Clear(ref row);
+            SetBalls(ref row, in pairs[pair]);
+        }
+
+        _partKinds[part] = Examine(_rows.AsSpan(_partRows[part], place - _partRows[part]));
+    }
+
+    private void SortBodiesByParts(ReadOnlySpan<int> island, int partCount)
+    {
+        Array.Clear(_partBodyEnds);
+        foreach (var index in island)
+        {
+            _partBodyEnds[_parts.PartOf(index)]++;
+        }
+
+        var start = 0;
+        for (var part = 0; part < partCount; part++)
+        {
+            (_partBodyEnds[part], start) = (start, start + _partBodyEnds[part]);
+        }
+
+        CollectionsMarshal.SetCount(_partBodies, island.Length);
+        var sorted = CollectionsMarshal.AsSpan(_partBodies);
+        foreach (var index in island)
+        {
+            // Each entry is the end of its part afterwards.
+            sorted[_partBodyEnds[_parts.PartOf(index)]++] = index;
         }
     }
 

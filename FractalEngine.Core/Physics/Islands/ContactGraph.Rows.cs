@@ -35,38 +35,43 @@ internal sealed partial class ContactGraph
                 continue;
             }
 
+            RowKinds kinds;
             if (partCount > 1)
             {
                 _islands[island] = _islands[island] with { PartCount = partCount, FirstPartEnd = _partEnds.Count };
-                AddParts(BodiesOf(_islands[island]), pairs, partCount);
+                kinds = AddParts(BodiesOf(_islands[island]), pairs, partCount);
             }
             else
             {
                 AddSurfaces(BodiesOf(_islands[island]));
                 AddPairs(pairs);
+                kinds = Examine(_rows.AsSpan(firstRow, _count - firstRow));
             }
 
-            var (isFree, isPushed) = Examine(_rows.AsSpan(firstRow, _count - firstRow));
             _islands[island] = _islands[island] with
             {
-                FirstRow = firstRow, RowCount = _count - firstRow, IsFree = isFree, IsPushed = isPushed,
+                FirstRow = firstRow,
+                RowCount = _count - firstRow,
+                IsFree = !kinds.HasFlag(RowKinds.Firm),
+                IsPushed = kinds.HasFlag(RowKinds.Pushing),
+                HasMovingSurface = kinds.HasFlag(RowKinds.Moving),
             };
         }
 
         RowCount = _count;
     }
 
-    private static (bool IsFree, bool IsPushed) Examine(ReadOnlySpan<ContactRow> rows)
+    private static RowKinds Examine(ReadOnlySpan<ContactRow> rows)
     {
-        var isFree = true;
-        var isPushed = false;
+        var kinds = RowKinds.None;
         foreach (ref readonly var row in rows)
         {
-            isFree &= row.Second >= 0;
-            isPushed |= row.SurfaceWay != Vector.Zero;
+            kinds |= row.Second >= 0 ? RowKinds.None : RowKinds.Firm;
+            kinds |= row.SurfaceWay != Vector.Zero ? RowKinds.Pushing : RowKinds.None;
+            kinds |= row.IsOnMovingSurface ? RowKinds.Moving : RowKinds.None;
         }
 
-        return (isFree, isPushed);
+        return kinds;
     }
 
     /// <summary>Makes an island of each set of two or more bodies, and lists its bodies.</summary>
@@ -210,7 +215,7 @@ internal sealed partial class ContactGraph
     {
         if (!_states[pair.First].IsCompound && !_states[pair.Second].IsCompound)
         {
-            AddBalls(in pair);
+            SetBalls(ref AddRow(), in pair);
             return;
         }
 
@@ -239,12 +244,11 @@ internal sealed partial class ContactGraph
         RemoveRestitution(ref row, in pair);
     }
 
-    /// <summary>Adds the contact of two bodies that are one ball each.</summary>
-    private void AddBalls(in BodyPair pair)
+    /// <summary>Sets the contact of two bodies that are one ball each.</summary>
+    private void SetBalls(ref ContactRow row, in BodyPair pair)
     {
         ref readonly var first = ref _states[pair.First];
         ref readonly var second = ref _states[pair.Second];
-        ref var row = ref AddRow();
         row.First = pair.First;
         row.Second = pair.IsSecondFirm ? ContactRow.Firm : pair.Second;
         row.IsAhead = !pair.IsTouching;
@@ -259,12 +263,26 @@ internal sealed partial class ContactGraph
 
     private ref ContactRow AddRow()
     {
-        if (_count == _rows.Length)
-        {
-            Array.Resize(ref _rows, 2 * _rows.Length);
-        }
-
-        _rows[_count] = default;
+        ReserveRows(_count + 1);
+        ContactRow.Clear(ref _rows[_count]);
         return ref _rows[_count++];
+    }
+
+    private void ReserveRows(int count)
+    {
+        if (_rows.Length < count)
+        {
+            Array.Resize(ref _rows, Math.Max(count, 2 * _rows.Length));
+        }
+    }
+
+    /// <summary>What is among contacts: something firm, what pushes, and what moves.</summary>
+    [Flags]
+    private enum RowKinds
+    {
+        None = 0,
+        Firm = 1,
+        Pushing = 2,
+        Moving = 4,
     }
 }

@@ -194,6 +194,7 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
         _partPairs.EnsureCapacity(contacts);
         _islands.EnsureCapacity(_states.Length);
         _islandBodies.EnsureCapacity(_states.Length);
+        _partBodies.EnsureCapacity(_states.Length);
         Array.Resize(ref _rows, Math.Max(contacts, _rows.Length));
     }
 

@@ -17,14 +17,8 @@ internal struct ContactRow
     /// <summary>Index of the other body, or <see cref="Firm"/>.</summary>
     public int Second;
 
-    /// <summary>Unit vector from the second to the first.</summary>
-    public Vector Normal;
-
-    /// <summary>Vector between the centres, or from the surface's point, at the beginning of the step.</summary>
-    public Vector Offset;
-
-    /// <summary>Length that the offset must keep.</summary>
-    public double MinDistance;
+    /// <summary>Which balls of the two bodies touch.</summary>
+    public int Part;
 
     /// <summary>True for two balls, whose line of contact turns as they move; false for the plane of a surface.</summary>
     public bool IsBall;
@@ -41,20 +35,14 @@ internal struct ContactRow
     /// <summary>True for what does not touch yet, and may meet in this step.</summary>
     public bool IsAhead;
 
-    /// <summary>True where one of them is a ball of a compound: then what happens along the normal turns it too.</summary>
-    public bool HasArms;
+    /// <summary>Unit vector from the second to the first.</summary>
+    public Vector Normal;
 
-    /// <summary>Centre of the first ball relative to the first body's position.</summary>
-    public Vector FirstArm;
+    /// <summary>Vector between the centres, or from the surface's point, at the beginning of the step.</summary>
+    public Vector Offset;
 
-    /// <summary>Centre of the second ball relative to the second body's position.</summary>
-    public Vector SecondArm;
-
-    /// <summary>How far the planned turns of both bodies change the offset, beyond what their velocities tell.</summary>
-    public Vector TurnShift;
-
-    /// <summary>Which balls of the two bodies touch.</summary>
-    public int Part;
+    /// <summary>Length that the offset must keep.</summary>
+    public double MinDistance;
 
     /// <summary>Radius of the first body.</summary>
     public double FirstRadius;
@@ -74,15 +62,6 @@ internal struct ContactRow
     /// <summary>Restitution of this pair.</summary>
     public double Restitution;
 
-    /// <summary>Velocity of a firm surface that moves, at the touching point.</summary>
-    public Vector SurfaceVelocity;
-
-    /// <summary>Angular velocity of a firm surface that turns.</summary>
-    public Vector SurfaceSpin;
-
-    /// <summary>How far a firm surface goes in the step, its belt aside.</summary>
-    public Vector SurfaceWay;
-
     /// <summary>Smallest allowed relative velocity along the normal, units per second.</summary>
     public double MinNormalVelocity;
 
@@ -92,9 +71,6 @@ internal struct ContactRow
     /// <summary>Impulse across the normal.</summary>
     public Vector FrictionImpulse;
 
-    /// <summary>Angular impulse against rolling and spinning.</summary>
-    public Vector TurnImpulse;
-
     /// <summary>Moment of inertia against an angular impulse of this contact; infinite where nothing turns.</summary>
     public double TurnInertia;
 
@@ -103,6 +79,94 @@ internal struct ContactRow
 
     /// <summary>Mass that an impulse across the normal moves, kilograms.</summary>
     public double FrictionMass;
+
+    // What few contacts have is last, and read only where they have it: so it is not even cleared for all others.
+    private bool _hasSurface;
+    private Vector _firstArm;
+    private Vector _secondArm;
+    private Vector _turnShift;
+    private Vector _turnImpulse;
+    private Vector _surfaceVelocity;
+    private Vector _surfaceSpin;
+    private Vector _surfaceWay;
+
+    /// <summary>True where one of them is a ball of a compound: then what happens along the normal turns it too.</summary>
+    public bool HasArms { get; private set; }
+
+    /// <summary>Centre of the first ball relative to the first body's position.</summary>
+    public readonly Vector FirstArm => HasArms ? _firstArm : Vector.Zero;
+
+    /// <summary>Centre of the second ball relative to the second body's position.</summary>
+    public readonly Vector SecondArm => HasArms ? _secondArm : Vector.Zero;
+
+    /// <summary>How far the planned turns of both bodies change the offset, beyond what their velocities tell.</summary>
+    public Vector TurnShift
+    {
+        readonly get => HasArms ? _turnShift : Vector.Zero;
+        set => _turnShift = value;
+    }
+
+    /// <summary>True where something slows down rolling or spinning.</summary>
+    public readonly bool IsSlowedDown => RollingArm + SpinningArm > 0;
+
+    /// <summary>Angular impulse against rolling and spinning.</summary>
+    public Vector TurnImpulse
+    {
+        readonly get => IsSlowedDown ? _turnImpulse : Vector.Zero;
+        set
+        {
+            if (IsSlowedDown)
+            {
+                _turnImpulse = value;
+            }
+        }
+    }
+
+    /// <summary>Velocity of a firm surface that moves, at the touching point.</summary>
+    public readonly Vector SurfaceVelocity => _hasSurface ? _surfaceVelocity : Vector.Zero;
+
+    /// <summary>Angular velocity of a firm surface that turns.</summary>
+    public readonly Vector SurfaceSpin => _hasSurface ? _surfaceSpin : Vector.Zero;
+
+    /// <summary>How far a firm surface goes in the step, its belt aside.</summary>
+    public readonly Vector SurfaceWay => _hasSurface ? _surfaceWay : Vector.Zero;
+
+    /// <summary>True for the contact with a surface that moves or turns.</summary>
+    public readonly bool IsOnMovingSurface => Second < 0 && (SurfaceVelocity != Vector.Zero || SurfaceSpin != Vector.Zero);
+
+    /// <summary>Begins a contact of two balls in a place that may have been another one's.</summary>
+    public static void Clear(ref ContactRow row)
+    {
+        row.IsBall = false;
+        row.HasFixedNormal = false;
+        row.IsBouncingAhead = false;
+        row.IsMetExactly = false;
+        row.IsAhead = false;
+        row.HasArms = false;
+        row._hasSurface = false;
+        row.Part = 0;
+        row.NormalImpulse = 0;
+        row.FrictionImpulse = Vector.Zero;
+        row._turnImpulse = Vector.Zero;
+    }
+
+    /// <summary>Sets the centres of the touching balls relative to the positions of their bodies, of which one is a compound.</summary>
+    public void SetArms(Vector first, Vector second)
+    {
+        HasArms = true;
+        _firstArm = first;
+        _secondArm = second;
+        _turnShift = Vector.Zero;
+    }
+
+    /// <summary>Sets how a firm surface moves.</summary>
+    public void SetSurface(Vector velocity, Vector spin, Vector way)
+    {
+        _hasSurface = true;
+        _surfaceVelocity = velocity;
+        _surfaceSpin = spin;
+        _surfaceWay = way;
+    }
 
     /// <summary>Radius of the smaller one of two balls, as a share of the distance between them.</summary>
     public readonly double SmallerRadiusShare => Math.Min(FirstRadius, SecondRadius) / MinDistance;

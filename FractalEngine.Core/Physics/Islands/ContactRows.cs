@@ -28,16 +28,18 @@ internal static class ContactRows
             IsAhead = isAhead,
             RollingArm = body.Description.RollingFriction * body.BallRadius(ball),
             SpinningArm = body.Description.SpinningFriction * body.BallRadius(ball),
-            HasArms = body.IsCompound,
-            FirstArm = body.BallOffset(ball),
             Part = ball,
         };
         row.Normal = row.Offset.UnitVectorOrZero();
+        if (body.IsCompound)
+        {
+            row.SetArms(body.BallOffset(ball), Vector.Zero);
+        }
+
         if (contact.Kinematic is { } kinematic)
         {
-            row.SurfaceVelocity = contact.SurfaceVelocity(body.BallCentre(ball));
-            row.SurfaceSpin = kinematic.AngularVelocity;
-            row.SurfaceWay = duration * kinematic.VelocityAt(contact.Point);
+            row.SetSurface(
+                contact.SurfaceVelocity(body.BallCentre(ball)), kinematic.AngularVelocity, duration * kinematic.VelocityAt(contact.Point));
         }
 
         return row;
@@ -72,9 +74,11 @@ internal static class ContactRows
         row.IsAhead = isAhead;
         SetBalls(ref row, body.BallCentre(ball) - other.BallCentre(otherBall), body.BallRadius(ball), other.BallRadius(otherBall));
         SetMaterials(ref row, new(body.Description), new(other.Description));
-        row.HasArms = body.IsCompound || other.IsCompound;
-        row.FirstArm = body.BallOffset(ball);
-        row.SecondArm = other.BallOffset(otherBall);
+        if (body.IsCompound || other.IsCompound)
+        {
+            row.SetArms(body.BallOffset(ball), other.BallOffset(otherBall));
+        }
+
         row.Part = (MaxBalls * otherBall) + ball;
     }
 

@@ -55,7 +55,7 @@ internal sealed partial class ContactSolver
             ApplyAcross(in row, acrossChange);
         }
 
-        if (row.RollingArm + row.SpinningArm > 0 && double.IsFinite(row.TurnInertia))
+        if (row.IsSlowedDown && double.IsFinite(row.TurnInertia))
         {
             change.Turn += StopTurning(ref row);
         }
@@ -104,7 +104,7 @@ internal sealed partial class ContactSolver
                     direction.Across += change.Across;
                 }
 
-                if (row.RollingArm + row.SpinningArm > 0)
+                if (row.IsSlowedDown)
                 {
                     direction.Turn *= share;
                     row.TurnImpulse += direction.Turn;

@@ -159,9 +159,8 @@ internal sealed partial class ContactSolver(int maxThreads = 1)
     /// <summary>Solves for the impulses. Those of the rows must have been given to the bodies already.</summary>
     /// <param name="rows">All contacts of an island; receive the impulses.</param>
     /// <param name="maxRounds">Number of rounds at most, see <see cref="RoundLimits"/>.</param>
-    /// <param name="partEnds">The ends of the contacts of each part of the island; empty for a single part.</param>
     /// <returns>False where it has not converged: then the impulses are those of the last round.</returns>
-    public bool Solve(Span<ContactRow> rows, int maxRounds, ReadOnlySpan<int> partEnds = default)
+    public bool Solve(Span<ContactRow> rows, int maxRounds)
     {
         if (_changes.Length < rows.Length)
         {
@@ -173,7 +172,7 @@ internal sealed partial class ContactSolver(int maxThreads = 1)
         var isOfBalls = rows.Length > MinBallRows && !HasArms(rows);
         if (isOfBalls)
         {
-            _balls.Load(rows, _bodies, partEnds);
+            _balls.Load(rows, _bodies);
         }
 
         var isConverged = Iterate(rows, isOfBalls, maxRounds);
@@ -182,6 +181,19 @@ internal sealed partial class ContactSolver(int maxThreads = 1)
             _balls.Store(rows, _bodies);
         }
 
+        return isConverged;
+    }
+
+    /// <summary>Solves for the impulses of a large island of balls, on all threads.</summary>
+    /// <param name="graph">Has the island's contacts, which receive the impulses.</param>
+    /// <param name="island">The island.</param>
+    /// <param name="maxRounds">Number of rounds at most, see <see cref="RoundLimits"/>.</param>
+    /// <inheritdoc cref="Solve"/>
+    public bool SolveLarge(ContactGraph graph, in Island island, int maxRounds)
+    {
+        _rounding = RelativeRounding * _balls.Load(graph, in island, _bodies);
+        var isConverged = Iterate(graph.RowsOf(in island), isOfBalls: true, maxRounds);
+        _balls.Store();
         return isConverged;
     }
 
@@ -246,12 +258,18 @@ internal sealed partial class ContactSolver(int maxThreads = 1)
         var impulse = 0.0;
         foreach (ref readonly var row in rows)
         {
-            var speed = _bodies[row.First].Velocity.MaxAbsComponent();
-            speed = row.Second >= 0 ? Math.Max(speed, _bodies[row.Second].Velocity.MaxAbsComponent()) : speed;
-            impulse = Math.Max(impulse, row.NormalMass * speed);
+            impulse = Math.Max(impulse, LargestImpulse(in row, _bodies));
         }
 
         return RelativeRounding * impulse;
+    }
+
+    /// <summary>The impulse that would stop a contact's bodies.</summary>
+    public static double LargestImpulse(in ContactRow row, ReadOnlySpan<SolverBody> bodies)
+    {
+        var speed = bodies[row.First].Velocity.MaxAbsComponent();
+        speed = row.Second >= 0 ? Math.Max(speed, bodies[row.Second].Velocity.MaxAbsComponent()) : speed;
+        return row.NormalMass * speed;
     }
 
     /// <summary>Gives both bodies an angular impulse.</summary>

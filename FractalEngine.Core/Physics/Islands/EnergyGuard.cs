@@ -6,12 +6,38 @@ namespace FractalEngine.Core.Physics.Islands;
 /// Takes back what an island has gained in its planned motion: by rounding, by forces that did not converge, or since a body was stopped
 /// by something that no plan knew. Its velocities are scaled, about that of its centre of mass where it touches nothing firm.
 /// </summary>
-internal sealed class EnergyGuard(List<Body> bodies, ContactGraph graph, IslandMover mover)
+internal sealed class EnergyGuard(List<Body> bodies, ContactGraph graph, IslandMover mover, int maxThreads)
 {
-    /// <summary>Checks an island after all of its bodies have moved, and have their new velocities.</summary>
-    public void Check(in Island island)
+    private const int BodiesPerJob = 256;
+    private const int InitialJobCount = 64;
+
+    // What contacts have added to the energy of each group of bodies.
+    private double[] _gains = new double[InitialJobCount];
+    private Action<int>? _addPlan;
+    private Island _island;
+
+    /// <summary>Gives the bodies of an island, all of which have moved, their new velocities, and checks their energy.</summary>
+    public void FinishVelocities(in Island island)
     {
-        var gain = SumGains(in island);
+        _island = island;
+        var jobCount = (island.BodyCount + BodiesPerJob - 1) / BodiesPerJob;
+        if (_gains.Length < jobCount)
+        {
+            _gains = new double[2 * jobCount];
+        }
+
+        WorkerSet.Shared.Run(jobCount, maxThreads, _addPlan ??= AddPlan);
+        var gain = 0.0;
+        foreach (var part in _gains.AsSpan(0, jobCount))
+        {
+            gain += part;
+        }
+
+        Check(in island, gain - WorkOfSurfaces(in island));
+    }
+
+    private void Check(in Island island, double gain)
+    {
         if (!(gain > 0))
         {
             return;
@@ -33,25 +59,34 @@ internal sealed class EnergyGuard(List<Body> bodies, ContactGraph graph, IslandM
         }
     }
 
-    /// <summary>What contacts have added to the energy: that of motion, less the work of gravity and forces.</summary>
-    private double SumGains(in Island island)
+    /// <summary>Gives a group of bodies their new velocities, and sums what contacts have added to their energy.</summary>
+    private void AddPlan(int job)
     {
         var gain = 0.0;
-        foreach (var index in graph.BodiesOf(in island))
+        var members = graph.BodiesOf(in _island);
+        foreach (var index in members[(job * BodiesPerJob)..Math.Min(members.Length, (job + 1) * BodiesPerJob)])
         {
+            // The energy of motion, less the work of gravity and forces.
             var body = bodies[index];
+            body.Velocity += body.PlannedChange;
+            body.AngularVelocity += body.PlannedSpinChange;
             gain += body.KineticEnergy - body.PlannedStartEnergy
                 - (body.Description.Mass * Vector.Dot(body.FreeAcceleration, body.Position - body.PlannedStart));
         }
 
-        foreach (ref readonly var row in graph.RowsOf(in island))
+        _gains[job] = gain;
+    }
+
+    private double WorkOfSurfaces(in Island island)
+    {
+        var work = 0.0;
+        foreach (ref readonly var row in island.HasMovingSurface ? graph.RowsOf(in island) : [])
         {
-            // What moves does work.
-            gain -= Vector.Dot((row.NormalImpulse * row.Normal) + row.FrictionImpulse, row.SurfaceVelocity)
+            work += Vector.Dot((row.NormalImpulse * row.Normal) + row.FrictionImpulse, row.SurfaceVelocity)
                 + Vector.Dot(row.TurnImpulse, row.SurfaceSpin);
         }
 
-        return gain;
+        return work;
     }
 
     private Vector CentreVelocity(in Island island)

@@ -22,6 +22,9 @@ internal readonly record struct Island(int FirstRow, int RowCount, int FirstBody
     /// <summary>True where a surface that it touches, or may meet, moves.</summary>
     public bool IsPushed { get; init; }
 
+    /// <summary>True where a surface that it touches, or may meet, has a velocity.</summary>
+    public bool HasMovingSurface { get; init; }
+
     /// <summary>True where one of its bodies is a compound.</summary>
     public bool HasCompound { get; init; }
 

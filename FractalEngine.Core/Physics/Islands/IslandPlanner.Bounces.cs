@@ -12,6 +12,8 @@ internal sealed partial class IslandPlanner
     private const int MaxReboundRounds = 8;
 
     private readonly List<int> _rebounding = new(InitialCapacity);
+    private readonly List<int>[] _reboundingOfParts =
+        [.. Enumerable.Range(0, IslandParts.MaxCount + 1).Select(static _ => new List<int>(InitialCapacity))];
 
     /// <summary>Lets all pairs bounce until none approaches fast enough any more.</summary>
     private void BounceAll(Span<ContactRow> rows)
@@ -49,13 +51,10 @@ internal sealed partial class IslandPlanner
         return hasBounced;
     }
 
-    /// <summary>
-    /// Lets those stay together that meet in this step and are too slow to bounce. The forces of a whole step would throw them back.
-    /// </summary>
-    private void StopRebounds(ReadOnlySpan<int> island, Span<ContactRow> rows)
+    /// <summary>Stores what the solve has changed of bodies.</summary>
+    private void StoreChanges(ReadOnlySpan<int> members)
     {
-        StopRebounds(rows);
-        foreach (var index in island)
+        foreach (var index in members)
         {
             var body = bodies[index];
             var isResting = body.NetAcceleration == Vector.Zero && body.Velocity == Vector.Zero;
@@ -64,24 +63,34 @@ internal sealed partial class IslandPlanner
         }
     }
 
-    private void StopRebounds(Span<ContactRow> rows)
+    /// <summary>Finds contacts that meet in this step and push, or of which one side moves by itself.</summary>
+    /// <param name="rows">Contacts.</param>
+    /// <param name="first">Index of the first one among those of the island.</param>
+    /// <param name="rebounding">Receives the indices among those of the island.</param>
+    private static void FindRebounding(ReadOnlySpan<ContactRow> rows, int first, List<int> rebounding)
     {
-        _rebounding.Clear();
+        rebounding.Clear();
         for (var i = 0; i < rows.Length; i++)
         {
             // What moves pushes on those that were slower than itself, which then rebound from what they push.
             ref readonly var row = ref rows[i];
             if ((row.IsAhead || row.SurfaceVelocity != Vector.Zero) && row.NormalImpulse > 0)
             {
-                _rebounding.Add(i);
+                rebounding.Add(first + i);
             }
         }
+    }
 
+    /// <summary>
+    /// Lets those stay together that meet in this step and are too slow to bounce. The forces of a whole step would throw them back.
+    /// </summary>
+    private void StopRebounds(Span<ContactRow> rows, List<int> rebounding)
+    {
         var isRebounding = true;
         for (var round = 0; round < MaxReboundRounds && isRebounding; round++)
         {
             isRebounding = false;
-            foreach (var i in _rebounding)
+            foreach (var i in rebounding)
             {
                 // It pushes less, but does not pull.
                 ref var row = ref rows[i];

@@ -30,7 +30,8 @@ internal sealed partial class IslandPlanner
         var isConverged = FindForces(members, rows, duration);
         Statistics = Statistics with { Solves = Statistics.Solves + 1, Unconverged = Statistics.Unconverged + (isConverged ? 0 : 1) };
         planned = (_solver.Bodies[members[0]].Velocity, _solver.Bodies[members[0]].Spin);
-        StopRebounds(rows);
+        FindRebounding(rows, 0, _rebounding);
+        StopRebounds(rows, _rebounding);
         return (_solver.Bodies[members[0]].Velocity, _solver.Bodies[members[0]].Spin);
     }
 
@@ -56,7 +57,6 @@ internal sealed partial class IslandPlanner
         foreach (var index in island)
         {
             var body = bodies[index];
-            body.PlannedStartOrientation = body.Orientation;
             if (body.IsCompound)
             {
                 hasCompound = true;

@@ -20,10 +20,33 @@ internal sealed partial class IslandPlanner
     private Action<int>? _loadBodies;
     private Action<int>? _beginPart;
 
-    private bool FindImpulses(in Island island, double stepLength)
+    private Action<int>? _storePlan;
+    private Action<int>? _findRebounding;
+    private Action<int>? _storeChanges;
+    private int _largeIndex;
+
+    private bool PlanLarge(int index, in Island island, double stepLength)
     {
         _large = island;
+        _largeIndex = index;
         _largeStepLength = stepLength;
+        var isConverged = FindImpulses(in island);
+        var jobCount = (island.BodyCount + BodiesPerJob - 1) / BodiesPerJob;
+        WorkerSet.Shared.Run(jobCount, maxThreads, _storePlan ??= StorePlan);
+        WorkerSet.Shared.Run(ContactGraph.GroupCountOf(in island), maxThreads, _findRebounding ??= FindRebounding);
+        _rebounding.Clear();
+        foreach (var rebounding in _reboundingOfParts.AsSpan(0, ContactGraph.GroupCountOf(in island)))
+        {
+            _rebounding.AddRange(rebounding);
+        }
+
+        StopRebounds(Graph.RowsOf(in island), _rebounding);
+        WorkerSet.Shared.Run(jobCount, maxThreads, _storeChanges ??= StoreChanges);
+        return isConverged;
+    }
+
+    private bool FindImpulses(in Island island)
+    {
         var rows = Graph.RowsOf(in island);
         if (Graph.MayBounce(Graph.BodiesOf(in island)))
         {
@@ -35,19 +58,35 @@ internal sealed partial class IslandPlanner
         WorkerSet.Shared.Run((island.BodyCount + BodiesPerJob - 1) / BodiesPerJob, maxThreads, _loadBodies ??= LoadBodies);
         WorkerSet.Shared.Run(island.PartCount, maxThreads, _beginPart ??= BeginPart);
         BeginPart(island.PartCount);
-        return Solve(rows, RoundLimits.ForLarge(rows.Length), Graph.PartEndsOf(in island));
+        var isConverged = _solver.SolveLarge(Graph, in island, RoundLimits.ForLarge(rows.Length));
+        Statistics = Statistics with { Rounds = Statistics.Rounds + _solver.Rounds };
+        return isConverged;
     }
 
     /// <summary>Loads a group of bodies with the velocities that they would have after the step without contacts.</summary>
     private void LoadBodies(int job)
     {
-        var members = Graph.BodiesOf(in _large);
-        foreach (var index in members[(job * BodiesPerJob)..Math.Min(members.Length, (job + 1) * BodiesPerJob)])
+        var members = MembersOf(job);
+        Join(members, _largeIndex, isLarge: true);
+        foreach (var index in members)
         {
             _solver.Load(index, bodies[index]);
             _solver.Bodies[index].Velocity += _largeStepLength * bodies[index].FreeAcceleration;
         }
     }
+
+    private ReadOnlySpan<int> MembersOf(int job)
+    {
+        var members = Graph.BodiesOf(in _large);
+        return members[(job * BodiesPerJob)..Math.Min(members.Length, (job + 1) * BodiesPerJob)];
+    }
+
+    private void StorePlan(int job) => StorePlan(MembersOf(job), _largeStepLength, isLarge: true);
+
+    private void StoreChanges(int job) => StoreChanges(MembersOf(job));
+
+    private void FindRebounding(int part) =>
+        FindRebounding(Graph.RowsOfPart(in _large, part), Graph.FirstRowOfPart(in _large, part), _reboundingOfParts[part]);
 
     /// <summary>Sets what the solve demands of the contacts of a part, and from which impulses it begins.</summary>
     private void BeginPart(int part)

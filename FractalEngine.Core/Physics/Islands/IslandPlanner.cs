@@ -53,6 +53,11 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
         _solver.Reserve(bodies.Count);
         _cache.ReserveForBodies(bodies.Count);
         _rebounding.EnsureCapacity(ContactsPerBody * bodies.Count);
+        foreach (var rebounding in _reboundingOfParts)
+        {
+            rebounding.EnsureCapacity(bodies.Count);
+        }
+
         foreach (var island in Graph.Islands)
         {
             var rows = Graph.RowsOf(in island);
@@ -85,23 +90,38 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
         for (var index = 0; index < Graph.Islands.Count; index++)
         {
             var island = Graph.Islands[index];
-            var rows = Graph.RowsOf(in island);
-            foreach (var body in Graph.BodiesOf(in island))
-            {
-                bodies[body].IslandIndex = index;
-                bodies[body].MayTouchBodies = true;
-                bodies[body].HasHeapMargin = island.IsLarge;
-            }
-
-            var isConverged = island.IsLarge ? FindImpulses(in island, stepLength) : FindForces(in island, stepLength);
+            var isConverged = island.IsLarge ? PlanLarge(index, in island, stepLength) : PlanSmall(index, in island, stepLength);
             Statistics = new(Statistics.Solves + 1, Statistics.Rounds, Statistics.Unconverged + (isConverged ? 0 : 1));
-            StorePlan(Graph.BodiesOf(in island), stepLength, island.IsLarge);
-            StoreTurns(Graph.BodiesOf(in island), rows, stepLength);
-            StopRebounds(Graph.BodiesOf(in island), rows);
-            Log(rows);
+            Log(Graph.RowsOf(in island));
         }
 
         _cache.Store(Graph);
+    }
+
+    private bool PlanSmall(int index, in Island island, double stepLength)
+    {
+        var members = Graph.BodiesOf(in island);
+        var rows = Graph.RowsOf(in island);
+        Join(members, index, isLarge: false);
+        var isConverged = FindForces(in island, stepLength);
+        StorePlan(members, stepLength, isLarge: false);
+        StoreTurns(members, rows, stepLength);
+        FindRebounding(rows, 0, _rebounding);
+        StopRebounds(rows, _rebounding);
+        StoreChanges(members);
+        return isConverged;
+    }
+
+    /// <summary>Tells bodies which island they are of.</summary>
+    private void Join(ReadOnlySpan<int> members, int island, bool isLarge)
+    {
+        foreach (var index in members)
+        {
+            bodies[index].IslandIndex = island;
+            bodies[index].MayTouchBodies = true;
+            bodies[index].HasHeapMargin = isLarge;
+            bodies[index].PlannedStartOrientation = bodies[index].Orientation;
+        }
     }
 
     private void Load(ReadOnlySpan<int> island, Span<ContactRow> rows)
@@ -235,9 +255,9 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
         _solver.ApplyTurn(in row, row.TurnImpulse);
     }
 
-    private bool Solve(Span<ContactRow> rows, int maxRounds, ReadOnlySpan<int> partEnds = default)
+    private bool Solve(Span<ContactRow> rows, int maxRounds)
     {
-        var isConverged = _solver.Solve(rows, maxRounds, partEnds);
+        var isConverged = _solver.Solve(rows, maxRounds);
         Statistics = Statistics with { Rounds = Statistics.Rounds + _solver.Rounds };
         return isConverged;
     }
