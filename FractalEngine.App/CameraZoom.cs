@@ -82,7 +82,8 @@ internal sealed class CameraZoom
     }
 
     private static UsageException NoSurface(int depth) => new(
-        $"the camera gets only {depth} levels deep: it meets no surface straight ahead, or the fractal ends there");
+        $"the camera gets only {depth} {(depth == 1 ? "level" : "levels")} deep: it "
+        + $"meets no surface straight ahead, or the fractal ends there");
 
     /// <summary>Flies from the start until the camera is a number of levels deeper.</summary>
     /// <returns>The number of steps; null where the flight gets no farther before.</returns>

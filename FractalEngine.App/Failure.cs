@@ -22,7 +22,8 @@ internal sealed record Failure(int ExitCode, string Text)
         FractalEngineException engine => new(CodeOf(engine.Kind), Line(engine.Message)),
         OutOfMemoryException => new(App.ExitCode.OverLimit, Line("the machine's memory does not suffice")),
         IOException when IsCurrentFolderGone() => new(App.ExitCode.WrongUsage, Line("the current folder has been removed")),
-        OperationCanceledException => new(App.ExitCode.Interrupted, Line(exception.Message)),
+        // Only signals cancel.
+        OperationCanceledException => new(App.ExitCode.Interrupted, Line("interrupted")),
         // Input that can't be read has become a SourceException already, so this is about an output.
         IOException or UnauthorizedAccessException => new(App.ExitCode.WrongUsage, Line(exception.Message)),
         AggregateException { InnerExceptions: [var only] } => Of(only),

@@ -22,4 +22,19 @@ internal static class OutputFile
 
         AtomicFile.Write(path, stream => write(new InterruptibleStream(stream, interruption)));
     }
+
+    /// <summary>Creates or replaces two files that belong together, both or neither, see <see cref="AtomicFile.WritePair"/>.</summary>
+    /// <param name="companion">Path of the file that the other one refers to.</param>
+    /// <param name="writeCompanion">Writes its contents.</param>
+    /// <param name="path">Path of the other file.</param>
+    /// <param name="write">Writes its contents.</param>
+    /// <exception cref="IOException">A file can't be written.</exception>
+    /// <exception cref="OperationCanceledException">A signal has arrived.</exception>
+    public static void WritePair(string companion, Action<Stream> writeCompanion, string path, Action<Stream> write)
+    {
+        using var interruption = new InterruptSignal();
+        AtomicFile.WritePair(
+            companion, stream => writeCompanion(new InterruptibleStream(stream, interruption)),
+            path, stream => write(new InterruptibleStream(stream, interruption)));
+    }
 }

@@ -13,7 +13,8 @@ namespace FractalEngine.App;
 internal sealed record TracedImage(int Samples, int Seed, bool KeepsPartial)
 {
     // Sums take 24 bytes each, the image 4: 1.75 GiB.
-    private const long MaxPixels = 1L << 26;
+    /// <summary>Largest number of pixels.</summary>
+    public const long MaxPixels = 1L << 26;
 
     /// <summary>Traces a scene, with its progress on a terminal.</summary>
     /// <param name="scene">With its models loaded.</param>
@@ -39,10 +40,7 @@ internal sealed record TracedImage(int Samples, int Seed, bool KeepsPartial)
     public PathTracer Prepare(LoadedScene scene, View view, RenderJob job, WrittenReport report)
     {
         var tracer = report.Measure("prepare", () => CreateTracer(scene, view, job));
-        foreach (var notice in tracer.Notices)
-        {
-            Console.Error.WriteLine(notice);
-        }
+        Notices.Write(tracer.Notices);
 
         return tracer;
     }

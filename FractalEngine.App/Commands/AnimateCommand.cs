@@ -10,7 +10,11 @@ namespace FractalEngine.App.Commands;
 internal static class AnimateCommand
 {
     private const int DefaultFrameCount = 60;
-    private const int MaxFrameCount = 100_000;
+    /// <summary>Largest number of frames.</summary>
+    public const int MaxFrameCount = 100_000;
+
+    /// <summary>Largest number of frames a second.</summary>
+    public const double MaxFramesPerSecond = 655;
     private const int DefaultFramesPerSecond = 25;
 
     /// <summary>Creates the command with its arguments and options.</summary>
@@ -29,7 +33,7 @@ internal static class AnimateCommand
             Required = true,
         };
         var frames = NumberOption.Integer("--frames", "N", 1, MaxFrameCount, $"Number of frames (default: {DefaultFrameCount}).");
-        var rate = NumberOption.Decimal("--fps", "F", 0.01, 655, $"Frames a second (default: {DefaultFramesPerSecond}).");
+        var rate = NumberOption.Decimal("--fps", "F", 0.01, MaxFramesPerSecond, $"Frames a second (default: {DefaultFramesPerSecond}).");
         var turntable = new Option<bool>("--turntable") { Description = "Turn the camera once around the middle of the scene." };
         var simulate = new Option<bool>("--simulate") { Description = "Let the physics objects of the scene move." };
         var path = new Option<string?>("--path")
@@ -105,10 +109,7 @@ internal static class AnimateCommand
         }
 
         var drawable = report.Measure("prepare", () => DrawableScene.Prepare(scene, job.Settings));
-        foreach (var notice in drawable.Notices)
-        {
-            Console.Error.WriteLine(notice);
-        }
+        Notices.Write(drawable.Notices);
 
         motion = animation.CreateMotion(scene, () => drawable, view);
         return new DrawnFrames(drawable, job);

@@ -22,6 +22,11 @@ internal static class CountCommand
 
     private static int Run(string path)
     {
+        if (path == StandardInput.Name)
+        {
+            throw new UsageException("count corrects a file, so it can't read the standard input: expected an OBJ file");
+        }
+
         var file = ConsoleLoader.Load(path, new());
         if (!path.EndsWith(".obj", StringComparison.OrdinalIgnoreCase))
         {

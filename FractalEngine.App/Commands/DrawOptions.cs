@@ -12,6 +12,15 @@ namespace FractalEngine.App.Commands;
 /// <summary>The options of the commands that draw, and the settings that follow from them.</summary>
 internal sealed class DrawOptions
 {
+    /// <summary>Largest number of instances in a frame.</summary>
+    public const int MaxInstances = 100_000_000;
+
+    /// <summary>Largest size of a proxy, in pixels.</summary>
+    public const double MaxDetail = 1000;
+
+    /// <summary>Largest number of samples of each pixel against jagged edges.</summary>
+    public const int MaxSamples = 32;
+
     private static readonly (string Word, Optimisation Value)[] OptimisationWords =
     [
         ("backface-culling", Optimisation.BackFaceCulling),
@@ -35,15 +44,15 @@ internal sealed class DrawOptions
     private readonly Option<bool> _grid = new("--grid") { Description = "Draw a grid on the ground, and the axes." };
 
     private readonly Option<int?> _maxInstances = NumberOption.Integer(
-        "--instances", "N", 1, 100_000_000,
+        "--instances", "N", 1, MaxInstances,
         $"Maximum number of instances in a frame (default: {DefaultCulling.InstanceBudget}); "
         + $"with --detail 0, of each fractal (default: {FractalLimits.MaxDrawnInstances}).");
 
     private readonly Option<int?> _sampleCount = NumberOption.Integer(
-        "--samples", "N", 0, 32, $"Samples per pixel for antialiasing, 0 for none (default: {DefaultSettings.Samples}).");
+        "--samples", "N", 0, MaxSamples, $"Samples per pixel for antialiasing, 0 for none (default: {DefaultSettings.Samples}).");
 
     private readonly Option<double?> _minProjectedSize = NumberOption.Decimal(
-        "--detail", "PIXELS", 0, 1000,
+        "--detail", "PIXELS", 0, MaxDetail,
         "Draw each sub-fractal that appears smaller as a proxy, a single instance of its base mesh "
         + string.Create(CultureInfo.InvariantCulture, $"(default: {DefaultCulling.MinProjectedSize}); 0 draws every instance."));
 
@@ -107,6 +116,10 @@ internal sealed class DrawOptions
         : result.GetValue(_noShadows) ? "--no-shadows"
         : result.GetValue(_noAmbientOcclusion) ? "--no-ambient-occlusion"
         : result.GetValue(_shading) == Shading.PerVertex ? "--shading vertex"
+        : result.GetValue(_sampleCount) is not null ? "--samples"
+        : result.GetValue(_minProjectedSize) is not null ? "--detail"
+        : result.GetValue(_maxInstances) is not null ? "--instances"
+        : result.GetValue(_disabled) is { Length: > 0 } ? "--without"
         : null;
 
     /// <summary>Applies the drawing options that concern loading.</summary>

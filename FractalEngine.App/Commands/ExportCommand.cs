@@ -15,22 +15,26 @@ internal static class ExportCommand
         var shared = new SharedOptions();
         var output = SharedOptions.OutputOption(".obj", "Mesh to write.");
         var depth = NumberOption.Integer("--depth", "N", 0, int.MaxValue, "Recursion depth, overriding the fractal's file.");
+        var noMaterials = new Option<bool>("--no-materials")
+        {
+            Description = "Write no material file (.mtl) beside the mesh.",
+        };
         var report = new ReportOptions();
         var command = new DocumentedCommand(
             "export", "Write all faces of FILE as one flat mesh, with fractals expanded.",
             "export assets/fractals/menger-3.fdo --output out/menger.obj", "export assets/fractals/tree.fdo --depth 3 --output -")
         {
-            output, depth,
+            output, depth, noMaterials,
         };
         shared.AddTo(command);
         report.AddTo(command);
         command.SetAction(result => Run(
             result.GetRequiredValue(shared.File), shared.LoadOptions(result) with { Depth = result.GetValue(depth) },
-            result.GetRequiredValue(output), report.Begin(result)));
+            result.GetRequiredValue(output), !result.GetValue(noMaterials), report.Begin(result)));
         return command;
     }
 
-    private static int Run(string path, LoadOptions options, string output, WrittenReport report)
+    private static int Run(string path, LoadOptions options, string output, bool hasMaterials, WrittenReport report)
     {
         if (options.Depth > FractalLimits.MaxDepth)
         {
@@ -45,9 +49,24 @@ internal static class ExportCommand
         }
 
         var faceCount = 0L;
-        report.Measure("write", () => OutputFile.Write(
-            output, stream => faceCount = ObjWriter.Write(file.Scene, stream, FractalLimits.MaxExportedFaces)));
-        report.Written(output, faceCount == 1 ? "1 face" : FormattableString.Invariant($"{faceCount} faces"));
+        var materials = hasMaterials ? ExportedMaterials.For(file.Scene, output) : null;
+        report.Measure("write", () =>
+        {
+            if (materials is null)
+            {
+                OutputFile.Write(output, stream => faceCount = ObjWriter.Write(file.Scene, stream, FractalLimits.MaxExportedFaces));
+            }
+            else
+            {
+                OutputFile.WritePair(
+                    materials.Path, materials.Write,
+                    output, stream => faceCount = ObjWriter.Write(
+                        file.Scene, stream, FractalLimits.MaxExportedFaces, materials.Materials, materials.Name));
+            }
+        });
+        var faces = faceCount == 1 ? "1 face" : FormattableString.Invariant($"{faceCount} faces");
+        report.Written(output, materials is null ? faces : $"{faces}, {materials.Describe()}");
+        materials?.WarnOfOutsideTextures();
         return ExitCode.Done;
     }
 }

@@ -2,6 +2,7 @@ using System.CommandLine;
 using System.Globalization;
 using FractalEngine.Core;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Generation;
 using FractalEngine.Core.Physics;
 using FractalEngine.Parsing;
 
@@ -23,12 +24,36 @@ internal static class LimitsCommand
         return command;
     }
 
+    /// <summary>The largest values of options, which <c>--limit</c> does not change.</summary>
+    private static IEnumerable<(string Option, double Value, string Reason)> OfOptions =>
+    [
+        ("--zoom", CameraZoom.MaxLevels, "levels that an image flies into a fractal: each takes some frames to find the way"),
+        ("--time", SharedOptions.MaxTime, "seconds simulated before an image: minutes of work"),
+        ("--frames", AnimateCommand.MaxFrameCount, "frames of an animation: their numbers have a fixed width"),
+        ("--fps", AnimateCommand.MaxFramesPerSecond, "frames a second: an animated PNG has times of 16 bits"),
+        ("--resolution", SharedOptions.MaxImageSide, "pixels along a side of an image: drivers allow less, and say so"),
+        ("--samples", DrawOptions.MaxSamples, "samples of each drawn pixel: drivers allow less, and give what they have"),
+        ("--instances", DrawOptions.MaxInstances, "instances in a frame: 48 bytes each on the GPU"),
+        ("--detail", DrawOptions.MaxDetail, "pixels of a proxy: as large as the frame"),
+        ("--trace", TraceOptions.MaxSamples, "samples of each traced pixel: days of work"),
+        ("--trace (pixels)", TracedImage.MaxPixels, "pixels of a traced image: 1.75 GiB"),
+        ("--seconds / --step", SimulateCommand.MaxSteps, "steps of a simulation: hours, and gigabytes of text"),
+        ("--trail", ViewCommand.MaxTrailLength, "levels of the trail of the paper's zoom: each is drawn"),
+        ("--faces", MeshGenerators.MaxFaceCount, "faces of a generated mesh: memory"),
+    ];
+
     private static int Run()
     {
         foreach (var limit in All)
         {
             Console.WriteLine(string.Create(
                 CultureInfo.InvariantCulture, $"{limit.Name,-22}{limit.Value,13}  {limit.Subject}: {limit.Reason}"));
+        }
+
+        Console.WriteLine("Of options, not changed by --limit:");
+        foreach (var (option, value, reason) in OfOptions)
+        {
+            Console.WriteLine(string.Create(CultureInfo.InvariantCulture, $"{option,-22}{value,13}  {reason}"));
         }
 
         return ExitCode.Done;

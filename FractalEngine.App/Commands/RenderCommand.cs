@@ -83,10 +83,7 @@ internal static class RenderCommand
         }
 
         var drawable = report.Measure("prepare", () => DrawableScene.Prepare(scene, job.Settings));
-        foreach (var notice in drawable.Notices)
-        {
-            Console.Error.WriteLine(notice);
-        }
+        Notices.Write(drawable.Notices);
 
         view = Zoom(drawable, view, job);
         using var renderer = new ImageRenderer(drawable, job.Size, job.Settings, job.Background);

@@ -48,7 +48,9 @@ internal static class SaveCommand
             throw new UsageException("a scene can't refer to a file with a quote or a line break in its path");
         }
 
-        OutputFile.Write(output, stream => stream.Write(Encoding.UTF8.GetBytes(SceneWriter.Write(relocated, file.ParsedScene))));
+        // Editors that need a byte order mark wrote it. UTF-16 becomes UTF-8 with one.
+        var mark = file.ParsedScene?.Source.HasByteOrderMark == true ? "\uFEFF" : "";
+        OutputFile.Write(output, stream => stream.Write(Encoding.UTF8.GetBytes(mark + SceneWriter.Write(relocated, file.ParsedScene))));
         var folder = AssetFolder.ForFile(Path.GetFullPath(output));
         if (file.Scene.Models.Any(model => !folder.Contains(model.SourcePath!)))
         {

@@ -10,8 +10,11 @@ namespace FractalEngine.App.Commands;
 /// <summary>Arguments and options that several commands have in common.</summary>
 internal sealed class SharedOptions
 {
-    private const int MaxImageSide = 1_000_000;
-    private const double MaxTime = 3600;
+    /// <summary>Largest width and height of an image that the command line takes, in pixels; drivers allow less.</summary>
+    public const int MaxImageSide = 1_000_000;
+
+    /// <summary>Largest time of the physics before an image, in seconds.</summary>
+    public const double MaxTime = 3600;
 
     /// <summary>Width and height of an image or window unless <c>--resolution</c> is given, in pixels.</summary>
     public static (int Width, int Height) DefaultResolution => (1280, 720);

@@ -17,7 +17,8 @@ internal static class SimulateCommand
 {
     private const double DefaultSeconds = 10;
 
-    private const long MaxSteps = 10_000_000;
+    /// <summary>Largest number of steps.</summary>
+    public const long MaxSteps = 10_000_000;
 
     // Excess of a quotient of two rounded numbers over the whole number that is meant, in steps.
     private const double StepTolerance = 1e-9;

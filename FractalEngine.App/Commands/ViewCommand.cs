@@ -9,6 +9,9 @@ namespace FractalEngine.App.Commands;
 /// <summary>The command <c>[view] [FILE]</c>, which opens a window. It is the default command.</summary>
 internal static class ViewCommand
 {
+    /// <summary>Largest length of the trail of the paper's zoom.</summary>
+    public const int MaxTrailLength = 1000;
+
     private const string GalleryPath = "assets/scenes/gallery.sdo";
 
     private static readonly int DefaultTrailLength = new WindowOptions().TrailLength;
@@ -26,7 +29,7 @@ internal static class ViewCommand
             "view", "Open FILE, or the gallery, in a window. This is the default command.",
             "assets/fractals/menger.fdo", "view assets/scenes/playground.sdo --shading pixel");
         var trailLength = NumberOption.Integer(
-            "--trail", "N", 1, 1000, $"Length of the trail of the paper's zoom, key T (default: {DefaultTrailLength}).");
+            "--trail", "N", 1, MaxTrailLength, $"Length of the trail of the paper's zoom, key T (default: {DefaultTrailLength}).");
         var noWatch = new Option<bool>("--no-watch") { Description = "Don't load files again when they change." };
         var trace = NumberOption.OptionalInteger(
             "--trace", "SAMPLES", 1, TraceOptions.MaxSamples, ProgressiveTrace.DefaultSampleCount,

@@ -14,7 +14,7 @@ internal static class WordOption
         where T : struct => new(name)
         {
             Description = description,
-            HelpName = string.Join('|', words.Select(static word => word.Word)),
+            HelpName = Join(words, "|"),
             CustomParser = result => Parse(result, name, words) is [var value] ? value : null,
         };
 
@@ -31,6 +31,18 @@ internal static class WordOption
             CustomParser = result => Parse(result, name, words),
         };
 
+    // A loop: queries over such pairs would be compiled for each type at every start.
+    private static string Join<T>((string Word, T Value)[] words, string separator)
+    {
+        var names = new string[words.Length];
+        for (var i = 0; i < names.Length; i++)
+        {
+            names[i] = words[i].Word;
+        }
+
+        return string.Join(separator, names);
+    }
+
     private static T[] Parse<T>(ArgumentResult result, string name, (string Word, T Value)[] words)
     {
         var values = new List<T>();
@@ -39,8 +51,7 @@ internal static class WordOption
             var index = Array.FindIndex(words, word => word.Word == token.Value);
             if (index < 0)
             {
-                var expected = string.Join(", ", words.Select(static word => word.Word));
-                result.AddError($"{name}: expected one of {expected}, not '{token.Value}'");
+                result.AddError($"{name}: expected one of {Join(words, ", ")}, not '{token.Value}'");
                 return [];
             }
 

@@ -1,4 +1,5 @@
 using System.Collections.Concurrent;
+using System.Text;
 
 namespace FractalEngine.Core.Files;
 
@@ -10,6 +11,9 @@ public static class AtomicFile
 
     private const int BufferBytes = 1 << 16;
 
+    // Of a name within a folder, as nearly all file systems have it.
+    private const int MaxNameBytes = 255;
+
     private static readonly ConcurrentDictionary<string, bool> Temporaries = new();
 
     /// <summary>Creates or replaces a file; its folder is created if it is missing.</summary>
@@ -19,7 +23,10 @@ public static class AtomicFile
     /// </param>
     /// <param name="write">Writes the contents, into a stream that may not seek. If it throws, the previous contents remain.</param>
     /// <exception cref="IOException">The file can't be written.</exception>
-    public static void Write(string path, Action<Stream> write)
+    public static void Write(string path, Action<Stream> write) => WriteThen(path, write, static move => move());
+
+    // The last argument calls the one that it is given, which moves the file to its name.
+    private static void WriteThen(string path, Action<Stream> write, Action<Action> commit)
     {
         ArgumentException.ThrowIfNullOrEmpty(path);
         ArgumentNullException.ThrowIfNull(write);
@@ -36,12 +43,48 @@ public static class AtomicFile
 
             target = FindTarget(path);
             temporary = TemporaryNameFor(target);
-            WriteTemporary(temporary, target, write, () => File.Move(temporary, target, overwrite: true));
+            WriteTemporary(temporary, target, write, () => commit(() => File.Move(temporary, target, overwrite: true)));
         }
         catch (Exception exception) when (exception is IOException or UnauthorizedAccessException)
         {
             throw WriteError(path, target, temporary, exception);
         }
+    }
+
+    /// <summary>
+    /// Creates or replaces two files that belong together: both or neither. Both are written before the first takes its name.
+    /// </summary>
+    /// <param name="companion">Path of the file that takes its name first, as <see cref="Write"/> expects it; no device or pipe.</param>
+    /// <param name="writeCompanion">Writes its contents. If it throws, both files remain as they were.</param>
+    /// <param name="path">Path of the file that refers to the other one; no device or pipe.</param>
+    /// <param name="write">Writes its contents, before the other file's. If it throws, both files remain as they were.</param>
+    /// <exception cref="IOException">A file can't be written. Then neither has changed.</exception>
+    /// <remarks>A process that is killed between the two renames leaves the new companion beside the old file.</remarks>
+    public static void WritePair(string companion, Action<Stream> writeCompanion, string path, Action<Stream> write)
+    {
+        ArgumentException.ThrowIfNullOrEmpty(companion);
+        ArgumentNullException.ThrowIfNull(writeCompanion);
+        WriteThen(path, stream =>
+        {
+            if (stream is not FileStream { CanSeek: true } || FileTypes.IsSpecial(companion))
+            {
+                throw new IOException("a device or a pipe has no companion");
+            }
+
+            write(stream);
+        }, move =>
+        {
+            var target = FindTarget(companion);
+            var temporary = TemporaryNameFor(target);
+            try
+            {
+                WriteTemporary(temporary, target, writeCompanion, () => Exchange(temporary, target, move));
+            }
+            catch (Exception exception) when (exception is IOException or UnauthorizedAccessException)
+            {
+                throw WriteError(companion, target, temporary, exception);
+            }
+        });
     }
 
     /// <summary>
@@ -107,7 +150,63 @@ public static class AtomicFile
         return Directory.Exists(target) ? throw new IOException("it is a directory") : target;
     }
 
-    private static string TemporaryNameFor(string target) => $"{target}.{Environment.ProcessId}-{Guid.NewGuid():N}.tmp";
+    /// <summary>Returns a name in the same folder, which begins with the target's as far as the file system has room for it.</summary>
+    private static string TemporaryNameFor(string target)
+    {
+        var suffix = FormattableString.Invariant($".{Environment.ProcessId}-{Guid.NewGuid():N}.tmp");
+        var name = Path.GetFileName(target.AsSpan());
+        while (Encoding.UTF8.GetByteCount(name) + suffix.Length > MaxNameBytes)
+        {
+            name = name[..^(name.Length > 1 && char.IsLowSurrogate(name[^1]) ? 2 : 1)];
+        }
+
+        return string.Concat(Path.Join(Path.GetDirectoryName(target.AsSpan()), name), suffix);
+    }
+
+    /// <summary>Moves a file to its name, and back again if what follows fails.</summary>
+    private static void Exchange(string temporary, string target, Action follow)
+    {
+        var previous = File.Exists(target) ? TemporaryNameFor(target) : null;
+        if (previous is not null)
+        {
+            Temporaries[previous] = true;
+            File.Copy(target, previous);
+        }
+
+        try
+        {
+            File.Move(temporary, target, overwrite: true);
+            try
+            {
+                follow();
+            }
+            catch
+            {
+                RestorePrevious(previous, target);
+                throw;
+            }
+        }
+        finally
+        {
+            if (previous is not null)
+            {
+                File.Delete(previous);
+                Temporaries.TryRemove(previous, out _);
+            }
+        }
+    }
+
+    private static void RestorePrevious(string? previous, string target)
+    {
+        if (previous is null)
+        {
+            File.Delete(target);
+        }
+        else
+        {
+            File.Move(previous, target, overwrite: true);
+        }
+    }
 
     /// <summary>Describes an error for the user, who knows nothing of the temporary file.</summary>
     private static IOException WriteError(string path, string target, string temporary, Exception exception)

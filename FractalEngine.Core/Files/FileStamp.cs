@@ -1,13 +1,14 @@
 namespace FractalEngine.Core.Files;
 
 /// <summary>Tells whether a file may have changed, without reading it: its size and the times of its creation and last change.</summary>
+/// <remarks>A class: dictionaries of it share the framework's code, which is compiled ahead of time (decision 13).</remarks>
 /// <param name="Length">Size in bytes; −1 for a file that does not exist or can't be examined.</param>
 /// <param name="LastWriteTime">Time of the last change, UTC.</param>
 /// <param name="CreationTime">Time of the creation where the system keeps it, UTC. It differs for a file that replaced another.</param>
-public readonly record struct FileStamp(long Length, DateTime LastWriteTime, DateTime CreationTime)
+public sealed record FileStamp(long Length, DateTime LastWriteTime, DateTime CreationTime)
 {
     /// <summary>The stamp of a missing file.</summary>
-    public static FileStamp Missing => new(-1, default, default);
+    public static FileStamp Missing { get; } = new(-1, default, default);
 
     /// <summary>True for a file that existed.</summary>
     public bool Exists => Length >= 0;

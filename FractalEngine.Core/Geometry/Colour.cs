@@ -18,9 +18,15 @@ public readonly record struct Colour(double Red, double Green, double Blue)
     /// <remarks>It is the inverse of the curve that the screen applies.</remarks>
     public Colour ToLinear() => new(Linear(Red), Linear(Green), Linear(Blue));
 
+    /// <summary>Converts components of linear light to sRGB, the inverse of <see cref="ToLinear"/>.</summary>
+    public Colour FromLinear() => new(Curve(Red), Curve(Green), Curve(Blue));
+
     /// <summary>Formats the colour as files write it, in the invariant culture.</summary>
     public override string ToString() => string.Create(CultureInfo.InvariantCulture, $"({Red:R}, {Green:R}, {Blue:R})");
 
     private static double Linear(double component) =>
         component <= 0.04045 ? component / 12.92 : Math.Pow((component + 0.055) / 1.055, 2.4);
+
+    private static double Curve(double linear) =>
+        linear <= 0.0031308 ? 12.92 * linear : (1.055 * Math.Pow(linear, 1 / 2.4)) - 0.055;
 }

@@ -7,7 +7,8 @@ namespace FractalEngine.Core.Maths;
 internal readonly struct SimdAffineMap
 {
     /// <summary>Converts a map without rounding.</summary>
-    public SimdAffineMap(AffineMap map)
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public SimdAffineMap(in AffineMap map)
         : this(ToVector256(map.Linear.V1), ToVector256(map.Linear.V2), ToVector256(map.Linear.V3), ToVector256(map.Translation))
     {
     }

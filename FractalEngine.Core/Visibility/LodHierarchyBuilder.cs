@@ -32,7 +32,7 @@ internal static class LodHierarchyBuilder
     private static LodNode BuildNode(HierarchyLevel level, BoundingBox baseBox)
     {
         var children = new List<LodChild>();
-        foreach (var (edge, box) in level.Edges.Zip(level.EdgeBoxes))
+        foreach (var (edge, box) in level.Edges.Zip(level.GetEdgeBoxes()))
         {
             if (!box.IsEmpty)
             {

@@ -31,10 +31,13 @@ public sealed class AssetLoader
     private readonly List<Diagnostic> _warnings = [];
     private readonly List<Diagnostic> _errors = [];
     private readonly HashSet<Diagnostic> _knownErrors = [];
+    private readonly bool _findsAllFaults;
     private long _textBytes;
 
-    private AssetLoader(string path, LoadOptions? options, IProgress<LoadProgress>? progress, AssetCache? cache)
+    private AssetLoader(
+        string path, LoadOptions? options, IProgress<LoadProgress>? progress, AssetCache? cache, bool findsAllFaults = false)
     {
+        _findsAllFaults = findsAllFaults;
         _path = path;
         _fullPath = Path.GetFullPath(path);
         _options = options ?? new();
@@ -84,10 +87,12 @@ public sealed class AssetLoader
     /// <summary>Loads a file only to find its faults.</summary>
     /// <param name="path">Path that ends in .obj, .obj.gz, .ply, .stl, .fdo or .sdo.</param>
     /// <param name="options">Options for loading; null for the defaults.</param>
-    /// <returns>Errors of all files that it refers to, one per file, then the warnings.</returns>
+    /// <returns>
+    /// Errors: of a scene those of its lines, a hundred at most, then one for each file that it refers to. Then the warnings.
+    /// </returns>
     public static ImmutableArray<Diagnostic> Check(string path, LoadOptions? options = null)
     {
-        var loader = new AssetLoader(path, options, null, null);
+        var loader = new AssetLoader(path, options, null, null, findsAllFaults: true);
         try
         {
             loader.LoadFile();
@@ -138,7 +143,8 @@ public sealed class AssetLoader
 
     private LoadedFile LoadScene()
     {
-        var parsed = SceneParser.Parse(ReadText(_fullPath, _path, ParsingLimits.MaxDescriptionBytes));
+        var text = ReadText(_fullPath, _path, ParsingLimits.MaxDescriptionBytes);
+        var parsed = _findsAllFaults ? SceneParser.Parse(text, _errors) : SceneParser.Parse(text);
         _warnings.AddRange(parsed.Warnings);
         var objects = ImmutableArray.CreateBuilder<SceneObject>();
         foreach (var (declared, offset) in parsed.Scene.Objects.Zip(parsed.FileNameOffsets))

@@ -1,5 +1,6 @@
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Parsing.Fractals;
 
@@ -22,8 +23,25 @@ internal static class FractalCheck
             return null;
         }
 
-        return fractal.Description.IsInfinite
-            ? "the infinite fractal has no bounds: its transformations don't shrink"
-            : "the fractal grows beyond the range of a double";
+        return !fractal.Description.IsInfinite ? "the fractal grows beyond the range of a double"
+            : fractal.Description.Steps.OfType<Repetition>().Where(static step => step.Count is null).All(Shrinks)
+                ? "the infinite fractal's transformations shrink too slowly: its bounds still change after thousands of levels; "
+                    + "give it a depth"
+                : "the infinite fractal has no bounds: its transformations don't shrink";
+    }
+
+    /// <summary>Tells whether each round of a repetition makes shorter what it makes at all: the identity makes nothing new.</summary>
+    private static bool Shrinks(Repetition repetition)
+    {
+        var factor = 1.0;
+        foreach (var set in repetition.Body)
+        {
+            factor *= set is TransformationSet { Maps: var maps }
+                ? maps.Where(static map => map != AffineMap.Identity).Select(static map => BoundingSphere.OperatorNormBound(map.Linear))
+                    .DefaultIfEmpty(1).Max()
+                : double.PositiveInfinity;
+        }
+
+        return factor < 1;
     }
 }

@@ -59,7 +59,8 @@ internal sealed class ObjMeshAssembler
             assembler._textureIndices, assembler._normals, assembler._normalIndices));
     }
 
-    private static T[] Allocate<T>(int length) => GC.AllocateUninitializedArray<T>(length);
+    private static T[] Allocate<T>(int length)
+        where T : unmanaged => LargePages.Allocate<T>(length);
 
     private static Mesh WithColours(double[] colours, Mesh mesh) =>
         colours.Length == 0 ? mesh : mesh.WithColours(ImmutableCollectionsMarshal.AsImmutableArray(colours));

@@ -1,9 +1,11 @@
 using System.Collections.Immutable;
 using System.Globalization;
+using FractalEngine.Core;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.Parsing.Meshes;
 
@@ -16,11 +18,17 @@ namespace FractalEngine.Parsing.Meshes;
 public sealed class ObjWriter
 {
     private readonly ObjTextWriter _text;
+    private readonly SceneMaterials? _materials;
+    private string _material = "";
     private long _positionCount;
     private long _textureCoordinateCount;
     private long _normalCount;
 
-    private ObjWriter(Stream stream) => _text = new(stream);
+    private ObjWriter(Stream stream, SceneMaterials? materials)
+    {
+        _text = new(stream);
+        _materials = materials;
+    }
 
     /// <summary>Writes all objects of a scene, each under its name.</summary>
     /// <param name="scene">Scene whose fractals are finite.</param>
@@ -28,9 +36,25 @@ public sealed class ObjWriter
     /// <param name="maxFaces">Largest number of faces that may be written.</param>
     /// <exception cref="FractalLimitException">The scene has more faces. Nothing is written then.</exception>
     /// <returns>Number of faces that were written: instances that coincide are written once.</returns>
-    public static long Write(LoadedScene scene, Stream stream, long maxFaces)
+    public static long Write(LoadedScene scene, Stream stream, long maxFaces) => Write(scene, stream, maxFaces, null, "");
+
+    /// <inheritdoc cref="Write(LoadedScene, Stream, long)"/>
+    /// <param name="scene">Scene whose fractals are finite.</param>
+    /// <param name="stream">Receives UTF-8 text.</param>
+    /// <param name="maxFaces">Largest number of faces that may be written.</param>
+    /// <param name="materials">Materials of the scene that faces refer to; null for none.</param>
+    /// <param name="materialFile">Name of the material file relative to the mesh; not used without materials.</param>
+    /// <exception cref="FractalEngineException">The format can't express the name of the material file.</exception>
+    public static long Write(LoadedScene scene, Stream stream, long maxFaces, SceneMaterials? materials, string materialFile)
     {
-        var writer = new ObjWriter(stream);
+        if (materials is not null && (materialFile.Length == 0 || !WritableNames.IsRestOfLine(materialFile)))
+        {
+            throw new FractalEngineException(
+                $"an OBJ file can't name the material file '{WritableNames.Escape(materialFile)}': it has a line break, a comment, "
+                + "a faulty character, blanks at an end, or a backslash at its end");
+        }
+
+        var writer = new ObjWriter(stream, materials);
         var objects = scene.Objects.Select(placed => (Placed: placed, Instances: ExpandInstances(placed.Model, maxFaces))).ToArray();
         var faceCount = objects.Sum(item => (long)item.Instances.Length * item.Placed.Model.Mesh.FaceCount);
         if (faceCount > maxFaces)
@@ -40,10 +64,11 @@ public sealed class ObjWriter
         }
 
         writer._text.WriteText(MeshCountHeader.Format(faceCount) + "\n");
+        writer._text.WriteText(materials is null ? "" : $"mtllib {materialFile}\n");
         foreach (var (placed, instances) in objects)
         {
             writer._text.WriteText($"o {ObjectName(placed)}\n");
-            writer.WriteObject(placed.ObjectToWorld, placed.Model.Mesh, instances);
+            writer.WriteObject(placed, instances);
         }
 
         writer._text.Flush();
@@ -72,19 +97,21 @@ public sealed class ObjWriter
         }
     }
 
-    private void WriteObject(AffineMap placement, Mesh mesh, ImmutableArray<AffineMap> instances)
+    private void WriteObject(PlacedModel placed, ImmutableArray<AffineMap> instances)
     {
+        var mesh = placed.Model.Mesh;
         var firstTextureCoordinate = _textureCoordinateCount;
         _text.WriteTextureCoordinates(mesh.TextureCoordinates.AsSpan());
         _textureCoordinateCount += mesh.TextureCoordinates.Length / 2;
         foreach (var instance in instances)
         {
-            WriteInstance(placement * instance, mesh, firstTextureCoordinate);
+            WriteInstance(placed, placed.ObjectToWorld * instance, firstTextureCoordinate);
         }
     }
 
-    private void WriteInstance(AffineMap map, Mesh mesh, long firstTextureCoordinate)
+    private void WriteInstance(PlacedModel placed, AffineMap map, long firstTextureCoordinate)
     {
+        var mesh = placed.Model.Mesh;
         for (var vertex = 0; vertex < mesh.VertexCount; vertex++)
         {
             _text.WriteVertex(map * mesh.Vertex(vertex), mesh, vertex);
@@ -92,7 +119,38 @@ public sealed class ObjWriter
 
         var isMirrored = map.Linear.Determinant() < 0;
         WriteNormals(map.Linear, isMirrored, mesh);
-        for (var face = 0; face < mesh.FaceCount; face++)
+        // Groups that were made in code may leave faces out.
+        if (_materials is null || mesh.Groups.Sum(static group => group.FaceCount) != mesh.FaceCount)
+        {
+            ChangeMaterial(placed, "");
+            WriteFaces(mesh, 0, mesh.FaceCount, isMirrored, firstTextureCoordinate);
+        }
+        else
+        {
+            foreach (var group in mesh.Groups)
+            {
+                ChangeMaterial(placed, group.Material);
+                WriteFaces(mesh, group.FirstFace, group.FaceCount, isMirrored, firstTextureCoordinate);
+            }
+        }
+
+        _positionCount += mesh.VertexCount;
+        _normalCount += mesh.Normals.Length / 3;
+    }
+
+    private void ChangeMaterial(PlacedModel placed, string group)
+    {
+        var name = _materials?.NameOf(placed, group) ?? "";
+        if (name != _material)
+        {
+            _text.WriteText($"usemtl {name}\n");
+            _material = name;
+        }
+    }
+
+    private void WriteFaces(Mesh mesh, int firstFace, int faceCount, bool isMirrored, long firstTextureCoordinate)
+    {
+        for (var face = firstFace; face < firstFace + faceCount; face++)
         {
             _text.WriteText("f");
             WriteCorner(mesh, 3 * face, firstTextureCoordinate);
@@ -101,9 +159,6 @@ public sealed class ObjWriter
             WriteCorner(mesh, (3 * face) + (isMirrored ? 1 : 2), firstTextureCoordinate);
             _text.WriteText("\n");
         }
-
-        _positionCount += mesh.VertexCount;
-        _normalCount += mesh.Normals.Length / 3;
     }
 
     private void WriteNormals(Matrix linear, bool isMirrored, Mesh mesh)

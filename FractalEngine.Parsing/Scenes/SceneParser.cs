@@ -13,6 +13,13 @@ public sealed partial class SceneParser : SceneValueParser
     /// <summary>The word before the point that a camera looks at.</summary>
     internal const string LookAtKeyword = "look-at";
 
+    // Products of these and of the sides of a frame stay well within a float.
+    private const double MinClip = 1e-30;
+    private const double MaxClip = 1e30;
+
+    // Faulty lines that are told together, see Parse.
+    private const int MaxFaults = 100;
+
     private static readonly ImmutableArray<TypicalMistake> SceneMistakes =
     [
         new CommentBehindDeclaration(), new CommaAsDecimalPoint(), new MissingNumber(), new IncompletePlacement(),
@@ -40,9 +47,15 @@ public sealed partial class SceneParser : SceneValueParser
 
     /// <summary>Parses a whole scene file. The files that it names are not read.</summary>
     /// <exception cref="SourceException">The text is not a scene, or has no valid meaning.</exception>
-    public static ParsedScene Parse(SourceText source) => new SceneParser(source).ParseFile();
+    public static ParsedScene Parse(SourceText source) => new SceneParser(source).ParseFile(null);
 
-    private ParsedScene ParseFile()
+    /// <summary>Parses a whole scene file without its faulty lines, to find the faults of them all.</summary>
+    /// <param name="source">Text of the file.</param>
+    /// <param name="faults">Receives the faults, a hundred at most: finding its line takes a search for each.</param>
+    /// <exception cref="SourceException">The file has more lines than the limit.</exception>
+    internal static ParsedScene Parse(SourceText source, ICollection<Diagnostic> faults) => new SceneParser(source).ParseFile(faults);
+
+    private ParsedScene ParseFile(ICollection<Diagnostic>? faults)
     {
         var lines = ImmutableArray.CreateBuilder<SceneLine>();
         for (var cursor = Source.Start; !cursor.IsAtEnd;)
@@ -52,9 +65,15 @@ public sealed partial class SceneParser : SceneValueParser
                 throw Error(cursor, $"the scene has more than the limit of {ParsingLimits.MaxSceneLines} lines", isLimitExceeded: true);
             }
 
-            if (!ParseLine(cursor, out var kind, out var rest))
+            if (!TryParseLine(cursor, faults, out var kind, out var rest))
             {
-                throw SyntaxError();
+                if (faults is { Count: >= MaxFaults })
+                {
+                    break;
+                }
+
+                cursor = SkipLine(cursor);
+                continue;
             }
 
             var text = Source.Text[cursor.Offset..rest.Offset];
@@ -63,13 +82,35 @@ public sealed partial class SceneParser : SceneValueParser
             cursor = rest;
         }
 
-        if (lines.All(line => line.Kind is null))
+        if (lines.All(line => line.Kind is null) && faults is null or { Count: 0 })
         {
             throw Error(Source.Start, "the scene declares nothing: it has no camera, object or light");
         }
 
         var scene = _scene with { Camera = TurnToTarget(_scene.Camera), Lights = [.. _lights], Objects = [.. _objects] };
         return new(Source, scene, lines.ToImmutable()) { Warnings = Hints };
+    }
+
+    /// <summary>Parses a line. A fault is thrown, or added to a list that takes it; then nothing of the line is declared.</summary>
+    private bool TryParseLine(Cursor cursor, ICollection<Diagnostic>? faults, out SceneDeclarationKind? kind, out Cursor rest)
+    {
+        var (objectCount, lightCount) = (_objects.Count, _lights.Count);
+        try
+        {
+            return ParseLine(cursor, out kind, out rest) ? true : throw SyntaxError();
+        }
+        catch (SourceException exception) when (faults is not null)
+        {
+            var isLast = faults.Count + 1 >= MaxFaults;
+            faults.Add(exception.Diagnostic with
+            {
+                Message = exception.Diagnostic.Message + (isLast ? $" (after {MaxFaults} faulty lines the rest is not read)" : ""),
+            });
+            _objects.RemoveRange(objectCount, _objects.Count - objectCount);
+            _lights.RemoveRange(lightCount, _lights.Count - lightCount);
+            (kind, rest) = (null, cursor);
+            return false;
+        }
     }
 
     private int IndexOfLast(SceneDeclarationKind kind) => kind switch
@@ -240,6 +281,8 @@ public sealed partial class SceneParser : SceneValueParser
         }
 
         Require(near > 0 && far > near, cursor, "the clip planes must satisfy 0 < near < far");
+        Require(near >= MinClip && far <= MaxClip, cursor, FormattableString.Invariant(
+            $"clip planes lie between {MinClip} and {MaxClip}, since depths are drawn as floats"));
         return UpdateScene(_scene with { Clip = (near, far) });
     }
 

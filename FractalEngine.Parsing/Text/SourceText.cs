@@ -29,6 +29,9 @@ public sealed class SourceText
     /// <summary>Number in the file, from 1, of the line that the text begins with: more than 1 for an excerpt.</summary>
     internal int FirstLine { get; init; } = 1;
 
+    /// <summary>Whether the file began with a byte order mark, of UTF-8 or UTF-16; the text is without it.</summary>
+    public bool HasByteOrderMark { get; init; }
+
     /// <summary>Size of the file that was read or decoded, in bytes; 0 for a text that comes from no file.</summary>
     public long ByteCount { get; private init; }
 
@@ -60,6 +63,7 @@ public sealed class SourceText
             bytes = DecodeUtf16(bytes, fileName, utf16, acceptLatin1);
         }
 
+        var hasMark = MeasureByteOrderMark(bytes) > 0;
         bytes = bytes[MeasureByteOrderMark(bytes)..];
         // Text has no NUL bytes; UTF-16 without a byte order mark and all binary formats do.
         if (bytes.IndexOf((byte)0) is >= 0 and var position)
@@ -70,7 +74,7 @@ public sealed class SourceText
 
         try
         {
-            return new(fileName, StrictUtf8.GetString(bytes)) { ByteCount = byteCount };
+            return new(fileName, StrictUtf8.GetString(bytes)) { ByteCount = byteCount, HasByteOrderMark = hasMark };
         }
         catch (DecoderFallbackException) when (acceptLatin1)
         {

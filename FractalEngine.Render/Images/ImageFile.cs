@@ -38,11 +38,11 @@ public static class ImageFile
         }
         catch (Exception exception) when (exception is DllNotFoundException or EntryPointNotFoundException)
         {
-            throw new IOException($"{path} can't be read: {InstallHint}", exception);
+            throw new ImageFileException(path, InstallHint, exception);
         }
         catch (Exception exception) when (exception is PngException or IOException or UnauthorizedAccessException)
         {
-            throw new IOException($"{path} can't be read: {exception.Message}", exception);
+            throw new ImageFileException(path, exception.Message, exception);
         }
     }
 

@@ -160,7 +160,8 @@ internal sealed class TextureCache(ImmutableArray<string>.Builder notices, bool 
         }
         catch (IOException exception)
         {
-            notices.Add($"{path}:1:1: warning: the texture can't be decoded, {consequence}: {exception.Message}");
+            var reason = exception is ImageFileException { Reason: var said } ? said : exception.Message;
+            notices.Add($"{path}:1:1: warning: the texture can't be decoded, {consequence}: {reason}");
             _undecodable.Add(path);
             return null;
         }

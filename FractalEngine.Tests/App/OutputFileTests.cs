@@ -40,6 +40,27 @@ public sealed class OutputFileTests : IDisposable
     [SkippableTheory]
     [InlineData("INT")]
     [InlineData("TERM")]
+    public void Trace_EndedByASignal_SaysSoAndLeavesNoFile(string signal)
+    {
+        Skip.If(OperatingSystem.IsWindows(), "there are no POSIX signals");
+        using var process = AppProcess.Start(
+            _folder.Path, [], "render", "cube.obj", "--output", "t.png", "--trace", "1000000", "--resolution", "200x200", "--verbose");
+        // Its time is told when the preparation is done; then samples are added.
+        for (var line = ""; !line.StartsWith("prepare", StringComparison.Ordinal);)
+        {
+            line = process.StandardError.ReadLine() ?? throw new EndOfStreamException("the process has ended");
+        }
+
+        Thread.Sleep(TimeSpan.FromMilliseconds(100));
+        Process.Start("kill", ["-s", signal, process.Id.ToString(CultureInfo.InvariantCulture)]).WaitForExit();
+        Assert.True(process.WaitForExit(Polling.Deadline), "the process does not end");
+        Assert.Equal((130, "error: interrupted"), (process.ExitCode, process.StandardError.ReadToEnd().Trim()));
+        Assert.Equal(["cube.obj"], Directory.GetFiles(_folder.Path).Select(Path.GetFileName));
+    }
+
+    [SkippableTheory]
+    [InlineData("INT")]
+    [InlineData("TERM")]
     public void Query_EndedByASignal_ExitsWith130AtOnce(string signal)
     {
         Skip.If(OperatingSystem.IsWindows(), "there are no POSIX signals");

@@ -49,6 +49,17 @@ public sealed class MemoryTests : IDisposable
     }
 
     [Fact]
+    public void Query_OfAHundredThousandMaps_IsWithinTheMemory()
+    {
+        WriteWideSet(1);
+        _folder.Write("points.txt", "0 0 0\n1 2 3\n");
+        var (exitCode, output, error) = AppProcess.Run(
+            _folder[""], HeapLimit("wide.fdo"), ["query", "wide.fdo", "--points", "points.txt"]);
+        Assert.True(exitCode == 0, error);
+        Assert.Equal(2, output.TrimEnd().Split('\n').Length);
+    }
+
+    [Fact]
     public void Query_OfThreeWideLevels_IsRefusedBeforeOneIsBuilt()
     {
         WriteWideSet(3);

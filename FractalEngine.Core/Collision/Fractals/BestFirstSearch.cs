@@ -114,7 +114,7 @@ internal sealed class BestFirstSearch(FractalHierarchy hierarchy, TriangleBvh bv
         return new(
             hierarchy.At(child, remainingLevels),
             remainingLevels,
-            SimdAffineMap.Compose(in parent.Map, in child.SimdMap),
+            SimdAffineMap.Compose(in parent.Map, child.SimdMap),
             SimdAffineMap.Compose(in child.InverseSimdMap, in parent.Inverse),
             parentNode,
             childIndex,

@@ -56,8 +56,8 @@ internal static class ChildGroups
             var (parts, boxes) = BoxPartition.CountOf(range) > GroupSize ? CreateGroups(range) : CollectChildren(partition.Order[range]);
             var hasFirstHull = parts[0].Group is null && parts[0].LevelStep == children[0].LevelStep;
             return new(
-                set, parts, boxes, box, parentBox, null, hasFirstHull ? childHull : null, ConvexSolid.FromBox(box), null,
-                hasOnlySimilarities);
+                set, parts, boxes, box, parentBox, null, hasFirstHull ? childHull : null, null, null,
+                hasOnlySimilarities, isGroup: true);
         }
 
         (ChildInstance[], BoundingBox[]) CollectChildren(ReadOnlySpan<int> members)

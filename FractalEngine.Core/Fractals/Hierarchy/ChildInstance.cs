@@ -1,3 +1,4 @@
+using System.Runtime.CompilerServices;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Fractals.Hierarchy;
@@ -9,21 +10,36 @@ internal sealed class ChildInstance
 {
     private static readonly ChildEdge[] ToGroup = [ChildEdge.ToGroup];
 
-    private readonly SimdAffineMap _simdMap;
     private readonly SimdAffineMap _inverseSimdMap;
-    private readonly ReadOnlyMemory<ChildEdge> _edges;
+    private readonly ChildEdge[] _edges;
+    private readonly int _firstEdge;
+    private readonly int _edgeCount;
+
+    // Null where there is one edge: its set has the map, and wide sets take much memory.
+    private readonly ComposedMap? _composedMap;
 
     /// <summary>Composes an instance from edges.</summary>
-    /// <param name="edges">At least one edge, the outermost first. Children of wide levels share one array.</param>
-    public ChildInstance(ReadOnlyMemory<ChildEdge> edges)
+    /// <param name="edges">At least one edge, the outermost first.</param>
+    public ChildInstance(ChildEdge[] edges)
+        : this(edges, 0, edges.Length)
+    {
+    }
+
+    /// <summary>Composes an instance from a part of an array of edges, which the children of a wide level share.</summary>
+    /// <param name="edges">Has the edges.</param>
+    /// <param name="firstEdge">Index of the outermost edge.</param>
+    /// <param name="edgeCount">Number of edges, at least one.</param>
+    public ChildInstance(ChildEdge[] edges, int firstEdge, int edgeCount)
     {
         _edges = edges;
+        _firstEdge = firstEdge;
+        _edgeCount = edgeCount;
         var map = AffineMap.Identity;
         var inverse = AffineMap.Identity;
         ScaleSquared = 1;
         OperatorNormBound = 1;
         var areMapsOfLevels = true;
-        foreach (var (set, mapIndex, levelStep) in edges.Span)
+        foreach (var (set, mapIndex, levelStep) in Edges)
         {
             map *= set.Maps[mapIndex];
             inverse = set.Maps[mapIndex].Inverse() * inverse;
@@ -36,7 +52,7 @@ internal sealed class ChildInstance
         HasMapsOfLevels = areMapsOfLevels;
         InverseScaleSquared = 1 / ScaleSquared;
         InverseScale = Math.Sqrt(InverseScaleSquared);
-        _simdMap = new(map);
+        _composedMap = edgeCount > 1 ? new(new(map)) : null;
         _inverseSimdMap = new(inverse);
     }
 
@@ -56,16 +72,20 @@ internal sealed class ChildInstance
     public static ChildInstance Of(SubFractal group) => new(group);
 
     /// <summary>The edges, the outermost first.</summary>
-    public ReadOnlySpan<ChildEdge> Edges => _edges.Span;
+    public ReadOnlySpan<ChildEdge> Edges => new(_edges, _firstEdge, _edgeCount);
 
     /// <summary>Whether each edge goes down one level by a map of that level's set.</summary>
     public bool HasMapsOfLevels { get; }
 
     /// <summary>The map from the child's frame to that of the parent.</summary>
-    public AffineMap Map => _simdMap.ToAffineMap();
+    public AffineMap Map => _composedMap is null ? _edges[_firstEdge].Map : _composedMap.Map.ToAffineMap();
 
     /// <summary>The map from the child's frame to that of the parent, for kernels.</summary>
-    public ref readonly SimdAffineMap SimdMap => ref _simdMap;
+    public SimdAffineMap SimdMap
+    {
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        get => _composedMap is null ? new(in _edges[_firstEdge].Set.Maps[_edges[_firstEdge].MapIndex]) : _composedMap.Map;
+    }
 
     /// <summary>The map from the parent's frame to that of the child, for kernels.</summary>
     public ref readonly SimdAffineMap InverseSimdMap => ref _inverseSimdMap;
@@ -86,9 +106,12 @@ internal sealed class ChildInstance
     public LevelStep LevelStep { get; }
 
     /// <summary>Number of bytes of the maps and edges.</summary>
-    public long StorageBytes => (38 * sizeof(double)) + (24 * Edges.Length);
+    public long StorageBytes => (30 * sizeof(double)) + (_composedMap is null ? 0 : 18 * sizeof(double)) + (24 * _edgeCount);
 
     /// <summary>Computes the remaining levels of the child.</summary>
     /// <param name="parentLevels">Remaining levels of the parent.</param>
     public long RemainingLevels(long parentLevels) => LevelStep.RemainingLevels(parentLevels);
+
+    /// <summary>The product of the maps of several edges.</summary>
+    private sealed record ComposedMap(SimdAffineMap Map);
 }

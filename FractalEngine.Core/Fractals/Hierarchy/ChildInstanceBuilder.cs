@@ -64,6 +64,8 @@ internal sealed class ChildInstanceBuilder
                 return [.. edges, new(MapSet.Identity, 0, LevelStep.Down(levelsDown))];
             }
 
+            // Only where another level follows: these are as many bytes as the maps.
+            offeredMaps.UnionWith(currentSet.Maps);
             currentSet = setAt(level - levelsDown);
         }
     }
@@ -156,7 +158,7 @@ internal sealed class ChildInstanceBuilder
         var children = new ChildInstance[edges.Length];
         for (var i = 0; i < children.Length; i++)
         {
-            children[i] = edges.Length > MaxComparedEdges ? new(edges.AsMemory(i, 1)) : GetOrCreate([edges[i]]);
+            children[i] = edges.Length > MaxComparedEdges ? new(edges, i, 1) : GetOrCreate([edges[i]]);
         }
 
         _wideLevels.Add(edges, children);
@@ -227,15 +229,19 @@ internal sealed class ChildInstanceBuilder
         return true;
     }
 
+    /// <summary>Adds the edges of a set: each map once that no level above offers.</summary>
+    /// <param name="edges">Receives the edges.</param>
+    /// <param name="offeredMaps">The maps of the levels above.</param>
+    /// <param name="set">The set.</param>
+    /// <param name="levelsDown">Number of levels from the parent to the children.</param>
     private static void AddEdges(List<ChildEdge> edges, HashSet<AffineMap> offeredMaps, MapSet set, long levelsDown)
     {
         // Of the indices, since maps of wide sets are many bytes.
         var mapsOfThisLevel = new HashSet<int>(set.Maps.Length, new MapComparer(set.Maps));
         for (var i = 0; i < set.Maps.Length; i++)
         {
-            // A map that a level above offers is found there, provided that this level could be skipped instead. Only a level that can be
-            // skipped is followed by others.
-            var isNew = set.IdentityIndex < 0 || offeredMaps.Add(set.Maps[i]);
+            // A map that a level above offers is found there, provided that this level could be skipped instead.
+            var isNew = set.IdentityIndex < 0 || !offeredMaps.Contains(set.Maps[i]);
             if (set.Maps[i] != AffineMap.Identity && mapsOfThisLevel.Add(i) && isNew)
             {
                 edges.Add(new(set, i, LevelStep.Down(levelsDown)));

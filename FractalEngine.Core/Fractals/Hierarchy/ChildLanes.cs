@@ -83,11 +83,22 @@ internal sealed class ChildLanes
             : RotatedRows;
         var rows = new float[groupCount * rowCount * LaneCount];
         var reach = BoundingVolume.MaxAbsCoordinate(box);
+        Span<float> values = stackalloc float[RotatedRows];
         for (var i = 0; i < groupCount * LaneCount; i++)
         {
-            var values = i >= children.Length || childBoxes[i].IsEmpty ? NoChild(rowCount)
-                : rowCount == BoxRows ? BoxOf(childBoxes[i])
-                : FrameOf(children[i]);
+            if (i >= children.Length || childBoxes[i].IsEmpty)
+            {
+                FillNoChild(values[..rowCount]);
+            }
+            else if (rowCount == BoxRows)
+            {
+                FillBox(values, childBoxes[i]);
+            }
+            else
+            {
+                FillFrame(values, children[i]);
+            }
+
             for (var row = 0; row < rowCount; row++)
             {
                 rows[(((i / LaneCount * rowCount) + row) * LaneCount) + (i % LaneCount)] = values[row];
@@ -182,30 +193,30 @@ internal sealed class ChildLanes
     private static bool HaveSimpleHull(ChildInstance[] children, HullBound? childHull) =>
         childHull is not null && FloatBound.IsSimple(childHull) && children.All(child => child.LevelStep == children[0].LevelStep);
 
-    private static float[] NoChild(int rowCount)
+    private static void FillNoChild(Span<float> values)
     {
-        var values = new float[rowCount];
-        values[3] = rowCount == BoxRows ? float.NegativeInfinity : FarAway;
-        values[^1] = rowCount == UnrotatedRows ? float.PositiveInfinity : 0;
-        if (rowCount == RotatedRows)
+        values.Clear();
+        values[3] = values.Length == BoxRows ? float.NegativeInfinity : FarAway;
+        values[^1] = values.Length == UnrotatedRows ? float.PositiveInfinity : 0;
+        if (values.Length == RotatedRows)
         {
             values[6] = float.PositiveInfinity;
         }
-
-        return values;
     }
 
-    private static float[] BoxOf(BoundingBox box)
+    private static void FillBox(Span<float> values, BoundingBox box)
     {
         var centre = box.Centre;
         var halfSize = 0.5 * box.Size;
-        return [(float)centre.X, (float)centre.Y, (float)centre.Z, (float)halfSize.X, (float)halfSize.Y, (float)halfSize.Z];
+        ReadOnlySpan<float> rows =
+            [(float)centre.X, (float)centre.Y, (float)centre.Z, (float)halfSize.X, (float)halfSize.Y, (float)halfSize.Z];
+        rows.CopyTo(values);
     }
 
-    private static float[] FrameOf(ChildInstance child)
+    private static void FillFrame(Span<float> values, ChildInstance child)
     {
         ref readonly var inverse = ref child.InverseSimdMap;
-        return
+        ReadOnlySpan<float> rows =
         [
             (float)inverse.V1[0], (float)inverse.V2[1], (float)inverse.V3[2],
             (float)inverse.Translation[0], (float)inverse.Translation[1], (float)inverse.Translation[2],
@@ -213,6 +224,7 @@ internal sealed class ChildLanes
             (float)inverse.V2[0], (float)inverse.V3[0], (float)inverse.V3[1],
             (float)inverse.V1[1], (float)inverse.V1[2], (float)inverse.V2[2],
         ];
+        rows.CopyTo(values);
     }
 
     private static bool IsInRange(ChildInstance[] children, BoundingBox box)

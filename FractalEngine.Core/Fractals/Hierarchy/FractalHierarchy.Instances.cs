@@ -38,7 +38,7 @@ internal sealed partial class FractalHierarchy
                 continue;
             }
 
-            map = SimdAffineMap.Compose(in map, in child.SimdMap);
+            map = SimdAffineMap.Compose(in map, child.SimdMap);
             maxTranslation = Vector256.Max(maxTranslation, Vector256.Abs(map.Translation));
             if (child.HasMapsOfLevels)
             {

@@ -59,7 +59,7 @@ internal sealed partial class FractalHierarchy
 
     /// <summary>Number of bytes of everything in the hierarchy.</summary>
     public long StorageBytes => _subFractals.Sum(subFractal => subFractal?.StorageBytes ?? 0)
-        + _subFractals.SelectMany(subFractal => subFractal?.AllChildren() ?? []).Distinct().Sum(child => child.StorageBytes)
+        + MeasureChildren()
         + _levels.Sum(level => level.StorageBytes) + _levels.Select(level => level.Edges).Distinct().Sum(edges => 24L * edges.Length)
         + _levels.Select(level => level.Set).Distinct().Sum(set => set?.StorageBytes ?? 0) + (16 * (long)_subFractals.Length)
         + (8 * _lowest.Length);
@@ -93,4 +93,33 @@ internal sealed partial class FractalHierarchy
 
     /// <summary>The set on top of the sub-fractal with a number of remaining levels, visited or not; null for the base.</summary>
     public MapSet? MapSetAt(long remainingLevels) => _levels[LevelRegion.FindIndex(_regions, remainingLevels)].Set;
+
+    /// <summary>Sums the bytes of the children, each once: levels with the same edges share them, and so do narrow ones.</summary>
+    private long MeasureChildren()
+    {
+        var seen = new HashSet<ChildInstance>();
+        // A set of all children of a wide level would take megabytes itself.
+        var seenWideEdges = new HashSet<ChildEdge[]>(ReferenceEqualityComparer.Instance);
+        var bytes = 0L;
+        for (var i = 0; i < _subFractals.Length; i++)
+        {
+            var edges = _levels[i].Edges;
+            var isWide = edges.Length > ChildGroups.MaxUngroupedChildren;
+            bytes += Measure(_subFractals[i], isWide, countsChildren: !isWide || seenWideEdges.Add(edges));
+        }
+
+        return bytes;
+
+        long Measure(SubFractal? subFractal, bool isWide, bool countsChildren)
+        {
+            var sum = 0L;
+            foreach (var child in subFractal?.Children ?? [])
+            {
+                var isNew = isWide ? countsChildren || child.Group is not null : seen.Add(child);
+                sum += isNew ? child.StorageBytes + Measure(child.Group, isWide, countsChildren) : 0;
+            }
+
+            return sum;
+        }
+    }
 }

@@ -42,7 +42,7 @@ internal sealed class FractalHierarchyBuilder
         _union = new(Built, new(fractal));
         _subFractalFactory = new(fractal.BaseMesh, HasOnlySimilarities);
         var volume = _subFractalFactory.BaseVolume;
-        Built.Add(_subFractalFactory.CreateBase(), volume, new(null, volume.Box, [], []));
+        Built.Add(_subFractalFactory.CreateBase(), volume, new(null, volume.Box, [], static () => []));
     }
 
     /// <summary>The levels that were built.</summary>
@@ -189,7 +189,7 @@ internal sealed class FractalHierarchyBuilder
         }
 
         var subFractal = _subFractalFactory.Create(mapSet, children, childVolumes, volume);
-        Built.Add(subFractal, volume, new(mapSet, volume.Box, edges, ComputeEdgeBoxes(edges, level, Built.VolumeAt)));
+        Built.Add(subFractal, volume, new(mapSet, volume.Box, edges, EdgeBoxesOf(edges, level, Built.VolumeAt)));
     }
 
     /// <summary>Replaces all remaining rounds by one that is inflated a little, if it can be proved to contain them.</summary>
@@ -240,7 +240,7 @@ internal sealed class FractalHierarchyBuilder
             var childVolumes = children[phase].Select(child => RepeatedVolumeAt(child.RemainingLevels(parentLevels))).ToArray();
             var set = Built.MapSetAt(level);
             var edges = Built.EdgesAt(level);
-            var edgeBoxes = ComputeEdgeBoxes(edges, parentLevels, RepeatedVolumeAt);
+            var edgeBoxes = EdgeBoxesOf(edges, parentLevels, RepeatedVolumeAt);
             round[phase] = new(
                 _subFractalFactory.Create(set, children[phase], childVolumes, volumes[phase]),
                 volumes[phase],
@@ -249,6 +249,20 @@ internal sealed class FractalHierarchyBuilder
 
         Built.Add(levelCount, round);
         return true;
+    }
+
+    /// <summary>
+    /// Makes the boxes of edges. Those of wide levels are computed at their use: they take much memory, and only drawing needs them.
+    /// </summary>
+    private static Func<BoundingBox[]> EdgeBoxesOf(ChildEdge[] edges, long level, Func<long, BoundingVolume> volumeAt)
+    {
+        if (edges.Length > ChildGroups.MaxUngroupedChildren)
+        {
+            return () => ComputeEdgeBoxes(edges, level, volumeAt);
+        }
+
+        var boxes = ComputeEdgeBoxes(edges, level, volumeAt);
+        return () => boxes;
     }
 
     private static BoundingBox[] ComputeEdgeBoxes(ChildEdge[] edges, long level, Func<long, BoundingVolume> volumeAt)

@@ -6,8 +6,8 @@ namespace FractalEngine.Core.Fractals.Hierarchy;
 /// <param name="set">The set of the level; null for the base.</param>
 /// <param name="box">A box around the sub-fractal with this level on top, in its frame.</param>
 /// <param name="edges">The edges to lower levels; none for the base.</param>
-/// <param name="edgeBoxes">A box around what each edge leads to, in the same frame; empty where that is.</param>
-internal sealed class HierarchyLevel(MapSet? set, BoundingBox box, ChildEdge[] edges, BoundingBox[] edgeBoxes)
+/// <param name="computeEdgeBoxes">Computes a box around what each edge leads to, in the same frame; empty where that is.</param>
+internal sealed class HierarchyLevel(MapSet? set, BoundingBox box, ChildEdge[] edges, Func<BoundingBox[]> computeEdgeBoxes)
 {
     /// <summary>The set of the level; null for the base.</summary>
     public MapSet? Set { get; } = set;
@@ -18,9 +18,9 @@ internal sealed class HierarchyLevel(MapSet? set, BoundingBox box, ChildEdge[] e
     /// <summary>The edges to lower levels; none for the base.</summary>
     public ChildEdge[] Edges { get; } = edges;
 
-    /// <summary>A box around what each edge leads to, in the frame of the level; empty where that is.</summary>
-    public BoundingBox[] EdgeBoxes { get; } = edgeBoxes;
+    /// <summary>Returns a box around what each edge leads to, in the frame of the level; empty where that is.</summary>
+    public BoundingBox[] GetEdgeBoxes() => computeEdgeBoxes();
 
-    /// <summary>Number of bytes of the boxes. Most levels share their edges.</summary>
-    public long StorageBytes => (48 * (long)EdgeBoxes.Length) + 80;
+    /// <summary>Number of bytes of the boxes, kept or not. Most levels share their edges.</summary>
+    public long StorageBytes => (48 * (long)Edges.Length) + 80;
 }

@@ -12,13 +12,16 @@ internal sealed class LevelUnion(BuiltLevels built, OutlierClusters clusters)
     /// <param name="edges">The edges.</param>
     /// <param name="level">Remaining levels of the union.</param>
     /// <exception cref="FractalLimitException">The bounds are beyond the range of a double.</exception>
-    public BoundingVolume Compute(ChildEdge[] edges, long level) => ComputeUnion(CollapseEdges(edges, level), level);
+    public BoundingVolume Compute(ChildEdge[] edges, long level)
+    {
+        // Wide levels are collapsed again for each pass: the list would take more memory than their maps.
+        var collapsed = CollapseEdges(edges, level);
+        return ComputeUnion(edges.Length > ChildGroups.MaxUngroupedChildren ? collapsed : [.. collapsed], level);
+    }
 
     /// <summary>Collapses the edges of a level that lead to parts with points.</summary>
-    private CollapsedEdge[] CollapseEdges(ChildEdge[] edges, long level)
+    private IEnumerable<CollapsedEdge> CollapseEdges(ChildEdge[] edges, long level)
     {
-        var collapsedEdges = new CollapsedEdge[edges.Length];
-        var count = 0;
         // One delegate for all edges.
         Func<long, ChildEdge[]> edgesAt = built.EdgesAt;
         foreach (var edge in edges)
@@ -26,24 +29,17 @@ internal sealed class LevelUnion(BuiltLevels built, OutlierClusters clusters)
             var collapsed = CollapsedEdge.Collapse(edge, level, edgesAt);
             if (!built.VolumeAt(collapsed.RemainingLevels).Box.IsEmpty)
             {
-                collapsedEdges[count++] = collapsed;
+                yield return collapsed;
             }
         }
-
-        Array.Resize(ref collapsedEdges, count);
-        return collapsedEdges;
     }
 
     /// <summary>Computes the bounds of the union of some parts, none of them empty.</summary>
     /// <param name="edges">The parts.</param>
     /// <param name="level">Remaining levels of the union.</param>
-    private BoundingVolume ComputeUnion(CollapsedEdge[] edges, long level)
+    private BoundingVolume ComputeUnion(IEnumerable<CollapsedEdge> edges, long level)
     {
-        if (edges is [])
-        {
-            return BoundingVolume.Empty;
-        }
-
+        var edgeCount = 0;
         var box = BoundingBox.Empty;
         foreach (var edge in edges)
         {
@@ -51,15 +47,23 @@ internal sealed class LevelUnion(BuiltLevels built, OutlierClusters clusters)
             if (!part.Minimum.IsFinite() || !part.Size.IsFinite())
             {
                 throw new FractalLimitException(
-                    $"the bounds of the fractal are beyond the range of a double {level} levels above its base");
+                    "the bounds of the fractal are beyond the range of a double "
+                    + $"{level} {(level == 1 ? "level" : "levels")} above its base");
             }
 
             box = BoundingBox.Union(box, part);
+            edgeCount++;
+        }
+
+        if (edgeCount == 0)
+        {
+            return BoundingVolume.Empty;
         }
 
         var outliers = clusters.Compute(edges, built.VolumeAt);
-        if (edges is [var only])
+        if (edgeCount == 1)
         {
+            var only = edges.First();
             return built.VolumeAt(only.RemainingLevels).Transform(only.Map, only.OperatorNormBound) with { Clusters = outliers };
         }
 

@@ -30,9 +30,9 @@ internal sealed class OutlierClusters
     /// <param name="edges">The parts, none of them empty.</param>
     /// <param name="volumeAt">Gives the bounds of a level by its remaining levels.</param>
     /// <returns>None for fractals without outliers.</returns>
-    public BoundingBox[] Compute(CollapsedEdge[] edges, Func<long, BoundingVolume> volumeAt)
+    public BoundingBox[] Compute(IEnumerable<CollapsedEdge> edges, Func<long, BoundingVolume> volumeAt)
     {
-        if (!_hasOutliers || edges is [])
+        if (!_hasOutliers)
         {
             return [];
         }

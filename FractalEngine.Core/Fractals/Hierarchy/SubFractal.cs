@@ -15,6 +15,10 @@ internal sealed class SubFractal
     private static readonly Vector FarAwayPoint = 1e300 * Vector.One;
 
     private readonly Vector256<double> _halfSize;
+    private readonly bool _isGroup;
+
+    // That of a group is created at its first use, twice at worst and with the same result: wide sets have thousands.
+    private ConvexSolid? _solid;
 
     /// <summary>Creates the sub-fractal of a level.</summary>
     /// <param name="set">The set of the level; null for the base.</param>
@@ -24,9 +28,10 @@ internal sealed class SubFractal
     /// <param name="baseBox">The box of the base mesh.</param>
     /// <param name="hull">A hull around the sub-fractal, if it bounds better than the box.</param>
     /// <param name="childHull">The hull of the sub-fractal that the first child is an instance of.</param>
-    /// <param name="solid">A convex solid around the sub-fractal; null where it is empty.</param>
+    /// <param name="solid">A convex solid around the sub-fractal; null where it is empty, and for groups.</param>
     /// <param name="clusters">Boxes that bound better than one; null where they don't.</param>
     /// <param name="hasOnlySimilarities">True when all maps of the fractal are similarities: only then floats are searched.</param>
+    /// <param name="isGroup">True for a group of children: no child is an instance of it, so that floats are not needed.</param>
     public SubFractal(
         MapSet? set,
         ChildInstance[] children,
@@ -37,9 +42,11 @@ internal sealed class SubFractal
         HullBound? childHull,
         ConvexSolid? solid,
         ClusterBounds? clusters,
-        bool hasOnlySimilarities)
+        bool hasOnlySimilarities,
+        bool isGroup = false)
     {
-        Solid = solid;
+        _solid = solid;
+        _isGroup = isGroup;
         Clusters = clusters;
         Set = set;
         Children = children;
@@ -47,7 +54,7 @@ internal sealed class SubFractal
         Hull = hull;
         Centre = SimdAffineMap.ToVector256(box.Centre);
         _halfSize = SimdAffineMap.ToVector256((0.5 + RoundingErrors.MappedPoint) * box.Size);
-        Floats = !hasOnlySimilarities ? null
+        Floats = !hasOnlySimilarities || isGroup ? null
             : hull is null ? new(box, [], [], 0)
             : new(box, hull.Planes, hull.CopyVertices(), hull.Margin);
         Lanes = hasOnlySimilarities && clusters is null
@@ -93,7 +100,7 @@ internal sealed class SubFractal
     /// <summary>The children in single precision; null where that would not bound them well.</summary>
     public ChildLanes? Lanes { get; }
 
-    /// <summary>The bounds in single precision; null where not all maps of the fractal are similarities.</summary>
+    /// <summary>The bounds in single precision; null for groups, and where not all maps of the fractal are similarities.</summary>
     public FloatBound? Floats { get; }
 
     /// <summary>A box around the sub-fractal, in its frame.</summary>
@@ -106,7 +113,7 @@ internal sealed class SubFractal
     public HullBound? Hull { get; }
 
     /// <summary>A convex solid around the sub-fractal, for exact distances; null where the sub-fractal is empty.</summary>
-    public ConvexSolid? Solid { get; }
+    public ConvexSolid? Solid => _solid ?? (_isGroup ? _solid = ConvexSolid.FromBox(Box) : null);
 
     /// <summary>Boxes that bound the sub-fractal better than one; null where they don't.</summary>
     public ClusterBounds? Clusters { get; }
@@ -120,7 +127,7 @@ internal sealed class SubFractal
     /// <summary>Number of bytes of the arrays.</summary>
     public long StorageBytes => Children.Sum(child => child.Group?.StorageBytes ?? 0)
         + (sizeof(double) * ChildBounds.Length) + (UnrotatedBounds?.StorageBytes ?? 0) + (Children.Length * 24) + (Hull?.StorageBytes ?? 0)
-        + (Solid?.StorageBytes ?? 0) + (Lanes?.StorageBytes ?? 0) + (Floats?.StorageBytes ?? 0) + (Clusters?.StorageBytes ?? 0) + 160;
+        + (_solid?.StorageBytes ?? 0) + (Lanes?.StorageBytes ?? 0) + (Floats?.StorageBytes ?? 0) + (Clusters?.StorageBytes ?? 0) + 160;
 
     /// <summary>Lists the children, and those of groups among them.</summary>
     public List<ChildInstance> AllChildren()
