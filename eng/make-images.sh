@@ -50,6 +50,20 @@ playground() {
     montage "$work"/{0,0.6,1.2,2.4,5,9}.png -tile 3x2 -geometry 480x270+2+2 -background white "$images/playground.png"
 }
 
+# A row for each scene: without shadows and occlusion, with shadows, with both, traced.
+light() {
+    local scene tiles=()
+    for scene in menger playground gallery; do
+        draw_tile() { run render "assets/scenes/$scene.sdo" --output "$work/$scene-$1.png" --resolution 400x225 "${@:2}"; }
+        draw_tile 1 --no-shadows --no-ambient-occlusion
+        draw_tile 2 --no-ambient-occlusion
+        draw_tile 3
+        draw_tile 4 --trace 64
+        tiles+=("$work/$scene"-{1,2,3,4}.png)
+    done
+    montage "${tiles[@]}" -tile 4x3 -geometry 400x225+2+2 -background white "$images/light.png"
+}
+
 make_image() {
     case "$1" in
         angles) draw "$1" assets/examples/angles.sdo 720x200 ;;
@@ -60,7 +74,7 @@ make_image() {
         gradients) draw "$1" assets/scenes/gradients.sdo 960x480 ;;
         appendix-b | inside | menger | textured | reef | cathedral | winter) draw "$1" "assets/scenes/$1.sdo" 720x405 ;;
         traced-*) draw "$1" "assets/scenes/${1#traced-}.sdo" 640x360 --trace 64 ;;
-        playground) playground ;;
+        playground | light) "$1" ;;
         zoom)
             run animate assets/examples/zoom.sdo --zoom 1 --output "$work/zoom.apng" --frames 36 --fps 24 --resolution 320x180
             mv "$work/zoom.apng" "$images/zoom.png"
@@ -78,7 +92,7 @@ make_image() {
 all=(
     forest gallery cathedral reef menger inside appendix-b gradients textured winter playground angles
     tree-01 tree-02 tree-03 tree-04 tree-05 tree-06 tree-07 tree-08 tree-09 tree-10
-    traced-gallery traced-menger traced-playground zoom window-fractal window-keys window-selection
+    traced-gallery traced-menger traced-playground light zoom window-fractal window-keys window-selection
 )
 [ $# != 0 ] || set -- "${all[@]}"
 for name in "$@"; do

@@ -31,7 +31,7 @@ internal sealed class SkyChildren
         }
     }
 
-    /// <summary>Number of children.</summary>
+    /// <summary>How many children the node has.</summary>
     public int Count => Nodes.Length;
 
     /// <summary>The children, with the levels that they have left.</summary>

@@ -148,8 +148,8 @@ public sealed class PathTracer
     {
         ArgumentNullException.ThrowIfNull(scene);
         return new(
-            view, width, height, _scene.WithScene(scene), new(scene), TracedBackground.DeclaredIn(scene.Scene, _defaultBackground), _defaultBackground,
-            _seed)
+            view, width, height, _scene.WithScene(scene), new(scene), TracedBackground.DeclaredIn(scene.Scene, _defaultBackground),
+            _defaultBackground, _seed)
         { BounceLimit = BounceLimit };
     }
 

@@ -95,6 +95,28 @@ public sealed class ShadowTests
         }
     }
 
+    [SkippableTheory]
+    [InlineData(true)]
+    [InlineData(false)]
+    public void Foliage_WithAnOpacityTexture_CastsItsCutOut(bool hasHole)
+    {
+        // A leaf from −1 to 1 lies at the height 1.5, and the light travels to the right as fast as down. Its left half is a hole.
+        using var textures = new TexturedScenes();
+        var opacity = textures.CreateTexture("leaf.png", 16, 16, static (x, _) => (255, 255, 255, (byte)(x < 8 ? 0 : 255)));
+        var leaf = TexturedScenes.CreateSquare(1, new("leaf") { OpacityTexture = hasHole ? opacity : null });
+        var scene = RenderScenes.Scene(
+            new() { Lights = [LightOf("sun", 1, Vector.Zero)], Background = Colour.Black },
+            (Floor(1, Vector.Zero), Transformation.Identity, Colour.White),
+            (leaf, new(1.5 * Vector.J, new(90, 0, 0), Vector.One), Colour.White));
+        var image = RenderScenes.Draw(scene, FromAbove(1, Vector.Zero), Size, Size);
+        // Beside the leaf itself, before and behind the middle of its shadow.
+        foreach (var x in (double[])[1.3, 1.4, 1.6, 1.8, 2, 2.2, 2.4])
+        {
+            var isLit = image[(int)(0.5 * Size * (1 + (x / HalfWidth))), Size / 2].Red > 60;
+            Assert.Equal(hasHole && x < 1.5, isLit);
+        }
+    }
+
     [SkippableFact]
     public void Maps_WhileNothingMoves_AreKept()
     {
