@@ -127,6 +127,18 @@ public sealed class ExportCommandTests : IDisposable
         Assert.Equal("newmtl mine\n", File.ReadAllText(_folder["flat.mtl"]));
     }
 
+    [SkippableTheory]
+    [InlineData("a #b.obj")]
+    [InlineData("a\nb.obj")]
+    public void Export_IntoANameThatTheFormatCantExpress_SaysSo(string output)
+    {
+        Skip.If(OperatingSystem.IsWindows(), "such names are those of Unix");
+        var (exitCode, _, error) = Run("export", "models/mesh.obj", "--output", output);
+        Assert.Equal(2, exitCode);
+        Assert.StartsWith("error: a mesh can't name the material file 'a", error, StringComparison.Ordinal);
+        Assert.Equal(0, Run("export", "models/mesh.obj", "--output", output, "--no-materials").ExitCode);
+    }
+
     [Fact]
     public void Export_Again_ReplacesItsOwnFiles()
     {
