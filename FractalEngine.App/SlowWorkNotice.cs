@@ -8,7 +8,7 @@ internal sealed class SlowWorkNotice : IDisposable
 
     private readonly Timer? _timer;
 
-    /// <summary>Begins to wait.</summary>
+    /// <summary>Waits for the work: if it has not ended after the delay, the notice is written.</summary>
     /// <param name="work">What is done, as the first words of the sentence.</param>
     /// <param name="isQuiet">Whether nothing is told.</param>
     /// <param name="delay">Time after which the notice is written; null for the default.</param>
@@ -25,6 +25,6 @@ internal sealed class SlowWorkNotice : IDisposable
         }
     }
 
-    /// <summary>Ends the wait.</summary>
+    /// <summary>Tells that the work has ended, so that no notice is written any more.</summary>
     public void Dispose() => _timer?.Dispose();
 }
