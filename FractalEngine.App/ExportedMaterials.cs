@@ -42,6 +42,13 @@ internal sealed class ExportedMaterials
         }
 
         var path = System.IO.Path.ChangeExtension(output, ".mtl");
+        if (!SceneMaterials.CanBeNamed(System.IO.Path.GetFileName(path)))
+        {
+            throw new UsageException(
+                $"a mesh can't name the material file '{System.IO.Path.GetFileName(path)}', which has a comment, a line break or blanks at "
+                + "an end: choose another name, or write none with --no-materials");
+        }
+
         InputFiles.Protect(path);
         if (System.IO.Path.Exists(path) && !SceneMaterials.IsExport(path))
         {

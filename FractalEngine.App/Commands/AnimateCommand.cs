@@ -68,12 +68,14 @@ internal static class AnimateCommand
                     camera.View(result, scene, draw.Projection(result) is not null, aspect) with { Section = draw.Section(result) },
                 ZoomLevels = camera.Zoom(result),
             };
+            var traced = trace.Choice(result);
+            draw.RequireEffect(result, traced);
             var animation = new AnimationJob(
                 job, result.GetRequiredValue(output), result.GetValue(frames) ?? DefaultFrameCount,
                 result.GetValue(rate) ?? DefaultFramesPerSecond, result.GetValue(turntable), result.GetValue(path),
                 result.GetValue(simulate))
             {
-                Trace = trace.Choice(result),
+                Trace = traced,
             };
             return Run(animation, report.Begin(result));
         });

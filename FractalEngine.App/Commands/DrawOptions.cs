@@ -109,8 +109,19 @@ internal sealed class DrawOptions
     /// <summary>Returns true unless <c>--without</c> names the optimisation.</summary>
     public bool IsEnabled(ParseResult result, Optimisation optimisation) => !(result.GetValue(_disabled) ?? []).Contains(optimisation);
 
-    /// <summary>Names an option that was given and changes nothing in a traced image; null for none.</summary>
-    public string? FindDrawnOnly(ParseResult result) =>
+    /// <summary>Refuses options that change nothing in a traced image.</summary>
+    /// <param name="result">The command line.</param>
+    /// <param name="traced">How the image is traced; null where it is drawn.</param>
+    /// <exception cref="UsageException">Such an option was given.</exception>
+    public void RequireEffect(ParseResult result, TracedImage? traced)
+    {
+        if (traced is not null && FindDrawnOnly(result) is { } option)
+        {
+            throw new UsageException($"{option} draws triangles, and has no effect with --trace");
+        }
+    }
+
+    private string? FindDrawnOnly(ParseResult result) =>
         result.GetValue(_wireframe) ? "--wireframe"
         : result.GetValue(_grid) ? "--grid"
         : result.GetValue(_noShadows) ? "--no-shadows"

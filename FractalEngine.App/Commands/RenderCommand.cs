@@ -51,11 +51,7 @@ internal static class RenderCommand
                 ZoomLevels = camera.Zoom(result),
             };
             var traced = trace.Choice(result);
-            if (traced is not null && draw.FindDrawnOnly(result) is { } option)
-            {
-                throw new UsageException($"{option} draws triangles, and has no effect with --trace");
-            }
-
+            draw.RequireEffect(result, traced);
             var image = Run(job, traced, path, report.Begin(result));
             return compare?.Invoke(image, path) ?? ExitCode.Done;
         });
@@ -87,6 +83,7 @@ internal static class RenderCommand
 
         view = Zoom(drawable, view, job);
         using var renderer = new ImageRenderer(drawable, job.Size, job.Settings, job.Background);
+        using var notice = new SlowWorkNotice("drawing", report.IsQuiet);
         var image = report.Measure("draw", () => renderer.Draw(view));
         Write(image, output, report);
         return image;

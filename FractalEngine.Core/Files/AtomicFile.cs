@@ -4,7 +4,7 @@ using System.Text;
 namespace FractalEngine.Core.Files;
 
 /// <summary>Writes files completely or not at all: into a temporary file in the same folder, which then replaces the target.</summary>
-public static class AtomicFile
+public static partial class AtomicFile
 {
     // More files of one name in a folder are an accident.
     private const int MaxNumberedNames = 10_000;
@@ -161,51 +161,6 @@ public static class AtomicFile
         }
 
         return string.Concat(Path.Join(Path.GetDirectoryName(target.AsSpan()), name), suffix);
-    }
-
-    /// <summary>Moves a file to its name, and back again if what follows fails.</summary>
-    private static void Exchange(string temporary, string target, Action follow)
-    {
-        var previous = File.Exists(target) ? TemporaryNameFor(target) : null;
-        if (previous is not null)
-        {
-            Temporaries[previous] = true;
-            File.Copy(target, previous);
-        }
-
-        try
-        {
-            File.Move(temporary, target, overwrite: true);
-            try
-            {
-                follow();
-            }
-            catch
-            {
-                RestorePrevious(previous, target);
-                throw;
-            }
-        }
-        finally
-        {
-            if (previous is not null)
-            {
-                File.Delete(previous);
-                Temporaries.TryRemove(previous, out _);
-            }
-        }
-    }
-
-    private static void RestorePrevious(string? previous, string target)
-    {
-        if (previous is null)
-        {
-            File.Delete(target);
-        }
-        else
-        {
-            File.Move(previous, target, overwrite: true);
-        }
     }
 
     /// <summary>Describes an error for the user, who knows nothing of the temporary file.</summary>

@@ -1,6 +1,3 @@
-using System.Buffers;
-using System.Runtime.InteropServices;
-using FractalEngine.Core.Maths;
 using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.Parsing.Meshes;
@@ -13,16 +10,13 @@ namespace FractalEngine.Parsing.Meshes;
 /// Coordinates are used as written: no axis is flipped. Cost: about a second per 100 MB. For files there is <see cref="ObjReader"/>, whose
 /// kernel reads plain lines, and which calls this parser for all others.
 /// </remarks>
-public sealed class ObjParser : Parser
+public sealed partial class ObjParser : Parser
 {
     // Characters between two reports of progress, at least.
     private const int ProgressInterval = 1 << 20;
 
-    private static readonly SearchValues<char> WordEnds = SearchValues.Create(" \t\r\n#\\");
-
     private readonly ObjContents _contents;
     private readonly ObjElements _elements;
-    private readonly List<ObjCorner> _corners = [];
 
     private ObjParser(SourceText source, ObjContents contents, ObjElements elements)
         : base(source)
@@ -190,205 +184,6 @@ public sealed class ObjParser : Parser
     {
         _contents.AddUnknownLine(PositionOf(start), Describe(start));
         return ParseRestOfLine(start, out _, out rest);
-    }
-
-    /// <summary>Parses x, y and z. A weight, which is ignored, a colour or both may follow.</summary>
-    private bool ParsePosition(Cursor cursor, out Cursor rest)
-    {
-        if (!ParseThreeNumbers(cursor, out var position, out rest))
-        {
-            return false;
-        }
-
-        _elements.AddPosition(position);
-        Span<double> numbers = stackalloc double[ObjColour.MaxNumbers];
-        ParseOptionalNumbers(rest, numbers, out var count, out rest);
-        if (ObjColour.Find(numbers, count) is { Length: > 0 } colour)
-        {
-            _elements.AddColour(colour);
-        }
-
-        return ParseCommentAndEndOfLine(rest, out rest);
-    }
-
-    private bool ParseNormal(Cursor cursor, out Cursor rest)
-    {
-        if (!ParseThreeNumbers(cursor, out var normal, out rest) || !ParseCommentAndEndOfLine(rest, out rest))
-        {
-            return false;
-        }
-
-        _elements.AddNormal(normal);
-        return true;
-    }
-
-    /// <summary>Parses u and an optional v, 0 by default. An optional w is ignored.</summary>
-    private bool ParseTextureCoordinate(Cursor cursor, out Cursor rest)
-    {
-        ParseBlanks(cursor, out rest);
-        if (!ParseNumber(rest, out var u, out rest))
-        {
-            return false;
-        }
-
-        var v = 0.0;
-        if (ParseBlanks(rest, out var next) && IsNumberStart(next) && ParseNumber(next, out v, out rest))
-        {
-            ParseOptionalNumbers(rest, [0], out _, out rest);
-        }
-
-        _elements.AddTextureCoordinate(u, v);
-        return ParseCommentAndEndOfLine(rest, out rest);
-    }
-
-    private bool ParseThreeNumbers(Cursor cursor, out Vector numbers, out Cursor rest)
-    {
-        numbers = default;
-        ParseBlanks(cursor, out rest);
-        if (!ParseNumber(rest, out var x, out rest) || !ParseBlanks(rest, out rest)
-            || !ParseNumber(rest, out var y, out rest) || !ParseBlanks(rest, out rest)
-            || !ParseNumber(rest, out var z, out rest))
-        {
-            return false;
-        }
-
-        numbers = new(x, y, z);
-        return true;
-    }
-
-    /// <summary>Parses any number of numbers. The last element of the span receives all that have no other place.</summary>
-    private void ParseOptionalNumbers(Cursor cursor, Span<double> numbers, out int count, out Cursor rest)
-    {
-        rest = cursor;
-        count = 0;
-        while (ParseBlanks(rest, out var next) && ParseOptionalNumber(next, out numbers[Math.Min(count, numbers.Length - 1)], out next))
-        {
-            rest = next;
-            count++;
-        }
-    }
-
-    /// <summary>Parses a number, or one that is undefined, as programs write for colours that they don't know: it counts as 1.</summary>
-    private bool ParseOptionalNumber(Cursor cursor, out double number, out Cursor rest)
-    {
-        number = 1;
-        return ParseUndefinedNumber(cursor, out rest) || (IsNumberStart(cursor) && ParseNumber(cursor, out number, out rest));
-    }
-
-    private static bool ParseUndefinedNumber(Cursor cursor, out Cursor rest)
-    {
-        var length = cursor.Rest.IndexOfAny(WordEnds);
-        length = length < 0 ? cursor.Rest.Length : length;
-        var isUndefined = NumberReader.IsUndefined(cursor.Rest[..length]);
-        rest = isUndefined ? cursor.Advance(length) : cursor;
-        return isUndefined;
-    }
-
-    private static bool IsNumberStart(Cursor cursor) => char.IsAsciiDigit(cursor.Current) || cursor.Current is '-' or '+' or '.';
-
-    private bool ParseFace(Cursor start, out Cursor rest)
-    {
-        _corners.Clear();
-        rest = start.Advance(1);
-        while (ParseBlanks(rest, out rest) && !IsAtEndOfLine(rest) && rest.Current != '#')
-        {
-            if (!ParseCorner(rest, out var corner, out rest))
-            {
-                return false;
-            }
-
-            _corners.Add(corner);
-        }
-
-        if (_corners.Count < 3)
-        {
-            _contents.AddShortFace(PositionOf(start), _corners.Count);
-            return ParseCommentAndEndOfLine(rest, out rest);
-        }
-
-        if (_corners.Count > ParsingLimits.MaxPolygonCorners)
-        {
-            throw Error(start, $"the polygon has {_corners.Count} corners, more than the limit of {ParsingLimits.MaxPolygonCorners}",
-                isLimitExceeded: true);
-        }
-
-        _elements.AddPolygon(CollectionsMarshal.AsSpan(_corners));
-        return ParseCommentAndEndOfLine(rest, out rest);
-    }
-
-    /// <summary>
-    /// Parses one corner of a face: <c>v</c>, <c>v/vt</c>, <c>v//vn</c> or <c>v/vt/vn</c>. Nothing behind a slash means none.
-    /// </summary>
-    private bool ParseCorner(Cursor cursor, out ObjCorner corner, out Cursor rest)
-    {
-        var texture = ObjCorner.None;
-        var normal = ObjCorner.None;
-        corner = default;
-        if (!ParseIndex(cursor, "vertex", _elements.PositionCount, isRequired: true, out var position, out rest))
-        {
-            return false;
-        }
-
-        if (rest.Current == '/')
-        {
-            rest = rest.Advance(1);
-            if (rest.Current != '/' && !IsAtEndOfCorner(rest)
-                && !ParseIndex(rest, "texture coordinate", _elements.TextureCoordinateCount, isRequired: false, out texture, out rest))
-            {
-                return false;
-            }
-
-            if (rest.Current == '/')
-            {
-                rest = rest.Advance(1);
-                if (!IsAtEndOfCorner(rest)
-                    && !ParseIndex(rest, "normal", _elements.NormalCount, isRequired: false, out normal, out rest))
-                {
-                    return false;
-                }
-            }
-        }
-
-        corner = new(position, texture, normal);
-        return IsAtEndOfCorner(rest) || Fail(rest, "a blank");
-    }
-
-    private static bool IsAtEndOfCorner(Cursor cursor) => IsAtEndOfLine(cursor) || cursor.Current is ' ' or '\t' or '#' or '\\';
-
-    /// <summary>Parses the number of an element: from 1 upwards, or from −1 backwards. The resulting index counts from 0.</summary>
-    private bool ParseIndex(Cursor cursor, string elementName, int count, bool isRequired, out int index, out Cursor rest)
-    {
-        var isRelative = cursor.Current == '-';
-        if (!ParseInteger(isRelative ? cursor.Advance(1) : cursor, $"a {elementName} number", out var number, out rest))
-        {
-            index = 0;
-            return false;
-        }
-
-        index = isRelative ? count - number : number - 1;
-        if (number == 0)
-        {
-            throw Error(cursor, $"{elementName} number 0: numbers start at 1");
-        }
-
-        if (index >= 0 && index < count)
-        {
-            return true;
-        }
-
-        var written = TextBetween(cursor, rest);
-        var message = isRelative
-            ? $"{elementName} {written} of {count} so far: it is before the first"
-            : $"{elementName} {written} of {count} so far: it is beyond the last";
-        if (isRequired)
-        {
-            throw Error(cursor, message);
-        }
-
-        // A face can do without normals or texture coordinates, and some programs write numbers of ones that they omit.
-        _contents.AddInvalidIndex(PositionOf(cursor), message);
-        index = ObjCorner.None;
-        return true;
     }
 
     private bool ParseSmoothingGroup(Cursor cursor, out Cursor rest)

@@ -47,7 +47,7 @@ public sealed class ObjWriter
     /// <exception cref="FractalEngineException">The format can't express the name of the material file.</exception>
     public static long Write(LoadedScene scene, Stream stream, long maxFaces, SceneMaterials? materials, string materialFile)
     {
-        if (materials is not null && (materialFile.Length == 0 || !WritableNames.IsRestOfLine(materialFile)))
+        if (materials is not null && !SceneMaterials.CanBeNamed(materialFile))
         {
             throw new FractalEngineException(
                 $"an OBJ file can't name the material file '{WritableNames.Escape(materialFile)}': it has a line break, a comment, "

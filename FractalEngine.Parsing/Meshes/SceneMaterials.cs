@@ -4,6 +4,7 @@ using FractalEngine.Core;
 using FractalEngine.Core.Files;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.Parsing.Meshes;
 
@@ -66,6 +67,10 @@ public sealed class SceneMaterials
         ArgumentNullException.ThrowIfNull(stream);
         stream.Write(Encoding.UTF8.GetBytes($"{FirstLine}\n{MtlWriter.Write(_materials.Values, fullPath)}"));
     }
+
+    /// <summary>Returns whether a mesh can name a material file of a name: not with a comment or a line break in it.</summary>
+    /// <param name="name">Name within the folder.</param>
+    public static bool CanBeNamed(string name) => name.Length > 0 && WritableNames.IsRestOfLine(name);
 
     /// <summary>Returns whether a file was written by <see cref="Write"/>, so that it may be replaced by another export.</summary>
     /// <param name="path">Path of any file or folder.</param>

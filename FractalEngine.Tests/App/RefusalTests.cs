@@ -83,6 +83,14 @@ public sealed class RefusalTests : IDisposable
             (2, $"error: {option} draws triangles, and has no effect with --trace\n"), (exitCode, error));
     }
 
+    [Fact]
+    public void Animate_TracedWithAnOptionOfDrawing_IsRefused()
+    {
+        var (exitCode, _, error) = Run(
+            "animate", "cube.obj", "--output", "a.apng", "--turntable", "--frames", "1", "--trace", "1", "--wireframe");
+        Assert.Equal((2, "error: --wireframe draws triangles, and has no effect with --trace\n"), (exitCode, error));
+    }
+
     /// <summary>Shown once, with the name that the user knows.</summary>
     [Fact]
     public void Render_TracedWithADamagedTexture_NamesItOnceAndBriefly()

@@ -69,6 +69,20 @@ public sealed class ExportCommandTests : IDisposable
         Assert.Contains("map_Kd -clamp on -s 2 3 1 ../../models/my image.png\n", File.ReadAllText(_folder["out/deep/flat.mtl"]));
     }
 
+    [Fact]
+    public void Export_OfAMesh_LooksTheSame()
+    {
+        File.Copy(Repository.Full("assets/models/crate.png"), _folder["models/my image.png"], overwrite: true);
+        Assert.Equal(0, Run("export", "models/mesh.obj", "--output", "out/flat.obj").ExitCode);
+        foreach (var name in (string[])["models/mesh", "out/flat"])
+        {
+            var result = Run("render", $"{name}.obj", "--output", $"{name}.png", "--trace", "2", "--resolution", "48x32", "--quiet");
+            Assert.Equal(new AppResult(0, "", ""), result);
+        }
+
+        Assert.Equal(File.ReadAllBytes(_folder["models/mesh.png"]), File.ReadAllBytes(_folder["out/flat.png"]));
+    }
+
     /// <summary>Two dots behind a link lead out of the folder that it leads to.</summary>
     [SkippableFact]
     public void Export_IntoALinkedFolder_NamesTexturesFromWhereItIs()
@@ -125,6 +139,18 @@ public sealed class ExportCommandTests : IDisposable
         Assert.Equal(0, Run("export", "models/mesh.obj", "--output", "flat.obj", "--no-materials", "--quiet").ExitCode);
         Assert.DoesNotContain("mtl", File.ReadAllText(_folder["flat.obj"]), StringComparison.Ordinal);
         Assert.Equal("newmtl mine\n", File.ReadAllText(_folder["flat.mtl"]));
+    }
+
+    [SkippableTheory]
+    [InlineData("a #b.obj")]
+    [InlineData("a\nb.obj")]
+    public void Export_IntoANameThatTheFormatCantExpress_SaysSo(string output)
+    {
+        Skip.If(OperatingSystem.IsWindows(), "such names are those of Unix");
+        var (exitCode, _, error) = Run("export", "models/mesh.obj", "--output", output);
+        Assert.Equal(2, exitCode);
+        Assert.StartsWith("error: a mesh can't name the material file 'a", error, StringComparison.Ordinal);
+        Assert.Equal(0, Run("export", "models/mesh.obj", "--output", output, "--no-materials").ExitCode);
     }
 
     [Fact]
