@@ -196,7 +196,8 @@ internal sealed class FractalPanel(WindowActions actions)
         var number = _numbers[index];
         var vector = number.Name.TrimStart('v');
         var meaning = $"{number.Role.ToString().ToLowerInvariant()} {vector}";
-        var title = About(index) is { } about ? $"{vector}: {about}" : meaning;
+        // Of several vectors that the file explains together, the first one has the words.
+        var title = About(index) is { } about && (index < 3 || About(index - 3) != about) ? $"{vector}: {about}" : meaning;
         if (_marked.Contains(number.Name))
         {
             if (_isScrolling)
