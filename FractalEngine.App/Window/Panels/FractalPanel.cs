@@ -91,8 +91,9 @@ internal sealed class FractalPanel(WindowActions actions)
         var size = model.Bounds.Size;
         ui.Fact("size", size.IsFinite()
             ? $"{PanelWidgets.Number(size.X)} × {PanelWidgets.Number(size.Y)} × {PanelWidgets.Number(size.Z)}" : "no bounds");
-        ui.Fact("dimension", _dimension is { } dimension ? PanelWidgets.Number(dimension) : "none");
-        ui.Tooltip("similarity dimension s: the ratios r of all child instances have the sum of r^s = 1, as if the depth had no end");
+        ui.Fact(
+            "dimension", _dimension is { } dimension ? PanelWidgets.Number(dimension) : "none",
+            "similarity dimension s: the ratios r of all child instances have the sum of r^s = 1, as if the depth had no end");
         ui.Fact("composition", model.Fractal.Description.Composition.ToString().ToLowerInvariant());
     }
 
