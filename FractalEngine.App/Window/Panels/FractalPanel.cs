@@ -232,12 +232,14 @@ internal sealed class FractalPanel(WindowActions actions)
             return;
         }
 
-        var size = model.Fractal.LevelAt(depth - 1).Maps.Length;
-        var candidates = _numbers.Where(number => number.Call?.SetSize == size).ToArray();
-        if (candidates.Select(static number => number.Call!.Value.Set).Distinct().Count() == 1)
+        // An identity places nothing: the call of a level above does.
+        for (var level = depth; level > 0 && _marked.IsEmpty; level--)
         {
-            _marked = [.. candidates.Where(number => number.Call!.Value.Index == path[depth - 1])
-                .Select(static number => string.Create(CultureInfo.InvariantCulture, $"v{number.Value}"))];
+            var size = model.Fractal.LevelAt(level - 1).Maps.Length;
+            var calls = _numbers.Where(number => number.Call?.SetSize == size).ToArray();
+            _marked = calls.Select(static number => number.Call!.Value.Set).Distinct().Count() != 1 ? []
+                : [.. calls.Where(number => number.Call!.Value.Index == path[level - 1])
+                    .Select(static number => string.Create(CultureInfo.InvariantCulture, $"v{number.Value}"))];
         }
 
         if (_scrolled != (path, depth))
