@@ -82,7 +82,8 @@ make_image() {
         window-fractal) window "$1" assets/fractals/tree.fdo 'key F4' ;;
         window-keys) window "$1" assets/scenes/gallery.sdo 'key h' 'type view' ;;
         window-selection)
-            window "$1" assets/scenes/playground.sdo 'key F6' 'mousemove 560 450 click 1' 'mousemove 838 391 click 1' 'key BackSpace'
+            window "$1" assets/scenes/playground.sdo 'key F6' 'key m' 'mousemove 300 575 click 1' 'mousemove 662 430 click 1' \
+                'key m' 'mousemove 690 391 click 1' 'key BackSpace' 'key BackSpace'
             ;;
         *) fail "unknown image '$1'" 2 ;;
     esac

@@ -18,6 +18,9 @@ public static class SimilarityDimension
     private const int BisectionCount = 60;
     private const double MaxDimension = 1e6;
 
+    // Roots of determinants are rounded: a chain this close to 1 does not shrink.
+    private const double MaxRatio = 1 - 1e-12;
+
     /// <summary>Computes the dimension of a fractal, as if its repetitions had no end.</summary>
     /// <param name="fractal">Its steps; the repetition of the largest dimension counts.</param>
     /// <returns>
@@ -49,7 +52,7 @@ public static class SimilarityDimension
         var largestRatio = levels.Aggregate(
             1.0, static (product, level) => product * Math.Pow(Math.Max(level.LargestRatio, level.IdentityCount > 0 ? 1 : 0), level.Count));
         var hasIdentities = levels.TrueForAll(static level => level.IdentityCount > 0);
-        if (hasIdentities ? levels.Exists(static level => level.LargestRatio >= 1) : !(largestRatio < 1))
+        if (hasIdentities ? levels.Exists(static level => level.LargestRatio > MaxRatio) : !(largestRatio <= MaxRatio))
         {
             return null;
         }

@@ -113,7 +113,9 @@ internal sealed class OverlayLayout
         var fits = x >= 0 && y >= 0 && x + width <= _frameSize.Width && y + height <= _frameSize.Height;
         // Without room left, a message covers others rather than being cut off.
         y = Math.Max(0, Math.Min(y, _frameSize.Height - height));
-        Quads.Add(new(x, y, width, height, PanelColour, -1, 0.4f * lineHeight));
+        // What lies behind a question may be text, too.
+        var ground = panel.IsQuestion ? PanelColour with { Alpha = 1 } : PanelColour;
+        Quads.Add(new(x, y, width, height, ground, -1, 0.4f * lineHeight));
         var left = x + Padding;
         var top = y + (Padding * 3 / 4);
         if (panel.Title is not null)

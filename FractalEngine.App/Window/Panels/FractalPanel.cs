@@ -91,8 +91,9 @@ internal sealed class FractalPanel(WindowActions actions)
         var size = model.Bounds.Size;
         ui.Fact("size", size.IsFinite()
             ? $"{PanelWidgets.Number(size.X)} × {PanelWidgets.Number(size.Y)} × {PanelWidgets.Number(size.Z)}" : "no bounds");
-        ui.Fact("dimension", _dimension is { } dimension ? PanelWidgets.Number(dimension) : "none");
-        ui.Tooltip("similarity dimension s: the ratios r of all child instances have the sum of r^s = 1, as if the depth had no end");
+        ui.Fact(
+            "dimension", _dimension is { } dimension ? PanelWidgets.Number(dimension) : "none",
+            "similarity dimension s: the ratios r of all child instances have the sum of r^s = 1, as if the depth had no end");
         ui.Fact("composition", model.Fractal.Description.Composition.ToString().ToLowerInvariant());
     }
 
@@ -196,7 +197,8 @@ internal sealed class FractalPanel(WindowActions actions)
         var number = _numbers[index];
         var vector = number.Name.TrimStart('v');
         var meaning = $"{number.Role.ToString().ToLowerInvariant()} {vector}";
-        var title = About(index) is { } about ? $"{vector}: {about}" : meaning;
+        // Of several vectors that the file explains together, the first one has the words.
+        var title = About(index) is { } about && (index < 3 || About(index - 3) != about) ? $"{vector}: {about}" : meaning;
         if (_marked.Contains(number.Name))
         {
             if (_isScrolling)
@@ -230,12 +232,14 @@ internal sealed class FractalPanel(WindowActions actions)
             return;
         }
 
-        var size = model.Fractal.LevelAt(depth - 1).Maps.Length;
-        var candidates = _numbers.Where(number => number.Call?.SetSize == size).ToArray();
-        if (candidates.Select(static number => number.Call!.Value.Set).Distinct().Count() == 1)
+        // An identity places nothing: the call of a level above does.
+        for (var level = depth; level > 0 && _marked.IsEmpty; level--)
         {
-            _marked = [.. candidates.Where(number => number.Call!.Value.Index == path[depth - 1])
-                .Select(static number => string.Create(CultureInfo.InvariantCulture, $"v{number.Value}"))];
+            var size = model.Fractal.LevelAt(level - 1).Maps.Length;
+            var calls = _numbers.Where(number => number.Call?.SetSize == size).ToArray();
+            _marked = calls.Select(static number => number.Call!.Value.Set).Distinct().Count() != 1 ? []
+                : [.. calls.Where(number => number.Call!.Value.Index == path[level - 1])
+                    .Select(static number => string.Create(CultureInfo.InvariantCulture, $"v{number.Value}"))];
         }
 
         if (_scrolled != (path, depth))

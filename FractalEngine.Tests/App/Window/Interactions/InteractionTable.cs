@@ -11,8 +11,8 @@ internal static partial class InteractionTable
     private const int MiddleY = 350;
 
     // The same while a panel is open at the right edge, which the view makes room for.
-    private const int LeftAside = LeftX - 148;
-    private const int RightAside = RightX - 148;
+    private const int LeftAside = LeftX - 149;
+    private const int RightAside = RightX - 149;
 
     private static readonly string SceneText = InteractionFiles.Scene;
 
@@ -143,7 +143,7 @@ internal static partial class InteractionTable
             [Shows("32"), Title("two.sdo*"), Save("other.fdo"), FileHas("<$>. z 5\n", "other.fdo"),
                 FileIs(InteractionFiles.Row, "row.fdo")]),
         new("a click on an instance leads to its numbers", "row.fdo",
-            [OpenSelection, ClickAt(412, 375), Shows("level 3"), Click("Its numbers"), Shows("depth of z")],
+            [OpenSelection, ClickAt(411, 375), Shows("level 3"), Click("Its numbers"), Shows("depth of z")],
             [Shows("▶ position 1"), Shows("▶ scale 2"), Keys("Escape Escape"), Hides("▶ position 1")]),
         new("a fractal that outgrows the frame is followed", "row.fdo",
             [Keys("F4"), Type("30", "position", 0, 3, 1), Title("row.fdo*"), FrameDiffers(0.01)],
@@ -209,7 +209,7 @@ internal static partial class InteractionTable
         new("copy a selection", "scene.sdo",
             [OpenSelection, ClickAt(LeftAside, MiddleY), Shows("left (0)"), Keys("ctrl+c")], [ClipboardHas("object: left (0)")]),
         new("a click beside all selects nothing", "scene.sdo",
-            [OpenSelection, ClickAt(LeftAside, MiddleY), Shows("left (0)"), ClickAt(412, 600)],
+            [OpenSelection, ClickAt(LeftAside, MiddleY), Shows("left (0)"), ClickAt(411, 600)],
             [Shows("Click a surface"), FrameIsAsBefore]),
         new("measure two points", "scene.sdo",
             [OpenSelection, Keys("m"), ClickAt(LeftAside, MiddleY), Shows("click the second point"), ClickAt(RightAside, MiddleY)],
@@ -236,7 +236,7 @@ internal static partial class InteractionTable
             [OpenSelection, ClickAt(LeftAside, MiddleY), Shows("left (0)"), Keys("m Escape"), Shows("left (0)"), Keys("Escape")],
             [Shows("Click a surface"), FrameIsAsBefore]),
         new("Backspace selects the object", "row.fdo",
-            [OpenSelection, ClickAt(412, 375), Shows("level 3"), Keys("BackSpace BackSpace BackSpace")], [Shows("the whole object")]),
+            [OpenSelection, ClickAt(411, 375), Shows("level 3"), Keys("BackSpace BackSpace BackSpace")], [Shows("the whole object")]),
         new("scale by a handle", "scene.sdo",
             [ClickAt(LeftX, MiddleY), Keys("6"), Drag(LeftX, MiddleY, LeftX + 40, MiddleY, key: "ctrl"), Save()],
             [FileHas("#, (1.5, 1.5, 1.5)) name \"left\"")]),
