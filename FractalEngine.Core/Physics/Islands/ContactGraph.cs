@@ -12,7 +12,6 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
     private const int InitialCapacity = 256;
 
     private const int ContactsPerBody = 4;
-    private const int NeighboursPerBody = 32;
 
     // Of the radius: how much farther than its free path a body is expected to get, pushed by others.
     private const double ReachMargin = 0.1;
@@ -22,6 +21,7 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
 
     private readonly List<int> _neighbours = new(InitialCapacity);
     private readonly List<BodyPair> _pairs = new(InitialCapacity);
+    private readonly List<BodyPair> _found = new(InitialCapacity);
     private readonly List<Island> _islands = new(InitialCapacity);
     private readonly List<int> _islandBodies = new(InitialCapacity);
     private readonly DisjointSets _sets = new();
@@ -47,6 +47,21 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
     /// <summary>The bodies of an island, in the order of their indices.</summary>
     public ReadOnlySpan<int> BodiesOf(in Island island) =>
         CollectionsMarshal.AsSpan(_islandBodies).Slice(island.FirstBody, island.BodyCount);
+
+    /// <summary>Radius of the smallest body of an island; of a compound, that of its smallest ball.</summary>
+    public double MinRadiusOf(in Island island)
+    {
+        var radius = double.PositiveInfinity;
+        foreach (var index in BodiesOf(in island))
+        {
+            for (var ball = 0; ball < bodies[index].BallCount; ball++)
+            {
+                radius = Math.Min(radius, bodies[index].BallRadius(ball));
+            }
+        }
+
+        return radius;
+    }
 
     /// <summary>True for a body that is joined with others.</summary>
     public bool IsJoined(int body) => _sets.IsJoined(body);
@@ -136,6 +151,8 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
     private void Begin(double stepLength)
     {
         _stepLength = stepLength;
+        _countSurfaces ??= CountSurfaces;
+        _fillPart ??= FillPart;
         _pairs.Clear();
         if (_states.Length < bodies.Count)
         {
@@ -169,6 +186,7 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
                 KinematicPush = body.KinematicPush,
                 NearDistance = double.NegativeInfinity,
             };
+            SetSearchDistance(ref _states[i]);
         }
 
         if (_mayHavePairs)
@@ -188,8 +206,9 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
         _islandOf = new int[_states.Length];
         _next = new int[_states.Length];
         var contacts = ContactsPerBody * _states.Length;
-        ReserveSearches(NeighboursPerBody * bodies.Count, contacts);
+        ReserveSearches(contacts);
         _pairs.EnsureCapacity(contacts);
+        _found.EnsureCapacity(contacts);
         _sortedPairs.EnsureCapacity(contacts);
         _partPairs.EnsureCapacity(contacts);
         _islands.EnsureCapacity(_states.Length);
