@@ -25,7 +25,7 @@ public static class PhysicsLimits
 
     /// <summary>
     /// Smallest radius of a body, of its largest coordinate: rounding of smaller ones is as large as themselves, and they fall through
-    /// what they lie on. From 1e-13 down that has been seen.
+    /// what they lie on. From 3e-14 down that has been seen.
     /// </summary>
     public const double MinRadiusShare = 1e-12;
 
