@@ -106,10 +106,17 @@ public static class PhysicsLimits
 
     private static void RequireRadius(Body body)
     {
+        var coordinate = body.Position.MaxAbsComponent();
+        if (!(coordinate <= MaxCoordinate))
+        {
+            // That is the limit which such a body exceeds.
+            return;
+        }
+
         var smallest = body.Description.Shrinkage > 0 ? body.Description.MinimumScale : 1;
         for (var ball = 0; ball < body.BallCount; ball++)
         {
-            if (smallest * body.BallRadius(ball) < MinRadiusShare * body.Position.MaxAbsComponent())
+            if (smallest * body.BallRadius(ball) < MinRadiusShare * coordinate)
             {
                 throw Error(
                     $"the radius of body {body.Name} is below the limit of physics, 1e-12 of its coordinates", body.Description.ObjectIndex);
