@@ -118,8 +118,8 @@ public static class PhysicsLimits
         {
             if (smallest * body.BallRadius(ball) < MinRadiusShare * coordinate)
             {
-                throw Error(
-                    $"the radius of body {body.Name} is below the limit of physics, 1e-12 of its coordinates", body.Description.ObjectIndex);
+                var message = $"the radius of body {body.Name} is below the limit of physics, 1e-12 of its coordinates";
+                throw Error(message, body.Description.ObjectIndex);
             }
         }
     }

@@ -6,10 +6,6 @@ namespace FractalEngine.Core.Physics.Islands;
 /// <content>What the bodies of islands may meet in the step.</content>
 internal sealed partial class ContactGraph
 {
-    // Made with the graph: a static one would be made by the first step that has such pairs, and steps allocate nothing.
-    private readonly Comparison<BodyPair> _compareOthers =
-        static (a, b) => a.First != b.First ? a.First.CompareTo(b.First) : a.Second.CompareTo(b.Second);
-
     /// <summary>
     /// Finds what the bodies of islands may meet: all that are near and no faster, since faster ones look for themselves.
     /// </summary>
@@ -17,85 +13,61 @@ internal sealed partial class ContactGraph
     {
         for (var i = 0; i < bodies.Count; i++)
         {
-            ref readonly var body = ref _states[i];
-            if (_sets.IsJoined(i) && !body.HasLooked && (body.Reach > body.SearchReach || !body.MaySearch))
+            if (_sets.IsJoined(i) && !_states[i].HasLooked)
             {
+                _states[i].HasLooked = true;
                 CollectNear(i);
             }
         }
-
-        TakeFoundPairs();
     }
 
-    /// <summary>Takes the pairs that the search for what touches has found too, of bodies that have been joined since.</summary>
-    private void TakeFoundPairs()
-    {
-        foreach (var search in _searches.AsSpan(0, _searchCount))
-        {
-            foreach (ref var pair in CollectionsMarshal.AsSpan(search.NearPairs))
-            {
-                if (!pair.IsRow && (MustLook(pair.First) || MustLook(pair.Second)))
-                {
-                    pair.IsRow = true;
-                    if (GapOf(pair.First, pair.Second) <= _states[pair.First].Reach + _states[pair.Second].Reach)
-                    {
-                        Add(pair with { IsRow = false });
-                    }
-                }
-            }
-        }
-    }
-
-    private bool MustLook(int body) => _sets.IsJoined(body) || _states[body].HasLooked;
-
-    /// <summary>Searches for what a body may meet that is faster than was known when what touches was searched for.</summary>
     private void CollectNear(int index)
     {
-        ref var body = ref _states[index];
-        body.HasLooked = true;
-        _neighbours.Clear();
-        CollectOverlaps(body.Position, body.Radius + (2 * body.Reach), index, _neighbours);
-        _found.Clear();
-        foreach (var neighbour in _neighbours)
+        ref readonly var body = ref _states[index];
+        var firstPair = _pairs.Count;
+        if (2 * body.Reach <= body.NearDistance)
+        {
+            AddNear(index, CollectionsMarshal.AsSpan(_searches[index / _bodiesPerSearch].Near).Slice(body.FirstNear, body.NearCount));
+        }
+        else
+        {
+            _neighbours.Clear();
+            CollectOverlaps(body.Position, body.Radius + (2 * body.Reach), index, _neighbours);
+            AddNear(index, CollectionsMarshal.AsSpan(_neighbours));
+        }
+
+        // By the other body's index, whichever way it was found.
+        CollectionsMarshal.AsSpan(_pairs)[firstPair..].Sort(_compareOthers);
+        foreach (ref readonly var pair in CollectionsMarshal.AsSpan(_pairs)[firstPair..])
+        {
+            StorePush(in pair);
+        }
+    }
+
+    // Made with the graph: a static one would be made by the first step that has such pairs, and steps allocate nothing.
+    private readonly Comparison<BodyPair> _compareOthers =
+        static (a, b) => a.First != b.First ? a.First.CompareTo(b.First) : a.Second.CompareTo(b.Second);
+
+    private void AddNear(int index, ReadOnlySpan<int> neighbours)
+    {
+        ref readonly var body = ref _states[index];
+        foreach (var neighbour in neighbours)
         {
             ref readonly var other = ref _states[neighbour];
-            var gap = GapOf(index, neighbour);
-            var isFound = (other.HasLooked && gap <= 2 * other.Reach) || IsFound(in body, in other, gap);
-            if (!isFound && gap <= body.Reach + other.Reach)
+            var gap = (body.Position - other.Position).Length() - body.Radius - other.Radius;
+            var isFound = other.HasLooked && gap <= 2 * other.Reach;
+            if (isFound || gap > body.Reach + other.Reach)
             {
-                AddNear(index, neighbour, _found);
+                continue;
+            }
+
+            var isFirm = !other.CanMove;
+            var isInOrder = isFirm || index < neighbour;
+            if (!AreTouching(index, neighbour, isInOrder))
+            {
+                _pairs.Add(isInOrder ? new(index, neighbour, isFirm, false) : new(neighbour, index, false, false));
             }
         }
-
-        _found.Sort(_compareOthers);
-        foreach (var pair in _found)
-        {
-            Add(pair);
-        }
-    }
-
-    /// <summary>True where the search for what touches has found a pair as one that is near.</summary>
-    private static bool IsFound(in GraphBody body, in GraphBody other, double gap) =>
-        gap <= Math.Max(body.NearDistance, other.NearDistance) && gap <= body.SearchReach + other.SearchReach;
-
-    private double GapOf(int first, int second) =>
-        (_states[first].Position - _states[second].Position).Length() - _states[first].Radius - _states[second].Radius;
-
-    /// <summary>Adds a pair that is near to a list, unless it touches.</summary>
-    private void AddNear(int index, int neighbour, List<BodyPair> pairs)
-    {
-        var isFirm = !_states[neighbour].CanMove;
-        var isInOrder = isFirm || index < neighbour;
-        if (!AreTouching(index, neighbour, isInOrder))
-        {
-            pairs.Add(isInOrder ? new(index, neighbour, isFirm, false) : new(neighbour, index, false, false));
-        }
-    }
-
-    private void Add(BodyPair pair)
-    {
-        _pairs.Add(pair);
-        StorePush(in pair);
     }
 
     /// <summary>Stores how far each of two bodies may be pushed by the other one.</summary>

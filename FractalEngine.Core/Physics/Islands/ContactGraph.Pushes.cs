@@ -75,11 +75,10 @@ internal sealed partial class ContactGraph
         {
             if (_states[i].KinematicPush > 0 && _states[i].CanMove)
             {
+                _states[i].HasLooked = true;
                 CollectNear(i);
             }
         }
-
-        TakeFoundPairs();
     }
 
     private bool IsPushed(in BodyPair pair) =>

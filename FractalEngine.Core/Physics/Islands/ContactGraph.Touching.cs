@@ -13,7 +13,6 @@ internal sealed partial class ContactGraph
     private readonly Search[] _searches = [.. Enumerable.Range(0, MaxSearches).Select(static _ => new Search())];
     private Action<int>? _runSearch;
     private int _bodiesPerSearch = MinBodiesOfSearch;
-    private int _searchCount;
 
     /// <summary>Finds all pairs of bodies that touch. Only those search that may: most bodies in flight have met no other.</summary>
     /// <param name="islands">Wakes bodies that sleep and are hit.</param>
@@ -22,16 +21,15 @@ internal sealed partial class ContactGraph
     public bool CollectTouching(SleepIslands islands, double stepLength)
     {
         Begin(stepLength);
-        _searchCount = 0;
         if (!_mayHavePairs)
         {
             return false;
         }
 
         _bodiesPerSearch = Math.Max(MinBodiesOfSearch, (bodies.Count + MaxSearches - 1) / MaxSearches);
-        _searchCount = (bodies.Count + _bodiesPerSearch - 1) / _bodiesPerSearch;
-        WorkerSet.Shared.Run(_searchCount, _grid.IsBuilt ? maxThreads : 1, _runSearch ??= RunSearch);
-        foreach (var search in _searches.AsSpan(0, _searchCount))
+        var searchCount = (bodies.Count + _bodiesPerSearch - 1) / _bodiesPerSearch;
+        WorkerSet.Shared.Run(searchCount, _grid.IsBuilt ? maxThreads : 1, _runSearch ??= RunSearch);
+        foreach (var search in _searches.AsSpan(0, searchCount))
         {
             if (search.Sleeper >= 0)
             {
@@ -46,12 +44,12 @@ internal sealed partial class ContactGraph
     }
 
     /// <summary>Makes room for what bodies find, so that steps need not allocate.</summary>
-    private void ReserveSearches(int pairCount)
+    private void ReserveSearches(int neighbourCount, int pairCount)
     {
         foreach (var search in _searches)
         {
             // They may have more than their share.
-            search.NearPairs.EnsureCapacity(InitialCapacity + (2 * pairCount / MaxSearches));
+            search.Near.EnsureCapacity(InitialCapacity + (2 * neighbourCount / MaxSearches));
             search.Pairs.EnsureCapacity(InitialCapacity + (2 * pairCount / MaxSearches));
         }
     }
@@ -61,7 +59,6 @@ internal sealed partial class ContactGraph
         var search = _searches[index];
         search.Near.Clear();
         search.Pairs.Clear();
-        search.NearPairs.Clear();
         search.Sleeper = -1;
         var end = Math.Min(bodies.Count, (index + 1) * _bodiesPerSearch);
         for (var i = index * _bodiesPerSearch; i < end && search.Sleeper < 0; i++)
@@ -73,43 +70,28 @@ internal sealed partial class ContactGraph
         }
     }
 
-    private static double TouchDistanceOf(in GraphBody body) =>
-        body.Radius * (body.HasHeapMargin ? ContactTolerances.HeapMargin : 0) + ContactTolerances.Slop(body.Radius, body.Position);
-
-    /// <summary>What a body may meet lies among the neighbours that it may touch, unless it is fast.</summary>
-    private void SetSearchDistance(ref GraphBody body)
-    {
-        var reach = body.CanMove ? ReachOf(in body) : 0;
-        var isFast = 2 * reach > MaxEarlyDistance * body.Radius;
-        body.SearchReach = isFast ? 0 : reach;
-        body.NearDistance = body.MaySearch ? Math.Max(TouchDistanceOf(in body), 2 * body.SearchReach) : double.NegativeInfinity;
-    }
-
     private void CollectTouching(int index, Search search)
     {
-        ref readonly var body = ref _states[index];
-        var touchDistance = TouchDistanceOf(in body);
-        search.Near.Clear();
-        CollectOverlaps(body.Position, body.Radius + body.NearDistance, index, search.Near);
+        ref var body = ref _states[index];
+        var touchDistance = body.Radius * (body.HasHeapMargin ? ContactTolerances.HeapMargin : 0)
+            + ContactTolerances.Slop(body.Radius, body.Position);
+        // What the body may meet lies among the same neighbours.
+        var distance = 2 * ReachOf(in body);
+        distance = Math.Max(touchDistance, distance <= MaxEarlyDistance * body.Radius ? distance : 0);
+        body.FirstNear = search.Near.Count;
+        body.NearDistance = distance;
+        CollectOverlaps(body.Position, body.Radius + distance, index, search.Near);
+        body.NearCount = search.Near.Count - body.FirstNear;
         search.Touching.Clear();
-        var firstPair = search.NearPairs.Count;
-        foreach (var neighbour in CollectionsMarshal.AsSpan(search.Near))
+        foreach (var neighbour in CollectionsMarshal.AsSpan(search.Near)[body.FirstNear..])
         {
-            ref readonly var other = ref _states[neighbour];
-            var gap = GapOf(index, neighbour);
-            if (gap <= 2 * touchDistance)
+            var maxDistance = body.Radius + _states[neighbour].Radius + (2 * touchDistance);
+            if ((body.Position - _states[neighbour].Position).LengthSquared() <= maxDistance * maxDistance)
             {
                 search.Touching.Add(neighbour);
             }
-
-            // Of two that find a pair, the first one stores it.
-            if (gap <= body.NearDistance && gap <= body.SearchReach + other.SearchReach && !(neighbour < index && gap <= other.NearDistance))
-            {
-                AddNear(index, neighbour, search.NearPairs);
-            }
         }
 
-        CollectionsMarshal.AsSpan(search.NearPairs)[firstPair..].Sort(_compareOthers);
         search.Touching.Sort();
         foreach (var neighbour in search.Touching)
         {
@@ -162,7 +144,7 @@ internal sealed partial class ContactGraph
     /// <summary>What a group of bodies has found.</summary>
     private sealed class Search
     {
-        /// <summary>The bodies near one of the group.</summary>
+        /// <summary>The bodies near each of the group, one list after the other.</summary>
         public List<int> Near { get; } = new(InitialCapacity);
 
         /// <summary>The bodies that one of the group may touch.</summary>
@@ -170,9 +152,6 @@ internal sealed partial class ContactGraph
 
         /// <summary>The pairs that touch, in the order of their searching body.</summary>
         public List<BodyPair> Pairs { get; } = new(InitialCapacity);
-
-        /// <summary>The pairs that are near and do not touch. Those that are taken are marked as contacts.</summary>
-        public List<BodyPair> NearPairs { get; } = new(InitialCapacity);
 
         /// <summary>Index of a body that sleeps and is hit; negative for none.</summary>
         public int Sleeper { get; set; }

@@ -12,6 +12,7 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
     private const int InitialCapacity = 256;
 
     private const int ContactsPerBody = 4;
+    private const int NeighboursPerBody = 32;
 
     // Of the radius: how much farther than its free path a body is expected to get, pushed by others.
     private const double ReachMargin = 0.1;
@@ -21,7 +22,6 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
 
     private readonly List<int> _neighbours = new(InitialCapacity);
     private readonly List<BodyPair> _pairs = new(InitialCapacity);
-    private readonly List<BodyPair> _found = new(InitialCapacity);
     private readonly List<Island> _islands = new(InitialCapacity);
     private readonly List<int> _islandBodies = new(InitialCapacity);
     private readonly DisjointSets _sets = new();
@@ -186,7 +186,6 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
                 KinematicPush = body.KinematicPush,
                 NearDistance = double.NegativeInfinity,
             };
-            SetSearchDistance(ref _states[i]);
         }
 
         if (_mayHavePairs)
@@ -206,9 +205,8 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
         _islandOf = new int[_states.Length];
         _next = new int[_states.Length];
         var contacts = ContactsPerBody * _states.Length;
-        ReserveSearches(contacts);
+        ReserveSearches(NeighboursPerBody * bodies.Count, contacts);
         _pairs.EnsureCapacity(contacts);
-        _found.EnsureCapacity(contacts);
         _sortedPairs.EnsureCapacity(contacts);
         _partPairs.EnsureCapacity(contacts);
         _islands.EnsureCapacity(_states.Length);
