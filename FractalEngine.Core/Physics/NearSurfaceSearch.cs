@@ -8,6 +8,9 @@ internal sealed class NearSurfaceSearch(Obstacles obstacles)
     // Of the radius.
     private const double MaxLift = 0.5;
 
+    // Cosine of an angle that rounding cannot tell from 0.
+    private const double SameDirection = 1 - 1e-12;
+
     // In a corner a ball has three faces.
     private const int MaxQueries = 3;
 
@@ -41,8 +44,14 @@ internal sealed class NearSurfaceSearch(Obstacles obstacles)
                 break;
             }
 
-            lift = (lift + normal).UnitVectorOrZero();
             surfaces.Add(in surface, normal, contacts, centre);
+            if (Vector.Dot(lift, normal) > SameDirection)
+            {
+                // The next search would be the same one.
+                break;
+            }
+
+            lift = (lift + normal).UnitVectorOrZero();
         }
 
         return true;

@@ -23,6 +23,12 @@ public static class PhysicsLimits
     /// <summary>Largest mass of a body, and the inverse of the smallest, kg: products of several masses stay doubles.</summary>
     public const double MaxMass = 1e60;
 
+    /// <summary>
+    /// Smallest radius of a body, of its largest coordinate: rounding of smaller ones is as large as themselves, and they fall through
+    /// what they lie on. From 3e-14 down that has been seen.
+    /// </summary>
+    public const double MinRadiusShare = 1e-12;
+
     /// <summary>All limits of physics, in the order of a listing.</summary>
     public static ImmutableArray<Limit> All { get; } = [BodiesAtOnePlace];
 
@@ -67,11 +73,21 @@ public static class PhysicsLimits
         }
     }
 
-    /// <summary>Throws where more bodies than <see cref="MaxBodiesAtOnePlace"/> begin at one place.</summary>
-    /// <exception cref="FractalEngineException">The limit is exceeded; the message names it.</exception>
+    /// <summary>
+    /// Throws where more bodies than <see cref="MaxBodiesAtOnePlace"/> begin at one place, or one is smaller than
+    /// <see cref="MinRadiusShare"/> of its coordinates.
+    /// </summary>
+    /// <exception cref="FractalEngineException">
+    /// The limit is exceeded; the message names it. For a body of the scene that is too small it is a <see cref="SceneObjectException"/>.
+    /// </exception>
     public static void Require(IReadOnlyList<Body> bodies)
     {
         ArgumentNullException.ThrowIfNull(bodies);
+        foreach (var body in bodies)
+        {
+            RequireRadius(body);
+        }
+
         if (bodies.Count <= MaxBodiesAtOnePlace)
         {
             return;
@@ -88,6 +104,26 @@ public static class PhysicsLimits
         }
     }
 
+    private static void RequireRadius(Body body)
+    {
+        var coordinate = body.Position.MaxAbsComponent();
+        if (!(coordinate <= MaxCoordinate))
+        {
+            // That is the limit which such a body exceeds.
+            return;
+        }
+
+        var smallest = body.Description.Shrinkage > 0 ? body.Description.MinimumScale : 1;
+        for (var ball = 0; ball < body.BallCount; ball++)
+        {
+            if (smallest * body.BallRadius(ball) < MinRadiusShare * coordinate)
+            {
+                var message = $"the radius of body {body.Name} is below the limit of physics, 1e-12 of its coordinates";
+                throw Error(message, body.Description.ObjectIndex);
+            }
+        }
+    }
+
     private static void Require(Vector vector, string name, Body? body = null)
     {
         if (!(vector.MaxAbsComponent() <= MaxCoordinate))
@@ -96,11 +132,10 @@ public static class PhysicsLimits
         }
     }
 
-    private static FractalEngineException Error(string quantity, string? name, string limit, int? objectIndex)
-    {
-        var message = $"{quantity}{(name is null ? "" : $" of {name}")} is beyond the limit {limit} of physics";
-        return objectIndex is { } index
-            ? new SceneObjectException(index, ErrorKind.Limit, message)
-            : new FractalEngineException(ErrorKind.Limit, message);
-    }
+    private static FractalEngineException Error(string quantity, string? name, string limit, int? objectIndex) =>
+        Error($"{quantity}{(name is null ? "" : $" of {name}")} is beyond the limit {limit} of physics", objectIndex);
+
+    private static FractalEngineException Error(string message, int? objectIndex) => objectIndex is { } index
+        ? new SceneObjectException(index, ErrorKind.Limit, message)
+        : new FractalEngineException(ErrorKind.Limit, message);
 }

@@ -155,7 +155,7 @@ public sealed partial class PhysicsWorld
     /// <summary>Moves the bodies of all islands at once.</summary>
     private void MoveIslands(CharacterController? character, double seconds)
     {
-        _islandMover.SetTargets(seconds);
+        _islandMover.SetTargets();
         MoveWhatIsInTheWay(character, seconds);
         foreach (var island in _planner.Graph.Islands)
         {

@@ -37,6 +37,31 @@ public class CompoundWorldTests
         Assert.NotEqual(0, body.AngularVelocity.Z);
     }
 
+    [Fact]
+    public void SpinningDumbbells_PassNoPlate() => Seeded.Run(20, random =>
+    {
+        var world = new PhysicsWorld { Gravity = Vector.Zero };
+        var shape = Dumbbell(random.Between(0.5, 2.5) * Vector.I);
+        _ = world.AddStatic(PhysicsMeshes.Cube, new(new(3.2, 0, 0), Vector.Zero, new(0.001, 100, 100)));
+        var body = world.Add(new(random.Between(-1, 0) * Vector.I, shape)
+        {
+            // Up to 1,600 turns a second, while it comes at up to 30 units a second.
+            Velocity = Math.Pow(10, random.Between(-1, 1.5)) * Vector.I,
+            AngularVelocity = Math.Pow(10, random.Between(0, 4)) * random.Vector().UnitVector(),
+            Restitution = random.NextDouble(),
+        });
+        world.Run(30, () =>
+        {
+            for (var ball = 0; ball < body.BallCount; ball++)
+            {
+                var gap = 3.1995 - body.BallCentre(ball).X - body.BallRadius(ball);
+                Assert.True(gap > -1e-6 * Radius, $"ball {ball} overlaps by {-gap:R} after {world.StepCount} steps");
+            }
+
+            Assert.True(world.LastStepCost.BoundTests + world.LastStepCost.FaceTests < 50_000, $"{world.LastStepCost}");
+        });
+    });
+
     [Theory]
     [InlineData(0.5)]
     [InlineData(2)]

@@ -47,6 +47,38 @@ public sealed class PhysicsRangeTests
         Assert.True(moved > 60, $"{moved} steps");
     }
 
+    [Theory]
+    [InlineData(1e-15, false)]
+    [InlineData(1e-11, true)]
+    public void Require_OfABodySmallerThanItsPlaceIsRounded_Refuses(double radius, bool isAccepted)
+    {
+        var world = new PhysicsWorld();
+        _ = world.Add(new(new(3, 2, 1), radius) { Name = "dust" });
+        _ = world.Add(new(Vector.Zero, 1e-30));
+        var exception = Record.Exception(() => PhysicsLimits.Require(world.Bodies));
+        Assert.Equal(isAccepted, exception is null);
+        if (exception is not null)
+        {
+            Assert.Equal("the radius of body dust is below the limit of physics, 1e-12 of its coordinates", exception.Message);
+        }
+    }
+
+    [Fact]
+    public void Step_OfABodyJustLargeEnough_LiesOnTheGround()
+    {
+        var world = new PhysicsWorld();
+        _ = world.AddStatic(Shapes.Box(new(new(-50, 0, -50), new(50, 1, 50))));
+        var radius = 2 * PhysicsLimits.MinRadiusShare;
+        var body = world.Add(new(new(0.3, 1 + (10 * radius), 0.2), radius));
+        PhysicsLimits.Require(world.Bodies);
+        for (var step = 0; step < 60; step++)
+        {
+            world.Step();
+        }
+
+        Assert.InRange(body.Position.Y - 1, 0.99 * radius, 1.01 * radius);
+    }
+
     private static PhysicsWorld CreateWorld(ExtremeRandom random)
     {
         var world = new PhysicsWorld();

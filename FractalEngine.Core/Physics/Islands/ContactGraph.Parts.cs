@@ -55,7 +55,7 @@ internal sealed partial class ContactGraph
         _parts.Cut(island, partCount, _states);
         SortByParts(pairs, partCount);
         SortBodiesByParts(island, partCount);
-        WorkerSet.Shared.Run(partCount, maxThreads, _countSurfaces ??= CountSurfaces);
+        WorkerSet.Shared.Run(partCount, maxThreads, _countSurfaces!);
         _partRows[partCount] = 0;
         for (var part = 0; part <= partCount; part++)
         {
@@ -66,7 +66,7 @@ internal sealed partial class ContactGraph
         }
 
         ReserveRows(_count);
-        WorkerSet.Shared.Run(partCount + 1, maxThreads, _fillPart ??= FillPart);
+        WorkerSet.Shared.Run(partCount + 1, maxThreads, _fillPart!);
         var kinds = RowKinds.None;
         foreach (var part in _partKinds.AsSpan(0, partCount + 1))
         {

@@ -52,9 +52,9 @@ internal sealed partial class ContactGraph
             {
                 FirstRow = firstRow,
                 RowCount = _count - firstRow,
-                IsFree = !kinds.HasFlag(RowKinds.Firm),
-                IsPushed = kinds.HasFlag(RowKinds.Pushing),
-                HasMovingSurface = kinds.HasFlag(RowKinds.Moving),
+                IsFree = (kinds & RowKinds.Firm) == 0,
+                IsPushed = (kinds & RowKinds.Pushing) != 0,
+                HasMovingSurface = (kinds & RowKinds.Moving) != 0,
             };
         }
 

@@ -48,6 +48,21 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
     public ReadOnlySpan<int> BodiesOf(in Island island) =>
         CollectionsMarshal.AsSpan(_islandBodies).Slice(island.FirstBody, island.BodyCount);
 
+    /// <summary>Radius of the smallest body of an island; of a compound, that of its smallest ball.</summary>
+    public double MinRadiusOf(in Island island)
+    {
+        var radius = double.PositiveInfinity;
+        foreach (var index in BodiesOf(in island))
+        {
+            for (var ball = 0; ball < bodies[index].BallCount; ball++)
+            {
+                radius = Math.Min(radius, bodies[index].BallRadius(ball));
+            }
+        }
+
+        return radius;
+    }
+
     /// <summary>True for a body that is joined with others.</summary>
     public bool IsJoined(int body) => _sets.IsJoined(body);
 
@@ -136,6 +151,8 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
     private void Begin(double stepLength)
     {
         _stepLength = stepLength;
+        _countSurfaces ??= CountSurfaces;
+        _fillPart ??= FillPart;
         _pairs.Clear();
         if (_states.Length < bodies.Count)
         {

@@ -8,6 +8,9 @@ internal struct DisplacedBody
     /// <summary>Way from the beginning of the step.</summary>
     public Vector Way;
 
+    /// <summary>Way before the separation.</summary>
+    public Vector PlannedWay;
+
     /// <summary>Inverse of the mass, 1/kg; 0 for a body that is held.</summary>
     public double InverseMass;
 

@@ -6,15 +6,29 @@ namespace FractalEngine.Core.Physics.Islands;
 /// Takes back what an island has gained in its planned motion: by rounding, by forces that did not converge, or since a body was stopped
 /// by something that no plan knew. Its velocities are scaled, about that of its centre of mass where it touches nothing firm.
 /// </summary>
-internal sealed class EnergyGuard(List<Body> bodies, ContactGraph graph, IslandMover mover, int maxThreads)
+internal sealed class EnergyGuard
 {
     private const int BodiesPerJob = 256;
     private const int InitialJobCount = 64;
 
+    private readonly List<Body> _bodies;
+    private readonly ContactGraph _graph;
+    private readonly IslandMover _mover;
+    private readonly int _maxThreads;
+    private readonly Action<int> _addPlan;
+
     // What contacts have added to the energy of each group of bodies.
     private double[] _gains = new double[InitialJobCount];
-    private Action<int>? _addPlan;
     private Island _island;
+
+    public EnergyGuard(List<Body> bodies, ContactGraph graph, IslandMover mover, int maxThreads)
+    {
+        _bodies = bodies;
+        _graph = graph;
+        _mover = mover;
+        _maxThreads = maxThreads;
+        _addPlan = AddPlan;
+    }
 
     /// <summary>Gives the bodies of an island, all of which have moved, their new velocities, and checks their energy.</summary>
     public void FinishVelocities(in Island island)
@@ -26,7 +40,7 @@ internal sealed class EnergyGuard(List<Body> bodies, ContactGraph graph, IslandM
             _gains = new double[2 * jobCount];
         }
 
-        WorkerSet.Shared.Run(jobCount, maxThreads, _addPlan ??= AddPlan);
+        WorkerSet.Shared.Run(jobCount, _maxThreads, _addPlan);
         var gain = 0.0;
         foreach (var part in _gains.AsSpan(0, jobCount))
         {
@@ -46,16 +60,16 @@ internal sealed class EnergyGuard(List<Body> bodies, ContactGraph graph, IslandM
         var centreVelocity = island.IsFree ? CentreVelocity(in island) : Vector.Zero;
         var energy = EnergyAbout(in island, centreVelocity);
         var scale = energy > gain ? Math.Sqrt(1 - (gain / energy)) : 0;
-        foreach (var index in graph.BodiesOf(in island))
+        foreach (var index in _graph.BodiesOf(in island))
         {
-            bodies[index].Velocity = centreVelocity + (scale * (bodies[index].Velocity - centreVelocity));
-            bodies[index].AngularVelocity *= scale;
+            _bodies[index].Velocity = centreVelocity + (scale * (_bodies[index].Velocity - centreVelocity));
+            _bodies[index].AngularVelocity *= scale;
         }
 
         if (scale == 0 && centreVelocity == Vector.Zero && !island.IsPushed)
         {
             // What has lifted it has more energy than it can give back: it rests.
-            _ = mover.TryReturn(in island);
+            _ = _mover.TryReturn(in island);
         }
     }
 
@@ -63,11 +77,11 @@ internal sealed class EnergyGuard(List<Body> bodies, ContactGraph graph, IslandM
     private void AddPlan(int job)
     {
         var gain = 0.0;
-        var members = graph.BodiesOf(in _island);
+        var members = _graph.BodiesOf(in _island);
         foreach (var index in members[(job * BodiesPerJob)..Math.Min(members.Length, (job + 1) * BodiesPerJob)])
         {
             // The energy of motion, less the work of gravity and forces.
-            var body = bodies[index];
+            var body = _bodies[index];
             body.Velocity += body.PlannedChange;
             body.AngularVelocity += body.PlannedSpinChange;
             gain += body.KineticEnergy - body.PlannedStartEnergy
@@ -80,7 +94,7 @@ internal sealed class EnergyGuard(List<Body> bodies, ContactGraph graph, IslandM
     private double WorkOfSurfaces(in Island island)
     {
         var work = 0.0;
-        foreach (ref readonly var row in island.HasMovingSurface ? graph.RowsOf(in island) : [])
+        foreach (ref readonly var row in island.HasMovingSurface ? _graph.RowsOf(in island) : [])
         {
             work += Vector.Dot((row.NormalImpulse * row.Normal) + row.FrictionImpulse, row.SurfaceVelocity)
                 + Vector.Dot(row.TurnImpulse, row.SurfaceSpin);
@@ -93,10 +107,10 @@ internal sealed class EnergyGuard(List<Body> bodies, ContactGraph graph, IslandM
     {
         var mass = 0.0;
         var momentum = Vector.Zero;
-        foreach (var index in graph.BodiesOf(in island))
+        foreach (var index in _graph.BodiesOf(in island))
         {
-            mass += bodies[index].Description.Mass;
-            momentum += bodies[index].Description.Mass * bodies[index].Velocity;
+            mass += _bodies[index].Description.Mass;
+            momentum += _bodies[index].Description.Mass * _bodies[index].Velocity;
         }
 
         return momentum / mass;
@@ -105,10 +119,10 @@ internal sealed class EnergyGuard(List<Body> bodies, ContactGraph graph, IslandM
     private double EnergyAbout(in Island island, Vector centreVelocity)
     {
         var energy = 0.0;
-        foreach (var index in graph.BodiesOf(in island))
+        foreach (var index in _graph.BodiesOf(in island))
         {
-            energy += 0.5 * bodies[index].Description.Mass * (bodies[index].Velocity - centreVelocity).LengthSquared();
-            energy += bodies[index].SpinEnergy;
+            energy += 0.5 * _bodies[index].Description.Mass * (_bodies[index].Velocity - centreVelocity).LengthSquared();
+            energy += _bodies[index].SpinEnergy;
         }
 
         return energy;

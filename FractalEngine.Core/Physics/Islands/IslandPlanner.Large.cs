@@ -25,6 +25,16 @@ internal sealed partial class IslandPlanner
     private Action<int>? _storeChanges;
     private int _largeIndex;
 
+    /// <summary>Makes what threads run before it is needed, so that steps allocate nothing.</summary>
+    private void CreateJobs()
+    {
+        _loadBodies ??= LoadBodies;
+        _beginPart ??= BeginPart;
+        _storePlan ??= StorePlan;
+        _findRebounding ??= FindRebounding;
+        _storeChanges ??= StoreChanges;
+    }
+
     private bool PlanLarge(int index, in Island island, double stepLength)
     {
         _large = island;
@@ -32,8 +42,8 @@ internal sealed partial class IslandPlanner
         _largeStepLength = stepLength;
         var isConverged = FindImpulses(in island);
         var jobCount = (island.BodyCount + BodiesPerJob - 1) / BodiesPerJob;
-        WorkerSet.Shared.Run(jobCount, maxThreads, _storePlan ??= StorePlan);
-        WorkerSet.Shared.Run(ContactGraph.GroupCountOf(in island), maxThreads, _findRebounding ??= FindRebounding);
+        WorkerSet.Shared.Run(jobCount, maxThreads, _storePlan!);
+        WorkerSet.Shared.Run(ContactGraph.GroupCountOf(in island), maxThreads, _findRebounding!);
         _rebounding.Clear();
         foreach (var rebounding in _reboundingOfParts.AsSpan(0, ContactGraph.GroupCountOf(in island)))
         {
@@ -41,7 +51,7 @@ internal sealed partial class IslandPlanner
         }
 
         StopRebounds(Graph.RowsOf(in island), _rebounding);
-        WorkerSet.Shared.Run(jobCount, maxThreads, _storeChanges ??= StoreChanges);
+        WorkerSet.Shared.Run(jobCount, maxThreads, _storeChanges!);
         return isConverged;
     }
 
@@ -55,8 +65,8 @@ internal sealed partial class IslandPlanner
             StoreVelocities(Graph.BodiesOf(in island));
         }
 
-        WorkerSet.Shared.Run((island.BodyCount + BodiesPerJob - 1) / BodiesPerJob, maxThreads, _loadBodies ??= LoadBodies);
-        WorkerSet.Shared.Run(island.PartCount, maxThreads, _beginPart ??= BeginPart);
+        WorkerSet.Shared.Run((island.BodyCount + BodiesPerJob - 1) / BodiesPerJob, maxThreads, _loadBodies!);
+        WorkerSet.Shared.Run(island.PartCount, maxThreads, _beginPart!);
         BeginPart(island.PartCount);
         var isConverged = _solver.SolveLarge(Graph, in island, RoundLimits.ForLarge(rows.Length));
         Statistics = Statistics with { Rounds = Statistics.Rounds + _solver.Rounds };

@@ -49,6 +49,7 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
     /// <summary>Takes away all approaching velocities of bodies that touch. They must have been joined.</summary>
     public void StopApproaches()
     {
+        CreateJobs();
         Graph.Group(onlyImpacts: true);
         _solver.Reserve(bodies.Count);
         _cache.ReserveForBodies(bodies.Count);

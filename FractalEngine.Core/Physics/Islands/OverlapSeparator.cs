@@ -60,7 +60,8 @@ internal sealed class OverlapSeparator
     }
 
     /// <summary>Sets the way of a body from the beginning of the step, and its inverse mass; 0 where it is held.</summary>
-    public void SetBody(int index, Vector way, double inverseMass) => _movers[index] = new() { Way = way, InverseMass = inverseMass };
+    public void SetBody(int index, Vector way, double inverseMass) => 
+        _movers[index] = new() { Way = way, PlannedWay = way, InverseMass = inverseMass };
 
     /// <summary>The way of a body after the separation.</summary>
     public Vector WayOf(int index) => _movers[index].Way;
@@ -80,7 +81,9 @@ internal sealed class OverlapSeparator
         for (var choice = 0; choice < MaxChoices && hasMoved; choice++)
         {
             ChooseAll(others);
-            hasMoved = island.PartCount == 1 ? SeparateWhole() : SeparateParts();
+            var isEnded = false;
+            hasMoved = island.PartCount == 1 ? SeparateWhole(out isEnded) : SeparateParts(out isEnded);
+            hasMoved &= !(isEnded && choice == 0 && StaysWithinReach(in island));
         }
 
         // Last, since what is firm gives way to nothing.
@@ -118,6 +121,23 @@ internal sealed class OverlapSeparator
         _isFirstRound = true;
     }
 
+    /// <summary>True where no body has been moved so far that contacts which were not near come to overlap.</summary>
+    private bool StaysWithinReach(in Island island)
+    {
+        var maxShiftSquared = 0.0;
+        foreach (var index in _graph.BodiesOf(in island))
+        {
+            if (_movers[index].HasMoved)
+            {
+                maxShiftSquared = Math.Max(maxShiftSquared, (_movers[index].Way - _movers[index].PlannedWay).LengthSquared());
+            }
+        }
+
+        // Of two bodies, each may have come nearer by so much.
+        var reach = 0.5 * _aim.MaxGap * _graph.MinRadiusOf(in island);
+        return maxShiftSquared < reach * reach;
+    }
+
     private int GroupOf(in ContactRow row)
     {
         if (_island.PartCount == 1)
@@ -132,21 +152,24 @@ internal sealed class OverlapSeparator
     private void Choose(int group) => _groups[group].AddNear(_graph.RowsOfPart(in _island, group), _movers, in _aim);
 
     /// <summary>Makes rounds to and fro: what the floor pushes up reaches the top of a pile in one round.</summary>
+    /// <param name="isEnded">Receives true where none overlap any more that are near.</param>
     /// <returns>True where a body has been moved.</returns>
-    private bool SeparateWhole()
+    private bool SeparateWhole(out bool isEnded)
     {
         _groups[0].Enqueue(_movers.Length);
         var hasMoved = _groups[0].MakeRound(_movers, isBackwards: false);
-        for (var round = 1; round < MaxRounds && _groups[0].MakeRound(_movers, isBackwards: round % 2 == 1); round++)
+        isEnded = !hasMoved;
+        for (var round = 1; round < MaxRounds && !isEnded; round++)
         {
+            isEnded = !_groups[0].MakeRound(_movers, isBackwards: round % 2 == 1);
         }
 
         return hasMoved;
     }
 
     /// <summary>Makes rounds to and fro within each part, and then across the cuts.</summary>
-    /// <returns>True where a body has been moved.</returns>
-    private bool SeparateParts()
+    /// <inheritdoc cref="SeparateWhole"/>
+    private bool SeparateParts(out bool isEnded)
     {
         var hasMoved = false;
         var isMoving = true;
@@ -163,6 +186,7 @@ internal sealed class OverlapSeparator
             hasMoved |= isMoving;
         }
 
+        isEnded = !isMoving;
         return hasMoved;
     }
 

@@ -1,0 +1,171 @@
+namespace FractalEngine.Core.Physics.Islands;
+
+/// <content>How bodies return to where their step began, which overlap others.</content>
+internal sealed partial class IslandMover
+{
+    // Of the smaller radius: overlaps for which bodies return.
+    private const double MaxOverlap = 9e-7;
+
+    private const int PairsPerJob = 1024;
+
+    private volatile bool _hasOverlap;
+
+    /// <summary>Puts an island back to where its step began, unless others have come there.</summary>
+    public bool TryReturn(in Island island)
+    {
+        var members = _graph.BodiesOf(in island);
+        foreach (var index in members)
+        {
+            _bodies[index].CheckedTarget = _bodies[index].Position;
+            _bodies[index].MovedOrientation = _bodies[index].Orientation;
+            PutBack(_bodies[index]);
+        }
+
+        var isFree = true;
+        foreach (var index in members)
+        {
+            isFree &= !OverlapsOthers(_bodies[index]);
+        }
+
+        foreach (var index in isFree ? [] : members)
+        {
+            _bodies[index].Position = _bodies[index].CheckedTarget;
+            _bodies[index].SetOrientation(_bodies[index].MovedOrientation);
+            _grid.Update(index);
+        }
+
+        return isFree;
+    }
+
+    /// <summary>True where a body overlaps one that is not of its island.</summary>
+    private bool OverlapsOthers(Body body)
+    {
+        _neighbours.Clear();
+        _nearbyBodies.CollectOverlaps(body.Position, body.Radius * (1 - MaxOverlap), body.Index, _neighbours);
+        foreach (var neighbour in _neighbours)
+        {
+            if (_bodies[neighbour].IslandIndex != body.IslandIndex && BallPairs.AreOverlapping(body, _bodies[neighbour], MaxOverlap))
+            {
+                return true;
+            }
+        }
+
+        return false;
+    }
+
+    /// <summary>
+    /// Puts bodies back to where they were that now overlap others, after those of all islands have moved. What returns may overlap
+    /// others in turn, which return as well; where all began, none overlapped.
+    /// </summary>
+    public void ReturnOverlapping()
+    {
+        foreach (var island in _graph.Islands)
+        {
+            foreach (var index in _graph.BodiesOf(in island))
+            {
+                _grid.Update(index);
+            }
+        }
+
+        while (ReturnPairs() || ReturnBeyondReach())
+        {
+        }
+    }
+
+    private bool ReturnPairs()
+    {
+        _hasOverlap = false;
+        WorkerSet.Shared.Run((_graph.Pairs.Length + PairsPerJob - 1) / PairsPerJob, _maxThreads, _testPairs);
+        var hasReturned = false;
+        if (!_hasOverlap)
+        {
+            return hasReturned;
+        }
+
+        foreach (ref readonly var pair in _graph.Pairs)
+        {
+            var first = _bodies[pair.First];
+            var second = _bodies[pair.Second];
+            if (BallPairs.AreOverlapping(first, second, MaxOverlap))
+            {
+                hasReturned |= Return(first);
+                hasReturned |= Return(second);
+            }
+        }
+
+        return hasReturned;
+    }
+
+    /// <summary>Tells whether one of a group of pairs overlaps, as hardly ever happens.</summary>
+    private void TestPairs(int job)
+    {
+        var pairs = _graph.Pairs;
+        foreach (ref readonly var pair in pairs[(job * PairsPerJob)..Math.Min(pairs.Length, (job + 1) * PairsPerJob)])
+        {
+            if (BallPairs.AreOverlapping(_bodies[pair.First], _bodies[pair.Second], MaxOverlap))
+            {
+                _hasOverlap = true;
+                return;
+            }
+        }
+    }
+
+    /// <summary>Puts bodies back that have got farther than any pair foresees and overlap any other, and that one with them.</summary>
+    private bool ReturnBeyondReach()
+    {
+        var hasReturned = false;
+        foreach (var island in _graph.Islands)
+        {
+            foreach (var index in _graph.BodiesOf(in island))
+            {
+                if (_graph.IsBeyondReach(_bodies[index]))
+                {
+                    hasReturned |= ReturnAmongAll(_bodies[index]);
+                }
+            }
+        }
+
+        return hasReturned;
+    }
+
+    private bool ReturnAmongAll(Body body)
+    {
+        _neighbours.Clear();
+        _nearbyBodies.CollectOverlaps(
+            body.Position, body.Radius * (1 - MaxOverlap), body.Index, _neighbours);
+        var hasReturned = false;
+        foreach (var neighbour in _neighbours)
+        {
+            if (BallPairs.AreOverlapping(body, _bodies[neighbour], MaxOverlap))
+            {
+                hasReturned |= Return(body);
+                hasReturned |= Return(_bodies[neighbour]);
+            }
+        }
+
+        return hasReturned;
+    }
+
+    private bool Return(Body body)
+    {
+        if (body.IslandIndex < 0
+            || (body.Position == body.PlannedStart && (!body.IsCompound || body.Orientation == body.PlannedStartOrientation)))
+        {
+            return false;
+        }
+
+        ReturnCount++;
+        PutBack(body);
+        return true;
+    }
+
+    private void PutBack(Body body)
+    {
+        body.Position = body.PlannedStart;
+        _grid.Update(body.Index);
+        if (body.IsCompound)
+        {
+            body.SetOrientation(body.PlannedStartOrientation);
+        }
+    }
+}
