@@ -38,13 +38,19 @@ public static class ImageFile
         }
         catch (Exception exception) when (exception is DllNotFoundException or EntryPointNotFoundException)
         {
-            throw new ImageFileException(path, InstallHint, exception);
+            throw new IOException(Prefix(path) + InstallHint, exception);
         }
         catch (Exception exception) when (exception is PngException or IOException or UnauthorizedAccessException)
         {
-            throw new ImageFileException(path, exception.Message, exception);
+            throw new IOException(Prefix(path) + exception.Message, exception);
         }
     }
+
+    /// <summary>Tells why an image could not be loaded, without its path, for messages that name it already.</summary>
+    internal static string ReasonWithoutPath(IOException exception, string path) =>
+        exception.Message.StartsWith(Prefix(path), StringComparison.Ordinal) ? exception.Message[Prefix(path).Length..] : exception.Message;
+
+    private static string Prefix(string path) => $"{path} can't be read: ";
 
     /// <summary>Null where the file is no PNG. Throws where no decoder should take memory for it.</summary>
     private static PixelImage? LoadPng(string path)

@@ -160,7 +160,7 @@ internal sealed class TextureCache(ImmutableArray<string>.Builder notices, bool 
         }
         catch (IOException exception)
         {
-            var reason = exception is ImageFileException { Reason: var said } ? said : exception.Message;
+            var reason = ImageFile.ReasonWithoutPath(exception, path);
             notices.Add($"{path}:1:1: warning: the texture can't be decoded, {consequence}: {reason}");
             _undecodable.Add(path);
             return null;

@@ -87,7 +87,7 @@ public class SceneWriterTests
             Projection = (given & 4) == 0 ? Projection.Perspective : Projection.Orthographic,
             OrthographicHeight = (given & 12) == 12 ? sizes : null,
             Background = (given & 16) == 0 ? null : colour,
-            Clip = (given & 32) == 0 || sizes > 1e307 ? null : (sizes, 2 * Math.Max(sizes, 1e-300)),
+            Clip = (given & 32) == 0 ? null : (Math.Clamp(sizes, 1e-30, 1e29), 2 * Math.Clamp(sizes, 1e-30, 1e29)),
             Player = (given & 64) == 0 || sizes > 1e307 ? null : new(gravity, sizes, 3 * sizes)
             {
                 WalkingSpeedOverride = (given & 128) == 0 ? null : going.Item1,
