@@ -34,7 +34,8 @@ internal static class TerminationSignal
 
     private static void OnSignal(PosixSignalContext context)
     {
-        if (Volatile.Read(ref _suspensions) > 0)
+        // What took the signal already may have resumed this since, and now ends the program in its own way.
+        if (context.Cancel || Volatile.Read(ref _suspensions) > 0)
         {
             context.Cancel = true;
             return;
