@@ -17,7 +17,7 @@ internal static class SimulateCommand
 {
     private const double DefaultSeconds = 10;
 
-    /// <summary>Largest number of steps.</summary>
+    /// <summary>Largest number of steps that one run simulates.</summary>
     public const long MaxSteps = 10_000_000;
 
     // Excess of a quotient of two rounded numbers over the whole number that is meant, in steps.

@@ -113,7 +113,7 @@ public static class SimilarityDimension
         }
     }
 
-    /// <summary>The sets of one level.</summary>
+    /// <summary>What one level of a round contributes to the equation of the dimension.</summary>
     /// <param name="Ratios">Different ratios, and how many maps have each.</param>
     /// <param name="IdentityCount">Number of maps that change nothing.</param>
     /// <param name="Count">How often the level occurs in a round.</param>

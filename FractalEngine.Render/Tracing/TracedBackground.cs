@@ -19,7 +19,7 @@ internal readonly struct TracedBackground
         _radiance = display.Invert(TracedMaterial.ToLinear(scene.Background ?? RenderSettings.DefaultBackground));
     }
 
-    /// <summary>Whether it is the sky.</summary>
+    /// <summary>Whether rays that leave the scene see its sky, and not one colour.</summary>
     public bool IsSky => _sky is not null;
 
     /// <summary>Returns a scene with a background of its own, unless it shows the sky.</summary>
