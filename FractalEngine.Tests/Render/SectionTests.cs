@@ -111,7 +111,7 @@ public sealed class SectionTests
             for (var x = 0; x < Width; x += 3)
             {
                 var picked = picker.Pick(scene, view, (x + 0.5, y + 0.5), (Width, Height));
-                Assert.True(picked is null || section.SignedDistance(picked.Hit.Point) < 1e-9);
+                Assert.True(picked is null || section.SignedDistance(picked.Point) < 1e-9);
                 var isDrawn = image[x, y] != (0, 0, 0, 255);
                 different += isDrawn == picked is not null ? 0 : 1;
             }

@@ -1,6 +1,7 @@
 using System.Globalization;
 using FractalEngine.App.Window.Actions;
 using FractalEngine.App.Window.Editing;
+using FractalEngine.App.Window.Selecting;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
@@ -19,6 +20,7 @@ internal sealed class ScenePanel(WindowActions actions)
     private readonly SkyFields _sky = new(actions);
     private readonly CameraFields _camera = new(actions);
     private int _object = -1;
+    private int _objectToSelect = -1;
     private bool _showsObjects = true;
     private string _addedFile = "";
 
@@ -43,6 +45,12 @@ internal sealed class ScenePanel(WindowActions actions)
         }
 
         var scene = document.File.Scene.Scene;
+        if (_objectToSelect >= 0 && _objectToSelect < document.File.Scene.Objects.Length)
+        {
+            Select(document, _objectToSelect);
+            _objectToSelect = -1;
+        }
+
         if (document.Tool.Selected is { } selected && selected.ObjectIndex < scene.Objects.Length)
         {
             _object = selected.ObjectIndex;
@@ -59,6 +67,14 @@ internal sealed class ScenePanel(WindowActions actions)
         }
     }
 
+    /// <summary>Selects an object as a click would, so that the frame has its outline and its handles.</summary>
+    private void Select(Document document, int index)
+    {
+        _object = index;
+        document.Tool.Selected = Selection.OfObject(index, document.Physics.CurrentScene.Objects[index]);
+        actions.RequestDraw();
+    }
+
     private void BuildObjects(UserInterface ui, Document document, Scene scene)
     {
         var count = scene.Objects.Length;
@@ -69,9 +85,7 @@ internal sealed class ScenePanel(WindowActions actions)
             {
                 if (ui.Selectable(scene.Objects[i].DisplayName, i == _object, depth: 1))
                 {
-                    _object = i;
-                    document.Tool.Selected = null;
-                    actions.RequestDraw();
+                    Select(document, i);
                 }
             });
         }
@@ -101,7 +115,7 @@ internal sealed class ScenePanel(WindowActions actions)
         {
             var added = new SceneObject(file, Transformation.Identity);
             actions.ChangeScene(ui, present => present with { Objects = present.Objects.Add(added) });
-            _object = count;
+            _objectToSelect = count;
             _addedFile = "";
         }
     }
@@ -139,8 +153,7 @@ internal sealed class ScenePanel(WindowActions actions)
             var placement = declared.Placement with { Position = declared.Placement.Position + offset };
             actions.ChangeScene(
                 ui, present => present with { Objects = present.Objects.Add(present.Objects[index].MovedTo(placement)) });
-            _object = actions.Document.File.Scene.Scene.Objects.Length;
-            actions.Document.Tool.Selected = null;
+            _objectToSelect = actions.Document.File.Scene.Scene.Objects.Length;
         }
 
         if (ui.Button("Remove"))

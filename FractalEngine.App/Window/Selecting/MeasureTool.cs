@@ -117,12 +117,12 @@ internal sealed class MeasureTool
             }
         }
 
-        if (_first is { } first && mapOf(first.Viewpoint) is { } mapFirst)
+        if (_first is { Hit: { } hit } first && mapOf(first.Viewpoint) is { } mapFirst)
         {
             foreach (var axis in (ReadOnlySpan<Vector>)[Vector.I, Vector.J, Vector.K])
             {
-                var arm = MarkSize * first.Hit.Distance * axis;
-                lines.Add(new(mapFirst(first.Hit.Point - arm), mapFirst(first.Hit.Point + arm), Dimension.LineColour));
+                var arm = MarkSize * hit.Distance * axis;
+                lines.Add(new(mapFirst(first.Point - arm), mapFirst(first.Point + arm), Dimension.LineColour));
             }
         }
     }
@@ -140,7 +140,7 @@ internal sealed class MeasureTool
             return "the points are too different in depth to be measured";
         }
 
-        var dimension = new Dimension(Kind, first, clicked, map * first.Hit.Point, clicked.Hit.Point, "two points", now);
+        var dimension = new Dimension(Kind, first, clicked, map * first.Point, clicked.Point, "two points", now);
         Dimensions = Dimensions.Add(dimension);
         return $"{dimension.What}: {dimension.LengthText}";
     }
@@ -160,10 +160,10 @@ internal sealed class MeasureTool
         switch (kind)
         {
             case MeasureKind.Points:
-                return new(kind, first, second, first.Hit.Point, second.Hit.Point, "two points");
+                return new(kind, first, second, first.Point, second.Point, "two points");
             case MeasureKind.PointToObject:
                 var alone = new SceneCollider(scene with { Objects = [second.Object] });
-                return new(kind, first, second, first.Hit.Point, alone.FindClosest(first.Hit.Point).Point, $"point to {name}");
+                return new(kind, first, second, first.Point, alone.FindClosest(first.Point).Point, $"point to {name}");
             default:
                 if (!ReferenceEquals(scene, _scene))
                 {

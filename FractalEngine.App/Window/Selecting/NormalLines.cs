@@ -42,7 +42,11 @@ internal sealed class NormalLines
             _lines = [];
             if (selected is not null)
             {
-                AddMesh(selected.Object.Model.Mesh, selected.Hit.InstanceMap);
+                var placed = selected.Object;
+                if ((selected.Hit?.InstanceMap ?? (placed.Model is MeshModel ? placed.ObjectToWorld : null)) is { } map)
+                {
+                    AddMesh(placed.Model.Mesh, map);
+                }
             }
             else
             {

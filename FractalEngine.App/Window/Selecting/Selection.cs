@@ -10,18 +10,20 @@ using FractalEngine.Render;
 
 namespace FractalEngine.App.Window.Selecting;
 
-/// <summary>What the user has clicked: a face of an object, and the part of the object that is selected.</summary>
+/// <summary>What the user has clicked, a face of an object with the part of it that is selected, or an object chosen from a list.</summary>
 /// <param name="ObjectIndex">Index of the object in the scene, from 0. Balls that were dropped come after the scene's objects.</param>
 /// <param name="Object">The object with its model.</param>
 /// <param name="Path">Index of the transformation at each level of a fractal, the outermost first; empty for a mesh.</param>
 /// <param name="Depth">Number of levels of the path that are selected: 0 for the whole object.</param>
-/// <param name="Hit">The point that was clicked, in the frame that <paramref name="Viewpoint"/> tells.</param>
+/// <param name="Hit">
+/// The point that was clicked, in the frame that <paramref name="Viewpoint"/> tells; null for an object chosen from a list.
+/// </param>
 /// <param name="Viewpoint">
 /// Null where the hit is in world space. Else the address of the camera at the click, about which the hit is given in the unit of the
 /// address, since the camera was too deep in a fractal for world space. It belongs to the sub-fractal that the ray met.
 /// </param>
 internal sealed record Selection(
-    int ObjectIndex, PlacedModel Object, ImmutableArray<int> Path, int Depth, RayHit Hit, FractalAddress? Viewpoint = null)
+    int ObjectIndex, PlacedModel Object, ImmutableArray<int> Path, int Depth, RayHit? Hit, FractalAddress? Viewpoint = null)
 {
     /// <summary>Number of lines of <see cref="AddBox"/>.</summary>
     public const int LinesPerBox = 12;
@@ -39,29 +41,16 @@ internal sealed record Selection(
     /// </summary>
     public (BoundingBox Box, AffineMap Map) Outline { get; private init; } = ComputeOutline(Object, Path, Depth, Hit, Viewpoint);
 
+    /// <summary>The clicked point, in the frame of the hit; the middle of an object chosen from a list.</summary>
+    public Vector Point => Hit?.Point ?? Object.Bounds.Centre;
+
     /// <summary>The clicked point in world space, as far as a double can tell it.</summary>
-    public Vector WorldPoint => Viewpoint is null ? Hit.Point
-        : Viewpoint.WorldPosition(Object.ObjectToWorld) + (Math.Exp(Viewpoint.LogUnit) * Hit.Point);
+    public Vector WorldPoint => Viewpoint is null ? Point
+        : Viewpoint.WorldPosition(Object.ObjectToWorld) + (Math.Exp(Viewpoint.LogUnit) * Point);
 
-    /// <summary>Name of the clicked face's material; null where it has none.</summary>
-    public string? Material
-    {
-        get
-        {
-            var group = Object.Model.Mesh.Groups.LastOrDefault(group => group.FirstFace <= Hit.FaceIndex);
-            return group is { Material.Length: > 0 } ? group.Material : null;
-        }
-    }
 
-    /// <summary>Corners of the clicked face, in the frame of the hit.</summary>
-    public (Vector A, Vector B, Vector C) Face
-    {
-        get
-        {
-            var (a, b, c) = Object.Model.Mesh.Face(Hit.FaceIndex);
-            return (Hit.InstanceMap * a, Hit.InstanceMap * b, Hit.InstanceMap * c);
-        }
-    }
+    /// <summary>Selects a whole object of the scene.</summary>
+    public static Selection OfObject(int index, PlacedModel placed) => new(index, placed, [], 0, null);
 
     /// <summary>Selects the sub-fractal that the selected part belongs to; the same selection where that is a whole object.</summary>
     public Selection Up() =>
@@ -84,31 +73,36 @@ internal sealed record Selection(
             return null;
         }
 
+        if (Hit is not { } hit)
+        {
+            return OfObject(ObjectIndex, placed);
+        }
+
         var mesh = placed.Model.Mesh;
         if (!isSameModel && (placed.Model.SourcePath != Object.Model.SourcePath || mesh.FaceCount != Object.Model.Mesh.FaceCount))
         {
             return null;
         }
 
-        if (MapOfInstance(placed) is not { } map)
+        if (MapOfInstance(placed, hit) is not { } map)
         {
             return null;
         }
 
-        var (a, b, c) = mesh.Face(Hit.FaceIndex);
-        var (x, y, z) = Hit.Barycentrics;
+        var (a, b, c) = mesh.Face(hit.FaceIndex);
+        var (x, y, z) = hit.Barycentrics;
         var normal = Vector.Cross(map.Linear * (b - a), map.Linear * (c - a));
-        var hit = Hit with
+        hit = hit with
         {
             InstanceMap = map,
             Point = map * ((x * a) + (y * b) + (z * c)),
-            Normal = normal.Length() > 0 ? normal.UnitVector() : Hit.Normal,
+            Normal = normal.Length() > 0 ? normal.UnitVector() : hit.Normal,
         };
         return this with { Object = placed, Hit = hit, Outline = ComputeOutline(placed, Path, Depth, hit, null) };
     }
 
     /// <summary>Returns the map of the instance at the path from the frame of its mesh to world space; null where there is none.</summary>
-    private AffineMap? MapOfInstance(PlacedModel placed)
+    private AffineMap? MapOfInstance(PlacedModel placed, in RayHit hit)
     {
         if (placed.Model is not FractalModel { Fractal: var fractal })
         {
@@ -118,7 +112,7 @@ internal sealed record Selection(
         if (fractal.Description.Composition != Composition.Affine)
         {
             return ReferenceEquals(placed.Model, Object.Model)
-                ? placed.ObjectToWorld * Object.ObjectToWorld.Inverse() * Hit.InstanceMap : null;
+                ? placed.ObjectToWorld * Object.ObjectToWorld.Inverse() * hit.InstanceMap : null;
         }
 
         // An infinite fractal is hit at any of its levels.
@@ -146,12 +140,18 @@ internal sealed record Selection(
     public void AddLines(List<LineSegment> lines)
     {
         AddBox(lines, Outline.Box, Outline.Map, OutlineColour);
-        var (a, b, c) = Face;
+        if (Hit is not { } hit)
+        {
+            return;
+        }
+
+        var face = Object.Model.Mesh.Face(hit.FaceIndex);
+        var (a, b, c) = (hit.InstanceMap * face.A, hit.InstanceMap * face.B, hit.InstanceMap * face.C);
         lines.Add(new(a, b, FaceColour));
         lines.Add(new(b, c, FaceColour));
         lines.Add(new(c, a, FaceColour));
         var size = Math.Max((b - a).Length(), (c - a).Length());
-        lines.Add(new(Hit.Point, Hit.Point + (0.5 * size * Hit.Normal), NormalColour));
+        lines.Add(new(hit.Point, hit.Point + (0.5 * size * hit.Normal), NormalColour));
     }
 
     /// <summary>Adds the edges of a box; none where it is empty or infinite.</summary>
@@ -185,11 +185,7 @@ internal sealed record Selection(
         ("selected", Depth == 0 ? "the whole object"
             : string.Create(CultureInfo.InvariantCulture, $"{(Depth == Path.Length ? "instance" : "sub-fractal")} at level {Depth}")),
         .. Path.IsEmpty ? [] : ((string, string)[])[("instance", PathText(MaxShownLevels))],
-        ("face", Hit.FaceIndex.ToString(CultureInfo.InvariantCulture)),
-        ("point", Format(WorldPoint)),
-        ("normal", Format(Hit.Normal)),
-        ("material", Material ?? "none"),
-        ("distance", ScaledNumber.Format(Hit.Distance, Viewpoint?.LogUnit ?? 0, 9)),
+        .. Hit is { } hit ? FactsOf(hit) : FactsOf(Object.Bounds),
     ];
 
     /// <summary>All facts as lines of text, with all digits.</summary>
@@ -204,6 +200,23 @@ internal sealed record Selection(
         return text.ToString();
     }
 
+    private (string Name, string Value)[] FactsOf(in RayHit hit)
+    {
+        var face = hit.FaceIndex;
+        var material = Object.Model.Mesh.Groups.LastOrDefault(group => group.FirstFace <= face)?.Material;
+        return
+        [
+            ("face", face.ToString(CultureInfo.InvariantCulture)),
+            ("point", Format(WorldPoint)),
+            ("normal", Format(hit.Normal)),
+            ("material", string.IsNullOrEmpty(material) ? "none" : material),
+            ("distance", ScaledNumber.Format(hit.Distance, Viewpoint?.LogUnit ?? 0, 9)),
+        ];
+    }
+
+    private static (string Name, string Value)[] FactsOf(BoundingBox bounds) =>
+        bounds.IsEmpty ? [("size", "empty")] : [("middle", Format(bounds.Centre)), ("size", Format(bounds.Size))];
+
     private string PathText(int maxLevels) =>
         (Path.Length > maxLevels ? "…" : "") + string.Join('.', Path.Skip(Path.Length - maxLevels));
 
@@ -216,11 +229,11 @@ internal sealed record Selection(
         (index & 4) == 0 ? box.Minimum.Z : box.Maximum.Z);
 
     private static (BoundingBox Box, AffineMap Map) ComputeOutline(
-        PlacedModel placed, ImmutableArray<int> path, int depth, in RayHit hit, FractalAddress? viewpoint)
+        PlacedModel placed, ImmutableArray<int> path, int depth, RayHit? hit, FractalAddress? viewpoint)
     {
-        if (depth > 0 && depth == path.Length)
+        if (depth > 0 && depth == path.Length && hit is { } clicked)
         {
-            return (placed.Model.Mesh.Bounds, hit.InstanceMap);
+            return (placed.Model.Mesh.Bounds, clicked.InstanceMap);
         }
 
         // In componentwise composition a sub-fractal has no map of its own.

@@ -154,7 +154,7 @@ internal sealed class SelectionTool(Document document)
             return exception.Message;
         }
 
-        if (document.FlyingCamera.ToCameraFrame(Selected!.Hit.Point, Selected.Viewpoint) is { } point)
+        if (document.FlyingCamera.ToCameraFrame(Selected!.Point, Selected.Viewpoint) is { } point)
         {
             document.MoveCamera((camera, _) => camera.FocusOn(point), 1);
         }

@@ -1,4 +1,5 @@
 using FractalEngine.App.Window.Actions;
+using FractalEngine.Core.Images;
 using FractalEngine.Render.Windowing;
 using FractalEngine.Tests.Support;
 
@@ -107,6 +108,25 @@ public sealed class PanelWindowTests : IDisposable
         Assert.Equal(
             "# kept\nc (2, 1.5, -6) (0.2, 0.3, 0) 60\n# between\no \"cube.obj\" ((3, 0, 0), #, #) name \"right\"\n",
             File.ReadAllText(_folder["scene.sdo"]));
+        Assert.Equal(0, window.CloseWith("key Escape"));
+    }
+
+    [SkippableFact]
+    public void ScenePanel_ChosenObject_IsSelectedWithOutline()
+    {
+        using var window = Open("scene.sdo");
+        var before = window.Screenshot();
+        window.Send("key F2");
+        window.ClickText("left");
+        Polling.WaitUntil(() => CountOutlinePixels(window.ScreenshotWithPanels()) > 20, "outline of the chosen object");
+        // The first Escape only takes the focus from the list.
+        window.Send("key Escape key F6");
+        window.FindText("the whole object");
+        window.FindText("size");
+        window.Send("key Escape");
+        window.FindText("Click a surface");
+        Assert.Equal(0, CountOutlinePixels(window.ScreenshotWithPanels()));
+        Assert.Equal(0, DrivenWindow.DifferingFraction(before, window.Screenshot()));
         Assert.Equal(0, window.CloseWith("key Escape"));
     }
 
@@ -250,6 +270,21 @@ public sealed class PanelWindowTests : IDisposable
         };
         return (chord.Modifiers.HasFlag(KeyModifiers.Control) ? "ctrl+" : "")
             + (chord.Modifiers.HasFlag(KeyModifiers.Shift) ? "shift+" : "") + key;
+    }
+
+    private static int CountOutlinePixels(PixelImage image)
+    {
+        var count = 0;
+        for (var y = 0; y < image.Height; y++)
+        {
+            for (var x = 0; x < image.Width; x++)
+            {
+                var (red, green, blue, _) = image[x, y];
+                count += Math.Abs(red - 255) + Math.Abs(green - 184) + Math.Abs(blue - 51) < 60 ? 1 : 0;
+            }
+        }
+
+        return count;
     }
 
     private DrivenWindow Open(string file)

@@ -38,7 +38,7 @@ public class DeepPickerTests
                 // The levels of the camera, and those down to what doubles can tell from there.
                 Assert.True(selection.Path.Length > dive.Camera.Depth - 5, $"only {selection.Path.Length} levels");
                 Assert.All(selection.Path, static index => Assert.InRange(index, 0, 19));
-                var (px, py, _) = dive.View.Project(selection.Hit.Point, Size.Width, Size.Height)!.Value;
+                var (px, py, _) = dive.View.Project(selection.Point, Size.Width, Size.Height)!.Value;
                 Near.Equal(new Vector(x, y, 0), new Vector(px, py, 0), 1e-6);
                 CheckPartsAround(selection);
             }
@@ -72,7 +72,7 @@ public class DeepPickerTests
         Assert.NotNull(selection.Viewpoint);
         dive.Camera.Reset();
         Assert.Equal(0, dive.Camera.Depth);
-        var drawn = dive.Camera.MapToDrawnFrame(selection.Viewpoint, isDeep: false)!(selection.Hit.Point);
+        var drawn = dive.Camera.MapToDrawnFrame(selection.Viewpoint, isDeep: false)!(selection.Point);
         Near.Equal(selection.WorldPoint, drawn, 1e-12);
         Assert.InRange((selection.WorldPoint - Corner).Length(), 0, 1e-3);
     }
@@ -147,8 +147,8 @@ public class DeepPickerTests
             {
                 var bounds = box.Transform(map);
                 // The smallest parts that a ray finds are as small as the rounding of its hit.
-                var tolerance = 1e-9 * bounds.Diagonal + (1e-12 * selection.Hit.Distance);
-                Assert.InRange(Math.Sqrt(bounds.DistanceSquared(selection.Hit.Point)), 0, tolerance);
+                var tolerance = 1e-9 * bounds.Diagonal + (1e-12 * selection.Hit!.Value.Distance);
+                Assert.InRange(Math.Sqrt(bounds.DistanceSquared(selection.Point)), 0, tolerance);
                 var outer = bounds.Diagonal;
                 Assert.True(outer > size, $"level {depth}");
                 size = outer;
@@ -194,6 +194,6 @@ public class DeepPickerTests
         public Selection? Pick((double X, double Y) pixel) => _picker.PickDeep(Scene, View, Camera.Address!, pixel, Size);
 
         /// <summary>The selected point about the present camera.</summary>
-        public Vector Point(Selection selection) => Camera.ToCameraFrame(selection.Hit.Point, selection.Viewpoint)!.Value;
+        public Vector Point(Selection selection) => Camera.ToCameraFrame(selection.Point, selection.Viewpoint)!.Value;
     }
 }

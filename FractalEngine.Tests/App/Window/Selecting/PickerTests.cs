@@ -46,7 +46,7 @@ public class PickerTests
 
                 count++;
                 Assert.Equal(3, selection.Path.Length);
-                var (px, py, _) = view.Project(selection.Hit.Point, Size.Width, Size.Height)!.Value;
+                var (px, py, _) = view.Project(selection.Point, Size.Width, Size.Height)!.Value;
                 Near.Equal(new Vector(x, y, 0), new Vector(px, py, 0), 1e-6);
                 // Each part around holds the point, and the parts grow.
                 var volume = 0.0;
@@ -54,7 +54,7 @@ public class PickerTests
                 {
                     Assert.Equal(depth, selection.Depth);
                     var (box, map) = selection.Outline;
-                    var local = map.Inverse() * selection.Hit.Point;
+                    var local = map.Inverse() * selection.Point;
                     var outside = (local - box.Centre).Absolute() - (0.5 * box.Size);
                     Assert.True(Math.Max(outside.X, Math.Max(outside.Y, outside.Z)) < 1e-9, $"level {depth}: {local} is not in {box}");
                     var size = Math.Abs(map.Linear.Determinant()) * box.Size.X * box.Size.Y * box.Size.Z;
