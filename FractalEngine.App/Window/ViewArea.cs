@@ -19,11 +19,12 @@ internal sealed class ViewArea(RenderWindow window)
     /// <returns>True when the view must be drawn anew.</returns>
     public bool Update(UserInterface ui)
     {
-        var width = Math.Max(1, ui.Width);
-        var shift = ((ui.ViewArea.X + (0.5 * ui.ViewArea.Width)) / width) - 0.5;
+        // A scene that is loaded at once may be drawn before the panels are built for the first time.
+        var area = ui.ViewArea;
+        var shift = area.Width > 0 ? ((area.X + (0.5 * area.Width)) / ui.Width) - 0.5 : 0;
         var hasChanged = shift != HorizontalShift;
         HorizontalShift = shift;
-        _widthFraction = ui.ViewArea.Width > 0 ? (double)ui.ViewArea.Width / width : 1;
+        _widthFraction = area.Width > 0 ? (double)area.Width / ui.Width : 1;
         return hasChanged;
     }
 }
