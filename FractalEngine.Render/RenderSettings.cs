@@ -1,3 +1,4 @@
+using System.Numerics;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Visibility;
@@ -14,24 +15,39 @@ public sealed record RenderSettings
     /// Maximum number of instances of one fractal without <see cref="Culling"/>. Deeper fractals are drawn at a smaller depth, with a
     /// notice.
     /// </summary>
-    public int InstanceBudget { get; init; } = FractalLimits.MaxDrawnInstances;
+    /// <exception cref="ArgumentOutOfRangeException">The number is negative.</exception>
+    public int InstanceBudget
+    {
+        get;
+        init => field = RequireNotNegative(value, nameof(InstanceBudget));
+    } = FractalLimits.MaxDrawnInstances;
 
     /// <summary>
     /// Maximum number of triangles of one fractal without <see cref="Culling"/>. It limits the instances of large meshes further.
     /// </summary>
-    public long TriangleBudget { get; init; } = 200_000_000;
+    /// <exception cref="ArgumentOutOfRangeException">The number is negative.</exception>
+    public long TriangleBudget
+    {
+        get;
+        init => field = RequireNotNegative(value, nameof(TriangleBudget));
+    } = 200_000_000;
 
     /// <summary>Angle in degrees above which two adjacent faces get separate normals, where normals are generated.</summary>
-    public double CreaseAngle { get; init; } = NormalGenerator.DefaultCreaseAngle;
+    /// <exception cref="ArgumentOutOfRangeException">The angle is not from 0 to 180.</exception>
+    public double CreaseAngle
+    {
+        get;
+        init => field = value is >= 0 and <= 180
+            ? value
+            : throw new ArgumentOutOfRangeException(nameof(CreaseAngle), value, "expected an angle from 0 to 180 degrees");
+    } = NormalGenerator.DefaultCreaseAngle;
 
     /// <summary>Number of samples a pixel; 0 switches multisampling off. A driver that offers fewer uses its maximum.</summary>
     /// <exception cref="ArgumentOutOfRangeException">The number is negative.</exception>
     public int Samples
     {
         get;
-        init => field = value >= 0
-            ? value
-            : throw new ArgumentOutOfRangeException(nameof(Samples), value, "expected no negative number of samples");
+        init => field = RequireNotNegative(value, nameof(Samples));
     } = 4;
 
     /// <summary>Culls the back faces of closed meshes, where only front faces can be seen.</summary>
@@ -98,4 +114,8 @@ public sealed record RenderSettings
 
     /// <summary>A dark blue grey, against which both light and saturated surfaces stand out.</summary>
     public static Colour DefaultBackground => new(0.118, 0.133, 0.161);
+
+    private static T RequireNotNegative<T>(T value, string name)
+        where T : INumber<T> =>
+        value >= T.Zero ? value : throw new ArgumentOutOfRangeException(name, value, "expected a number that is not negative");
 }

@@ -132,7 +132,11 @@ public sealed class InvalidArgumentTests
         });
         Assert.All(((double, double)[])[(2, 1), (0, 1), (double.NaN, 1), (1, double.PositiveInfinity)],
             planes => Assert.Throws<ArgumentException>(() => view with { FixedClipPlanes = planes }));
-        Assert.Throws<ArgumentOutOfRangeException>(() => new RenderSettings { Samples = -1 });
+        Assert.Throws<ArgumentOutOfRangeException>("Samples", () => new RenderSettings { Samples = -1 });
+        Assert.Throws<ArgumentOutOfRangeException>("InstanceBudget", () => new RenderSettings { InstanceBudget = -1 });
+        Assert.Throws<ArgumentOutOfRangeException>("TriangleBudget", () => new RenderSettings { TriangleBudget = -1 });
+        Assert.All((double[])[-1, 181, double.NaN],
+            angle => Assert.Throws<ArgumentOutOfRangeException>("CreaseAngle", () => new RenderSettings { CreaseAngle = angle }));
     }
 
     [Fact]

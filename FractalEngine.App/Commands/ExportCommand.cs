@@ -54,13 +54,13 @@ internal static class ExportCommand
         {
             if (materials is null)
             {
-                OutputFile.Write(output, stream => faceCount = ObjWriter.Write(file.Scene, stream, FractalLimits.MaxExportedFaces));
+                OutputFile.Write(output, stream => faceCount = ObjSceneWriter.Write(file.Scene, stream, FractalLimits.MaxExportedFaces));
             }
             else
             {
                 OutputFile.WritePair(
                     materials.Path, materials.Write,
-                    output, stream => faceCount = ObjWriter.Write(
+                    output, stream => faceCount = ObjSceneWriter.Write(
                         file.Scene, stream, FractalLimits.MaxExportedFaces, materials.Materials, materials.Name));
             }
         });

@@ -135,10 +135,10 @@ internal static class QueryCommand
 
         for (var i = 0; i < results.Length; i++)
         {
-            var (isFound, closest, faceTests, _) = results[i];
+            var (isFound, closest, faceTests, _, objectIndex) = results[i];
             if (format.Json)
             {
-                text.Append(i > 0 ? ",\n" : "").Append(isFound ? FormatJson(closest, faceTests, format.ErrorBound) : "null");
+                text.Append(i > 0 ? ",\n" : "").Append(isFound ? FormatJson(closest, faceTests, objectIndex, format.ErrorBound) : "null");
             }
             else
             {
@@ -149,7 +149,7 @@ internal static class QueryCommand
         return text.Append(format.Json ? "]\n" : "");
     }
 
-    private static string FormatJson(ClosestPoint closest, long faceTests, bool hasErrorBound)
+    private static string FormatJson(ClosestPoint closest, long faceTests, int objectIndex, bool hasErrorBound)
     {
         var errorBound = hasErrorBound ? string.Create(CultureInfo.InvariantCulture, $", \"errorBound\": {closest.ErrorBound:R}") : "";
         var point = FormatVector(closest.Point, ", ");
@@ -157,7 +157,7 @@ internal static class QueryCommand
         return string.Create(
             CultureInfo.InvariantCulture,
             $"{{\"distance\": {closest.Distance:R}, \"point\": [{point}], \"normal\": [{normal}], "
-            + $"\"faceTests\": {faceTests}{errorBound}}}");
+            + $"\"face\": {closest.FaceIndex}, \"object\": {objectIndex}, \"faceTests\": {faceTests}{errorBound}}}");
     }
 
     private static string FormatLine(ClosestPoint closest, long faceTests, bool hasErrorBound)

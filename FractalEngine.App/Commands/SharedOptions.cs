@@ -3,7 +3,6 @@ using System.Globalization;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Assets;
-using FractalEngine.Parsing.Scenes;
 
 namespace FractalEngine.App.Commands;
 
@@ -94,7 +93,7 @@ internal sealed class SharedOptions
 
     /// <summary>Creates the option that selects the collider of closest-point queries.</summary>
     public static Option<ColliderKind?> ColliderOption(string description) => WordOption.Single(
-        "--collider", description, [.. Enum.GetValues<ColliderKind>().Select(kind => (SceneParser.GetColliderName(kind), kind))]);
+        "--collider", description, [.. ColliderNames.All.Select(static known => (known.Name, known.Kind))]);
 
     /// <summary>Creates the option that selects the projection of a frame.</summary>
     public static Option<Projection?> ProjectionOption() => WordOption.Single(

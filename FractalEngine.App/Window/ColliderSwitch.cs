@@ -2,7 +2,6 @@ using System.Numerics;
 using FractalEngine.Core;
 using FractalEngine.Core.Physics;
 using FractalEngine.Core.Scenes;
-using FractalEngine.Parsing.Scenes;
 
 namespace FractalEngine.App.Window;
 
@@ -20,7 +19,7 @@ internal static class ColliderSwitch
         var nextIndex = world.ColliderOverride is { } current ? (int)current + 1 : 0;
         foreach (var kind in kinds.Skip(nextIndex))
         {
-            var name = SceneParser.GetColliderName(kind);
+            var name = ColliderNames.Of(kind);
             if (TrySwitchTo(world, scene, kind, out var reason))
             {
                 return $"collider: {name}";

@@ -5,7 +5,6 @@ using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
 using FractalEngine.Core.Physics.Character;
 using FractalEngine.Core.Scenes;
-using FractalEngine.Parsing.Scenes;
 using FractalEngine.Render;
 
 namespace FractalEngine.App.Window;
@@ -106,7 +105,7 @@ internal sealed partial class ScenePhysics : IDisposable
             }
 
             var awakeCount = world.Bodies.Count(static body => !body.IsAsleep);
-            var collider = world.ColliderOverride is { } kind ? SceneParser.GetColliderName(kind) : "each body's own";
+            var collider = world.ColliderOverride is { } kind ? ColliderNames.Of(kind) : "each body's own";
             var (faceTests, boundTests) = world.LastStepCost;
             var paused = IsPaused ? " · paused" : "";
             var bodies = FormattableString.Invariant(

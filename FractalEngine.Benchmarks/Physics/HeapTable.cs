@@ -144,7 +144,7 @@ internal sealed class HeapTable(int rounds, TextWriter output, CsvTable? table)
         var energy = 0.0;
         foreach (var body in world.Bodies)
         {
-            var inertia = body.Description.Inertia * body.Radius * body.Radius;
+            var inertia = body.Description.InertiaFactor * body.Radius * body.Radius;
             var motion = 0.5 * (body.Velocity.LengthSquared() + (inertia * body.AngularVelocity.LengthSquared()));
             energy += body.Description.Mass * (motion + (Gravity * (body.Position.Y - body.Radius)));
         }

@@ -1,6 +1,5 @@
 using FractalEngine.Benchmarks.Measuring;
 using FractalEngine.Core.Scenes;
-using FractalEngine.Parsing.Scenes;
 
 namespace FractalEngine.Benchmarks.Physics;
 
@@ -39,7 +38,7 @@ internal static class PhysicsCommand
         }
 
         var nameList = string.Concat(names.Select(name => " " + name));
-        var colliderName = SceneParser.GetColliderName(collider);
+        var colliderName = ColliderNames.Of(collider);
         var command = FormattableString.Invariant($"physics{nameList} --balls {bodyCount} --collider {colliderName} --rounds {rounds}");
         var csv = folder is null ? null : new CsvTable(Path.Combine(folder, "physics.csv"), command, PhysicsTable.Columns);
         var table = new PhysicsTable(rounds, Console.Out, csv);
@@ -88,7 +87,7 @@ internal static class PhysicsCommand
 
     private static bool TryParse(string text, out ColliderKind collider)
     {
-        collider = Enum.GetValues<ColliderKind>().FirstOrDefault(kind => SceneParser.GetColliderName(kind) == text);
-        return SceneParser.GetColliderName(collider) == text;
+        collider = Enum.GetValues<ColliderKind>().FirstOrDefault(kind => ColliderNames.Of(kind) == text);
+        return ColliderNames.Of(collider) == text;
     }
 }

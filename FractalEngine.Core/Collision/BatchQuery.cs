@@ -56,8 +56,12 @@ public static class BatchQuery
         ArgumentNullException.ThrowIfNull(context);
         FindClosest(Find, positions, results, context, maxDistance, epsilon, threads);
 
-        bool Find(Vector position, QueryContext threadContext, out ClosestPoint closest) =>
-            collider.TryFindClosest(position, maxDistance, threadContext, out closest, epsilon);
+        bool Find(Vector position, QueryContext threadContext, out ClosestPoint closest, out int objectIndex)
+        {
+            var isFound = collider.TryFindClosest(position, maxDistance, threadContext, out closest, epsilon);
+            objectIndex = isFound ? 0 : -1;
+            return isFound;
+        }
     }
 
     /// <summary>Finds the point of a scene closest to each position, and adds up what that costs.</summary>
@@ -85,11 +89,11 @@ public static class BatchQuery
         ArgumentNullException.ThrowIfNull(context);
         FindClosest(Find, positions, results, context, maxDistance, epsilon, threads);
 
-        bool Find(Vector position, QueryContext threadContext, out ClosestPoint closest) =>
-            scene.TryFindClosest(position, maxDistance, threadContext, out closest, out _, epsilon: epsilon);
+        bool Find(Vector position, QueryContext threadContext, out ClosestPoint closest, out int objectIndex) =>
+            scene.TryFindClosest(position, maxDistance, threadContext, out closest, out objectIndex, epsilon: epsilon);
     }
 
-    private delegate bool Query(Vector position, QueryContext context, out ClosestPoint closest);
+    private delegate bool Query(Vector position, QueryContext context, out ClosestPoint closest, out int objectIndex);
 
     private static void FindClosest(
         Query query, ReadOnlyMemory<Vector> positions, Memory<BatchResult> results, QueryContext context, double maxDistance,
@@ -126,8 +130,9 @@ public static class BatchQuery
         for (var i = 0; i < positions.Length; i++)
         {
             var (faceTests, boundTests) = (context.Statistics.FaceTests, context.Statistics.BoundTests);
-            var isFound = query(positions[i], context, out var closest);
-            results[i] = new(isFound, closest, context.Statistics.FaceTests - faceTests, context.Statistics.BoundTests - boundTests);
+            var isFound = query(positions[i], context, out var closest, out var objectIndex);
+            results[i] = new(
+                isFound, closest, context.Statistics.FaceTests - faceTests, context.Statistics.BoundTests - boundTests, objectIndex);
         }
     }
 }

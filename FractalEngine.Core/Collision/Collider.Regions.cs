@@ -20,7 +20,7 @@ public abstract partial class Collider
     /// <summary>Finds all faces within a distance of a position.</summary>
     /// <param name="position">In the shape's frame, scene units, finite.</param>
     /// <param name="radius">Scene units, not negative; may be infinite. A face at exactly this distance counts.</param>
-    /// <param name="maximum">Number of faces beyond which the query is refused, not negative.</param>
+    /// <param name="maxFaces">Number of faces beyond which the query is refused, not negative.</param>
     /// <param name="context">Receives the costs; null where they don't matter.</param>
     /// <returns>
     /// The closest point of each face, by ascending distance; of equal distances by instance path, then by face. Chains of transformations
@@ -29,18 +29,18 @@ public abstract partial class Collider
     /// </returns>
     /// <exception cref="ArgumentOutOfRangeException">The position is not finite, or a limit is negative or NaN.</exception>
     /// <exception cref="FractalLimitException">
-    /// There are more faces than <paramref name="maximum"/>, or finding out takes more than about a million bounds.
+    /// There are more faces than <paramref name="maxFaces"/>, or finding out takes more than about a million bounds.
     /// </exception>
     /// <exception cref="NotSupportedException">The collider is not exact.</exception>
-    public ImmutableArray<ClosestHit> FindAllWithin(Vector position, double radius, int maximum, QueryContext? context = null)
+    public ImmutableArray<ClosestHit> FindAllWithin(Vector position, double radius, int maxFaces, QueryContext? context = null)
     {
         ThrowIfInvalid(position, radius, 0);
-        ArgumentOutOfRangeException.ThrowIfNegative(maximum);
+        ArgumentOutOfRangeException.ThrowIfNegative(maxFaces);
         context ??= new();
         var tree = ShapeTree;
         var scale = PowerOfTwoScale(tree, position.MaxAbsComponent());
         var hits = new List<BallHit>();
-        var policy = new BallPolicy(scale * position, scale * radius, MaxBoundTests, hits, maximum);
+        var policy = new BallPolicy(scale * position, scale * radius, MaxBoundTests, hits, maxFaces);
         var end = ShapeTraversal.Run(tree, Scaling(scale), ref policy, context);
         if (end == TraversalEnd.Completed)
         {
@@ -49,7 +49,7 @@ public abstract partial class Collider
 
         var distance = radius.ToString("R", CultureInfo.InvariantCulture);
         throw new FractalLimitException(end == TraversalEnd.Found
-            ? $"at least {hits.Count} faces lie within {distance}: expected at most {maximum}"
+            ? $"at least {hits.Count} faces lie within {distance}: expected at most {maxFaces}"
             : $"more than {MaxBoundTests} bounds are needed to find the faces within {distance}: at least {hits.Count} lie there");
     }
 

@@ -1,4 +1,5 @@
 using System.Diagnostics.CodeAnalysis;
+using System.Runtime.CompilerServices;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
@@ -150,27 +151,34 @@ public abstract partial class Collider
     public const double MaxCoordinate = 1e150;
 
     /// <summary>Throws when a query's arguments are not allowed.</summary>
-    internal static void ThrowIfInvalid(Vector position, double maxDistance, double epsilon)
+    /// <remarks>The last two parameters are the names of the caller's arguments, which the exception states.</remarks>
+    internal static void ThrowIfInvalid(
+        Vector position,
+        double maxDistance,
+        double epsilon,
+        [CallerArgumentExpression(nameof(position))] string? positionName = null,
+        [CallerArgumentExpression(nameof(maxDistance))] string? maxDistanceName = null)
     {
         if (!position.IsFinite())
         {
-            throw new ArgumentOutOfRangeException(nameof(position), position, "expected finite coordinates");
+            throw new ArgumentOutOfRangeException(positionName, position, "expected finite coordinates");
         }
 
-        ThrowIfInvalid(maxDistance, epsilon);
+        ThrowIfInvalid(maxDistance, epsilon, maxDistanceName);
     }
 
     /// <summary>Throws when the radius or ε of a query is not allowed.</summary>
-    internal static void ThrowIfInvalid(double maxDistance, double epsilon)
+    internal static void ThrowIfInvalid(
+        double maxDistance, double epsilon, [CallerArgumentExpression(nameof(maxDistance))] string? maxDistanceName = null)
     {
         if (!(maxDistance >= 0))
         {
-            throw new ArgumentOutOfRangeException(nameof(maxDistance), maxDistance, "expected no negative number");
+            throw new ArgumentOutOfRangeException(maxDistanceName, maxDistance, "expected a number that is not negative");
         }
 
         if (!(epsilon >= 0))
         {
-            throw new ArgumentOutOfRangeException(nameof(epsilon), epsilon, "expected no negative number");
+            throw new ArgumentOutOfRangeException(nameof(epsilon), epsilon, "expected a number that is not negative");
         }
     }
 

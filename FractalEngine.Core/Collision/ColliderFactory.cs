@@ -92,7 +92,7 @@ public static class ColliderFactory
 
     internal static Collider Create(Mesh mesh, ColliderKind kind) => kind switch
     {
-        ColliderKind.Exact or ColliderKind.Hierarchy => new HierarchyCollider(mesh),
+        ColliderKind.Exact or ColliderKind.Hierarchy => new HierarchyCollider(mesh, TriangleBvh.For(mesh)),
         ColliderKind.BoundingBox => new BoundingBoxCollider(mesh),
         ColliderKind.Simple => new SimpleCollider(mesh),
         not ColliderKind.Fractal => throw new ArgumentOutOfRangeException(

@@ -10,7 +10,7 @@ namespace FractalEngine.Core.Collision;
 /// <remarks>
 /// The plane is used only where all three barycentric weights are finite and not negative. The edges are tested in every case, and the
 /// closest point wins. So needles, slivers and triangles without area (a segment, a point) need no special case, and no branch can lead
-/// to NaN. Coordinates from 1e-30 to 1e30 keep all products within a double.
+/// to NaN. Up to six coordinates are multiplied: from 1e-50 to 1e50, all products stay within a double.
 /// <para>
 /// Differs from §4.4.2: the paper's printed formula names one edge; its text means all three, and one alone is wrong in 45 % of
 /// random cases.

@@ -35,7 +35,7 @@ public static class FractalGenerator
             : [.. instances.Span];
     }
 
-    /// <summary>As <see cref="Expand"/>, of a fractal in affine composition, without a copy of the result.</summary>
+    /// <summary>Expands a fractal in affine composition like <see cref="Expand"/>, without a copy of the result.</summary>
     /// <exception cref="FractalLimitException">The fractal has more instances.</exception>
     internal static ReadOnlyMemory<AffineMap> ExpandAffine(Fractal fractal, long maxInstances)
     {

@@ -19,7 +19,7 @@ public sealed class Repetition : FractalStep
 
         if (count < 0)
         {
-            throw new ArgumentOutOfRangeException(nameof(count), "expected no negative number");
+            throw new ArgumentOutOfRangeException(nameof(count), "expected a number that is not negative");
         }
 
         Body = body;

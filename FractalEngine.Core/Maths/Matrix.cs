@@ -101,7 +101,7 @@ public readonly record struct Matrix(Vector V1, Vector V2, Vector V3)
         var rows = (scaled.Cofactors().Transpose() / determinant).Transpose();
         var inverse = new Matrix(rows.V1 / size1, rows.V2 / size2, rows.V3 / size3).Transpose();
         return inverse.IsFinite() ? inverse
-            : throw new SingularMatrixException($"the inverse of the matrix {this} is beyond the range of a double");
+            : throw new SingularMatrixException(this, "is beyond the range of a double");
     }
 
     /// <summary>

@@ -6,20 +6,21 @@ namespace FractalEngine.Core.Maths;
 /// </summary>
 internal static class RoundingErrors
 {
-    /// <summary>Of a norm, a scale or the square of a unit vector, as a part of it: at most 9 operations.</summary>
+    /// <summary>Error of a norm, a scale or the square of a unit vector, as a part of it: at most 9 operations.</summary>
     public const double Norm = 1e-15;
 
     /// <summary>
-    /// Of a point after one map, and of the centre and half the size of a box, as a part of the largest coordinate: at most 18 operations.
+    /// Error of a point after one map, and of the centre and half the size of a box, as a part of the largest coordinate: at most 18
+    /// operations.
     /// </summary>
     public const double MappedPoint = 2e-15;
 
     /// <summary>
-    /// Of a coordinate or a distance along a chain of maps whose parts are rounded, as a part of the largest coordinate met: at most 36
-    /// operations.
+    /// Error of a coordinate or a distance along a chain of maps whose parts are rounded, as a part of the largest coordinate met: at most
+    /// 36 operations.
     /// </summary>
     public const double Coordinate = 4e-15;
 
-    /// <summary>Of a box or a norm after a chain of products, as a part of its size: at most 90 operations.</summary>
+    /// <summary>Error of a box or a norm after a chain of products, as a part of its size: at most 90 operations.</summary>
     public const double Chain = 1e-14;
 }

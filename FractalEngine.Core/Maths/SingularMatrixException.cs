@@ -7,6 +7,10 @@ public sealed class SingularMatrixException : FractalEngineException
     public SingularMatrixException(Matrix matrix)
         : base($"the matrix {matrix} has no inverse: its determinant is {FormatDeterminant(matrix)}") => Matrix = matrix;
 
+    /// <summary>Makes the error of a matrix whose inverse is not one of doubles.</summary>
+    internal SingularMatrixException(Matrix matrix, string fault)
+        : base($"the inverse of the matrix {matrix} {fault}") => Matrix = matrix;
+
     /// <summary>Makes an error with a message.</summary>
     public SingularMatrixException(string message)
         : base(message)
@@ -24,8 +28,8 @@ public sealed class SingularMatrixException : FractalEngineException
     {
     }
 
-    /// <summary>The matrix that has no inverse.</summary>
-    public Matrix Matrix { get; }
+    /// <summary>The matrix that has no inverse; null where the error was made without one.</summary>
+    public Matrix? Matrix { get; }
 
     private static string FormatDeterminant(Matrix matrix) =>
         matrix.Determinant().ToString("R", System.Globalization.CultureInfo.InvariantCulture);

@@ -113,5 +113,5 @@ public sealed partial class Body
     internal bool AreNearSurfacesKnown { get; set; }
 
     /// <summary>True while the body shrinks and has not reached its minimum scale.</summary>
-    internal bool IsShrinking => Description.Shrinkage > 0 && Scale > Description.MinimumScale;
+    internal bool IsShrinking => Description.Shrinkage > 0 && Scale > Description.MinScale;
 }

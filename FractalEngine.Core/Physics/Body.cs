@@ -69,7 +69,7 @@ public sealed partial class Body
             _scale = value;
             Radius = value * Description.Radius;
             _inverseInertia =
-                Description.IsRotationLocked ? 0 : 1 / (Description.Inertia * Description.Mass * Radius * Radius);
+                Description.IsRotationLocked ? 0 : 1 / (Description.InertiaFactor * Description.Mass * Radius * Radius);
         }
     }
 

@@ -45,7 +45,7 @@ public sealed record BodyDescription(Vector Position, double Radius)
     /// <summary>
     /// Moment of inertia over mass · radius²: 0.4 for a solid ball, 2/3 for a shell; positive and at most 2/3. A compound has its own.
     /// </summary>
-    public double Inertia { get; init; } = PhysicsObject.SolidInertia;
+    public double InertiaFactor { get; init; } = PhysicsObject.SolidInertiaFactor;
 
     /// <summary>True for a body that does not turn, so that friction makes it slide instead of roll.</summary>
     public bool IsRotationLocked { get; init; }
@@ -63,7 +63,7 @@ public sealed record BodyDescription(Vector Position, double Radius)
     public double Shrinkage { get; init; }
 
     /// <summary>Fraction of its initial size at which the body stops shrinking, above 0 and at most 1.</summary>
-    public double MinimumScale { get; init; } = PhysicsObject.DefaultMinimumScale;
+    public double MinScale { get; init; } = PhysicsObject.DefaultMinScale;
 
     /// <summary>Collider that finds what the body touches. Only exact ones miss nothing.</summary>
     public ColliderKind Collider { get; init; }
@@ -105,13 +105,13 @@ public sealed record BodyDescription(Vector Position, double Radius)
         Mass = declared.Mass,
         Restitution = declared.Restitution,
         Friction = declared.Friction,
-        Inertia = declared.Inertia,
+        InertiaFactor = declared.InertiaFactor,
         IsRotationLocked = declared.IsRotationLocked,
         RollingFriction = declared.RollingFriction,
         SpinningFriction = declared.SpinningFriction,
         Damping = declared.Damping,
         Shrinkage = declared.Shrinkage,
-        MinimumScale = declared.MinimumScale,
+        MinScale = declared.MinScale,
         Collider = declared.Collider,
         ObjectIndex = index,
         LinearPart = placed.ObjectToWorld.Linear,
@@ -134,11 +134,11 @@ public sealed record BodyDescription(Vector Position, double Radius)
         : !(Mass > 0 && double.IsFinite(Mass)) ? "the mass must be positive"
         : !(Restitution is >= 0 and <= 1) ? "the coefficient of restitution must lie between 0 and 1"
         : !(Friction >= 0 && double.IsFinite(Friction)) ? "the friction must not be negative"
-        : !(Inertia is > 0 and <= PhysicsObject.ShellInertia) ? "the inertia must be positive and at most 2/3"
+        : !(InertiaFactor is > 0 and <= PhysicsObject.ShellInertiaFactor) ? "the inertia must be positive and at most 2/3"
         : !(RollingFriction >= 0 && double.IsFinite(RollingFriction)) ? "the rolling friction must not be negative"
         : !(SpinningFriction >= 0 && double.IsFinite(SpinningFriction)) ? "the spinning friction must not be negative"
         : !(Damping >= 0 && double.IsFinite(Damping)) ? "the damping must not be negative"
         : !(Shrinkage >= 0 && double.IsFinite(Shrinkage)) ? "the shrinkage must not be negative"
-        : !(MinimumScale is > 0 and <= 1) ? "the minimum scale must lie between 0 and 1"
+        : !(MinScale is > 0 and <= 1) ? "the minimum scale must lie between 0 and 1"
         : null;
 }

@@ -113,7 +113,7 @@ public static class PhysicsLimits
             return;
         }
 
-        var smallest = body.Description.Shrinkage > 0 ? body.Description.MinimumScale : 1;
+        var smallest = body.Description.Shrinkage > 0 ? body.Description.MinScale : 1;
         for (var ball = 0; ball < body.BallCount; ball++)
         {
             if (smallest * body.BallRadius(ball) < MinRadiusShare * coordinate)

@@ -93,7 +93,7 @@ internal sealed class RayBounds
     /// <summary>Stretches the base mesh to the box of the sub-fractal, so that it can stand for it.</summary>
     public ref readonly SimdAffineMap ProxyMap => ref _proxyMap;
 
-    /// <summary>The inverse of that.</summary>
+    /// <summary>Maps the box of the sub-fractal to the base mesh: the inverse of <see cref="ProxyMap"/>.</summary>
     public ref readonly SimdAffineMap InverseProxyMap => ref _inverseProxyMap;
 
     /// <summary>True where planes bound the sub-fractal better than its box.</summary>

@@ -198,7 +198,7 @@ public abstract class RayCaster
 
         if (!(maxDistance >= 0))
         {
-            throw new ArgumentOutOfRangeException(nameof(maxDistance), maxDistance, "expected no negative number");
+            throw new ArgumentOutOfRangeException(nameof(maxDistance), maxDistance, "expected a number that is not negative");
         }
 
         // Squares of any double stay within range after the division, and components that vanish beside others become 0.

@@ -54,7 +54,7 @@ internal struct RayFrame
     /// <summary>Factor from distances along the ray of the query to the parameter of this one.</summary>
     public double PerDistance;
 
-    /// <summary>The inverse of that.</summary>
+    /// <summary>Factor from the parameter of this ray to distances along the ray of the query.</summary>
     public double DistancePer;
 
     /// <summary>Upper bound of the factor from lengths in these units to those of the query.</summary>

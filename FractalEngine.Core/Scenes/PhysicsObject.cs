@@ -31,16 +31,16 @@ public sealed record PhysicsObject : SceneObject
     public double Friction { get; init; }
 
     /// <summary>The inertia of a solid ball: 2/5.</summary>
-    public const double SolidInertia = 0.4;
+    public const double SolidInertiaFactor = 0.4;
 
     /// <summary>The inertia of a thin shell, the largest that a ball can have: 2/3.</summary>
-    public const double ShellInertia = 2.0 / 3;
+    public const double ShellInertiaFactor = 2.0 / 3;
 
     /// <summary>What of the object collides.</summary>
     public BodyShape Shape { get; init; }
 
-    /// <summary>Moment of inertia of a ball over mass · radius²: positive, and at most <see cref="ShellInertia"/>.</summary>
-    public double Inertia { get; init; } = SolidInertia;
+    /// <summary>Moment of inertia of a ball over mass · radius²: positive, and at most <see cref="ShellInertiaFactor"/>.</summary>
+    public double InertiaFactor { get; init; } = SolidInertiaFactor;
 
     /// <summary>True for a body that does not turn, so that friction makes it slide instead of roll.</summary>
     public bool IsRotationLocked { get; init; }
@@ -58,10 +58,10 @@ public sealed record PhysicsObject : SceneObject
     public double Shrinkage { get; init; }
 
     /// <summary>Fraction of its first size at which shrinking ends.</summary>
-    public double MinimumScale { get; init; } = DefaultMinimumScale;
+    public double MinScale { get; init; } = DefaultMinScale;
 
     /// <summary>Fraction of the first size at which shrinking ends unless stated otherwise.</summary>
-    public const double DefaultMinimumScale = 0.05;
+    public const double DefaultMinScale = 0.05;
 
     /// <summary>The collider that finds what the body touches.</summary>
     public ColliderKind Collider { get; init; }

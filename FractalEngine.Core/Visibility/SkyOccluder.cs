@@ -68,7 +68,7 @@ internal sealed class SkyOccluder
         return FreeDirections(node, levels, excludedChild, point, directions, ref visitCount);
     }
 
-    /// <summary>The same, and counts the work.</summary>
+    /// <summary>Finds the directions in which rays meet nothing, and counts the work.</summary>
     /// <inheritdoc cref="FreeDirections(LodNode, long, int, Vector, ulong)"/>
     /// <param name="node">A node of the fractal.</param>
     /// <param name="levels">Levels that it has left.</param>

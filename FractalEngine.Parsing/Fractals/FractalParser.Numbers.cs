@@ -1,6 +1,5 @@
 using System.Collections.Immutable;
 using System.Globalization;
-using FractalEngine.Core.Maths;
 using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.Parsing.Fractals;
@@ -75,13 +74,10 @@ public sealed partial class FractalParser
             Call = (_setCount, _callIndex, 0),
         });
 
-        // Each parameter has a value of its own, by which it is recognised in the outputs.
-        var markers = Enumerable.Range(0, function.ParameterCount)
-            .Select(static i => new Vector(i + 2, -i - 3, i + 4)).ToArray();
-        ReadOnlySpan<Vector> outputs = [function.Position(markers), function.Rotation(markers), function.Scale(markers)];
+        ReadOnlySpan<FunctionOutput> outputs = [function.Position, function.Rotation, function.Scale];
         for (var output = 0; output < outputs.Length; output++)
         {
-            if (outputs[output] == markers[index])
+            if (outputs[output].Parameter == index)
             {
                 AddRole(vector, OutputRoles[output]);
             }

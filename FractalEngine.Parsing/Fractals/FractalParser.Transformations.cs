@@ -68,9 +68,9 @@ public sealed partial class FractalParser
     }
 
     private bool ParseOutput(
-        Cursor cursor, List<string> parameters, Vector defaultValue, out Func<Vector[], Vector> output, out Cursor rest)
+        Cursor cursor, List<string> parameters, Vector defaultValue, out FunctionOutput output, out Cursor rest)
     {
-        output = _ => defaultValue;
+        output = new(null, defaultValue);
         rest = cursor;
         if (char.IsAsciiDigit(cursor.Current) && !IsDecimal(cursor))
         {
@@ -79,7 +79,7 @@ public sealed partial class FractalParser
                 return false;
             }
 
-            output = _ => vector;
+            output = new(null, vector);
             ListOutput(number);
             _outputCount++;
             return true;
@@ -88,7 +88,7 @@ public sealed partial class FractalParser
         if (char.IsLetter(cursor.Current) && ParseName(cursor, "a parameter", out var name, out var afterName)
             && parameters.IndexOf(name) is >= 0 and var index)
         {
-            output = arguments => arguments[index];
+            output = new(index, default);
             _outputCount++;
             rest = afterName;
             return true;

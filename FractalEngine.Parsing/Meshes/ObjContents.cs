@@ -11,15 +11,9 @@ internal sealed class ObjContents
     private readonly List<SourcePosition> _libraryPositions = [];
     private readonly HashSet<string> _knownLibraries = [];
     private readonly Dictionary<string, SourcePosition> _materialPositions = [];
-    private int _unknownLineCount;
-    private SourcePosition? _firstUnknownLine;
-    private string _firstUnknownKeyword = "";
-    private int _invalidIndexCount;
-    private SourcePosition? _firstInvalidIndex;
-    private string _firstInvalidIndexMessage = "";
-    private int _shortFaceCount;
-    private SourcePosition? _firstShortFace;
-    private int _firstShortFaceSize;
+    private readonly RepeatedWarning _unknownLines = new("lines with unknown keywords");
+    private readonly RepeatedWarning _invalidIndices = new("such corners");
+    private readonly RepeatedWarning _shortFaces = new("such faces");
 
     /// <summary>Numbers of elements in all blocks so far.</summary>
     public ObjCounts Counts { get; private set; }
@@ -54,33 +48,27 @@ internal sealed class ObjContents
     /// <summary>Counts a line with an unknown keyword.</summary>
     public void AddUnknownLine(SourcePosition position, string keyword)
     {
-        _unknownLineCount++;
-        if (_firstUnknownLine is null)
+        if (_unknownLines.CountsFirst())
         {
-            _firstUnknownLine = position;
-            _firstUnknownKeyword = keyword;
+            _unknownLines.Describe(position, $"unknown keyword {keyword} skipped");
         }
     }
 
     /// <summary>Counts an index of a normal or texture coordinate that does not exist.</summary>
     public void AddInvalidIndex(SourcePosition position, string message)
     {
-        _invalidIndexCount++;
-        if (_firstInvalidIndex is null)
+        if (_invalidIndices.CountsFirst())
         {
-            _firstInvalidIndex = position;
-            _firstInvalidIndexMessage = message;
+            _invalidIndices.Describe(position, $"{message}: the index is ignored");
         }
     }
 
     /// <summary>Counts a face with fewer than three corners, which is skipped.</summary>
     public void AddShortFace(SourcePosition position, int cornerCount)
     {
-        _shortFaceCount++;
-        if (_firstShortFace is null)
+        if (_shortFaces.CountsFirst())
         {
-            _firstShortFace = position;
-            _firstShortFaceSize = cornerCount;
+            _shortFaces.Describe(position, $"a face needs at least three corners, this one has {cornerCount}: skipped");
         }
     }
 
@@ -96,30 +84,24 @@ internal sealed class ObjContents
             ByteCount = byteCount,
         };
 
-    private ImmutableArray<Diagnostic> CreateWarnings()
+    private ImmutableArray<Diagnostic> CreateWarnings() =>
+        [.. new[] { _unknownLines, _invalidIndices, _shortFaces }.Select(static warning => warning.ToDiagnostic()).OfType<Diagnostic>()];
+
+    /// <summary>A fault that many lines may have: one warning at the first of them tells their number.</summary>
+    /// <param name="plural">What is counted.</param>
+    private sealed class RepeatedWarning(string plural)
     {
-        var warnings = ImmutableArray.CreateBuilder<Diagnostic>();
-        if (_firstUnknownLine is not null)
-        {
-            var totalNote = _unknownLineCount == 1 ? "" : $" ({_unknownLineCount} lines with unknown keywords in all)";
-            var message = $"unknown keyword {_firstUnknownKeyword} skipped{totalNote}";
-            warnings.Add(_firstUnknownLine.Diagnose(message, DiagnosticSeverity.Warning));
-        }
+        private int _count;
+        private SourcePosition? _first;
+        private string _message = "";
 
-        if (_firstInvalidIndex is not null)
-        {
-            var totalNote = _invalidIndexCount == 1 ? "" : $" ({_invalidIndexCount} such corners in all)";
-            var message = $"{_firstInvalidIndexMessage}: the index is ignored{totalNote}";
-            warnings.Add(_firstInvalidIndex.Diagnose(message, DiagnosticSeverity.Warning));
-        }
+        /// <summary>Counts one more of the faults.</summary>
+        /// <returns>True for the first, which needs a message.</returns>
+        public bool CountsFirst() => _count++ == 0;
 
-        if (_firstShortFace is not null)
-        {
-            var totalNote = _shortFaceCount == 1 ? "" : $" ({_shortFaceCount} such faces in all)";
-            var message = $"a face needs at least three corners, this one has {_firstShortFaceSize}: skipped{totalNote}";
-            warnings.Add(_firstShortFace.Diagnose(message, DiagnosticSeverity.Warning));
-        }
+        public void Describe(SourcePosition position, string message) => (_first, _message) = (position, message);
 
-        return warnings.ToImmutable();
+        public Diagnostic? ToDiagnostic() =>
+            _first?.Diagnose(_count == 1 ? _message : $"{_message} ({_count} {plural} in all)", DiagnosticSeverity.Warning);
     }
 }

@@ -53,7 +53,7 @@ internal sealed class ObjMeshAssembler
         var assembler = new ObjMeshAssembler(blocks, counts, threadCount);
         assembler.ForEachBlock(assembler.CopyElements);
         // Cutting a polygon needs the positions of all blocks.
-        assembler.ForEachBlock(block => new ObjFaceWriter(
+        assembler.ForEachBlock(block => new ObjBlockTriangulator(
             block, assembler._positions, assembler._positionIndices, assembler._textureIndices, assembler._normalIndices).Write());
         return WithColours(assembler._colours, CreateMesh(assembler._positions, assembler._positionIndices, assembler._textureCoordinates,
             assembler._textureIndices, assembler._normals, assembler._normalIndices));

@@ -80,12 +80,12 @@ internal static class SceneFormatter
             body is { Friction: var friction } && !AreBitEqual(friction, 0) ? $"friction {FormatNumber(friction)}" : null,
             body is { RollingFriction: var rolling } && !AreBitEqual(rolling, 0) ? $"rolling {FormatNumber(rolling)}" : null,
             body is { SpinningFriction: var spinning } && !AreBitEqual(spinning, 0) ? $"spinning {FormatNumber(spinning)}" : null,
-            body is { Inertia: not PhysicsObject.SolidInertia and var inertia } ? $"inertia {FormatNumber(inertia)}" : null,
+            body is { InertiaFactor: not PhysicsObject.SolidInertiaFactor and var inertia } ? $"inertia {FormatNumber(inertia)}" : null,
             body is { Shape: var shape } ? FormatShape(shape) : null,
             body is { IsRotationLocked: true } ? "rotation locked" : null,
             body is { Damping: var damping } && !AreBitEqual(damping, 0) ? $"damping {FormatNumber(damping)}" : null,
-            body is not null ? FormatShrinkage(body.Shrinkage, body.MinimumScale) : null,
-            body is { Collider: not ColliderKind.Exact and var collider } ? $"collider {SceneParser.GetColliderName(collider)}" : null);
+            body is not null ? FormatShrinkage(body.Shrinkage, body.MinScale) : null,
+            body is { Collider: not ColliderKind.Exact and var collider } ? $"collider {ColliderNames.Of(collider)}" : null);
     }
 
     private static string Format(ObjectMotion motion)
@@ -106,7 +106,7 @@ internal static class SceneFormatter
 
     private static string? FormatShrinkage(double rate, double minimum)
     {
-        if (!AreBitEqual(minimum, PhysicsObject.DefaultMinimumScale))
+        if (!AreBitEqual(minimum, PhysicsObject.DefaultMinScale))
         {
             return $"shrink {FormatNumber(rate)} {FormatNumber(minimum)}";
         }

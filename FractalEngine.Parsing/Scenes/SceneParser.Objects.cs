@@ -7,9 +7,6 @@ namespace FractalEngine.Parsing.Scenes;
 /// <content>Parses objects and the options that follow them.</content>
 public sealed partial class SceneParser
 {
-    // In the order of ColliderKind.
-    private static readonly string[] ColliderNames = ["exact", "fractal", "hierarchy", "bounding-box", "simple"];
-
     // With the blank that follows each.
     private static readonly string[] BodyOptions =
     [
@@ -27,9 +24,6 @@ public sealed partial class SceneParser
     private static readonly string[] ObjectOptions = ["moving ", "belt "];
 
     private delegate bool OptionParser<T>(Cursor cursor, ref T declared, out Cursor rest);
-
-    /// <summary>Returns the name of a collider in scene files and on the command line.</summary>
-    public static string GetColliderName(ColliderKind collider) => ColliderNames[(int)collider];
 
     private bool ParseObject(Cursor cursor, out Cursor rest)
     {
@@ -208,9 +202,9 @@ public sealed partial class SceneParser
         {
             var valueStart = rest;
             var success = ParseNumber(valueStart, out var inertia, out rest);
-            var isInRange = inertia is > 0 and <= PhysicsObject.ShellInertia;
+            var isInRange = inertia is > 0 and <= PhysicsObject.ShellInertiaFactor;
             Require(!success || isInRange, valueStart, "the inertia must be positive and at most 2/3");
-            body = body with { Inertia = inertia };
+            body = body with { InertiaFactor = inertia };
             return success;
         }
 
@@ -237,11 +231,11 @@ public sealed partial class SceneParser
 
     private bool ParseCollider(Cursor cursor, ref PhysicsObject body, out Cursor rest)
     {
-        for (var kind = 0; kind < ColliderNames.Length; kind++)
+        foreach (var (kind, name) in ColliderNames.All)
         {
-            if (ParseWord(cursor, ColliderNames[kind], out rest))
+            if (ParseWord(cursor, name, out rest))
             {
-                body = body with { Collider = (ColliderKind)kind };
+                body = body with { Collider = kind };
                 return true;
             }
         }
@@ -273,7 +267,7 @@ public sealed partial class SceneParser
     private bool ParseShrinkage(Cursor cursor, ref PhysicsObject body, out Cursor rest)
     {
         var success = ParseNonNegative(cursor, "the rate of shrinking", out var rate, out rest);
-        var minimum = PhysicsObject.DefaultMinimumScale;
+        var minimum = PhysicsObject.DefaultMinScale;
         // Anything but a number begins the next option.
         if (success && ParseSeparator(rest, out var minimumStart) && ParseNumber(minimumStart, out var statedMinimum, out var minimumEnd))
         {
@@ -282,7 +276,7 @@ public sealed partial class SceneParser
             rest = minimumEnd;
         }
 
-        body = body with { Shrinkage = rate, MinimumScale = minimum };
+        body = body with { Shrinkage = rate, MinScale = minimum };
         return success;
     }
 

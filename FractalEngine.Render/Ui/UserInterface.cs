@@ -174,13 +174,6 @@ public sealed partial class UserInterface
         }
     }
 
-    /// <summary>Gives the keyboard back to the scene.</summary>
-    public void ClearFocus()
-    {
-        _focus = 0;
-        _buildsAgain = true;
-    }
-
     /// <summary>Adds widgets whose labels are known only within this scope.</summary>
     /// <param name="name">Name or number of the scope.</param>
     /// <param name="build">Adds the widgets.</param>

@@ -23,7 +23,7 @@ public class BatchQueryTests
         {
             var context = new QueryContext();
             var isFound = Collider.TryFindClosest(positions[i], 0.3, context, out var closest);
-            expected[i] = new(isFound, closest, context.Statistics.FaceTests, context.Statistics.BoundTests);
+            expected[i] = new(isFound, closest, context.Statistics.FaceTests, context.Statistics.BoundTests, isFound ? 0 : -1);
             sum.Statistics.FaceTests += context.Statistics.FaceTests;
             sum.Statistics.BoundTests += context.Statistics.BoundTests;
         }

@@ -65,6 +65,14 @@ public class MatrixInverseTests
     }
 
     [Fact]
+    public void Inverse_BeyondTheRangeOfADouble_NamesTheMatrix()
+    {
+        var matrix = Matrix.Diagonal(new(1e-310, 1, 1));
+        Assert.Equal(matrix, Assert.Throws<SingularMatrixException>(() => matrix.Inverse()).Matrix);
+        Assert.Null(new SingularMatrixException("without a matrix").Matrix);
+    }
+
+    [Fact]
     public void Inverse_OfParallelColumns_Throws() =>
         Assert.Throws<SingularMatrixException>(() => new Matrix(new(1, 2, 3), new(2, 4, 6), new(0, 0, 1)).Inverse());
 

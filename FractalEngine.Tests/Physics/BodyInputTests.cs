@@ -28,7 +28,7 @@ public class BodyInputTests
             ValidBody with { Friction = number },
             ValidBody with { Damping = number },
             ValidBody with { Shrinkage = number },
-            ValidBody with { MinimumScale = number },
+            ValidBody with { MinScale = number },
             ValidBody with { LinearPart = new(Vector.I, new(number, 0, 0), Vector.K) },
         ];
         CheckRefused(wrong);
@@ -41,7 +41,7 @@ public class BodyInputTests
         ValidBody with { Mass = 0 }, ValidBody with { Mass = -1 },
         ValidBody with { Restitution = -0.1 }, ValidBody with { Restitution = 1.1 },
         ValidBody with { Friction = -0.1 }, ValidBody with { Damping = -0.1 }, ValidBody with { Shrinkage = -0.1 },
-        ValidBody with { MinimumScale = 0 }, ValidBody with { MinimumScale = -0.5 }, ValidBody with { MinimumScale = 1.5 },
+        ValidBody with { MinScale = 0 }, ValidBody with { MinScale = -0.5 }, ValidBody with { MinScale = 1.5 },
     ]);
 
     [Fact]

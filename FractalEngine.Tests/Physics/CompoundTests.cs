@@ -323,7 +323,7 @@ public class CompoundTests
     private static Matrix InertiaOf(Body body)
     {
         var rotation = body.Orientation.ToMatrix();
-        var own = body.Description.Shape?.Inertia ?? (body.Description.Inertia * body.Radius * body.Radius * Matrix.Identity);
+        var own = body.Description.Shape?.Inertia ?? (body.Description.InertiaFactor * body.Radius * body.Radius * Matrix.Identity);
         return body.Description.Mass * (rotation * own * rotation.Transpose());
     }
 

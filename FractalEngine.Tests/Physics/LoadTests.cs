@@ -39,7 +39,7 @@ public sealed class LoadTests
     {
         var world = new PhysicsWorld();
         world.AddStatic(PhysicsMeshes.FloorMesh());
-        world.Add(new(new(0, 1, 0), 1) { Shrinkage = 0.01, MinimumScale = 0.5, Friction = 1 });
+        world.Add(new(new(0, 1, 0), 1) { Shrinkage = 0.01, MinScale = 0.5, Friction = 1 });
         var upper = world.Add(new(new(0, 3, 0), 1) { Friction = 1 });
         world.Run(1200);
         Assert.InRange(upper.Position.Y, 0, 2.65);

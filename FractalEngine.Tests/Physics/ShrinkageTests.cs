@@ -13,7 +13,7 @@ public class ShrinkageTests
         var rate = random.Between(0.05, 2);
         var minimumScale = random.Between(0.05, 0.9);
         var world = TestWorlds.Create(TestWorlds.Gravity, random.Between(0.005, 0.1), TestWorlds.Place(PhysicsMeshes.FloorMesh()));
-        var body = world.Add(new(new(0, 5, 0), radius) { Shrinkage = rate, MinimumScale = minimumScale, Restitution = 0.5 });
+        var body = world.Add(new(new(0, 5, 0), radius) { Shrinkage = rate, MinScale = minimumScale, Restitution = 0.5 });
         world.Run((int)(2 / world.Settings.TimeStep), () =>
         {
             // Hundreds of subtractions, each rounded.
@@ -26,7 +26,7 @@ public class ShrinkageTests
     public void ShrinkingBody_OnAFloor_StaysOnIt()
     {
         var world = TestWorlds.Create(TestWorlds.Gravity, 1 / 60.0, TestWorlds.Place(PhysicsMeshes.FloorMesh()));
-        var body = world.Add(new(new(0, 1, 0), 1) { Shrinkage = 0.1, MinimumScale = 0.2 });
+        var body = world.Add(new(new(0, 1, 0), 1) { Shrinkage = 0.1, MinScale = 0.2 });
         world.Run(700, () =>
         {
             // Its radius falls by 0.1/60 in a step, and from rest it falls by ½·9.8/60² = 0.0014 in one: it is a step or two behind.
@@ -50,7 +50,7 @@ public class ShrinkageTests
             return new[] { (a, b, c), (b, d, c) };
         }).ToArray();
         var world = TestWorlds.Create(TestWorlds.Gravity, 1 / 120.0, TestWorlds.Place(PhysicsMeshes.FromTriangles(faces)));
-        var body = world.Add(new(new(0.3, 3, 0.2), 1) { Shrinkage = 0.05, MinimumScale = 0.1 });
+        var body = world.Add(new(new(0.3, 3, 0.2), 1) { Shrinkage = 0.05, MinScale = 0.1 });
         var oracle = new SphereTriangleOracle(faces);
         while (body.Position.Y > -1 && world.Time < 20)
         {
@@ -67,7 +67,7 @@ public class ShrinkageTests
     public void ShrinkingBody_ThatIsStuck_ComesFree()
     {
         var world = TestWorlds.Create(TestWorlds.Gravity, 1 / 60.0, TestWorlds.Place(PhysicsMeshes.InwardCube));
-        var body = world.Add(new(Vector.Zero, 0.7) { Shrinkage = 0.5, MinimumScale = 0.3 });
+        var body = world.Add(new(Vector.Zero, 0.7) { Shrinkage = 0.5, MinScale = 0.3 });
         world.Step();
         Assert.True(body.IsStuck);
         world.Run(240);

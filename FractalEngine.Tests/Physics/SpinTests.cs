@@ -122,6 +122,6 @@ public class SpinTests
         var normal = new Vector(Sine, Cosine, 0);
         var slope = PhysicsMeshes.FromTriangles(PhysicsMeshes.PlaneTriangle(Vector.Zero, normal));
         world = TestWorlds.Create(TestWorlds.Gravity, 1 / 60.0, TestWorlds.Place(slope));
-        return world.Add(new(radius * normal, radius) { Friction = friction, Inertia = inertia, RollingFriction = rolling });
+        return world.Add(new(radius * normal, radius) { Friction = friction, InertiaFactor = inertia, RollingFriction = rolling });
     }
 }

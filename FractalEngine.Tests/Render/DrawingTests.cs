@@ -237,7 +237,7 @@ public sealed class DrawingTests
     private static Mesh ExportAndParse(FractalModel fractal)
     {
         using var stream = new MemoryStream();
-        ObjWriter.Write(RenderScenes.Scene(new Scene(), (fractal, Transformation.Identity, null)), stream, 1_000_000);
+        ObjSceneWriter.Write(RenderScenes.Scene(new Scene(), (fractal, Transformation.Identity, null)), stream, 1_000_000);
         return ObjParser.Parse(SourceText.Decode(stream.ToArray(), "export.obj")).Mesh;
     }
 }

@@ -6,12 +6,12 @@ internal enum HandleKind
     /// <summary>No handles are shown at the selected object.</summary>
     None,
 
-    /// <summary>They move the object along the axes of the world, or in the plane of the frame.</summary>
+    /// <summary>Handles that move the object along the axes of the world, or in the plane of the frame.</summary>
     Move,
 
-    /// <summary>They turn the object about axes of the world through its middle.</summary>
+    /// <summary>Handles that turn the object about axes of the world through its middle.</summary>
     Turn,
 
-    /// <summary>They scale the object along its own axes, or all of it, about its middle.</summary>
+    /// <summary>Handles that scale the object along its own axes, or all of it, about its middle.</summary>
     Scale,
 }

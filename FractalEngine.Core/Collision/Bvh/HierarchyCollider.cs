@@ -9,15 +9,27 @@ namespace FractalEngine.Core.Collision.Bvh;
 /// Finds the closest point of a mesh by a bounding volume hierarchy. Exact, with the same distances and faces as
 /// <see cref="SimpleCollider"/> bit for bit, and hundreds of times faster on large meshes.
 /// </summary>
-/// <param name="mesh">
-/// The mesh, whose hierarchy is built here. Cost: O(n·log n) for n faces, on all cores; the result is the same on any number of them.
-/// </param>
-public sealed class HierarchyCollider(Mesh mesh) : Collider
+public sealed class HierarchyCollider : Collider
 {
     private const double MaxBoundFactor = 1e30;
 
-    private readonly TriangleBvh _bvh = new(mesh);
-    private readonly double _magnitude = QueryScale.Magnitude(mesh);
+    private readonly Mesh _mesh;
+    private readonly TriangleBvh _bvh;
+    private readonly double _magnitude;
+
+    /// <summary>Builds a hierarchy of its own, even where the mesh has one already.</summary>
+    /// <param name="mesh">Cost: O(n·log n) for n faces, on all cores; the result is the same on any number of them.</param>
+    public HierarchyCollider(Mesh mesh)
+        : this(mesh, new(mesh))
+    {
+    }
+
+    internal HierarchyCollider(Mesh mesh, TriangleBvh bvh)
+    {
+        _mesh = mesh;
+        _bvh = bvh;
+        _magnitude = QueryScale.Magnitude(mesh);
+    }
 
     /// <inheritdoc/>
     public override bool IsExact => true;
@@ -52,12 +64,12 @@ public sealed class HierarchyCollider(Mesh mesh) : Collider
             return false;
         }
 
-        closest = ClosestPointFactory.OnInstance(mesh, closestTriangle.FaceIndex, map, position);
+        closest = ClosestPointFactory.OnInstance(_mesh, closestTriangle.FaceIndex, map, position);
         return closest.Distance <= maxDistance;
     }
 
     /// <inheritdoc/>
-    private protected override ShapeTree CreateShapeTree() => new(mesh, _bvh);
+    private protected override ShapeTree CreateShapeTree() => new(_mesh, _bvh);
 
     /// <inheritdoc/>
     protected override bool FindClosestCore(Vector position, double maxDistance, double epsilon, QueryContext context,
@@ -79,7 +91,7 @@ public sealed class HierarchyCollider(Mesh mesh) : Collider
         var closestTriangle = new ClosestTriangle(DistanceCutoff.FromRadius(maxDistance));
         _bvh.FindClosest(in position, ref closestTriangle, BoundFactor(epsilon), mayDefer: true);
         AddStatistics(context, in closestTriangle);
-        closest = closestTriangle.FaceIndex < 0 ? default : ClosestPointFactory.OnMesh(mesh, closestTriangle.FaceIndex, position);
+        closest = closestTriangle.FaceIndex < 0 ? default : ClosestPointFactory.OnMesh(_mesh, closestTriangle.FaceIndex, position);
         return closestTriangle.FaceIndex >= 0 && closest.Distance <= maxDistance;
     }
 

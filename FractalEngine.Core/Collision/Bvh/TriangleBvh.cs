@@ -28,7 +28,8 @@ internal sealed partial class TriangleBvh
     // Up to so many triangles are all tested, since boxes would save nothing.
     private const int MaxBruteForceTriangles = 16;
 
-    // Beyond these, products of four coordinates over- or underflow in the kernel, and its error is not that of BoundCutoff.
+    // Beyond these, products of six coordinates come near the range of a double (TriangleKernel), where the error is not that of
+    // BoundCutoff.
     private const double MaxSafeLength = 1e45;
     private const double MinSafeSize = 1e-45;
     private const double MaxSafePosition = 1e90;
@@ -37,7 +38,7 @@ internal sealed partial class TriangleBvh
     // triangles would have to be decided between.
     private const double FarThreshold = 256;
 
-    // One hierarchy for all colliders and rays of a mesh, as long as any of them is in use.
+    // One hierarchy for all colliders and rays of a mesh, as long as the mesh is in use.
     private static readonly ConditionalWeakTable<Mesh, TriangleBvh> Shared = [];
 
     private readonly Mesh _mesh;

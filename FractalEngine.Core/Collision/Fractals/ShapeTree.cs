@@ -30,8 +30,8 @@ internal sealed class ShapeTree(
     /// <summary>A box around the shape in its own frame.</summary>
     public BoundingBox Box => hierarchy?.Root.Box ?? mesh.Bounds;
 
-    /// <summary>The same shape with a hierarchy of its base mesh.</summary>
-    public ShapeTree WithHierarchy() => bvh is not null ? this : new(mesh, new(mesh), hierarchy, minRadius);
+    /// <summary>Returns the shape with a hierarchy of its base mesh, which the first who asks for one makes.</summary>
+    public ShapeTree WithHierarchy() => bvh is not null ? this : new(mesh, TriangleBvh.For(mesh), hierarchy, minRadius);
 
     /// <summary>The node of the whole shape, which must not be empty.</summary>
     /// <param name="map">From the shape's frame to that of the query.</param>

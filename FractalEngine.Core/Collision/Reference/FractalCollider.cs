@@ -25,6 +25,7 @@ public sealed partial class FractalCollider : Collider
     private readonly bool _hasOnlySimilarities;
     private readonly Mesh _baseMesh;
     private readonly TriangleBvh _baseBvh;
+    private readonly bool _hasOwnMesh;
     private readonly bool _hasNoLevels;
     private readonly int _beamWidth;
 
@@ -66,7 +67,8 @@ public sealed partial class FractalCollider : Collider
         _baseMesh = baseMaps is [var only] && only == AffineMap.Identity
             ? fractal.BaseMesh
             : FractalGenerator.Flatten(fractal.BaseMesh, [.. baseMaps]);
-        _baseBvh = new(_baseMesh);
+        _hasOwnMesh = !ReferenceEquals(_baseMesh, fractal.BaseMesh);
+        _baseBvh = TriangleBvh.For(_baseMesh);
         _hasOnlySimilarities = _levels.All(level => level.Set.AreSimilarities);
         _hasNoLevels = _levels.All(level => level.Rounds == 0);
         _beamWidth = beamWidth;
@@ -77,8 +79,8 @@ public sealed partial class FractalCollider : Collider
 
     /// <inheritdoc/>
     public override long StorageBytes =>
-        _levels.Sum(level => level.Set.StorageBytes) + (sizeof(double) * (long)_baseMesh.Positions.Length)
-        + (sizeof(int) * (long)_baseMesh.VertexIndices.Length) + _baseBvh.StorageBytes;
+        _levels.Sum(level => level.Set.StorageBytes) + _baseBvh.StorageBytes
+        + (_hasOwnMesh ? (sizeof(double) * (long)_baseMesh.Positions.Length) + (sizeof(int) * (long)_baseMesh.VertexIndices.Length) : 0);
 
     /// <inheritdoc/>
     protected override bool FindClosestCore(Vector position, double maxDistance, double epsilon, QueryContext context,

@@ -99,6 +99,19 @@ public sealed class QueryCommandTests : IDisposable
     }
 
     [Fact]
+    public void Query_OfPointsAsJson_NamesObjectAndFace()
+    {
+        _folder.Write("row3.fdo", SampleFiles.Row("3"));
+        _folder.Write("two.sdo", "o \"cube.obj\" ((0, 9, 0), #, #)\no \"row3.fdo\" ((0, 0, 0), #, #)\n");
+        _folder.Write("points.txt", "0 20 0\n0 -3 0\n");
+        var (exitCode, output, _) = Run("query", "two.sdo", "--points", "points.txt", "--json");
+        Assert.Equal(0, exitCode);
+        using var results = JsonDocument.Parse(output);
+        Assert.Equal([0, 1], results.RootElement.EnumerateArray().Select(result => result.GetProperty("object").GetInt32()));
+        Assert.All(results.RootElement.EnumerateArray(), result => Assert.InRange(result.GetProperty("face").GetInt32(), 0, 11));
+    }
+
+    [Fact]
     public void Query_OfAWrongRay_NamesItsPlace()
     {
         _folder.Write("rays.txt", "0 0 0 0 0 1\n1 2 3 0 0 0\n");

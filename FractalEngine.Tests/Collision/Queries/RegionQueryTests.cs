@@ -180,14 +180,15 @@ public class RegionQueryTests
     public void Regions_ThatAreNone_AreRefused()
     {
         var collider = new HierarchyCollider(Samples.Tetrahedron);
-        Assert.Throws<ArgumentOutOfRangeException>(() => collider.FindAllWithin(new(double.NaN, 0, 0), 1, 1));
-        Assert.Throws<ArgumentOutOfRangeException>(() => collider.FindAllWithin(Vector.Zero, -1, 1));
-        Assert.Throws<ArgumentOutOfRangeException>(() => collider.FindAllWithin(Vector.Zero, double.NaN, 1));
-        Assert.Throws<ArgumentOutOfRangeException>(() => collider.FindAllWithin(Vector.Zero, 1, -1));
-        Assert.Throws<ArgumentOutOfRangeException>(() => collider.Overlaps(new(0, double.PositiveInfinity, 0), 1));
-        Assert.Throws<ArgumentOutOfRangeException>(() => collider.Overlaps(Vector.Zero, double.NaN));
-        Assert.Throws<ArgumentOutOfRangeException>(() => collider.Overlaps(new BoundingBox(new(double.NaN, 0, 0), Vector.One)));
-        Assert.Throws<ArgumentOutOfRangeException>(() => collider.Overlaps(UnitBox with { Maximum = new(double.PositiveInfinity, 1, 1) }));
+        Assert.Throws<ArgumentOutOfRangeException>("position", () => collider.FindAllWithin(new(double.NaN, 0, 0), 1, 1));
+        Assert.Throws<ArgumentOutOfRangeException>("radius", () => collider.FindAllWithin(Vector.Zero, -1, 1));
+        Assert.Throws<ArgumentOutOfRangeException>("radius", () => collider.FindAllWithin(Vector.Zero, double.NaN, 1));
+        Assert.Throws<ArgumentOutOfRangeException>("maxFaces", () => collider.FindAllWithin(Vector.Zero, 1, -1));
+        Assert.Throws<ArgumentOutOfRangeException>("centre", () => collider.Overlaps(new(0, double.PositiveInfinity, 0), 1));
+        Assert.Throws<ArgumentOutOfRangeException>("radius", () => collider.Overlaps(Vector.Zero, double.NaN));
+        Assert.Throws<ArgumentOutOfRangeException>("box", () => collider.Overlaps(new BoundingBox(new(double.NaN, 0, 0), Vector.One)));
+        Assert.Throws<ArgumentOutOfRangeException>(
+            "box", () => collider.Overlaps(UnitBox with { Maximum = new(double.PositiveInfinity, 1, 1) }));
         Assert.False(collider.Overlaps(BoundingBox.Empty));
     }
 

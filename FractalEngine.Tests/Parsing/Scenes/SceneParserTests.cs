@@ -92,7 +92,7 @@ public class SceneParserTests
     {
         var body = Assert.IsType<PhysicsObject>(ParseObject("p \"a.fdo\" # 0.5"));
         Assert.Equal((0.5, Vector.Zero, 1.0, ColliderKind.Exact), (body.Restitution, body.Velocity, body.Mass, body.Collider));
-        Assert.Equal((0.0, 0.0, 0.0, 0.05), (body.Friction, body.Damping, body.Shrinkage, body.MinimumScale));
+        Assert.Equal((0.0, 0.0, 0.0, 0.05), (body.Friction, body.Damping, body.Shrinkage, body.MinScale));
     }
 
     [Theory]
@@ -123,7 +123,7 @@ public class SceneParserTests
     double rate, double minimum)
     {
         var body = Assert.IsType<PhysicsObject>(ParseObject($"p \"a.obj\" # 0.5 {options}"));
-        Assert.Equal((friction, damping, rate, minimum), (body.Friction, body.Damping, body.Shrinkage, body.MinimumScale));
+        Assert.Equal((friction, damping, rate, minimum), (body.Friction, body.Damping, body.Shrinkage, body.MinScale));
     }
 
     [Theory]

@@ -54,7 +54,7 @@ public class SceneWriterTests
     }).Zip(NotNegative.Three().Zip(Gen.Elements(1, double.Epsilon, 0.05, 1.0 / 3)),
     (declared, more) => Gen.Elements(declared, (PhysicsObject)declared with
     {
-        Friction = more.Item1.Item1, Damping = more.Item1.Item2, Shrinkage = more.Item1.Item3, MinimumScale = more.Item2,
+        Friction = more.Item1.Item1, Damping = more.Item1.Item2, Shrinkage = more.Item1.Item3, MinScale = more.Item2,
     })).SelectMany(declared => declared);
 
     // In the range that the grammar allows.

@@ -36,6 +36,15 @@ public sealed class EditingTests : IDisposable
     }
 
     [Fact]
+    public void FractalNumber_OfAnArgument_HasTheRoleOfItsParameterAlone()
+    {
+        const string Text = "v 2 -3 4\nv 1 0 0\nt.a. (a, #, 1)\nx. \"a.obj\"\nz<x>. [t.2] x\n<$>. z 3\n";
+        var roles = FractalNumber.FindAll(new("a.fdo", Text)).Where(static number => number is { Component: 0, Name: ['v', ..] })
+            .Select(static number => number.Role);
+        Assert.Equal([FractalNumberRole.Scale, FractalNumberRole.Position], roles);
+    }
+
+    [Fact]
     public void FindAll_OfAFractal_ListsEachNumberAtItsPlace()
     {
         var text = Fractal.Replace("y<z>. [u.1] z\n", "", StringComparison.Ordinal);

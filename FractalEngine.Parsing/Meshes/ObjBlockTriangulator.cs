@@ -6,7 +6,7 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Parsing.Meshes;
 
 /// <summary>Writes the polygons of one block as triangles into the arrays of a mesh.</summary>
-internal sealed class ObjFaceWriter
+internal sealed class ObjBlockTriangulator
 {
     private readonly ObjBlock _block;
     private readonly double[] _positions;
@@ -23,7 +23,7 @@ internal sealed class ObjFaceWriter
     /// <param name="positionIndices">Receives indices of positions, [faces × 3].</param>
     /// <param name="textureIndices">Receives indices of texture coordinates, [faces × 3], or empty.</param>
     /// <param name="normalIndices">Receives indices of normals, [faces × 3], or empty.</param>
-    public ObjFaceWriter(ObjBlock block, double[] positions, int[] positionIndices, int[] textureIndices, int[] normalIndices)
+    public ObjBlockTriangulator(ObjBlock block, double[] positions, int[] positionIndices, int[] textureIndices, int[] normalIndices)
     {
         _block = block;
         _positions = positions;

@@ -8,7 +8,7 @@ using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Parsing.Meshes;
 
-public class ObjWriterTests
+public class ObjSceneWriterTests
 {
     private static LoadedScene Scene(params (Model Model, Transformation Placement)[] placed)
     {
@@ -20,7 +20,7 @@ public class ObjWriterTests
     private static string Write(LoadedScene scene, long limit = 1_000_000)
     {
         using var stream = new MemoryStream();
-        ObjWriter.Write(scene, stream, limit);
+        ObjSceneWriter.Write(scene, stream, limit);
         return Encoding.UTF8.GetString(stream.ToArray());
     }
 
@@ -141,7 +141,7 @@ public class ObjWriterTests
         using var stream = new MemoryStream();
         var scene = Scene((Model(Samples.Repeated(100, Samples.Move(1, 0, 0), Samples.Move(2, 0, 0))), Transformation.Identity));
         // 2¹⁰⁰ chains, of which 101 are distinct.
-        Assert.Throws<FractalLimitException>(() => ObjWriter.Write(scene, stream, (101 * 4) - 1));
+        Assert.Throws<FractalLimitException>(() => ObjSceneWriter.Write(scene, stream, (101 * 4) - 1));
         Assert.Equal(0, stream.Length);
     }
 

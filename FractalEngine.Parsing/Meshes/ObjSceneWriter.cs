@@ -15,7 +15,7 @@ namespace FractalEngine.Parsing.Meshes;
 /// <remarks>
 /// The text is streamed; memory is proportional to the instances, not to the faces. <see cref="ObjMeshWriter"/> writes single meshes.
 /// </remarks>
-public sealed class ObjWriter
+public sealed class ObjSceneWriter
 {
     private readonly ObjTextWriter _text;
     private readonly SceneMaterials? _materials;
@@ -24,7 +24,7 @@ public sealed class ObjWriter
     private long _textureCoordinateCount;
     private long _normalCount;
 
-    private ObjWriter(Stream stream, SceneMaterials? materials)
+    private ObjSceneWriter(Stream stream, SceneMaterials? materials)
     {
         _text = new(stream);
         _materials = materials;
@@ -54,7 +54,7 @@ public sealed class ObjWriter
                 + "a faulty character, blanks at an end, or a backslash at its end");
         }
 
-        var writer = new ObjWriter(stream, materials);
+        var writer = new ObjSceneWriter(stream, materials);
         var objects = scene.Objects.Select(placed => (Placed: placed, Instances: ExpandInstances(placed.Model, maxFaces))).ToArray();
         var faceCount = objects.Sum(item => (long)item.Instances.Length * item.Placed.Model.Mesh.FaceCount);
         if (faceCount > maxFaces)
