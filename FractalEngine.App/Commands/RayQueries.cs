@@ -28,7 +28,7 @@ internal static class RayQueries
         var rays = RaysParser.Parse(StandardInput.IsNamedBy(raysPath)
             ? StandardInput.Read(raysPath, ParsingLimits.MaxPointsBytes)
             : SourceText.Read(raysPath, raysPath, ParsingLimits.MaxPointsBytes));
-        QueryCommand.RequireReach(file, RayCaster.CoordinateLimit, "rays");
+        QueryCommand.RequireReach(file, RayCaster.MaxCoordinate, "rays");
         var clock = Stopwatch.StartNew();
         var caster = new SceneRayCaster(file.Scene);
         var context = new QueryContext();

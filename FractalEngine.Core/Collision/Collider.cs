@@ -147,7 +147,10 @@ public abstract partial class Collider
     /// </summary>
     private protected static bool NeedsExactRetry(double maxDistance, double epsilon) => epsilon > 0 && double.IsFinite(maxDistance);
 
-    /// <summary>Largest coordinate of a shape or a position for which a distance is sure to be found: squares stay doubles.</summary>
+    /// <summary>
+    /// Largest coordinate of a shape or a position for which an exact collider is sure to find a distance: squares stay doubles. Colliders
+    /// that are not exact refuse coordinates beyond 1e40.
+    /// </summary>
     public const double MaxCoordinate = 1e150;
 
     /// <summary>Throws when a query's arguments are not allowed.</summary>

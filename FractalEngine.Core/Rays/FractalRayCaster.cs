@@ -58,7 +58,7 @@ internal sealed class FractalRayCaster : RayCaster
         (_root, _rootLevels) = (_hierarchy.Root, _hierarchy.Levels);
         _bvh = TriangleBvh.For(fractal.BaseMesh);
         _minRadius = ExactFractalCollider.MinRadius(_root);
-        MaxCoordinate = BoundingVolume.MaxAbsCoordinate(_root.Box);
+        ShapeMagnitude = BoundingVolume.MaxAbsCoordinate(_root.Box);
         _levels = new(_hierarchy);
         _tree = new(fractal.BaseMesh, _bvh, _hierarchy, _minRadius);
         _basePlanes = new(fractal.BaseMesh);
@@ -71,7 +71,7 @@ internal sealed class FractalRayCaster : RayCaster
         (_root, _rootLevels) = (_hierarchy.At(levels), levels);
         _bvh = whole._bvh;
         _minRadius = ExactFractalCollider.MinRadius(_root);
-        MaxCoordinate = BoundingVolume.MaxAbsCoordinate(_root.Box);
+        ShapeMagnitude = BoundingVolume.MaxAbsCoordinate(_root.Box);
         _levels = whole._levels;
         _tree = new(_fractal.BaseMesh, _bvh, _hierarchy, _minRadius);
         _basePlanes = whole._basePlanes;
@@ -95,7 +95,7 @@ internal sealed class FractalRayCaster : RayCaster
     internal override Mesh Mesh => _fractal.BaseMesh;
 
     /// <inheritdoc/>
-    private protected override double MaxCoordinate { get; }
+    private protected override double ShapeMagnitude { get; }
 
     /// <inheritdoc/>
     internal override SimdAffineMap ResolveInstance(
@@ -179,7 +179,7 @@ internal sealed class FractalRayCaster : RayCaster
             var lane = BitOperations.TrailingZeroCount(hits);
             hits &= hits - 1;
             double entry = Unsafe.Add(ref stack.Entries(depth), lane);
-            if (frame.Start + (entry * frame.DistancePer) > search.MaxDistance)
+            if (frame.Start + (entry * frame.DistancePerParameter) > search.MaxDistance)
             {
                 continue;
             }
@@ -261,7 +261,7 @@ internal sealed class FractalRayCaster : RayCaster
         }
 
         var innerRadius = frame.Scale * bounds.MinInnerRadius;
-        var farthest = frame.Start + (MaxReach * frame.DistancePer);
+        var farthest = frame.Start + (MaxReach * frame.DistancePerParameter);
         if (innerRadius <= minRadius || innerRadius < search.Footprint.RadiusAt(farthest))
         {
             bounds = bounds.Single;

@@ -18,7 +18,7 @@ internal sealed class MeshRayCaster(Mesh mesh) : RayCaster
     internal override Mesh Mesh => mesh;
 
     /// <inheritdoc/>
-    private protected override double MaxCoordinate { get; } = BoundingVolume.MaxAbsCoordinate(mesh.Bounds);
+    private protected override double ShapeMagnitude { get; } = BoundingVolume.MaxAbsCoordinate(mesh.Bounds);
 
     /// <inheritdoc/>
     internal override bool TryIntersect(in LocalRay ray, ref RaySearch search, QueryContext context, ref int pathLength)

@@ -21,7 +21,7 @@ public abstract class RayCaster
     /// <summary>
     /// Coordinates up to here are in the range of the search: products of four lengths are doubles. Shapes and rays beyond may be missed.
     /// </summary>
-    public const double CoordinateLimit = 1e75;
+    public const double MaxCoordinate = 1e75;
 
     // Squares of lengths that are accurate.
     private const double MinSquaredLength = 1e-200;
@@ -39,7 +39,7 @@ public abstract class RayCaster
     public abstract long StorageBytes { get; }
 
     /// <summary>The largest absolute coordinate of the shape.</summary>
-    private protected abstract double MaxCoordinate { get; }
+    private protected abstract double ShapeMagnitude { get; }
 
     /// <summary>Makes the caster of a mesh.</summary>
     /// <remarks>Cost: that of a hierarchy of the mesh, O(n·log n) for n faces.</remarks>
@@ -91,7 +91,7 @@ public abstract class RayCaster
         ArgumentNullException.ThrowIfNull(context);
         var direction = CheckedUnitDirection(in ray, minDistance, maxDistance);
         var search = new RaySearch(
-            minDistance, maxDistance, stopsAtFirst: false, RoundingError(ray.Origin, minDistance, MaxCoordinate), footprint);
+            minDistance, maxDistance, stopsAtFirst: false, RoundingError(ray.Origin, minDistance, ShapeMagnitude), footprint);
         var pathLength = 0;
         if (!TrySearch(ray.Origin, direction, minDistance, ref search, context, ref pathLength))
         {
@@ -129,7 +129,7 @@ public abstract class RayCaster
         ArgumentNullException.ThrowIfNull(context);
         var direction = CheckedUnitDirection(in ray, minDistance, maxDistance);
         var search = new RaySearch(
-            minDistance, maxDistance, stopsAtFirst: true, RoundingError(ray.Origin, minDistance, MaxCoordinate), footprint);
+            minDistance, maxDistance, stopsAtFirst: true, RoundingError(ray.Origin, minDistance, ShapeMagnitude), footprint);
         var pathLength = 0;
         return TrySearch(ray.Origin, direction, minDistance, ref search, context, ref pathLength);
     }

@@ -55,7 +55,7 @@ internal struct RayFrame
     public double PerDistance;
 
     /// <summary>Factor from the parameter of this ray to distances along the ray of the query.</summary>
-    public double DistancePer;
+    public double DistancePerParameter;
 
     /// <summary>Upper bound of the factor from lengths in these units to those of the query.</summary>
     public double Scale;
@@ -108,7 +108,7 @@ internal struct RayFrame
         Origin = (ray.Origin - box.Centre) * Vector256.Create(box.InverseHalfExtent);
         Start = ray.Start;
         PerDistance = box.InverseHalfExtent;
-        DistancePer = box.HalfExtent;
+        DistancePerParameter = box.HalfExtent;
         Scale = ray.Scale * box.HalfExtent;
         InverseScale = ray.InverseScale * box.InverseHalfExtent;
         // Rays of a query in the frame of the fractal have unit directions.
@@ -140,11 +140,11 @@ internal struct RayFrame
     public void Enter(in RayFrame parent, in RayChild child, double entry)
     {
         var origin = Vector256.FusedMultiplyAdd(Vector256.Create(entry), parent.Direction, parent.Origin);
-        Start = parent.Start + (entry * parent.DistancePer);
+        Start = parent.Start + (entry * parent.DistancePerParameter);
         Scale = parent.Scale * child.InverseNorm;
         InverseScale = parent.InverseScale * child.Norm;
         PerDistance = parent.PerDistance * child.Norm;
-        DistancePer = parent.DistancePer * child.InverseNorm;
+        DistancePerParameter = parent.DistancePerParameter * child.InverseNorm;
         PathLength = parent.PathLength + child.PathLength;
         RemainingLevels = child.RemainingLevels(parent.RemainingLevels);
         if (child.IsScaling)
@@ -196,7 +196,7 @@ internal struct RayFrame
     {
         var speed = SimdAffineMap.ToVector(direction).Length();
         PerDistance = perDistance * speed;
-        DistancePer = 1 / PerDistance;
+        DistancePerParameter = 1 / PerDistance;
         SetDirection(direction * Vector256.Create(1 / speed));
     }
 

@@ -22,7 +22,7 @@ internal sealed class RayInstance : ObjectBvhLeaf
         : base(index, bounds)
     {
         Caster = caster;
-        MaxCoordinate = BoundingVolume.MaxAbsCoordinate(bounds);
+        ShapeMagnitude = BoundingVolume.MaxAbsCoordinate(bounds);
         _objectToWorld = objectToWorld;
         var inverse = objectToWorld.Inverse();
         _worldToObject = new(inverse);
@@ -34,7 +34,7 @@ internal sealed class RayInstance : ObjectBvhLeaf
     public Lazy<RayCaster> Caster { get; }
 
     /// <summary>The largest absolute coordinate in world space.</summary>
-    public double MaxCoordinate { get; }
+    public double ShapeMagnitude { get; }
 
     /// <summary>From the frame of the model to world space.</summary>
     public ref readonly AffineMap ObjectToWorld => ref _objectToWorld;

@@ -77,7 +77,7 @@ internal static class RayInstanceSearch
     private static bool TryIntersect(
         RayInstance instance, in LocalRay ray, ref RaySearch search, QueryContext context, ref int pathLength)
     {
-        var error = RayCaster.RoundingError(SimdAffineMap.ToVector(ray.Origin), ray.Start, instance.MaxCoordinate);
+        var error = RayCaster.RoundingError(SimdAffineMap.ToVector(ray.Origin), ray.Start, instance.ShapeMagnitude);
         var inner = search.WithError(error);
         var local = instance.ToObject(in ray);
         var isHit = instance.Caster.Value.TryIntersect(in local, ref inner, context, ref pathLength);

@@ -55,9 +55,9 @@ public sealed class RaysParser : Parser
 
             var direction = new Vector(x, y, z);
 
-            if (origin.MaxAbsComponent() > RayCaster.CoordinateLimit)
+            if (origin.MaxAbsComponent() > RayCaster.MaxCoordinate)
             {
-                throw Error(start, $"a coordinate is beyond the limit of {RayCaster.CoordinateLimit:R} for rays", isLimitExceeded: true);
+                throw Error(start, $"a coordinate is beyond the limit of {RayCaster.MaxCoordinate:R} for rays", isLimitExceeded: true);
             }
 
             if (direction.MaxAbsComponent() > Collider.MaxCoordinate)

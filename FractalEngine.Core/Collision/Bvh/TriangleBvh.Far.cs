@@ -1,6 +1,3 @@
-using System.Runtime.InteropServices;
-using System.Runtime.Intrinsics;
-using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Collision.Bvh;
@@ -16,12 +13,9 @@ internal sealed partial class TriangleBvh
     {
         var cutoff = BoundCutoff.Create(_scale, inverseBoundFactor, FarSlack, _magnitude + localPosition.MaxAbsComponent());
         Span<double> bounds = stackalloc double[BvhLayout.BranchingFactor];
-        var boxes = MemoryMarshal.Cast<Vector256<float>, float>(NodeBounds(node));
         for (var child = 0; child < bounds.Length; child++)
         {
-            var minimum = new Vector(boxes[child], boxes[8 + child], boxes[16 + child]);
-            var maximum = new Vector(boxes[24 + child], boxes[32 + child], boxes[40 + child]);
-            bounds[child] = new BoundingBox(minimum, maximum).DistanceSquared(localPosition);
+            bounds[child] = LocalBox(node, child).DistanceSquared(localPosition);
         }
 
         closest.BoundTests += BvhLayout.BranchingFactor;

@@ -21,10 +21,10 @@ internal sealed partial class TriangleBvh
     /// <param name="search">Receives the hit and the cost.</param>
     /// <returns>True when there is a nearer hit than before.</returns>
     public bool TryIntersect(in LocalRay ray, ref RaySearch search) => _faces.Length == 0 ? false
-        : _nodes.Length == 0 ? TryIntersectAny(in ray, ref search)
+        : _nodes.Length == 0 ? TryIntersectAllTriangles(in ray, ref search)
         : TryIntersectNodes(in ray, ref search);
 
-    private bool TryIntersectAny(in LocalRay ray, ref RaySearch search)
+    private bool TryIntersectAllTriangles(in LocalRay ray, ref RaySearch search)
     {
         var triangleRay = new TriangleRay(in ray, search.Error);
         var quads = RayQuads;

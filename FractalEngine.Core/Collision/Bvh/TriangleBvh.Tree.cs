@@ -1,7 +1,6 @@
 using System.Runtime.InteropServices;
 using System.Runtime.Intrinsics;
 using FractalEngine.Core.Geometry;
-using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Collision.Bvh;
 
@@ -32,11 +31,18 @@ internal sealed partial class TriangleBvh
             return false;
         }
 
-        var rows = MemoryMarshal.Cast<Vector256<float>, float>(NodeBounds(node));
-        var minimum = new Vector(rows[index], rows[8 + index], rows[16 + index]);
-        var maximum = new Vector(rows[24 + index], rows[32 + index], rows[40 + index]);
-        box = new(_origin + (minimum / _scale), _origin + (maximum / _scale));
+        var localBox = LocalBox(node, index);
+        box = new(_origin + (localBox.Minimum / _scale), _origin + (localBox.Maximum / _scale));
         return true;
+    }
+
+    /// <summary>The box of a node's child in the units of the hierarchy.</summary>
+    private BoundingBox LocalBox(BvhChild node, int child)
+    {
+        // A row for each of minimum x, y, z and maximum x, y, z, with a lane for each child.
+        var rows = MemoryMarshal.Cast<Vector256<float>, float>(NodeBounds(node));
+        double Row(ReadOnlySpan<float> values, int row) => values[(row * BvhLayout.BranchingFactor) + child];
+        return new(new(Row(rows, 0), Row(rows, 1), Row(rows, 2)), new(Row(rows, 3), Row(rows, 4), Row(rows, 5)));
     }
 
     /// <summary>The face indices of a leaf's triangles.</summary>

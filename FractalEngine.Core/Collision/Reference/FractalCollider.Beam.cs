@@ -55,21 +55,8 @@ public sealed partial class FractalCollider
 
         for (var childIndex = 0; childIndex < set.Maps.Length; childIndex++)
         {
-            ClosestTriangle closest;
-            if (_hasOnlySimilarities)
-            {
-                var scaleSquared = entry.ScaleSquared * set.ScalesSquared[childIndex];
-                closest = new(beam.CutoffSquared / scaleSquared);
-                _baseBvh.TestAllTriangles(set.Inverses[childIndex] * entry.LocalPosition, ref closest);
-                closest.DistanceSquared *= scaleSquared;
-            }
-            else
-            {
-                closest = new(beam.CutoffSquared);
-                _baseBvh.TestAllTransformedTriangles(position, entry.Map * set.Maps[childIndex], ref closest);
-            }
-
-            context.Statistics.FaceTests += closest.FaceTests;
+            var closest = TestChild(
+                set, childIndex, position, entry.LocalPosition, entry.Map, entry.ScaleSquared, beam.CutoffSquared, context);
             if (closest.FaceIndex >= 0)
             {
                 beam.InsertIfCloser(closest.DistanceSquared, parent, childIndex, closest.FaceIndex);

@@ -130,6 +130,38 @@ public sealed partial class FractalCollider : Collider
         return closest;
     }
 
+    /// <summary>Tests all triangles of the base mesh under one map of a set.</summary>
+    /// <param name="set">The set.</param>
+    /// <param name="childIndex">Index of the map.</param>
+    /// <param name="position">In the frame of the query.</param>
+    /// <param name="localPosition">In the frame of the set; only where all maps are similarities.</param>
+    /// <param name="map">From the frame of the set to that of the query.</param>
+    /// <param name="scaleSquared">Square of the factor between the units of <paramref name="cutoffSquared"/> and of the set.</param>
+    /// <param name="cutoffSquared">Only what is closer counts.</param>
+    /// <param name="context">Receives the costs.</param>
+    private ClosestTriangle TestChild(
+        MapSet set, int childIndex, Vector position, Vector localPosition, in AffineMap map, double scaleSquared, double cutoffSquared,
+        QueryContext context)
+    {
+        ClosestTriangle closest;
+        // Where distances scale, the position is taken into the child's frame; else the base is taken into the query's.
+        if (_hasOnlySimilarities)
+        {
+            var childScaleSquared = scaleSquared * set.ScalesSquared[childIndex];
+            closest = new(cutoffSquared / childScaleSquared);
+            _baseBvh.TestAllTriangles(set.Inverses[childIndex] * localPosition, ref closest);
+            closest.DistanceSquared *= childScaleSquared;
+        }
+        else
+        {
+            closest = new(cutoffSquared);
+            _baseBvh.TestAllTransformedTriangles(position, map * set.Maps[childIndex], ref closest);
+        }
+
+        context.Statistics.FaceTests += closest.FaceTests;
+        return closest;
+    }
+
     /// <summary>Tests all triangles of the base mesh under each map of a set.</summary>
     /// <returns>Index of the map with the closest triangle; −1 where the base mesh has no faces.</returns>
     private int FindClosestChild(
@@ -139,21 +171,7 @@ public sealed partial class FractalCollider : Collider
         var closestChild = -1;
         for (var childIndex = 0; childIndex < set.Maps.Length; childIndex++)
         {
-            ClosestTriangle closest;
-            // Where distances scale, the position is taken into the child's frame; else the base is taken into the query's.
-            if (_hasOnlySimilarities)
-            {
-                closest = new(closestDistanceSquared / set.ScalesSquared[childIndex]);
-                _baseBvh.TestAllTriangles(set.Inverses[childIndex] * localPosition, ref closest);
-                closest.DistanceSquared *= set.ScalesSquared[childIndex];
-            }
-            else
-            {
-                closest = new(closestDistanceSquared);
-                _baseBvh.TestAllTransformedTriangles(position, map * set.Maps[childIndex], ref closest);
-            }
-
-            context.Statistics.FaceTests += closest.FaceTests;
+            var closest = TestChild(set, childIndex, position, localPosition, in map, 1, closestDistanceSquared, context);
             if (closest.FaceIndex >= 0)
             {
                 closestDistanceSquared = closest.DistanceSquared;

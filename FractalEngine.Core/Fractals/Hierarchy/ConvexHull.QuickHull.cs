@@ -193,8 +193,8 @@ internal sealed partial class ConvexHull
                 {
                     // Of parallel facets the larger one has the better normal.
                     var plane = planes[match];
-                    var normal = plane.Area >= area ? plane.Normal : facet.Normal;
-                    planes[match] = new(normal, Math.Max(plane.Offset, facet.Offset), plane.Area + area);
+                    var normal = plane.DoubledArea >= area ? plane.Normal : facet.Normal;
+                    planes[match] = new(normal, Math.Max(plane.Offset, facet.Offset), plane.DoubledArea + area);
                 }
             }
 
@@ -204,7 +204,7 @@ internal sealed partial class ConvexHull
             {
                 var plane = ordered[i];
                 var place = i;
-                for (; place > 0 && ordered[place - 1].Area < plane.Area; place--)
+                for (; place > 0 && ordered[place - 1].DoubledArea < plane.DoubledArea; place--)
                 {
                     ordered[place] = ordered[place - 1];
                 }

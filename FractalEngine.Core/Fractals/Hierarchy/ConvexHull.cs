@@ -104,7 +104,7 @@ internal sealed partial class ConvexHull
                 return Build(vertices, Math.Max(4, vertices.Length));
             }
 
-            planes[i] = new(normal.UnitVector(), double.NegativeInfinity, Planes[i].Area);
+            planes[i] = new(normal.UnitVector(), double.NegativeInfinity, Planes[i].DoubledArea);
         }
 
         var facets = new HullFacet[_facets.Length];
@@ -142,8 +142,8 @@ internal sealed partial class ConvexHull
 
     /// <summary>Computes an upper bound of a point's distance from the solid hull; 0 inside.</summary>
     /// <param name="point">The point.</param>
-    /// <param name="enough">The method may return early any bound that is no larger than this.</param>
-    public double DistanceUpperBound(Vector point, double enough = 0)
+    /// <param name="cutoff">The method may return early any bound that is no larger than this.</param>
+    public double DistanceUpperBound(Vector point, double cutoff = 0)
     {
         if (Planes.Length > 0 && IsBelowAllPlanes(point))
         {
@@ -154,7 +154,7 @@ internal sealed partial class ConvexHull
         foreach (var (a, b, c) in _facets)
         {
             distanceSquared = Math.Min(distanceSquared, TriangleKernel.ClosestPoint(point, a, b, c).DistanceSquared);
-            if (Math.Sqrt(distanceSquared) <= enough)
+            if (Math.Sqrt(distanceSquared) <= cutoff)
             {
                 break;
             }

@@ -24,6 +24,9 @@ internal sealed class HullBound
     // In half sizes: from there on a facet's plane bounds hardly better than the support.
     private const double FarFactor = 4;
 
+    // Of the square of that: a plane under a map costs the search for it alone, since the support of the box was computed before.
+    private const double TransformedFarRatio = 10;
+
     private const double AxisParallelCosine = 1 - 1e-12;
 
     private readonly double[] _planes;
@@ -139,7 +142,7 @@ internal sealed class HullBound
         {
             var localPosition = inverse.Apply(position);
             var fromCentre = localPosition - _centre;
-            bound = Vector256.Dot(fromCentre, fromCentre) < 10 * _farDistanceSquared
+            bound = Vector256.Dot(fromCentre, fromCentre) < TransformedFarRatio * _farDistanceSquared
                 ? Math.Max(bound, TransformedSeparationSquared(FarthestPlaneNormal(localPosition, in inverse), position, in map))
                 : bound;
         }
