@@ -20,8 +20,10 @@ for (var row = 0; row < 9; row++)
     // A ray as wide as a character takes what is smaller for one part.
     Console.WriteLine(string.Concat(Enumerable.Range(0, 36).Select(column =>
         !caster.TryFindNearest(
-            new(new(0, 0, -2), new((column - 17.5) / 40, (4 - row) / 14.0, 1)), context, out var hit, footprint: new(0, 0.01)) ? ' '
-        : caster.HitsAny(new(hit.Point + (1e-9 * hit.Normal), towardsSun), context, footprint: new(0.01, 0)) ? '.' : '#')).TrimEnd());
+            new(new(0, 0, -2), new((column - 17.5) / 40, (4 - row) / 14.0, 1)), context, out var hit,
+            footprint: new(Radius: 0, Spread: 0.01)) ? ' '
+        : caster.HitsAny(
+            new(hit.Point + (1e-9 * hit.Normal), towardsSun), context, footprint: new(Radius: 0.01, Spread: 0)) ? '.' : '#')).TrimEnd());
 }
 
 // Output:

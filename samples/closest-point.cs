@@ -28,6 +28,9 @@ if (collider.TryFindClosest(new(0.1, 0.1, 0.1), maxDistance: 0.5, context, out v
         FormattableString.Invariant($"distance {closest.Distance:F12} after {context.Statistics.FaceTests} of {sponge.FaceCount} faces"));
 }
 
+// Right to about 1e-15: parts below the last digit of the coordinates count as their base mesh, hence 32 of 40 levels. Several faces
+// meet at the corner, and the normal is that of one of them.
+//
 // Output:
 // 131941395333120000000000000000000000000000000000000000 faces within (-0.5, -0.5, -0.5)..(0.5, 0.5, 0.5)
 // distance 2.958039891550 to (0.4999999999999982, 0.4999999999999999, 0.4999999999999999), normal (-1, 0, 0)

@@ -27,7 +27,7 @@ internal sealed class SphereCollider(double radius) : Collider
         Vector position, double maxDistance, double epsilon, QueryContext context, out ClosestPoint closest)
     {
         var normal = position.UnitVector();
-        closest = new(Math.Abs(position.Length() - radius), radius * normal, normal, Vector.I, TriangleFeature.Interior, FaceIndex: 0);
+        closest = new(Math.Abs(position.Length() - radius), radius * normal, normal, Barycentrics: Vector.I, TriangleFeature.Interior, FaceIndex: 0);
         return closest.Distance <= maxDistance;
     }
 }
