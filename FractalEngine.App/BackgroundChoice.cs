@@ -1,4 +1,5 @@
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Scenes;
 
 namespace FractalEngine.App;
 
@@ -9,6 +10,10 @@ internal sealed record BackgroundChoice(bool IsTransparent, Colour? Colour)
 {
     /// <summary>The background of the scene.</summary>
     public static BackgroundChoice OfScene { get; } = new(false, null);
+
+    /// <summary>Gives a scene this background, so that haze without a colour of its own fades to it.</summary>
+    public LoadedScene ApplyTo(LoadedScene scene) =>
+        Colour is { } colour ? scene with { Scene = scene.Scene with { Background = colour } } : scene;
 
     /// <summary>Parses the value of <c>--background</c>.</summary>
     /// <exception cref="UsageException">The value is neither <c>transparent</c> nor a colour.</exception>

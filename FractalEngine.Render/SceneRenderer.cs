@@ -110,13 +110,15 @@ public sealed class SceneRenderer : IDisposable
 
     /// <summary>Replaces the models by those of a further preparation of the same scene, on the context's thread.</summary>
     /// <param name="scene">Same scene, with more of its models prepared. Objects keep their current positions.</param>
-    /// <exception cref="Gl.GlException">The GPU's memory does not suffice.</exception>
+    /// <exception cref="Gl.GlException">
+    /// The driver refuses something, or the GPU's memory does not suffice: nothing has changed.
+    /// </exception>
     public void Update(DrawableScene scene)
     {
         Context.MakeCurrent();
-        Scene = scene;
-        _objectsPass.SetScene(scene);
         _buffers.Upload(scene);
+        _objectsPass.SetScene(scene);
+        Scene = scene;
         for (var i = 0; i < scene.Objects.Length; i++)
         {
             Culler.Move(i, _transforms.ObjectToWorld[i]);
@@ -125,12 +127,24 @@ public sealed class SceneRenderer : IDisposable
 
     /// <summary>Shows another scene, on the context's thread. Models and textures that both scenes have stay on the GPU.</summary>
     /// <param name="scene">A scene whose objects stand where it declares them.</param>
-    /// <exception cref="Gl.GlException">The GPU's memory does not suffice.</exception>
+    /// <exception cref="Gl.GlException">
+    /// The driver refuses something, or the GPU's memory does not suffice: nothing has changed.
+    /// </exception>
     public void Replace(DrawableScene scene)
     {
         Context.MakeCurrent();
         var transforms = new ObjectTransforms(scene);
         var objectsPass = new ObjectsPass(Context, scene, _buffers, transforms);
+        try
+        {
+            _buffers.Upload(scene);
+        }
+        catch (Gl.GlException)
+        {
+            objectsPass.Dispose();
+            throw;
+        }
+
         _objectsPass.Dispose();
         _objectsPass = objectsPass;
         _transforms = transforms;
@@ -138,7 +152,6 @@ public sealed class SceneRenderer : IDisposable
         _bounds = null;
         Spheres = [];
         Lines = [];
-        _buffers.Upload(scene);
     }
 
     /// <summary>Moves an object of the scene.</summary>

@@ -27,7 +27,8 @@ internal sealed class SphereCollider(double radius) : Collider
         Vector position, double maxDistance, double epsilon, QueryContext context, out ClosestPoint closest)
     {
         var normal = position.UnitVector();
-        closest = new(Math.Abs(position.Length() - radius), radius * normal, normal, Barycentrics: Vector.I, TriangleFeature.Interior, FaceIndex: 0);
+        closest = new(
+            Math.Abs(position.Length() - radius), radius * normal, normal, Barycentrics: Vector.I, TriangleFeature.Interior, FaceIndex: 0);
         return closest.Distance <= maxDistance;
     }
 }

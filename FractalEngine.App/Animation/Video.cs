@@ -9,6 +9,12 @@ namespace FractalEngine.App.Animation;
 /// <summary>Frames as a video, which the program <c>ffmpeg</c> encodes.</summary>
 internal sealed class Video : AnimationOutput
 {
+    // The colours of high definition, which players expect of sides as large as ours. Without a word, the encoder takes older ones.
+    private const string ToBt709 = "scale=out_color_matrix=bt709:out_range=tv";
+
+    private static readonly string[] FormatArguments =
+        ["-pix_fmt", "yuv420p", "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709"];
+
     private readonly string _path;
     private readonly string _unfinishedPath;
     private readonly Process _encoder;
@@ -31,7 +37,8 @@ internal sealed class Video : AnimationOutput
             "-framerate", framesPerSecond.ToString("R", CultureInfo.InvariantCulture), "-i", "-",
             // Most players need this format of pixels, and it needs even sides.
             .. path.EndsWith(".mp4", StringComparison.OrdinalIgnoreCase)
-                ? (string[])["-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p"]
+                ? (string[])["-vf", $"pad=ceil(iw/2)*2:ceil(ih/2)*2,{ToBt709}", .. FormatArguments]
+                : path.EndsWith(".webm", StringComparison.OrdinalIgnoreCase) ? ["-vf", ToBt709, .. FormatArguments]
                 : [],
             _unfinishedPath,
         ];

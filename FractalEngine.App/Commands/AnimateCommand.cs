@@ -110,7 +110,7 @@ internal static class AnimateCommand
             return new TracedFrames(trace.Prepare(scene, view, job, report), job, trace);
         }
 
-        var drawable = report.Measure("prepare", () => DrawableScene.Prepare(scene, job.Settings));
+        var drawable = report.Measure("prepare", () => DrawableScene.Prepare(job.Background.ApplyTo(scene), job.Settings));
         Notices.Write(drawable.Notices);
 
         motion = animation.CreateMotion(scene, () => drawable, view);

@@ -78,7 +78,7 @@ internal static class RenderCommand
             return Trace(scene, view, job, trace, output, report);
         }
 
-        var drawable = report.Measure("prepare", () => DrawableScene.Prepare(scene, job.Settings));
+        var drawable = report.Measure("prepare", () => DrawableScene.Prepare(job.Background.ApplyTo(scene), job.Settings));
         Notices.Write(drawable.Notices);
 
         view = Zoom(drawable, view, job);

@@ -41,6 +41,8 @@ internal sealed partial class Document : IDisposable
             file.Scene, scene.Camera is null ? area.Aspect : null);
         CameraControls = new(FlyingCamera);
         Trail = file.Scene.Objects is [{ Model: FractalModel { Fractal: var fractal } }] ? new(fractal, options.TrailLength) : null;
+        // Before anything of the previous document ends, since the driver may refuse the new one.
+        previous?.Renderer.Replace(preparation.Scene);
         Physics = new(file.Scene, window.Wake, previous?.Physics, alwaysBuild: !options.Settings.LazyLoading);
         if (previous is null)
         {
@@ -52,7 +54,6 @@ internal sealed partial class Document : IDisposable
         {
             previous.FirstSightLoader.Dispose();
             Renderer = previous.Renderer;
-            Renderer.Replace(preparation.Scene);
             // Until the first frame, which shows nearly the same: handles that are dragged need a view.
             LatestView = previous.LatestView;
             // A drag goes on, and stays one step.

@@ -247,6 +247,7 @@ internal sealed partial class DocumentLoader(
         catch (Exception exception) when (exception is FractalEngineException or OutOfMemoryException)
         {
             // What was prepared before stays on the screen.
+            overlay.Progress = null;
             overlay.Error = Failure.Of(exception).Text;
             Console.Error.WriteLine(overlay.Error);
             return Redraw.Overlay;

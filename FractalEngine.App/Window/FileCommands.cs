@@ -199,6 +199,8 @@ internal sealed class FileCommands(
     /// <summary>Saves what does not conflict, and shows the file's view.</summary>
     private void TakeTheirs(Document document, Action? proceed) => Try(() =>
     {
+        // The file may have been loaded again while the question was open.
+        document = loader.Document ?? document;
         var draft = document.Draft;
         var merged = SceneFileMerge.Write(document.File.Path, draft.SavedText, draft.Write(document.SceneView), MergePreference.Theirs);
         draft.MarkSaved(merged.Text, document.SceneView);
@@ -213,7 +215,7 @@ internal sealed class FileCommands(
         {
             prompts.Open(new TextPrompt(
                 "Save as a new scene", PathText.Shorten(NewSceneFile.Propose(document.File.Path)),
-                text => TrySaveAs(document, PathText.Expand(text), proceed)));
+                text => TrySaveAs(loader.Document ?? document, PathText.Expand(text), proceed)));
         }
     }
 

@@ -57,7 +57,7 @@ internal sealed partial class SceneWindow
         var isTaken = _interface.Handle(windowEvent);
         while (_interface.TakeChosen() is { } action)
         {
-            _redraw |= _actions.Run(action, _clock.Elapsed) | Redraw.Overlay;
+            _redraw |= _actions.Run(action) | Redraw.Overlay;
         }
 
         _redraw |= _actions.TakeRequested();
@@ -66,7 +66,8 @@ internal sealed partial class SceneWindow
             _redraw |= Redraw.Overlay;
         }
 
-        if (isTaken)
+        // A drag of a panel is saved when it ends.
+        if (isTaken && windowEvent is not MouseMoved)
         {
             _interface.SaveSettings();
         }
@@ -80,14 +81,13 @@ internal sealed partial class SceneWindow
         switch (windowEvent)
         {
             case KeyPressed { Key: Key.Escape } when Document?.Tool is { Selected: not null } or { Measure.IsActive: true }:
-                _redraw |= _actions.ClearSelection(_clock.Elapsed);
+                _redraw |= _actions.ClearSelection();
                 return;
-            case CloseRequested or KeyPressed { Key: Key.Escape }:
-                if (_prompts.Current is null)
-                {
-                    _files.Close();
-                }
-
+            case CloseRequested:
+            case KeyPressed { Key: Key.Escape } when _prompts.Current is null:
+                _files.Close();
+                return;
+            case KeyPressed { Key: Key.Escape }:
                 return;
             case WindowResized:
                 _redraw |= Redraw.Scene;
@@ -103,7 +103,7 @@ internal sealed partial class SceneWindow
                 _files.Open(PathText.Shorten(dropped.Path));
                 break;
             case KeyPressed { IsRepeat: false } pressed:
-                _redraw |= _actions.Handle(pressed, _clock.Elapsed);
+                _redraw |= _actions.Handle(pressed);
                 _interface.SaveSettings();
                 break;
         }

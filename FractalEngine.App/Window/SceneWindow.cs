@@ -53,7 +53,7 @@ internal sealed partial class SceneWindow : IDisposable
         _loader = new(_window, _area, _overlay, options, recent.Add, Report);
         _tracing = new(options, _window.Wake);
         _files = new(_loader, _prompts, recent, Report, () => _actions!.Settings, () => _isClosing = true);
-        _actions = new(_window, _windowRenderer, _overlay, _tracing, options.Settings) { Files = _files };
+        _actions = new(_window, _windowRenderer, _overlay, _tracing, options.Settings, () => _clock.Elapsed) { Files = _files };
         _interface = new(_actions, _window, options.SettingsPath, Report);
         _actions.Interface = _interface;
         _tracing.IsEnabled = options.IsTraced ?? _interface.IsTraced;
@@ -84,7 +84,8 @@ internal sealed partial class SceneWindow : IDisposable
     /// <summary>Whether the last frame was coarse, and nothing moves any more.</summary>
     private bool NeedsFullFrame => _windowRenderer.IsReducedQuality && Document?.IsMoving != true;
 
-    private bool NeedsRefresh => (_isVisible || !_options.IdleWhenUnchanged) && _redraw != Redraw.None;
+    private bool NeedsRefresh =>
+        (_isVisible || !_options.IdleWhenUnchanged) && _redraw != Redraw.None && _window is { Width: > 0, Height: > 0 };
 
     private void Run()
     {
@@ -107,7 +108,7 @@ internal sealed partial class SceneWindow : IDisposable
                 _redraw |= Redraw.Overlay;
             }
 
-            if (NeedsRefresh && _window.Width > 0 && _window.Height > 0 && !_isClosing)
+            if (NeedsRefresh && !_isClosing)
             {
                 Refresh();
             }

@@ -56,13 +56,13 @@ internal sealed class GlBuffer : GlObject
     /// <summary>Makes room for new contents. A driver that still draws the old ones keeps them until it is done.</summary>
     /// <param name="bytes">Bytes that will be written. Where the storage is replaced, it becomes half larger than this.</param>
     /// <exception cref="GlException">The memory does not suffice.</exception>
-    public void Discard(int bytes)
+    public void Discard(long bytes)
     {
         Bind();
         // Growing for each frame would be slow, and so is discarding a buffer that is far too large.
         if (bytes > _size || bytes < _size / 4)
         {
-            _size = bytes + (bytes / 2);
+            _size = checked((nint)(bytes + (bytes / 2)));
         }
 
         GL.BufferData(_target, _size, IntPtr.Zero, BufferUsageHint.StreamDraw);
@@ -73,7 +73,7 @@ internal sealed class GlBuffer : GlObject
     /// <param name="data">Floats to write.</param>
     /// <param name="offset">Position of the first float, bytes from the start of the buffer.</param>
     /// <returns>Number of bytes that were written.</returns>
-    public int Write(ReadOnlySpan<float> data, int offset)
+    public long Write(ReadOnlySpan<float> data, long offset)
     {
         Bind();
         unsafe
@@ -82,12 +82,12 @@ internal sealed class GlBuffer : GlObject
             {
                 if (data.Length > 0)
                 {
-                    GL.BufferSubData(_target, offset, data.Length * sizeof(float), (nint)start);
+                    GL.BufferSubData(_target, checked((nint)offset), (nint)data.Length * sizeof(float), (nint)start);
                 }
             }
         }
 
-        return data.Length * sizeof(float);
+        return (long)data.Length * sizeof(float);
     }
 
     /// <inheritdoc/>

@@ -20,8 +20,8 @@ internal sealed class EffectiveCulling
         }
 
         var isMultisampled = settings.Samples > 1;
-        // A wireframe hides nothing behind it.
-        var occlusionCulling = culling.OcclusionCulling && !settings.Wireframe;
+        // A wireframe hides nothing behind it. The buffer has the places of four samples: others may see past an edge that those don't.
+        var occlusionCulling = culling.OcclusionCulling && settings is { Wireframe: false, Samples: <= 1 or 4 };
         var skyVisibility = HasSkyVisibility(settings);
         if (_lastResolved is not { } last || last.Source != culling || last.Resolved.IsMultisampled != isMultisampled
             || last.Resolved.OcclusionCulling != occlusionCulling || last.Resolved.SkyVisibility != skyVisibility)

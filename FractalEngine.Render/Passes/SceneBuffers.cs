@@ -20,27 +20,32 @@ internal sealed class SceneBuffers(GlResources resources) : IDisposable
     public SceneCuller ShadowCuller => _shadowCuller ??= new(resources, _scene!, _models, usesSkyMasks: false);
 
     /// <summary>Uploads what is not on the GPU yet, and deletes the buffers of models that the scene no longer has.</summary>
-    /// <exception cref="GlException">The GPU's memory does not suffice. What was uploaded before stays until disposal.</exception>
+    /// <exception cref="GlException">The driver refuses something, or the GPU's memory does not suffice: nothing has changed.</exception>
     public void Upload(DrawableScene scene)
     {
+        SceneCuller culler;
+        try
+        {
+            _textures.Add(resources, scene.Textures);
+            foreach (var model in scene.Models.Where(model => !_models.ContainsKey(model)))
+            {
+                _models.Add(model, new(resources, model));
+            }
+
+            culler = new(resources, scene, _models, usesSkyMasks: true);
+        }
+        catch (GlException)
+        {
+            KeepOnly(_scene);
+            throw;
+        }
+
         _culler?.Dispose();
-        _culler = null;
+        _culler = culler;
         _shadowCuller?.Dispose();
         _shadowCuller = null;
         _scene = scene;
-        foreach (var model in _models.Keys.Except(scene.Models).ToArray())
-        {
-            _models[model].Dispose();
-            _models.Remove(model);
-        }
-
-        _textures.Upload(resources, scene.Textures);
-        foreach (var model in scene.Models.Where(model => !_models.ContainsKey(model)))
-        {
-            _models.Add(model, new(resources, model));
-        }
-
-        _culler = new(resources, scene, _models, usesSkyMasks: true);
+        KeepOnly(scene);
     }
 
     /// <summary>Returns the buffers of a model of the scene.</summary>
@@ -48,6 +53,18 @@ internal sealed class SceneBuffers(GlResources resources) : IDisposable
 
     /// <summary>Binds the texture of a material, if it has one.</summary>
     public void BindTexture(DrawableMaterial? material) => _textures.Bind(material);
+
+    /// <summary>Deletes what a scene does not have; everything where there is no scene.</summary>
+    private void KeepOnly(DrawableScene? scene)
+    {
+        foreach (var model in _models.Keys.Except(scene?.Models ?? []).ToArray())
+        {
+            _models[model].Dispose();
+            _models.Remove(model);
+        }
+
+        _textures.KeepOnly(scene?.Textures ?? []);
+    }
 
     /// <inheritdoc/>
     public void Dispose()

@@ -8,18 +8,22 @@ internal sealed class TextureSet : IDisposable
 {
     private readonly Dictionary<DrawableTexture, SrgbTexture> _textures = new(ReferenceEqualityComparer.Instance);
 
-    /// <summary>Uploads the textures that are not on the GPU yet, and deletes those that are no longer needed.</summary>
-    /// <exception cref="GlException">
-    /// A texture exceeds the driver's limits, or the memory does not suffice. Those before it stay until disposal.
-    /// </exception>
-    public void Upload(GlResources resources, IReadOnlyCollection<DrawableTexture> textures)
+    /// <summary>Deletes all textures but some.</summary>
+    public void KeepOnly(IReadOnlyCollection<DrawableTexture> textures)
     {
         foreach (var unused in _textures.Keys.Except(textures, ReferenceEqualityComparer.Instance).Cast<DrawableTexture>().ToArray())
         {
             _textures[unused].Dispose();
             _textures.Remove(unused);
         }
+    }
 
+    /// <summary>Uploads the textures that are not on the GPU yet.</summary>
+    /// <exception cref="GlException">
+    /// A texture exceeds the driver's limits, or the memory does not suffice. Those before it stay.
+    /// </exception>
+    public void Add(GlResources resources, IReadOnlyCollection<DrawableTexture> textures)
+    {
         foreach (var texture in textures.Where(texture => !_textures.ContainsKey(texture)))
         {
             _textures.Add(texture, new(resources, texture.Name, texture.Image));

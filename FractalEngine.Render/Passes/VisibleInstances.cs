@@ -55,8 +55,8 @@ internal sealed class VisibleInstances : IDisposable
     public void Upload(VisibleSet visible, int objectIndex, bool hasSkyParts)
     {
         _instanceCount = visible.InstanceCountOf(objectIndex);
-        _instances.Discard(_instanceCount * VisibleSet.FloatsPerInstance * sizeof(float));
-        var offset = 0;
+        _instances.Discard((long)_instanceCount * VisibleSet.FloatsPerInstance * sizeof(float));
+        var offset = 0L;
         for (var chunk = 0; chunk < VisibleSet.ChunkCount; chunk++)
         {
             offset += _instances.Write(visible.Instances(objectIndex, chunk), offset);
@@ -65,7 +65,7 @@ internal sealed class VisibleInstances : IDisposable
         UploadedBytes += offset;
         if (_tints is not null)
         {
-            _tints.Discard(_instanceCount * sizeof(float));
+            _tints.Discard((long)_instanceCount * sizeof(float));
             offset = 0;
             for (var chunk = 0; chunk < VisibleSet.ChunkCount; chunk++)
             {
@@ -77,7 +77,7 @@ internal sealed class VisibleInstances : IDisposable
 
         if (_skyParts is not null && hasSkyParts)
         {
-            _skyParts.Discard(_instanceCount * 6 * sizeof(float));
+            _skyParts.Discard((long)_instanceCount * 6 * sizeof(float));
             offset = 0;
             for (var chunk = 0; chunk < VisibleSet.ChunkCount; chunk++)
             {

@@ -182,10 +182,13 @@ void main()
     colour += material[4].rgb;
 #endif
     vec3 shown = colour * opacity + highlights;
+    float coverage = opacity;
 #ifdef ATMOSPHERE
     // An orthographic view measures the distance from its plane.
     float distance = depthScale.z != 0.0 ? length(position) : max(dot(position, cameraAxes[2]), 0.0);
-    shown = opacity * toScreen(throughHaze(shown / max(opacity, 1e-4), distance));
+    // Where clear glass has a highlight, that covers what is behind.
+    coverage = clamp(max(opacity, max(highlights.r, max(highlights.g, highlights.b))), 1e-4, 1.0);
+    shown = coverage * toScreen(throughHaze(shown / coverage, distance));
 #endif
-    fragment = vec4(shown, opacity);
+    fragment = vec4(shown, coverage);
 }

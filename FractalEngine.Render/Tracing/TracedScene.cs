@@ -201,7 +201,7 @@ internal sealed class TracedScene
         var map = hit.InstanceMap;
         var faceNormal = hit.IsFrontFace ? hit.Normal : -hit.Normal;
         var normal = OrientedNormal(
-            map.Linear.Cofactors() * model.InterpolateNormal(hit.FaceIndex, hit.Barycentrics), faceNormal, hit.IsFrontFace, map, direction);
+            map.Linear.Cofactors() * model.InterpolateNormal(hit.FaceIndex, hit.Barycentrics), faceNormal, direction);
         var colour = material.BaseColour?.Stretch(_tints[_zoom?.ObjectIndex ?? index]) ?? ObjectColour(index, context);
         colour = colour.Stretch(model.InterpolateColour(hit.FaceIndex, hit.Barycentrics));
         var opacity = material.Opacity;
@@ -224,9 +224,8 @@ internal sealed class TracedScene
     }
 
     /// <summary>Brings an interpolated normal to the side that the ray comes from; the face's own where there is none.</summary>
-    private static Vector OrientedNormal(Vector normal, Vector faceNormal, bool isFrontFace, AffineMap map, Vector direction)
+    private static Vector OrientedNormal(Vector normal, Vector faceNormal, Vector direction)
     {
-        // Under a mirrored map the cofactors keep the side of the mesh, the winding changes it.
         var length = normal.Length();
         if (!(length > 0) || !double.IsFinite(length))
         {

@@ -198,8 +198,8 @@ public sealed partial class UserInterface
     {
         var before = _focusable.Count;
         var rows = Math.Max(1, (_height - title.Bottom - (3 * Gap)) / RowPitch);
-        var besides = (Math.Max(1, items) + rows - 1) / rows;
-        var width = Math.Min((besides * (columns + 4) * CellWidth) + (2 * Gap), _width);
+        var columnCount = (Math.Max(1, items) + rows - 1) / rows;
+        var width = Math.Min((columnCount * (columns + 4) * CellWidth) + (2 * Gap), _width);
         var x = Math.Max(0, Math.Min(title.X, _width - width));
         var height = _dialogHeights.GetValueOrDefault(_openMenu!);
         var bounds = new UiRect(x, title.Bottom, width, height + (2 * Gap));
@@ -207,7 +207,7 @@ public sealed partial class UserInterface
         Fill(bounds, Theme.Panel);
         _area = bounds.Inset(Gap);
         _cursorY = _area.Y;
-        Row([.. Enumerable.Repeat(1.0, besides)]);
+        Row([.. Enumerable.Repeat(1.0, columnCount)]);
         build();
         FinishRow();
         if (_cursorY - _area.Y != height && _openMenu is not null)

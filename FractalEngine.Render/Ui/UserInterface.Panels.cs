@@ -43,7 +43,8 @@ public sealed partial class UserInterface
         {
             var height = Math.Min(WantedHeight(panel), column.Height);
             // A part of the title always stays in the frame, to move the panel back.
-            var x = (int)Math.Clamp(panel.X * Scale, (4 * CellWidth) - PanelWidth, Math.Max(0, column.Right - (4 * CellWidth)));
+            var minX = (4 * CellWidth) - PanelWidth;
+            var x = (int)Math.Clamp(panel.X * Scale, minX, Math.Max(Math.Max(0, minX), column.Right - (4 * CellWidth)));
             var y = (int)Math.Clamp(panel.Y * Scale, column.Y, Math.Max(column.Y, column.Bottom - TitleHeight));
             AddPanel(panel, new(x, y, PanelWidth, Math.Min(height, Math.Max(TitleHeight, column.Bottom - y))));
         }

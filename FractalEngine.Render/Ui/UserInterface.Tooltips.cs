@@ -35,13 +35,13 @@ public sealed partial class UserInterface
         _layer = 2;
         _clip = new(0, 0, _width, _height);
         var (left, right) = TooltipSpan();
-        var besides = Math.Max(_tooltipOwner.X - left, right - _tooltipOwner.Right) - (2 * Gap);
-        var isBesides = besides >= MinTooltipColumns * CellWidth;
-        var columns = Math.Max(1, Math.Min(MaxTooltipColumns, ((isBesides ? besides : _width) / CellWidth) - 2));
+        var roomBeside = Math.Max(_tooltipOwner.X - left, right - _tooltipOwner.Right) - (2 * Gap);
+        var fitsBeside = roomBeside >= MinTooltipColumns * CellWidth;
+        var columns = Math.Max(1, Math.Min(MaxTooltipColumns, ((fitsBeside ? roomBeside : _width) / CellWidth) - 2));
         var lines = Wrap(_tooltip, columns).ToArray();
         var width = (lines.Max(static line => line.Length) * CellWidth) + (2 * Gap);
         var height = (lines.Length * LineHeight) + (2 * Gap);
-        var (x, y) = isBesides ? PlaceBesides(_tooltipOwner, right, width, height)
+        var (x, y) = fitsBeside ? PlaceBeside(_tooltipOwner, right, width, height)
             : IsModal && _tooltipOwner.Bottom > _height - height ? PlaceBelowPointer(width, height)
             : (Math.Min(_tooltipOwner.X, _width - width), _height - height);
         var bounds = new UiRect(x, y, width, height);
@@ -62,7 +62,7 @@ public sealed partial class UserInterface
         : (_tooltipOwner.X >= FreeArea.X ? FreeArea.X : 0, _tooltipOwner.Right <= FreeArea.Right ? FreeArea.Right : _width);
 
     /// <summary>Places a tooltip beside its panel or menu, of which it covers no row.</summary>
-    private (int X, int Y) PlaceBesides(UiRect owner, int right, int width, int height)
+    private (int X, int Y) PlaceBeside(UiRect owner, int right, int width, int height)
     {
         var x = owner.Right + Gap + width <= right ? owner.Right + Gap : owner.X - Gap - width;
         return (x, Math.Clamp((int)_input.Y - (height / 2), 0, Math.Max(0, _height - height)));

@@ -21,9 +21,6 @@ internal interface IPlatformWindow : IDisposable
     /// <summary>Whether the window fills the screen, without a frame.</summary>
     bool IsFullScreen { get; set; }
 
-    /// <summary>Hides the pointer and lets it move without limits.</summary>
-    bool RelativeMouse { get; set; }
-
     /// <summary>
     /// Makes the clip planes of the window's context 0 and 1 rather than −1 and 1 (glClipControl). The context must be current.
     /// </summary>

@@ -1,6 +1,6 @@
 namespace FractalEngine.Render.Windowing;
 
-/// <summary>The mouse moved. In <see cref="RenderWindow.RelativeMouse"/> mode only the differences are meaningful.</summary>
+/// <summary>The mouse moved within the window.</summary>
 /// <param name="X">Framebuffer pixels from the left edge.</param>
 /// <param name="Y">Framebuffer pixels from the top edge.</param>
 /// <param name="DeltaX">

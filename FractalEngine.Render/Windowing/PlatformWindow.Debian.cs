@@ -13,7 +13,6 @@ internal sealed class PlatformWindow : IPlatformWindow
     private readonly GCHandle _self;
     private readonly uint _id;
     private readonly List<WindowEvent> _pending = [];
-    private bool _relativeMouse;
 
     private PlatformWindow(NativeWindow window, GraphicsContext context)
     {
@@ -49,12 +48,6 @@ internal sealed class PlatformWindow : IPlatformWindow
     {
         get => _window.WindowState == WindowState.Fullscreen;
         set => _window.WindowState = value ? WindowState.Fullscreen : WindowState.Normal;
-    }
-
-    public bool RelativeMouse
-    {
-        get => _relativeMouse;
-        set => _relativeMouse = SdlWindow.SetRelativeMouseMode(value ? 1 : 0) == 0 && value;
     }
 
     /// <summary>Opens a window with an OpenGL 3.3 context.</summary>

@@ -58,12 +58,6 @@ internal sealed class PlatformWindow : IPlatformWindow
         set => _window.WindowState = value ? WindowState.Fullscreen : WindowState.Normal;
     }
 
-    public bool RelativeMouse
-    {
-        get => _window.CursorState == CursorState.Grabbed;
-        set => _window.CursorState = value ? CursorState.Grabbed : CursorState.Normal;
-    }
-
     /// <summary>Framebuffer pixels per screen point, which is GLFW's unit: 2 on many screens of macOS.</summary>
     private Vector2 PixelsPerPoint
     {

@@ -55,13 +55,6 @@ public sealed class RenderWindow : RenderContext
         set => Window.IsFullScreen = value;
     }
 
-    /// <summary>Hides the pointer and lets it move without limits, to look around with the mouse.</summary>
-    public bool RelativeMouse
-    {
-        get => Window.RelativeMouse;
-        set => Window.RelativeMouse = value;
-    }
-
     /// <summary>Sleeps until an event arrives or <see cref="Wake"/> is called, and returns all events that have arrived.</summary>
     /// <param name="timeout">
     /// Longest time to sleep: <see cref="TimeSpan.Zero"/> only polls, <see cref="Timeout.InfiniteTimeSpan"/> sleeps without limit.

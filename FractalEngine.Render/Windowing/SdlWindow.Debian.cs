@@ -39,9 +39,6 @@ internal static unsafe partial class SdlWindow
     [LibraryImport(Library, EntryPoint = "SDL_GetModState")]
     public static partial ushort GetModState();
 
-    [LibraryImport(Library, EntryPoint = "SDL_SetRelativeMouseMode")]
-    public static partial int SetRelativeMouseMode(int enabled);
-
     [LibraryImport(Library, EntryPoint = "SDL_SetClipboardText", StringMarshalling = StringMarshalling.Utf8)]
     public static partial int SetClipboardText(string text);
 

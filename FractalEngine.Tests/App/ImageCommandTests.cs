@@ -107,6 +107,14 @@ public sealed class ImageCommandTests : IDisposable
     }
 
     [SkippableFact]
+    public void Background_BehindHazeWithoutAColour_IsWhatTheHazeFadesTo()
+    {
+        _folder.Write("haze.sdo", "background (0, 0, 1)\nfog 100\no \"cube.obj\" # colour (1, 0, 0)\nc (0, 0, -3) # 60\n");
+        Render("haze.sdo", "a.png", "--background", "(0, 1, 0)");
+        Assert.Equal(((byte)0, (byte)255, (byte)0, (byte)255), ReadImage("a.png")[32, 32]);
+    }
+
+    [SkippableFact]
     public void Reference_OfAnotherImage_EndsWith5AndWritesTheDifference()
     {
         Render("scene.sdo", "a.png");

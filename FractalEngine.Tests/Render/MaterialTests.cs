@@ -246,8 +246,8 @@ public sealed class MaterialTests : IDisposable
         };
         var model = TexturedScenes.CreateSquare(1, new("m") { Texture = CreateQuarteredTexture(), Diffuse = new(0.9, 0.8, 0.7) });
         var scene = RenderScenes.Scene(lights, (model, new(Vector.Zero, new(20, 30, 10), new(1, 0.7, 1)), null));
-        var perVertex = RenderScenes.Draw(scene, RenderScenes.FrontView);
-        var perPixel = RenderScenes.Draw(scene, RenderScenes.FrontView, settings: new() { Shading = Shading.PerPixel });
+        var perVertex = RenderScenes.Draw(scene, RenderScenes.FrontView, settings: new() { Shading = Shading.PerVertex });
+        var perPixel = RenderScenes.Draw(scene, RenderScenes.FrontView, settings: new() { Shading = Shading.PerPixel, Shadows = false });
         // Interpolation and normalisation round differently.
         Assert.All(perVertex.Pixels.Zip(perPixel.Pixels), pair => Assert.InRange(pair.First - pair.Second, -1, 1));
         Assert.True(RenderScenes.CountDifferent(perPixel, perPixel[0, 0]) > 1000);
@@ -264,17 +264,39 @@ public sealed class MaterialTests : IDisposable
         var model = new FractalModel(new(new([set]), RenderScenes.Sphere(48))) { SourcePath = "sphere.fdo" };
         var placement = new Transformation(Vector.Zero, new(10, 20, 70), new(1.2, 0.8, 1));
         var scene = RenderScenes.Scene(new(), (model, placement, null));
-        var perVertex = RenderScenes.Draw(scene, RenderScenes.FrontView, 400, 300);
-        var perPixel = RenderScenes.Draw(scene, RenderScenes.FrontView, 400, 300, new() { Shading = Shading.PerPixel });
+        var perVertex = RenderScenes.Draw(scene, RenderScenes.FrontView, 400, 300, new() { Shading = Shading.PerVertex });
+        var perPixel = RenderScenes.Draw(scene, RenderScenes.FrontView, 400, 300, new() { Shading = Shading.PerPixel, Shadows = false });
         Assert.True(RenderScenes.Difference(perVertex, perPixel) is { Mean: < 0.3, Share: < 0.002 });
 
         // The same surface with mapped vertices and newly generated normals has no map that could spoil them.
         var moved = RenderScenes.Sphere(48).Transform(vertex => placement.ToAffineMap() * (model.Fractal.LevelAt(0).Maps[0] * vertex));
         var expected = RenderScenes.Draw(
             RenderScenes.Scene(new(), (RenderScenes.Model(moved), Transformation.Identity, null)), RenderScenes.FrontView, 400, 300,
-            new() { Shading = Shading.PerPixel });
+            new() { Shading = Shading.PerPixel, Shadows = false });
         var difference = RenderScenes.Difference(expected, perPixel);
         Assert.True(difference is { Mean: < 0.5, Share: < 0.005 }, $"{difference}");
+    }
+
+    [SkippableTheory]
+    [InlineData(Tone.None)]
+    [InlineData(Tone.Filmic)]
+    public void Highlight_OnClearGlass_IsAsBrightAsOnAnOpaqueSurface(Tone tone)
+    {
+        // The light stands behind the camera, so that the middle of the square mirrors it into the eye.
+        var declared = new Scene
+        {
+            Background = Colour.Black, Lights = [new DirectionalLight(new(0, 0, 1), Colour.White, 1)], Tone = tone, Exposure = 4,
+        };
+        byte Middle(double opacity)
+        {
+            var material = new Material("m") { Diffuse = Colour.Black, Specular = Colour.White, SpecularExponent = 50, Opacity = opacity };
+            var model = TexturedScenes.WithMaterial(RenderScenes.Square(1), material);
+            var scene = RenderScenes.Scene(declared, (model, Transformation.Identity, null));
+            return RenderScenes.Draw(scene, RenderScenes.FrontView, 100, 100)[50, 50].Red;
+        }
+
+        Assert.InRange(Middle(1), 200, 255);
+        Assert.InRange(Middle(0.1), Middle(1) - 3, 255);
     }
 
     [SkippableTheory]

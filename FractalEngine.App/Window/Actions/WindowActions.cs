@@ -10,10 +10,11 @@ namespace FractalEngine.App.Window.Actions;
 /// <param name="overlay">The overlay of the window, which shows messages.</param>
 /// <param name="tracing">Traces the view of the window.</param>
 /// <param name="settings">The initial render settings.</param>
+/// <param name="clock">Tells the present time.</param>
 internal sealed class WindowActions(
-    RenderWindow window, WindowRenderer renderer, WindowOverlay overlay, WindowTracing tracing, RenderSettings settings)
+    RenderWindow window, WindowRenderer renderer, WindowOverlay overlay, WindowTracing tracing, RenderSettings settings,
+    Func<TimeSpan> clock)
 {
-    private TimeSpan _now;
     private Redraw _requested;
 
     /// <summary>The present render settings.</summary>
@@ -36,16 +37,13 @@ internal sealed class WindowActions(
 
     /// <summary>Runs the command of a key. Keys of the camera are those of <see cref="CameraControls"/>, and ignored here.</summary>
     /// <param name="pressed">The key that was pressed.</param>
-    /// <param name="now">The present time.</param>
-    public Redraw Handle(KeyPressed pressed, TimeSpan now) =>
-        ActionTable.Find(pressed) is { MoveCamera: null } action ? Run(action, now) : Redraw.None;
+    public Redraw Handle(KeyPressed pressed) =>
+        ActionTable.Find(pressed) is { MoveCamera: null } action ? Run(action) : Redraw.None;
 
     /// <summary>Runs an action, if it has an effect now.</summary>
     /// <param name="action">A row of the table.</param>
-    /// <param name="now">The present time.</param>
-    public Redraw Run(WindowAction action, TimeSpan now)
+    public Redraw Run(WindowAction action)
     {
-        _now = now;
         if (!action.IsAvailable(this))
         {
             return Redraw.None;
@@ -74,7 +72,7 @@ internal sealed class WindowActions(
     /// <summary>Shows a message for a few seconds.</summary>
     public Redraw Show(string message)
     {
-        overlay.ShowMessage(message, _now);
+        overlay.ShowMessage(message, clock());
         return Redraw.Overlay;
     }
 
@@ -99,9 +97,8 @@ internal sealed class WindowActions(
     }
 
     /// <summary>Ends measuring, or selects nothing.</summary>
-    public Redraw ClearSelection(TimeSpan now)
+    public Redraw ClearSelection()
     {
-        _now = now;
         var tool = Document!.Tool;
         if (tool.Measure.IsActive)
         {
@@ -130,7 +127,7 @@ internal sealed class WindowActions(
     public Redraw SaveScreenshot()
     {
         var image = tracing.OpaqueImage ?? renderer.Capture(Document!, Settings, window.Width, window.Height);
-        overlay.Report(Screenshots.Save(image, Document!.File.Path), _now);
+        overlay.Report(Screenshots.Save(image, Document!.File.Path), clock());
         return Redraw.Scene;
     }
 
@@ -138,7 +135,7 @@ internal sealed class WindowActions(
     public Redraw SaveWindowScreenshot()
     {
         var image = renderer.CaptureWindow(tracing.Layer, Interface.Ui, overlay.Panels);
-        overlay.Report(Screenshots.Save(image, Document!.File.Path), _now);
+        overlay.Report(Screenshots.Save(image, Document!.File.Path), clock());
         return Redraw.Overlay;
     }
 

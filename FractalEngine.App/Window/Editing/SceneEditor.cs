@@ -10,6 +10,9 @@ internal static class SceneEditor
     // Begins a comment, which no other program needs to know.
     private const string HiddenMark = "#hidden ";
 
+    /// <summary>Parses the text of a scene.</summary>
+    public static Scene Parse(string text) => SceneParser.Parse(new("scene", text)).Scene;
+
     /// <summary>Changes the scene that a text declares. Objects and lights keep their numbers, or are added at the end.</summary>
     /// <param name="text">Text of the scene.</param>
     /// <param name="change">Returns the changed scene.</param>

@@ -62,22 +62,19 @@ internal sealed class LightList(WindowActions actions)
         var intensity = light.Intensity;
         if (ui.Slider("intensity", ref intensity, 0, 2, 0.01, isBounded: false) && intensity is >= 0 and <= 1e9)
         {
-            SetLight(ui, index, present => present with { Intensity = intensity });
+            actions.ChangeLight(ui, index, present => present with { Intensity = intensity });
         }
 
         if (ui.Colour(light.Colour) is { } colour)
         {
-            SetLight(ui, index, present => present with { Colour = colour });
+            actions.ChangeLight(ui, index, present => present with { Colour = colour });
         }
 
         ui.Row(1);
         if (ui.Button("Remove the light"))
         {
-            actions.EditScene(ui, text => SceneEditor.RemoveLight(text, index));
+            actions.EditLine(ui, index, SceneEditor.RemoveLight);
             _light = -1;
         }
     }
-
-    private void SetLight(UserInterface ui, int index, Func<Light, Light> change) => actions.ChangeScene(
-        ui, scene => scene with { Lights = scene.Lights.SetItem(index, change(scene.Lights[index])) });
 }

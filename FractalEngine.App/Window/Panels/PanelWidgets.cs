@@ -106,6 +106,48 @@ internal static class PanelWidgets
     public static void ChangeScene(this WindowActions actions, UserInterface ui, Func<Scene, Scene> change) =>
         actions.EditScene(ui, text => SceneEditor.Change(text, change));
 
+    /// <summary>Changes an object of the document's scene. Refused while the scene has other objects than were loaded.</summary>
+    /// <param name="actions">The window with the document.</param>
+    /// <param name="ui">The interface that is built.</param>
+    /// <param name="index">Index of the object in the loaded scene.</param>
+    /// <param name="change">Returns the changed object.</param>
+    public static void ChangeObject(this WindowActions actions, UserInterface ui, int index, Func<SceneObject, SceneObject> change) =>
+        actions.ChangeScene(ui, scene =>
+        {
+            RequireLoaded(actions, scene);
+            return scene with { Objects = scene.Objects.SetItem(index, change(scene.Objects[index])) };
+        });
+
+    /// <summary>Changes a light of the document's scene. Refused while the scene has other lights than were loaded.</summary>
+    /// <param name="actions">The window with the document.</param>
+    /// <param name="ui">The interface that is built.</param>
+    /// <param name="index">Index of the light in the loaded scene.</param>
+    /// <param name="change">Returns the changed light.</param>
+    public static void ChangeLight(this WindowActions actions, UserInterface ui, int index, Func<Light, Light> change) =>
+        actions.ChangeScene(ui, scene =>
+        {
+            RequireLoaded(actions, scene);
+            return scene with { Lights = scene.Lights.SetItem(index, change(scene.Lights[index])) };
+        });
+
+    /// <summary>Changes the line of an object or a light. Refused while the scene has others than were loaded.</summary>
+    public static void EditLine(this WindowActions actions, UserInterface ui, int index, Func<string, int, string> edit) =>
+        actions.EditScene(ui, text =>
+        {
+            RequireLoaded(actions, SceneEditor.Parse(text));
+            return edit(text, index);
+        });
+
+    /// <summary>Throws where an edit has added or removed objects or lights, and was not loaded: indices mean others there.</summary>
+    private static void RequireLoaded(WindowActions actions, Scene present)
+    {
+        var loaded = actions.Document!.File.Scene.Scene;
+        if ((present.Objects.Length, present.Lights.Length) != (loaded.Objects.Length, loaded.Lights.Length))
+        {
+            throw new ArgumentException("the last change is not loaded: mend it, or take it back with Ctrl+Z");
+        }
+    }
+
     /// <summary>Changes the text of the document's scene, as a step that can be undone.</summary>
     public static void EditScene(this WindowActions actions, UserInterface ui, Func<string, string> edit)
     {

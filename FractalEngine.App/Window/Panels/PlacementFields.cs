@@ -37,14 +37,9 @@ internal sealed class PlacementFields(WindowActions actions)
         }
 
         // Only what was changed here: an earlier change of the rest may still be loading.
-        actions.ChangeScene(ui, scene =>
-        {
-            var present = scene.Objects[index].Placement;
-            var changed = new Transformation(
-                position == placement.Position ? present.Position : position,
-                rotation == placement.Rotation ? present.Rotation : rotation,
-                scale == placement.Scale ? present.Scale : scale);
-            return scene with { Objects = scene.Objects.SetItem(index, scene.Objects[index].MovedTo(changed)) };
-        });
+        actions.ChangeObject(ui, index, present => present.MovedTo(new(
+            position == placement.Position ? present.Placement.Position : position,
+            rotation == placement.Rotation ? present.Placement.Rotation : rotation,
+            scale == placement.Scale ? present.Placement.Scale : scale)));
     }
 }

@@ -128,7 +128,7 @@ internal sealed class ScenePanel(WindowActions actions)
         ui.Label("name", isDim: true);
         if (ui.TextField("no name", ref name) && !name.Contains('"', StringComparison.Ordinal))
         {
-            SetObject(ui, index, present => present with { Name = name.Length > 0 ? name : null });
+            actions.ChangeObject(ui, index, present => present with { Name = name.Length > 0 ? name : null });
         }
 
         _placement.Build(ui, declared, index);
@@ -136,13 +136,13 @@ internal sealed class ScenePanel(WindowActions actions)
         ui.Label("colour", isDim: true);
         if (ui.Colour(declared.Colour ?? Colour.White) is { } colour)
         {
-            SetObject(ui, index, present => present with { Colour = colour });
+            actions.ChangeObject(ui, index, present => present with { Colour = colour });
         }
 
         ui.Row(1, 1, 1);
         if (ui.Button("Hide"))
         {
-            actions.EditScene(ui, text => SceneEditor.HideObject(text, index));
+            actions.EditLine(ui, index, SceneEditor.HideObject);
             _object = -1;
             actions.Document!.Tool.Selected = null;
         }
@@ -151,19 +151,15 @@ internal sealed class ScenePanel(WindowActions actions)
         {
             var offset = 0.25 * actions.Document!.File.Scene.Objects[index].Bounds.Size.X * Vector.I;
             var placement = declared.Placement with { Position = declared.Placement.Position + offset };
-            actions.ChangeScene(
-                ui, present => present with { Objects = present.Objects.Add(present.Objects[index].MovedTo(placement)) });
+            actions.ChangeScene(ui, present => present with { Objects = present.Objects.Add(declared.MovedTo(placement)) });
             _objectToSelect = actions.Document.File.Scene.Scene.Objects.Length;
         }
 
         if (ui.Button("Remove"))
         {
-            actions.EditScene(ui, text => SceneEditor.RemoveObject(text, index));
+            actions.EditLine(ui, index, SceneEditor.RemoveObject);
             _object = -1;
             actions.Document!.Tool.Selected = null;
         }
     }
-
-    private void SetObject(UserInterface ui, int index, Func<SceneObject, SceneObject> change) => actions.ChangeScene(
-        ui, scene => scene with { Objects = scene.Objects.SetItem(index, change(scene.Objects[index])) });
 }

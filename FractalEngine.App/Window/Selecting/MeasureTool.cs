@@ -1,4 +1,5 @@
 using System.Collections.Immutable;
+using FractalEngine.Core;
 using FractalEngine.Core.Collision;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Maths;
@@ -99,8 +100,22 @@ internal sealed class MeasureTool
             else if ((HasMoved(dimension.First, first) || HasMoved(dimension.Second, second))
                 && (dimension.Kind == MeasureKind.Points || !isMoving))
             {
-                Dimensions = Dimensions.Replace(dimension, Measure(dimension.Kind, first, second, scene));
+                MeasureAgain(dimension, first, second, scene);
             }
+        }
+    }
+
+    /// <summary>Measures a distance again, and removes it where there is none any more.</summary>
+    private void MeasureAgain(Dimension dimension, Selection first, Selection second, LoadedScene scene)
+    {
+        try
+        {
+            Dimensions = Dimensions.Replace(dimension, Measure(dimension.Kind, first, second, scene));
+        }
+        catch (Exception exception) when (exception is FractalEngineException or InvalidOperationException)
+        {
+            // A number was changed so that the shape has no closest point, such as one that grows beyond all bounds.
+            Remove(dimension);
         }
     }
 

@@ -135,9 +135,10 @@ internal sealed class SelectionTool(Document document)
             && Math.Abs(pixel.X - x) + Math.Abs(pixel.Y - y) <= MaxClickDistance;
         _lastClick = isDouble ? null : (pixel.X, pixel.Y, now);
         var scene = document.Physics.CurrentScene;
+        Selection? clicked;
         try
         {
-            var clicked = Pick(scene, pixel, size);
+            clicked = Pick(scene, pixel, size);
             if (Measure.IsActive && !isDouble)
             {
                 return clicked is null ? "nothing is there" : Measure.Click(clicked, scene);
@@ -154,7 +155,7 @@ internal sealed class SelectionTool(Document document)
             return exception.Message;
         }
 
-        if (document.FlyingCamera.ToCameraFrame(Selected!.Point, Selected.Viewpoint) is { } point)
+        if (document.FlyingCamera.ToCameraFrame(clicked.Point, clicked.Viewpoint) is { } point)
         {
             document.MoveCamera((camera, _) => camera.FocusOn(point), 1);
         }

@@ -77,10 +77,7 @@ internal sealed class TransformHandles(WindowActions actions)
             isHeld |= handle.IsHeld;
             if (handle.IsHeld && _drag is { } drag && Moved(drag, handle, pointer) is { } placement && placement != declared.Placement)
             {
-                actions.ChangeScene(ui, scene => scene with
-                {
-                    Objects = scene.Objects.SetItem(index, scene.Objects[index].MovedTo(placement)),
-                });
+                actions.ChangeObject(ui, index, present => present.MovedTo(placement));
             }
 
             if (handle.IsHeld && _drag is not null)

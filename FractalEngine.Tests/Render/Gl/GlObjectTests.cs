@@ -51,13 +51,15 @@ public sealed class GlObjectTests
     public void Object_DisposedOnAnotherThread_IsDeletedOnTheContextsThread()
     {
         using var context = GlTests.OpenContext();
-        var buffer = new VertexArray(context.Resources, "shared");
-        var other = new Thread(buffer.Dispose);
+        var item = new RecordingObject(context.Resources);
+        var other = new Thread(item.Dispose);
         other.Start();
         other.Join();
         Assert.Empty(context.Resources.LiveObjects);
+        Assert.Empty(item.DeletingThreads);
         context.MakeCurrent();
-        context.Resources.ThrowOnError("deleting");
+        context.MakeCurrent();
+        Assert.Equal([Environment.CurrentManagedThreadId], item.DeletingThreads);
     }
 
     [SkippableFact]
@@ -155,5 +157,13 @@ public sealed class GlObjectTests
         var shaders = assembly.GetManifestResourceNames().Where(name => name.StartsWith("Shaders/", StringComparison.Ordinal)).ToArray();
         Assert.NotEmpty(shaders);
         Assert.All(shaders, name => Assert.True(Ascii.IsValid(EmbeddedResource.ReadText(name)), name));
+    }
+
+    /// <summary>Records on which threads it is deleted.</summary>
+    private sealed class RecordingObject(GlResources resources) : GlObject(resources, "recorded")
+    {
+        public List<int> DeletingThreads { get; } = [];
+
+        protected override void Delete() => DeletingThreads.Add(Environment.CurrentManagedThreadId);
     }
 }

@@ -388,6 +388,18 @@ public class UserInterfaceTests
         Assert.True(UiText.Find(_ui, "explains two").X > _panel.Bounds.Right || UiText.Find(_ui, "explains two").X < _panel.Bounds.X);
     }
 
+    [Fact]
+    public void FloatingPanel_InAWindowOfAnyWidth_IsBuilt()
+    {
+        var panel = new UiPanel("one", static ui => ui.Label("text")) { IsOpen = true, Dock = UiDock.Floating, X = 300, Y = 200 };
+        var ui = new UserInterface(ui => ui.Panels([panel], bottomMargin: 1));
+        for (var size = 1; size <= 200; size++)
+        {
+            ui.Update(size, size);
+            Assert.True(panel.Bounds.X < Math.Max(size, 64), $"{size}: {panel.Bounds}");
+        }
+    }
+
     [Theory]
     [InlineData(700, 400)]
     [InlineData(900, 600)]

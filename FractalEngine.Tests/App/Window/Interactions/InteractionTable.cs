@@ -10,6 +10,10 @@ internal static partial class InteractionTable
     private const int RightX = 677;
     private const int MiddleY = 350;
 
+    // A pixel of the background.
+    private const int SkyX = 800;
+    private const int SkyY = 200;
+
     // The same while a panel is open at the right edge, which the view makes room for.
     private const int LeftAside = LeftX - 149;
     private const int RightAside = RightX - 149;
@@ -19,7 +23,8 @@ internal static partial class InteractionTable
     /// <summary>The rows whose tests run by default; the others run in the soak.</summary>
     public static readonly string[] Default =
     [
-        "rename an object", "undo and redo of two numbers", "bookmark", "measure two points", "key of the settings",
+        "rename an object", "change objects while one is missing", "undo and redo of two numbers", "bookmark", "measure two points",
+        "double click while measuring", "key of the settings",
         "save first, then close", "new fractal",
     ];
 
@@ -47,12 +52,18 @@ internal static partial class InteractionTable
         new("add a file that is missing", "scene.sdo",
             [Keys("F2"), Click("file (.obj, .fdo"), Text("nothing.obj"), Keys("Return")],
             [Reports("nothing.obj"), FrameIsAsBefore]),
+        new("change objects while one is missing", "scene.sdo",
+            [
+                Keys("F2"), Click("file (.obj, .fdo"), Text("nothing.obj"), Keys("Return"), Reports("nothing.obj"), Click("right"),
+                Click("Remove"), Shows("the last change is not loaded"), Keys("ctrl+z"),
+            ],
+            [Shows("Objects (2)"), ClickAt(SkyX, SkyY), FrameIsAsBefore, Title("scene.sdo -")]),
         new("type a position", "scene.sdo",
             [Keys("F2"), Click("left"), Type("1.25", "position", 1, 3, 1), Shows("1.25"), Save()],
             [FrameDiffers(0.002), FileHas("((0, 1.25, 0), #, #) name \"left\" colour (0.8, 0.3, 0.2)")]),
         new("drag a rotation", "scene.sdo",
             [Keys("F2"), Click("left"), Slide(25, "rotation in degrees", 2, 3, 1)],
-            [FrameDiffers(0.0005), Title("scene.sdo*"), Keys("ctrl+z"), FrameIsAsBefore, Title("scene.sdo -")]),
+            [FrameDiffers(0.0005), Title("scene.sdo*"), Keys("ctrl+z"), Title("scene.sdo -"), ClickAt(SkyX, SkyY), FrameIsAsBefore]),
         new("type a scale", "scene.sdo",
             [Keys("F2"), Click("left"), Type("2", "scale", 1, 3, 1), Save()],
             [FrameDiffers(0.002), FileHas("#, (1, 2, 1)) name \"left\"")]),
@@ -214,6 +225,9 @@ internal static partial class InteractionTable
         new("measure two points", "scene.sdo",
             [OpenSelection, Keys("m"), ClickAt(LeftAside, MiddleY), Shows("click the second point"), ClickAt(RightAside, MiddleY)],
             [Shows("two points: 2.8"), FrameDiffers(0.0005)]),
+        new("double click while measuring", "scene.sdo",
+            [OpenSelection, Keys("m"), ClickAt(LeftAside, MiddleY, count: 2), ClickAt(RightAside, MiddleY)],
+            [Shows("two points: 2.8")]),
         new("measure two objects", "scene.sdo",
             [OpenSelection, Click("two objects"), Keys("Escape m"), ClickAt(LeftAside, MiddleY), ClickAt(RightAside, MiddleY)],
             [Shows("left to right: 2")]),
