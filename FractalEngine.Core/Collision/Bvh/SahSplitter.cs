@@ -1,4 +1,6 @@
 using System.Runtime.CompilerServices;
+using System.Runtime.InteropServices;
+using System.Runtime.Intrinsics;
 
 namespace FractalEngine.Core.Collision.Bvh;
 
@@ -53,44 +55,48 @@ internal sealed class SahSplitter(TriangleBounds[] triangles, int maxLeafTriangl
     {
         if (range.Count <= SweepSplitter.MaxTriangles && range.Count > maxLeafTriangles)
         {
-            var leftCount = SweepSplitter.Split(triangles.AsSpan(range.Start, range.Count), maxLeafTriangles);
+            var leftCount = SweepSplitter.Split(
+                triangles.AsSpan(range.Start, range.Count), range.DoubledCentreBounds, maxLeafTriangles);
             return (CreateRange(range.Start, leftCount), CreateRange(range.Start + leftCount, range.Count - leftCount));
         }
 
-        if (depth >= MaxSahDepth || !TryFindSplitPlane(range, out var axis, out var lastLeftBin, out var bins))
-        {
-            return SplitInHalf(range);
-        }
+        return depth < MaxSahDepth && TryFindSplitPlane(range, out var plane) ? Partition(range, in plane) : SplitInHalf(range);
+    }
 
-        var rangeTriangles = triangles.AsSpan(range.Start, range.Count);
-        var leftBounds = SimdBoundingBox.Empty;
-        var leftCentreBounds = SimdBoundingBox.Empty;
-        var rightBounds = SimdBoundingBox.Empty;
-        var rightCentreBounds = SimdBoundingBox.Empty;
-        var left = 0;
-        var right = rangeTriangles.Length - 1;
-        while (left <= right)
+    /// <summary>Moves the triangles on the left of a plane before the others.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveOptimization)]
+    private (TriangleRange Left, TriangleRange Right) Partition(TriangleRange range, in SplitPlane plane)
+    {
+        ref var first = ref MemoryMarshal.GetReference(triangles.AsSpan(range.Start, range.Count));
+        var axis = plane.Axis;
+        var minimum = plane.Bins.Minimum[axis];
+        var scale = plane.Bins.Scale[axis];
+        var firstRightBin = plane.LastLeftBin + 1f;
+        var infinity = Vector256.Create(float.PositiveInfinity);
+        var leftCentres = infinity;
+        var rightCentres = infinity;
+        var leftCount = 0;
+        // No branch depends on a triangle: both are written, and the left part grows or does not.
+        for (var i = 0; i < range.Count; i++)
         {
-            var triangle = rangeTriangles[left];
-            var doubledCentre = triangle.DoubledCentre;
-            if (bins.IndicesOf(doubledCentre)[axis] <= lastLeftBin)
-            {
-                leftBounds = leftBounds.Including(triangle.Minimum, triangle.Maximum);
-                leftCentreBounds = leftCentreBounds.Including(doubledCentre, doubledCentre);
-                left++;
-            }
-            else
-            {
-                rightBounds = rightBounds.Including(triangle.Minimum, triangle.Maximum);
-                rightCentreBounds = rightCentreBounds.Including(doubledCentre, doubledCentre);
-                (rangeTriangles[left], rangeTriangles[right]) = (rangeTriangles[right], triangle);
-                right--;
-            }
+            ref var current = ref Unsafe.Add(ref first, i);
+            ref var extents = ref Unsafe.As<TriangleBounds, float>(ref current);
+            // As in CentreBins, so that triangles fall on the side of their bin.
+            var bin = (Unsafe.Add(ref extents, axis) - Unsafe.Add(ref extents, 4 + axis) - minimum) * scale;
+            var triangle = current;
+            var isLeft = Vector256.LessThan(Vector256.Create(bin), Vector256.Create(firstRightBin));
+            var centre = SimdBoundingBox.Of(triangle.DoubledCentre).Extents;
+            leftCentres = Vector256.MinNative(leftCentres, Vector256.ConditionalSelect(isLeft, centre, infinity));
+            rightCentres = Vector256.MinNative(rightCentres, Vector256.ConditionalSelect(isLeft, infinity, centre));
+            ref var firstRight = ref Unsafe.Add(ref first, leftCount);
+            current = firstRight;
+            firstRight = triangle;
+            leftCount -= isLeft.AsInt32()[0];
         }
 
         return (
-            new(range.Start, left, leftBounds, leftCentreBounds),
-            new(range.Start + left, range.Count - left, rightBounds, rightCentreBounds));
+            new(range.Start, leftCount, plane.LeftBounds, new(leftCentres)),
+            new(range.Start + leftCount, range.Count - leftCount, plane.RightBounds, new(rightCentres)));
     }
 
     /// <summary>Splits by number, for triangles that no plane separates and for trees that are deep already.</summary>
@@ -104,10 +110,10 @@ internal sealed class SahSplitter(TriangleBounds[] triangles, int maxLeafTriangl
     {
         var bounds = SimdBoundingBox.Empty;
         var doubledCentreBounds = SimdBoundingBox.Empty;
-        foreach (var triangle in triangles.AsSpan(start, count))
+        foreach (ref readonly var triangle in triangles.AsSpan(start, count))
         {
-            bounds = bounds.Including(triangle.Minimum, triangle.Maximum);
-            doubledCentreBounds = doubledCentreBounds.Including(triangle.DoubledCentre, triangle.DoubledCentre);
+            bounds = bounds.Including(triangle.Box);
+            doubledCentreBounds = doubledCentreBounds.Including(SimdBoundingBox.Of(triangle.DoubledCentre));
         }
 
         return new(start, count, bounds, doubledCentreBounds);
@@ -115,33 +121,34 @@ internal sealed class SahSplitter(TriangleBounds[] triangles, int maxLeafTriangl
 
     /// <summary>Finds the plane between two bins with the lowest expected cost.</summary>
     [MethodImpl(MethodImplOptions.AggressiveOptimization)]
-    private bool TryFindSplitPlane(TriangleRange range, out int bestAxis, out int lastLeftBin, out CentreBins bins)
+    private bool TryFindSplitPlane(TriangleRange range, out SplitPlane plane)
     {
         var binCount = range.Count >= MinTrianglesForMaxBins ? MaxBins : MaxBins / 2;
-        bins = CentreBins.Create(range.DoubledCentreBounds, binCount);
+        var bins = CentreBins.Create(range.DoubledCentreBounds, binCount);
         Span<SimdBoundingBox> binBounds = stackalloc SimdBoundingBox[3 * MaxBins];
         Span<int> binTriangles = stackalloc int[3 * MaxBins];
         binBounds.Fill(SimdBoundingBox.Empty);
+        ref var firstBounds = ref MemoryMarshal.GetReference(binBounds);
+        ref var firstCount = ref MemoryMarshal.GetReference(binTriangles);
         foreach (ref readonly var triangle in triangles.AsSpan(range.Start, range.Count))
         {
-            var minimum = triangle.Minimum;
-            var maximum = triangle.Maximum;
-            var bin = bins.IndicesOf(minimum + maximum);
+            var box = triangle.Box;
+            // The bin along an axis is at most the last one, so that these references stay within their rows.
+            var bin = bins.IndicesOf(box.DoubledCentre);
             var x = bin[0];
             var y = MaxBins + bin[1];
             var z = (2 * MaxBins) + bin[2];
-            binBounds[x] = binBounds[x].Including(minimum, maximum);
-            binBounds[y] = binBounds[y].Including(minimum, maximum);
-            binBounds[z] = binBounds[z].Including(minimum, maximum);
-            binTriangles[x]++;
-            binTriangles[y]++;
-            binTriangles[z]++;
+            Unsafe.Add(ref firstBounds, x) = Unsafe.Add(ref firstBounds, x).Including(box);
+            Unsafe.Add(ref firstBounds, y) = Unsafe.Add(ref firstBounds, y).Including(box);
+            Unsafe.Add(ref firstBounds, z) = Unsafe.Add(ref firstBounds, z).Including(box);
+            Unsafe.Add(ref firstCount, x)++;
+            Unsafe.Add(ref firstCount, y)++;
+            Unsafe.Add(ref firstCount, z)++;
         }
 
-        bestAxis = -1;
-        lastLeftBin = -1;
+        plane = new(-1, -1, bins, default, default);
         var bestCost = float.PositiveInfinity;
-        Span<float> rightCosts = stackalloc float[MaxBins];
+        Span<SimdBoundingBox> rightBounds = stackalloc SimdBoundingBox[MaxBins];
         for (var axis = 0; axis < 3; axis++)
         {
             if (bins.Scale[axis] == 0)
@@ -152,31 +159,28 @@ internal sealed class SahSplitter(TriangleBounds[] triangles, int maxLeafTriangl
             var axisBounds = binBounds.Slice(axis * MaxBins, binCount);
             var axisTriangles = binTriangles.Slice(axis * MaxBins, binCount);
             var bounds = SimdBoundingBox.Empty;
-            var count = 0;
             for (var bin = binCount - 1; bin > 0; bin--)
             {
                 bounds = bounds.Including(axisBounds[bin]);
-                count += axisTriangles[bin];
-                rightCosts[bin] = ExpectedCost(bounds, count);
+                rightBounds[bin] = bounds;
             }
 
             bounds = SimdBoundingBox.Empty;
-            count = 0;
+            var count = 0;
             for (var bin = 0; bin < binCount - 1; bin++)
             {
                 bounds = bounds.Including(axisBounds[bin]);
                 count += axisTriangles[bin];
-                var cost = ExpectedCost(bounds, count) + rightCosts[bin + 1];
+                var cost = ExpectedCost(bounds, count) + ExpectedCost(rightBounds[bin + 1], range.Count - count);
                 if (count > 0 && count < range.Count && cost < bestCost)
                 {
                     bestCost = cost;
-                    bestAxis = axis;
-                    lastLeftBin = bin;
+                    plane = new(axis, bin, bins, bounds, rightBounds[bin + 1]);
                 }
             }
         }
 
-        return bestAxis >= 0;
+        return plane.Axis >= 0;
     }
 
     /// <summary>The surface of a range times its leaves.</summary>
@@ -184,4 +188,13 @@ internal sealed class SahSplitter(TriangleBounds[] triangles, int maxLeafTriangl
     private float ExpectedCost(SimdBoundingBox bounds, int triangleCount) => triangleCount == 0
         ? 0
         : bounds.HalfArea * ((triangleCount + maxLeafTriangles - 1) / maxLeafTriangles);
+
+    /// <summary>A plane between two bins.</summary>
+    /// <param name="Axis">The axis that it is perpendicular to; −1 for none.</param>
+    /// <param name="LastLeftBin">Index of the bin on its left.</param>
+    /// <param name="Bins">The bins.</param>
+    /// <param name="LeftBounds">Contains the triangles of the bins on its left.</param>
+    /// <param name="RightBounds">Contains the triangles of the bins on its right.</param>
+    private readonly record struct SplitPlane(
+        int Axis, int LastLeftBin, CentreBins Bins, SimdBoundingBox LeftBounds, SimdBoundingBox RightBounds);
 }
