@@ -1,3 +1,4 @@
+using System.Numerics;
 using System.Runtime.CompilerServices;
 using System.Runtime.InteropServices;
 using System.Runtime.Intrinsics;
@@ -18,7 +19,12 @@ internal sealed class SahSplitter(TriangleBounds[] triangles, int maxLeafTriangl
     /// </summary>
     private const int MaxSahDepth = 20;
 
+    private readonly int _leafBits = BitOperations.Log2((uint)maxLeafTriangles);
+
     private const int MaxBins = 16;
+
+    // Three axes, twice.
+    private const int Rows = 6;
 
     // Ranges of fewer triangles are split over half as many bins.
     private const int MinTrianglesForMaxBins = 64;
@@ -125,30 +131,13 @@ internal sealed class SahSplitter(TriangleBounds[] triangles, int maxLeafTriangl
     {
         var binCount = range.Count >= MinTrianglesForMaxBins ? MaxBins : MaxBins / 2;
         var bins = CentreBins.Create(range.DoubledCentreBounds, binCount);
-        Span<SimdBoundingBox> binBounds = stackalloc SimdBoundingBox[3 * MaxBins];
-        Span<int> binTriangles = stackalloc int[3 * MaxBins];
-        binBounds.Fill(SimdBoundingBox.Empty);
-        ref var firstBounds = ref MemoryMarshal.GetReference(binBounds);
-        ref var firstCount = ref MemoryMarshal.GetReference(binTriangles);
-        foreach (ref readonly var triangle in triangles.AsSpan(range.Start, range.Count))
-        {
-            var box = triangle.Box;
-            // The bin along an axis is at most the last one, so that these references stay within their rows.
-            var bin = bins.IndicesOf(box.DoubledCentre);
-            var x = bin[0];
-            var y = MaxBins + bin[1];
-            var z = (2 * MaxBins) + bin[2];
-            Unsafe.Add(ref firstBounds, x) = Unsafe.Add(ref firstBounds, x).Including(box);
-            Unsafe.Add(ref firstBounds, y) = Unsafe.Add(ref firstBounds, y).Including(box);
-            Unsafe.Add(ref firstBounds, z) = Unsafe.Add(ref firstBounds, z).Including(box);
-            Unsafe.Add(ref firstCount, x)++;
-            Unsafe.Add(ref firstCount, y)++;
-            Unsafe.Add(ref firstCount, z)++;
-        }
-
-        plane = new(-1, -1, bins, default, default);
+        Span<SimdBoundingBox> binBounds = stackalloc SimdBoundingBox[Rows * MaxBins];
+        Span<int> binTriangles = stackalloc int[Rows * MaxBins];
+        FillBins(triangles.AsSpan(range.Start, range.Count), bins, binBounds, binTriangles);
+        var bestAxis = -1;
+        var lastLeftBin = -1;
         var bestCost = float.PositiveInfinity;
-        Span<SimdBoundingBox> rightBounds = stackalloc SimdBoundingBox[MaxBins];
+        Span<float> rightAreas = stackalloc float[MaxBins];
         for (var axis = 0; axis < 3; axis++)
         {
             if (bins.Scale[axis] == 0)
@@ -156,38 +145,106 @@ internal sealed class SahSplitter(TriangleBounds[] triangles, int maxLeafTriangl
                 continue;
             }
 
-            var axisBounds = binBounds.Slice(axis * MaxBins, binCount);
-            var axisTriangles = binTriangles.Slice(axis * MaxBins, binCount);
+            ref var axisBounds = ref binBounds[axis * MaxBins];
+            ref var axisTriangles = ref binTriangles[axis * MaxBins];
             var bounds = SimdBoundingBox.Empty;
             for (var bin = binCount - 1; bin > 0; bin--)
             {
-                bounds = bounds.Including(axisBounds[bin]);
-                rightBounds[bin] = bounds;
+                bounds = bounds.Including(Unsafe.Add(ref axisBounds, bin));
+                rightAreas[bin] = bounds.HalfArea;
             }
 
             bounds = SimdBoundingBox.Empty;
             var count = 0;
             for (var bin = 0; bin < binCount - 1; bin++)
             {
-                bounds = bounds.Including(axisBounds[bin]);
-                count += axisTriangles[bin];
-                var cost = ExpectedCost(bounds, count) + ExpectedCost(rightBounds[bin + 1], range.Count - count);
-                if (count > 0 && count < range.Count && cost < bestCost)
+                bounds = bounds.Including(Unsafe.Add(ref axisBounds, bin));
+                count += Unsafe.Add(ref axisTriangles, bin);
+                var cost = (bounds.HalfArea * LeafCount(count)) + (rightAreas[bin + 1] * LeafCount(range.Count - count));
+                // Sides without triangles have infinite areas, and so no cost that is less.
+                if (cost < bestCost)
                 {
                     bestCost = cost;
-                    plane = new(axis, bin, bins, bounds, rightBounds[bin + 1]);
+                    bestAxis = axis;
+                    lastLeftBin = bin;
                 }
             }
         }
 
-        return plane.Axis >= 0;
+        plane = bestAxis < 0 ? default : new(
+            bestAxis, lastLeftBin, bins, UnionOf(binBounds.Slice(bestAxis * MaxBins, lastLeftBin + 1)),
+            UnionOf(binBounds.Slice((bestAxis * MaxBins) + lastLeftBin + 1, binCount - lastLeftBin - 1)));
+        return bestAxis >= 0;
     }
 
-    /// <summary>The surface of a range times its leaves.</summary>
+    /// <summary>Joins the boxes of the triangles in each bin, and counts them.</summary>
+    /// <param name="range">The triangles.</param>
+    /// <param name="bins">Divides their centres.</param>
+    /// <param name="binBounds">Receives the boxes of the bins, [axes × bins]; the rows after them are scratch memory.</param>
+    /// <param name="binTriangles">Receives the numbers of triangles, likewise.</param>
+    [MethodImpl(MethodImplOptions.AggressiveOptimization)]
+    private static void FillBins(
+        ReadOnlySpan<TriangleBounds> range, CentreBins bins, Span<SimdBoundingBox> binBounds, Span<int> binTriangles)
+    {
+        binBounds.Fill(SimdBoundingBox.Empty);
+        binTriangles.Clear();
+        // Neighbours fall into the same bins. Every other one has rows of its own, so that they don't wait for each other.
+        ref var bounds1 = ref MemoryMarshal.GetReference(binBounds);
+        ref var bounds2 = ref Unsafe.Add(ref bounds1, 3 * MaxBins);
+        ref var counts = ref MemoryMarshal.GetReference(binTriangles);
+        ref var first = ref MemoryMarshal.GetReference(range);
+        var i = 0;
+        for (; i + 1 < range.Length; i += 2)
+        {
+            Add(bins, Unsafe.Add(ref first, i).Box, ref bounds1, ref counts);
+            Add(bins, Unsafe.Add(ref first, i + 1).Box, ref bounds2, ref Unsafe.Add(ref counts, 3 * MaxBins));
+        }
+
+        if (i < range.Length)
+        {
+            Add(bins, Unsafe.Add(ref first, i).Box, ref bounds1, ref counts);
+        }
+
+        for (var bin = 0; bin < 3 * MaxBins; bin++)
+        {
+            binBounds[bin] = binBounds[bin].Including(binBounds[(3 * MaxBins) + bin]);
+            binTriangles[bin] += binTriangles[(3 * MaxBins) + bin];
+        }
+    }
+
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private float ExpectedCost(SimdBoundingBox bounds, int triangleCount) => triangleCount == 0
-        ? 0
-        : bounds.HalfArea * ((triangleCount + maxLeafTriangles - 1) / maxLeafTriangles);
+    private static void Add(CentreBins bins, SimdBoundingBox box, ref SimdBoundingBox bounds, ref int counts)
+    {
+        // The bin along an axis is at most the last one, so that these references stay within their rows.
+        var bin = bins.IndicesOf(box.DoubledCentre);
+        nint x = bin[0];
+        nint y = MaxBins + bin[1];
+        nint z = (2 * MaxBins) + bin[2];
+        ref var boundsX = ref Unsafe.Add(ref bounds, x);
+        ref var boundsY = ref Unsafe.Add(ref bounds, y);
+        ref var boundsZ = ref Unsafe.Add(ref bounds, z);
+        boundsX = boundsX.Including(box);
+        boundsY = boundsY.Including(box);
+        boundsZ = boundsZ.Including(box);
+        Unsafe.Add(ref counts, x)++;
+        Unsafe.Add(ref counts, y)++;
+        Unsafe.Add(ref counts, z)++;
+    }
+
+    private static SimdBoundingBox UnionOf(ReadOnlySpan<SimdBoundingBox> boxes)
+    {
+        var union = SimdBoundingBox.Empty;
+        foreach (var box in boxes)
+        {
+            union = union.Including(box);
+        }
+
+        return union;
+    }
+
+    /// <summary>Number of full leaves that so many triangles need.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    private int LeafCount(int triangleCount) => (triangleCount + maxLeafTriangles - 1) >> _leafBits;
 
     /// <summary>A plane between two bins.</summary>
     /// <param name="Axis">The axis that it is perpendicular to; −1 for none.</param>
