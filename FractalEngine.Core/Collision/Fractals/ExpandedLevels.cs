@@ -29,7 +29,7 @@ internal sealed class ExpandedLevels(ExpandedSubFractal?[] levels)
     public static ExpandedLevels For(FractalHierarchy hierarchy, TriangleBvh bvh) => !bvh.HasNodes || !hierarchy.HasOnlySimilarities ? None
         : Shared.GetValue(hierarchy, key => ExpandedLevelSelector.Select(key, bvh));
 
-    /// <summary>The mesh of the sub-fractal with so many remaining levels, fewer than <see cref="Count"/>; null where there is none.</summary>
+    /// <summary>The mesh of the sub-fractal with fewer than <see cref="Count"/> remaining levels; null where there is none.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public ExpandedSubFractal? At(long remainingLevels) => levels[remainingLevels];
 }

@@ -32,7 +32,7 @@ public class ExpandedLevelsTests
     [InlineData("terrain", 6)]
     [InlineData("tree", 65)]
     [InlineData("tree", null)]
-    [InlineData("snowflake", 3)]
+    [InlineData("tree", 10)]
     public void For_OthersAndWhereLittleIsSaved_SelectsNone(string name, int? depth)
     {
         var fractal = AssetFractals.Load(name, depth);
