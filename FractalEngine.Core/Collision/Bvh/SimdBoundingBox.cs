@@ -23,21 +23,21 @@ internal readonly record struct SimdBoundingBox(Vector256<float> Extents)
         get => new(Vector256.Create(float.PositiveInfinity));
     }
 
-    /// <summary>The smallest coordinates.</summary>
+    /// <summary>The smallest coordinates: x, y, z and an unused lane.</summary>
     public Vector128<float> Minimum
     {
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         get => Extents.GetLower();
     }
 
-    /// <summary>The largest coordinates.</summary>
+    /// <summary>The largest coordinates: x, y, z and an unused lane.</summary>
     public Vector128<float> Maximum
     {
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         get => -Extents.GetUpper();
     }
 
-    /// <summary>Twice the centre.</summary>
+    /// <summary>Twice the centre of the box: x, y, z and an unused lane.</summary>
     public Vector128<float> DoubledCentre
     {
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
