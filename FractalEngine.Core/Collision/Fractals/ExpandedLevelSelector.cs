@@ -14,7 +14,7 @@ namespace FractalEngine.Core.Collision.Fractals;
 internal sealed class ExpandedLevelSelector(FractalHierarchy hierarchy, TriangleBvh bvh)
 {
     // Of all expanded levels of a fractal.
-    private const long MaxBytes = 170_000;
+    private const long MaxBytes = 100_000;
 
     // What a face and a vertex of an expanded level take, at most.
     private const long BytesPerFace = 80;
@@ -25,14 +25,15 @@ internal sealed class ExpandedLevelSelector(FractalHierarchy hierarchy, Triangle
 
     private const int SampleCount = 32;
 
-    // About the nanoseconds on one processor. They were fitted to fractals with bases of 18 to 160 faces (docs/decisions).
-    private const double SubFractalWork = 130;
-    private const double MeshSearchWork = 40;
+    // About the nanoseconds on one processor, fitted to fractals of the assets (docs/decisions/0012-one-hierarchy.md).
+    private const double SubFractalWork = 50;
+    private const double ChildBoundWork = 5;
+    private const double MeshSearchWork = 120;
     private const double MeshBoundWork = 3;
     private const double FaceWork = 2.5;
 
     // Where less is saved, the samples don't tell whether anything is.
-    private const double MaxRelativeWork = 0.915;
+    private const double MaxRelativeWork = 0.92;
 
     private readonly Dictionary<long, long> _instanceCounts = [];
 
@@ -180,7 +181,8 @@ internal sealed class ExpandedLevelSelector(FractalHierarchy hierarchy, Triangle
         {
             var search = new FractalSearchState(double.PositiveInfinity, 0, position.MaxAbsComponent(), magnitude, context);
             depthFirst.Run(new(position), ref search);
-            work += (SubFractalWork * search.VisitedSubFractals) + (MeshSearchWork * search.MeshSearches)
+            work += (SubFractalWork * search.VisitedSubFractals)
+                + (ChildBoundWork * (search.BoundTests - search.MeshBoundTests)) + (MeshSearchWork * search.MeshSearches)
                 + (MeshBoundWork * search.MeshBoundTests) + (FaceWork * search.FaceTests);
         }
 

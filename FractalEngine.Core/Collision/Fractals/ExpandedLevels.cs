@@ -5,8 +5,8 @@ using FractalEngine.Core.Fractals.Hierarchy;
 namespace FractalEngine.Core.Collision.Fractals;
 
 /// <summary>
-/// The low levels of a fractal that are searched as meshes. Where the base mesh has a triangle hierarchy, one search of all instances of a
-/// low sub-fractal takes less than a search for each of those that are close.
+/// The low levels of a fractal that are searched as meshes. Where the base mesh is searched in single precision, one search of all
+/// instances of a low sub-fractal may take less than a search for each of those that are close.
 /// </summary>
 /// <param name="levels">The expanded sub-fractals by their remaining levels; null where there is none.</param>
 internal sealed class ExpandedLevels(ExpandedSubFractal?[] levels)
@@ -26,8 +26,10 @@ internal sealed class ExpandedLevels(ExpandedSubFractal?[] levels)
     /// <summary>The levels of a fractal that are expanded, chosen by the first who asks.</summary>
     /// <param name="hierarchy">The sub-fractals.</param>
     /// <param name="bvh">The hierarchy of the base mesh.</param>
-    public static ExpandedLevels For(FractalHierarchy hierarchy, TriangleBvh bvh) => !bvh.HasNodes || !hierarchy.HasOnlySimilarities ? None
-        : Shared.GetValue(hierarchy, key => ExpandedLevelSelector.Select(key, bvh));
+    public static ExpandedLevels For(FractalHierarchy hierarchy, TriangleBvh bvh) =>
+        !bvh.HasFloatLeaves || !hierarchy.HasOnlySimilarities
+            ? None
+            : Shared.GetValue(hierarchy, key => ExpandedLevelSelector.Select(key, bvh));
 
     /// <summary>The mesh of the sub-fractal with fewer than <see cref="Count"/> remaining levels; null where there is none.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

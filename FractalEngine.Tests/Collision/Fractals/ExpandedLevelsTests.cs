@@ -14,54 +14,52 @@ public class ExpandedLevelsTests
     // docs/colliders.md: whatever the depth, for sets of up to 100 maps.
     private const long MaxColliderBytes = 256 * 1024;
 
-    [Theory]
-    [InlineData("shell")]
-    [InlineData("tree")]
-    [InlineData("tree-leaves")]
-    public void For_ABaseWithAHierarchy_SelectsLevels(string name)
+    [Fact]
+    public void For_ALargeBaseWithCloseInstances_SelectsLevels()
     {
-        var fractal = AssetFractals.Load(name);
-        Assert.InRange(Select(fractal).StorageBytes, 10_000, MaxColliderBytes);
-        Assert.InRange(new ExactFractalCollider(fractal).StorageBytes, 10_000, MaxColliderBytes);
+        foreach (var fractal in Selected)
+        {
+            Assert.InRange(Select(fractal).StorageBytes, 10_000, MaxColliderBytes);
+            Assert.InRange(new ExactFractalCollider(fractal).StorageBytes, 10_000, MaxColliderBytes);
+        }
     }
 
-    /// <summary>A small base, skewed maps, too many levels, too many faces: these are searched level by level.</summary>
+    /// <summary>Small bases, skewed maps, too many levels, and where little is saved: these are searched level by level.</summary>
     [Theory]
-    [InlineData("menger", 4)]
-    [InlineData("fern", 3)]
-    [InlineData("terrain", 6)]
-    [InlineData("tree", 65)]
-    [InlineData("tree", null)]
-    [InlineData("tree", 10)]
-    public void For_OthersAndWhereLittleIsSaved_SelectsNone(string name, int? depth)
+    [InlineData("menger", 4, 0)]
+    [InlineData("tree", 7, 0)]
+    [InlineData("fern", 3, 80)]
+    [InlineData("tree", 65, 80)]
+    [InlineData("tree", null, 80)]
+    [InlineData("tetrahedron", 5, 80)]
+    public void For_Others_SelectsNone(string name, int? depth, int baseFaces)
     {
         var fractal = AssetFractals.Load(name, depth);
+        fractal = baseFaces == 0 ? fractal : OfSphere(fractal, baseFaces);
         Assert.Same(ExpandedLevels.None, Select(fractal));
     }
 
-    [Theory]
-    [InlineData("shell")]
-    [InlineData("tree")]
-    [InlineData("tree-leaves")]
-    public void For_TwoFractalsOfTheSameSteps_SelectsTheSame(string name)
+    [Fact]
+    public void For_TwoFractalsOfTheSameSteps_SelectsTheSame()
     {
-        var fractal = AssetFractals.Load(name);
-        var other = new Fractal(fractal.Description, fractal.BaseMesh);
-        var (levels1, levels2) = (Select(fractal), Select(other));
-        Assert.Equal(levels1.Count, levels2.Count);
-        Assert.All(Enumerable.Range(0, levels1.Count), level => Assert.Equal(
-            levels1.At(level)?.Bvh.FaceCount, levels2.At(level)?.Bvh.FaceCount));
-        Assert.Same(levels1, Select(fractal));
+        foreach (var fractal in Selected)
+        {
+            var other = new Fractal(fractal.Description, fractal.BaseMesh);
+            var (levels1, levels2) = (Select(fractal), Select(other));
+            Assert.Equal(levels1.Count, levels2.Count);
+            Assert.All(Enumerable.Range(0, levels1.Count), level => Assert.Equal(
+                levels1.At(level)?.Bvh.FaceCount, levels2.At(level)?.Bvh.FaceCount));
+            Assert.Same(levels1, Select(fractal));
+        }
     }
 
-    [Theory]
-    [InlineData("shell", null)]
-    [InlineData("tree", 5)]
-    [InlineData("tree-leaves", 5)]
-    public void TryFindClosest_WithExpandedLevels_EqualsTheExpansionAndNamesTheInstance(string name, int? depth)
+    [Fact]
+    public void TryFindClosest_WithExpandedLevels_EqualsTheExpansionAndNamesTheInstance()
     {
-        var fractal = depth is null ? AssetFractals.Load(name) : AssetFractals.Load(name, depth);
-        CheckAgainstTheExpansion(name, fractal, 300);
+        foreach (var fractal in Selected)
+        {
+            CheckAgainstTheExpansion("expanded", fractal, 300);
+        }
     }
 
     /// <summary>The identity makes children skip levels, so that paths to instances have several lengths.</summary>
@@ -72,6 +70,11 @@ public class ExpandedLevelsTests
         var maps = Enumerable.Range(0, random.Next(1, 4)).Select(_ => RandomSimilarity(random)).Append(Transformation.Identity);
         CheckAgainstTheExpansion("identities", Fractal.Of(mesh).Repeat(maps, random.Next(1, 5)), 30);
     });
+
+    private static Fractal[] Selected => [AssetFractals.Load("shell"), OfSphere(AssetFractals.Load("snowflake", 3), 80)];
+
+    private static Fractal OfSphere(Fractal fractal, int faces) =>
+        new(fractal.Description, MeshGenerators.Create("icosphere", 1, faces));
 
     private static void CheckAgainstTheExpansion(string name, Fractal fractal, int queries)
     {
