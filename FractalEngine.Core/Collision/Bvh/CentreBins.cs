@@ -21,9 +21,10 @@ internal readonly record struct CentreBins(Vector128<float> Minimum, Vector128<f
             doubledCentreBounds.Minimum, Vector128.Create((float)binCount) / size & isWide, Vector128.Create(binCount - 1));
     }
 
-    /// <summary>Computes the bins of a centre along x, y and z.</summary>
+    /// <summary>Computes the bins of a centre along x, y and z: from 0 to the last one, whatever the centre.</summary>
     /// <param name="doubledCentre">Twice the centre of a triangle's box.</param>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public Vector128<int> IndicesOf(Vector128<float> doubledCentre) =>
-        Vector128.Min(Vector128.ConvertToInt32Native((doubledCentre - Minimum) * Scale), LastBin);
+        Vector128.Max(
+            Vector128.Min(Vector128.ConvertToInt32Native((doubledCentre - Minimum) * Scale), LastBin), Vector128<int>.Zero);
 }

@@ -1,4 +1,7 @@
+using System.Numerics;
 using System.Runtime.CompilerServices;
+using System.Runtime.InteropServices;
+using System.Runtime.Intrinsics;
 
 namespace FractalEngine.Core.Collision.Bvh;
 
@@ -16,7 +19,12 @@ internal sealed class SahSplitter(TriangleBounds[] triangles, int maxLeafTriangl
     /// </summary>
     private const int MaxSahDepth = 20;
 
+    private readonly int _leafBits = BitOperations.Log2((uint)maxLeafTriangles);
+
     private const int MaxBins = 16;
+
+    // Three axes, twice.
+    private const int Rows = 6;
 
     // Ranges of fewer triangles are split over half as many bins.
     private const int MinTrianglesForMaxBins = 64;
@@ -53,44 +61,48 @@ internal sealed class SahSplitter(TriangleBounds[] triangles, int maxLeafTriangl
     {
         if (range.Count <= SweepSplitter.MaxTriangles && range.Count > maxLeafTriangles)
         {
-            var leftCount = SweepSplitter.Split(triangles.AsSpan(range.Start, range.Count), maxLeafTriangles);
+            var leftCount = SweepSplitter.Split(
+                triangles.AsSpan(range.Start, range.Count), range.DoubledCentreBounds, maxLeafTriangles);
             return (CreateRange(range.Start, leftCount), CreateRange(range.Start + leftCount, range.Count - leftCount));
         }
 
-        if (depth >= MaxSahDepth || !TryFindSplitPlane(range, out var axis, out var lastLeftBin, out var bins))
-        {
-            return SplitInHalf(range);
-        }
+        return depth < MaxSahDepth && TryFindSplitPlane(range, out var plane) ? Partition(range, in plane) : SplitInHalf(range);
+    }
 
-        var rangeTriangles = triangles.AsSpan(range.Start, range.Count);
-        var leftBounds = SimdBoundingBox.Empty;
-        var leftCentreBounds = SimdBoundingBox.Empty;
-        var rightBounds = SimdBoundingBox.Empty;
-        var rightCentreBounds = SimdBoundingBox.Empty;
-        var left = 0;
-        var right = rangeTriangles.Length - 1;
-        while (left <= right)
+    /// <summary>Moves the triangles on the left of a plane before the others.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveOptimization)]
+    private (TriangleRange Left, TriangleRange Right) Partition(TriangleRange range, in SplitPlane plane)
+    {
+        ref var first = ref MemoryMarshal.GetReference(triangles.AsSpan(range.Start, range.Count));
+        var axis = plane.Axis;
+        var minimum = plane.Bins.Minimum[axis];
+        var scale = plane.Bins.Scale[axis];
+        var firstRightBin = plane.LastLeftBin + 1f;
+        var infinity = Vector256.Create(float.PositiveInfinity);
+        var leftCentres = infinity;
+        var rightCentres = infinity;
+        var leftCount = 0;
+        // No branch depends on a triangle: both are written, and the left part grows or does not.
+        for (var i = 0; i < range.Count; i++)
         {
-            var triangle = rangeTriangles[left];
-            var doubledCentre = triangle.DoubledCentre;
-            if (bins.IndicesOf(doubledCentre)[axis] <= lastLeftBin)
-            {
-                leftBounds = leftBounds.Including(triangle.Minimum, triangle.Maximum);
-                leftCentreBounds = leftCentreBounds.Including(doubledCentre, doubledCentre);
-                left++;
-            }
-            else
-            {
-                rightBounds = rightBounds.Including(triangle.Minimum, triangle.Maximum);
-                rightCentreBounds = rightCentreBounds.Including(doubledCentre, doubledCentre);
-                (rangeTriangles[left], rangeTriangles[right]) = (rangeTriangles[right], triangle);
-                right--;
-            }
+            ref var current = ref Unsafe.Add(ref first, i);
+            ref var extents = ref Unsafe.As<TriangleBounds, float>(ref current);
+            // As in CentreBins, so that triangles fall on the side of their bin.
+            var bin = (Unsafe.Add(ref extents, axis) - Unsafe.Add(ref extents, 4 + axis) - minimum) * scale;
+            var triangle = current;
+            var isLeft = Vector256.LessThan(Vector256.Create(bin), Vector256.Create(firstRightBin));
+            var centre = SimdBoundingBox.Of(triangle.DoubledCentre).Extents;
+            leftCentres = Vector256.MinNative(leftCentres, Vector256.ConditionalSelect(isLeft, centre, infinity));
+            rightCentres = Vector256.MinNative(rightCentres, Vector256.ConditionalSelect(isLeft, infinity, centre));
+            ref var firstRight = ref Unsafe.Add(ref first, leftCount);
+            current = firstRight;
+            firstRight = triangle;
+            leftCount -= isLeft.AsInt32()[0];
         }
 
         return (
-            new(range.Start, left, leftBounds, leftCentreBounds),
-            new(range.Start + left, range.Count - left, rightBounds, rightCentreBounds));
+            new(range.Start, leftCount, plane.LeftBounds, new(leftCentres)),
+            new(range.Start + leftCount, range.Count - leftCount, plane.RightBounds, new(rightCentres)));
     }
 
     /// <summary>Splits by number, for triangles that no plane separates and for trees that are deep already.</summary>
@@ -104,10 +116,10 @@ internal sealed class SahSplitter(TriangleBounds[] triangles, int maxLeafTriangl
     {
         var bounds = SimdBoundingBox.Empty;
         var doubledCentreBounds = SimdBoundingBox.Empty;
-        foreach (var triangle in triangles.AsSpan(start, count))
+        foreach (ref readonly var triangle in triangles.AsSpan(start, count))
         {
-            bounds = bounds.Including(triangle.Minimum, triangle.Maximum);
-            doubledCentreBounds = doubledCentreBounds.Including(triangle.DoubledCentre, triangle.DoubledCentre);
+            bounds = bounds.Including(triangle.Box);
+            doubledCentreBounds = doubledCentreBounds.Including(SimdBoundingBox.Of(triangle.DoubledCentre));
         }
 
         return new(start, count, bounds, doubledCentreBounds);
@@ -115,33 +127,17 @@ internal sealed class SahSplitter(TriangleBounds[] triangles, int maxLeafTriangl
 
     /// <summary>Finds the plane between two bins with the lowest expected cost.</summary>
     [MethodImpl(MethodImplOptions.AggressiveOptimization)]
-    private bool TryFindSplitPlane(TriangleRange range, out int bestAxis, out int lastLeftBin, out CentreBins bins)
+    private bool TryFindSplitPlane(TriangleRange range, out SplitPlane plane)
     {
         var binCount = range.Count >= MinTrianglesForMaxBins ? MaxBins : MaxBins / 2;
-        bins = CentreBins.Create(range.DoubledCentreBounds, binCount);
-        Span<SimdBoundingBox> binBounds = stackalloc SimdBoundingBox[3 * MaxBins];
-        Span<int> binTriangles = stackalloc int[3 * MaxBins];
-        binBounds.Fill(SimdBoundingBox.Empty);
-        foreach (ref readonly var triangle in triangles.AsSpan(range.Start, range.Count))
-        {
-            var minimum = triangle.Minimum;
-            var maximum = triangle.Maximum;
-            var bin = bins.IndicesOf(minimum + maximum);
-            var x = bin[0];
-            var y = MaxBins + bin[1];
-            var z = (2 * MaxBins) + bin[2];
-            binBounds[x] = binBounds[x].Including(minimum, maximum);
-            binBounds[y] = binBounds[y].Including(minimum, maximum);
-            binBounds[z] = binBounds[z].Including(minimum, maximum);
-            binTriangles[x]++;
-            binTriangles[y]++;
-            binTriangles[z]++;
-        }
-
-        bestAxis = -1;
-        lastLeftBin = -1;
+        var bins = CentreBins.Create(range.DoubledCentreBounds, binCount);
+        Span<SimdBoundingBox> binBounds = stackalloc SimdBoundingBox[Rows * MaxBins];
+        Span<int> binTriangles = stackalloc int[Rows * MaxBins];
+        FillBins(triangles.AsSpan(range.Start, range.Count), bins, binBounds, binTriangles);
+        var bestAxis = -1;
+        var lastLeftBin = -1;
         var bestCost = float.PositiveInfinity;
-        Span<float> rightCosts = stackalloc float[MaxBins];
+        Span<float> rightAreas = stackalloc float[MaxBins];
         for (var axis = 0; axis < 3; axis++)
         {
             if (bins.Scale[axis] == 0)
@@ -149,25 +145,24 @@ internal sealed class SahSplitter(TriangleBounds[] triangles, int maxLeafTriangl
                 continue;
             }
 
-            var axisBounds = binBounds.Slice(axis * MaxBins, binCount);
-            var axisTriangles = binTriangles.Slice(axis * MaxBins, binCount);
+            ref var axisBounds = ref binBounds[axis * MaxBins];
+            ref var axisTriangles = ref binTriangles[axis * MaxBins];
             var bounds = SimdBoundingBox.Empty;
-            var count = 0;
             for (var bin = binCount - 1; bin > 0; bin--)
             {
-                bounds = bounds.Including(axisBounds[bin]);
-                count += axisTriangles[bin];
-                rightCosts[bin] = ExpectedCost(bounds, count);
+                bounds = bounds.Including(Unsafe.Add(ref axisBounds, bin));
+                rightAreas[bin] = bounds.HalfArea;
             }
 
             bounds = SimdBoundingBox.Empty;
-            count = 0;
+            var count = 0;
             for (var bin = 0; bin < binCount - 1; bin++)
             {
-                bounds = bounds.Including(axisBounds[bin]);
-                count += axisTriangles[bin];
-                var cost = ExpectedCost(bounds, count) + rightCosts[bin + 1];
-                if (count > 0 && count < range.Count && cost < bestCost)
+                bounds = bounds.Including(Unsafe.Add(ref axisBounds, bin));
+                count += Unsafe.Add(ref axisTriangles, bin);
+                var cost = (bounds.HalfArea * LeafCount(count)) + (rightAreas[bin + 1] * LeafCount(range.Count - count));
+                // Sides without triangles have infinite areas, and so no cost that is less.
+                if (cost < bestCost)
                 {
                     bestCost = cost;
                     bestAxis = axis;
@@ -176,12 +171,87 @@ internal sealed class SahSplitter(TriangleBounds[] triangles, int maxLeafTriangl
             }
         }
 
+        plane = bestAxis < 0 ? default : new(
+            bestAxis, lastLeftBin, bins, UnionOf(binBounds.Slice(bestAxis * MaxBins, lastLeftBin + 1)),
+            UnionOf(binBounds.Slice((bestAxis * MaxBins) + lastLeftBin + 1, binCount - lastLeftBin - 1)));
         return bestAxis >= 0;
     }
 
-    /// <summary>The surface of a range times its leaves.</summary>
+    /// <summary>Joins the boxes of the triangles in each bin, and counts them.</summary>
+    /// <param name="range">The triangles.</param>
+    /// <param name="bins">Divides their centres.</param>
+    /// <param name="binBounds">Receives the boxes of the bins, [axes × bins]; the rows after them are scratch memory.</param>
+    /// <param name="binTriangles">Receives the numbers of triangles, likewise.</param>
+    [MethodImpl(MethodImplOptions.AggressiveOptimization)]
+    private static void FillBins(
+        ReadOnlySpan<TriangleBounds> range, CentreBins bins, Span<SimdBoundingBox> binBounds, Span<int> binTriangles)
+    {
+        binBounds.Fill(SimdBoundingBox.Empty);
+        binTriangles.Clear();
+        // Neighbours fall into the same bins. Every other one has rows of its own, so that they don't wait for each other.
+        ref var bounds1 = ref MemoryMarshal.GetReference(binBounds);
+        ref var bounds2 = ref Unsafe.Add(ref bounds1, 3 * MaxBins);
+        ref var counts = ref MemoryMarshal.GetReference(binTriangles);
+        ref var first = ref MemoryMarshal.GetReference(range);
+        var i = 0;
+        for (; i + 1 < range.Length; i += 2)
+        {
+            Add(bins, Unsafe.Add(ref first, i).Box, ref bounds1, ref counts);
+            Add(bins, Unsafe.Add(ref first, i + 1).Box, ref bounds2, ref Unsafe.Add(ref counts, 3 * MaxBins));
+        }
+
+        if (i < range.Length)
+        {
+            Add(bins, Unsafe.Add(ref first, i).Box, ref bounds1, ref counts);
+        }
+
+        for (var bin = 0; bin < 3 * MaxBins; bin++)
+        {
+            binBounds[bin] = binBounds[bin].Including(binBounds[(3 * MaxBins) + bin]);
+            binTriangles[bin] += binTriangles[(3 * MaxBins) + bin];
+        }
+    }
+
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private float ExpectedCost(SimdBoundingBox bounds, int triangleCount) => triangleCount == 0
-        ? 0
-        : bounds.HalfArea * ((triangleCount + maxLeafTriangles - 1) / maxLeafTriangles);
+    private static void Add(CentreBins bins, SimdBoundingBox box, ref SimdBoundingBox bounds, ref int counts)
+    {
+        // The bin along an axis is at most the last one, so that these references stay within their rows.
+        var bin = bins.IndicesOf(box.DoubledCentre);
+        nint x = bin[0];
+        nint y = MaxBins + bin[1];
+        nint z = (2 * MaxBins) + bin[2];
+        ref var boundsX = ref Unsafe.Add(ref bounds, x);
+        ref var boundsY = ref Unsafe.Add(ref bounds, y);
+        ref var boundsZ = ref Unsafe.Add(ref bounds, z);
+        boundsX = boundsX.Including(box);
+        boundsY = boundsY.Including(box);
+        boundsZ = boundsZ.Including(box);
+        Unsafe.Add(ref counts, x)++;
+        Unsafe.Add(ref counts, y)++;
+        Unsafe.Add(ref counts, z)++;
+    }
+
+    private static SimdBoundingBox UnionOf(ReadOnlySpan<SimdBoundingBox> boxes)
+    {
+        var union = SimdBoundingBox.Empty;
+        foreach (var box in boxes)
+        {
+            union = union.Including(box);
+        }
+
+        return union;
+    }
+
+    /// <summary>Number of full leaves that so many triangles need.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    private int LeafCount(int triangleCount) => (triangleCount + maxLeafTriangles - 1) >> _leafBits;
+
+    /// <summary>A plane between two bins.</summary>
+    /// <param name="Axis">The axis that it is perpendicular to; −1 for none.</param>
+    /// <param name="LastLeftBin">Index of the bin on its left.</param>
+    /// <param name="Bins">The bins.</param>
+    /// <param name="LeftBounds">Contains the triangles of the bins on its left.</param>
+    /// <param name="RightBounds">Contains the triangles of the bins on its right.</param>
+    private readonly record struct SplitPlane(
+        int Axis, int LastLeftBin, CentreBins Bins, SimdBoundingBox LeftBounds, SimdBoundingBox RightBounds);
 }

@@ -49,12 +49,12 @@ internal sealed class TriangleBoundsBuilder(Mesh mesh, Vector origin, double sca
             var c = LoadVertex(positions, indices[(3 * face) + 2]);
             var minimum = Vector256.MinNative(Vector256.MinNative(a, b), c);
             var maximum = Vector256.MaxNative(Vector256.MaxNative(a, b), c);
-            var triangleBounds = new TriangleBounds(
-                FloatRounding.Down((minimum - simdOrigin) * simdScale).AsInt32().WithElement(3, face).AsSingle(),
-                FloatRounding.Up((maximum - simdOrigin) * simdScale));
-            triangles[face] = triangleBounds;
-            bounds = bounds.Including(triangleBounds.Minimum, triangleBounds.Maximum);
-            doubledCentreBounds = doubledCentreBounds.Including(triangleBounds.DoubledCentre, triangleBounds.DoubledCentre);
+            var lower = FloatRounding.Down((minimum - simdOrigin) * simdScale).AsInt32().WithElement(3, face).AsSingle();
+            var upper = FloatRounding.Up((maximum - simdOrigin) * simdScale);
+            var box = new SimdBoundingBox(lower, upper);
+            triangles[face] = new(box);
+            bounds = bounds.Including(box);
+            doubledCentreBounds = doubledCentreBounds.Including(SimdBoundingBox.Of(box.DoubledCentre));
         }
 
         return new(start, count, bounds, doubledCentreBounds);

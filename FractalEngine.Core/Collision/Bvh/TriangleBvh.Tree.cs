@@ -13,6 +13,9 @@ internal sealed partial class TriangleBvh
     /// <summary>False where all triangles are tested without boxes: then <see cref="AllFaces"/> is the only leaf.</summary>
     public bool HasNodes => _nodes.Length > 0;
 
+    /// <summary>True where leaves are searched in single precision, as in all but small meshes.</summary>
+    public bool HasFloatLeaves => _frames.Length > 0;
+
     /// <summary>The face indices of all triangles, in the order of the leaves.</summary>
     public ReadOnlySpan<int> AllFaces => _faces;
 

@@ -81,11 +81,17 @@ internal static class TriangleFrames
     /// <returns>The length of the longest edge.</returns>
     public static double Write(Mesh mesh, Vector origin, double scale, ReadOnlySpan<int> faces, Span<float> rows)
     {
+        var simdOrigin = SimdAffineMap.ToVector256(origin);
+        var simdScale = Vector256.Create(scale);
+        var positions = mesh.Positions.AsSpan();
+        var indices = mesh.VertexIndices.AsSpan();
         var longestEdge = 0.0;
         for (var i = 0; i < faces.Length; i++)
         {
-            var (a, b, c) = mesh.Face(faces[i]);
-            var length = Write(scale * (a - origin), scale * (b - origin), scale * (c - origin), rows[i..], faces.Length);
+            var face = indices.Slice(3 * faces[i], 3);
+            var length = Write(
+                (LoadVertex(positions, face[0]) - simdOrigin) * simdScale, (LoadVertex(positions, face[1]) - simdOrigin) * simdScale,
+                (LoadVertex(positions, face[2]) - simdOrigin) * simdScale, rows[i..], faces.Length);
             longestEdge = Math.Max(longestEdge, length);
         }
 
@@ -93,15 +99,20 @@ internal static class TriangleFrames
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private static Vector256<float> Row(ref float leaf, nint row, nint count) =>
-        Vector256.LoadUnsafe(ref Unsafe.Add(ref leaf, row * count));
+    private static Vector256<double> LoadVertex(ReadOnlySpan<double> positions, int vertex)
+    {
+        var v = positions.Slice(3 * vertex, 3);
+        return Vector256.Create(v[0], v[1], v[2], 0);
+    }
 
     // A mesh is built once, often before the tiers of the compiler have warmed up.
     [MethodImpl(MethodImplOptions.AggressiveOptimization)]
-    private static double Write(Vector a, Vector b, Vector c, Span<float> rows, int stride)
+    private static double Write(Vector256<double> a, Vector256<double> b, Vector256<double> c, Span<float> rows, int stride)
     {
         // The longest edge runs from b to c.
-        var (ab, bc, ca) = ((b - a).LengthSquared(), (c - b).LengthSquared(), (a - c).LengthSquared());
+        var ab = LengthSquared(b - a);
+        var bc = LengthSquared(c - b);
+        var ca = LengthSquared(a - c);
         if (ab > bc && ab >= ca)
         {
             (a, b, c) = (c, a, b);
@@ -111,31 +122,51 @@ internal static class TriangleFrames
             (a, b, c) = (b, c, a);
         }
 
+        var length = Math.Sqrt(LengthSquared(c - b));
+        var axisX = (c - b) / Vector256.Create(length);
+        // A NaN, of a length of zero, stays one.
+        var left = Math.Min(Math.Max(Vector256.Dot(a - b, axisX), 0), length);
+        var alongEdge = Vector256.Create(left) * axisX;
+        // Not from the foot, which is rounded to the last place of a coordinate.
+        var toApex = a - b - alongEdge;
+        toApex -= Vector256.Create(Vector256.Dot(toApex, axisX)) * axisX;
+        var altitude = Math.Sqrt(LengthSquared(toApex));
+        if (!(length > MinLength) || !(altitude > MinRelativeAltitude * length))
+        {
+            return WriteThin(SimdAffineMap.ToVector(a), SimdAffineMap.ToVector(b), SimdAffineMap.ToVector(c), rows, stride);
+        }
+
+        var foot = FloatRounding.ToNearest(b + alongEdge);
+        var floatAxisX = FloatRounding.ToNearest(axisX);
+        var floatAxisY = FloatRounding.ToNearest(toApex / Vector256.Create(altitude));
+        for (var axis = 0; axis < 3; axis++)
+        {
+            rows[axis * stride] = foot[axis];
+            rows[(3 + axis) * stride] = floatAxisX[axis];
+            rows[(6 + axis) * stride] = floatAxisY[axis];
+        }
+
+        rows[9 * stride] = (float)altitude;
+        rows[10 * stride] = (float)left;
+        rows[11 * stride] = (float)(length - left);
+        return length;
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    private static double LengthSquared(Vector256<double> v) => Vector256.Dot(v, v);
+
+    /// <summary>Writes the frame of a triangle without altitude: its longest edge is left of it, or one point.</summary>
+    private static double WriteThin(Vector a, Vector b, Vector c, Span<float> rows, int stride)
+    {
         var length = (c - b).Length();
         length = length > MinLength ? length : 0;
         var axisX = length > 0 ? (c - b) / length : Vector.I;
         var left = Math.Clamp(Vector.Dot(a - b, axisX), 0, length);
         var foot = b + (left * axisX);
-        // Not from the foot, which is rounded to the last place of a coordinate.
-        var altitudeVector = a - b - (left * axisX);
-        altitudeVector -= Vector.Dot(altitudeVector, axisX) * axisX;
-        var altitude = altitudeVector.Length();
-        Vector axisY;
-        if (altitude > MinRelativeAltitude * length)
-        {
-            axisY = altitudeVector / altitude;
-        }
-        else
-        {
-            altitude = 0;
-            var (x, y, z) = axisX.Absolute();
-            axisY = Vector.Cross(axisX, x <= y && x <= z ? Vector.I : y <= z ? Vector.J : Vector.K).UnitVector();
-        }
-
+        var (x, y, z) = axisX.Absolute();
+        var axisY = Vector.Cross(axisX, x <= y && x <= z ? Vector.I : y <= z ? Vector.J : Vector.K).UnitVector();
         ReadOnlySpan<double> values =
-        [
-            foot.X, foot.Y, foot.Z, axisX.X, axisX.Y, axisX.Z, axisY.X, axisY.Y, axisY.Z, altitude, left, length - left,
-        ];
+            [foot.X, foot.Y, foot.Z, axisX.X, axisX.Y, axisX.Z, axisY.X, axisY.Y, axisY.Z, 0, left, length - left];
         for (var row = 0; row < Rows; row++)
         {
             rows[row * stride] = (float)values[row];
@@ -143,4 +174,8 @@ internal static class TriangleFrames
 
         return length;
     }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    private static Vector256<float> Row(ref float leaf, nint row, nint count) =>
+        Vector256.LoadUnsafe(ref Unsafe.Add(ref leaf, row * count));
 }

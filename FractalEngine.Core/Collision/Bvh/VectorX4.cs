@@ -10,6 +10,7 @@ namespace FractalEngine.Core.Collision.Bvh;
 /// <param name="X">The x components.</param>
 /// <param name="Y">The y components.</param>
 /// <param name="Z">The z components.</param>
+[method: MethodImpl(MethodImplOptions.AggressiveInlining)]
 internal readonly record struct VectorX4(Vector256<double> X, Vector256<double> Y, Vector256<double> Z)
 {
     /// <summary>Number of vectors, one for each lane.</summary>

@@ -109,11 +109,11 @@ internal readonly struct AffineFrame : ISearchFrame<AffineFrame>
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.NoInlining)]
-    public void TestTriangles(TriangleBvh bvh, int depth, ref FractalSearchState search)
+    public void TestTriangles(TriangleBvh bvh, ExpandedSubFractal? expanded, int depth, ref FractalSearchState search)
     {
         if (TryFindTriangle(bvh, _position, in _map, ref search, out var closest))
         {
-            search.UpdateClosest(closest.DistanceSquared, closest.FaceIndex, depth);
+            search.UpdateClosest(closest.DistanceSquared, closest.FaceIndex, depth, expanded);
         }
     }
 }

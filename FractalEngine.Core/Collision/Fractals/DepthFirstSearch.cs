@@ -10,11 +10,14 @@ namespace FractalEngine.Core.Collision.Fractals;
 /// <typeparam name="TFrame">How bounds and positions are compared; a struct, so that the search is compiled for it.</typeparam>
 /// <param name="hierarchy">The sub-fractals.</param>
 /// <param name="bvh">The hierarchy of the base mesh.</param>
-internal sealed class DepthFirstSearch<TFrame>(FractalHierarchy hierarchy, TriangleBvh bvh)
+/// <param name="expandedLevels">The levels that are searched as meshes.</param>
+internal sealed class DepthFirstSearch<TFrame>(FractalHierarchy hierarchy, TriangleBvh bvh, ExpandedLevels expandedLevels)
     where TFrame : struct, ISearchFrame<TFrame>
 {
     private const int MaxUrgentLevels = 12;
 
+    // From here on, no sub-fractal is searched as a mesh.
+    private readonly long _meshLevels = expandedLevels.Count;
     private readonly int _baseFaceCount = bvh.FaceCount;
 
     /// <summary>Searches the whole fractal.</summary>
@@ -32,9 +35,15 @@ internal sealed class DepthFirstSearch<TFrame>(FractalHierarchy hierarchy, Trian
     private void Visit(
         SubFractal subFractal, long remainingLevels, ref TFrame frame, int depth, int offset, ref FractalSearchState search)
     {
+        if (remainingLevels < _meshLevels && expandedLevels.At(remainingLevels) is { } expanded)
+        {
+            frame.TestTriangles(expanded.Bvh, expanded, depth, ref search);
+            return;
+        }
+
         if (remainingLevels == 0 || frame.RadiusSquared(subFractal) <= search.MinRadiusSquared)
         {
-            frame.TestTriangles(bvh, depth, ref search);
+            frame.TestTriangles(bvh, null, depth, ref search);
             return;
         }
 
@@ -42,6 +51,8 @@ internal sealed class DepthFirstSearch<TFrame>(FractalHierarchy hierarchy, Trian
         {
             return;
         }
+
+        search.VisitedSubFractals++;
 
         var cutoffSquared = frame.ChildCutoffSquared(in search);
         if (frame.IsNear(subFractal))

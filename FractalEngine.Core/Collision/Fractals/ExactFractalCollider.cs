@@ -33,6 +33,7 @@ public sealed class ExactFractalCollider : Collider
     private readonly Fractal _fractal;
     private readonly FractalHierarchy _hierarchy;
     private readonly TriangleBvh _baseBvh;
+    private readonly ExpandedLevels _expandedLevels;
     private readonly double _precisionRadius;
     private readonly double _rootMagnitude;
     private readonly DepthFirstSearch<SimilarityFrame> _similaritySearch;
@@ -60,8 +61,9 @@ public sealed class ExactFractalCollider : Collider
         _baseBvh = TriangleBvh.For(fractal.BaseMesh);
         _precisionRadius = PrecisionRadius(_hierarchy.Root);
         _rootMagnitude = BoundingVolume.MaxAbsCoordinate(_hierarchy.Root.Box);
-        _similaritySearch = new(_hierarchy, _baseBvh);
-        _affineSearch = new(_hierarchy, _baseBvh);
+        _expandedLevels = ExpandedLevels.For(_hierarchy, _baseBvh);
+        _similaritySearch = new(_hierarchy, _baseBvh, _expandedLevels);
+        _affineSearch = new(_hierarchy, _baseBvh, ExpandedLevels.None);
         _bestFirstSearch = new(_hierarchy, _baseBvh);
     }
 
@@ -69,7 +71,7 @@ public sealed class ExactFractalCollider : Collider
     public override bool IsExact => true;
 
     /// <inheritdoc/>
-    public override long StorageBytes => _hierarchy.StorageBytes + _baseBvh.StorageBytes;
+    public override long StorageBytes => _hierarchy.StorageBytes + _baseBvh.StorageBytes + _expandedLevels.StorageBytes;
 
     /// <inheritdoc/>
     internal override bool SupportsTransformedQueries => true;

@@ -99,6 +99,15 @@ internal ref struct FractalSearchState
     /// <summary>Number of bounding volumes that were tested.</summary>
     public long BoundTests { get; set; }
 
+    /// <summary>Number of sub-fractals whose children were listed.</summary>
+    public int VisitedSubFractals { get; set; }
+
+    /// <summary>Number of searches of a mesh.</summary>
+    public int MeshSearches { get; private set; }
+
+    /// <summary>Number of bounding volumes among <see cref="BoundTests"/> that belong to triangle hierarchies.</summary>
+    public long MeshBoundTests { get; private set; }
+
     /// <summary>True when the search has become so long that exact distances of sub-fractals' hulls pay.</summary>
     public readonly bool NeedsTightBounds => BoundTests > MaxRoughBoundTests;
 
@@ -111,11 +120,13 @@ internal ref struct FractalSearchState
     /// <summary>Tells whether a squared bound in the frame of the query excludes a closer triangle.</summary>
     public readonly bool Excludes(double boundSquared) => !(boundSquared * BoundFactor < CutoffSquared);
 
-    /// <summary>Adds the cost of a search of the base mesh.</summary>
+    /// <summary>Adds the cost of a search of a mesh.</summary>
     public void AddStatistics(in ClosestTriangle closest)
     {
         FaceTests += closest.FaceTests;
         BoundTests += closest.BoundTests;
+        MeshBoundTests += closest.BoundTests;
+        MeshSearches++;
     }
 
     /// <summary>Records the child instance that is entered.</summary>
@@ -154,9 +165,15 @@ internal ref struct FractalSearchState
     /// <summary>Records a triangle that is closer than all before, with the current path.</summary>
     /// <param name="distanceSquared">Its squared distance in the frame of the query.</param>
     /// <param name="faceIndex">Its face index in the base mesh.</param>
-    /// <param name="depth">Number of child instances that lead to it.</param>
-    public void UpdateClosest(double distanceSquared, int faceIndex, int depth)
+    /// <param name="depth">Number of child instances that lead to its mesh.</param>
+    /// <param name="expanded">The sub-fractal that the mesh is; null for the base mesh.</param>
+    public void UpdateClosest(double distanceSquared, int faceIndex, int depth, ExpandedSubFractal? expanded = null)
     {
+        if (expanded is not null)
+        {
+            faceIndex = expanded.ResolveFace(faceIndex, ref depth, ref this);
+        }
+
         ClosestDistanceSquared = distanceSquared;
         ClosestFace = faceIndex;
         ClosestDepth = depth;

@@ -55,9 +55,10 @@ internal interface ISearchFrame<TSelf>
         SubFractal parent, ChildInstance child, SubFractal childSubFractal, ref TSelf childFrame, double cutoffSquared,
         ref FractalSearchState search);
 
-    /// <summary>Searches the base mesh in this frame.</summary>
-    /// <param name="bvh">The hierarchy of the base mesh.</param>
+    /// <summary>Searches the base mesh, or that of an expanded sub-fractal, in this frame.</summary>
+    /// <param name="bvh">The hierarchy of the mesh.</param>
+    /// <param name="expanded">The sub-fractal that the mesh is; null for the base mesh.</param>
     /// <param name="depth">Number of child instances that lead to this frame.</param>
     /// <param name="search">Receives the closest triangle and the cost.</param>
-    void TestTriangles(TriangleBvh bvh, int depth, ref FractalSearchState search);
+    void TestTriangles(TriangleBvh bvh, ExpandedSubFractal? expanded, int depth, ref FractalSearchState search);
 }

@@ -119,14 +119,14 @@ internal readonly struct SimilarityFrame : ISearchFrame<SimilarityFrame>
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.NoInlining)]
-    public void TestTriangles(TriangleBvh bvh, int depth, ref FractalSearchState search)
+    public void TestTriangles(TriangleBvh bvh, ExpandedSubFractal? expanded, int depth, ref FractalSearchState search)
     {
         var closest = new ClosestTriangle(search.ClosestDistanceSquared * _inverseScaleSquared);
         bvh.FindClosest(SimdAffineMap.ToVector(_position), ref closest, search.BoundFactor);
         search.AddStatistics(in closest);
         if (closest.FaceIndex >= 0)
         {
-            search.UpdateClosest(closest.DistanceSquared * _scaleSquared, closest.FaceIndex, depth);
+            search.UpdateClosest(closest.DistanceSquared * _scaleSquared, closest.FaceIndex, depth, expanded);
         }
     }
 
