@@ -79,6 +79,22 @@ internal sealed class BodyGrid
         }
     }
 
+    /// <summary>Updates position and radius of a body that is still in its cell. Many threads may do so at once.</summary>
+    /// <returns>False for one that is in another cell now; nothing is changed then.</returns>
+    public bool TryUpdateWithinCell(int index)
+    {
+        ref var entry = ref _entries[index];
+        var position = _bodies[index].Position;
+        if (entry.Bucket != None && CellAt(position) != entry.Cell)
+        {
+            return false;
+        }
+
+        entry.Position = position;
+        entry.Radius = _bodies[index].Radius;
+        return true;
+    }
+
     /// <summary>Updates position, radius and cell of a body that has moved.</summary>
     public void Update(int index)
     {

@@ -196,11 +196,14 @@ internal sealed class BodyStepper
     /// <summary>Tells others where a body is that has ended its step: it wakes what may have lain on it. One thread at a time.</summary>
     public void Settle(Body body)
     {
-        body.IsFinished = false;
         _islands.WakeLeft(body);
         // Last, so that what was collected for this body serves its islands too.
         _grid.Update(body.Index);
     }
+
+    /// <summary>Does so unless others may have to be told: many threads may do so at once.</summary>
+    /// <returns>False where it has to settle.</returns>
+    public bool TrySettle(Body body) => !_islands.HasSleeping && _grid.TryUpdateWithinCell(body.Index);
 
     /// <summary>Moves a body on that a kinematic object has overrun, at the end of the step.</summary>
     /// <param name="body">Must have been moved.</param>

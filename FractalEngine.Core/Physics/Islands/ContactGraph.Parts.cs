@@ -41,9 +41,6 @@ internal sealed partial class ContactGraph
     /// <summary>Number of ranges that <see cref="RowsOfPart"/> cuts an island's contacts into.</summary>
     public static int GroupCountOf(in Island island) => island.PartCount == 1 ? 1 : island.PartCount + 1;
 
-    /// <summary>Index of the first contact of a part of an island, or between its parts, among the contacts of the island.</summary>
-    public int FirstRowOfPart(in Island island, int part) => part == 0 ? 0 : PartEndsOf(in island)[part - 1];
-
     /// <summary>The part of a body of an island that has several.</summary>
     public int PartOf(int body) => _parts.PartOf(body);
 

@@ -8,6 +8,7 @@ internal sealed partial class IslandMover
 
     private const int PairsPerJob = 1024;
 
+    private int _bodiesPerCellJob;
     private volatile bool _hasOverlap;
 
     /// <summary>Puts an island back to where its step began, unless others have come there.</summary>
@@ -61,14 +62,40 @@ internal sealed partial class IslandMover
     {
         foreach (var island in _graph.Islands)
         {
-            foreach (var index in _graph.BodiesOf(in island))
-            {
-                _grid.Update(index);
-            }
+            UpdateCells(in island);
         }
 
         while (ReturnPairs() || ReturnBeyondReach())
         {
+        }
+    }
+
+    /// <summary>Tells the grid where bodies are: on all threads for those that stay in their cell, and then for all others.</summary>
+    private void UpdateCells(in Island island)
+    {
+        _island = island;
+        _bodiesPerCellJob = Math.Max(BodiesPerJob, (island.BodyCount + MaxCellJobs - 1) / MaxCellJobs);
+        var jobCount = (island.BodyCount + _bodiesPerCellJob - 1) / _bodiesPerCellJob;
+        WorkerSet.Shared.Run(jobCount, _maxThreads, _updateCells);
+        foreach (var left in _leftCells.AsSpan(0, jobCount))
+        {
+            foreach (var index in left)
+            {
+                _grid.Update(index);
+            }
+        }
+    }
+
+    private void UpdateCells(int job)
+    {
+        _leftCells[job].Clear();
+        var members = _graph.BodiesOf(in _island);
+        foreach (var index in members[(job * _bodiesPerCellJob)..Math.Min(members.Length, (job + 1) * _bodiesPerCellJob)])
+        {
+            if (!_grid.TryUpdateWithinCell(index))
+            {
+                _leftCells[job].Add(index);
+            }
         }
     }
 

@@ -20,6 +20,9 @@ internal sealed partial class IslandMover
 
     private const int BodiesPerJob = 256;
 
+    // Positions are told to the grid in at most so many groups.
+    private const int MaxCellJobs = 32;
+
     private readonly List<Body> _bodies;
     private readonly ContactGraph _graph;
     private readonly BodyGrid _grid;
@@ -29,6 +32,10 @@ internal sealed partial class IslandMover
     private readonly Action<int> _setTargets;
     private readonly Action<int> _setWays;
     private readonly Action<int> _takeWays;
+    private readonly Action<int> _findDeviated;
+    private readonly Action<int> _dampJammed;
+    private readonly Action<int> _updateCells;
+    private readonly List<int>[] _leftCells = [.. Enumerable.Range(0, MaxCellJobs).Select(static _ => new List<int>(InitialCapacity))];
     private readonly OverlapSeparator _separator;
     private readonly List<int> _neighbours = new(InitialCapacity);
 
@@ -36,6 +43,10 @@ internal sealed partial class IslandMover
     private readonly List<ContactRow> _unplanned = new(InitialCapacity);
 
     private Island _island;
+    private double _stepLength;
+
+    // Threads set it in any order, to the same.
+    private volatile bool _hasDeviated;
 
     public IslandMover(List<Body> bodies, ContactGraph graph, BodyGrid grid, NearbyBodies nearbyBodies, int maxThreads)
     {
@@ -49,6 +60,9 @@ internal sealed partial class IslandMover
         _setTargets = SetTargets;
         _setWays = SetWays;
         _takeWays = TakeWays;
+        _findDeviated = FindDeviated;
+        _dampJammed = DampJammed;
+        _updateCells = UpdateCells;
     }
 
     /// <summary>Number of times that a body had to stay where it was.</summary>
@@ -63,6 +77,10 @@ internal sealed partial class IslandMover
         }
 
         _separator.Reserve(_bodies.Count);
+        foreach (var left in _leftCells)
+        {
+            left.EnsureCapacity(Math.Max(BodiesPerJob, (_bodies.Count + MaxCellJobs - 1) / MaxCellJobs));
+        }
     }
 
     /// <summary>Finds a body of no island that stands where one of an island will be. It has to go first.</summary>
@@ -74,11 +92,11 @@ internal sealed partial class IslandMover
         while (pairIndex < pairs.Length)
         {
             ref readonly var pair = ref pairs[pairIndex++];
-            var first = _bodies[pair.First];
-            var second = _bodies[pair.Second];
-            if (!pair.IsSecondFirm && (first.IslandIndex >= 0) != (second.IslandIndex >= 0))
+            if (!pair.IsSecondFirm && (_graph.IslandOf(pair.First) >= 0) != (_graph.IslandOf(pair.Second) >= 0))
             {
-                var (member, single) = first.IslandIndex >= 0 ? (first, second) : (second, first);
+                var isFirstMember = _graph.IslandOf(pair.First) >= 0;
+                var member = _bodies[isFirstMember ? pair.First : pair.Second];
+                var single = _bodies[isFirstMember ? pair.Second : pair.First];
                 var distance = (member.Radius + single.Radius) * (1 - OverlapSeparator.NegligibleOverlap);
                 if (!single.HasMoved && (member.Target - single.Position).LengthSquared() < distance * distance)
                 {
@@ -112,28 +130,38 @@ internal sealed partial class IslandMover
     /// <summary>Finds bodies that others meet which have got farther than was foreseen.</summary>
     public void FindUnplanned(in Island island, double stepLength)
     {
+        _stepLength = stepLength;
+        _hasDeviated = false;
+        RunOnMembers(in island, _findDeviated);
+        if (!_hasDeviated)
+        {
+            return;
+        }
+
         foreach (var index in _graph.BodiesOf(in island))
         {
-            var body = _bodies[index];
-            if (!HasDeviated(body, body.Target, stepLength))
+            if (_bodies[index].HasDeviated)
             {
-                continue;
+                FindUnplanned(_bodies[index]);
             }
+        }
+    }
 
-            _neighbours.Clear();
-            _nearbyBodies.CollectOverlaps(body.Target, body.Radius * (1 + SearchMargin), index, _neighbours);
-            foreach (var neighbour in _neighbours)
+    private void FindUnplanned(Body body)
+    {
+        _neighbours.Clear();
+        _nearbyBodies.CollectOverlaps(body.Target, body.Radius * (1 + SearchMargin), body.Index, _neighbours);
+        foreach (var neighbour in _neighbours)
+        {
+            var other = _bodies[neighbour];
+            if (other.IslandIndex == body.IslandIndex && !body.IsCompound && !other.IsCompound
+                && (body.Target - other.Target).Length() < (body.Radius + other.Radius) * (1 - OverlapSeparator.NegligibleOverlap))
             {
-                var other = _bodies[neighbour];
-                if (other.IslandIndex == body.IslandIndex && !body.IsCompound && !other.IsCompound
-                    && (body.Target - other.Target).Length() < (body.Radius + other.Radius) * (1 - OverlapSeparator.NegligibleOverlap))
+                _unplanned.Add(new()
                 {
-                    _unplanned.Add(new()
-                    {
-                        First = index, Second = neighbour, Offset = body.PlannedStart - other.PlannedStart,
-                        MinDistance = body.Radius + other.Radius, IsBall = true, FirstRadius = body.Radius, SecondRadius = other.Radius,
-                    });
-                }
+                    First = body.Index, Second = neighbour, Offset = body.PlannedStart - other.PlannedStart,
+                    MinDistance = body.Radius + other.Radius, IsBall = true, FirstRadius = body.Radius, SecondRadius = other.Radius,
+                });
             }
         }
     }
@@ -195,16 +223,35 @@ internal sealed partial class IslandMover
     /// <param name="stepLength">Seconds.</param>
     public void DampJammed(in Island island, double stepLength)
     {
-        foreach (var index in _graph.BodiesOf(in island))
+        _stepLength = stepLength;
+        RunOnMembers(in island, _dampJammed);
+    }
+
+    private void DampJammed(int job)
+    {
+        foreach (var index in MembersOf(job))
         {
             var body = _bodies[index];
-            var way = JamFraction * stepLength * body.Velocity;
+            var way = JamFraction * _stepLength * body.Velocity;
             var isJammed = (body.Position - body.PlannedStart).LengthSquared() < way.LengthSquared();
             body.JammedSteps = isJammed ? body.JammedSteps + 1 : 0;
             if (body.JammedSteps >= MaxJammedSteps)
             {
                 body.Velocity *= 0.5;
                 body.AngularVelocity *= 0.5;
+            }
+        }
+    }
+
+    private void FindDeviated(int job)
+    {
+        foreach (var index in MembersOf(job))
+        {
+            var body = _bodies[index];
+            body.HasDeviated = HasDeviated(body, body.Target, _stepLength);
+            if (body.HasDeviated)
+            {
+                _hasDeviated = true;
             }
         }
     }

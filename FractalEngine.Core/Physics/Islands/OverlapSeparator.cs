@@ -99,8 +99,7 @@ internal sealed class OverlapSeparator
             group.Clear();
         }
 
-        WorkerSet.Shared.Run(_island.PartCount, _maxThreads, _choose);
-        Choose(_island.PartCount);
+        WorkerSet.Shared.Run(ContactGraph.GroupCountOf(in _island), _maxThreads, _choose);
         for (var i = 0; i < others.Length; i++)
         {
             _groups[GroupOf(in others[i])].AddNear(others.Slice(i, 1), _movers, in _aim);
