@@ -113,6 +113,11 @@ internal sealed class BodyStepper
     /// <param name="stepLength">Seconds, positive.</param>
     public void FindNearSurfaces(Body body, StaticColliders? staticColliders, double reach, double stepLength)
     {
+        if (IsFree(body, body.Position, reach))
+        {
+            return;
+        }
+
         var (faceTests, boundTests) = BeginCount();
         SetMover(body, staticColliders, character: null, stepLength);
         if (body.IsCompound)
@@ -159,6 +164,12 @@ internal sealed class BodyStepper
     /// <inheritdoc cref="Step"/>
     public void MovePlanned(Body body, StaticColliders? staticColliders, CharacterController? character, double stepLength)
     {
+        if (character is null && IsFree(body, body.PlannedStart, (body.Target - body.PlannedStart).Length()))
+        {
+            BodyMover.MoveFreely(body);
+            return;
+        }
+
         var (faceTests, boundTests) = BeginCount();
         SetMover(body, staticColliders, character, stepLength);
         if (body.IsCompound)
@@ -177,19 +188,23 @@ internal sealed class BodyStepper
     /// <inheritdoc cref="Step"/>
     public void FinishPlanned(Body body, StaticColliders? staticColliders, double stepLength, long stepIndex)
     {
-        var (faceTests, boundTests) = BeginCount();
-        SetMover(body, staticColliders, character: null, stepLength);
-        _obstacles.Time = stepLength;
-        if (body.IsCompound)
+        if (body.IsCompound || body.Contacts.Count > 0)
         {
-            _compoundMover.FinishPlanned(body);
-        }
-        else
-        {
-            _mover.FinishPlanned(body);
+            var (faceTests, boundTests) = BeginCount();
+            SetMover(body, staticColliders, character: null, stepLength);
+            _obstacles.Time = stepLength;
+            if (body.IsCompound)
+            {
+                _compoundMover.FinishPlanned(body);
+            }
+            else
+            {
+                _mover.FinishPlanned(body);
+            }
+
+            EndCount(body, faceTests, boundTests);
         }
 
-        EndCount(body, faceTests, boundTests);
         Finish(body, stepLength, stepIndex);
     }
 
@@ -244,6 +259,10 @@ internal sealed class BodyStepper
         _islands.Update(body, sleepSpeed, _settings.TimeBeforeSleep, stepLength);
         body.IsFinished = true;
     }
+
+    /// <summary>True for a ball that meets no surface on a way, as far as is known without a query.</summary>
+    private bool IsFree(Body body, Vector start, double way) =>
+        !body.IsCompound && !_obstacles.HasKinematics && body.SafeDistance.LowerBoundAt(start) - body.Radius > way;
 
     /// <summary>Makes a body the mover of the obstacles.</summary>
     /// <returns>How far it may move in free flight.</returns>

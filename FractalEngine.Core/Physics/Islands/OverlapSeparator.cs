@@ -88,7 +88,10 @@ internal sealed class OverlapSeparator
 
         // Last, since what is firm gives way to nothing.
         WorkerSet.Shared.Run(island.PartCount, _maxThreads, _takeBackSurfaces);
-        TakeBackSurfaces(others);
+        for (var i = 0; i < others.Length; i++)
+        {
+            TakeBackSurfaces(others.Slice(i, 1));
+        }
     }
 
     /// <summary>Chooses the contacts that are near touching.</summary>
@@ -244,10 +247,13 @@ internal sealed class OverlapSeparator
     {
         foreach (ref readonly var row in rows)
         {
-            if (!row.IsBall)
+            if (row.IsBall)
             {
-                _ = GapGroup.TakeBack(new Gap(in row, in _aim), _movers);
+                // Surfaces are first in each part.
+                return;
             }
+
+            _ = GapGroup.TakeBack(new Gap(in row, in _aim), _movers);
         }
     }
 }
