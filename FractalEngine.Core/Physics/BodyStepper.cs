@@ -269,7 +269,7 @@ internal sealed class BodyStepper
     private double SetMover(Body body, StaticColliders? staticColliders, CharacterController? character, double stepLength)
     {
         var maxTravel = new Motion(body.Position, body.Velocity, body.FreeAcceleration).MaxTravelDistance(stepLength);
-        _obstacles.SetMover(staticColliders, SingleSphereOffset, body.Radius, body.SafeDistance, 2 * maxTravel, character);
+        _obstacles.SetMover(staticColliders, SingleSphereOffset, body.Radius, body.SafeDistance, (2 * maxTravel) + (0.5 * body.Radius), character);
         _obstacles.Time = 0;
         return maxTravel;
     }

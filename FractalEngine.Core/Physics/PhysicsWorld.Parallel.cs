@@ -22,6 +22,9 @@ public sealed partial class PhysicsWorld
     private bool _isFirstPart;
     private bool _hasStepForces;
 
+    // True once there is a compound, or a body with another collider than the first one.
+    private bool _areMixed;
+
     // Threads set them in any order, to the same.
     private volatile bool _hasOthers;
     private volatile bool _hasSleeping;
@@ -49,7 +52,8 @@ public sealed partial class PhysicsWorld
         return true;
     }
 
-    private bool MayShare(Body body) => !body.IsCompound && ColliderKindOf(body) == ColliderKindOf(_bodies[0]);
+    private bool MayShare(Body body) =>
+        !_areMixed || (!body.IsCompound && ColliderKindOf(body) == ColliderKindOf(_bodies[0]));
 
     /// <summary>Lets all bodies begin a part of a step.</summary>
     private void BeginPartShared()

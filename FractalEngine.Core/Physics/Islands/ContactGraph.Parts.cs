@@ -110,15 +110,19 @@ internal sealed partial class ContactGraph
             }
         }
 
+        var firstPair = place;
+        var hasFirm = false;
         var pairs = CollectionsMarshal.AsSpan(_pairs);
         foreach (var pair in CollectionsMarshal.AsSpan(_partPairs)[_partStarts[part].._partStarts[part + 1]])
         {
+            hasFirm |= pairs[pair].IsSecondFirm;
             ref var row = ref _rows[place++];
             ContactRow.Clear(ref row);
             SetBalls(ref row, in pairs[pair]);
         }
 
-        _partKinds[part] = Examine(_rows.AsSpan(_partRows[part], place - _partRows[part]));
+        // Balls alone are neither firm nor moving, unless one of them sleeps or is stuck.
+        _partKinds[part] = Examine(_rows.AsSpan(_partRows[part], firstPair - _partRows[part])) | (hasFirm ? RowKinds.Firm : RowKinds.None);
     }
 
     private void SortBodiesByParts(ReadOnlySpan<int> island, int partCount)

@@ -134,6 +134,12 @@ internal struct ContactRow
     /// <summary>True for the contact with a surface that moves or turns.</summary>
     public readonly bool IsOnMovingSurface => Second < 0 && (SurfaceVelocity != Vector.Zero || SurfaceSpin != Vector.Zero);
 
+    /// <summary>
+    /// True for a contact that meets in this step and pushes, or of which one side moves by itself: that pushes on those that were slower
+    /// than itself, which then rebound from what they push.
+    /// </summary>
+    public readonly bool MayRebound => NormalImpulse > 0 && (IsAhead || SurfaceVelocity != Vector.Zero);
+
     /// <summary>Begins a contact of two balls in a place that may have been another one's.</summary>
     public static void Clear(ref ContactRow row)
     {

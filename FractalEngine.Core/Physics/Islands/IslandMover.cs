@@ -30,9 +30,8 @@ internal sealed partial class IslandMover
     private readonly int _maxThreads;
     private readonly Action<int> _testPairs;
     private readonly Action<int> _setTargets;
-    private readonly Action<int> _setWays;
     private readonly Action<int> _takeWays;
-    private readonly Action<int> _findDeviated;
+    private readonly Action<int> _setWays;
     private readonly Action<int> _dampJammed;
     private readonly Action<int> _updateCells;
     private readonly List<int>[] _leftCells = [.. Enumerable.Range(0, MaxCellJobs).Select(static _ => new List<int>(InitialCapacity))];
@@ -58,9 +57,8 @@ internal sealed partial class IslandMover
         _separator = new(graph, maxThreads);
         _testPairs = TestPairs;
         _setTargets = SetTargets;
-        _setWays = SetWays;
         _takeWays = TakeWays;
-        _findDeviated = FindDeviated;
+        _setWays = SetWays;
         _dampJammed = DampJammed;
         _updateCells = UpdateCells;
     }
@@ -127,12 +125,12 @@ internal sealed partial class IslandMover
         });
     }
 
-    /// <summary>Finds bodies that others meet which have got farther than was foreseen.</summary>
+    /// <summary>Sets the ways of all bodies, and finds those that others meet which have got farther than was foreseen.</summary>
     public void FindUnplanned(in Island island, double stepLength)
     {
         _stepLength = stepLength;
         _hasDeviated = false;
-        RunOnMembers(in island, _findDeviated);
+        RunOnMembers(in island, _setWays);
         if (!_hasDeviated)
         {
             return;
@@ -169,7 +167,6 @@ internal sealed partial class IslandMover
     /// <summary>Changes the targets until the bodies overlap as little as the contacts tell. What is held gives way to nothing.</summary>
     public void SeparateTargets(in Island island)
     {
-        RunOnMembers(in island, _setWays);
         _separator.Separate(in island, CollectionsMarshal.AsSpan(_unplanned));
         RunOnMembers(in island, _takeWays);
     }
@@ -195,15 +192,6 @@ internal sealed partial class IslandMover
             body.PlannedStart = body.Position;
             body.Target = body.Position + body.PlannedWay;
             body.IsHeld = false;
-        }
-    }
-
-    private void SetWays(int job)
-    {
-        foreach (var index in MembersOf(job))
-        {
-            var body = _bodies[index];
-            _separator.SetBody(index, body.Target - body.PlannedStart, body.IsHeld ? 0 : 1 / body.Description.Mass);
         }
     }
 
@@ -243,11 +231,12 @@ internal sealed partial class IslandMover
         }
     }
 
-    private void FindDeviated(int job)
+    private void SetWays(int job)
     {
         foreach (var index in MembersOf(job))
         {
             var body = _bodies[index];
+            _separator.SetBody(index, body.Target - body.PlannedStart, body.IsHeld ? 0 : 1 / body.Description.Mass);
             body.HasDeviated = HasDeviated(body, body.Target, _stepLength);
             if (body.HasDeviated)
             {

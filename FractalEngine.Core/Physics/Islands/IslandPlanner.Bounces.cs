@@ -64,17 +64,12 @@ internal sealed partial class IslandPlanner
         }
     }
 
-    /// <summary>Finds contacts that meet in this step and push, or of which one side moves by itself.</summary>
-    /// <param name="rows">Contacts.</param>
-    /// <param name="rebounding">Receives their indices.</param>
     private static void FindRebounding(ReadOnlySpan<ContactRow> rows, List<int> rebounding)
     {
         rebounding.Clear();
         for (var i = 0; i < rows.Length; i++)
         {
-            // What moves pushes on those that were slower than itself, which then rebound from what they push.
-            ref readonly var row = ref rows[i];
-            if ((row.IsAhead || row.SurfaceVelocity != Vector.Zero) && row.NormalImpulse > 0)
+            if (rows[i].MayRebound)
             {
                 rebounding.Add(i);
             }

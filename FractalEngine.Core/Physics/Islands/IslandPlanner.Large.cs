@@ -21,7 +21,6 @@ internal sealed partial class IslandPlanner
     private Action<int>? _beginPart;
 
     private Action<int>? _storePlan;
-    private Action<int>? _findRebounding;
     private Action<int>? _stopRebounds;
     private Action<int>? _storeChanges;
     private int _largeIndex;
@@ -32,7 +31,6 @@ internal sealed partial class IslandPlanner
         _loadBodies ??= LoadBodies;
         _beginPart ??= BeginPart;
         _storePlan ??= StorePlan;
-        _findRebounding ??= FindRebounding;
         _stopRebounds ??= StopRebounds;
         _storeChanges ??= StoreChanges;
     }
@@ -68,7 +66,7 @@ internal sealed partial class IslandPlanner
             ApplyKnownImpulses(ref row);
         }
 
-        var isConverged = _solver.SolveLarge(Graph, in island, RoundLimits.ForLarge(rows.Length));
+        var isConverged = _solver.SolveLarge(Graph, in island, RoundLimits.ForLarge(rows.Length), _reboundingOfParts);
         Statistics = Statistics with { Rounds = Statistics.Rounds + _solver.Rounds };
         return isConverged;
     }
@@ -99,7 +97,6 @@ internal sealed partial class IslandPlanner
     private void StopReboundsOfParts(in Island island)
     {
         var groupCount = ContactGraph.GroupCountOf(in island);
-        WorkerSet.Shared.Run(groupCount, maxThreads, _findRebounding!);
         if (groupCount == 1)
         {
             StopRebounds(Graph.RowsOf(in island), _reboundingOfParts[0]);
@@ -115,8 +112,6 @@ internal sealed partial class IslandPlanner
         }
     }
 
-    private void FindRebounding(int part) => FindRebounding(Graph.RowsOfPart(in _large, part), _reboundingOfParts[part]);
-
     private void StopRebounds(int part) =>
         _isRebounding[part] = StopReboundsOnce(Graph.RowsOfPart(in _large, part), _reboundingOfParts[part]);
 
@@ -124,9 +119,9 @@ internal sealed partial class IslandPlanner
     private void BeginPart(int part)
     {
         var rows = Graph.RowsOfPart(in _large, part);
-        _cache.Recall(rows);
         foreach (ref var row in rows)
         {
+            _cache.Recall(ref row);
             _solver.ComputeMasses(ref row);
             SetDistanceConstraint(ref row, _largeStepLength);
             if (part < _large.PartCount)

@@ -96,7 +96,7 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
             Log(Graph.RowsOf(in island));
         }
 
-        _cache.Store(Graph);
+        _cache.Store(Graph, maxThreads);
     }
 
     private bool PlanSmall(int index, in Island island, double stepLength)
