@@ -22,8 +22,14 @@ internal sealed partial class ContactGraph
         _islandBodies.Clear();
         _partEnds.Clear();
         CollectBodies();
-        SortPairs();
         _count = 0;
+        RowCount = 0;
+        if (onlyImpacts && _islands is [var only] && Island.IsLargeFor(_pairs.Count, only.HasCompound) && !MayBounce(BodiesOf(in only)))
+        {
+            return;
+        }
+
+        SortPairs();
         for (var island = 0; island < _islands.Count; island++)
         {
             var firstRow = _count;

@@ -28,6 +28,11 @@ internal sealed class DisjointSets
     {
         _isJoined[first] = true;
         _isJoined[second] = true;
+        if (_parents[first] == _parents[second])
+        {
+            return;
+        }
+
         var root1 = RootOf(first);
         var root2 = RootOf(second);
         _parents[Math.Max(root1, root2)] = Math.Min(root1, root2);

@@ -1,3 +1,4 @@
+using System.Runtime.InteropServices;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Physics.Islands;
@@ -86,12 +87,14 @@ internal sealed partial class IslandPlanner
         }
     }
 
-    /// <summary>Goes once over contacts that may rebound.</summary>
+    /// <summary>Goes once over contacts that may rebound, and leaves those of them that still push.</summary>
     /// <returns>True where one did.</returns>
     private bool StopReboundsOnce(Span<ContactRow> rows, List<int> rebounding)
     {
         var isRebounding = false;
-        foreach (var i in rebounding)
+        var count = 0;
+        var places = CollectionsMarshal.AsSpan(rebounding);
+        foreach (var i in places)
         {
             // It pushes less, but does not pull.
             ref var row = ref rows[i];
@@ -102,8 +105,14 @@ internal sealed partial class IslandPlanner
                 _solver.Apply(in row, -impulse, Vector.Zero);
                 isRebounding = true;
             }
+
+            if (row.NormalImpulse > 0)
+            {
+                places[count++] = i;
+            }
         }
 
+        CollectionsMarshal.SetCount(rebounding, count);
         return isRebounding;
     }
 }
