@@ -75,6 +75,11 @@ internal sealed partial class IslandMover
         }
 
         _separator.Reserve(_bodies.Count);
+        if (_places.Length < _bodies.Count)
+        {
+            _places = new Place[2 * _bodies.Count];
+        }
+
         foreach (var left in _leftCells)
         {
             left.EnsureCapacity(Math.Max(BodiesPerJob, (_bodies.Count + MaxCellJobs - 1) / MaxCellJobs));
