@@ -11,9 +11,7 @@ internal sealed partial class ContactGraph
     private int[] _next = new int[InitialCapacity];
 
     /// <summary>Makes islands of the joined sets, and contacts of their pairs and surfaces.</summary>
-    /// <param name="onlyImpacts">
-    /// True to make none for large islands that cannot bounce, nor for what is likely to be of one: their step's solve has their impacts.
-    /// </param>
+    /// <param name="onlyImpacts">True to make none for large islands that cannot bounce: their step's solve has their impacts.</param>
     public void Group(bool onlyImpacts)
     {
         _islands.Clear();
@@ -34,8 +32,7 @@ internal sealed partial class ContactGraph
             var firstPair = island > 0 ? _next[island - 1] : 0;
             var pairs = CollectionsMarshal.AsSpan(_sortedPairs)[firstPair.._next[island]];
             var partCount = _islands[island].HasCompound ? 1 : IslandParts.CountFor(pairs.Length);
-            if (onlyImpacts && (Island.IsLargeFor(pairs.Length, _islands[island].HasCompound) || IsOfHeap(BodiesOf(_islands[island])))
-                && !MayBounce(BodiesOf(_islands[island])))
+            if (onlyImpacts && Island.IsLargeFor(pairs.Length, _islands[island].HasCompound) && !MayBounce(BodiesOf(_islands[island])))
             {
                 continue;
             }
@@ -136,23 +133,6 @@ internal sealed partial class ContactGraph
                 _sortedPairs[_next[_islandOf[pairs[i].First]]++] = i;
             }
         }
-    }
-
-    /// <summary>
-    /// True where all of some bodies were of large islands in the step before, and are likely to be of one again. If not, the plan of their
-    /// small island stops what approaches.
-    /// </summary>
-    private bool IsOfHeap(ReadOnlySpan<int> island)
-    {
-        foreach (var index in island)
-        {
-            if (!_states[index].HasHeapMargin)
-            {
-                return false;
-            }
-        }
-
-        return true;
     }
 
     /// <summary>True where a body of some is not perfectly inelastic.</summary>
