@@ -6,7 +6,8 @@ namespace FractalEngine.Core.Physics;
 /// <content>What many balls do at the same time, on all threads. Compounds and what has filters act one after the other.</content>
 public sealed partial class PhysicsWorld
 {
-    private const int BodiesPerJob = 256;
+    // Less is done as soon by one thread.
+    private const int BodiesPerJob = 1024;
 
     private readonly ParallelSteppers _parallel;
     private readonly Action<int> _beginPart;
@@ -25,9 +26,9 @@ public sealed partial class PhysicsWorld
     // True once there is a compound, or a body with another collider than the first one.
     private bool _areMixed;
 
-    // Threads set them in any order, to the same.
+    // Threads set it in any order, to the same.
     private volatile bool _hasOthers;
-    private volatile bool _hasSleeping;
+    private int _awakeCount;
 
     private ParallelSteppers CreateParallelSteppers(int maxThreads) => new(
         context =>
@@ -41,7 +42,7 @@ public sealed partial class PhysicsWorld
     /// <summary>Tells whether balls may act at the same time: nothing moves by itself, and all see the same colliders.</summary>
     private bool TryBeginShared(CharacterController? character, double seconds)
     {
-        if (!ParallelSteppers.AreMany(_bodies.Count) || _kinematics.Objects.Count > 0 || _nearbyBodies.HasFilters || _statics.HasFilters)
+        if (_kinematics.Objects.Count > 0 || _nearbyBodies.HasFilters || _statics.HasFilters)
         {
             return false;
         }
@@ -58,14 +59,15 @@ public sealed partial class PhysicsWorld
     /// <summary>Lets all bodies begin a part of a step.</summary>
     private void BeginPartShared()
     {
-        _hasSleeping = false;
+        _awakeCount = 0;
         WorkerSet.Shared.Run((_bodies.Count + BodiesPerJob - 1) / BodiesPerJob, _parallel.MaxThreads, _beginPart);
-        _islands.HasSleeping = _hasSleeping;
+        _islands.HasSleeping = _awakeCount < _bodies.Count;
     }
 
     private void BeginPart(int job)
     {
         var end = Math.Min(_bodies.Count, (job + 1) * BodiesPerJob);
+        var awakeCount = 0;
         for (var i = job * BodiesPerJob; i < end; i++)
         {
             var body = _bodies[i];
@@ -75,22 +77,22 @@ public sealed partial class PhysicsWorld
             }
 
             body.BeginPart();
-            if (body.IsAsleep)
-            {
-                _hasSleeping = true;
-            }
+            awakeCount += body.IsAsleep ? 0 : 1;
         }
+
+        _ = Interlocked.Add(ref _awakeCount, awakeCount);
     }
 
     /// <summary>Prepares the balls that are where they may be; all others may change what is around them.</summary>
     /// <returns>True where others are left.</returns>
     private bool PrepareShared(CharacterController? character, double seconds) =>
-        !TryBeginShared(character, seconds) || HasOthersAfter(_bodies.Count, _prepare);
+        !ParallelSteppers.AreMany(_awakeCount) || !TryBeginShared(character, seconds) || HasOthersAfter(_bodies.Count, _prepare);
 
     /// <summary>Finds the surfaces near balls of islands.</summary>
     /// <inheritdoc cref="PrepareShared"/>
     private bool FindNearSurfacesShared(double seconds) =>
-        !TryBeginShared(character: null, seconds) || HasOthersAfter(_bodies.Count, _findNearSurfaces);
+        !ParallelSteppers.AreMany(_planner.Graph.JoinedCount) || !TryBeginShared(character: null, seconds)
+            || HasOthersAfter(_bodies.Count, _findNearSurfaces);
 
     /// <summary>Moves the balls of an island along their planned ways.</summary>
     /// <returns>True where one was held, or others are left.</returns>

@@ -111,13 +111,10 @@ public sealed partial class PhysicsWorld
     /// <summary>Finds the surfaces that bodies of islands may meet, unless they are known.</summary>
     private void FindNearSurfaces(double seconds)
     {
-        if (!FindNearSurfacesShared(seconds))
+        var hasOthers = _planner.Graph.JoinedCount > 0 && FindNearSurfacesShared(seconds);
+        for (var i = 0; hasOthers && i < _bodies.Count; i++)
         {
-            return;
-        }
-
-        foreach (var body in _bodies)
-        {
+            var body = _bodies[i];
             if (!body.AreNearSurfacesKnown && _planner.Graph.IsJoined(body.Index))
             {
                 body.AreNearSurfacesKnown = true;

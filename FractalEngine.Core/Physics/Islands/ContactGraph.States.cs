@@ -15,8 +15,6 @@ internal sealed partial class ContactGraph
         var search = _searches[index];
         var (first, end) = BodiesOfSearch(index);
         search.HasSleeping = false;
-        search.HasPushed = false;
-        search.MaySearch = false;
         var bounds = GridBounds.None;
         for (var i = first; i < end; i++)
         {
@@ -29,8 +27,6 @@ internal sealed partial class ContactGraph
 
             CopyState(body, ref _states[i]);
             search.HasSleeping |= body.IsAsleep;
-            search.HasPushed |= body.KinematicPush > 0;
-            search.MaySearch |= _states[i].MaySearch;
             bounds = bounds.With(body.Position, body.Radius);
         }
 

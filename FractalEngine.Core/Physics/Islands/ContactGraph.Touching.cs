@@ -214,9 +214,6 @@ internal sealed partial class ContactGraph
         /// <summary>True where some of the group may sleep.</summary>
         public bool HasSleeping { get; set; }
 
-        /// <summary>True where some may touch others.</summary>
-        public bool MaySearch { get; set; }
-
         /// <summary>True where some must look for what they may meet once more, since they are faster than was known.</summary>
         public bool HasFaster { get; set; }
 

@@ -70,6 +70,9 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
         return radius;
     }
 
+    /// <summary>Number of bodies that are joined with others.</summary>
+    public int JoinedCount => _sets.JoinedCount;
+
     /// <summary>True for a body that is joined with others.</summary>
     public bool IsJoined(int body) => _sets.IsJoined(body);
 
@@ -93,6 +96,11 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
     public void JoinTouching()
     {
         _sets.Reset(bodies.Count);
+        for (var i = 0; !_mayHavePairs && i < bodies.Count; i++)
+        {
+            bodies[i].MayTouchBodies &= bodies[i].IsAsleep;
+        }
+
         foreach (ref var pair in CollectionsMarshal.AsSpan(_pairs))
         {
             _states[pair.First].IsTouching = true;
@@ -151,22 +159,24 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
         }
 
         CreateJobs();
+        _searchCount = 0;
+        _mayHavePairs = bodies.Exists(static body => body.KinematicPush > 0 || MaySearch(body));
+        if (!_mayHavePairs)
+        {
+            return;
+        }
+
         SetSearches();
         WorkerSet.Shared.Run(_searchCount, maxThreads, _copyStates!);
-        _mayHavePairs = false;
         HasSleeping = false;
         var bounds = GridBounds.None;
         foreach (var search in _searches.AsSpan(0, _searchCount))
         {
-            _mayHavePairs |= search.HasPushed || search.MaySearch;
             HasSleeping |= search.HasSleeping;
             bounds = GridBounds.Union(bounds, search.Bounds);
         }
 
-        if (_mayHavePairs)
-        {
-            _grid.Build(nearbyBodies.HasFilters ? [] : _states.AsSpan(0, bodies.Count), in bounds);
-        }
+        _grid.Build(nearbyBodies.HasFilters ? [] : _states.AsSpan(0, bodies.Count), in bounds);
     }
 
     /// <summary>Makes what threads run before it is needed, so that steps allocate nothing.</summary>
