@@ -98,21 +98,16 @@ internal sealed class BodyGrid
     /// <summary>Updates position, radius and cell of a body that has moved.</summary>
     public void Update(int index)
     {
-        ref var entry = ref _entries[index];
-        entry.Position = _bodies[index].Position;
-        entry.Radius = _bodies[index].Radius;
-        if (entry.Bucket == None)
-        {
-            return;
-        }
-
-        var cell = CellAt(entry.Position);
-        if (cell == entry.Cell)
+        if (TryUpdateWithinCell(index))
         {
             return;
         }
 
         Version++;
+        ref var entry = ref _entries[index];
+        entry.Position = _bodies[index].Position;
+        entry.Radius = _bodies[index].Radius;
+        var cell = CellAt(entry.Position);
         entry.Cell = cell;
         var bucket = HashOf(cell);
         if (bucket != entry.Bucket)

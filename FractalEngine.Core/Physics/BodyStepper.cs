@@ -17,6 +17,9 @@ internal sealed class BodyStepper
     // Of √(acceleration · radius), the speed that a body reaches by falling half its radius.
     private const double SleepSpeedFraction = 0.02;
 
+    // Of the radius: how much farther than a body goes in two steps its queries search, so that the next ones need none.
+    private const double SearchMargin = 0.5;
+
     /// <summary>The offset of the only sphere of a body.</summary>
     public static readonly Vector[] SingleSphereOffset = [Vector.Zero];
 
@@ -269,7 +272,8 @@ internal sealed class BodyStepper
     private double SetMover(Body body, StaticColliders? staticColliders, CharacterController? character, double stepLength)
     {
         var maxTravel = new Motion(body.Position, body.Velocity, body.FreeAcceleration).MaxTravelDistance(stepLength);
-        _obstacles.SetMover(staticColliders, SingleSphereOffset, body.Radius, body.SafeDistance, (2 * maxTravel) + (0.5 * body.Radius), character);
+        var margin = (2 * maxTravel) + (SearchMargin * body.Radius);
+        _obstacles.SetMover(staticColliders, SingleSphereOffset, body.Radius, body.SafeDistance, margin, character);
         _obstacles.Time = 0;
         return maxTravel;
     }
