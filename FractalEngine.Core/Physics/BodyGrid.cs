@@ -107,14 +107,9 @@ internal sealed class BodyGrid
         ref var entry = ref _entries[index];
         entry.Position = _bodies[index].Position;
         entry.Radius = _bodies[index].Radius;
-        var cell = CellAt(entry.Position);
-        entry.Cell = cell;
-        var bucket = HashOf(cell);
-        if (bucket != entry.Bucket)
-        {
-            Remove(index);
-            Insert(index, bucket);
-        }
+        entry.Cell = CellAt(entry.Position);
+        Remove(index);
+        Insert(index, HashOf(entry.Cell));
     }
 
     /// <summary>Finds the cells of all bodies that a moving sphere may meet.</summary>
