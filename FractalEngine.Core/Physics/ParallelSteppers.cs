@@ -40,7 +40,7 @@ internal sealed class ParallelSteppers(Func<QueryContext, BodyStepper> createSte
         return (faces, bounds);
     }
 
-    /// <summary>Lets bodies act.</summary>
+    /// <summary>Lets the first bodies of the world act, or those of an island, in groups that threads share.</summary>
     /// <param name="count">Their number.</param>
     /// <param name="act">Changes the body of an index below that alone. What it does must not depend on the stepper.</param>
     public void Run(int count, Action<BodyStepper, int> act)
