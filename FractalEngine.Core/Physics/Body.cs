@@ -170,6 +170,8 @@ public sealed partial class Body
         IsPrepared = false;
         HasMoved = false;
         IslandIndex = NoIsland;
+        IsMovedAhead = false;
+        IsFinished = false;
         NearSurfaces.Clear();
         AreNearSurfacesKnown = false;
         KinematicPush = 0;

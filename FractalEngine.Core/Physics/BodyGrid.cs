@@ -79,31 +79,37 @@ internal sealed class BodyGrid
         }
     }
 
+    /// <summary>Updates position and radius of a body that is still in its cell. Many threads may do so at once.</summary>
+    /// <returns>False for one that is in another cell now; nothing is changed then.</returns>
+    public bool TryUpdateWithinCell(int index)
+    {
+        ref var entry = ref _entries[index];
+        var position = _bodies[index].Position;
+        if (entry.Bucket != None && CellAt(position) != entry.Cell)
+        {
+            return false;
+        }
+
+        entry.Position = position;
+        entry.Radius = _bodies[index].Radius;
+        return true;
+    }
+
     /// <summary>Updates position, radius and cell of a body that has moved.</summary>
     public void Update(int index)
     {
-        ref var entry = ref _entries[index];
-        entry.Position = _bodies[index].Position;
-        entry.Radius = _bodies[index].Radius;
-        if (entry.Bucket == None)
-        {
-            return;
-        }
-
-        var cell = CellAt(entry.Position);
-        if (cell == entry.Cell)
+        if (TryUpdateWithinCell(index))
         {
             return;
         }
 
         Version++;
-        entry.Cell = cell;
-        var bucket = HashOf(cell);
-        if (bucket != entry.Bucket)
-        {
-            Remove(index);
-            Insert(index, bucket);
-        }
+        ref var entry = ref _entries[index];
+        entry.Position = _bodies[index].Position;
+        entry.Radius = _bodies[index].Radius;
+        entry.Cell = CellAt(entry.Position);
+        Remove(index);
+        Insert(index, HashOf(entry.Cell));
     }
 
     /// <summary>Finds the cells of all bodies that a moving sphere may meet.</summary>

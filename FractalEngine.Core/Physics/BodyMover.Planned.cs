@@ -92,8 +92,7 @@ internal sealed partial class BodyMover
     /// <param name="stepLength">Seconds.</param>
     public void MovePlanned(Body body, double stepLength)
     {
-        body.CheckedTarget = body.Target;
-        body.PlannedHit = null;
+        BeginMove(body);
         var way = body.Target - body.PlannedStart;
         if (way == Vector.Zero && _obstacles.MaxKinematicSpeed(new(body.PlannedStart, Vector.Zero, Vector.Zero), 0) == 0)
         {
@@ -113,6 +112,20 @@ internal sealed partial class BodyMover
             body.Contacts.Add(in hit, body.Position);
             body.PlannedHit = hit with { CachedNormal = hit.Normal(body.Position) };
         }
+    }
+
+    /// <summary>Moves a body whose island has been solved to its target, on the way to which there is nothing.</summary>
+    public static void MoveFreely(Body body)
+    {
+        BeginMove(body);
+        body.IsHeld = false;
+        body.Position = body.Target;
+    }
+
+    private static void BeginMove(Body body)
+    {
+        body.CheckedTarget = body.Target;
+        body.PlannedHit = null;
     }
 
     /// <summary>Updates what a body touches after its planned way.</summary>

@@ -17,6 +17,9 @@ internal sealed class BodyStepper
     // Of √(acceleration · radius), the speed that a body reaches by falling half its radius.
     private const double SleepSpeedFraction = 0.02;
 
+    // Of the radius: how much farther than a body goes in two steps its queries search, so that the next ones need none.
+    private const double SearchMargin = 0.5;
+
     /// <summary>The offset of the only sphere of a body.</summary>
     public static readonly Vector[] SingleSphereOffset = [Vector.Zero];
 
@@ -113,6 +116,11 @@ internal sealed class BodyStepper
     /// <param name="stepLength">Seconds, positive.</param>
     public void FindNearSurfaces(Body body, StaticColliders? staticColliders, double reach, double stepLength)
     {
+        if (IsFree(body, body.Position, reach))
+        {
+            return;
+        }
+
         var (faceTests, boundTests) = BeginCount();
         SetMover(body, staticColliders, character: null, stepLength);
         if (body.IsCompound)
@@ -159,6 +167,12 @@ internal sealed class BodyStepper
     /// <inheritdoc cref="Step"/>
     public void MovePlanned(Body body, StaticColliders? staticColliders, CharacterController? character, double stepLength)
     {
+        if (character is null && IsFree(body, body.PlannedStart, (body.Target - body.PlannedStart).Length()))
+        {
+            BodyMover.MoveFreely(body);
+            return;
+        }
+
         var (faceTests, boundTests) = BeginCount();
         SetMover(body, staticColliders, character, stepLength);
         if (body.IsCompound)
@@ -177,30 +191,37 @@ internal sealed class BodyStepper
     /// <inheritdoc cref="Step"/>
     public void FinishPlanned(Body body, StaticColliders? staticColliders, double stepLength, long stepIndex)
     {
-        var (faceTests, boundTests) = BeginCount();
-        SetMover(body, staticColliders, character: null, stepLength);
-        _obstacles.Time = stepLength;
-        if (body.IsCompound)
+        if (body.IsCompound || body.Contacts.Count > 0)
         {
-            _compoundMover.FinishPlanned(body);
-        }
-        else
-        {
-            _mover.FinishPlanned(body);
+            var (faceTests, boundTests) = BeginCount();
+            SetMover(body, staticColliders, character: null, stepLength);
+            _obstacles.Time = stepLength;
+            if (body.IsCompound)
+            {
+                _compoundMover.FinishPlanned(body);
+            }
+            else
+            {
+                _mover.FinishPlanned(body);
+            }
+
+            EndCount(body, faceTests, boundTests);
         }
 
-        EndCount(body, faceTests, boundTests);
         Finish(body, stepLength, stepIndex);
     }
 
     /// <summary>Tells others where a body is that has ended its step: it wakes what may have lain on it. One thread at a time.</summary>
     public void Settle(Body body)
     {
-        body.IsFinished = false;
         _islands.WakeLeft(body);
         // Last, so that what was collected for this body serves its islands too.
         _grid.Update(body.Index);
     }
+
+    /// <summary>Does so unless others may have to be told: many threads may do so at once.</summary>
+    /// <returns>False where it has to settle.</returns>
+    public bool TrySettle(Body body) => !_islands.HasSleeping && _grid.TryUpdateWithinCell(body.Index);
 
     /// <summary>Moves a body on that a kinematic object has overrun, at the end of the step.</summary>
     /// <param name="body">Must have been moved.</param>
@@ -242,12 +263,17 @@ internal sealed class BodyStepper
         body.IsFinished = true;
     }
 
+    /// <summary>True for a ball that meets no surface on a way, as far as is known without a query.</summary>
+    private bool IsFree(Body body, Vector start, double way) =>
+        !body.IsCompound && !_obstacles.HasKinematics && body.SafeDistance.LowerBoundAt(start) - body.Radius > way;
+
     /// <summary>Makes a body the mover of the obstacles.</summary>
     /// <returns>How far it may move in free flight.</returns>
     private double SetMover(Body body, StaticColliders? staticColliders, CharacterController? character, double stepLength)
     {
         var maxTravel = new Motion(body.Position, body.Velocity, body.FreeAcceleration).MaxTravelDistance(stepLength);
-        _obstacles.SetMover(staticColliders, SingleSphereOffset, body.Radius, body.SafeDistance, 2 * maxTravel, character);
+        var margin = (2 * maxTravel) + (SearchMargin * body.Radius);
+        _obstacles.SetMover(staticColliders, SingleSphereOffset, body.Radius, body.SafeDistance, margin, character);
         _obstacles.Time = 0;
         return maxTravel;
     }

@@ -11,8 +11,18 @@ internal sealed partial class Obstacles
     public double Time
     {
         get => kinematics.Time;
-        set => kinematics.Time = value;
+        set
+        {
+            if (HasKinematics)
+            {
+                // Threads share it: a time that none asks for would be passed to and fro between their caches.
+                kinematics.Time = value;
+            }
+        }
     }
+
+    /// <summary>True where there are objects that move by themselves.</summary>
+    public bool HasKinematics => kinematics.Objects.Count > 0;
 
     /// <summary>Largest speed of the kinematic objects that the mover may meet; 0 where there are none.</summary>
     /// <param name="motion">Path of the mover.</param>

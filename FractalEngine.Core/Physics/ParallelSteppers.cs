@@ -15,14 +15,14 @@ internal sealed class ParallelSteppers(Func<QueryContext, BodyStepper> createSte
     private const int MinBodiesOfGroup = 32;
     private const int MaxGroups = 32;
 
-    private readonly List<Body> _bodies = [];
     private readonly List<(BodyStepper Stepper, QueryContext Context)> _steppers = [];
-    private Action<BodyStepper, Body>? _act;
+    private Action<BodyStepper, int>? _act;
     private Action<int>? _runGroup;
+    private int _count;
     private int _bodiesPerGroup;
 
-    /// <summary>The bodies that take part next.</summary>
-    public List<Body> Bodies => _bodies;
+    /// <summary>Number of threads that may work.</summary>
+    public int MaxThreads => maxThreads;
 
     /// <summary>True where so many bodies are worth more than one thread.</summary>
     public static bool AreMany(int bodyCount) => bodyCount >= MinBodies;
@@ -40,13 +40,15 @@ internal sealed class ParallelSteppers(Func<QueryContext, BodyStepper> createSte
         return (faces, bounds);
     }
 
-    /// <summary>Lets all bodies act that take part, and ends their part.</summary>
-    /// <param name="act">Changes its body alone. What it does must not depend on the stepper.</param>
-    public void Run(Action<BodyStepper, Body> act)
+    /// <summary>Lets the first bodies of the world act, or those of an island, in groups that threads share.</summary>
+    /// <param name="count">Their number.</param>
+    /// <param name="act">Changes the body of an index below that alone. What it does must not depend on the stepper.</param>
+    public void Run(int count, Action<BodyStepper, int> act)
     {
         _act = act;
-        _bodiesPerGroup = Math.Max(MinBodiesOfGroup, (_bodies.Count + MaxGroups - 1) / MaxGroups);
-        var groupCount = (_bodies.Count + _bodiesPerGroup - 1) / _bodiesPerGroup;
+        _count = count;
+        _bodiesPerGroup = Math.Max(MinBodiesOfGroup, (count + MaxGroups - 1) / MaxGroups);
+        var groupCount = (count + _bodiesPerGroup - 1) / _bodiesPerGroup;
         while (_steppers.Count < groupCount)
         {
             var context = new QueryContext();
@@ -54,15 +56,14 @@ internal sealed class ParallelSteppers(Func<QueryContext, BodyStepper> createSte
         }
 
         WorkerSet.Shared.Run(groupCount, maxThreads, _runGroup ??= RunGroup);
-        _bodies.Clear();
     }
 
     private void RunGroup(int group)
     {
-        var end = Math.Min(_bodies.Count, (group + 1) * _bodiesPerGroup);
+        var end = Math.Min(_count, (group + 1) * _bodiesPerGroup);
         for (var i = group * _bodiesPerGroup; i < end; i++)
         {
-            _act!(_steppers[group].Stepper, _bodies[i]);
+            _act!(_steppers[group].Stepper, i);
         }
     }
 }

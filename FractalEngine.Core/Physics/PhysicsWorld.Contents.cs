@@ -233,6 +233,7 @@ public sealed partial class PhysicsWorld
     {
         var body = new Body(description, _bodies.Count, _gravity);
         _bodies.Add(body);
+        _areMixed |= body.IsCompound || description.Collider != _bodies[0].Description.Collider;
         _nearbyBodies.HasFilters |= description.Mask != Layers.All || description.Layer != 0;
         return body;
     }

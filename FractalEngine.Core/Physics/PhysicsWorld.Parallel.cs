@@ -6,14 +6,29 @@ namespace FractalEngine.Core.Physics;
 /// <content>What many balls do at the same time, on all threads. Compounds and what has filters act one after the other.</content>
 public sealed partial class PhysicsWorld
 {
+    // Less is done as soon by one thread.
+    private const int BodiesPerJob = 1024;
+
     private readonly ParallelSteppers _parallel;
-    private readonly Action<BodyStepper, Body> _prepare;
-    private readonly Action<BodyStepper, Body> _findNearSurfaces;
-    private readonly Action<BodyStepper, Body> _movePlanned;
-    private readonly Action<BodyStepper, Body> _finishPlanned;
+    private readonly Action<int> _beginPart;
+    private readonly Action<BodyStepper, int> _prepare;
+    private readonly Action<BodyStepper, int> _findNearSurfaces;
+    private readonly Action<BodyStepper, int> _movePlanned;
+    private readonly Action<BodyStepper, int> _finishPlanned;
     private StaticColliders? _sharedColliders;
     private CharacterController? _sharedCharacter;
+    private Island _sharedIsland;
+    private int _sharedPass;
     private double _sharedSeconds;
+    private bool _isFirstPart;
+    private bool _hasStepForces;
+
+    // True once there is a compound, or a body with another collider than the first one.
+    private bool _areMixed;
+
+    // Threads set it in any order, to the same.
+    private volatile bool _hasOthers;
+    private int _awakeCount;
 
     private ParallelSteppers CreateParallelSteppers(int maxThreads) => new(
         context =>
@@ -27,7 +42,7 @@ public sealed partial class PhysicsWorld
     /// <summary>Tells whether balls may act at the same time: nothing moves by itself, and all see the same colliders.</summary>
     private bool TryBeginShared(CharacterController? character, double seconds)
     {
-        if (!ParallelSteppers.AreMany(_bodies.Count) || _kinematics.Objects.Count > 0 || _nearbyBodies.HasFilters || _statics.HasFilters)
+        if (_kinematics.Objects.Count > 0 || _nearbyBodies.HasFilters || _statics.HasFilters)
         {
             return false;
         }
@@ -38,88 +53,126 @@ public sealed partial class PhysicsWorld
         return true;
     }
 
-    private bool MayShare(Body body) => !body.IsCompound && ColliderKindOf(body) == ColliderKindOf(_bodies[0]);
+    private bool MayShare(Body body) =>
+        !_areMixed || (!body.IsCompound && ColliderKindOf(body) == ColliderKindOf(_bodies[0]));
+
+    /// <summary>Lets all bodies begin a part of a step.</summary>
+    private void BeginPartShared()
+    {
+        _awakeCount = 0;
+        WorkerSet.Shared.Run((_bodies.Count + BodiesPerJob - 1) / BodiesPerJob, _parallel.MaxThreads, _beginPart);
+        _islands.HasSleeping = _awakeCount < _bodies.Count;
+    }
+
+    private void BeginPart(int job)
+    {
+        var end = Math.Min(_bodies.Count, (job + 1) * BodiesPerJob);
+        var awakeCount = 0;
+        for (var i = job * BodiesPerJob; i < end; i++)
+        {
+            var body = _bodies[i];
+            if (_isFirstPart)
+            {
+                body.BeginStep();
+            }
+
+            body.BeginPart();
+            awakeCount += body.IsAsleep ? 0 : 1;
+        }
+
+        _ = Interlocked.Add(ref _awakeCount, awakeCount);
+    }
 
     /// <summary>Prepares the balls that are where they may be; all others may change what is around them.</summary>
-    private void PrepareShared(CharacterController? character, double seconds)
-    {
-        if (!TryBeginShared(character, seconds))
-        {
-            return;
-        }
+    /// <returns>True where others are left.</returns>
+    private bool PrepareShared(CharacterController? character, double seconds) =>
+        !ParallelSteppers.AreMany(_awakeCount) || !TryBeginShared(character, seconds) || HasOthersAfter(_bodies.Count, _prepare);
 
-        foreach (var body in _bodies)
-        {
-            if (body is { IsAsleep: false, IsPrepared: false, IsOverlapResolved: true } && MayShare(body))
-            {
-                _parallel.Bodies.Add(body);
-            }
-        }
-
-        _parallel.Run(_prepare);
-    }
-
-    private void FindNearSurfacesShared(double seconds)
-    {
-        if (!TryBeginShared(character: null, seconds))
-        {
-            return;
-        }
-
-        foreach (var body in _bodies)
-        {
-            if (!body.AreNearSurfacesKnown && _planner.Graph.IsJoined(body.Index) && MayShare(body))
-            {
-                body.AreNearSurfacesKnown = true;
-                _parallel.Bodies.Add(body);
-            }
-        }
-
-        _parallel.Run(_findNearSurfaces);
-    }
+    /// <summary>Finds the surfaces near balls of islands.</summary>
+    /// <inheritdoc cref="PrepareShared"/>
+    private bool FindNearSurfacesShared(double seconds) =>
+        !ParallelSteppers.AreMany(_planner.Graph.JoinedCount) || !TryBeginShared(character: null, seconds)
+            || HasOthersAfter(_bodies.Count, _findNearSurfaces);
 
     /// <summary>Moves the balls of an island along their planned ways.</summary>
-    private void MoveShared(in Island island, int pass, CharacterController? character, double seconds)
+    /// <returns>True where one was held, or others are left.</returns>
+    private bool MoveShared(in Island island, int pass, CharacterController? character, double seconds)
     {
-        if (!ParallelSteppers.AreMany(island.BodyCount) || !TryBeginShared(character, seconds))
-        {
-            return;
-        }
-
-        foreach (var index in _planner.Graph.BodiesOf(in island))
-        {
-            if (MustMove(_bodies[index], pass) && MayShare(_bodies[index]))
-            {
-                _parallel.Bodies.Add(_bodies[index]);
-            }
-        }
-
-        _parallel.Run(_movePlanned);
+        _sharedIsland = island;
+        _sharedPass = pass;
+        return !ParallelSteppers.AreMany(island.BodyCount) || !TryBeginShared(character, seconds)
+            || HasOthersAfter(island.BodyCount, _movePlanned);
     }
 
     /// <summary>Ends the step of the balls of an island.</summary>
-    private void FinishShared(in Island island, double seconds)
+    /// <inheritdoc cref="PrepareShared"/>
+    private bool FinishShared(in Island island, double seconds)
     {
-        if (!ParallelSteppers.AreMany(island.BodyCount) || !TryBeginShared(character: null, seconds))
+        _sharedIsland = island;
+        return !ParallelSteppers.AreMany(island.BodyCount) || !TryBeginShared(character: null, seconds)
+            || HasOthersAfter(island.BodyCount, _finishPlanned);
+    }
+
+    private bool HasOthersAfter(int count, Action<BodyStepper, int> act)
+    {
+        _hasOthers = false;
+        _parallel.Run(count, act);
+        return _hasOthers;
+    }
+
+    private void Prepare(BodyStepper stepper, int index)
+    {
+        var body = _bodies[index];
+        if (body.IsAsleep || body.IsPrepared)
         {
             return;
         }
 
-        foreach (var index in _planner.Graph.BodiesOf(in island))
+        if (body.IsOverlapResolved && MayShare(body))
         {
-            if (MayShare(_bodies[index]))
-            {
-                _parallel.Bodies.Add(_bodies[index]);
-            }
+            stepper.Prepare(body, _sharedColliders, _sharedCharacter, _gravity, _sharedSeconds);
+        }
+        else
+        {
+            _hasOthers = true;
+        }
+    }
+
+    private void FindNearSurfaces(BodyStepper stepper, int index)
+    {
+        var body = _bodies[index];
+        if (!_planner.Graph.IsJoined(index) || body.AreNearSurfacesKnown)
+        {
+            return;
         }
 
-        _parallel.Run(_finishPlanned);
+        if (MayShare(body))
+        {
+            body.AreNearSurfacesKnown = true;
+            stepper.FindNearSurfaces(body, _sharedColliders, _planner.Graph.ReachOf(index), _sharedSeconds);
+        }
+        else
+        {
+            _hasOthers = true;
+        }
     }
 
     private static bool MustMove(Body body, int pass) => !body.IsHeld && (pass == 0 || body.Target != body.CheckedTarget);
 
-    private void MovePlanned(BodyStepper stepper, Body body)
+    private void MovePlanned(BodyStepper stepper, int place)
     {
+        var body = _bodies[_planner.Graph.BodiesOf(in _sharedIsland)[place]];
+        if (!MustMove(body, _sharedPass))
+        {
+            return;
+        }
+
+        if (!MayShare(body))
+        {
+            _hasOthers = true;
+            return;
+        }
+
         body.IsMovedAhead = true;
         try
         {
@@ -128,6 +181,27 @@ public sealed partial class PhysicsWorld
         catch (ArgumentOutOfRangeException exception)
         {
             throw CreateRangeException(body, exception);
+        }
+
+        if (body.IsHeld)
+        {
+            _hasOthers = true;
+        }
+    }
+
+    private void FinishPlanned(BodyStepper stepper, int place)
+    {
+        var body = _bodies[_planner.Graph.BodiesOf(in _sharedIsland)[place]];
+        if (!MayShare(body))
+        {
+            _hasOthers = true;
+            return;
+        }
+
+        stepper.FinishPlanned(body, _sharedColliders, _sharedSeconds, StepCount);
+        if (!stepper.TrySettle(body))
+        {
+            _hasOthers = true;
         }
     }
 

@@ -99,6 +99,7 @@ public sealed partial class PhysicsWorld
         ArgumentCheck.RequireFinite(force, nameof(force), body);
         ArgumentCheck.RequireFinite(point ?? Vector.Zero, nameof(point), body);
         _islands.Wake(body);
+        _hasStepForces = true;
         body.StepForce += force;
         body.StepTorque += Vector.Cross((point ?? body.Position) - body.Position, force);
     }

@@ -2,16 +2,12 @@ using FractalEngine.Core.Collision;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics.Character;
-using FractalEngine.Core.Physics.Islands;
 
 namespace FractalEngine.Core.Physics;
 
 /// <content>How time passes in the world.</content>
 public sealed partial class PhysicsWorld
 {
-    // Times that the bodies of an island go around one that something unforeseen holds.
-    private const int MaxPasses = 4;
-
     /// <summary>Makes as many steps of <see cref="PhysicsSettings.TimeStep"/> as fit into the time that has passed.</summary>
     /// <param name="seconds">Time since the last call; a negative one counts as 0. What does not fill a step is kept.</param>
     /// <returns>The number of steps.</returns>
@@ -49,23 +45,21 @@ public sealed partial class PhysicsWorld
         var testsBefore = CountTests();
         var character = Character is { IsActive: true } active ? active : null;
         _kinematics.BeginStep(_clock.Time, seconds);
-        foreach (var body in _bodies)
-        {
-            body.BeginStep();
-        }
-
         character?.BeginStep();
         var parts = CountParts(seconds);
         for (var part = 0; part < parts; part++)
         {
+            _isFirstPart = part == 0;
             StepPart(character, part * seconds / parts, seconds / parts);
         }
 
-        foreach (var body in _bodies)
+        for (var i = 0; _hasStepForces && i < _bodies.Count; i++)
         {
-            body.StepForce = Vector.Zero;
-            body.StepTorque = Vector.Zero;
+            _bodies[i].StepForce = Vector.Zero;
+            _bodies[i].StepTorque = Vector.Zero;
         }
+
+        _hasStepForces = false;
 
         FinishEvents();
         _clock.Tick(seconds);
@@ -76,18 +70,12 @@ public sealed partial class PhysicsWorld
     /// <summary>Makes one of the parts of a step.</summary>
     private void StepPart(CharacterController? character, double elapsed, double seconds)
     {
-        _islands.HasSleeping = false;
-        foreach (var body in _bodies)
-        {
-            body.BeginPart();
-            _islands.HasSleeping |= body.IsAsleep;
-        }
-
+        BeginPartShared();
         _kinematics.BeginPart(_clock.Time + elapsed, seconds);
         WakeNearKinematics(seconds);
         PlanIslands(character, seconds);
         MoveIslands(character, seconds);
-        for (var i = 0; i < _bodies.Count; i++)
+        for (var i = 0; _planner.Graph.IslandBodyCount < _bodies.Count && i < _bodies.Count; i++)
         {
             if (_bodies[i] is { IsAsleep: false, HasMoved: false, IslandIndex: < 0 })
             {
@@ -95,11 +83,11 @@ public sealed partial class PhysicsWorld
             }
         }
 
-        foreach (var body in _bodies)
+        for (var i = 0; _kinematics.Objects.Count > 0 && i < _bodies.Count; i++)
         {
-            if (body is { KinematicPush: > 0, IsAsleep: false, IsOverlapResolved: true })
+            if (_bodies[i] is { KinematicPush: > 0, IsAsleep: false, IsOverlapResolved: true })
             {
-                _stepper.PushOut(body, CollidersOf(body), seconds);
+                _stepper.PushOut(_bodies[i], CollidersOf(_bodies[i]), seconds);
             }
         }
 
@@ -123,9 +111,10 @@ public sealed partial class PhysicsWorld
     /// <summary>Finds the surfaces that bodies of islands may meet, unless they are known.</summary>
     private void FindNearSurfaces(double seconds)
     {
-        FindNearSurfacesShared(seconds);
-        foreach (var body in _bodies)
+        var hasOthers = _planner.Graph.JoinedCount > 0 && FindNearSurfacesShared(seconds);
+        for (var i = 0; hasOthers && i < _bodies.Count; i++)
         {
+            var body = _bodies[i];
             if (!body.AreNearSurfacesKnown && _planner.Graph.IsJoined(body.Index))
             {
                 body.AreNearSurfacesKnown = true;
@@ -140,106 +129,16 @@ public sealed partial class PhysicsWorld
     {
         do
         {
-            PrepareShared(character, seconds);
-            foreach (var body in _bodies)
+            var hasOthers = PrepareShared(character, seconds);
+            for (var i = 0; hasOthers && i < _bodies.Count; i++)
             {
-                if (!body.IsAsleep && !body.IsPrepared)
+                if (_bodies[i] is { IsAsleep: false, IsPrepared: false } body)
                 {
                     _stepper.Prepare(body, CollidersOf(body), character, _gravity, seconds);
                 }
             }
         }
         while (_planner.Graph.CollectTouching(_islands, seconds));
-    }
-
-    /// <summary>Moves the bodies of all islands at once.</summary>
-    private void MoveIslands(CharacterController? character, double seconds)
-    {
-        _islandMover.SetTargets();
-        MoveWhatIsInTheWay(character, seconds);
-        foreach (var island in _planner.Graph.Islands)
-        {
-            MoveIsland(in island, character, seconds);
-        }
-
-        _islandMover.ReturnOverlapping();
-        foreach (var island in _planner.Graph.Islands)
-        {
-            _energyGuard.FinishVelocities(in island);
-            if (!island.IsFree)
-            {
-                _islandMover.DampJammed(in island, seconds);
-            }
-
-            FinishIsland(in island, seconds);
-        }
-    }
-
-    private void FinishIsland(in Island island, double seconds)
-    {
-        FinishShared(in island, seconds);
-        foreach (var index in _planner.Graph.BodiesOf(in island))
-        {
-            if (!_bodies[index].IsFinished)
-            {
-                _stepper.FinishPlanned(_bodies[index], CollidersOf(_bodies[index]), seconds, StepCount);
-            }
-
-            _stepper.Settle(_bodies[index]);
-        }
-    }
-
-    /// <summary>Moves bodies of no island first that stand where those of islands will be, such as what falls ahead of them.</summary>
-    private void MoveWhatIsInTheWay(CharacterController? character, double seconds)
-    {
-        var hasMoved = false;
-        for (var pair = 0; _islandMover.FindInTheWay(ref pair) is { } body;)
-        {
-            StepBody(body, character, seconds);
-            hasMoved = true;
-        }
-
-        for (var i = 0; hasMoved && i < _bodies.Count; i++)
-        {
-            // It may have pushed them.
-            _bodies[i].PlannedStartEnergy = _bodies[i].KineticEnergy;
-        }
-    }
-
-    private void MoveIsland(in Island island, CharacterController? character, double seconds)
-    {
-        _islandMover.BeginIsland();
-        var hasHeld = true;
-        for (var pass = 0; pass < MaxPasses && hasHeld; pass++)
-        {
-            _islandMover.FindUnplanned(in island, seconds);
-            _islandMover.SeparateTargets(in island);
-            hasHeld = false;
-            MoveShared(in island, pass, character, seconds);
-            foreach (var index in _planner.Graph.BodiesOf(in island))
-            {
-                var body = _bodies[index];
-                if (body.IsMovedAhead || MustMove(body, pass))
-                {
-                    if (!body.IsMovedAhead)
-                    {
-                        MoveBody(body, character, seconds, isPlanned: true);
-                    }
-
-                    body.IsMovedAhead = false;
-                    hasHeld |= body.IsHeld;
-                    if (body.PlannedHit is { } hit && pass < MaxPasses - 2)
-                    {
-                        _kinematics.Time = seconds;
-                        _islandMover.AddSurface(body, in hit);
-                    }
-                    else if (body.IsHeld)
-                    {
-                        body.Target = body.Position;
-                    }
-                }
-            }
-        }
     }
 
     private void StepBody(Body body, CharacterController? character, double seconds)

@@ -1,5 +1,4 @@
 using FractalEngine.Core.Collision;
-using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics.Character;
 using FractalEngine.Core.Physics.Events;
@@ -86,11 +85,11 @@ public sealed partial class PhysicsWorld
         _stepper = new(Settings, _bodies, _grid, nearbyBodies, _obstacles, _islands, _planner, _queryContext, _contactLog);
         _islandMover = new(_bodies, _planner.Graph, _grid, nearbyBodies, maxThreads);
         _parallel = CreateParallelSteppers(maxThreads);
-        _prepare = (stepper, body) => stepper.Prepare(body, _sharedColliders, _sharedCharacter, _gravity, _sharedSeconds);
-        _findNearSurfaces = (stepper, body) =>
-            stepper.FindNearSurfaces(body, _sharedColliders, _planner.Graph.ReachOf(body.Index), _sharedSeconds);
+        _beginPart = BeginPart;
+        _prepare = Prepare;
+        _findNearSurfaces = FindNearSurfaces;
         _movePlanned = MovePlanned;
-        _finishPlanned = (stepper, body) => stepper.FinishPlanned(body, _sharedColliders, _sharedSeconds, StepCount);
+        _finishPlanned = FinishPlanned;
         _energyGuard = new(_bodies, _planner.Graph, _islandMover, maxThreads);
         _staticOfObject = new StaticObject?[scene.Objects.Length];
         for (var i = 0; i < scene.Objects.Length; i++)
@@ -213,50 +212,6 @@ public sealed partial class PhysicsWorld
         _planner.Reset();
     }
 
-    /// <summary>The world's scene with all objects where they are now, followed by the static objects that were added.</summary>
-    /// <param name="alpha">Fraction of the last step that has passed, from 0 to 1: frames between two steps show what lies between.</param>
-    /// <remarks>Bodies that were added have no model and are not part of it.</remarks>
-    public LoadedScene GetCurrentScene(double alpha = 1)
-    {
-        var objects = _scene.Objects.ToBuilder();
-        foreach (var body in _bodies)
-        {
-            if (body.Description.ObjectIndex is { } index)
-            {
-                var original = _scene.Objects[index];
-                var placement = original.Declaration.Placement;
-                var scale = alpha == 1 ? body.Scale : body.PreviousScale + (alpha * (body.Scale - body.PreviousScale));
-                var position = alpha == 1 ? body.Position : body.InterpolatedMap(alpha).Translation;
-                var orientation =
-                    alpha == 1 ? body.Orientation : Orientation.Interpolate(body.PreviousOrientation, body.Orientation, alpha);
-                placement = placement with { Position = position, Scale = scale * placement.Scale };
-                if (orientation != Orientation.Identity)
-                {
-                    var axes = orientation.ToMatrix() * placement.Rotation.LocalAxesFromDegrees();
-                    placement = placement with { Rotation = 180 / Math.PI * axes.EulerAngles() };
-                }
-
-                objects[index] = new(original.Declaration with { Placement = placement }, original.Model);
-            }
-        }
-
-        foreach (var placed in _statics.Objects)
-        {
-            var present = alpha == 1 ? placed.Placed : placed.PlaceAt(alpha);
-            if (placed.ObjectIndex is { } index)
-            {
-                objects[index] = present;
-            }
-            else
-            {
-                objects.Add(present);
-            }
-        }
-
-        var scene = _scene.Scene with { Gravity = _gravity, Objects = [.. objects.Select(static placed => placed.Declaration)] };
-        return new(scene, objects.ToImmutable());
-    }
-
     /// <summary>Finds the closest point of all static objects.</summary>
     /// <param name="position">World space, finite.</param>
     /// <param name="kind">Kind of collider that answers.</param>
@@ -278,32 +233,6 @@ public sealed partial class PhysicsWorld
 
     /// <summary>Describes the body of a physics object.</summary>
     /// <exception cref="SceneObjectException">No body can be made of it.</exception>
-    private static BodyDescription DescribeBody(PlacedModel placed, PhysicsObject declared, int index)
-    {
-        BodyDescription description;
-        try
-        {
-            description = BodyDescription.FromPhysicsObject(placed, declared, index);
-        }
-        catch (FractalLimitException exception)
-        {
-            throw new SceneObjectException(index, exception.Kind, $"body {declared.DisplayName}: {exception.Message}", exception);
-        }
-        catch (ArgumentException exception)
-        {
-            throw new SceneObjectException(index, ErrorKind.Input, $"body {declared.DisplayName}: {exception.Message}", exception);
-        }
-
-        if (description.FindFault() is { } fault)
-        {
-            // A body grows beyond all numbers where its fractal does.
-            var kind = double.IsFinite(description.Radius) ? ErrorKind.Input : ErrorKind.Limit;
-            throw new SceneObjectException(index, kind, $"body {declared.DisplayName}: {fault}");
-        }
-
-        return description;
-    }
-
     private ColliderKind ColliderKindOf(Body body) => _colliderOverride ?? body.Description.Collider;
 
     private void InvalidateSurroundings(bool mayOverlap)

@@ -10,6 +10,7 @@ internal sealed partial class BallContactSolver
 
     private ContactGraph? _graph;
     private SolverBody[] _solverBodies = [];
+    private List<int>[] _rebounding = [];
     private Island _island;
 
     /// <summary>Copies contacts and their bodies.</summary>
@@ -72,8 +73,10 @@ internal sealed partial class BallContactSolver
     }
 
     /// <summary>Copies the impulses and the velocities of a large island back, on all threads.</summary>
-    public void Store()
+    /// <param name="rebounding">Receives the places of the contacts of each group that may rebound.</param>
+    public void Store(List<int>[] rebounding)
     {
+        _rebounding = rebounding;
         WorkerSet.Shared.Run(ContactGraph.GroupCountOf(in _island), _maxThreads, _storeGroup);
         WorkerSet.Shared.Run((_island.BodyCount + BodiesPerJob - 1) / BodiesPerJob, _maxThreads, _storeBodies);
     }
@@ -118,9 +121,15 @@ internal sealed partial class BallContactSolver
     {
         var group = _groups[index];
         var rows = _graph!.RowsOf(in _island);
+        var rebounding = _rebounding[index];
+        rebounding.Clear();
         for (var i = group.First; i < group.First + group.Count; i++)
         {
             Store(i, ref rows[i]);
+            if (rows[i].MayRebound)
+            {
+                rebounding.Add(i - group.First);
+            }
         }
     }
 

@@ -6,91 +6,131 @@ namespace FractalEngine.Core.Physics.Islands;
 /// <content>What the bodies of islands may meet in the step.</content>
 internal sealed partial class ContactGraph
 {
+    // Pairs are tested in groups of so many.
+    private const int PairsPerJob = 1024;
+
+    private Action<int>? _takeNear;
+    private Action<int>? _testPairs;
+    private Action<int>? _testMeeting;
+
     /// <summary>
     /// Finds what the bodies of islands may meet: all that are near and no faster, since faster ones look for themselves.
     /// </summary>
     private void CollectNear()
     {
-        for (var i = 0; i < bodies.Count; i++)
+        for (var search = 0; search < _searchCount; search++)
         {
-            if (_sets.IsJoined(i) && !_states[i].HasLooked)
+            var (first, end) = _searches[search].HasFaster ? BodiesOfSearch(search) : default;
+            for (var i = first; i < end; i++)
             {
-                _states[i].HasLooked = true;
-                CollectNear(i);
+                if (_sets.IsJoined(i) && !_states[i].HasLooked && IsFaster(in _states[i]))
+                {
+                    CollectNear(i);
+                }
+            }
+        }
+
+        AddFoundPairs();
+    }
+
+    /// <summary>True for a body that gets farther than the search for what touches has looked.</summary>
+    private static bool IsFaster(in GraphBody body) => body.Reach > body.SearchReach || !body.MaySearch;
+
+    /// <summary>Adds the pairs that the search for what touches has found too, of bodies that have been joined since.</summary>
+    private void AddFoundPairs()
+    {
+        WorkerSet.Shared.Run(_searchCount, maxThreads, _takeNear!);
+        foreach (var search in _searches.AsSpan(0, _searchCount))
+        {
+            foreach (ref var near in CollectionsMarshal.AsSpan(search.NearPairs))
+            {
+                if (near.Push > double.NegativeInfinity)
+                {
+                    Add(near.Pair, near.Push);
+                    near.Push = double.NegativeInfinity;
+                }
             }
         }
     }
 
+    private void TakeNear(int index)
+    {
+        foreach (ref var near in CollectionsMarshal.AsSpan(_searches[index].NearPairs))
+        {
+            if (!near.IsTaken && (MustLook(near.Pair.First) || MustLook(near.Pair.Second)))
+            {
+                near.IsTaken = true;
+                if (near.Gap <= _states[near.Pair.First].Reach + _states[near.Pair.Second].Reach)
+                {
+                    near.Push = PushOf(near.Pair);
+                }
+            }
+        }
+    }
+
+    private bool MustLook(int body) => _sets.IsJoined(body) || _states[body].HasLooked;
+
+    /// <summary>Searches for what a body may meet that is faster than was known when what touches was searched for.</summary>
     private void CollectNear(int index)
     {
-        ref readonly var body = ref _states[index];
-        var firstPair = _pairs.Count;
-        if (2 * body.Reach <= body.NearDistance)
-        {
-            AddNear(index, CollectionsMarshal.AsSpan(_searches[index / _bodiesPerSearch].Near).Slice(body.FirstNear, body.NearCount));
-        }
-        else
-        {
-            _neighbours.Clear();
-            CollectOverlaps(body.Position, body.Radius + (2 * body.Reach), index, _neighbours);
-            AddNear(index, CollectionsMarshal.AsSpan(_neighbours));
-        }
-
-        // By the other body's index, whichever way it was found.
-        CollectionsMarshal.AsSpan(_pairs)[firstPair..].Sort(_compareOthers);
-        foreach (ref readonly var pair in CollectionsMarshal.AsSpan(_pairs)[firstPair..])
-        {
-            StorePush(in pair);
-        }
-    }
-
-    // Made with the graph: a static one would be made by the first step that has such pairs, and steps allocate nothing.
-    private readonly Comparison<BodyPair> _compareOthers =
-        static (a, b) => a.First != b.First ? a.First.CompareTo(b.First) : a.Second.CompareTo(b.Second);
-
-    private void AddNear(int index, ReadOnlySpan<int> neighbours)
-    {
-        ref readonly var body = ref _states[index];
-        foreach (var neighbour in neighbours)
+        ref var body = ref _states[index];
+        body.HasLooked = true;
+        _neighbours.Clear();
+        CollectOverlaps(body.Position, body.Radius + (2 * body.Reach), index, _neighbours);
+        _found.Clear();
+        foreach (var neighbour in _neighbours)
         {
             ref readonly var other = ref _states[neighbour];
-            var gap = (body.Position - other.Position).Length() - body.Radius - other.Radius;
-            var isFound = other.HasLooked && gap <= 2 * other.Reach;
-            if (isFound || gap > body.Reach + other.Reach)
-            {
-                continue;
-            }
-
             var isFirm = !other.CanMove;
             var isInOrder = isFirm || index < neighbour;
-            if (!AreTouching(index, neighbour, isInOrder))
+            var gap = GapOf(index, neighbour, isInOrder);
+            var isFound = (other.HasLooked && gap <= 2 * other.Reach) || IsFound(in body, in other, gap);
+            if (!isFound && gap <= body.Reach + other.Reach && !AreTouching(index, neighbour, isInOrder, gap))
             {
-                _pairs.Add(isInOrder ? new(index, neighbour, isFirm, false) : new(neighbour, index, false, false));
+                _found.Add(isInOrder ? new(index, neighbour, isFirm, false) : new(neighbour, index, false, false));
             }
+        }
+
+        SortByBodies(CollectionsMarshal.AsSpan(_found));
+        foreach (var pair in _found)
+        {
+            Add(pair, PushOf(pair));
         }
     }
 
-    /// <summary>Stores how far each of two bodies may be pushed by the other one.</summary>
-    private void StorePush(in BodyPair pair)
+    /// <summary>True where the search for what touches has found a pair as one that is near.</summary>
+    private static bool IsFound(in GraphBody body, in GraphBody other, double gap) =>
+        gap <= Math.Max(body.NearDistance, other.NearDistance) && gap <= body.SearchReach + other.SearchReach;
+
+    private void Add(BodyPair pair, double push)
     {
+        _pairs.Add(pair);
         ref var first = ref _states[pair.First];
         ref var second = ref _states[pair.Second];
+        first.Push = Math.Max(first.Push, push);
+        second.Push = Math.Max(second.Push, push);
+    }
+
+    /// <summary>How far each of two bodies may be pushed by the other one.</summary>
+    private double PushOf(in BodyPair pair)
+    {
+        ref readonly var first = ref _states[pair.First];
+        ref readonly var second = ref _states[pair.Second];
         var offset = first.Position - second.Position;
         var distance = offset.Length();
         var approach = distance > 0 ? -Vector.Dot(RelativeVelocity(in pair), offset) / distance : 0;
-        var push = (_stepLength * approach) - Math.Max(distance - first.Radius - second.Radius, 0);
-        first.Push = Math.Max(first.Push, push);
-        second.Push = Math.Max(second.Push, push);
+        return (_stepLength * approach) - Math.Max(distance - first.Radius - second.Radius, 0);
     }
 
     /// <summary>Joins islands with all bodies that they may meet.</summary>
     /// <returns>True where a body was joined.</returns>
     private bool JoinNear()
     {
+        RunOnPairs(_testMeeting!);
         var hasJoined = false;
         foreach (ref var pair in CollectionsMarshal.AsSpan(_pairs))
         {
-            if (!pair.IsRow && (_sets.IsJoined(pair.First) || (!pair.IsSecondFirm && _sets.IsJoined(pair.Second))) && MayMeet(in pair))
+            if (pair is { IsMeeting: true, IsRow: false })
             {
                 pair.IsRow = true;
                 if (!pair.IsSecondFirm)
@@ -103,6 +143,29 @@ internal sealed partial class ContactGraph
 
         return hasJoined;
     }
+
+    private void TestMeeting(int job)
+    {
+        foreach (ref var pair in PairsOfJob(job))
+        {
+            pair.IsMeeting = !pair.IsRow && (_sets.IsJoined(pair.First) || (!pair.IsSecondFirm && _sets.IsJoined(pair.Second)))
+                && MayMeet(in pair);
+        }
+    }
+
+    /// <summary>Tells which of the pairs that touch or are pushed are contacts of the step.</summary>
+    private void TestPairs(int job)
+    {
+        foreach (ref var pair in PairsOfJob(job))
+        {
+            pair.IsRow = IsPushed(in pair) ? MayMeet(in pair) : pair.IsTouching && (pair.IsSecondFirm || !IsSeparating(in pair));
+        }
+    }
+
+    private void RunOnPairs(Action<int> job) => WorkerSet.Shared.Run((_pairs.Count + PairsPerJob - 1) / PairsPerJob, maxThreads, job);
+
+    private Span<BodyPair> PairsOfJob(int job) =>
+        CollectionsMarshal.AsSpan(_pairs)[(job * PairsPerJob)..Math.Min(_pairs.Count, (job + 1) * PairsPerJob)];
 
     /// <summary>Tells whether two bodies come so near on their straight ways that they may touch.</summary>
     private bool MayMeet(in BodyPair pair)

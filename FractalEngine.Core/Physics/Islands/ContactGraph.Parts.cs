@@ -41,9 +41,6 @@ internal sealed partial class ContactGraph
     /// <summary>Number of ranges that <see cref="RowsOfPart"/> cuts an island's contacts into.</summary>
     public static int GroupCountOf(in Island island) => island.PartCount == 1 ? 1 : island.PartCount + 1;
 
-    /// <summary>Index of the first contact of a part of an island, or between its parts, among the contacts of the island.</summary>
-    public int FirstRowOfPart(in Island island, int part) => part == 0 ? 0 : PartEndsOf(in island)[part - 1];
-
     /// <summary>The part of a body of an island that has several.</summary>
     public int PartOf(int body) => _parts.PartOf(body);
 
@@ -113,15 +110,19 @@ internal sealed partial class ContactGraph
             }
         }
 
+        var firstPair = place;
+        var hasFirm = false;
         var pairs = CollectionsMarshal.AsSpan(_pairs);
         foreach (var pair in CollectionsMarshal.AsSpan(_partPairs)[_partStarts[part].._partStarts[part + 1]])
         {
+            hasFirm |= pairs[pair].IsSecondFirm;
             ref var row = ref _rows[place++];
             ContactRow.Clear(ref row);
             SetBalls(ref row, in pairs[pair]);
         }
 
-        _partKinds[part] = Examine(_rows.AsSpan(_partRows[part], place - _partRows[part]));
+        // Balls alone are neither firm nor moving, unless one of them sleeps or is stuck.
+        _partKinds[part] = Examine(_rows.AsSpan(_partRows[part], firstPair - _partRows[part])) | (hasFirm ? RowKinds.Firm : RowKinds.None);
     }
 
     private void SortBodiesByParts(ReadOnlySpan<int> island, int partCount)

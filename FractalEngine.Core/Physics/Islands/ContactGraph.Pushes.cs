@@ -71,13 +71,23 @@ internal sealed partial class ContactGraph
     /// <summary>Finds what bodies may meet that are pushed, which touch nothing yet.</summary>
     private void CollectNearPushed()
     {
-        for (var i = 0; i < bodies.Count; i++)
+        var arePushed = false;
+        for (var search = 0; search < _searchCount; search++)
         {
-            if (_states[i].KinematicPush > 0 && _states[i].CanMove)
+            var (first, end) = _searches[search].HasPushed ? BodiesOfSearch(search) : default;
+            for (var i = first; i < end; i++)
             {
-                _states[i].HasLooked = true;
-                CollectNear(i);
+                if (_states[i].KinematicPush > 0 && _states[i].CanMove)
+                {
+                    CollectNear(i);
+                    arePushed = true;
+                }
             }
+        }
+
+        if (arePushed)
+        {
+            AddFoundPairs();
         }
     }
 

@@ -13,6 +13,7 @@ internal sealed partial class ContactGraph
     private readonly Search[] _searches = [.. Enumerable.Range(0, MaxSearches).Select(static _ => new Search())];
     private Action<int>? _runSearch;
     private int _bodiesPerSearch = MinBodiesOfSearch;
+    private int _searchCount;
 
     /// <summary>Finds all pairs of bodies that touch. Only those search that may: most bodies in flight have met no other.</summary>
     /// <param name="islands">Wakes bodies that sleep and are hit.</param>
@@ -26,10 +27,8 @@ internal sealed partial class ContactGraph
             return false;
         }
 
-        _bodiesPerSearch = Math.Max(MinBodiesOfSearch, (bodies.Count + MaxSearches - 1) / MaxSearches);
-        var searchCount = (bodies.Count + _bodiesPerSearch - 1) / _bodiesPerSearch;
-        WorkerSet.Shared.Run(searchCount, _grid.IsBuilt ? maxThreads : 1, _runSearch ??= RunSearch);
-        foreach (var search in _searches.AsSpan(0, searchCount))
+        WorkerSet.Shared.Run(_searchCount, _grid.IsBuilt ? maxThreads : 1, _runSearch!);
+        foreach (var search in _searches.AsSpan(0, _searchCount))
         {
             if (search.Sleeper >= 0)
             {
@@ -44,24 +43,34 @@ internal sealed partial class ContactGraph
     }
 
     /// <summary>Makes room for what bodies find, so that steps need not allocate.</summary>
-    private void ReserveSearches(int neighbourCount, int pairCount)
+    private void ReserveSearches(int pairCount)
     {
         foreach (var search in _searches)
         {
             // They may have more than their share.
-            search.Near.EnsureCapacity(InitialCapacity + (2 * neighbourCount / MaxSearches));
+            search.NearPairs.EnsureCapacity(InitialCapacity + (2 * pairCount / MaxSearches));
             search.Pairs.EnsureCapacity(InitialCapacity + (2 * pairCount / MaxSearches));
         }
     }
 
+    /// <summary>Sets the groups in which bodies are searched for.</summary>
+    private void SetSearches()
+    {
+        _bodiesPerSearch = Math.Max(MinBodiesOfSearch, (bodies.Count + MaxSearches - 1) / MaxSearches);
+        _searchCount = (bodies.Count + _bodiesPerSearch - 1) / _bodiesPerSearch;
+    }
+
+    private (int First, int End) BodiesOfSearch(int index) =>
+        (index * _bodiesPerSearch, Math.Min(bodies.Count, (index + 1) * _bodiesPerSearch));
+
     private void RunSearch(int index)
     {
         var search = _searches[index];
-        search.Near.Clear();
         search.Pairs.Clear();
+        search.NearPairs.Clear();
         search.Sleeper = -1;
-        var end = Math.Min(bodies.Count, (index + 1) * _bodiesPerSearch);
-        for (var i = index * _bodiesPerSearch; i < end && search.Sleeper < 0; i++)
+        var (first, end) = BodiesOfSearch(index);
+        for (var i = first; i < end && search.Sleeper < 0; i++)
         {
             if (_states[i].MaySearch)
             {
@@ -70,45 +79,88 @@ internal sealed partial class ContactGraph
         }
     }
 
+    private static double TouchDistanceOf(in GraphBody body) =>
+        (body.HasHeapMargin ? ContactTolerances.HeapMargin * body.Radius : 0) + ContactTolerances.Slop(body.Radius, body.Position);
+
+    /// <summary>What a body may meet lies among the neighbours that it may touch, unless it is fast.</summary>
+    private void SetSearchDistance(ref GraphBody body)
+    {
+        var reach = body.CanMove ? ReachOf(in body) : 0;
+        var isFast = 2 * reach > MaxEarlyDistance * body.Radius;
+        body.SearchReach = isFast ? 0 : reach;
+        body.NearDistance = body.MaySearch ? Math.Max(TouchDistanceOf(in body), 2 * body.SearchReach) : double.NegativeInfinity;
+    }
+
+    /// <summary>Finds the pairs of a body that touch, and those that are near, each of them once among all bodies.</summary>
     private void CollectTouching(int index, Search search)
     {
-        ref var body = ref _states[index];
-        var touchDistance = body.Radius * (body.HasHeapMargin ? ContactTolerances.HeapMargin : 0)
-            + ContactTolerances.Slop(body.Radius, body.Position);
-        // What the body may meet lies among the same neighbours.
-        var distance = 2 * ReachOf(in body);
-        distance = Math.Max(touchDistance, distance <= MaxEarlyDistance * body.Radius ? distance : 0);
-        body.FirstNear = search.Near.Count;
-        body.NearDistance = distance;
-        CollectOverlaps(body.Position, body.Radius + distance, index, search.Near);
-        body.NearCount = search.Near.Count - body.FirstNear;
-        search.Touching.Clear();
-        foreach (var neighbour in CollectionsMarshal.AsSpan(search.Near)[body.FirstNear..])
+        ref readonly var body = ref _states[index];
+        var maxTouchGap = 2 * TouchDistanceOf(in body);
+        search.Neighbours.Clear();
+        CollectOverlaps(body.Position, body.Radius + body.NearDistance, index, search.Neighbours);
+        var (firstPair, firstNear) = (search.Pairs.Count, search.NearPairs.Count);
+        foreach (var neighbour in CollectionsMarshal.AsSpan(search.Neighbours))
         {
-            var maxDistance = body.Radius + _states[neighbour].Radius + (2 * touchDistance);
-            if ((body.Position - _states[neighbour].Position).LengthSquared() <= maxDistance * maxDistance)
+            ref readonly var other = ref _states[neighbour];
+            var maxNearGap = Math.Min(body.NearDistance, body.SearchReach + other.SearchReach);
+            var maxDistance = body.Radius + other.Radius + Math.Max(maxTouchGap, maxNearGap);
+            if (!((body.Position - other.Position).LengthSquared() <= maxDistance * maxDistance))
             {
-                search.Touching.Add(neighbour);
+                continue;
+            }
+
+            var isFirm = !other.CanMove;
+            var isInOrder = isFirm || index < neighbour;
+            var gap = GapOf(index, neighbour, isInOrder);
+            var isTouching = gap <= maxTouchGap && AreTouching(index, neighbour, isInOrder, gap);
+            // Of two that search, the first one finds the pair that touches, and stores the one that both find near.
+            if (isTouching && (isInOrder || !other.MaySearch))
+            {
+                search.Pairs.Add(isInOrder ? new(index, neighbour, isFirm, true) : new(neighbour, index, false, true));
+            }
+            else if (!isTouching && gap <= maxNearGap && !(neighbour < index && gap <= other.NearDistance))
+            {
+                search.NearPairs.Add(new(isInOrder ? new(index, neighbour, isFirm, false) : new(neighbour, index, false, false), gap));
             }
         }
 
-        search.Touching.Sort();
-        foreach (var neighbour in search.Touching)
+        // By the other body's index, whichever way it was found.
+        SortByBodies(CollectionsMarshal.AsSpan(search.Pairs)[firstPair..]);
+        SortByBodies(CollectionsMarshal.AsSpan(search.NearPairs)[firstNear..]);
+        if (HasSleeping)
         {
-            ref readonly var other = ref _states[neighbour];
-            var isFirm = !other.CanMove;
-            // Of two that search, the first one finds the pair.
-            var isInOrder = isFirm || index < neighbour;
-            if ((isInOrder || !other.MaySearch) && AreTouching(index, neighbour, isInOrder))
-            {
-                if (bodies[neighbour].IsAsleep && BallPairs.AreHitting(bodies[index], bodies[neighbour]))
-                {
-                    search.Sleeper = neighbour;
-                    return;
-                }
+            FindSleeper(index, CollectionsMarshal.AsSpan(search.Pairs)[firstPair..], search);
+        }
+    }
 
-                search.Pairs.Add(isInOrder ? new(index, neighbour, isFirm, true) : new(neighbour, index, false, true));
+    /// <summary>Finds a body that sleeps and is hit.</summary>
+    private void FindSleeper(int index, ReadOnlySpan<BodyPair> pairs, Search search)
+    {
+        foreach (ref readonly var pair in pairs)
+        {
+            var other = bodies[pair.First == index ? pair.Second : pair.First];
+            if (other.IsAsleep && BallPairs.AreHitting(bodies[index], other))
+            {
+                search.Sleeper = other.Index;
+                return;
             }
+        }
+    }
+
+    /// <summary>Sorts the few pairs of a body.</summary>
+    private static void SortByBodies<T>(Span<T> pairs)
+        where T : struct, IBodyPair
+    {
+        for (var i = 1; i < pairs.Length; i++)
+        {
+            var pair = pairs[i];
+            var place = i;
+            for (; place > 0 && pair.Order < pairs[place - 1].Order; place--)
+            {
+                pairs[place] = pairs[place - 1];
+            }
+
+            pairs[place] = pair;
         }
     }
 
@@ -125,35 +177,50 @@ internal sealed partial class ContactGraph
         }
     }
 
+    /// <summary>Free distance between the spheres that hold two bodies, the same bits whichever of them searches.</summary>
+    private double GapOf(int index, int neighbour, bool isInOrder)
+    {
+        ref readonly var first = ref _states[isInOrder ? index : neighbour];
+        ref readonly var second = ref _states[isInOrder ? neighbour : index];
+        return (first.Position - second.Position).Length() - first.Radius - second.Radius;
+    }
+
     /// <summary>True where two bodies touch, the first of which stands for the position of both.</summary>
-    private bool AreTouching(int index, int neighbour, bool isInOrder)
+    private bool AreTouching(int index, int neighbour, bool isInOrder, double gap)
     {
         var (firstIndex, secondIndex) = isInOrder ? (index, neighbour) : (neighbour, index);
         ref readonly var first = ref _states[firstIndex];
         ref readonly var second = ref _states[secondIndex];
-        if (first.IsCompound || second.IsCompound)
-        {
-            return BallPairs.AreTouching(bodies[firstIndex], bodies[secondIndex]);
-        }
-
-        var gap = (first.Position - second.Position).Length() - first.Radius - second.Radius;
-        return gap <= ContactTolerances.TouchDistance(
-            Math.Min(first.Radius, second.Radius), first.Rounding, first.HasHeapMargin && second.HasHeapMargin);
+        return first.IsCompound || second.IsCompound ? BallPairs.AreTouching(bodies[firstIndex], bodies[secondIndex])
+            : gap <= ContactTolerances.TouchDistance(
+                Math.Min(first.Radius, second.Radius), first.Rounding, first.HasHeapMargin && second.HasHeapMargin);
     }
 
     /// <summary>What a group of bodies has found.</summary>
     private sealed class Search
     {
-        /// <summary>The bodies near each of the group, one list after the other.</summary>
-        public List<int> Near { get; } = new(InitialCapacity);
-
-        /// <summary>The bodies that one of the group may touch.</summary>
-        public List<int> Touching { get; } = new(InitialCapacity);
+        /// <summary>The bodies near one of the group.</summary>
+        public List<int> Neighbours { get; } = new(InitialCapacity);
 
         /// <summary>The pairs that touch, in the order of their searching body.</summary>
         public List<BodyPair> Pairs { get; } = new(InitialCapacity);
 
+        /// <summary>The pairs that are near and do not touch, in the order of their searching body.</summary>
+        public List<NearPair> NearPairs { get; } = new(InitialCapacity);
+
         /// <summary>Index of a body that sleeps and is hit; negative for none.</summary>
         public int Sleeper { get; set; }
+
+        /// <summary>True where some of the group may sleep.</summary>
+        public bool HasSleeping { get; set; }
+
+        /// <summary>True where some must look for what they may meet once more, since they are faster than was known.</summary>
+        public bool HasFaster { get; set; }
+
+        /// <summary>True where kinematic objects push some.</summary>
+        public bool HasPushed { get; set; }
+
+        /// <summary>The box of the group's centres, and its largest radius.</summary>
+        public GridBounds Bounds { get; set; }
     }
 }

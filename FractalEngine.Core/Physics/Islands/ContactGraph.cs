@@ -12,7 +12,6 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
     private const int InitialCapacity = 256;
 
     private const int ContactsPerBody = 4;
-    private const int NeighboursPerBody = 32;
 
     // Of the radius: how much farther than its free path a body is expected to get, pushed by others.
     private const double ReachMargin = 0.1;
@@ -22,6 +21,7 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
 
     private readonly List<int> _neighbours = new(InitialCapacity);
     private readonly List<BodyPair> _pairs = new(InitialCapacity);
+    private readonly List<BodyPair> _found = new(InitialCapacity);
     private readonly List<Island> _islands = new(InitialCapacity);
     private readonly List<int> _islandBodies = new(InitialCapacity);
     private readonly DisjointSets _sets = new();
@@ -48,13 +48,20 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
     public ReadOnlySpan<int> BodiesOf(in Island island) =>
         CollectionsMarshal.AsSpan(_islandBodies).Slice(island.FirstBody, island.BodyCount);
 
+    /// <summary>Number of bodies of all islands.</summary>
+    public int IslandBodyCount => _islandBodies.Count;
+
+    /// <summary>Index of the island of a body; negative for none.</summary>
+    public int IslandOf(int body) => _islandOf[body];
+
     /// <summary>Radius of the smallest body of an island; of a compound, that of its smallest ball.</summary>
     public double MinRadiusOf(in Island island)
     {
         var radius = double.PositiveInfinity;
         foreach (var index in BodiesOf(in island))
         {
-            for (var ball = 0; ball < bodies[index].BallCount; ball++)
+            radius = Math.Min(radius, _states[index].IsCompound ? double.PositiveInfinity : _states[index].Radius);
+            for (var ball = 0; _states[index].IsCompound && ball < bodies[index].BallCount; ball++)
             {
                 radius = Math.Min(radius, bodies[index].BallRadius(ball));
             }
@@ -62,6 +69,9 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
 
         return radius;
     }
+
+    /// <summary>Number of bodies that are joined with others.</summary>
+    public int JoinedCount => _sets.JoinedCount;
 
     /// <summary>True for a body that is joined with others.</summary>
     public bool IsJoined(int body) => _sets.IsJoined(body);
@@ -86,17 +96,17 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
     public void JoinTouching()
     {
         _sets.Reset(bodies.Count);
-        for (var i = 0; i < bodies.Count; i++)
+        for (var i = 0; !_mayHavePairs && i < bodies.Count; i++)
         {
             bodies[i].MayTouchBodies &= bodies[i].IsAsleep;
         }
 
         foreach (ref var pair in CollectionsMarshal.AsSpan(_pairs))
         {
-            bodies[pair.First].MayTouchBodies = true;
-            bodies[pair.Second].MayTouchBodies = true;
-            pair.IsRow = pair.IsTouching;
-            if (pair.IsTouching && !pair.IsSecondFirm)
+            _states[pair.First].IsTouching = true;
+            _states[pair.Second].IsTouching = true;
+            pair.IsRow = true;
+            if (!pair.IsSecondFirm)
             {
                 _sets.Join(pair.First, pair.Second);
             }
@@ -110,26 +120,17 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
     public void JoinForStep()
     {
         _sets.Reset(bodies.Count);
-        for (var i = 0; _mayHavePairs && i < bodies.Count; i++)
-        {
-            ref var state = ref _states[i];
-            state.KinematicPush = bodies[i].KinematicPush;
-            state.Velocity = bodies[i].Velocity;
-            state.Reach = state.CanMove ? ReachOf(in state) : 0;
-            state.Push = 0;
-            state.HasLooked = false;
-        }
-
+        WorkerSet.Shared.Run(_searchCount, maxThreads, _updateStates!);
         if (!_mayHavePairs)
         {
             return;
         }
 
         CollectNearPushed();
+        RunOnPairs(_testPairs!);
         var hasChanged = false;
-        foreach (ref var pair in CollectionsMarshal.AsSpan(_pairs))
+        foreach (ref readonly var pair in CollectionsMarshal.AsSpan(_pairs))
         {
-            pair.IsRow = IsPushed(in pair) ? MayMeet(in pair) : pair.IsTouching && (pair.IsSecondFirm || !IsSeparating(in pair));
             if (pair is { IsRow: true, IsSecondFirm: false })
             {
                 _sets.Join(pair.First, pair.Second);
@@ -151,47 +152,44 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
     private void Begin(double stepLength)
     {
         _stepLength = stepLength;
-        _countSurfaces ??= CountSurfaces;
-        _fillPart ??= FillPart;
         _pairs.Clear();
         if (_states.Length < bodies.Count)
         {
             Grow();
         }
 
+        CreateJobs();
+        _searchCount = 0;
         _mayHavePairs = bodies.Exists(static body => body.KinematicPush > 0 || MaySearch(body));
-        for (var i = 0; _mayHavePairs && i < bodies.Count; i++)
+        if (!_mayHavePairs)
         {
-            var body = bodies[i];
-            if (_descriptions[i] != body.Description)
-            {
-                _descriptions[i] = body.Description;
-                _materials[i] = new(body.Description);
-            }
-
-            var canMove = CanMove(body);
-            var speedGain = canMove ? stepLength * body.FreeAcceleration.Length() : 0;
-            _states[i] = new()
-            {
-                Position = body.Position,
-                Radius = body.Radius,
-                CanMove = canMove,
-                MaySearch = MaySearch(body),
-                IsCompound = body.IsCompound,
-                HasHeapMargin = body.HasHeapMargin,
-                Rounding = ContactTolerances.Slop(0, body.Position),
-                Velocity = body.Velocity,
-                SpeedGain = speedGain,
-                Slack = (stepLength * speedGain) + (ReachMargin * body.Radius),
-                KinematicPush = body.KinematicPush,
-                NearDistance = double.NegativeInfinity,
-            };
+            return;
         }
 
-        if (_mayHavePairs)
+        SetSearches();
+        WorkerSet.Shared.Run(_searchCount, maxThreads, _copyStates!);
+        HasSleeping = false;
+        var bounds = GridBounds.None;
+        foreach (var search in _searches.AsSpan(0, _searchCount))
         {
-            _grid.Build(nearbyBodies.HasFilters ? [] : _states.AsSpan(0, bodies.Count));
+            HasSleeping |= search.HasSleeping;
+            bounds = GridBounds.Union(bounds, search.Bounds);
         }
+
+        _grid.Build(nearbyBodies.HasFilters ? [] : _states.AsSpan(0, bodies.Count), in bounds);
+    }
+
+    /// <summary>Makes what threads run before it is needed, so that steps allocate nothing.</summary>
+    private void CreateJobs()
+    {
+        _runSearch ??= RunSearch;
+        _copyStates ??= CopyStates;
+        _updateStates ??= UpdateStates;
+        _takeNear ??= TakeNear;
+        _testPairs ??= TestPairs;
+        _testMeeting ??= TestMeeting;
+        _countSurfaces ??= CountSurfaces;
+        _fillPart ??= FillPart;
     }
 
     /// <summary>Makes room for as many contacts as bodies in a heap have, so that steps need not allocate.</summary>
@@ -205,8 +203,9 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
         _islandOf = new int[_states.Length];
         _next = new int[_states.Length];
         var contacts = ContactsPerBody * _states.Length;
-        ReserveSearches(NeighboursPerBody * bodies.Count, contacts);
+        ReserveSearches(contacts);
         _pairs.EnsureCapacity(contacts);
+        _found.EnsureCapacity(contacts);
         _sortedPairs.EnsureCapacity(contacts);
         _partPairs.EnsureCapacity(contacts);
         _islands.EnsureCapacity(_states.Length);

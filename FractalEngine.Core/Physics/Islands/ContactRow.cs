@@ -35,8 +35,10 @@ internal struct ContactRow
     /// <summary>True for what does not touch yet, and may meet in this step.</summary>
     public bool IsAhead;
 
-    /// <summary>Unit vector from the second to the first.</summary>
-    public Vector Normal;
+    /// <summary>True where one of them is a ball of a compound: then what happens along the normal turns it too.</summary>
+    public bool HasArms { get; private set; }
+
+    private bool _hasSurface;
 
     /// <summary>Vector between the centres, or from the surface's point, at the beginning of the step.</summary>
     public Vector Offset;
@@ -44,14 +46,32 @@ internal struct ContactRow
     /// <summary>Length that the offset must keep.</summary>
     public double MinDistance;
 
+    /// <summary>Unit vector from the second to the first.</summary>
+    public Vector Normal;
+
+    /// <summary>Impulse along the normal, not negative.</summary>
+    public double NormalImpulse;
+
+    /// <summary>Smallest allowed relative velocity along the normal, units per second.</summary>
+    public double MinNormalVelocity;
+
+    /// <summary>Mass that an impulse along the normal moves, kilograms.</summary>
+    public double NormalMass;
+
+    /// <summary>Impulse across the normal.</summary>
+    public Vector FrictionImpulse;
+
+    /// <summary>Mass that an impulse across the normal moves, kilograms.</summary>
+    public double FrictionMass;
+
+    /// <summary>Coulomb's coefficient of this pair.</summary>
+    public double Friction;
+
     /// <summary>Radius of the first body.</summary>
     public double FirstRadius;
 
     /// <summary>Radius of the second body; 0 where it does not turn.</summary>
     public double SecondRadius;
-
-    /// <summary>Coulomb's coefficient of this pair.</summary>
-    public double Friction;
 
     /// <summary>Torque against rolling over the normal force, scene units.</summary>
     public double RollingArm;
@@ -62,26 +82,10 @@ internal struct ContactRow
     /// <summary>Restitution of this pair.</summary>
     public double Restitution;
 
-    /// <summary>Smallest allowed relative velocity along the normal, units per second.</summary>
-    public double MinNormalVelocity;
-
-    /// <summary>Impulse along the normal, not negative.</summary>
-    public double NormalImpulse;
-
-    /// <summary>Impulse across the normal.</summary>
-    public Vector FrictionImpulse;
-
     /// <summary>Moment of inertia against an angular impulse of this contact; infinite where nothing turns.</summary>
     public double TurnInertia;
 
-    /// <summary>Mass that an impulse along the normal moves, kilograms.</summary>
-    public double NormalMass;
-
-    /// <summary>Mass that an impulse across the normal moves, kilograms.</summary>
-    public double FrictionMass;
-
     // What few contacts have is last, and read only where they have it: so it is not even cleared for all others.
-    private bool _hasSurface;
     private Vector _firstArm;
     private Vector _secondArm;
     private Vector _turnShift;
@@ -89,9 +93,6 @@ internal struct ContactRow
     private Vector _surfaceVelocity;
     private Vector _surfaceSpin;
     private Vector _surfaceWay;
-
-    /// <summary>True where one of them is a ball of a compound: then what happens along the normal turns it too.</summary>
-    public bool HasArms { get; private set; }
 
     /// <summary>Centre of the first ball relative to the first body's position.</summary>
     public readonly Vector FirstArm => HasArms ? _firstArm : Vector.Zero;
@@ -134,6 +135,12 @@ internal struct ContactRow
     /// <summary>True for the contact with a surface that moves or turns.</summary>
     public readonly bool IsOnMovingSurface => Second < 0 && (SurfaceVelocity != Vector.Zero || SurfaceSpin != Vector.Zero);
 
+    /// <summary>
+    /// True for a contact that meets in this step and pushes, or of which one side moves by itself: that pushes on those that were slower
+    /// than itself, which then rebound from what they push.
+    /// </summary>
+    public readonly bool MayRebound => NormalImpulse > 0 && (IsAhead || SurfaceVelocity != Vector.Zero);
+
     /// <summary>Begins a contact of two balls in a place that may have been another one's.</summary>
     public static void Clear(ref ContactRow row)
     {
@@ -147,7 +154,6 @@ internal struct ContactRow
         row.Part = 0;
         row.NormalImpulse = 0;
         row.FrictionImpulse = Vector.Zero;
-        row._turnImpulse = Vector.Zero;
     }
 
     /// <summary>Sets the centres of the touching balls relative to the positions of their bodies, of which one is a compound.</summary>

@@ -101,5 +101,6 @@ internal static class ContactRows
         row.Restitution = Math.Min(first.Restitution, second.Restitution);
         row.RollingArm = radius * Math.Min(first.RollingFriction, second.RollingFriction);
         row.SpinningArm = radius * Math.Min(first.SpinningFriction, second.SpinningFriction);
+        row.TurnImpulse = Vector.Zero;
     }
 }

@@ -188,12 +188,13 @@ internal sealed partial class ContactSolver(int maxThreads = 1)
     /// <param name="graph">Has the island's contacts, which receive the impulses.</param>
     /// <param name="island">The island.</param>
     /// <param name="maxRounds">Number of rounds at most, see <see cref="RoundLimits"/>.</param>
+    /// <param name="rebounding">Receives the places of the contacts of each part, and of those between parts, that may rebound.</param>
     /// <inheritdoc cref="Solve"/>
-    public bool SolveLarge(ContactGraph graph, in Island island, int maxRounds)
+    public bool SolveLarge(ContactGraph graph, in Island island, int maxRounds, List<int>[] rebounding)
     {
         _rounding = RelativeRounding * _balls.Load(graph, in island, _bodies);
         var isConverged = Iterate(graph.RowsOf(in island), isOfBalls: true, maxRounds);
-        _balls.Store();
+        _balls.Store(rebounding);
         return isConverged;
     }
 

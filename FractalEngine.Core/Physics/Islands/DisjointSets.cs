@@ -21,17 +21,28 @@ internal sealed class DisjointSets
             _parents[i] = i;
             _isJoined[i] = false;
         }
+
+        JoinedCount = 0;
     }
 
     /// <summary>Joins the sets of two indices.</summary>
     public void Join(int first, int second)
     {
+        JoinedCount += (_isJoined[first] ? 0 : 1) + (_isJoined[second] ? 0 : 1);
         _isJoined[first] = true;
         _isJoined[second] = true;
+        if (_parents[first] == _parents[second])
+        {
+            return;
+        }
+
         var root1 = RootOf(first);
         var root2 = RootOf(second);
         _parents[Math.Max(root1, root2)] = Math.Min(root1, root2);
     }
+
+    /// <summary>Number of indices that are not alone in their sets.</summary>
+    public int JoinedCount { get; private set; }
 
     /// <summary>True for an index that is not alone in its set.</summary>
     public bool IsJoined(int index) => _isJoined[index];

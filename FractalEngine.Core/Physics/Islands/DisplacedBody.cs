@@ -8,8 +8,8 @@ internal struct DisplacedBody
     /// <summary>Way from the beginning of the step.</summary>
     public Vector Way;
 
-    /// <summary>Way before the separation.</summary>
-    public Vector PlannedWay;
+    /// <summary>Way when contacts were last chosen that are near touching.</summary>
+    public Vector ChosenWay;
 
     /// <summary>Inverse of the mass, 1/kg; 0 for a body that is held.</summary>
     public double InverseMass;

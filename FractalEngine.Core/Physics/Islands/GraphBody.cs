@@ -47,12 +47,12 @@ internal struct GraphBody
     /// <summary>How far a kinematic object pushes the body, see <see cref="Body.KinematicPush"/>.</summary>
     public double KinematicPush;
 
-    /// <summary>Place of the first body that was found near it, among those of all.</summary>
-    public int FirstNear;
-
-    /// <summary>Number of bodies that were found near it.</summary>
-    public int NearCount;
-
-    /// <summary>Free distance up to which all bodies have been found; negative where none were searched for.</summary>
+    /// <summary>Free distance up to which the search for what touches finds all bodies; negative where there is none.</summary>
     public double NearDistance;
+
+    /// <summary>Reach up to which that search finds what the body may meet.</summary>
+    public double SearchReach;
+
+    /// <summary>True for a body that touches another one.</summary>
+    public bool IsTouching;
 }

@@ -14,6 +14,11 @@ internal sealed class ImpulseCache
     // Marks a slot of the hash table without an entry.
     private const int None = -1;
 
+    private const int RowsPerJob = 1024;
+    private const int SlotBits = 3;
+
+    private ContactGraph? _graph;
+    private Action<int>? _storeRows;
     private Entry[] _entries = new Entry[InitialCapacity];
     private int[] _slots = CreateSlots(4 * InitialCapacity);
     private int _mask = (4 * InitialCapacity) - 1;
@@ -23,19 +28,27 @@ internal sealed class ImpulseCache
     {
         foreach (ref var row in rows)
         {
-            row.NormalImpulse = 0;
-            row.FrictionImpulse = Vector.Zero;
-            row.TurnImpulse = Vector.Zero;
-            for (var slot = SlotOf(row.Key); _slots[slot] != None; slot = (slot + 1) & _mask)
+            Recall(ref row);
+        }
+    }
+
+    /// <summary>Gives a contact the impulses that it had in the step before; 0 to a new one.</summary>
+    public void Recall(ref ContactRow row)
+    {
+        row.NormalImpulse = 0;
+        row.FrictionImpulse = Vector.Zero;
+        row.TurnImpulse = Vector.Zero;
+        // Of two that count as the same, the first one of the step before, whichever place it has found.
+        var found = int.MaxValue;
+        for (var slot = SlotOf(row.Key); _slots[slot] != None; slot = (slot + 1) & _mask)
+        {
+            ref readonly var entry = ref _entries[_slots[slot]];
+            if (entry.Key == row.Key && _slots[slot] < found && Vector.Dot(entry.Normal, row.Normal) >= MinCosine)
             {
-                ref readonly var entry = ref _entries[_slots[slot]];
-                if (entry.Key == row.Key && Vector.Dot(entry.Normal, row.Normal) >= MinCosine)
-                {
-                    row.NormalImpulse = entry.NormalImpulse;
-                    row.FrictionImpulse = entry.FrictionImpulse;
-                    row.TurnImpulse = entry.TurnImpulse;
-                    break;
-                }
+                found = _slots[slot];
+                row.NormalImpulse = entry.NormalImpulse;
+                row.FrictionImpulse = entry.FrictionImpulse;
+                row.TurnImpulse = entry.TurnImpulse;
             }
         }
     }
@@ -43,29 +56,33 @@ internal sealed class ImpulseCache
     /// <summary>Makes room for the contacts of so many bodies in a heap. Discards what is stored where it has to grow.</summary>
     public void ReserveForBodies(int bodyCount) => Reserve(ContactsPerBody * bodyCount);
 
-    /// <summary>Stores the impulses of all contacts that push.</summary>
-    public void Store(ContactGraph graph)
+    /// <summary>Stores the impulses of all contacts that push, on all threads.</summary>
+    public void Store(ContactGraph graph, int maxThreads)
     {
         Reserve(graph.RowCount);
         Array.Fill(_slots, None);
-        var count = 0;
-        for (var i = 0; i < graph.RowCount; i++)
+        _graph = graph;
+        WorkerSet.Shared.Run((graph.RowCount + RowsPerJob - 1) / RowsPerJob, maxThreads, _storeRows ??= StoreRows);
+    }
+
+    private void StoreRows(int job)
+    {
+        var end = Math.Min(_graph!.RowCount, (job + 1) * RowsPerJob);
+        for (var i = job * RowsPerJob; i < end; i++)
         {
-            ref readonly var row = ref graph.Row(i);
+            ref readonly var row = ref _graph.Row(i);
             if (row.NormalImpulse > 0)
             {
-                _entries[count] = new()
+                _entries[i] = new()
                 {
                     Key = row.Key, Normal = row.Normal, NormalImpulse = row.NormalImpulse, FrictionImpulse = row.FrictionImpulse,
                     TurnImpulse = row.TurnImpulse,
                 };
                 var slot = SlotOf(row.Key);
-                while (_slots[slot] != None)
+                while (Interlocked.CompareExchange(ref _slots[slot], i, None) != None)
                 {
                     slot = (slot + 1) & _mask;
                 }
-
-                _slots[slot] = count++;
             }
         }
     }
@@ -94,8 +111,9 @@ internal sealed class ImpulseCache
         return slots;
     }
 
-    // A multiplication by 2^64 divided by the golden ratio mixes the bits.
-    private int SlotOf(long key) => (int)((ulong)key * 0x9E3779B97F4A7C15 >> 32) & _mask;
+    // Contacts of one body have places side by side, and those of the next one follow: rows are in that order, and so the memory is.
+    // A multiplication by 2^32 divided by the golden ratio mixes the bits of the other body.
+    private int SlotOf(long key) => ((int)(key >> 32 << SlotBits) + (int)((uint)key * 0x9E3779B9 >> (32 - SlotBits))) & _mask;
 
     private struct Entry
     {

@@ -1,3 +1,5 @@
+using FractalEngine.Core.Maths;
+
 namespace FractalEngine.Core.Physics.Islands;
 
 /// <content>How bodies return to where their step began, which overlap others.</content>
@@ -8,6 +10,8 @@ internal sealed partial class IslandMover
 
     private const int PairsPerJob = 1024;
 
+    private Place[] _places = new Place[InitialCapacity];
+    private int _bodiesPerCellJob;
     private volatile bool _hasOverlap;
 
     /// <summary>Puts an island back to where its step began, unless others have come there.</summary>
@@ -59,16 +63,44 @@ internal sealed partial class IslandMover
     /// </summary>
     public void ReturnOverlapping()
     {
-        foreach (var island in _graph.Islands)
+        if (_graph.Islands.Count == 0)
         {
-            foreach (var index in _graph.BodiesOf(in island))
+            return;
+        }
+
+        UpdateCells();
+        while (ReturnPairs() || ReturnBeyondReach())
+        {
+        }
+    }
+
+    /// <summary>Tells the grid where bodies are: on all threads for those that stay in their cell, and then for all others.</summary>
+    private void UpdateCells()
+    {
+        _bodiesPerCellJob = Math.Max(BodiesPerJob, (_bodies.Count + MaxCellJobs - 1) / MaxCellJobs);
+        var jobCount = (_bodies.Count + _bodiesPerCellJob - 1) / _bodiesPerCellJob;
+        WorkerSet.Shared.Run(jobCount, _maxThreads, _updateCells);
+        foreach (var left in _leftCells.AsSpan(0, jobCount))
+        {
+            foreach (var index in left)
             {
                 _grid.Update(index);
             }
         }
+    }
 
-        while (ReturnPairs() || ReturnBeyondReach())
+    private void UpdateCells(int job)
+    {
+        _leftCells[job].Clear();
+        var end = Math.Min(_bodies.Count, (job + 1) * _bodiesPerCellJob);
+        for (var i = job * _bodiesPerCellJob; i < end; i++)
         {
+            var body = _bodies[i];
+            _places[i] = new(body.Position, body.IsCompound ? double.NaN : body.Radius);
+            if (body.IslandIndex >= 0 && !_grid.TryUpdateWithinCell(i))
+            {
+                _leftCells[job].Add(i);
+            }
         }
     }
 
@@ -102,12 +134,20 @@ internal sealed partial class IslandMover
         var pairs = _graph.Pairs;
         foreach (ref readonly var pair in pairs[(job * PairsPerJob)..Math.Min(pairs.Length, (job + 1) * PairsPerJob)])
         {
-            if (BallPairs.AreOverlapping(_bodies[pair.First], _bodies[pair.Second], MaxOverlap))
+            // Of compounds, it is not known before their balls are compared.
+            if (!AreApart(in _places[pair.First], in _places[pair.Second])
+                && BallPairs.AreOverlapping(_bodies[pair.First], _bodies[pair.Second], MaxOverlap))
             {
                 _hasOverlap = true;
                 return;
             }
         }
+    }
+
+    private static bool AreApart(in Place first, in Place second)
+    {
+        var minDistance = first.Radius + second.Radius - (MaxOverlap * Math.Min(first.Radius, second.Radius));
+        return (first.Position - second.Position).LengthSquared() >= minDistance * minDistance;
     }
 
     /// <summary>Puts bodies back that have got farther than any pair foresees and overlap any other, and that one with them.</summary>
@@ -162,10 +202,16 @@ internal sealed partial class IslandMover
     private void PutBack(Body body)
     {
         body.Position = body.PlannedStart;
+        _places[body.Index] = _places[body.Index] with { Position = body.Position };
         _grid.Update(body.Index);
         if (body.IsCompound)
         {
             body.SetOrientation(body.PlannedStartOrientation);
         }
     }
+
+    /// <summary>Where a body is: pairs are compared without the bodies.</summary>
+    /// <param name="Position">Its centre, world space.</param>
+    /// <param name="Radius">Its radius; not a number for a compound.</param>
+    private readonly record struct Place(Vector Position, double Radius);
 }

@@ -20,6 +20,9 @@ internal sealed partial class IslandMover
 
     private const int BodiesPerJob = 256;
 
+    // Positions are told to the grid in at most so many groups.
+    private const int MaxCellJobs = 32;
+
     private readonly List<Body> _bodies;
     private readonly ContactGraph _graph;
     private readonly BodyGrid _grid;
@@ -27,8 +30,11 @@ internal sealed partial class IslandMover
     private readonly int _maxThreads;
     private readonly Action<int> _testPairs;
     private readonly Action<int> _setTargets;
-    private readonly Action<int> _setWays;
     private readonly Action<int> _takeWays;
+    private readonly Action<int> _setWays;
+    private readonly Action<int> _dampJammed;
+    private readonly Action<int> _updateCells;
+    private readonly List<int>[] _leftCells = [.. Enumerable.Range(0, MaxCellJobs).Select(static _ => new List<int>(InitialCapacity))];
     private readonly OverlapSeparator _separator;
     private readonly List<int> _neighbours = new(InitialCapacity);
 
@@ -36,6 +42,10 @@ internal sealed partial class IslandMover
     private readonly List<ContactRow> _unplanned = new(InitialCapacity);
 
     private Island _island;
+    private double _stepLength;
+
+    // Threads set it in any order, to the same.
+    private volatile bool _hasDeviated;
 
     public IslandMover(List<Body> bodies, ContactGraph graph, BodyGrid grid, NearbyBodies nearbyBodies, int maxThreads)
     {
@@ -47,8 +57,10 @@ internal sealed partial class IslandMover
         _separator = new(graph, maxThreads);
         _testPairs = TestPairs;
         _setTargets = SetTargets;
-        _setWays = SetWays;
         _takeWays = TakeWays;
+        _setWays = SetWays;
+        _dampJammed = DampJammed;
+        _updateCells = UpdateCells;
     }
 
     /// <summary>Number of times that a body had to stay where it was.</summary>
@@ -63,6 +75,15 @@ internal sealed partial class IslandMover
         }
 
         _separator.Reserve(_bodies.Count);
+        if (_places.Length < _bodies.Count)
+        {
+            _places = new Place[2 * _bodies.Count];
+        }
+
+        foreach (var left in _leftCells)
+        {
+            left.EnsureCapacity(Math.Max(BodiesPerJob, (_bodies.Count + MaxCellJobs - 1) / MaxCellJobs));
+        }
     }
 
     /// <summary>Finds a body of no island that stands where one of an island will be. It has to go first.</summary>
@@ -74,11 +95,11 @@ internal sealed partial class IslandMover
         while (pairIndex < pairs.Length)
         {
             ref readonly var pair = ref pairs[pairIndex++];
-            var first = _bodies[pair.First];
-            var second = _bodies[pair.Second];
-            if (!pair.IsSecondFirm && (first.IslandIndex >= 0) != (second.IslandIndex >= 0))
+            if (!pair.IsSecondFirm && (_graph.IslandOf(pair.First) >= 0) != (_graph.IslandOf(pair.Second) >= 0))
             {
-                var (member, single) = first.IslandIndex >= 0 ? (first, second) : (second, first);
+                var isFirstMember = _graph.IslandOf(pair.First) >= 0;
+                var member = _bodies[isFirstMember ? pair.First : pair.Second];
+                var single = _bodies[isFirstMember ? pair.Second : pair.First];
                 var distance = (member.Radius + single.Radius) * (1 - OverlapSeparator.NegligibleOverlap);
                 if (!single.HasMoved && (member.Target - single.Position).LengthSquared() < distance * distance)
                 {
@@ -109,31 +130,41 @@ internal sealed partial class IslandMover
         });
     }
 
-    /// <summary>Finds bodies that others meet which have got farther than was foreseen.</summary>
+    /// <summary>Sets the ways of all bodies, and finds those that others meet which have got farther than was foreseen.</summary>
     public void FindUnplanned(in Island island, double stepLength)
     {
+        _stepLength = stepLength;
+        _hasDeviated = false;
+        RunOnMembers(in island, _setWays);
+        if (!_hasDeviated)
+        {
+            return;
+        }
+
         foreach (var index in _graph.BodiesOf(in island))
         {
-            var body = _bodies[index];
-            if (!HasDeviated(body, body.Target, stepLength))
+            if (_bodies[index].HasDeviated)
             {
-                continue;
+                FindUnplanned(_bodies[index]);
             }
+        }
+    }
 
-            _neighbours.Clear();
-            _nearbyBodies.CollectOverlaps(body.Target, body.Radius * (1 + SearchMargin), index, _neighbours);
-            foreach (var neighbour in _neighbours)
+    private void FindUnplanned(Body body)
+    {
+        _neighbours.Clear();
+        _nearbyBodies.CollectOverlaps(body.Target, body.Radius * (1 + SearchMargin), body.Index, _neighbours);
+        foreach (var neighbour in _neighbours)
+        {
+            var other = _bodies[neighbour];
+            if (other.IslandIndex == body.IslandIndex && !body.IsCompound && !other.IsCompound
+                && (body.Target - other.Target).Length() < (body.Radius + other.Radius) * (1 - OverlapSeparator.NegligibleOverlap))
             {
-                var other = _bodies[neighbour];
-                if (other.IslandIndex == body.IslandIndex && !body.IsCompound && !other.IsCompound
-                    && (body.Target - other.Target).Length() < (body.Radius + other.Radius) * (1 - OverlapSeparator.NegligibleOverlap))
+                _unplanned.Add(new()
                 {
-                    _unplanned.Add(new()
-                    {
-                        First = index, Second = neighbour, Offset = body.PlannedStart - other.PlannedStart,
-                        MinDistance = body.Radius + other.Radius, IsBall = true, FirstRadius = body.Radius, SecondRadius = other.Radius,
-                    });
-                }
+                    First = body.Index, Second = neighbour, Offset = body.PlannedStart - other.PlannedStart,
+                    MinDistance = body.Radius + other.Radius, IsBall = true, FirstRadius = body.Radius, SecondRadius = other.Radius,
+                });
             }
         }
     }
@@ -141,7 +172,6 @@ internal sealed partial class IslandMover
     /// <summary>Changes the targets until the bodies overlap as little as the contacts tell. What is held gives way to nothing.</summary>
     public void SeparateTargets(in Island island)
     {
-        RunOnMembers(in island, _setWays);
         _separator.Separate(in island, CollectionsMarshal.AsSpan(_unplanned));
         RunOnMembers(in island, _takeWays);
     }
@@ -170,15 +200,6 @@ internal sealed partial class IslandMover
         }
     }
 
-    private void SetWays(int job)
-    {
-        foreach (var index in MembersOf(job))
-        {
-            var body = _bodies[index];
-            _separator.SetBody(index, body.Target - body.PlannedStart, body.IsHeld ? 0 : 1 / body.Description.Mass);
-        }
-    }
-
     private void TakeWays(int job)
     {
         foreach (var index in MembersOf(job))
@@ -195,16 +216,36 @@ internal sealed partial class IslandMover
     /// <param name="stepLength">Seconds.</param>
     public void DampJammed(in Island island, double stepLength)
     {
-        foreach (var index in _graph.BodiesOf(in island))
+        _stepLength = stepLength;
+        RunOnMembers(in island, _dampJammed);
+    }
+
+    private void DampJammed(int job)
+    {
+        foreach (var index in MembersOf(job))
         {
             var body = _bodies[index];
-            var way = JamFraction * stepLength * body.Velocity;
+            var way = JamFraction * _stepLength * body.Velocity;
             var isJammed = (body.Position - body.PlannedStart).LengthSquared() < way.LengthSquared();
             body.JammedSteps = isJammed ? body.JammedSteps + 1 : 0;
             if (body.JammedSteps >= MaxJammedSteps)
             {
                 body.Velocity *= 0.5;
                 body.AngularVelocity *= 0.5;
+            }
+        }
+    }
+
+    private void SetWays(int job)
+    {
+        foreach (var index in MembersOf(job))
+        {
+            var body = _bodies[index];
+            _separator.SetBody(index, body.Target - body.PlannedStart, body.IsHeld ? 0 : 1 / body.Description.Mass);
+            body.HasDeviated = HasDeviated(body, body.Target, _stepLength);
+            if (body.HasDeviated)
+            {
+                _hasDeviated = true;
             }
         }
     }

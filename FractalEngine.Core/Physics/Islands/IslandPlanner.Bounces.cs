@@ -1,3 +1,4 @@
+using System.Runtime.InteropServices;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Physics.Islands;
@@ -12,6 +13,7 @@ internal sealed partial class IslandPlanner
     private const int MaxReboundRounds = 8;
 
     private readonly List<int> _rebounding = new(InitialCapacity);
+    private readonly bool[] _isRebounding = new bool[IslandParts.MaxCount + 1];
     private readonly List<int>[] _reboundingOfParts =
         [.. Enumerable.Range(0, IslandParts.MaxCount + 1).Select(static _ => new List<int>(InitialCapacity))];
 
@@ -63,20 +65,14 @@ internal sealed partial class IslandPlanner
         }
     }
 
-    /// <summary>Finds contacts that meet in this step and push, or of which one side moves by itself.</summary>
-    /// <param name="rows">Contacts.</param>
-    /// <param name="first">Index of the first one among those of the island.</param>
-    /// <param name="rebounding">Receives the indices among those of the island.</param>
-    private static void FindRebounding(ReadOnlySpan<ContactRow> rows, int first, List<int> rebounding)
+    private static void FindRebounding(ReadOnlySpan<ContactRow> rows, List<int> rebounding)
     {
         rebounding.Clear();
         for (var i = 0; i < rows.Length; i++)
         {
-            // What moves pushes on those that were slower than itself, which then rebound from what they push.
-            ref readonly var row = ref rows[i];
-            if ((row.IsAhead || row.SurfaceVelocity != Vector.Zero) && row.NormalImpulse > 0)
+            if (rows[i].MayRebound)
             {
-                rebounding.Add(first + i);
+                rebounding.Add(i);
             }
         }
     }
@@ -86,22 +82,37 @@ internal sealed partial class IslandPlanner
     /// </summary>
     private void StopRebounds(Span<ContactRow> rows, List<int> rebounding)
     {
-        var isRebounding = true;
-        for (var round = 0; round < MaxReboundRounds && isRebounding; round++)
+        for (var round = 0; round < MaxReboundRounds && StopReboundsOnce(rows, rebounding); round++)
         {
-            isRebounding = false;
-            foreach (var i in rebounding)
+        }
+    }
+
+    /// <summary>Goes once over contacts that may rebound, and leaves those of them that still push.</summary>
+    /// <returns>True where one did.</returns>
+    private bool StopReboundsOnce(Span<ContactRow> rows, List<int> rebounding)
+    {
+        var isRebounding = false;
+        var count = 0;
+        var places = CollectionsMarshal.AsSpan(rebounding);
+        foreach (var i in places)
+        {
+            // It pushes less, but does not pull.
+            ref var row = ref rows[i];
+            var impulse = Math.Min(row.NormalImpulse, row.NormalMass * NormalVelocity(in row));
+            if (impulse > 0)
             {
-                // It pushes less, but does not pull.
-                ref var row = ref rows[i];
-                var impulse = Math.Min(row.NormalImpulse, row.NormalMass * NormalVelocity(in row));
-                if (impulse > 0)
-                {
-                    row.NormalImpulse -= impulse;
-                    _solver.Apply(in row, -impulse, Vector.Zero);
-                    isRebounding = true;
-                }
+                row.NormalImpulse -= impulse;
+                _solver.Apply(in row, -impulse, Vector.Zero);
+                isRebounding = true;
+            }
+
+            if (row.NormalImpulse > 0)
+            {
+                places[count++] = i;
             }
         }
+
+        CollectionsMarshal.SetCount(rebounding, count);
+        return isRebounding;
     }
 }

@@ -30,7 +30,7 @@ internal sealed partial class IslandPlanner
         var isConverged = FindForces(members, rows, duration);
         Statistics = Statistics with { Solves = Statistics.Solves + 1, Unconverged = Statistics.Unconverged + (isConverged ? 0 : 1) };
         planned = (_solver.Bodies[members[0]].Velocity, _solver.Bodies[members[0]].Spin);
-        FindRebounding(rows, 0, _rebounding);
+        FindRebounding(rows, _rebounding);
         StopRebounds(rows, _rebounding);
         return (_solver.Bodies[members[0]].Velocity, _solver.Bodies[members[0]].Spin);
     }

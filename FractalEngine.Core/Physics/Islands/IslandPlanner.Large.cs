@@ -21,7 +21,7 @@ internal sealed partial class IslandPlanner
     private Action<int>? _beginPart;
 
     private Action<int>? _storePlan;
-    private Action<int>? _findRebounding;
+    private Action<int>? _stopRebounds;
     private Action<int>? _storeChanges;
     private int _largeIndex;
 
@@ -31,7 +31,7 @@ internal sealed partial class IslandPlanner
         _loadBodies ??= LoadBodies;
         _beginPart ??= BeginPart;
         _storePlan ??= StorePlan;
-        _findRebounding ??= FindRebounding;
+        _stopRebounds ??= StopRebounds;
         _storeChanges ??= StoreChanges;
     }
 
@@ -43,14 +43,7 @@ internal sealed partial class IslandPlanner
         var isConverged = FindImpulses(in island);
         var jobCount = (island.BodyCount + BodiesPerJob - 1) / BodiesPerJob;
         WorkerSet.Shared.Run(jobCount, maxThreads, _storePlan!);
-        WorkerSet.Shared.Run(ContactGraph.GroupCountOf(in island), maxThreads, _findRebounding!);
-        _rebounding.Clear();
-        foreach (var rebounding in _reboundingOfParts.AsSpan(0, ContactGraph.GroupCountOf(in island)))
-        {
-            _rebounding.AddRange(rebounding);
-        }
-
-        StopRebounds(Graph.RowsOf(in island), _rebounding);
+        StopReboundsOfParts(in island);
         WorkerSet.Shared.Run(jobCount, maxThreads, _storeChanges!);
         return isConverged;
     }
@@ -66,9 +59,14 @@ internal sealed partial class IslandPlanner
         }
 
         WorkerSet.Shared.Run((island.BodyCount + BodiesPerJob - 1) / BodiesPerJob, maxThreads, _loadBodies!);
-        WorkerSet.Shared.Run(island.PartCount, maxThreads, _beginPart!);
-        BeginPart(island.PartCount);
-        var isConverged = _solver.SolveLarge(Graph, in island, RoundLimits.ForLarge(rows.Length));
+        WorkerSet.Shared.Run(ContactGraph.GroupCountOf(in island), maxThreads, _beginPart!);
+        foreach (ref var row in island.PartCount > 1 ? Graph.RowsOfPart(in island, island.PartCount) : [])
+        {
+            // Their bodies are of two parts.
+            ApplyKnownImpulses(ref row);
+        }
+
+        var isConverged = _solver.SolveLarge(Graph, in island, RoundLimits.ForLarge(rows.Length), _reboundingOfParts);
         Statistics = Statistics with { Rounds = Statistics.Rounds + _solver.Rounds };
         return isConverged;
     }
@@ -95,19 +93,41 @@ internal sealed partial class IslandPlanner
 
     private void StoreChanges(int job) => StoreChanges(MembersOf(job));
 
-    private void FindRebounding(int part) =>
-        FindRebounding(Graph.RowsOfPart(in _large, part), Graph.FirstRowOfPart(in _large, part), _reboundingOfParts[part]);
+    /// <summary>Stops rebounds part by part on all threads, and those across cuts in between.</summary>
+    private void StopReboundsOfParts(in Island island)
+    {
+        var groupCount = ContactGraph.GroupCountOf(in island);
+        if (groupCount == 1)
+        {
+            StopRebounds(Graph.RowsOf(in island), _reboundingOfParts[0]);
+            return;
+        }
+
+        var isRebounding = true;
+        for (var round = 0; round < MaxReboundRounds && isRebounding; round++)
+        {
+            WorkerSet.Shared.Run(island.PartCount, maxThreads, _stopRebounds!);
+            StopRebounds(island.PartCount);
+            isRebounding = _isRebounding.AsSpan(0, groupCount).Contains(true);
+        }
+    }
+
+    private void StopRebounds(int part) =>
+        _isRebounding[part] = StopReboundsOnce(Graph.RowsOfPart(in _large, part), _reboundingOfParts[part]);
 
     /// <summary>Sets what the solve demands of the contacts of a part, and from which impulses it begins.</summary>
     private void BeginPart(int part)
     {
         var rows = Graph.RowsOfPart(in _large, part);
-        _cache.Recall(rows);
         foreach (ref var row in rows)
         {
+            _cache.Recall(ref row);
             _solver.ComputeMasses(ref row);
             SetDistanceConstraint(ref row, _largeStepLength);
-            ApplyKnownImpulses(ref row);
+            if (part < _large.PartCount)
+            {
+                ApplyKnownImpulses(ref row);
+            }
         }
     }
 

@@ -96,7 +96,7 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
             Log(Graph.RowsOf(in island));
         }
 
-        _cache.Store(Graph);
+        _cache.Store(Graph, maxThreads);
     }
 
     private bool PlanSmall(int index, in Island island, double stepLength)
@@ -107,7 +107,7 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
         var isConverged = FindForces(in island, stepLength);
         StorePlan(members, stepLength, isLarge: false);
         StoreTurns(members, rows, stepLength);
-        FindRebounding(rows, 0, _rebounding);
+        FindRebounding(rows, _rebounding);
         StopRebounds(rows, _rebounding);
         StoreChanges(members);
         return isConverged;

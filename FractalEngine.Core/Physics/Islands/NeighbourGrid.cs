@@ -50,9 +50,11 @@ internal sealed class NeighbourGrid
     }
 
     /// <summary>Sorts bodies by cells. Room must have been made for them.</summary>
-    public void Build(ReadOnlySpan<GraphBody> bodies)
+    /// <param name="bodies">The bodies; none where they cannot be searched in cells.</param>
+    /// <param name="bounds">Box of their centres, and their largest radius.</param>
+    public void Build(ReadOnlySpan<GraphBody> bodies, in GridBounds bounds)
     {
-        IsBuilt = TryLayOut(bodies);
+        IsBuilt = TryLayOut(bodies.Length, in bounds);
         if (!IsBuilt)
         {
             return;
@@ -130,27 +132,18 @@ internal sealed class NeighbourGrid
     }
 
     /// <summary>Finds how many cells hold all bodies.</summary>
-    private bool TryLayOut(ReadOnlySpan<GraphBody> bodies)
+    private bool TryLayOut(int bodyCount, in GridBounds bounds)
     {
-        if (bodies.Length == 0)
+        if (bodyCount == 0)
         {
             return false;
         }
 
-        var min = bodies[0].Position;
-        var max = min;
-        _maxRadius = 0;
-        foreach (ref readonly var body in bodies)
-        {
-            min = Vector.Min(min, body.Position);
-            max = Vector.Max(max, body.Position);
-            _maxRadius = Math.Max(_maxRadius, body.Radius);
-        }
-
-        _origin = min;
-        var extent = (1 / _maxRadius) * (max - min);
+        _maxRadius = bounds.MaxRadius;
+        _origin = bounds.Min;
+        var extent = (1 / _maxRadius) * (bounds.Max - bounds.Min);
         var (x, y, z) = (Math.Floor(extent.X / CellLength) + 1, Math.Floor(extent.Y / CellWidth) + 1, Math.Floor(extent.Z / CellWidth) + 1);
-        if (!(x * y * z < Math.Max(MinCells, MaxCellsPerBody * bodies.Length)))
+        if (!(x * y * z < Math.Max(MinCells, MaxCellsPerBody * bodyCount)))
         {
             return false;
         }

@@ -29,6 +29,7 @@ internal sealed class OverlapSeparator
     private DisplacedBody[] _movers = new DisplacedBody[InitialCapacity];
     private Island _island;
     private SeparationAim _aim;
+    private double _reach;
     private bool _isFirstRound;
 
     public OverlapSeparator(ContactGraph graph, int maxThreads)
@@ -61,7 +62,7 @@ internal sealed class OverlapSeparator
 
     /// <summary>Sets the way of a body from the beginning of the step, and its inverse mass; 0 where it is held.</summary>
     public void SetBody(int index, Vector way, double inverseMass) => 
-        _movers[index] = new() { Way = way, PlannedWay = way, InverseMass = inverseMass };
+        _movers[index] = new() { Way = way, ChosenWay = way, InverseMass = inverseMass };
 
     /// <summary>The way of a body after the separation.</summary>
     public Vector WayOf(int index) => _movers[index].Way;
@@ -76,6 +77,7 @@ internal sealed class OverlapSeparator
     {
         _island = island;
         _aim = SeparationAim.Of(in island);
+        _reach = 0.5 * _aim.MaxGap * _graph.MinRadiusOf(in island);
         // Chosen anew as long as what was not near touching comes to overlap.
         var hasMoved = true;
         for (var choice = 0; choice < MaxChoices && hasMoved; choice++)
@@ -83,12 +85,15 @@ internal sealed class OverlapSeparator
             ChooseAll(others);
             var isEnded = false;
             hasMoved = island.PartCount == 1 ? SeparateWhole(out isEnded) : SeparateParts(out isEnded);
-            hasMoved &= !(isEnded && choice == 0 && StaysWithinReach(in island));
+            hasMoved = hasMoved && !(StaysWithinReach(in island) && isEnded);
         }
 
         // Last, since what is firm gives way to nothing.
         WorkerSet.Shared.Run(island.PartCount, _maxThreads, _takeBackSurfaces);
-        TakeBackSurfaces(others);
+        for (var i = 0; i < others.Length; i++)
+        {
+            TakeBackSurfaces(others.Slice(i, 1));
+        }
     }
 
     /// <summary>Chooses the contacts that are near touching.</summary>
@@ -99,8 +104,7 @@ internal sealed class OverlapSeparator
             group.Clear();
         }
 
-        WorkerSet.Shared.Run(_island.PartCount, _maxThreads, _choose);
-        Choose(_island.PartCount);
+        WorkerSet.Shared.Run(ContactGraph.GroupCountOf(in _island), _maxThreads, _choose);
         for (var i = 0; i < others.Length; i++)
         {
             _groups[GroupOf(in others[i])].AddNear(others.Slice(i, 1), _movers, in _aim);
@@ -121,21 +125,22 @@ internal sealed class OverlapSeparator
         _isFirstRound = true;
     }
 
-    /// <summary>True where no body has been moved so far that contacts which were not near come to overlap.</summary>
+    /// <summary>True where no body has been moved so far that contacts come to overlap which were not near when they were chosen.</summary>
     private bool StaysWithinReach(in Island island)
     {
         var maxShiftSquared = 0.0;
         foreach (var index in _graph.BodiesOf(in island))
         {
-            if (_movers[index].HasMoved)
+            ref var mover = ref _movers[index];
+            if (mover.HasMoved)
             {
-                maxShiftSquared = Math.Max(maxShiftSquared, (_movers[index].Way - _movers[index].PlannedWay).LengthSquared());
+                maxShiftSquared = Math.Max(maxShiftSquared, (mover.Way - mover.ChosenWay).LengthSquared());
+                mover.ChosenWay = mover.Way;
             }
         }
 
         // Of two bodies, each may have come nearer by so much.
-        var reach = 0.5 * _aim.MaxGap * _graph.MinRadiusOf(in island);
-        return maxShiftSquared < reach * reach;
+        return maxShiftSquared < _reach * _reach;
     }
 
     private int GroupOf(in ContactRow row)
@@ -245,10 +250,13 @@ internal sealed class OverlapSeparator
     {
         foreach (ref readonly var row in rows)
         {
-            if (!row.IsBall)
+            if (row.IsBall)
             {
-                _ = GapGroup.TakeBack(new Gap(in row, in _aim), _movers);
+                // Surfaces are first in each part.
+                return;
             }
+
+            _ = GapGroup.TakeBack(new Gap(in row, in _aim), _movers);
         }
     }
 }

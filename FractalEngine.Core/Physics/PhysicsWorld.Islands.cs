@@ -1,0 +1,109 @@
+using FractalEngine.Core.Physics.Character;
+using FractalEngine.Core.Physics.Islands;
+
+namespace FractalEngine.Core.Physics;
+
+/// <content>How the bodies of islands move, which have been planned.</content>
+public sealed partial class PhysicsWorld
+{
+    // Times that the bodies of an island go around one that something unforeseen holds.
+    private const int MaxPasses = 4;
+
+    /// <summary>Moves the bodies of all islands at once.</summary>
+    private void MoveIslands(CharacterController? character, double seconds)
+    {
+        _islandMover.SetTargets();
+        MoveWhatIsInTheWay(character, seconds);
+        foreach (var island in _planner.Graph.Islands)
+        {
+            MoveIsland(in island, character, seconds);
+        }
+
+        _islandMover.ReturnOverlapping();
+        foreach (var island in _planner.Graph.Islands)
+        {
+            _energyGuard.FinishVelocities(in island);
+            if (!island.IsFree)
+            {
+                _islandMover.DampJammed(in island, seconds);
+            }
+
+            FinishIsland(in island, seconds);
+        }
+    }
+
+    private void FinishIsland(in Island island, double seconds)
+    {
+        if (!FinishShared(in island, seconds))
+        {
+            return;
+        }
+
+        foreach (var index in _planner.Graph.BodiesOf(in island))
+        {
+            if (!_bodies[index].IsFinished)
+            {
+                _stepper.FinishPlanned(_bodies[index], CollidersOf(_bodies[index]), seconds, StepCount);
+            }
+
+            _stepper.Settle(_bodies[index]);
+        }
+    }
+
+    /// <summary>Moves bodies of no island first that stand where those of islands will be, such as what falls ahead of them.</summary>
+    private void MoveWhatIsInTheWay(CharacterController? character, double seconds)
+    {
+        var hasMoved = false;
+        for (var pair = 0; _islandMover.FindInTheWay(ref pair) is { } body;)
+        {
+            StepBody(body, character, seconds);
+            hasMoved = true;
+        }
+
+        for (var i = 0; hasMoved && i < _bodies.Count; i++)
+        {
+            // It may have pushed them.
+            _bodies[i].PlannedStartEnergy = _bodies[i].KineticEnergy;
+        }
+    }
+
+    private void MoveIsland(in Island island, CharacterController? character, double seconds)
+    {
+        _islandMover.BeginIsland();
+        var hasHeld = true;
+        for (var pass = 0; pass < MaxPasses && hasHeld; pass++)
+        {
+            _islandMover.FindUnplanned(in island, seconds);
+            _islandMover.SeparateTargets(in island);
+            hasHeld = false;
+            if (!MoveShared(in island, pass, character, seconds))
+            {
+                return;
+            }
+
+            foreach (var index in _planner.Graph.BodiesOf(in island))
+            {
+                var body = _bodies[index];
+                if (body.IsMovedAhead || MustMove(body, pass))
+                {
+                    if (!body.IsMovedAhead)
+                    {
+                        MoveBody(body, character, seconds, isPlanned: true);
+                    }
+
+                    body.IsMovedAhead = false;
+                    hasHeld |= body.IsHeld;
+                    if (body.PlannedHit is { } hit && pass < MaxPasses - 2)
+                    {
+                        _kinematics.Time = seconds;
+                        _islandMover.AddSurface(body, in hit);
+                    }
+                    else if (body.IsHeld)
+                    {
+                        body.Target = body.Position;
+                    }
+                }
+            }
+        }
+    }
+}
