@@ -87,7 +87,7 @@ public static class FractalBounds
     {
         public double UpperBound(SubFractal subFractal, in AffineMap map) => subFractal.SupportBound(in map, direction);
 
-        public double Largest(Mesh mesh, in AffineMap map)
+        public double MaxOverVertices(Mesh mesh, in AffineMap map)
         {
             var local = map.Linear.Transpose() * direction;
             var support = double.NegativeInfinity;

@@ -89,7 +89,7 @@ internal sealed partial class BodyMover
             var elapsed = Advance(body, acceleration, ref position, timeLeft, negligibleSpeed, isBlocked);
             timeLeft -= elapsed;
             simultaneousImpacts = elapsed > 0 ? 0 : simultaneousImpacts + 1;
-            // A body that is run into gives way, but in its own turn. Until then it is as firm as the ground: this one slides or waits.
+            // A body that is run into gives way, but in its own turn. Until then it is immovable: this one slides or waits.
             isBlocked |= !hasResponded && elapsed < NegligibleTimeFraction * stepLength && contacts.HasAwakeBody(_bodies);
         }
     }
@@ -132,7 +132,7 @@ internal sealed partial class BodyMover
         return elapsed;
     }
 
-    /// <summary>Takes back what contacts have added to the energy of a body: what is firm does no work.</summary>
+    /// <summary>Takes back what contacts have added to the energy of a body: what is immovable does no work.</summary>
     private static void LimitEnergy(Body body, double limit)
     {
         var energy = body.KineticEnergy;

@@ -37,7 +37,7 @@ internal static class BodyRadius
     {
         public double UpperBound(SubFractal subFractal, in AffineMap map) => MaxCornerDistance(subFractal.Box, map);
 
-        public double Largest(Mesh mesh, in AffineMap map) => MaxVertexDistance(mesh, map);
+        public double MaxOverVertices(Mesh mesh, in AffineMap map) => MaxVertexDistance(mesh, map);
 
         public (Vector Direction, double Offset)? Key(in AffineMap map) => null;
     }

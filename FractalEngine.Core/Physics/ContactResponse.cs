@@ -111,7 +111,7 @@ internal sealed class ContactResponse(List<Body> bodies, SleepIslands islands, C
             islands.Wake(other);
         }
 
-        // A body that sleeps on is as firm as the ground.
+        // A body that sleeps on is as immovable as the ground.
         var movable = other is { IsAsleep: false, IsStuck: false } ? other : null;
         var inverseMass = 1 / body.Description.Mass;
         var otherInverseMass = movable is null ? 0

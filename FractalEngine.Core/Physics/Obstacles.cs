@@ -165,7 +165,7 @@ internal sealed partial class Obstacles(
             return isFound;
         }
 
-        // To bodies, the character is as firm as a wall.
+        // To bodies, the character is as immovable as a wall.
         var combinedRadius = _radius + character.Description.Radius;
         foreach (var sphere in character.SphereOffsets)
         {

@@ -145,22 +145,22 @@ public sealed partial class PhysicsWorld
         _clock.ContinueFrom(previous._clock);
         _accumulatedTime = previous._accumulatedTime;
         ResetKinematics();
-        if (previous.Character is { } walker)
+        if (previous.Character is { } previousCharacter)
         {
-            ContinueCharacter(walker, isOfScene: previous._scene.Scene.Player == walker.Description);
+            ContinueCharacter(previousCharacter, isOfScene: previous._scene.Scene.Player == previousCharacter.Description);
         }
     }
 
-    private void ContinueCharacter(CharacterController walker, bool isOfScene)
+    private void ContinueCharacter(CharacterController previousCharacter, bool isOfScene)
     {
         if (Character is null && !isOfScene)
         {
-            AddCharacter(walker.Description);
+            AddCharacter(previousCharacter.Description);
         }
 
-        if (Character is { } own && own.Description == walker.Description)
+        if (Character is { } own && own.Description == previousCharacter.Description)
         {
-            own.ContinueFrom(walker);
+            own.ContinueFrom(previousCharacter);
         }
     }
 

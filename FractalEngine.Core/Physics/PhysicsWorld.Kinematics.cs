@@ -65,7 +65,7 @@ public sealed partial class PhysicsWorld
     /// Number of equal parts that a step is made in: several where an object goes far, compared with the bodies before it. In each of them
     /// those that it pushes together find each other.
     /// </summary>
-    private int CountParts(double seconds)
+    private int CountSubsteps(double seconds)
     {
         var parts = 1.0;
         foreach (var moved in _kinematics.Objects)

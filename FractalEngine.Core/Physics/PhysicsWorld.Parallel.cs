@@ -1,3 +1,4 @@
+using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics.Character;
 using FractalEngine.Core.Physics.Islands;
 
@@ -178,7 +179,7 @@ public sealed partial class PhysicsWorld
         {
             stepper.MovePlanned(body, _sharedColliders, _sharedCharacter, _sharedSeconds);
         }
-        catch (ArgumentOutOfRangeException exception)
+        catch (ArgumentOutOfRangeException exception) when (exception.ActualValue is Vector)
         {
             throw CreateRangeException(body, exception);
         }

@@ -22,26 +22,26 @@ public sealed partial class PhysicsWorld
     /// </remarks>
     public IReadOnlyList<ContactEvent> ContactEvents => _contactLog.Events;
 
-    /// <summary>Finds what a sphere meets first on a straight way, as the world is now.</summary>
+    /// <summary>Finds what a sphere meets first on a straight path, as the world is now.</summary>
     /// <param name="start">Where its centre begins, world space.</param>
     /// <param name="radius">Scene units, positive.</param>
-    /// <param name="way">Where to, from there: the length counts.</param>
+    /// <param name="displacement">Where to, from there: the length counts.</param>
     /// <param name="hit">What is met; at a distance of 0 where the sphere overlaps it from the beginning.</param>
     /// <param name="layer">Layer of the sphere, from 0 to 31, see <see cref="BodyDescription.Layer"/>.</param>
     /// <param name="mask">The layers that it meets, a bit for each.</param>
-    /// <returns>False when the way is free.</returns>
+    /// <returns>False when the path is free.</returns>
     /// <exception cref="ArgumentException">A number is not finite, the radius is not positive, or there is no such layer.</exception>
     /// <remarks>
     /// Exact to 1e-10 of the radius. What is grazed by less than 1/128 of the radius may be missed. Allocates nothing once all colliders
     /// are built. Nothing is woken.
     /// </remarks>
-    public bool TryCastSphere(Vector start, double radius, Vector way, out CastHit hit, int layer = 0, uint mask = Layers.All)
+    public bool TryCastSphere(Vector start, double radius, Vector displacement, out CastHit hit, int layer = 0, uint mask = Layers.All)
     {
         ArgumentCheck.RequireFinite(start, nameof(start));
-        ArgumentCheck.RequireFinite(way, nameof(way));
+        ArgumentCheck.RequireFinite(displacement, nameof(displacement));
         ArgumentCheck.Require(radius > 0 && double.IsFinite(radius), "the radius must be positive", null, nameof(radius));
         ArgumentCheck.RequireLayer(layer, nameof(layer));
-        return _queries.TryCastSphere(_statics.CollidersOf(ColliderKind.Exact, layer, mask), start, radius, way, out hit);
+        return _queries.TryCastSphere(_statics.CollidersOf(ColliderKind.Exact, layer, mask), start, radius, displacement, out hit);
     }
 
     /// <summary>Finds what a ray meets first, as the world is now: faces from both sides, and the balls of bodies.</summary>

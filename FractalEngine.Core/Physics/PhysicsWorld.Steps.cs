@@ -46,11 +46,11 @@ public sealed partial class PhysicsWorld
         var character = Character is { IsActive: true } active ? active : null;
         _kinematics.BeginStep(_clock.Time, seconds);
         character?.BeginStep();
-        var parts = CountParts(seconds);
+        var parts = CountSubsteps(seconds);
         for (var part = 0; part < parts; part++)
         {
             _isFirstPart = part == 0;
-            StepPart(character, part * seconds / parts, seconds / parts);
+            StepSubstep(character, part * seconds / parts, seconds / parts);
         }
 
         for (var i = 0; _hasStepForces && i < _bodies.Count; i++)
@@ -68,7 +68,7 @@ public sealed partial class PhysicsWorld
     }
 
     /// <summary>Makes one of the parts of a step.</summary>
-    private void StepPart(CharacterController? character, double elapsed, double seconds)
+    private void StepSubstep(CharacterController? character, double elapsed, double seconds)
     {
         BeginPartShared();
         _kinematics.BeginPart(_clock.Time + elapsed, seconds);
@@ -166,7 +166,7 @@ public sealed partial class PhysicsWorld
                 _stepper.Step(body, colliders, character, seconds, StepCount);
             }
         }
-        catch (ArgumentOutOfRangeException exception)
+        catch (ArgumentOutOfRangeException exception) when (exception.ActualValue is Vector)
         {
             throw CreateRangeException(body, exception);
         }
@@ -186,7 +186,7 @@ public sealed partial class PhysicsWorld
                 character.Step(seconds);
             }
         }
-        catch (ArgumentOutOfRangeException exception)
+        catch (ArgumentOutOfRangeException exception) when (exception.ActualValue is Vector)
         {
             throw new InvalidOperationException($"the character has left the range of a double in step {StepCount}", exception);
         }

@@ -9,8 +9,8 @@ using FractalEngine.Core.Scenes;
 namespace FractalEngine.Core.Physics;
 
 /// <summary>
-/// Spheres that move under gravity among meshes, fractals and each other (paper §4.4). Made empty or from a scene; bodies and static
-/// objects may be added at any time.
+/// Balls, compounds and a character that move under gravity among meshes, fractals, moving objects and each other (paper §4.4). Made empty
+/// or from a scene; bodies and static objects may be added at any time.
 /// </summary>
 /// <remarks>
 /// Deterministic: the same calls give the same bits. A step allocates nothing once all colliders are built. For one thread at a time.

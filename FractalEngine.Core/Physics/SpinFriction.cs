@@ -108,7 +108,7 @@ internal sealed class SpinFriction(List<Body> bodies)
 
         return new()
         {
-            First = 0, Second = ContactRow.Firm, Normal = normal, FirstRadius = body.Radius, Friction = friction,
+            First = 0, Second = ContactRow.Immovable, Normal = normal, FirstRadius = body.Radius, Friction = friction,
             RollingArm = body.Description.RollingFriction * body.Radius,
             SpinningArm = body.Description.SpinningFriction * body.Radius,
         };

@@ -10,7 +10,7 @@ internal interface IPointMeasure
     double UpperBound(SubFractal subFractal, in AffineMap map);
 
     /// <summary>Computes the largest value over the vertices of a mesh's image under a map.</summary>
-    double Largest(Mesh mesh, in AffineMap map);
+    double MaxOverVertices(Mesh mesh, in AffineMap map);
 
     /// <summary>What of a map the values depend on: maps with equal keys have equal values. Null where that is unknown.</summary>
     (Vector Direction, double Offset)? Key(in AffineMap map);
@@ -50,7 +50,7 @@ internal sealed class FarthestPointSearch(Fractal fractal)
 
         if (hierarchy.Root.Children.Length == 0)
         {
-            return measure.Largest(fractal.BaseMesh, in map);
+            return measure.MaxOverVertices(fractal.BaseMesh, in map);
         }
 
         _open.Clear();
@@ -82,7 +82,7 @@ internal sealed class FarthestPointSearch(Fractal fractal)
 
                 var childMap = opened.Map * child.Map;
                 var bound = levels == 0
-                    ? measure.Largest(fractal.BaseMesh, in childMap)
+                    ? measure.MaxOverVertices(fractal.BaseMesh, in childMap)
                     : Math.Min(node.Bound, measure.UpperBound(subFractal, in childMap));
                 // Ties are common in symmetric fractals: of bounds that are equal to the tolerance the deepest is taken first.
                 var priority = (tolerance > 0 ? -Math.Round(bound / tolerance) : -bound, -(opened.Depth + 1));

@@ -3,7 +3,7 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Physics.Compounds;
 
 /// <summary>Finds and keeps what the balls of a compound touch. Obstacles must be set up for the compound.</summary>
-internal sealed class CompoundContacts(List<Body> bodies, Obstacles obstacles)
+internal sealed class CompoundContacts(Obstacles obstacles)
 {
     // Of a ball's radius: overlaps up to this are taken back as rounding.
     private const double MaxRoundingOverlap = 1e-6;
@@ -140,20 +140,6 @@ internal sealed class CompoundContacts(List<Body> bodies, Obstacles obstacles)
         {
             body.Position += _planes.ProjectOrZero(Vector.Zero);
         }
-    }
-
-    /// <summary>True where a ball touches a body that is awake.</summary>
-    public bool TouchesAwake(Body body)
-    {
-        foreach (var ball in body.Balls)
-        {
-            if (ball.Contacts.HasAwakeBody(bodies))
-            {
-                return true;
-            }
-        }
-
-        return false;
     }
 
     private Vector Select(Body body, int ball)

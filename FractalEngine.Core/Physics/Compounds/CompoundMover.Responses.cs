@@ -73,13 +73,13 @@ internal sealed partial class CompoundMover
                 }
 
                 var other = _bodies[contact.BodyIndex];
-                var isFirm = other.IsAsleep || other.IsStuck;
-                if (isFirm || withAwake)
+                var isImmovable = other.IsAsleep || other.IsStuck;
+                if (isImmovable || withAwake)
                 {
                     var row = new ContactRow();
-                    ContactRows.SetBalls(ref row, body, i, other, FindBall(other, contact.Point), isFirm, isAhead: false);
+                    ContactRows.SetBalls(ref row, body, i, other, FindBall(other, contact.Point), isImmovable, isAhead: false);
                     _rows.Add(row);
-                    if (!isFirm && !_members.Contains(other.Index))
+                    if (!isImmovable && !_members.Contains(other.Index))
                     {
                         _members.Add(other.Index);
                     }

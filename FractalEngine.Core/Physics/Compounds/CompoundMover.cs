@@ -47,7 +47,7 @@ internal sealed partial class CompoundMover
         _obstacles = obstacles;
         _islands = islands;
         _planner = planner;
-        _contacts = new(bodies, obstacles);
+        _contacts = new(obstacles);
         _sweep = new(obstacles);
         _overlapResolver = new(obstacles);
     }
@@ -75,7 +75,7 @@ internal sealed partial class CompoundMover
             _contacts.AddTouchedBodies(body);
             if (!TryRespond(body))
             {
-                // What gives way does so in its own step. Until then it is as firm as the ground, and this body waits.
+                // What gives way does so in its own step. Until then it is as immovable as the ground, and this body waits.
                 break;
             }
 
@@ -202,7 +202,7 @@ internal sealed partial class CompoundMover
         return end;
     }
 
-    /// <summary>Takes back what contacts have added to the energy of a body: what is firm does no work.</summary>
+    /// <summary>Takes back what contacts have added to the energy of a body: what is immovable does no work.</summary>
     private static void LimitEnergy(Body body, double limit)
     {
         var energy = body.KineticEnergy;

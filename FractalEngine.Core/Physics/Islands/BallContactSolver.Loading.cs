@@ -28,7 +28,7 @@ internal sealed partial class BallContactSolver
             }
         }
 
-        Load(_groups[0], rows, _firstFirm);
+        Load(_groups[0], rows, _firstImmovable);
         LoadTurns(_groups[0], rows);
     }
 
@@ -50,7 +50,7 @@ internal sealed partial class BallContactSolver
         var largest = 0.0;
         foreach (var group in _groups.AsSpan(0, groupCount))
         {
-            largest = Math.Max(largest, group.LargestImpulse);
+            largest = Math.Max(largest, group.MaxStoppingImpulse);
             LoadTurns(group, graph.RowsOf(in island));
         }
 
@@ -65,7 +65,7 @@ internal sealed partial class BallContactSolver
             ref readonly var row = ref _rows[i];
             Store(i, ref rows[i]);
             _bodies[row.First].CopyTo(ref bodies[row.First]);
-            if (row.Second < _firstFirm)
+            if (row.Second < _firstImmovable)
             {
                 _bodies[row.Second].CopyTo(ref bodies[row.Second]);
             }
@@ -107,14 +107,14 @@ internal sealed partial class BallContactSolver
     {
         var group = _groups[index];
         var rows = _graph!.RowsOf(in _island);
-        Load(group, rows, _firstFirm + (FirmStride * index));
+        Load(group, rows, _firstImmovable + (ImmovableStride * index));
         var largest = 0.0;
         foreach (ref readonly var row in rows.Slice(group.First, group.Count))
         {
-            largest = Math.Max(largest, ContactSolver.LargestImpulse(in row, _solverBodies));
+            largest = Math.Max(largest, ContactSolver.StoppingImpulse(in row, _solverBodies));
         }
 
-        group.LargestImpulse = largest;
+        group.MaxStoppingImpulse = largest;
     }
 
     private void StoreGroup(int index)
@@ -137,20 +137,20 @@ internal sealed partial class BallContactSolver
     {
         Reserve(rowCount, bodyCount);
         SetGroups(rowCount, partEnds);
-        _firstFirm = bodyCount;
+        _firstImmovable = bodyCount;
         _surfaceCount = 0;
-        Array.Clear(_bodies, _firstFirm, FirmCount);
+        Array.Clear(_bodies, _firstImmovable, ImmovableCount);
         _hasTurns = false;
         _share = 0;
     }
 
-    private void Load(Group group, ReadOnlySpan<ContactRow> rows, int firm)
+    private void Load(Group group, ReadOnlySpan<ContactRow> rows, int immovable)
     {
         var hasTurns = false;
         for (var i = group.First; i < group.First + group.Count; i++)
         {
             ref readonly var row = ref rows[i];
-            _rows[i] = new(in row, row.Second >= 0 ? row.Second : row.IsOnMovingSurface ? AddSurface(in row) : firm);
+            _rows[i] = new(in row, row.Second >= 0 ? row.Second : row.IsOnMovingSurface ? AddSurface(in row) : immovable);
             _changes[i] = Vector256<double>.Zero;
             _directions[i] = Vector256<double>.Zero;
             hasTurns |= Turn.SlowsDown(in row);
@@ -190,7 +190,7 @@ internal sealed partial class BallContactSolver
     /// <summary>Adds a body of infinite mass that moves like a surface.</summary>
     private int AddSurface(in ContactRow row)
     {
-        var index = _firstFirm + FirmCount + _surfaceCount++;
+        var index = _firstImmovable + ImmovableCount + _surfaceCount++;
         if (index == _bodies.Length)
         {
             Array.Resize(ref _bodies, 2 * _bodies.Length);
@@ -202,10 +202,10 @@ internal sealed partial class BallContactSolver
 
     private void Reserve(int rowCount, int bodyCount)
     {
-        if (_bodies.Length < bodyCount + FirmCount)
+        if (_bodies.Length < bodyCount + ImmovableCount)
         {
             // Room for a moving surface under each.
-            _bodies = new Body[(2 * bodyCount) + FirmCount];
+            _bodies = new Body[(2 * bodyCount) + ImmovableCount];
         }
 
         if (_rows.Length < rowCount)

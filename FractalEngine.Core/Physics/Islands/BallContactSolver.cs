@@ -15,8 +15,8 @@ internal sealed partial class BallContactSolver
     private const int InitialCapacity = 256;
     private const int ContactsPerBody = 4;
     private const int NormalLane = 3;
-    private const int FirmStride = 2;
-    private const int FirmCount = FirmStride * (IslandParts.MaxCount + 1);
+    private const int ImmovableStride = 2;
+    private const int ImmovableCount = ImmovableStride * (IslandParts.MaxCount + 1);
 
     // The last group has the contacts between parts.
     private readonly Group[] _groups = [.. Enumerable.Range(0, IslandParts.MaxCount + 1).Select(static _ => new Group())];
@@ -27,7 +27,7 @@ internal sealed partial class BallContactSolver
     private readonly Action<int> _loadGroup;
     private readonly Action<int> _storeBodies;
     private readonly Action<int> _storeGroup;
-    private Body[] _bodies = new Body[(2 * InitialCapacity) + FirmCount];
+    private Body[] _bodies = new Body[(2 * InitialCapacity) + ImmovableCount];
     private Row[] _rows = new Row[InitialCapacity];
     private Turn[] _turns = new Turn[InitialCapacity];
     private Vector256<double>[] _changes = new Vector256<double>[InitialCapacity];
@@ -43,7 +43,7 @@ internal sealed partial class BallContactSolver
 
     // The first of the bodies that stand for surfaces and for what does not give way: they have infinite mass. One of each group rests,
     // and each moving surface has its own. Threads write zeros to them, and so they are some lines of the cache apart.
-    private int _firstFirm;
+    private int _firstImmovable;
     private int _surfaceCount;
 
     public BallContactSolver(int maxThreads)
@@ -230,7 +230,7 @@ internal sealed partial class BallContactSolver
 
         public double MaxImpulse { get; set; }
 
-        public double LargestImpulse { get; set; }
+        public double MaxStoppingImpulse { get; set; }
 
         public bool HasTurns { get; set; }
     }

@@ -54,7 +54,7 @@ internal sealed partial class ContactGraph
             {
                 FirstRow = firstRow,
                 RowCount = _count - firstRow,
-                IsFree = (kinds & RowKinds.Firm) == 0,
+                IsFree = (kinds & RowKinds.Immovable) == 0,
                 IsPushed = (kinds & RowKinds.Pushing) != 0,
                 HasMovingSurface = (kinds & RowKinds.Moving) != 0,
             };

@@ -81,13 +81,13 @@ internal sealed partial class ContactGraph
         foreach (var neighbour in _neighbours)
         {
             ref readonly var other = ref _states[neighbour];
-            var isFirm = !other.CanMove;
-            var isInOrder = isFirm || index < neighbour;
+            var isImmovable = !other.CanMove;
+            var isInOrder = isImmovable || index < neighbour;
             var gap = GapOf(index, neighbour, isInOrder);
             var isFound = (other.HasLooked && gap <= 2 * other.Reach) || IsFound(in body, in other, gap);
             if (!isFound && gap <= body.Reach + other.Reach && !AreTouching(index, neighbour, isInOrder, gap))
             {
-                _found.Add(isInOrder ? new(index, neighbour, isFirm, false) : new(neighbour, index, false, false));
+                _found.Add(isInOrder ? new(index, neighbour, isImmovable, false) : new(neighbour, index, false, false));
             }
         }
 
@@ -133,7 +133,7 @@ internal sealed partial class ContactGraph
             if (pair is { IsMeeting: true, IsRow: false })
             {
                 pair.IsRow = true;
-                if (!pair.IsSecondFirm)
+                if (!pair.IsSecondImmovable)
                 {
                     _sets.Join(pair.First, pair.Second);
                     hasJoined = true;
@@ -148,7 +148,7 @@ internal sealed partial class ContactGraph
     {
         foreach (ref var pair in PairsOfJob(job))
         {
-            pair.IsMeeting = !pair.IsRow && (_sets.IsJoined(pair.First) || (!pair.IsSecondFirm && _sets.IsJoined(pair.Second)))
+            pair.IsMeeting = !pair.IsRow && (_sets.IsJoined(pair.First) || (!pair.IsSecondImmovable && _sets.IsJoined(pair.Second)))
                 && MayMeet(in pair);
         }
     }
@@ -158,7 +158,7 @@ internal sealed partial class ContactGraph
     {
         foreach (ref var pair in PairsOfJob(job))
         {
-            pair.IsRow = IsPushed(in pair) ? MayMeet(in pair) : pair.IsTouching && (pair.IsSecondFirm || !IsSeparating(in pair));
+            pair.IsRow = IsPushed(in pair) ? MayMeet(in pair) : pair.IsTouching && (pair.IsSecondImmovable || !IsSeparating(in pair));
         }
     }
 
@@ -176,7 +176,7 @@ internal sealed partial class ContactGraph
         var way = _stepLength * RelativeVelocity(in pair);
         var wayLengthSquared = way.LengthSquared();
         var share = wayLengthSquared > 0 ? Math.Clamp(-Vector.Dot(offset, way) / wayLengthSquared, 0, 1) : 0;
-        var distance = first.Radius + second.Radius + DeviationLimit(in first) + (pair.IsSecondFirm ? 0 : DeviationLimit(in second));
+        var distance = first.Radius + second.Radius + DeviationLimit(in first) + (pair.IsSecondImmovable ? 0 : DeviationLimit(in second));
         return (offset + (share * way)).LengthSquared() <= distance * distance;
     }
 }

@@ -111,18 +111,19 @@ internal sealed partial class ContactGraph
         }
 
         var firstPair = place;
-        var hasFirm = false;
+        var hasImmovable = false;
         var pairs = CollectionsMarshal.AsSpan(_pairs);
         foreach (var pair in CollectionsMarshal.AsSpan(_partPairs)[_partStarts[part].._partStarts[part + 1]])
         {
-            hasFirm |= pairs[pair].IsSecondFirm;
+            hasImmovable |= pairs[pair].IsSecondImmovable;
             ref var row = ref _rows[place++];
             ContactRow.Clear(ref row);
             SetBalls(ref row, in pairs[pair]);
         }
 
-        // Balls alone are neither firm nor moving, unless one of them sleeps or is stuck.
-        _partKinds[part] = Examine(_rows.AsSpan(_partRows[part], firstPair - _partRows[part])) | (hasFirm ? RowKinds.Firm : RowKinds.None);
+        // Balls alone are neither immovable nor moving, unless one of them sleeps or is stuck.
+        _partKinds[part] = Examine(_rows.AsSpan(_partRows[part], firstPair - _partRows[part]))
+            | (hasImmovable ? RowKinds.Immovable : RowKinds.None);
     }
 
     private void SortBodiesByParts(ReadOnlySpan<int> island, int partCount)

@@ -92,5 +92,5 @@ internal sealed partial class ContactGraph
     }
 
     private bool IsPushed(in BodyPair pair) =>
-        _states[pair.First].KinematicPush > 0 || (!pair.IsSecondFirm && _states[pair.Second].KinematicPush > 0);
+        _states[pair.First].KinematicPush > 0 || (!pair.IsSecondImmovable && _states[pair.Second].KinematicPush > 0);
 }

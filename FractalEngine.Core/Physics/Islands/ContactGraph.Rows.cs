@@ -15,7 +15,7 @@ internal sealed partial class ContactGraph
         var kinds = RowKinds.None;
         foreach (ref readonly var row in rows)
         {
-            kinds |= row.Second >= 0 ? RowKinds.None : RowKinds.Firm;
+            kinds |= row.Second >= 0 ? RowKinds.None : RowKinds.Immovable;
             kinds |= row.SurfaceWay != Vector.Zero ? RowKinds.Pushing : RowKinds.None;
             kinds |= row.IsOnMovingSurface ? RowKinds.Moving : RowKinds.None;
         }
@@ -86,7 +86,7 @@ internal sealed partial class ContactGraph
         var other = bodies[pair.Second];
         var limit = DeviationLimit(pair.First) + (_stepLength * body.AngularVelocity.Length() * body.MaxArm)
             + (_stepLength * RelativeVelocity(in pair).Length());
-        limit += pair.IsSecondFirm ? 0 : DeviationLimit(pair.Second) + (_stepLength * other.AngularVelocity.Length() * other.MaxArm);
+        limit += pair.IsSecondImmovable ? 0 : DeviationLimit(pair.Second) + (_stepLength * other.AngularVelocity.Length() * other.MaxArm);
         for (var i = 0; i < body.BallCount; i++)
         {
             for (var j = 0; j < other.BallCount; j++)
@@ -103,7 +103,7 @@ internal sealed partial class ContactGraph
     private void AddBalls(in BodyPair pair, int ball, int otherBall, bool isAhead)
     {
         ref var row = ref AddRow();
-        ContactRows.SetBalls(ref row, bodies[pair.First], ball, bodies[pair.Second], otherBall, pair.IsSecondFirm, isAhead);
+        ContactRows.SetBalls(ref row, bodies[pair.First], ball, bodies[pair.Second], otherBall, pair.IsSecondImmovable, isAhead);
         RemoveRestitution(ref row, in pair);
     }
 
@@ -113,7 +113,7 @@ internal sealed partial class ContactGraph
         ref readonly var first = ref _states[pair.First];
         ref readonly var second = ref _states[pair.Second];
         row.First = pair.First;
-        row.Second = pair.IsSecondFirm ? ContactRow.Firm : pair.Second;
+        row.Second = pair.IsSecondImmovable ? ContactRow.Immovable : pair.Second;
         row.IsAhead = !pair.IsTouching;
         ContactRows.SetBalls(ref row, first.Position - second.Position, first.Radius, second.Radius);
         ContactRows.SetMaterials(ref row, in _materials[pair.First], in _materials[pair.Second]);
@@ -139,12 +139,12 @@ internal sealed partial class ContactGraph
         }
     }
 
-    /// <summary>What is among contacts: something firm, what pushes, and what moves.</summary>
+    /// <summary>What is among contacts: something immovable, what pushes, and what moves.</summary>
     [Flags]
     private enum RowKinds
     {
         None = 0,
-        Firm = 1,
+        Immovable = 1,
         Pushing = 2,
         Moving = 4,
     }

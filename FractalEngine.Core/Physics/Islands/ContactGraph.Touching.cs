@@ -109,18 +109,18 @@ internal sealed partial class ContactGraph
                 continue;
             }
 
-            var isFirm = !other.CanMove;
-            var isInOrder = isFirm || index < neighbour;
+            var isImmovable = !other.CanMove;
+            var isInOrder = isImmovable || index < neighbour;
             var gap = GapOf(index, neighbour, isInOrder);
             var isTouching = gap <= maxTouchGap && AreTouching(index, neighbour, isInOrder, gap);
             // Of two that search, the first one finds the pair that touches, and stores the one that both find near.
             if (isTouching && (isInOrder || !other.MaySearch))
             {
-                search.Pairs.Add(isInOrder ? new(index, neighbour, isFirm, true) : new(neighbour, index, false, true));
+                search.Pairs.Add(isInOrder ? new(index, neighbour, isImmovable, true) : new(neighbour, index, false, true));
             }
             else if (!isTouching && gap <= maxNearGap && !(neighbour < index && gap <= other.NearDistance))
             {
-                search.NearPairs.Add(new(isInOrder ? new(index, neighbour, isFirm, false) : new(neighbour, index, false, false), gap));
+                search.NearPairs.Add(new(isInOrder ? new(index, neighbour, isImmovable, false) : new(neighbour, index, false, false), gap));
             }
         }
 

@@ -106,7 +106,7 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
             _states[pair.First].IsTouching = true;
             _states[pair.Second].IsTouching = true;
             pair.IsRow = true;
-            if (!pair.IsSecondFirm)
+            if (!pair.IsSecondImmovable)
             {
                 _sets.Join(pair.First, pair.Second);
             }
@@ -131,7 +131,7 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
         var hasChanged = false;
         foreach (ref readonly var pair in CollectionsMarshal.AsSpan(_pairs))
         {
-            if (pair is { IsRow: true, IsSecondFirm: false })
+            if (pair is { IsRow: true, IsSecondImmovable: false })
             {
                 _sets.Join(pair.First, pair.Second);
                 hasChanged = true;
@@ -218,7 +218,7 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
 
     private static double DeviationLimit(in GraphBody body) => body.Slack + body.Push + body.KinematicPush;
 
-    private Vector RelativeVelocity(in BodyPair pair) => pair.IsSecondFirm
+    private Vector RelativeVelocity(in BodyPair pair) => pair.IsSecondImmovable
         ? _states[pair.First].Velocity : _states[pair.First].Velocity - _states[pair.Second].Velocity;
 
     /// <summary>True for two bodies that come apart faster than gravity could bring them together again in this step.</summary>

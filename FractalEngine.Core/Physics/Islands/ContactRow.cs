@@ -6,7 +6,7 @@ namespace FractalEngine.Core.Physics.Islands;
 internal struct ContactRow
 {
     /// <summary>In place of a second body: a surface, or a body that does not give way.</summary>
-    public const int Firm = -1;
+    public const int Immovable = -1;
 
     // Above the bits of both indices, unless there are millions of bodies: then contacts may be taken for others, and begin badly.
     private const int PartShift = 52;
@@ -14,7 +14,7 @@ internal struct ContactRow
     /// <summary>Index of the body on the normal's side.</summary>
     public int First;
 
-    /// <summary>Index of the other body, or <see cref="Firm"/>.</summary>
+    /// <summary>Index of the other body, or <see cref="Immovable"/>.</summary>
     public int Second;
 
     /// <summary>Which balls of the two bodies touch.</summary>
@@ -123,13 +123,13 @@ internal struct ContactRow
         }
     }
 
-    /// <summary>Velocity of a firm surface that moves, at the touching point.</summary>
+    /// <summary>Velocity of a surface that moves, at the touching point.</summary>
     public readonly Vector SurfaceVelocity => _hasSurface ? _surfaceVelocity : Vector.Zero;
 
-    /// <summary>Angular velocity of a firm surface that turns.</summary>
+    /// <summary>Angular velocity of a surface that turns.</summary>
     public readonly Vector SurfaceSpin => _hasSurface ? _surfaceSpin : Vector.Zero;
 
-    /// <summary>How far a firm surface goes in the step, its belt aside.</summary>
+    /// <summary>How far a surface goes in the step, its belt aside.</summary>
     public readonly Vector SurfaceWay => _hasSurface ? _surfaceWay : Vector.Zero;
 
     /// <summary>True for the contact with a surface that moves or turns.</summary>
@@ -165,7 +165,7 @@ internal struct ContactRow
         _turnShift = Vector.Zero;
     }
 
-    /// <summary>Sets how a firm surface moves.</summary>
+    /// <summary>Sets how the surface moves.</summary>
     public void SetSurface(Vector velocity, Vector spin, Vector way)
     {
         _hasSurface = true;

@@ -19,7 +19,7 @@ internal static class ContactRows
         var row = new ContactRow
         {
             First = body.Index,
-            Second = ContactRow.Firm,
+            Second = ContactRow.Immovable,
             Offset = contact.PointToCentre(body.BallCentre(ball)),
             MinDistance = body.BallRadius(ball),
             FirstRadius = body.BallRadius(ball),
@@ -65,12 +65,12 @@ internal static class ContactRows
     /// <param name="ball">Index of its ball.</param>
     /// <param name="other">The other body.</param>
     /// <param name="otherBall">Index of the other one's ball.</param>
-    /// <param name="isFirm">True where the other one does not give way.</param>
+    /// <param name="isImmovable">True where the other one does not give way.</param>
     /// <param name="isAhead">True where they do not touch yet.</param>
-    public static void SetBalls(ref ContactRow row, Body body, int ball, Body other, int otherBall, bool isFirm, bool isAhead)
+    public static void SetBalls(ref ContactRow row, Body body, int ball, Body other, int otherBall, bool isImmovable, bool isAhead)
     {
         row.First = body.Index;
-        row.Second = isFirm ? ContactRow.Firm : other.Index;
+        row.Second = isImmovable ? ContactRow.Immovable : other.Index;
         row.IsAhead = isAhead;
         SetBalls(ref row, body.BallCentre(ball) - other.BallCentre(otherBall), body.BallRadius(ball), other.BallRadius(otherBall));
         SetMaterials(ref row, new(body.Description), new(other.Description));

@@ -259,14 +259,14 @@ internal sealed partial class ContactSolver(int maxThreads = 1)
         var impulse = 0.0;
         foreach (ref readonly var row in rows)
         {
-            impulse = Math.Max(impulse, LargestImpulse(in row, _bodies));
+            impulse = Math.Max(impulse, StoppingImpulse(in row, _bodies));
         }
 
         return RelativeRounding * impulse;
     }
 
     /// <summary>The impulse that would stop a contact's bodies.</summary>
-    public static double LargestImpulse(in ContactRow row, ReadOnlySpan<SolverBody> bodies)
+    public static double StoppingImpulse(in ContactRow row, ReadOnlySpan<SolverBody> bodies)
     {
         var speed = bodies[row.First].Velocity.MaxAbsComponent();
         speed = row.Second >= 0 ? Math.Max(speed, bodies[row.Second].Velocity.MaxAbsComponent()) : speed;

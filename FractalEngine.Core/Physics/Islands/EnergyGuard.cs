@@ -4,7 +4,7 @@ namespace FractalEngine.Core.Physics.Islands;
 
 /// <summary>
 /// Takes back what an island has gained in its planned motion: by rounding, by forces that did not converge, or since a body was stopped
-/// by something that no plan knew. Its velocities are scaled, about that of its centre of mass where it touches nothing firm.
+/// by something that no plan knew. Its velocities are scaled, about that of its centre of mass where it touches nothing immovable.
 /// </summary>
 internal sealed class EnergyGuard
 {

@@ -8,7 +8,7 @@ internal readonly struct Gap
     /// <summary>Index of the body on the normal's side.</summary>
     public readonly int First;
 
-    /// <summary>Index of the other body, or <see cref="ContactRow.Firm"/>.</summary>
+    /// <summary>Index of the other body, or <see cref="ContactRow.Immovable"/>.</summary>
     public readonly int Second;
 
     /// <summary>Vector between the centres, or from the surface's point, before either body goes its way.</summary>

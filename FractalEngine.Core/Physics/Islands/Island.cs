@@ -16,13 +16,13 @@ internal readonly record struct Island(int FirstRow, int RowCount, int FirstBody
     /// <summary>Place of the end of its first part's contacts, where it has several.</summary>
     public int FirstPartEnd { get; init; }
 
-    /// <summary>True where it touches nothing firm, so that its momentum is its own.</summary>
+    /// <summary>True where it touches nothing immovable, so that its momentum is its own.</summary>
     public bool IsFree { get; init; }
 
-    /// <summary>True where a surface that it touches, or may meet, moves.</summary>
+    /// <summary>True where a surface that it touches, or may meet, will be elsewhere at the end of the step; a belt will not.</summary>
     public bool IsPushed { get; init; }
 
-    /// <summary>True where a surface that it touches, or may meet, has a velocity.</summary>
+    /// <summary>True where a surface that it touches, or may meet, has any velocity: it moves, turns, or is a belt.</summary>
     public bool HasMovingSurface { get; init; }
 
     /// <summary>True where one of its bodies is a compound.</summary>

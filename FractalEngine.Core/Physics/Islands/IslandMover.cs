@@ -95,7 +95,7 @@ internal sealed partial class IslandMover
         while (pairIndex < pairs.Length)
         {
             ref readonly var pair = ref pairs[pairIndex++];
-            if (!pair.IsSecondFirm && (_graph.IslandOf(pair.First) >= 0) != (_graph.IslandOf(pair.Second) >= 0))
+            if (!pair.IsSecondImmovable && (_graph.IslandOf(pair.First) >= 0) != (_graph.IslandOf(pair.Second) >= 0))
             {
                 var isFirstMember = _graph.IslandOf(pair.First) >= 0;
                 var member = _bodies[isFirstMember ? pair.First : pair.Second];
@@ -125,7 +125,7 @@ internal sealed partial class IslandMover
         var radius = body.BallRadius(ball);
         _unplanned.Add(new()
         {
-            First = body.Index, Second = ContactRow.Firm, Offset = hit.PointToCentre(body.PlannedStart + offset), MinDistance = radius,
+            First = body.Index, Second = ContactRow.Immovable, Offset = hit.PointToCentre(body.PlannedStart + offset), MinDistance = radius,
             Normal = hit.CachedNormal, FirstRadius = radius,
         });
     }

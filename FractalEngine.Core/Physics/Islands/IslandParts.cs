@@ -31,7 +31,7 @@ internal sealed class IslandParts
 
     /// <summary>The part of a pair; that behind the last one for a pair across a cut.</summary>
     public int PartOf(in BodyPair pair, int count) =>
-        pair.IsSecondFirm || _partOf[pair.First] == _partOf[pair.Second] ? _partOf[pair.First] : count;
+        pair.IsSecondImmovable || _partOf[pair.First] == _partOf[pair.Second] ? _partOf[pair.First] : count;
 
     /// <summary>Makes room for the bodies of a world, so that steps allocate nothing.</summary>
     public void Reserve(int bodyCount)

@@ -6,7 +6,7 @@ namespace FractalEngine.Core.Physics.Islands;
 /// <content>How the plan follows the turns of compounds, and plans for one of them alone.</content>
 internal sealed partial class IslandPlanner
 {
-    /// <summary>Takes away all approaching velocities of a few bodies, of which one may be firm to all others.</summary>
+    /// <summary>Takes away all approaching velocities of a few bodies, of which one may be immovable to all others.</summary>
     /// <param name="members">Indices of the bodies.</param>
     /// <param name="rows">Their contacts.</param>
     public void StopApproachesOf(ReadOnlySpan<int> members, Span<ContactRow> rows)
@@ -19,7 +19,7 @@ internal sealed partial class IslandPlanner
 
     /// <summary>Finds the forces on one body that lead it into none of its contacts.</summary>
     /// <param name="members">Its index.</param>
-    /// <param name="rows">Its contacts, all with what is firm.</param>
+    /// <param name="rows">Its contacts, all with what is immovable.</param>
     /// <param name="duration">Seconds.</param>
     /// <param name="planned">Receives the velocities whose mean with those at the beginning is the way.</param>
     /// <returns>The velocities at the end of that time: what it has met meanwhile does not throw it back.</returns>

@@ -88,7 +88,7 @@ internal sealed class OverlapSeparator
             hasMoved = hasMoved && !(StaysWithinReach(in island) && isEnded);
         }
 
-        // Last, since what is firm gives way to nothing.
+        // Last, since what is immovable gives way to nothing.
         WorkerSet.Shared.Run(island.PartCount, _maxThreads, _takeBackSurfaces);
         for (var i = 0; i < others.Length; i++)
         {
