@@ -86,9 +86,9 @@ public static class FractalLimits
 
     /// <summary>The limit of <see cref="MaxHierarchyChildren"/>.</summary>
     public static Limit HierarchyChildren { get; } = new(
-        "hierarchy-children", 200_000, "transformations on all levels that exact search and culling build", "about 500 MB");
+        "hierarchy-children", 110_000, "transformations on all levels that exact search and culling build", "about 85 MB");
 
-    /// <summary>Maximum number of transformations on all levels that a hierarchy is built of: about 500 MB.</summary>
+    /// <summary>Maximum number of transformations on all levels that a hierarchy is built of: about 85 MB.</summary>
     public static int MaxHierarchyChildren => (int)HierarchyChildren.Value;
 
     /// <summary>The limit of <see cref="MaxTracedTests"/>.</summary>
