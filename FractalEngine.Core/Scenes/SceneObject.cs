@@ -87,7 +87,7 @@ public record SceneObject
     public Vector Belt
     {
         get => _options.Belt;
-        init => _options = _options.Belt == value ? _options : _options with { Belt = value };
+        init => _options = _options with { Belt = value };
     }
 
     /// <summary>The name for messages: the object's own, or that of its file or model.</summary>
