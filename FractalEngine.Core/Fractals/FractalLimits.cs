@@ -98,11 +98,18 @@ public static class FractalLimits
     /// <summary>Maximum number of bounds and faces that a path of light of a traced image tests, on average over some pixels.</summary>
     public static long MaxTracedTests => TracedTests.Value;
 
+    /// <summary>The limit of <see cref="MaxDescentTests"/>.</summary>
+    public static Limit DescentTests { get; } = new(
+        "descent-tests", 100_000_000, "faces that a query of the collider 'fractal' tests", "some seconds", 1_000_000_000_000);
+
+    /// <summary>Maximum number of faces that a query of the paper's descent tests: some seconds.</summary>
+    public static long MaxDescentTests => DescentTests.Value;
+
     /// <summary>All limits of fractals, in the order of a listing.</summary>
     public static ImmutableArray<Limit> All { get; } =
     [
         Depth, Levels, Digits, Steps, Nesting, DrawnInstances, ExportedFaces, CountedInstances, EnumeratedInstances,
-        ComparedProducts, ComponentwiseSums, HierarchyChildren, TracedTests,
+        ComparedProducts, ComponentwiseSums, HierarchyChildren, TracedTests, DescentTests,
     ];
 
     /// <summary>

@@ -8,14 +8,15 @@ namespace FractalEngine.Core.Fractals.Hierarchy;
 /// <param name="clusters">Finds what outliers throw away.</param>
 internal sealed class LevelUnion(BuiltLevels built, OutlierClusters clusters)
 {
-    // The hull of more vertices is that of the hulls of parts: wide levels have millions of vertices.
-    private const int MaxVerticesAtOnce = 1 << 16;
-
-    // What a hull allocates is then so small that the collector returns it at once.
-    private const int MaxVerticesOfPart = 1 << 13;
+    // The hull of more vertices is that of the hulls of parts: wide levels have millions of vertices, and the arrays of some thousand
+    // are so large that the collector keeps them for long.
+    private const int MaxVerticesAtOnce = 1 << 13;
 
     // The hull of a part is this much finer than that of the whole, which is hardly wider than if it were built at once.
     private const int MaxHullVerticesOfPart = 256;
+
+    // Serves all levels.
+    private Vector[] _part = [];
 
     /// <summary>Computes the bounds of the union of what the edges of a level lead to.</summary>
     /// <param name="edges">The edges.</param>
@@ -117,7 +118,8 @@ internal sealed class LevelUnion(BuiltLevels built, OutlierClusters clusters)
     private (Vector[] Vertices, double MaxOutsideDistance) CollectExtremeVertices(IEnumerable<CollapsedEdge> edges, double rounding)
     {
         var extremes = new List<Vector>();
-        var part = new Vector[MaxVerticesOfPart];
+        _part = _part.Length > 0 ? _part : new Vector[MaxVerticesAtOnce];
+        var part = _part;
         var count = 0;
         var maxOutsideDistance = 0.0;
         foreach (var edge in edges)
