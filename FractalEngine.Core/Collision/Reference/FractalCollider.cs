@@ -131,7 +131,8 @@ public sealed partial class FractalCollider : Collider
         if (count > FractalLimits.MaxDescentTests)
         {
             throw new FractalLimitException(
-                $"the descent of a query tests more than the limit of {FractalLimits.MaxDescentTests} faces: its cost grows with the depth");
+                $"the descent of a query tests more than the limit of {FractalLimits.MaxDescentTests} faces: "
+                + "its cost grows with the depth");
         }
     }
 

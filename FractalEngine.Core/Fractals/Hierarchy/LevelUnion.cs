@@ -114,7 +114,7 @@ internal sealed class LevelUnion(BuiltLevels built, OutlierClusters clusters)
         return vertices;
     }
 
-    /// <summary>Collects the vertices of hulls, each around a part of the vertices, and how far vertices lie outside of their hull.</summary>
+    /// <summary>Collects the vertices of hulls, each around a part of the vertices, and how far vertices lie outside of them.</summary>
     private (Vector[] Vertices, double MaxOutsideDistance) CollectExtremeVertices(IEnumerable<CollapsedEdge> edges, double rounding)
     {
         var extremes = new List<Vector>();
