@@ -1,4 +1,5 @@
 using System.Diagnostics.CodeAnalysis;
+using System.Runtime.InteropServices;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
@@ -56,7 +57,13 @@ public sealed partial class SceneCollider
         _kind = kind;
         _sharedColliders = scene.Models.ToDictionary(
             model => model, model => cache?.GetOrAdd(model, kind, () => CreateCollider(model)) ?? new(() => CreateCollider(model)));
-        _objects = SceneObjects.Of([.. scene.Objects.Select((placed, index) => CreateInstance(index, placed))]);
+        var instances = new ColliderInstance[scene.Objects.Length];
+        for (var i = 0; i < instances.Length; i++)
+        {
+            instances[i] = CreateInstance(i, scene.Objects[i]);
+        }
+
+        _objects = SceneObjects.Of(ImmutableCollectionsMarshal.AsImmutableArray(instances));
     }
 
     private SceneCollider(SceneObjects objects, Dictionary<Model, Lazy<Collider>> sharedColliders, ColliderKind kind)

@@ -3,10 +3,9 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Collision;
 
 /// <summary>A map that keeps all distances in proportion: a rotation or mirror, a uniform scale and a translation.</summary>
-/// <param name="Map">From the local frame to world space.</param>
-/// <param name="Inverse">From world space to the local frame.</param>
-/// <param name="Scale">Distances in world space divided by those in the local frame, positive.</param>
-internal sealed record Similarity(AffineMap Map, AffineMap Inverse, double Scale)
+/// <param name="map">From the local frame to world space.</param>
+/// <param name="scale">Distances in world space divided by those in the local frame, positive.</param>
+internal sealed class Similarity(AffineMap map, double scale)
 {
     // As a part of the squared scale: more than the rounding error of rotations.
     private const double Tolerance = 1e-13;
@@ -15,11 +14,22 @@ internal sealed record Similarity(AffineMap Map, AffineMap Inverse, double Scale
     private const double MinScaleSquared = 1e-180;
     private const double MaxScaleSquared = 1e180;
 
-    // Found once, since they cost as much as a short search.
-    private readonly Matrix _cofactors = Map.Linear.Cofactors();
+    private static readonly Similarity Unmoved = new(AffineMap.Identity, 1);
 
-    /// <summary>The similarity whose frames are the same.</summary>
-    public static Similarity Identity { get; } = new(AffineMap.Identity, AffineMap.Identity, 1);
+    // Found at the first use, since they cost as much as a short search: twice at worst, with the same result. Most objects of large
+    // scenes are never near a query, and these would be more than the map.
+    private QueryTerms? _terms;
+
+    /// <summary>The similarity whose frames are the same; its answers are those of the local frame to the bit.</summary>
+    public static Similarity Identity { get; } = new(AffineMap.Identity, 1);
+
+    /// <summary>From the local frame to world space.</summary>
+    public AffineMap Map { get; } = map;
+
+    /// <summary>Distances in world space divided by those in the local frame, positive.</summary>
+    public double Scale { get; } = scale;
+
+    private QueryTerms Terms => _terms ??= new(Map.Inverse(), Map.Linear.Cofactors());
 
     /// <summary>Tells whether a matrix is the linear part of a similarity.</summary>
     public static bool IsSimilarity(Matrix m)
@@ -38,12 +48,15 @@ internal sealed record Similarity(AffineMap Map, AffineMap Inverse, double Scale
     public static bool TryCreate(AffineMap map, out Similarity similarity)
     {
         var isSimilarity = map.Linear.V1.LengthSquared() is > MinScaleSquared and < MaxScaleSquared && IsSimilarity(map.Linear);
-        similarity = isSimilarity ? new(map, map.Inverse(), map.Linear.V1.Length()) : Identity;
+        similarity = !isSimilarity ? Identity
+            // Shared, since many objects of large scenes stand where they were made.
+            : map == AffineMap.Identity ? Unmoved
+            : new(map, map.Linear.V1.Length());
         return isSimilarity;
     }
 
     /// <summary>Maps a position from world space to the local frame.</summary>
-    public Vector ToLocal(Vector position) => ReferenceEquals(this, Identity) ? position : Inverse * position;
+    public Vector ToLocal(Vector position) => ReferenceEquals(this, Identity) ? position : Terms.Inverse * position;
 
     /// <summary>Maps a query result from the local frame to world space.</summary>
     /// <remarks>
@@ -54,7 +67,9 @@ internal sealed record Similarity(AffineMap Map, AffineMap Inverse, double Scale
     {
         Point = Map * local.Point,
         Distance = Scale * local.Distance,
-        Normal = (_cofactors * local.Normal).UnitVector(),
+        Normal = (Terms.Cofactors * local.Normal).UnitVector(),
         ErrorBound = (Scale * local.ErrorBound) + (RoundingErrors.Coordinate * Map.Translation.MaxAbsComponent()),
     };
+
+    private sealed record QueryTerms(AffineMap Inverse, Matrix Cofactors);
 }

@@ -86,9 +86,9 @@ public static class FractalLimits
 
     /// <summary>The limit of <see cref="MaxHierarchyChildren"/>.</summary>
     public static Limit HierarchyChildren { get; } = new(
-        "hierarchy-children", 200_000, "transformations on all levels that exact search and culling build", "about 500 MB");
+        "hierarchy-children", 110_000, "transformations on all levels that exact search and culling build", "about 85 MB");
 
-    /// <summary>Maximum number of transformations on all levels that a hierarchy is built of: about 500 MB.</summary>
+    /// <summary>Maximum number of transformations on all levels that a hierarchy is built of: about 85 MB.</summary>
     public static int MaxHierarchyChildren => (int)HierarchyChildren.Value;
 
     /// <summary>The limit of <see cref="MaxTracedTests"/>.</summary>
@@ -98,11 +98,18 @@ public static class FractalLimits
     /// <summary>Maximum number of bounds and faces that a path of light of a traced image tests, on average over some pixels.</summary>
     public static long MaxTracedTests => TracedTests.Value;
 
+    /// <summary>The limit of <see cref="MaxDescentTests"/>.</summary>
+    public static Limit DescentTests { get; } = new(
+        "descent-tests", 100_000_000, "faces that a query of the collider 'fractal' tests", "some seconds", 1_000_000_000_000);
+
+    /// <summary>Maximum number of faces that a query of the paper's descent tests: some seconds.</summary>
+    public static long MaxDescentTests => DescentTests.Value;
+
     /// <summary>All limits of fractals, in the order of a listing.</summary>
     public static ImmutableArray<Limit> All { get; } =
     [
         Depth, Levels, Digits, Steps, Nesting, DrawnInstances, ExportedFaces, CountedInstances, EnumeratedInstances,
-        ComparedProducts, ComponentwiseSums, HierarchyChildren, TracedTests,
+        ComparedProducts, ComponentwiseSums, HierarchyChildren, TracedTests, DescentTests,
     ];
 
     /// <summary>

@@ -18,21 +18,29 @@ internal sealed class ObjectBvhBuilder
     private ObjectBvhBuilder(ObjectBvhLeaf[] leaves)
     {
         _leaves = leaves;
-        _partition = new([.. leaves.Select(leaf => leaf.Bounds)]);
+        _partition = new(Array.ConvertAll(leaves, static leaf => leaf.Bounds));
     }
 
     /// <summary>Builds the tree over some objects.</summary>
     /// <param name="leaves">At least one.</param>
     public static ObjectBvhNode Build(ReadOnlySpan<ObjectBvhLeaf> leaves)
     {
-        var groups = leaves.ToArray().ToLookup(leaf => leaf.Bounds.IsEmpty ? Extent.Empty
-            : double.IsFinite(BoxPartition.SizeOf(leaf.Bounds)) ? Extent.Bounded
-            : Extent.Unbounded);
+        var all = leaves.ToArray();
+        if (Array.TrueForAll(all, static leaf => ExtentOf(leaf) == Extent.Bounded) && all.Length > 1)
+        {
+            return (ObjectBvhNode)new ObjectBvhBuilder(all).BuildSubtree(Extent.Bounded);
+        }
+
+        var groups = all.ToLookup(ExtentOf);
         // One level below the root.
         object[] children = [.. new[] { Extent.Bounded, Extent.Unbounded, Extent.Empty }.Where(groups.Contains)
             .Select(extent => new ObjectBvhBuilder([.. groups[extent]]).BuildSubtree(extent))];
         return children is [ObjectBvhNode onlyNode] ? onlyNode : new(children);
     }
+
+    private static Extent ExtentOf(ObjectBvhLeaf leaf) => leaf.Bounds.IsEmpty ? Extent.Empty
+        : double.IsFinite(BoxPartition.SizeOf(leaf.Bounds)) ? Extent.Bounded
+        : Extent.Unbounded;
 
     private object BuildSubtree(Extent extent) => BuildSubtree(new(0, _leaves.Length), extent == Extent.Bounded ? 1 : MaxHeuristicDepth);
 

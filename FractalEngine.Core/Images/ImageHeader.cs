@@ -27,6 +27,9 @@ public readonly record struct ImageHeader(long Width, long Height, long MinFileB
     // TGA: a packet of one pixel stands for up to 128.
     private const int TgaPacketPixels = 128;
 
+    /// <summary>True for a TGA image whose pixels are indices of a palette.</summary>
+    private bool HasTgaPalette { get; init; }
+
     /// <summary>Pixels of the whole image.</summary>
     public long PixelCount => PixelBytes(Width, Height, 8);
 
@@ -53,12 +56,20 @@ public readonly record struct ImageHeader(long Width, long Height, long MinFileB
     /// <summary>Whether the name of a file says that it is a TGA image, which its contents can't.</summary>
     public static bool IsTga(string path) => Path.GetExtension(path).Equals(".tga", StringComparison.OrdinalIgnoreCase);
 
-    /// <summary>Tells whether a file is too short for the pixels that its header states.</summary>
-    /// <param name="fileBytes">Length of the whole file.</param>
-    /// <returns>The rest of a sentence that begins with the name of the image; null where the file may hold them.</returns>
-    public string? FindFault(long fileBytes) => fileBytes >= MinFileBytes
-        ? null
-        : $"is cut off: {Width}×{Height} pixels need at least {MinFileBytes} bytes, and it has {fileBytes}";
+    /// <summary>
+    /// Tells whether a file is too short for the pixels that its header states, or has colours that its palette lacks: decoders show
+    /// whatever lies behind the palette.
+    /// </summary>
+    /// <param name="stream">The seekable stream that the header was read from; afterwards anywhere. Left open.</param>
+    /// <returns>The rest of a sentence that begins with the name of the image; null where there is no such fault.</returns>
+    /// <exception cref="IOException">The stream can't be read.</exception>
+    public string? FindFault(Stream stream)
+    {
+        ArgumentNullException.ThrowIfNull(stream);
+        return stream.Length < MinFileBytes
+            ? $"is cut off: {Width}×{Height} pixels need at least {MinFileBytes} bytes, and it has {stream.Length}"
+            : HasTgaPalette ? TgaPalette.FindFault(stream, Width * Height) : null;
+    }
 
     private static ImageHeader ReadPng(ReadOnlySpan<byte> header)
     {
@@ -112,8 +123,8 @@ public readonly record struct ImageHeader(long Width, long Height, long MinFileB
         var bytesPerPixel = (header[16] + 7) / 8;
         var isCompressed = header[2] >= 9;
         var packets = (PixelBytes(width, height, 8) + TgaPacketPixels - 1) / TgaPacketPixels;
-        return new(
-            width, height, start + (isCompressed ? packets * (1 + bytesPerPixel) : PixelBytes(width, height, 8 * bytesPerPixel)));
+        var pixelBytes = isCompressed ? packets * (1 + bytesPerPixel) : PixelBytes(width, height, 8 * bytesPerPixel);
+        return new(width, height, start + pixelBytes) { HasTgaPalette = header[2] is 1 or 9 };
     }
 
     /// <summary>Reads the header of a JPEG image from its first frame segment (ITU-T T.81, §B.2).</summary>

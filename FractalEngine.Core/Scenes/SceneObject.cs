@@ -12,6 +12,11 @@ namespace FractalEngine.Core.Scenes;
 /// </remarks>
 public record SceneObject
 {
+    private Model? _model;
+
+    // Apart, since few objects of large scenes have any.
+    private Options _options = Options.None;
+
     /// <summary>Makes an object that shows a model.</summary>
     public SceneObject(Model model) => Model = model;
 
@@ -37,7 +42,11 @@ public record SceneObject
     }
 
     /// <summary>Mesh or fractal that the object shows; null for an object whose file is not loaded.</summary>
-    public Model? Model { get; init; }
+    public Model? Model
+    {
+        get => _model;
+        init => _model = value;
+    }
 
     /// <summary>The model's file as the scene names it, relative to the scene's file; null for an object made in code.</summary>
     public string? File { get; init; }
@@ -46,23 +55,60 @@ public record SceneObject
     public Transformation Placement { get; init; } = Transformation.Identity;
 
     /// <summary>A name to tell objects of the same file apart; null for none.</summary>
-    public string? Name { get; init; }
+    public string? Name
+    {
+        get => _options.Name;
+        init => _options = _options.Name == value ? _options : _options with { Name = value };
+    }
 
     /// <summary>The object's colour; null for the default.</summary>
-    public Colour? Colour { get; init; }
+    public Colour? Colour
+    {
+        get => _options.Colour;
+        init => _options = _options.Colour == value ? _options : _options with { Colour = value };
+    }
 
     /// <summary>How the instances of a fractal differ in colour; null for not at all.</summary>
-    public Gradient? Gradient { get; init; }
+    public Gradient? Gradient
+    {
+        get => _options.Gradient;
+        init => _options = _options.Gradient == value ? _options : _options with { Gradient = value };
+    }
 
     /// <summary>How the object moves by itself; null for one that stands. Bodies move by forces instead, and ignore it.</summary>
-    public ObjectMotion? Motion { get; init; }
+    public ObjectMotion? Motion
+    {
+        get => _options.Motion;
+        init => _options = _options.Motion == value ? _options : _options with { Motion = value };
+    }
 
     /// <summary>Velocity of the object's surface along itself, as that of a belt; units a second, about the placed object's axes.</summary>
     /// <remarks>The object stands, or moves as <see cref="Motion"/> says, and what lies on it is carried along besides.</remarks>
-    public Vector Belt { get; init; }
+    public Vector Belt
+    {
+        get => _options.Belt;
+        init => _options = _options with { Belt = value };
+    }
 
     /// <summary>The name for messages: the object's own, or that of its file or model.</summary>
     public string DisplayName => Name ?? File ?? Model?.Name ?? "object";
+
+    /// <summary>
+    /// Gives an object that a scene file declares what its file holds. This very object has the model then: scenes of a hundred thousand
+    /// objects would take twice the memory for a while if each were copied.
+    /// </summary>
+    /// <param name="model">Contents of <see cref="File"/>.</param>
+    /// <exception cref="InvalidOperationException">The object has a model, or names no file.</exception>
+    public void AttachModel(Model model)
+    {
+        ArgumentNullException.ThrowIfNull(model);
+        if (_model is not null || File is null)
+        {
+            throw new InvalidOperationException($"the object '{DisplayName}' does not wait for the model of its file");
+        }
+
+        _model = model;
+    }
 
     /// <summary>The same object with another placement. Where it moves by itself, it does so from there.</summary>
     public SceneObject MovedTo(Transformation placement) =>
@@ -76,4 +122,9 @@ public record SceneObject
 
     /// <inheritdoc/>
     public override int GetHashCode() => HashCode.Combine(EqualityContract, File, Placement, Name, Colour, Gradient, Motion, Belt);
+
+    private sealed record Options(string? Name, Colour? Colour, Gradient? Gradient, ObjectMotion? Motion, Vector Belt)
+    {
+        public static Options None { get; } = new(null, null, null, null, Vector.Zero);
+    }
 }

@@ -11,10 +11,15 @@ public sealed partial class AssetLoader
 {
     private Model LoadReferenced(SourceText source, int offset, string file)
     {
+        if (_options.ShareModels && _namedModels.TryGetValue(file, out var named))
+        {
+            return named;
+        }
+
         var (fullPath, displayName) = _references.Resolve(source, offset, _fullPath, file);
         if (_options.ShareModels && _models.TryGetValue(fullPath, out var cached))
         {
-            return cached;
+            return _namedModels[file] = cached;
         }
 
         if (_faults.TryGetValue(fullPath, out var fault))
@@ -24,7 +29,7 @@ public sealed partial class AssetLoader
 
         try
         {
-            return _models[fullPath] = LoadModel(fullPath, displayName, FileKinds.FromName(fullPath));
+            return _namedModels[file] = _models[fullPath] = LoadModel(fullPath, displayName, FileKinds.FromName(fullPath));
         }
         catch (SourceException exception)
         {

@@ -25,6 +25,9 @@ public sealed partial class AssetLoader
     private readonly MaterialLoader _materials;
     private readonly Dictionary<string, MeshContents> _meshes = [];
     private readonly Dictionary<string, Model> _models = [];
+
+    // By the names in the scene: to find a file costs more than a line of the scene.
+    private readonly Dictionary<string, Model> _namedModels = [];
     private readonly Dictionary<string, Diagnostic> _faults = [];
     private readonly List<Diagnostic> _warnings = [];
     private readonly List<Diagnostic> _errors = [];
@@ -144,12 +147,13 @@ public sealed partial class AssetLoader
         var text = ReadText(_fullPath, _path, ParsingLimits.MaxDescriptionBytes);
         var parsed = _findsAllFaults ? SceneParser.Parse(text, _errors) : SceneParser.Parse(text);
         _warnings.AddRange(parsed.Warnings);
-        var objects = ImmutableArray.CreateBuilder<SceneObject>();
+        var objects = ImmutableArray.CreateBuilder<SceneObject>(parsed.Scene.Objects.Length);
         foreach (var (declared, offset) in parsed.Scene.Objects.Zip(parsed.FileNameOffsets))
         {
             try
             {
-                objects.Add(declared with { Model = LoadReferenced(parsed.Source, offset, declared.File!) });
+                declared.AttachModel(LoadReferenced(parsed.Source, offset, declared.File!));
+                objects.Add(declared);
             }
             catch (SourceException exception)
             {
@@ -161,7 +165,7 @@ public sealed partial class AssetLoader
             }
         }
 
-        var scene = LoadedScene.Of(parsed.Scene with { Objects = objects.ToImmutable() });
+        var scene = LoadedScene.Of(parsed.Scene with { Objects = objects.DrainToImmutable() });
         if (_errors.Count == 0)
         {
             RequireFiniteBounds(scene, parsed);

@@ -6,7 +6,7 @@ namespace FractalEngine.Parsing.Scenes;
 
 /// <summary>Contents of a parsed scene file with its original lines, so that saving keeps comments and layout.</summary>
 /// <param name="Source">Text of the file.</param>
-/// <param name="Scene">Scene that the text declares; the models of its objects are not loaded yet.</param>
+/// <param name="Scene">Scene that the text declares; its objects have models once they are loaded.</param>
 /// <param name="Lines">All lines of the text in order.</param>
 public sealed record ParsedScene(SourceText Source, Scene Scene, ImmutableArray<SceneLine> Lines)
 {
@@ -27,10 +27,10 @@ public sealed record ParsedScene(SourceText Source, Scene Scene, ImmutableArray<
         {
             if (line.Kind == SceneDeclarationKind.SceneObject && line.Index == objectIndex)
             {
-                return offset + line.Text.Length - line.Text.TrimStart().Length;
+                return offset + line.Characters.Length - line.Characters.Span.TrimStart().Length;
             }
 
-            offset += line.Text.Length;
+            offset += line.Characters.Length;
         }
 
         throw new ArgumentOutOfRangeException(nameof(objectIndex), objectIndex, "the scene has no such object");

@@ -57,14 +57,15 @@ public sealed partial class SceneParser
             return false;
         }
 
-        Require(FileKinds.FromName(file) is FileKind.Mesh or FileKind.Fractal, cursor,
-            $"expected the name of a mesh or fractal ({FileKinds.MeshEndings}, .fdo)");
         _fileNameOffset = cursor.Offset;
-        if (!_fileNames.TryAdd(file, file))
+        if (!_fileNames.TryGetValue(file, out var known))
         {
-            file = _fileNames[file];
+            Require(FileKinds.FromName(file) is FileKind.Mesh or FileKind.Fractal, cursor,
+                $"expected the name of a mesh or fractal ({FileKinds.MeshEndings}, .fdo)");
+            _fileNames.Add(file, file);
         }
 
+        file = known ?? file;
         return ParseOptionalSeparator(rest, out rest);
     }
 
@@ -116,11 +117,7 @@ public sealed partial class SceneParser
 
         if (declared is PhysicsObject body)
         {
-            foreach (var option in ObjectOptions)
-            {
-                Require(!cursor.Rest.StartsWith(option, StringComparison.Ordinal), cursor,
-                    $"unexpected '{option.TrimEnd()}': it is an option of objects that no force moves, which an 'o' line declares");
-            }
+            RequireNone(ObjectOptions, cursor, "objects that no force moves, which an 'o' line declares");
 
             var success = ParseBodyOption(cursor, ref body, out rest);
             declared = body;
@@ -141,13 +138,21 @@ public sealed partial class SceneParser
             return success;
         }
 
-        foreach (var option in BodyOptions)
-        {
-            Require(!cursor.Rest.StartsWith(option, StringComparison.Ordinal), cursor,
-                $"unexpected '{option.TrimEnd()}': it is an option of physics objects, which a 'p' line declares");
-        }
-
+        RequireNone(BodyOptions, cursor, "physics objects, which a 'p' line declares");
         return false;
+    }
+
+    /// <summary>Rejects options of other objects.</summary>
+    private void RequireNone(string[] options, Cursor cursor, string owners)
+    {
+        // The message is made at a fault only: scenes have a hundred thousand objects.
+        foreach (var option in options)
+        {
+            if (cursor.Rest.StartsWith(option, StringComparison.Ordinal))
+            {
+                throw Error(cursor, $"unexpected '{option.TrimEnd()}': it is an option of {owners}");
+            }
+        }
     }
 
     /// <summary>Parses the blank before an option, which may be missing at the end of the line.</summary>

@@ -57,7 +57,9 @@ public sealed partial class SceneParser : SceneValueParser
 
     private ParsedScene ParseFile(ICollection<Diagnostic>? faults)
     {
-        var lines = ImmutableArray.CreateBuilder<SceneLine>();
+        // Arrays that grow would be several times as large.
+        _objects.EnsureCapacity(Math.Min(ParsingLimits.MaxSceneLines, Source.Text.AsSpan().Count('\n') + 1));
+        var lines = ImmutableArray.CreateBuilder<SceneLine>(_objects.Capacity);
         for (var cursor = Source.Start; !cursor.IsAtEnd;)
         {
             if (lines.Count >= ParsingLimits.MaxSceneLines)
@@ -76,7 +78,7 @@ public sealed partial class SceneParser : SceneValueParser
                 continue;
             }
 
-            var text = Source.Text[cursor.Offset..rest.Offset];
+            var text = Source.Text.AsMemory(cursor.Offset, rest.Offset - cursor.Offset);
             var index = kind is { } declared ? IndexOfLast(declared) : 0;
             lines.Add(new(text, kind, index, kind is SceneDeclarationKind.SceneObject ? _fileNameOffset : 0));
             cursor = rest;
@@ -88,7 +90,7 @@ public sealed partial class SceneParser : SceneValueParser
         }
 
         var scene = _scene with { Camera = TurnToTarget(_scene.Camera), Lights = [.. _lights], Objects = [.. _objects] };
-        return new(Source, scene, lines.ToImmutable()) { Warnings = Hints };
+        return new(Source, scene, lines.DrainToImmutable()) { Warnings = Hints };
     }
 
     /// <summary>Parses a line. A fault is thrown, or added to a list that takes it; then nothing of the line is declared.</summary>

@@ -24,7 +24,7 @@ public static class SceneWriter
         {
             if (line.Kind is not { } kind)
             {
-                text.Append(line.Text);
+                text.Append(line.Characters);
                 continue;
             }
 
@@ -33,7 +33,7 @@ public static class SceneWriter
             var currentText = SceneFormatter.Format(scene, kind, line.Index);
             if (originalText == currentText && !DependsOnHandedness(line, original!.Scene, scene))
             {
-                text.Append(line.Text);
+                text.Append(line.Characters);
             }
             else if (currentText is not null)
             {
@@ -59,7 +59,7 @@ public static class SceneWriter
     /// <summary>Tells whether a camera's line means other angles now: those of a target depend on the handedness.</summary>
     private static bool DependsOnHandedness(SceneLine line, Scene original, Scene current) =>
         line.Kind == SceneDeclarationKind.Camera && original.Handedness != current.Handedness
-        && line.Text.Contains(SceneParser.LookAtKeyword, StringComparison.Ordinal);
+        && line.Characters.Span.Contains(SceneParser.LookAtKeyword, StringComparison.Ordinal);
 
     private static void EnsureLineBreak(StringBuilder text, string lineBreak)
     {

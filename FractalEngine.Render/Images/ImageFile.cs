@@ -80,7 +80,7 @@ public static class ImageFile
                 $"an image of {header.Width}×{header.Height} pixels, more than the limit of {PngReader.DefaultMaxPixels} in all");
         }
 
-        if (header.FindFault(stream.Length) is { } fault)
+        if (header.FindFault(stream) is { } fault)
         {
             throw new IOException($"it {fault}");
         }

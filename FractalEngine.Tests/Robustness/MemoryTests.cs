@@ -48,29 +48,55 @@ public sealed class MemoryTests : IDisposable
         RunWithinMemory("wide.fdo", [command]);
     }
 
-    [Fact]
-    public void Query_OfAHundredThousandMaps_IsWithinTheMemory()
+    [Theory]
+    [InlineData(100_000, 1)]
+    [InlineData(47_500, 2)]
+    public void Query_OfManyMaps_IsWithinTheMemory(int maps, int levels)
     {
-        WriteWideSet(1);
-        _folder.Write("points.txt", "0 0 0\n1 2 3\n");
-        var (exitCode, output, error) = AppProcess.Run(
-            _folder[""], HeapLimit("wide.fdo"), ["query", "wide.fdo", "--points", "points.txt"]);
-        Assert.True(exitCode == 0, error);
-        Assert.Equal(2, output.TrimEnd().Split('\n').Length);
+        WriteWideSet(levels, maps);
+        QueryWithinMemory("wide.fdo");
     }
 
     [Fact]
-    public void Query_OfThreeWideLevels_IsRefusedBeforeOneIsBuilt()
+    public void Check_OfTwoWideLevels_IsWithinTheMemory()
     {
-        WriteWideSet(3);
+        WriteWideSet(2, 95_000);
+        RunWithinMemory("wide.fdo", ["check"]);
+    }
+
+    [Theory]
+    [InlineData("#")]
+    [InlineData("((1,2,3),#,#)")]
+    public void Query_OfAHundredThousandObjectsAtOnePlace_IsWithinTheMemory(string placement)
+    {
+        var line = $"o \"t.obj\" {placement}\n";
+        _folder.Write("objects.sdo", string.Concat(Enumerable.Repeat(line, 99_999)));
+        RunWithinMemory("objects.sdo", ["info"]);
+        QueryWithinMemory("objects.sdo");
+    }
+
+    [Theory]
+    [InlineData(2)]
+    [InlineData(3)]
+    public void Query_OfWideLevels_IsRefusedBeforeOneIsBuilt(int levels)
+    {
+        WriteWideSet(levels);
         _folder.Write("points.txt", "0 0 0\n");
         var (exitCode, _, error) = AppProcess.Run(
             _folder[""], HeapLimit("wide.fdo"), ["query", "wide.fdo", "--points", "points.txt"]);
         Assert.Equal(3, exitCode);
-        Assert.Contains("200000 transformations on all levels", error);
+        Assert.Contains("110000 transformations on all levels", error);
     }
 
-    private void WriteWideSet(int levels)
+    private void QueryWithinMemory(string file)
+    {
+        _folder.Write("points.txt", "0 0 0\n1 2 3\n");
+        var (exitCode, output, error) = AppProcess.Run(_folder[""], HeapLimit(file), ["query", file, "--points", "points.txt"]);
+        Assert.True(exitCode == 0, error);
+        Assert.Equal(2, output.TrimEnd().Split('\n').Length);
+    }
+
+    private void WriteWideSet(int levels, int maps = 100_000)
     {
         var text = new StringBuilder();
         var random = new Random(1);
@@ -80,7 +106,7 @@ public sealed class MemoryTests : IDisposable
         }
 
         text.Append("v 0.01 0.01 0.01\nt.a.b. (a, b, 1001)\nx. \"t.obj\"\nz<x>. [");
-        for (var i = 0; i < 100_000; i++)
+        for (var i = 0; i < maps; i++)
         {
             text.Append(CultureInfo.InvariantCulture, $"t.{random.Next(1000) + 1}.{random.Next(1000) + 1},");
         }

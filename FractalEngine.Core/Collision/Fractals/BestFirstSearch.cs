@@ -16,8 +16,8 @@ namespace FractalEngine.Core.Collision.Fractals;
 /// <param name="bvh">The hierarchy of the base mesh.</param>
 internal sealed class BestFirstSearch(FractalHierarchy hierarchy, TriangleBvh bvh)
 {
-    // Beyond so many nodes children are visited depth first, so that memory stays within about 30 MB.
-    private const int MaxNodes = 100_000;
+    // Beyond so many nodes children are visited depth first, so that memory stays within about 20 MB.
+    private const int MaxNodes = 1 << 15;
 
     /// <summary>Searches the whole fractal.</summary>
     /// <param name="position">Position of the query in the query's frame.</param>

@@ -11,6 +11,7 @@ public sealed partial class FractalCollider
     private bool FindWithBeam(Vector position, double maxDistance, QueryContext context, out ClosestPoint closest)
     {
         var beam = context.DescentBeam;
+        var testsBefore = context.Statistics.FaceTests;
         var baseTriangle = TestBaseWithoutLevels(position, context);
         beam.Begin(_beamWidth, new(AffineMap.Identity, position, 1, baseTriangle.DistanceSquared, baseTriangle.FaceIndex, -1));
         foreach (var (set, rounds) in _levels)
@@ -23,6 +24,7 @@ public sealed partial class FractalCollider
                     hasChildren |= OfferChildren(beam, parent, set, round > 0, position, context);
                 }
 
+                RequireAllowedTests(context.Statistics.FaceTests - testsBefore);
                 beam.AdvanceLevel(set, _hasOnlySimilarities);
                 if (!hasChildren)
                 {

@@ -21,6 +21,8 @@ public sealed partial class FractalCollider : Collider
     // An instance smaller than the last place of a coordinate has no parts that could be told apart.
     private const double MinScale = 1e-15;
 
+    private const int EndlessRounds = int.MaxValue;
+
     private readonly List<(MapSet Set, int Rounds)> _levels = [];
     private readonly bool _hasOnlySimilarities;
     private readonly Mesh _baseMesh;
@@ -59,7 +61,7 @@ public sealed partial class FractalCollider : Collider
         foreach (var step in steps[..levelSteps])
         {
             _levels.Add(step is Repetition repetition
-                ? (new(Concatenate(repetition.Body)), repetition.Count ?? int.MaxValue)
+                ? (new(Concatenate(repetition.Body)), repetition.Count ?? EndlessRounds)
                 : (new(Concatenate([step])), 1));
         }
 
@@ -96,6 +98,7 @@ public sealed partial class FractalCollider : Collider
         var map = AffineMap.Identity;
         var localPosition = position;
         var closestFace = TestBaseWithoutLevels(position, context).FaceIndex;
+        var testsBefore = context.Statistics.FaceTests;
         foreach (var (set, rounds) in _levels)
         {
             for (var round = 0; round < rounds && !(round > 0 && BoundingSphere.OperatorNormBound(map.Linear) < MinScale); round++)
@@ -107,7 +110,15 @@ public sealed partial class FractalCollider : Collider
                     return false;
                 }
 
-                map *= set.Maps[childIndex];
+                RequireAllowedTests(context.Statistics.FaceTests - testsBefore);
+                var childMap = map * set.Maps[childIndex];
+                if (rounds == EndlessRounds && childMap == map)
+                {
+                    // The identity is chosen for ever.
+                    break;
+                }
+
+                map = childMap;
                 localPosition = _hasOnlySimilarities ? set.Inverses[childIndex] * localPosition : localPosition;
                 context.AppendToPath(childIndex);
             }
@@ -115,6 +126,16 @@ public sealed partial class FractalCollider : Collider
 
         closest = closestFace < 0 ? default : ClosestPointFactory.OnInstance(_baseMesh, closestFace, map, position);
         return closestFace >= 0 && closest.Distance <= maxDistance;
+    }
+
+    private static void RequireAllowedTests(long count)
+    {
+        if (count > FractalLimits.MaxDescentTests)
+        {
+            throw new FractalLimitException(
+                $"the descent of a query tests more than the limit of {FractalLimits.MaxDescentTests} faces: "
+                + "its cost grows with the depth");
+        }
     }
 
     /// <summary>Tests the base mesh itself, if there are no levels.</summary>

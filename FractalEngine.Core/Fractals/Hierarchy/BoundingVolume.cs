@@ -28,13 +28,16 @@ internal sealed record BoundingVolume(BoundingBox Box, ConvexHull? Hull, double 
         ? Empty
         : FromVertices(mesh.Bounds, UsedVertices(mesh), 0);
 
+    /// <summary>Tells whether a volume of this box is small enough for a hull.</summary>
+    public static bool CanHaveHull(BoundingBox box) => box.Diagonal < MaxHullSize && RoundingMargin(box) < MaxHullSize;
+
     /// <summary>Computes the bounds of the union of several volumes.</summary>
     /// <param name="box">Contains all volumes.</param>
     /// <param name="vertices">The vertices of all their hulls; null where one of them has no hull.</param>
     /// <param name="margin">The largest margin of the hulls.</param>
     public static BoundingVolume FromVertices(BoundingBox box, Vector[]? vertices, double margin)
     {
-        if (vertices is null || vertices.Length == 0 || !(box.Diagonal < MaxHullSize) || !(RoundingMargin(box) < MaxHullSize))
+        if (vertices is null || vertices.Length == 0 || !CanHaveHull(box))
         {
             return new(box, null, 0);
         }

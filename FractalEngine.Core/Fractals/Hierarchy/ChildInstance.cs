@@ -37,14 +37,12 @@ internal sealed class ChildInstance
         var map = AffineMap.Identity;
         var inverse = AffineMap.Identity;
         ScaleSquared = 1;
-        OperatorNormBound = 1;
         var areMapsOfLevels = true;
         foreach (var (set, mapIndex, levelStep) in Edges)
         {
             map *= set.Maps[mapIndex];
             inverse = set.Maps[mapIndex].Inverse() * inverse;
             ScaleSquared *= set.ScalesSquared[mapIndex];
-            OperatorNormBound *= set.OperatorNormBounds[mapIndex];
             LevelStep = LevelStep.Then(levelStep);
             areMapsOfLevels &= levelStep == LevelStep.Down(1) && set.Power is null && set != MapSet.Identity;
         }
@@ -100,13 +98,25 @@ internal sealed class ChildInstance
     public double InverseScale { get; }
 
     /// <summary>Upper bound of the factor by which the map lengthens vectors.</summary>
-    public double OperatorNormBound { get; }
+    public double OperatorNormBound
+    {
+        get
+        {
+            var bound = 1.0;
+            foreach (var edge in Edges)
+            {
+                bound *= edge.OperatorNormBound;
+            }
+
+            return bound;
+        }
+    }
 
     /// <summary>Leads from the remaining levels of the parent to those of the child.</summary>
     public LevelStep LevelStep { get; }
 
     /// <summary>Number of bytes of the maps and edges.</summary>
-    public long StorageBytes => (30 * sizeof(double)) + (_composedMap is null ? 0 : 18 * sizeof(double)) + (24 * _edgeCount);
+    public long StorageBytes => (29 * sizeof(double)) + (_composedMap is null ? 0 : 18 * sizeof(double)) + (24 * _edgeCount);
 
     /// <summary>Computes the remaining levels of the child.</summary>
     /// <param name="parentLevels">Remaining levels of the parent.</param>

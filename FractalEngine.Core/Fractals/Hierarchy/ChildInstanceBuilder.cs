@@ -41,7 +41,8 @@ internal sealed class ChildInstanceBuilder
     /// <param name="setAt">Gives the set of a lower level by its remaining levels.</param>
     public static ChildEdge[] EdgesAt(long level, long levelsBelowRepetition, int period, MapSet set, Func<long, MapSet> setAt)
     {
-        var edges = new List<ChildEdge>(set.Maps.Length);
+        // One more, for the edge at the end: a list that grows would be twice as large.
+        var edges = new List<ChildEdge>(set.Maps.Length + 1);
         var offeredMaps = new HashSet<AffineMap>();
         var currentSet = set;
         for (var levelsDown = 1L; ; levelsDown++)
@@ -55,13 +56,15 @@ internal sealed class ChildInstanceBuilder
             // All sets of the repetition were visited, and all have the identity.
             if (level - levelsDown == levelsBelowRepetition || levelsDown == period)
             {
-                return [.. edges, ChildEdge.SkipTo(levelsBelowRepetition)];
+                edges.Add(ChildEdge.SkipTo(levelsBelowRepetition));
+                return edges.ToArray();
             }
 
             if (edges.Count > MaxEdges)
             {
                 // Short lists matter more than the last duplicate: the next level lists the rest.
-                return [.. edges, new(MapSet.Identity, 0, LevelStep.Down(levelsDown))];
+                edges.Add(new(MapSet.Identity, 0, LevelStep.Down(levelsDown)));
+                return edges.ToArray();
             }
 
             // Only where another level follows: these are as many bytes as the maps.

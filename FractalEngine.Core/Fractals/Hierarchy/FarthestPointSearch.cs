@@ -88,6 +88,12 @@ internal sealed class FarthestPointSearch(Fractal fractal)
                 var priority = (tolerance > 0 ? -Math.Round(bound / tolerance) : -bound, -(opened.Depth + 1));
                 if (subFractal.Children.Length > 0)
                 {
+                    // The search ends before it takes what is no better than a leaf. Wide sets would leave megabytes of it.
+                    if (leaf.Priority.CompareTo(priority) <= 0 && bound <= largestLeaf)
+                    {
+                        continue;
+                    }
+
                     _open.Enqueue((_opened.Count - 1, child, bound), priority);
                     continue;
                 }

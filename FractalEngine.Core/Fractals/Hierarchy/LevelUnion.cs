@@ -8,6 +8,16 @@ namespace FractalEngine.Core.Fractals.Hierarchy;
 /// <param name="clusters">Finds what outliers throw away.</param>
 internal sealed class LevelUnion(BuiltLevels built, OutlierClusters clusters)
 {
+    // The hull of more vertices is that of the hulls of parts: wide levels have millions of vertices, and the arrays of some thousand
+    // are so large that the collector keeps them for long.
+    private const int MaxVerticesAtOnce = 1 << 13;
+
+    // The hull of a part is this much finer than that of the whole, which is hardly wider than if it were built at once.
+    private const int MaxHullVerticesOfPart = 256;
+
+    // Serves all levels.
+    private Vector[] _part = [];
+
     /// <summary>Computes the bounds of the union of what the edges of a level lead to.</summary>
     /// <param name="edges">The edges.</param>
     /// <param name="level">Remaining levels of the union.</param>
@@ -68,7 +78,7 @@ internal sealed class LevelUnion(BuiltLevels built, OutlierClusters clusters)
         }
 
         var hasHulls = true;
-        var vertexCount = 0;
+        var vertexCount = 0L;
         var margin = 0.0;
         foreach (var edge in edges)
         {
@@ -78,11 +88,19 @@ internal sealed class LevelUnion(BuiltLevels built, OutlierClusters clusters)
             margin = Math.Max(margin, edge.OperatorNormBound * volume.Margin);
         }
 
-        if (!hasHulls)
+        if (!hasHulls || !BoundingVolume.CanHaveHull(box))
         {
             return BoundingVolume.FromVertices(box, null, margin) with { Clusters = outliers };
         }
 
+        var (vertices, maxOutsideDistance) = vertexCount <= MaxVerticesAtOnce
+            ? (CollectVertices(edges, vertexCount), 0)
+            : CollectExtremeVertices(edges, BoundingVolume.RoundingMargin(box));
+        return BoundingVolume.FromVertices(box, vertices, margin + maxOutsideDistance) with { Clusters = outliers };
+    }
+
+    private Vector[] CollectVertices(IEnumerable<CollapsedEdge> edges, long vertexCount)
+    {
         var vertices = new Vector[vertexCount];
         var next = 0;
         foreach (var edge in edges)
@@ -93,6 +111,42 @@ internal sealed class LevelUnion(BuiltLevels built, OutlierClusters clusters)
             }
         }
 
-        return BoundingVolume.FromVertices(box, vertices, margin) with { Clusters = outliers };
+        return vertices;
+    }
+
+    /// <summary>Collects the vertices of hulls, each around a part of the vertices, and how far vertices lie outside of them.</summary>
+    private (Vector[] Vertices, double MaxOutsideDistance) CollectExtremeVertices(IEnumerable<CollapsedEdge> edges, double rounding)
+    {
+        var extremes = new List<Vector>();
+        _part = _part.Length > 0 ? _part : new Vector[MaxVerticesAtOnce];
+        var part = _part;
+        var count = 0;
+        var maxOutsideDistance = 0.0;
+        foreach (var edge in edges)
+        {
+            foreach (var vertex in built.VolumeAt(edge.RemainingLevels).Hull!.Vertices)
+            {
+                part[count++] = edge.Map * vertex;
+                if (count == part.Length)
+                {
+                    Reduce(part);
+                }
+            }
+        }
+
+        if (count > 0)
+        {
+            Reduce(part[..count]);
+        }
+
+        return (extremes.ToArray(), maxOutsideDistance + rounding);
+
+        void Reduce(Vector[] vertices)
+        {
+            var hull = ConvexHull.Build(vertices, MaxHullVerticesOfPart);
+            extremes.AddRange(hull.Vertices);
+            maxOutsideDistance = Math.Max(maxOutsideDistance, hull.MaxOutsideDistance);
+            count = 0;
+        }
     }
 }

@@ -129,12 +129,25 @@ internal sealed class SubFractal
         + (sizeof(double) * ChildBounds.Length) + (UnrotatedBounds?.StorageBytes ?? 0) + (Children.Length * 24) + (Hull?.StorageBytes ?? 0)
         + (_solid?.StorageBytes ?? 0) + (Lanes?.StorageBytes ?? 0) + (Floats?.StorageBytes ?? 0) + (Clusters?.StorageBytes ?? 0) + 160;
 
-    /// <summary>Lists the children, and those of groups among them.</summary>
-    public List<ChildInstance> AllChildren()
+    /// <summary>Lists the children, and those of groups among them, each behind its group.</summary>
+    public IEnumerable<ChildInstance> AllChildren()
     {
-        var all = new List<ChildInstance>(Children.Length);
-        AddAllChildren(all);
-        return all;
+        // No list of all, which would be a megabyte of garbage for a wide set.
+        var open = new Stack<ChildInstance>();
+        PushAll(Children);
+        while (open.TryPop(out var child))
+        {
+            yield return child;
+            PushAll(child.Group?.Children ?? []);
+        }
+
+        void PushAll(ChildInstance[] children)
+        {
+            for (var i = children.Length - 1; i >= 0; i--)
+            {
+                open.Push(children[i]);
+            }
+        }
     }
 
     /// <summary>True for a child without faces, whose box is far from everything.</summary>
@@ -224,14 +237,5 @@ internal sealed class SubFractal
         return isHullTested
             ? Math.Max(bound, Hull!.TransformedLowerBoundSquared(position, in map, in inverse, cutoffSquared))
             : bound;
-    }
-
-    private void AddAllChildren(List<ChildInstance> all)
-    {
-        foreach (var child in Children)
-        {
-            all.Add(child);
-            child.Group?.AddAllChildren(all);
-        }
     }
 }

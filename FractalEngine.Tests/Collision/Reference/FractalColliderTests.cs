@@ -27,6 +27,33 @@ public class FractalColliderTests
     }
 
     [Fact]
+    public void TryFindClosest_OfAnInfiniteFractalWithTheIdentity_Ends()
+    {
+        // Nearest is always the instance of the identity, which never shrinks.
+        TransformationSet set = new([Transformation.Identity, Samples.MoveAndScale(9, 0, 0, 0.5)]);
+        var collider = new FractalCollider(new(new([new Repetition([set], null)]), Fan(1)));
+        var context = new QueryContext();
+        Assert.True(collider.TryFindClosest(new(-1, -1, 0), double.PositiveInfinity, context, out _));
+        Assert.Equal(2, context.Statistics.FaceTests);
+    }
+
+    [Theory]
+    [InlineData(1)]
+    [InlineData(4)]
+    [Trait("Category", "Soak")]
+    public void TryFindClosest_BeyondTheLimitOfTests_IsRefused(int beamWidth)
+    {
+        var set = Enumerable.Range(0, 1000).Select(i => Samples.MoveAndScale(i, 0.5 * i, 0, 1));
+        var fractal = new Fractal(new([new Repetition([new TransformationSet([.. set])], 1_000_000)]), Fan(100));
+        Assert.Contains(
+            "its cost grows with the depth",
+            Assert.Throws<FractalLimitException>(
+                () => new FractalCollider(fractal, beamWidth).TryFindClosest(
+                    new(1, 2, 3), double.PositiveInfinity, new QueryContext(), out _)).Message,
+            StringComparison.Ordinal);
+    }
+
+    [Fact]
     public void TryFindClosest_WithTwoSetsInABody_ConcatenatesThem()
     {
         // Appendix B has 5·5 transformations a level.

@@ -336,6 +336,32 @@ public sealed class MaterialLoaderTests : IDisposable
             warning, StringComparison.Ordinal);
     }
 
+    [Theory]
+    [InlineData(1, 0, 0, 2, new byte[] { 0, 1, 2, 0 }, "has a pixel of colour 2, and a palette of 2")]
+    [InlineData(1, 0, 0, 2, new byte[] { 0, 1, 1, 0 }, null)]
+    [InlineData(9, 0, 0, 2, new byte[] { 0x82, 1, 0, 7 }, "has a pixel of colour 7, and a palette of 2")]
+    [InlineData(9, 0, 0, 2, new byte[] { 0x80, 1, 2, 0, 1, 0 }, null)]
+    [InlineData(9, 0, 0, 2, new byte[] { 0x80, 1 }, null)]
+    [InlineData(1, 3, 0, 2, new byte[] { 9, 9, 9, 0, 1, 2, 0 }, "has a pixel of colour 2, and a palette of 2")]
+    [InlineData(1, 0, 1, 2, new byte[] { 1, 1, 2, 1 }, "has a palette that begins with colour 1, expected 0")]
+    [InlineData(1, 0, 0, 0, new byte[] { 1, 1, 2, 1 }, "has no palette for its pixels")]
+    public void Load_WithATgaPalette_TestsItsColours(byte type, byte textBytes, byte first, byte colours, byte[] rest, string? fault)
+    {
+        // Four pixels of 8 bits; colours of 24 bits stand behind a text.
+        byte[] header = [textBytes, 1, type, first, 0, colours, 0, 24, 0, 0, 0, 0, 2, 0, 2, 0, 8, 0];
+        File.WriteAllBytes(_folder["a.tga"], [.. header, .. rest[..textBytes], .. new byte[3 * colours], .. rest[textBytes..]]);
+        _folder.Write("a.mtl", "newmtl m\nmap_Kd a.tga\n");
+        var loaded = Load("mtllib a.mtl\nusemtl m\nf 1 2 3\n");
+        Assert.Equal(fault is null, MaterialOf(loaded).Texture is not null);
+        if (fault is null)
+        {
+            Assert.Empty(loaded.Warnings);
+            return;
+        }
+
+        Assert.Contains($"the image \"a.tga\" {fault}: drawn grey", SingleWarning(loaded), StringComparison.Ordinal);
+    }
+
     [Fact]
     public void Load_WithAnImageFileBeyondTheLimit_WarnsAndIsGrey()
     {
