@@ -46,6 +46,9 @@ public sealed class LodHierarchy
     /// <summary>Number of levels of the whole fractal; a huge number where they are infinitely many.</summary>
     internal long LevelCount { get; }
 
+    /// <summary>True for a mesh, and for a fractal that is its base mesh: one instance, or none where it is not visible.</summary>
+    public bool HasNoLevels => LevelCount == 0;
+
     /// <summary>Builds the hierarchy of a fractal.</summary>
     /// <param name="fractal">Fractal of any composition and depth.</param>
     /// <exception cref="FractalLimitException">

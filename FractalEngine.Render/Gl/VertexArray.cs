@@ -34,6 +34,13 @@ internal sealed class VertexArray : GlObject
         GL.VertexAttribDivisor(location, divisor);
     }
 
+    /// <summary>Sets the value that an attribute has for all vertices, where no buffer is connected to it.</summary>
+    /// <param name="location">Location of the attribute in the shader.</param>
+    /// <param name="value">Four floats.</param>
+    /// <remarks>The value belongs to the context, so that it is set before each draw.</remarks>
+    public static void SetConstant(int location, ReadOnlySpan<float> value) =>
+        GL.VertexAttrib4(location, value[0], value[1], value[2], value[3]);
+
     /// <summary>Draws indexed triangles of several instances in one call; nothing where there are no indices or no instances.</summary>
     /// <param name="firstIndex">Position of the first index in the index buffer.</param>
     /// <param name="indexCount">Number of indices, three a triangle.</param>

@@ -7,9 +7,11 @@ namespace FractalEngine.Render.Passes;
 /// <summary>A model on the GPU: one vertex array with its vertices, indices and instances (paper §4.3.1). Uploaded once.</summary>
 internal sealed class ModelBuffers : IDisposable
 {
+    /// <summary>Location of the first row of an instance's map; the other two follow.</summary>
+    public const int InstanceRowsLocation = 2;
+
     private const int PositionLocation = 0;
     private const int NormalLocation = 1;
-    private const int InstanceRowsLocation = 2;
     private const int TextureCoordinatesLocation = 6;
     private const int ColourLocation = 7;
 
@@ -19,13 +21,18 @@ internal sealed class ModelBuffers : IDisposable
     private readonly GlBuffer? _textureCoordinates;
     private readonly GlBuffer? _colours;
     private readonly VertexArray _vertexArray;
+    private readonly GlResources _resources;
+    private readonly string _name;
     private readonly int _indexCount;
     private readonly int _instanceCount;
+    private VertexArray? _meshAlone;
 
     /// <summary>Uploads the buffers of a model.</summary>
     /// <exception cref="GlException">The GPU's memory does not suffice.</exception>
     public ModelBuffers(GlResources resources, DrawableModel model)
     {
+        _resources = resources;
+        _name = model.Name;
         _indexCount = model.Indices.Length;
         _instanceCount = model.InstanceCount;
         _vertexArray = new(resources, model.Name);
@@ -62,6 +69,7 @@ internal sealed class ModelBuffers : IDisposable
     /// <inheritdoc/>
     public void Dispose()
     {
+        _meshAlone?.Dispose();
         _vertexArray.Dispose();
         _vertices.Dispose();
         _indices.Dispose();
@@ -70,10 +78,37 @@ internal sealed class ModelBuffers : IDisposable
         _colours?.Dispose();
     }
 
+    /// <summary>The mesh without instances: the map of one is set before each draw. Shared by all objects of the model.</summary>
+    public VertexArray MeshAlone
+    {
+        get
+        {
+            if (_meshAlone is null)
+            {
+                _meshAlone = new(_resources, $"mesh of {_name}");
+                AttachMesh(_meshAlone);
+                _meshAlone.Unbind();
+            }
+
+            return _meshAlone;
+        }
+    }
+
     /// <summary>Attaches the mesh to another vertex array, with instances of its own.</summary>
     /// <param name="vertexArray">Vertex array that receives the attributes.</param>
     /// <param name="instances">Rows of 3×4 maps, [instances × 12].</param>
     public void Attach(VertexArray vertexArray, GlBuffer instances)
+    {
+        AttachMesh(vertexArray);
+        for (var row = 0; row < 3; row++)
+        {
+            vertexArray.Attribute(instances, InstanceRowsLocation + row, 4, DrawableModel.FloatsPerInstance, 4 * row, divisor: 1);
+        }
+
+        vertexArray.Unbind();
+    }
+
+    private void AttachMesh(VertexArray vertexArray)
     {
         vertexArray.Bind();
         _indices.Bind();
@@ -88,13 +123,6 @@ internal sealed class ModelBuffers : IDisposable
         {
             vertexArray.Attribute(_colours, ColourLocation, 3, 3, 0);
         }
-
-        for (var row = 0; row < 3; row++)
-        {
-            vertexArray.Attribute(instances, InstanceRowsLocation + row, 4, DrawableModel.FloatsPerInstance, 4 * row, divisor: 1);
-        }
-
-        vertexArray.Unbind();
     }
 
     private void Upload(DrawableModel model)

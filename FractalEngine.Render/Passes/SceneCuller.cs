@@ -50,7 +50,9 @@ internal sealed class SceneCuller : IDisposable
             if (model.LodHierarchy is { } hierarchy && !item.IsDynamic)
             {
                 var hasSkyMasks = usesSkyMasks && hierarchy.HasSkyMasks;
-                _visibleInstances[i] = new(resources, item.Name, models[model], item.Gradient is not null, hasSkyMasks);
+                var hasTints = item.Gradient is not null;
+                var isSingle = hierarchy.HasNoLevels && !hasTints && !hasSkyMasks;
+                _visibleInstances[i] = new(resources, item.Name, models[model], isSingle, hasTints, hasSkyMasks);
                 culledObjects.Add(new(hierarchy, item.Map, model.MeshOrigin, model.MeshWindingSign, !model.IsSeeThrough)
                 {
                     GradientKind = item.Gradient?.Kind ?? GradientKind.None,

@@ -5,27 +5,39 @@ using OpenTK.Graphics.OpenGL4;
 
 namespace FractalEngine.Render.Passes;
 
-/// <summary>Holds the visible instances of one object on the GPU, in a vertex array of their own over the model's buffers.</summary>
+/// <summary>
+/// Holds the visible instances of one object on the GPU, in a vertex array of their own over the model's buffers. One instance, such as
+/// that of a mesh, needs neither array nor buffer: its map is set before each draw.
+/// </summary>
 internal sealed class VisibleInstances : IDisposable
 {
     private const int TintLocation = 5;
     private const int SkyAboveLocation = 8;
     private const int SkyBelowLocation = 9;
 
-    private readonly GlBuffer _instances;
+    private readonly GlBuffer? _instances;
     private readonly GlBuffer? _tints;
     private readonly GlBuffer? _skyParts;
     private readonly VertexArray _vertexArray;
+    private readonly float[] _map = [];
     private int _instanceCount;
 
     /// <summary>Creates empty buffers for visible instances.</summary>
     /// <param name="resources">Resources of the current context.</param>
     /// <param name="name">Name of the object, for messages.</param>
     /// <param name="model">Buffers of the object's model.</param>
+    /// <param name="isSingle">Whether there is at most one instance, without position in a gradient and without parts of the sky.</param>
     /// <param name="hasTints">Whether the object has a gradient, so that each instance has a position in it.</param>
     /// <param name="hasSkyParts">Whether instances come with the parts of the sky that they see.</param>
-    public VisibleInstances(GlResources resources, string name, ModelBuffers model, bool hasTints, bool hasSkyParts)
+    public VisibleInstances(GlResources resources, string name, ModelBuffers model, bool isSingle, bool hasTints, bool hasSkyParts)
     {
+        if (isSingle)
+        {
+            _vertexArray = model.MeshAlone;
+            _map = new float[VisibleSet.FloatsPerInstance];
+            return;
+        }
+
         _instances = new(resources, $"visible instances of {name}", BufferTarget.ArrayBuffer);
         _vertexArray = new(resources, $"visible instances of {name}");
         model.Attach(_vertexArray, _instances);
@@ -55,6 +67,12 @@ internal sealed class VisibleInstances : IDisposable
     public void Upload(VisibleSet visible, int objectIndex, bool hasSkyParts)
     {
         _instanceCount = visible.InstanceCountOf(objectIndex);
+        if (_instances is null)
+        {
+            CopyMap(visible, objectIndex);
+            return;
+        }
+
         _instances.Discard((long)_instanceCount * VisibleSet.FloatsPerInstance * sizeof(float));
         var offset = 0L;
         for (var chunk = 0; chunk < VisibleSet.ChunkCount; chunk++)
@@ -89,14 +107,39 @@ internal sealed class VisibleInstances : IDisposable
     }
 
     /// <summary>Draws one batch of all instances in one call.</summary>
-    public void Draw(DrawableBatch batch) => _vertexArray.DrawTriangles(batch.FirstIndex, batch.IndexCount, _instanceCount);
+    public void Draw(DrawableBatch batch)
+    {
+        for (var row = 0; row < 3 && _map.Length > 0 && _instanceCount > 0; row++)
+        {
+            VertexArray.SetConstant(ModelBuffers.InstanceRowsLocation + row, _map.AsSpan(4 * row, 4));
+        }
+
+        _vertexArray.DrawTriangles(batch.FirstIndex, batch.IndexCount, _instanceCount);
+    }
 
     /// <inheritdoc/>
     public void Dispose()
     {
-        _vertexArray.Dispose();
-        _tints?.Dispose();
-        _skyParts?.Dispose();
-        _instances.Dispose();
+        if (_instances is not null)
+        {
+            _vertexArray.Dispose();
+            _tints?.Dispose();
+            _skyParts?.Dispose();
+            _instances.Dispose();
+        }
+    }
+
+    private void CopyMap(VisibleSet visible, int objectIndex)
+    {
+        for (var chunk = 0; chunk < VisibleSet.ChunkCount && _instanceCount > 0; chunk++)
+        {
+            var instances = visible.Instances(objectIndex, chunk);
+            if (instances.Length > 0)
+            {
+                instances.CopyTo(_map);
+                UploadedBytes += sizeof(float) * _map.Length;
+                return;
+            }
+        }
     }
 }
