@@ -29,6 +29,12 @@ internal static class TerminationSignal
     public static void EndProcess()
     {
         AtomicFile.DeleteUnfinished();
+        if (OperatingSystem.IsLinux() || OperatingSystem.IsMacOS())
+        {
+            // Without the handlers that libraries have registered for the exit: those of OpenGL free what the window's thread still uses.
+            ExitWithoutHandlers(ExitCode.Interrupted);
+        }
+
         Environment.Exit(ExitCode.Interrupted);
     }
 
@@ -43,4 +49,8 @@ internal static class TerminationSignal
 
         EndProcess();
     }
+
+    [DllImport("libc", EntryPoint = "_exit")]
+    [DefaultDllImportSearchPaths(DllImportSearchPath.SafeDirectories)]
+    private static extern void ExitWithoutHandlers(int exitCode);
 }

@@ -18,8 +18,8 @@ internal sealed record AnimationJob(
     /// <summary>How the frames are traced; null where they are drawn.</summary>
     public TracedImage? Trace { get; init; }
 
-    /// <summary>Requires something to move, and at most one motion of the camera.</summary>
-    /// <exception cref="UsageException">Nothing moves, or the motions contradict each other.</exception>
+    /// <summary>Requires something to move, at most one motion of the camera, and what the format of the output can hold.</summary>
+    /// <exception cref="UsageException">Nothing moves, the motions contradict each other, or the format can't hold the frames.</exception>
     public void Check()
     {
         var motions = new[] { IsTurntable, CameraList is not null, Images.ZoomLevels > 0 }.Count(static asked => asked);
@@ -32,6 +32,8 @@ internal sealed record AnimationJob(
         {
             throw new UsageException("nothing moves: expected --turntable, --zoom LEVELS, --path CAMERAS.txt or --simulate");
         }
+
+        AnimationOutput.CheckFormat(Output, FramesPerSecond, Images.Background.IsTransparent);
     }
 
     /// <summary>Returns the physics time of a frame, in seconds.</summary>

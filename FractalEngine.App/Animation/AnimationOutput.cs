@@ -8,6 +8,26 @@ internal abstract class AnimationOutput : IDisposable
     /// <summary>Endings of names, for messages.</summary>
     public const string Endings = ".png, .apng, .mp4, .webm or .gif";
 
+    // A GIF counts the time of a frame in hundredths of a second.
+    private const double MaxFramesPerSecondOfGif = 100;
+
+    /// <summary>Requires the format of an output to be able to hold the frames.</summary>
+    /// <exception cref="UsageException">It can't.</exception>
+    public static void CheckFormat(string path, double framesPerSecond, bool isTransparent)
+    {
+        var ending = Path.GetExtension(path).ToLowerInvariant();
+        if (ending is ".gif" && framesPerSecond > MaxFramesPerSecondOfGif)
+        {
+            var rates = FormattableString.Invariant($"{MaxFramesPerSecondOfGif} frames a second, not {framesPerSecond}");
+            throw new UsageException($"a .gif has at most {rates}: expected a smaller --fps, or .apng");
+        }
+
+        if (isTransparent && ending is (".mp4" or ".webm" or ".gif"))
+        {
+            throw new UsageException($"a video has no transparent background: expected --output to end in .png or .apng, not {ending}");
+        }
+    }
+
     /// <summary>Creates the output for the ending of a name.</summary>
     /// <param name="path">Path that ends in one of <see cref="Endings"/>.</param>
     /// <param name="frameCount">Number of frames that will follow.</param>

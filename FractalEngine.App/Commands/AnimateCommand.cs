@@ -106,15 +106,23 @@ internal static class AnimateCommand
         var job = animation.Images;
         if (animation.Trace is { } trace)
         {
-            motion = animation.CreateMotion(scene, () => DrawableScene.Prepare(scene, job.Settings), view);
+            motion = CreateMotion(animation, scene, () => DrawableScene.Prepare(scene, job.Settings), view, report);
             return new TracedFrames(trace.Prepare(scene, view, job, report), job, trace);
         }
 
         var drawable = report.Measure("prepare", () => DrawableScene.Prepare(job.Background.ApplyTo(scene), job.Settings));
         Notices.Write(drawable.Notices);
 
-        motion = animation.CreateMotion(scene, () => drawable, view);
+        motion = CreateMotion(animation, scene, () => drawable, view, report);
         return new DrawnFrames(drawable, job);
+    }
+
+    private static Func<int, View> CreateMotion(
+        AnimationJob animation, LoadedScene scene, Func<DrawableScene> prepare, View view, WrittenReport report)
+    {
+        // The way into a fractal is measured first, which takes long for hundreds of levels.
+        using var notice = new SlowWorkNotice("finding the camera's way", report.IsQuiet);
+        return animation.CreateMotion(scene, prepare, view);
     }
 
     private static int Write(

@@ -81,9 +81,9 @@ internal static class RenderCommand
         var drawable = report.Measure("prepare", () => DrawableScene.Prepare(job.Background.ApplyTo(scene), job.Settings));
         Notices.Write(drawable.Notices);
 
+        using var notice = new SlowWorkNotice("drawing", report.IsQuiet);
         view = Zoom(drawable, view, job);
         using var renderer = new ImageRenderer(drawable, job.Size, job.Settings, job.Background);
-        using var notice = new SlowWorkNotice("drawing", report.IsQuiet);
         var image = report.Measure("draw", () => renderer.Draw(view));
         Write(image, output, report);
         return image;

@@ -92,7 +92,8 @@ public sealed class ObjSceneWriter
         catch (FractalLimitException exception)
         {
             var message = string.Create(CultureInfo.InvariantCulture,
-                $"{model.Name} has more faces than the limit of {maxFaces}: {exception.Message}");
+                $"{model.Name} has more faces than the limit of {maxFaces}: "
+                + $"its base has {fractal.BaseMesh.FaceCount}, and {exception.Message}");
             throw new FractalLimitException(message, exception);
         }
     }

@@ -9,6 +9,7 @@ internal sealed class PlyHeaderParser
 {
     private readonly MeshTextReader _text;
     private readonly List<PlyElement> _elements = [];
+    private readonly HashSet<string> _names = [];
     private readonly ImmutableArray<PlyProperty>.Builder _properties = ImmutableArray.CreateBuilder<PlyProperty>();
     private PlyFormat? _format;
 
@@ -71,6 +72,11 @@ internal sealed class PlyHeaderParser
     private void ParseElement()
     {
         var name = Encoding.UTF8.GetString(_text.ReadWord("the name of an element"));
+        if (!_names.Add(name))
+        {
+            throw _text.Error($"element '{name}' is declared above");
+        }
+
         var position = _text.WordStart;
         var count = _text.ReadCount("the number of elements", int.MaxValue);
         _text.ReadEndOfLine();

@@ -108,11 +108,16 @@ public sealed class PlyReader
 
     private void ReadFaces(PlyElement element)
     {
+        if (element.Count > 0 && !element.Properties.Any(IsVertexList))
+        {
+            throw _bytes.TextError(element.Position, "the faces have no list 'vertex_indices'");
+        }
+
         for (var i = 0; i < element.Count; i++)
         {
             foreach (var property in element.Properties)
             {
-                if (property.IsList && property.Name is "vertex_indices" or "vertex_index")
+                if (IsVertexList(property))
                 {
                     ReadFace(property);
                 }
@@ -123,6 +128,8 @@ public sealed class PlyReader
             }
         }
     }
+
+    private static bool IsVertexList(PlyProperty property) => property.IsList && property.Name is "vertex_indices" or "vertex_index";
 
     private void ReadFace(PlyProperty property)
     {

@@ -208,6 +208,13 @@ public sealed class ImageCommandTests : IDisposable
         Assert.Equal(Pixels("b.png"), Pixels("f-0003.png"));
     }
 
+    [Theory]
+    [InlineData("x.gif", "--fps", "101", "a .gif has at most 100 frames a second, not 101: expected a smaller --fps, or .apng")]
+    [InlineData("x.MP4", "--background", "transparent",
+        "a video has no transparent background: expected --output to end in .png or .apng, not .mp4")]
+    public void Animate_IntoAFormatThatCannotHoldIt_SaysSo(string output, string option, string value, string message) => Assert.Equal(
+        new AppResult(2, "", $"error: {message}\n"), Run("animate", "scene.sdo", "--turntable", "--output", output, option, value));
+
     [Fact]
     public void Animate_AlongAFaultyPath_PointsAtTheMistake()
     {

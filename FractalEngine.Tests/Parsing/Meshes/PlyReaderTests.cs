@@ -1,3 +1,4 @@
+using System.Diagnostics;
 using System.Globalization;
 using System.Text;
 using FractalEngine.Core.Geometry;
@@ -106,6 +107,15 @@ public class PlyReaderTests
     }
 
     [Fact]
+    public void Elements_WithoutProperties_TakeNoTime()
+    {
+        var clock = Stopwatch.StartNew();
+        var parsed = PlyReader.Read(Bytes(Text(Vertices + "element face 0\nelement nothing 2147483647\n", Square)));
+        Assert.Equal((4, 0), (parsed.Mesh.Positions.Length / 3, parsed.Mesh.FaceCount));
+        Assert.True(clock.Elapsed < TimeSpan.FromSeconds(1), $"{clock.Elapsed}");
+    }
+
+    [Fact]
     public void UndefinedNormal_CountsAsZero()
     {
         const string header = "element vertex 1\nproperty float x\nproperty float y\nproperty float z\nproperty float nx\n"
@@ -132,6 +142,14 @@ public class PlyReaderTests
     [InlineData("ply\nformat ascii 1.0\nend_header\n", "test.ply:1:1: error: the header declares no element 'vertex'\n  ply\n  ^")]
     [InlineData("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n1",
         "test.ply:3:9: error: the vertices have no property 'y'\n  element vertex 1\n          ^")]
+    [InlineData("ply\nelement vertex 1\nelement face 1\nelement vertex 1\n",
+        "test.ply:4:9: error: element 'vertex' is declared above\n  element vertex 1\n          ^")]
+    [InlineData("ply\nformat ascii 1.0\nelement vertex 0\nproperty int x\nproperty int y\nproperty int z\n"
+        + "element face 2147483647\nend_header\n",
+        "test.ply:7:9: error: the faces have no list 'vertex_indices'\n  element face 2147483647\n          ^")]
+    [InlineData("ply\nformat ascii 1.0\nelement vertex 0\nproperty int x\nproperty int y\nproperty int z\n"
+        + "element face 1\nproperty int vertex_indices\nend_header\n1",
+        "test.ply:7:9: error: the faces have no list 'vertex_indices'\n  element face 1\n          ^")]
     public void Header_ThatIsWrong_PointsAtTheFault(string text, string message) =>
         Errors.AssertMessage(message, () => PlyReader.Read(Bytes(text)));
 
