@@ -18,9 +18,13 @@ internal interface IPointMeasure
 
 /// <summary>Finds the largest value of a measure over the points of a fractal, such as how far it reaches in a direction.</summary>
 /// <param name="fractal">The fractal, in affine composition.</param>
-/// <remarks>Its memory serves one search after the other: 40 bytes for each child of a sub-fractal that was opened.</remarks>
+/// <remarks>Its memory serves one search after the other: 40 bytes for each sub-fractal that waits, some megabytes at most.</remarks>
 internal sealed class FarthestPointSearch(Fractal fractal)
 {
+    // Beyond so many, the worst of what waits is given up: its bounds alone are kept.
+    private const int MaxWaiting = 1 << 17;
+    private const int MaxKept = 1 << 15;
+
     private readonly List<Opened> _opened = [];
 
     // A forest's trees stand on one plane and are turned about its normal: to the eye of a direction they are the same.
@@ -29,6 +33,10 @@ internal sealed class FarthestPointSearch(Fractal fractal)
 
     // What may still be opened. Its place follows from that of its parent, which saves most of the memory.
     private readonly PriorityQueue<(int Parent, ChildInstance Child, double Bound), (double, int)> _open = new();
+
+    // The best priority and the largest bound of all that was given up.
+    private (double, int) _givenUpPriority;
+    private double _givenUpBound;
 
     /// <summary>Searches the sub-fractals best first.</summary>
     /// <typeparam name="TMeasure">The measure; a struct, so that the search is compiled for it.</typeparam>
@@ -54,6 +62,8 @@ internal sealed class FarthestPointSearch(Fractal fractal)
         }
 
         _open.Clear();
+        _givenUpPriority = (double.PositiveInfinity, 0);
+        _givenUpBound = double.NegativeInfinity;
         _opened.Clear();
         _seen.Clear();
         var scale = Math.Max(Math.Abs(measure.UpperBound(hierarchy.Root, in map)), hierarchy.Root.Radius * map.Linear.MaxAbsEntry());
@@ -67,7 +77,8 @@ internal sealed class FarthestPointSearch(Fractal fractal)
         {
             if (nodes == maxNodes || (opened.Depth > 0 && opened.SubFractal.Radius * opened.Map.Linear.MaxAbsEntry() <= tolerance))
             {
-                return _open.UnorderedItems.Select(item => item.Element.Bound).Append(node.Bound).Append(largestLeaf).Max();
+                return _open.UnorderedItems.Select(item => item.Element.Bound)
+                    .Append(node.Bound).Append(largestLeaf).Append(_givenUpBound).Max();
             }
 
             _opened.Add(opened);
@@ -105,11 +116,16 @@ internal sealed class FarthestPointSearch(Fractal fractal)
                 }
             }
 
+            if (_open.Count > MaxWaiting)
+            {
+                GiveUpWorse();
+            }
+
             do
             {
                 if (!_open.TryDequeue(out var next, out var nextPriority) || leaf.Priority.CompareTo(nextPriority) <= 0)
                 {
-                    return leaf.Value;
+                    return _givenUpPriority.CompareTo(leaf.Priority) < 0 ? Math.Max(leaf.Value, _givenUpBound) : leaf.Value;
                 }
 
                 node = next;
@@ -117,6 +133,35 @@ internal sealed class FarthestPointSearch(Fractal fractal)
             }
             while (measure.Key(opened.Map) is { } key && !_seen.Add((opened.SubFractal, opened.Levels, key)));
         }
+    }
+
+    private void GiveUpWorse()
+    {
+        var priorities = new double[_open.Count];
+        var count = 0;
+        foreach (var (_, priority) in _open.UnorderedItems)
+        {
+            priorities[count++] = priority.Item1;
+        }
+
+        Array.Sort(priorities);
+        var threshold = priorities[MaxKept];
+        var kept = new List<((int Parent, ChildInstance Child, double Bound), (double, int))>(MaxKept);
+        var room = MaxKept - Array.FindIndex(priorities, priority => priority.Equals(threshold));
+        foreach (var (node, priority) in _open.UnorderedItems)
+        {
+            if (priority.Item1 < threshold || (priority.Item1.Equals(threshold) && room-- > 0))
+            {
+                kept.Add((node, priority));
+                continue;
+            }
+
+            _givenUpPriority = priority.CompareTo(_givenUpPriority) < 0 ? priority : _givenUpPriority;
+            _givenUpBound = Math.Max(_givenUpBound, node.Bound);
+        }
+
+        _open.Clear();
+        _open.EnqueueRange(kept);
     }
 
     private Opened Open(FractalHierarchy hierarchy, int parentIndex, ChildInstance child)
