@@ -25,7 +25,7 @@ internal sealed class ObjectsPass : IDisposable
     private readonly ObjectTransforms _transforms;
     private readonly MeshPass _meshPass;
     private readonly LightBlock _lightBlock;
-    private readonly ObjectBlock[] _objectBlocks;
+    private readonly ObjectBlocks _objectBlocks;
     private readonly SkyPass? _skyPass;
     private DrawableScene _scene;
     private TransparentOrder _transparentOrder;
@@ -47,7 +47,7 @@ internal sealed class ObjectsPass : IDisposable
         _transforms = transforms;
         _meshPass = new(context, LightBlock.LightsOf(scene.Source));
         _lightBlock = new(_resources, scene.Source);
-        _objectBlocks = [.. scene.Objects.Select(item => new ObjectBlock(_resources, item.Name))];
+        _objectBlocks = new(_resources, scene.Objects.Length);
         _transparentOrder = TransparentOrder.Create(scene);
         _shadowPass = new(context, scene, buffers, transforms);
         _skyPass = scene.Source.Scene is { Sky: { } sky, Background: null } ? new(_resources, sky) : null;
@@ -66,6 +66,7 @@ internal sealed class ObjectsPass : IDisposable
     public void SetScene(DrawableScene scene)
     {
         _scene = scene;
+        _objectBlocks.ForgetColours();
         _transparentOrder = TransparentOrder.Create(scene);
         _shadowPass.SetScene(scene);
     }
@@ -115,11 +116,7 @@ internal sealed class ObjectsPass : IDisposable
     /// <inheritdoc/>
     public void Dispose()
     {
-        foreach (var block in _objectBlocks)
-        {
-            block.Dispose();
-        }
-
+        _objectBlocks.Dispose();
         _skyPass?.Dispose();
         _shadowPass.Dispose();
         _sphereBatch?.Dispose();
@@ -215,14 +212,14 @@ internal sealed class ObjectsPass : IDisposable
 
     private void BindObjectBlock(int index, View view)
     {
-        var item = _scene.Objects[index];
-        var objectToWorld = _transforms.ObjectToWorld[index];
-        // Culled instances are already in world axes about the camera.
-        var modelToWorld = _buffers.Culler.SelectsInstances(index)
-            ? AffineMap.Translate(view.Camera.Position)
-            : new AffineMap(objectToWorld.Linear, objectToWorld * item.Model.Origin);
-        var gradientEnd = item.Gradient?.EndColour ?? item.Colour;
-        _objectBlocks[index].Bind(MeshPass.ObjectBinding, modelToWorld, item.Colour, gradientEnd, view.Camera.Position);
+        if (_buffers.Culler.SelectsInstances(index))
+        {
+            _objectBlocks.BindRelative(_scene.Objects[index]);
+        }
+        else
+        {
+            _objectBlocks.Bind(index, _scene.Objects[index], _transforms.ObjectToWorld[index], view.Camera.Position);
+        }
     }
 
     private MeshFeatures FeaturesOf(int index, CullFace culledFace) =>
