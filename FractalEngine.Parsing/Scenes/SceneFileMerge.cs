@@ -80,11 +80,11 @@ public static class SceneFileMerge
     {
         try
         {
-            return File.ReadAllBytes(path);
+            return SourceText.ReadBytes(path, path, ParsingLimits.MaxDescriptionBytes);
         }
-        catch (UnauthorizedAccessException exception)
+        catch (SourceException exception)
         {
-            throw new IOException(exception.Message, exception);
+            throw new IOException($"{path} can't be saved: {exception.Diagnostic.Message}", exception);
         }
     }
 

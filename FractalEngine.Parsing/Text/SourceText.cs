@@ -49,8 +49,18 @@ public sealed class SourceText
     /// <exception cref="SourceException">The file is missing, unreadable, too large or not text of that encoding.</exception>
     public static SourceText Read(string path, string fileName, long maxBytes, bool acceptLatin1 = false)
     {
+        return Decode(ReadBytes(path, fileName, maxBytes), fileName, acceptLatin1);
+    }
+
+    /// <summary>Reads the bytes of a file, which need not be text.</summary>
+    /// <param name="path">Path of the file, absolute or relative to the current directory.</param>
+    /// <param name="fileName">Name of the file in messages.</param>
+    /// <param name="maxBytes">Size limit; larger files are refused before anything is read.</param>
+    /// <exception cref="SourceException">The file is missing, unreadable or too large, or it is a folder, a pipe or a device.</exception>
+    public static byte[] ReadBytes(string path, string fileName, long maxBytes)
+    {
         using var stream = OpenFile(path, fileName, maxBytes);
-        return Decode(Access(fileName, () => ReadAll(stream)), fileName, acceptLatin1);
+        return Access(fileName, () => ReadAll(stream));
     }
 
     /// <summary>Decodes the bytes of a text file, with the rules of <see cref="Read"/>.</summary>

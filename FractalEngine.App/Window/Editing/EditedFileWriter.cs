@@ -1,5 +1,6 @@
 using System.Text;
 using FractalEngine.Core.Files;
+using FractalEngine.Parsing;
 using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.App.Window.Editing;
@@ -14,17 +15,19 @@ internal static class EditedFileWriter
     public static void Write(string path, EditedFile edited)
     {
         var name = Path.GetFileName(path);
-        var bytes = File.ReadAllBytes(path);
-        var mark = bytes.AsSpan().StartsWith(Encoding.UTF8.Preamble) ? Encoding.UTF8.Preamble.ToArray() : [];
+        byte[] bytes;
         string present;
         try
         {
+            bytes = SourceText.ReadBytes(path, name, ParsingLimits.MaxDescriptionBytes);
             present = SourceText.Decode(bytes, name).Text;
         }
         catch (SourceException exception)
         {
-            throw new IOException($"{name} can't be saved: {exception.Message}", exception);
+            throw new IOException($"{name} can't be saved: {exception.Diagnostic.Message}", exception);
         }
+
+        var mark = bytes.AsSpan().StartsWith(Encoding.UTF8.Preamble) ? Encoding.UTF8.Preamble.ToArray() : [];
 
         if (!bytes.AsSpan(mark.Length).SequenceEqual(Encoding.UTF8.GetBytes(present)))
         {

@@ -1,10 +1,8 @@
 using System.Collections.Immutable;
 using System.Globalization;
-using System.Numerics;
 using FractalEngine.App.Window.Actions;
 using FractalEngine.Core;
 using FractalEngine.Core.Files;
-using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Fractals;
 using FractalEngine.Parsing.Text;
@@ -18,12 +16,12 @@ internal sealed class FractalPanel(WindowActions actions)
 {
     private const string Axes = "xyz";
 
+    private readonly FractalFacts _facts = new();
+
     // The file that was chosen of several, and the one whose numbers are shown.
     private string? _chosen;
     private string? _path;
     private string _text = "";
-    private FractalModel? _measured;
-    private double? _dimension;
     private FileStamp? _stamp;
     private string? _problem;
     private ImmutableArray<FractalNumber> _numbers = [];
@@ -63,7 +61,7 @@ internal sealed class FractalPanel(WindowActions actions)
             }
         }
 
-        BuildFacts(ui, model);
+        _facts.Build(ui, model);
         if (TryRead(model.SourcePath!))
         {
             MarkSelected(model);
@@ -77,29 +75,6 @@ internal sealed class FractalPanel(WindowActions actions)
             ui.Paragraph(problem, isWarning: true);
         }
     }
-
-    private void BuildFacts(UserInterface ui, FractalModel model)
-    {
-        if (!ReferenceEquals(model, _measured))
-        {
-            (_measured, _dimension) = (model, SimilarityDimension.Of(model.Fractal.Description));
-        }
-
-        ui.Heading(model.Name);
-        ui.Fact("instances", Count(model.InstanceCount));
-        ui.Fact("faces", Count(model.FaceCount));
-        var size = model.Bounds.Size;
-        ui.Fact("size", size.IsFinite()
-            ? $"{PanelWidgets.Number(size.X)} × {PanelWidgets.Number(size.Y)} × {PanelWidgets.Number(size.Z)}" : "no bounds");
-        ui.Fact(
-            "dimension", _dimension is { } dimension ? PanelWidgets.Number(dimension) : "none",
-            "similarity dimension s: the ratios r of all child instances have the sum of r^s = 1, as if the depth had no end");
-        ui.Fact("composition", model.Fractal.Description.Composition.ToString().ToLowerInvariant());
-    }
-
-    private static string Count(BigInteger? count) => count is not { } number ? "infinite"
-        : number < 1_000_000_000_000_000 ? number.ToString("N0", CultureInfo.InvariantCulture)
-        : number.ToString("E3", CultureInfo.InvariantCulture);
 
     /// <summary>Reads the numbers of a file, unless that is done already.</summary>
     private bool TryRead(string path)
@@ -116,15 +91,13 @@ internal sealed class FractalPanel(WindowActions actions)
 
             _stamp = stamp;
             var text = edits.TextOf(path);
-            if (path != _path || text != _text)
+            if (path != _path || text != _text || _problem is not null)
             {
-                _path = path;
-                _text = text;
-                _numbers = FractalNumber.FindAll(new SourceText(Path.GetFileName(path), text));
+                _numbers = FindNumbers(path, text);
                 _comments = FractalComments.Above(text, _numbers.Select(static number => number.Offset));
             }
 
-            _problem = null;
+            (_path, _text, _problem) = (path, text, null);
         }
         catch (FractalEngineException exception)
         {
@@ -134,6 +107,9 @@ internal sealed class FractalPanel(WindowActions actions)
 
         return _problem is null;
     }
+
+    private static ImmutableArray<FractalNumber> FindNumbers(string path, string text) =>
+        FractalNumber.FindAll(new SourceText(Path.GetFileName(path), text));
 
     private void BuildNumbers(UserInterface ui)
     {
@@ -280,11 +256,25 @@ internal sealed class FractalPanel(WindowActions actions)
         var text = _numbers[index].Replace(_text, value);
         if (text != _text)
         {
-            actions.Files.Edit(_path!, text, ui.Interaction);
+            Edit(text, ui.Interaction);
+        }
+    });
+
+    /// <summary>Changes the text, unless it would be no fractal any more: then no number of it could be turned back.</summary>
+    private void Edit(string text, int? interaction)
+    {
+        try
+        {
+            FindNumbers(_path!, text);
+            actions.Files.Edit(_path!, text, interaction);
             // The places of all numbers behind it have moved.
             TryRead(_path!);
         }
-    });
+        catch (FractalEngineException exception)
+        {
+            actions.Show(exception.Message);
+        }
+    }
 
     /// <summary>Returns the ends of a slider, and its step.</summary>
     private static (double Minimum, double Maximum, double Step) RangeOf(FractalNumber number)

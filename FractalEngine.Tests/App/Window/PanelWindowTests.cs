@@ -73,6 +73,24 @@ public sealed class PanelWindowTests : IDisposable
     }
 
     [SkippableFact]
+    public void FractalPanel_NumberThatIsNoFractal_IsRefusedAndLaterOnesAreSavedInTheirPlace()
+    {
+        using var window = Open("row.fdo");
+        window.Send("key F4");
+        window.ClickText("depth of z", right: 120);
+        window.Type("99999999999999");
+        window.Send("key Return");
+        window.ClickText("1.5");
+        window.Type("0.125");
+        window.Send("key Return");
+        window.WaitForTitle("row.fdo*");
+        window.Send("key ctrl+s");
+        window.WaitForError("saved row.fdo");
+        Assert.Equal(Fractal.Replace("1.5", "0.125", StringComparison.Ordinal), File.ReadAllText(_folder["row.fdo"]));
+        Assert.Equal(0, window.CloseWith("key Escape"));
+    }
+
+    [SkippableFact]
     public void FractalPanel_DepthByKeys_ChangesTheCounts()
     {
         using var window = Open("row.fdo");

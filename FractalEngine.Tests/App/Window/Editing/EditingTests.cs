@@ -2,8 +2,10 @@ using FractalEngine.App.Window;
 using FractalEngine.App.Window.Editing;
 using FractalEngine.App.Window.Panels;
 using FractalEngine.Core.Geometry;
+using FractalEngine.Parsing;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Parsing.Fractals;
+using FractalEngine.Parsing.Scenes;
 using FractalEngine.Render.Ui;
 using FractalEngine.Tests.Support;
 
@@ -157,6 +159,31 @@ public sealed class EditingTests : IDisposable
         File.WriteAllBytes(path, [0xE4, (byte)'\n']);
         Assert.Throws<IOException>(() => EditedFileWriter.Write(path, new("ä one\n", "ä three\n")));
         Assert.Equal([0xE4, (byte)'\n'], File.ReadAllBytes(path));
+    }
+
+    [SkippableFact]
+    public void Write_OntoWhatIsNoFileAnyMore_IsRefusedAtOnce()
+    {
+        Skip.If(OperatingSystem.IsWindows(), "there are no named pipes in folders");
+        var pipe = _folder["pipe.sdo"];
+        System.Diagnostics.Process.Start("mkfifo", pipe).WaitForExit();
+        File.CreateSymbolicLink(_folder["zero.sdo"], "/dev/zero");
+        Directory.CreateDirectory(_folder["folder.sdo"]);
+        File.WriteAllBytes(_folder["large.sdo"], new byte[ParsingLimits.MaxDescriptionBytes + 1]);
+        var reasons = new Dictionary<string, string>
+        {
+            ["pipe.sdo"] = "this is a pipe or a device", ["zero.sdo"] = "this is a pipe or a device",
+            ["folder.sdo"] = "this is a directory", ["large.sdo"] = "more than the limit",
+        };
+        foreach (var (name, reason) in reasons)
+        {
+            Action[] writes =
+            [
+                () => EditedFileWriter.Write(_folder[name], new("a\n", "b\n")),
+                () => SceneFileMerge.Write(_folder[name], "c (0, 0, 0) # 60\n", "c (1, 0, 0) # 60\n"),
+            ];
+            Assert.All(writes, write => Assert.Contains(reason, Assert.Throws<IOException>(write).Message, StringComparison.Ordinal));
+        }
     }
 
     [Fact]
