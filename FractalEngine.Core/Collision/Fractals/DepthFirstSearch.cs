@@ -9,16 +9,24 @@ namespace FractalEngine.Core.Collision.Fractals;
 /// </summary>
 /// <typeparam name="TFrame">How bounds and positions are compared; a struct, so that the search is compiled for it.</typeparam>
 /// <param name="hierarchy">The sub-fractals.</param>
-/// <param name="bvh">The hierarchy of the base mesh.</param>
+/// <param name="bvhs">The hierarchies of the base meshes.</param>
 /// <param name="expandedLevels">The levels that are searched as meshes.</param>
-internal sealed class DepthFirstSearch<TFrame>(FractalHierarchy hierarchy, TriangleBvh bvh, ExpandedLevels expandedLevels)
+internal sealed class DepthFirstSearch<TFrame>(FractalHierarchy hierarchy, TriangleBvh[] bvhs, ExpandedLevels expandedLevels)
     where TFrame : struct, ISearchFrame<TFrame>
 {
     private const int MaxUrgentLevels = 12;
 
+    // To test all triangles of a smaller base costs no more than to test its hull.
+    private const int MaxFacesWithoutHull = 8;
+
     // From here on, no sub-fractal is searched as a mesh.
     private readonly long _meshLevels = expandedLevels.Count;
-    private readonly int _baseFaceCount = bvh.FaceCount;
+
+    // Below, all are base meshes.
+    private readonly long _baseCount = bvhs.Length;
+
+    // Below, to test all triangles costs no more than to test the hull.
+    private readonly long _smallLevels = bvhs.Max(static bvh => bvh.FaceCount) > MaxFacesWithoutHull ? 0 : bvhs.Length;
 
     /// <summary>Searches the whole fractal.</summary>
     /// <param name="frame">The frame of the whole fractal.</param>
@@ -41,9 +49,9 @@ internal sealed class DepthFirstSearch<TFrame>(FractalHierarchy hierarchy, Trian
             return;
         }
 
-        if (remainingLevels == 0 || frame.RadiusSquared(subFractal) <= search.MinRadiusSquared)
+        if (remainingLevels < _baseCount || frame.RadiusSquared(subFractal) <= search.MinRadiusSquared)
         {
-            frame.TestTriangles(bvh, null, depth, ref search);
+            frame.TestTriangles(bvhs[subFractal.BaseIndex], null, depth, ref search);
             return;
         }
 
@@ -110,7 +118,7 @@ internal sealed class DepthFirstSearch<TFrame>(FractalHierarchy hierarchy, Trian
             // While nothing excludes any child, one around the position is visited as it is; but not from far above the faces.
             var isUrgent = childLevels < MaxUrgentLevels && !(cutoffSquared < double.PositiveInfinity) && queue.MayContain(closestChild);
             if ((refined & (1UL << closestChild)) == 0
-                && frame.CanRefine(subFractal, childSubFractal, childLevels, _baseFaceCount, isUrgent, in search))
+                && frame.CanRefine(subFractal, childSubFractal, childLevels < _smallLevels, isUrgent, in search))
             {
                 // The child's own bounds are tighter than the box around its image. Only children that seem closest are refined.
                 var refinedBound = frame.RefinedBoundSquared(

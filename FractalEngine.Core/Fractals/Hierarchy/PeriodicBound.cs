@@ -18,8 +18,10 @@ namespace FractalEngine.Core.Fractals.Hierarchy;
 /// Multiple of the usual tolerance for changes, at least 1. The choice of a hull's vertices may change a little from round to round without
 /// end.
 /// </param>
+/// <param name="maxRoundsDown">The largest number of rounds between a sub-fractal and its children, rounded up.</param>
 internal sealed class PeriodicBound(
-    long topLevel, int period, Func<long, BoundingVolume> volumeAt, Func<long, ChildEdge[]> edgesAt, double toleranceFactor)
+    long topLevel, int period, Func<long, BoundingVolume> volumeAt, Func<long, ChildEdge[]> edgesAt, double toleranceFactor,
+    int maxRoundsDown)
 {
     // Bounds have converged when a round changes them by less than this part of their size, or of the margin by which they are too large
     // anyway.
@@ -37,11 +39,14 @@ internal sealed class PeriodicBound(
 
     private const int MaxMarginIterations = 300;
 
+    /// <summary>Number of levels in a round.</summary>
+    public int Period => period;
+
     /// <summary>Remaining levels at the bottom of the last round.</summary>
     public long FirstLevel { get; } = topLevel - period + 1;
 
     /// <summary>The lowest level of a round so far up that all its children lie in rounds like the last one.</summary>
-    public long InductionLevel { get; } = topLevel + 1 + (ChildInstanceBuilder.MaxExpandedLevels * (long)period);
+    public long InductionLevel { get; } = topLevel + 1 + ((long)maxRoundsDown * period);
 
     /// <summary>Tells whether the bounds of the last two rounds differ little enough.</summary>
     public bool HasConverged()
