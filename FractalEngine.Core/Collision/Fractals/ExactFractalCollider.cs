@@ -2,6 +2,7 @@ using System.Runtime.CompilerServices;
 using FractalEngine.Core.Collision.Bvh;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Fractals.Hierarchy;
+using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Collision.Fractals;
@@ -32,11 +33,14 @@ public sealed class ExactFractalCollider : Collider
 
     private readonly FractalHierarchy _hierarchy;
     private readonly TriangleBvh[] _baseBvhs;
+
+    // Null where there are several.
+    private readonly Mesh? _onlyMesh;
     private readonly ExpandedLevels _expandedLevels;
     private readonly double _precisionRadius;
     private readonly double _rootMagnitude;
-    private readonly DepthFirstSearch<SimilarityFrame> _similaritySearch;
-    private readonly DepthFirstSearch<AffineFrame> _affineSearch;
+    private readonly IDepthFirstSearch<SimilarityFrame> _similaritySearch;
+    private readonly IDepthFirstSearch<AffineFrame> _affineSearch;
     private readonly BestFirstSearch _bestFirstSearch;
 
     /// <summary>Prepares a fractal in affine composition for queries.</summary>
@@ -62,8 +66,9 @@ public sealed class ExactFractalCollider : Collider
         _precisionRadius = PrecisionRadius(_hierarchy.Root);
         _rootMagnitude = BoundingVolume.MaxAbsCoordinate(_hierarchy.Root.Box);
         _expandedLevels = ExpandedLevels.For(_hierarchy, _baseBvhs[0]);
-        _similaritySearch = new(_hierarchy, _baseBvhs, _expandedLevels);
-        _affineSearch = new(_hierarchy, _baseBvhs, ExpandedLevels.None);
+        _onlyMesh = hierarchy.BaseMeshes is [var only] ? only : null;
+        _similaritySearch = CreateSearch<SimilarityFrame>(_expandedLevels);
+        _affineSearch = CreateSearch<AffineFrame>(ExpandedLevels.None);
         _bestFirstSearch = new(_hierarchy, _baseBvhs);
     }
 
@@ -94,6 +99,11 @@ public sealed class ExactFractalCollider : Collider
     private static FractalHierarchy HierarchyOf(Fractal fractal) => fractal.Description.Composition == Composition.Affine
         ? fractal.Hierarchy
         : throw new ArgumentException("expected affine composition: componentwise sums have no levels to search", nameof(fractal));
+
+    private IDepthFirstSearch<TFrame> CreateSearch<TFrame>(ExpandedLevels expandedLevels)
+        where TFrame : struct, ISearchFrame<TFrame> => _baseBvhs is [var only]
+        ? new DepthFirstSearch<TFrame, OneBaseMesh>(_hierarchy, new(only), expandedLevels)
+        : new DepthFirstSearch<TFrame, SeveralBaseMeshes>(_hierarchy, new(_baseBvhs), expandedLevels);
 
     /// <summary>Tells whether all of the fractal is beyond a radius, at the cost of one box.</summary>
     private bool IsFarther(in Vector position, double maxDistance, QueryContext context, out ClosestPoint closest)
@@ -165,8 +175,8 @@ public sealed class ExactFractalCollider : Collider
         }
 
         var instance = _hierarchy.ResolveInstance(search.ClosestPath, in map, context, out var reach);
-        ClosestPointFactory.OnInstance(
-            _hierarchy.BaseMeshAt(search.ClosestPath), search.ClosestFace, in instance, in position, out closest);
+        var mesh = _onlyMesh ?? _hierarchy.BaseMeshAt(search.ClosestPath);
+        ClosestPointFactory.OnInstance(mesh, search.ClosestFace, in instance, in position, out closest);
         reach = Math.Max(reach, closest.Point.MaxAbsComponent());
         ClosestPoint.SetErrorBound(ref closest, search.ErrorBound(closest.Distance, reach));
         return closest.Distance <= maxDistance;

@@ -149,7 +149,7 @@ internal sealed class ExpandedLevelSelector(FractalHierarchy hierarchy, Triangle
 
     private double MeasureWork(ExpandedLevels expandedLevels, Vector[] positions)
     {
-        var depthFirst = new DepthFirstSearch<SimilarityFrame>(hierarchy, [bvh], expandedLevels);
+        var depthFirst = new DepthFirstSearch<SimilarityFrame, OneBaseMesh>(hierarchy, new(bvh), expandedLevels);
         var magnitude = BoundingVolume.MaxAbsCoordinate(hierarchy.Root.Box);
         var context = new QueryContext();
         var work = 0.0;

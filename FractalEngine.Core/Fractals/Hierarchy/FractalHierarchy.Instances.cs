@@ -13,11 +13,6 @@ internal sealed partial class FractalHierarchy
     /// <param name="path">Indices of child instances from the root.</param>
     public Mesh BaseMeshAt(ReadOnlySpan<int> path)
     {
-        if (BaseMeshes.Length == 1)
-        {
-            return BaseMeshes[0];
-        }
-
         var (subFractal, level) = (Root, Levels);
         foreach (var childIndex in path)
         {

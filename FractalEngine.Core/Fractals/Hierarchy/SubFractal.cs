@@ -20,6 +20,9 @@ internal sealed class SubFractal
     private readonly Vector256<double> _halfSize;
     private readonly bool _isGroup;
 
+    // So small that it takes no place of its own: queries read most of the fields.
+    private readonly ushort _baseIndex;
+
     // That of a group is created at its first use, twice at worst and with the same result: wide sets have thousands.
     private ConvexSolid? _solid;
 
@@ -52,7 +55,7 @@ internal sealed class SubFractal
     {
         _solid = solid;
         _isGroup = isGroup;
-        BaseIndex = baseIndex;
+        _baseIndex = checked((ushort)baseIndex);
         Clusters = clusters;
         Set = set;
         Children = children;
@@ -95,7 +98,7 @@ internal sealed class SubFractal
     /// Index of the base mesh that the sub-fractal is where it has no children. Otherwise that of the mesh that replaces it where it is
     /// smaller than the precision of a search.
     /// </summary>
-    public int BaseIndex { get; }
+    public int BaseIndex => _baseIndex;
 
     /// <summary>Number of child boxes including padding, which is far from everything.</summary>
     public int PaddedCount { get; }
