@@ -110,10 +110,11 @@ internal sealed class DepthFirstSearch<TFrame, TBaseMeshes>(
             var childLevels = child.RemainingLevels(remainingLevels);
             var childSubFractal = hierarchy.At(child, childLevels);
             var childFrame = frame.Enter(child);
+            var isSmallBase = childLevels < _baseMeshes.Count && _baseMeshes.MaxFaceCount <= MaxFacesWithoutHull;
             // While nothing excludes any child, one around the position is visited as it is; but not from far above the faces.
             var isUrgent = childLevels < MaxUrgentLevels && !(cutoffSquared < double.PositiveInfinity) && queue.MayContain(closestChild);
             if ((refined & (1UL << closestChild)) == 0
-                && frame.CanRefine(subFractal, childSubFractal, childLevels < _baseMeshes.Count && _baseMeshes.MaxFaceCount <= MaxFacesWithoutHull, isUrgent, in search))
+                && frame.CanRefine(subFractal, childSubFractal, isSmallBase, isUrgent, in search))
             {
                 // The child's own bounds are tighter than the box around its image. Only children that seem closest are refined.
                 var refinedBound = frame.RefinedBoundSquared(

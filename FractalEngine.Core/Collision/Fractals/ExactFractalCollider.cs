@@ -76,7 +76,8 @@ public sealed class ExactFractalCollider : Collider
     public override bool IsExact => true;
 
     /// <inheritdoc/>
-    public override long StorageBytes => _hierarchy.StorageBytes + _baseBvhs.Sum(static bvh => bvh.StorageBytes) + _expandedLevels.StorageBytes;
+    public override long StorageBytes =>
+        _hierarchy.StorageBytes + _baseBvhs.Sum(static bvh => bvh.StorageBytes) + _expandedLevels.StorageBytes;
 
     /// <inheritdoc/>
     internal override bool SupportsTransformedQueries => true;

@@ -4,7 +4,9 @@ using FractalEngine.Core.Fractals.Hierarchy;
 
 namespace FractalEngine.Core.Collision.Fractals;
 
-/// <summary>How a <see cref="DepthFirstSearch{TFrame, TBaseMeshes}"/> relates the sub-fractal it is in to the position of the query.</summary>
+/// <summary>
+/// How a <see cref="DepthFirstSearch{TFrame, TBaseMeshes}"/> relates the sub-fractal it is in to the position of the query.
+/// </summary>
 /// <typeparam name="TSelf">The type that implements the interface.</typeparam>
 internal interface ISearchFrame<TSelf>
     where TSelf : struct, ISearchFrame<TSelf>

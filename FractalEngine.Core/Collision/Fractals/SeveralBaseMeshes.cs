@@ -2,7 +2,7 @@ using FractalEngine.Core.Collision.Bvh;
 
 namespace FractalEngine.Core.Collision.Fractals;
 
-/// <summary>Several base meshes.</summary>
+/// <summary>The base meshes of recursives that call each other.</summary>
 /// <param name="bvhs">Their triangle hierarchies, in their order.</param>
 internal readonly struct SeveralBaseMeshes(TriangleBvh[] bvhs) : IBaseMeshes
 {

@@ -6,8 +6,8 @@ namespace FractalEngine.Core.Fractals.Hierarchy;
 /// What a <see cref="FractalHierarchy"/> is built from: recursives that call each other, and steps that are applied to one of them.
 /// </summary>
 /// <remarks>
-/// A fractal of one base mesh is a recursive without levels, and all its steps. A recursive of one set that calls itself is better described
-/// by a <see cref="Repetition"/>, which knows how to treat the identity: see <see cref="ChildInstanceBuilder"/>.
+/// A fractal of one base mesh is a recursive without levels, and all its steps. A recursive that calls only itself is better described by a
+/// <see cref="Repetition"/>, which makes no instance twice because of the identity: see <see cref="ChildInstanceBuilder"/>.
 /// </remarks>
 internal sealed class HierarchyDescription
 {
@@ -20,7 +20,7 @@ internal sealed class HierarchyDescription
         Steps = steps;
     }
 
-    /// <summary>The recursives.</summary>
+    /// <summary>The recursives, which refer to each other by their indices.</summary>
     public ImmutableArray<FractalRecursive> Recursives { get; }
 
     /// <summary>Index of the recursive that the steps are applied to.</summary>
@@ -29,7 +29,7 @@ internal sealed class HierarchyDescription
     /// <summary>Number of levels of that recursive; null for infinitely many.</summary>
     public long? Levels { get; }
 
-    /// <summary>The steps, the outermost first.</summary>
+    /// <summary>What is applied to that recursive, the outermost step first.</summary>
     public ImmutableArray<FractalStep> Steps { get; }
 
     /// <summary>Describes a fractal in affine composition: one chain of steps on one base mesh.</summary>

@@ -34,7 +34,7 @@ internal sealed class RecursiveLevels(ImmutableArray<FractalRecursive> recursive
     /// <summary>The maps of the calls of a level's recursive.</summary>
     public MapSet SetAt(long level) => _sets[(int)(level % Period)];
 
-    /// <summary>Index of the base mesh that replaces a level which is smaller than the precision: one with faces, if there is any.</summary>
+    /// <summary>Index of the base mesh that replaces a level smaller than the precision: one with faces, if there is any.</summary>
     public int BaseIndexAt(long level)
     {
         var own = (int)(level % Period);

@@ -7,8 +7,8 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Fractals.Hierarchy;
 
 /// <summary>
-/// A state of a fractal, that is a recursive with a certain number of remaining levels, in its own frame: its children or its base mesh, and
-/// its bounds.
+/// A state of a fractal, which is a recursive with a certain number of remaining levels, in its own frame: its children or its base mesh,
+/// and its bounds.
 /// </summary>
 internal sealed class SubFractal
 {

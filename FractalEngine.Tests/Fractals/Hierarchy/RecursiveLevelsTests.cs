@@ -34,7 +34,8 @@ public class RecursiveLevelsTests
     ];
 
     /// <summary>Recursives, and the index of the one that is the fractal: each of both, and their sum.</summary>
-    public static TheoryData<bool, int> Roots { get; } = new() { { true, 0 }, { true, 1 }, { true, 2 }, { false, 0 }, { false, 1 }, { false, 2 } };
+    public static TheoryData<bool, int> Roots { get; } =
+        new() { { true, 0 }, { true, 1 }, { true, 2 }, { false, 0 }, { false, 1 }, { false, 2 } };
 
     [Theory]
     [MemberData(nameof(Roots))]
@@ -193,7 +194,8 @@ public class RecursiveLevelsTests
             new(Samples.Triangle, [new(AffineMap.Identity, recursive, levelsLess)]);
         Assert.Throws<ArgumentException>(() => HierarchyDescription.Of([Calling(1, 1)], 0, 3));
         Assert.Throws<ArgumentException>(() => HierarchyDescription.Of([Calling(0, 0)], 0, 3));
-        Assert.Throws<ArgumentException>(() => HierarchyDescription.Of([Calling(0, 1)], 0, null, [Samples.Repeated(1).Description.Steps[0]]));
+        var step = Samples.Repeated(1).Description.Steps[0];
+        Assert.Throws<ArgumentException>(() => HierarchyDescription.Of([Calling(0, 1)], 0, null, [step]));
         Assert.Throws<ArgumentOutOfRangeException>(() => HierarchyDescription.Of([Calling(0, 1)], 1, 3));
         Assert.Throws<ArgumentOutOfRangeException>(() => HierarchyDescription.Of([Calling(0, 1)], 0, -1));
     }
