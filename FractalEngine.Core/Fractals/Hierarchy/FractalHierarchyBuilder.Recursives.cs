@@ -7,20 +7,21 @@ namespace FractalEngine.Core.Fractals.Hierarchy;
 /// <content>The levels of recursives that call each other, and what all levels have in common.</content>
 internal sealed partial class FractalHierarchyBuilder
 {
+    // Recursives that call only each other alternate, and may be empty in every second round or third.
+    private static readonly int[] PeriodsInRounds = [1, 2, 3, 4, 6];
+
     /// <summary>Adds the levels of the recursives in turns, up to that of the one that the steps are applied to.</summary>
     private void AddRecursives()
     {
         var period = _recursives.Period;
-        // From here on, calls lead down by as many levels in each round.
-        var nextAttempt = _recursives.MaxRoundsDown + 1L;
+        var nextAttempt = 0L;
         for (var round = 0L; round < (_description.Levels ?? EndlessRounds); round++)
         {
             // The last round ends with the turn of the root.
             var levelCount = ((_description.Levels - 1 - round ?? EndlessRounds) * period) + _description.Root + 1;
-            if (round >= nextAttempt && levelCount >= period)
+            if (round >= nextAttempt)
             {
-                var bound = CreatePeriodicBound(period, round, _recursives.MaxExpandedRounds);
-                if (TryRepeatRound(bound, _recursives.EdgesAt, levelCount))
+                if (PeriodsInRounds.Any(rounds => TryRepeatRounds(rounds, round, levelCount)))
                 {
                     return;
                 }
@@ -37,6 +38,19 @@ internal sealed partial class FractalHierarchyBuilder
                 AddLevel(_childBuilder.Share(_recursives.EdgesAt(level)), set);
             }
         }
+    }
+
+    /// <summary>Replaces all remaining levels of the recursives by rounds that are inflated a little, if that can be proved.</summary>
+    /// <param name="rounds">After so many rounds the bounds recur.</param>
+    /// <param name="builtRounds">Number of rounds that were built.</param>
+    /// <param name="levelCount">Number of the remaining levels.</param>
+    private bool TryRepeatRounds(int rounds, long builtRounds, long levelCount)
+    {
+        var period = rounds * _recursives.Period;
+        // Two periods are compared, and in the last one calls lead down by as many levels as further up.
+        return builtRounds >= Math.Max(2 * rounds, _recursives.MaxRoundsDown + rounds) && levelCount >= period
+            && TryRepeatRound(
+                CreatePeriodicBound(period, builtRounds, _recursives.MaxExpandedRounds), _recursives.EdgesAt, levelCount);
     }
 
     private static bool HasOnlySimilarMaps(FractalStep step) => step switch

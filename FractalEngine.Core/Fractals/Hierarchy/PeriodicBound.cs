@@ -111,7 +111,7 @@ internal sealed class PeriodicBound(
     private static BoundingBox Inflate(IEnumerable<BoundingBox> boxes, double fraction)
     {
         var box = boxes.Aggregate(BoundingBox.Union);
-        return BoundingVolume.Inflate(box, (fraction * box.Diagonal) + (RoundingErrors.Chain * Magnitude(box)));
+        return box.IsEmpty ? box : BoundingVolume.Inflate(box, (fraction * box.Diagonal) + (RoundingErrors.Chain * Magnitude(box)));
     }
 
     /// <summary>
@@ -122,7 +122,7 @@ internal sealed class PeriodicBound(
     /// <param name="cutoff">The method may return early any change above this, since boxes take far less time than hulls.</param>
     private static double RelativeChange(BoundingVolume volume1, BoundingVolume volume2, double cutoff)
     {
-        if (volume1.Clusters.Length != volume2.Clusters.Length)
+        if (volume1.Clusters.Length != volume2.Clusters.Length || volume1.Box.IsEmpty != volume2.Box.IsEmpty)
         {
             return 1;
         }
@@ -165,7 +165,7 @@ internal sealed class PeriodicBound(
         var maxDistance = double.NegativeInfinity;
         foreach (var point in points)
         {
-            maxDistance = Math.Max(maxDistance, outerVolume.Hull!.DistanceUpperBound(point, Math.Max(floor, maxDistance)));
+            maxDistance = Math.Max(maxDistance, outerVolume.Hull?.DistanceUpperBound(point, Math.Max(floor, maxDistance)) ?? double.PositiveInfinity);
         }
 
         return maxDistance;
@@ -178,7 +178,7 @@ internal sealed class PeriodicBound(
         {
             var volume = volumeAt(FirstLevel + phase);
             // NaN, of a volume without size, is smaller than all.
-            minRelativeMargin = Math.Min(minRelativeMargin, volume.Margin / volume.Box.Diagonal);
+            minRelativeMargin = volume.Box.IsEmpty ? minRelativeMargin : Math.Min(minRelativeMargin, volume.Margin / volume.Box.Diagonal);
         }
 
         return Math.Max(ConvergenceTolerance, Math.Min(1, toleranceFactor * MarginTolerance) * minRelativeMargin);
@@ -225,7 +225,8 @@ internal sealed class PeriodicBound(
     {
         var outerBox = volumes[phase].Box;
         return CollapsedEdgesOf(phase)
-            .Select(edge => VolumeAt(volumes, edge.RemainingLevels).TransformedBox(edge.Map, edge.OperatorNormBound))
+            .Select(edge => (Volume: VolumeAt(volumes, edge.RemainingLevels), Edge: edge)).Where(item => !item.Volume.Box.IsEmpty)
+            .Select(item => item.Volume.TransformedBox(item.Edge.Map, item.Edge.OperatorNormBound))
             .All(box => BoundingBox.Union(outerBox, box) == outerBox);
     }
 
@@ -257,13 +258,14 @@ internal sealed class PeriodicBound(
             .SelectMany(phase => CollapsedEdgesOf(phase).Select(edge => (Phase: phase, Edge: edge))).ToArray();
         var fixedVolumes = edges.Where(item => item.Edge.RemainingLevels < FirstLevel).Select(item => item.Edge.RemainingLevels)
             .Concat(coveredLevels.SelectMany(levels => levels)).Select(volumeAt);
-        if (volumes.Any(volume => volume.Hull is null) || fixedVolumes.Any(volume => volume.Hull is null && !volume.Box.IsEmpty))
+        if (volumes.Concat(fixedVolumes).Any(volume => volume.Hull is null && !volume.Box.IsEmpty))
         {
             return WithoutHulls(volumes);
         }
 
         var margins = coveredLevels.Select((levels, phase) => levels.Select(volumeAt).Where(volume => volume.Hull is not null)
-            .Max(volume => volume.Margin + MaxDistanceOutside(volumes[phase], volume.Hull!.Vertices, 0))).ToArray();
+            .Select(volume => volume.Margin + MaxDistanceOutside(volumes[phase], volume.Hull!.Vertices, 0))
+            .DefaultIfEmpty().Max()).ToArray();
         var vertexDistances = edges.Select(item => VolumeAt(volumes, item.Edge.RemainingLevels).Hull is { } hull
             ? MaxDistanceOutside(volumes[item.Phase], [.. hull.Vertices.Select(vertex => item.Edge.Map * vertex)], 0)
             : double.NegativeInfinity).ToArray();

@@ -7,17 +7,13 @@ using FractalEngine.Core.Fractals.Hierarchy;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Tests.Support;
+using static FractalEngine.Tests.Fractals.Hierarchy.RecursiveChecks;
 
 namespace FractalEngine.Tests.Fractals.Hierarchy;
 
 /// <summary>Recursives that call each other, with several base meshes, against all their faces.</summary>
 public class RecursiveLevelsTests
 {
-    private const double Tolerance = 1e-12;
-
-    private static readonly Mesh Roof = new(
-        [0, 0, 0, 1, 0, 0, 1, 0, 1, 0, 0, 1, 0.5, 0.8, 0, 0.5, 0.8, 1], [0, 4, 1, 3, 2, 5, 0, 3, 5, 0, 5, 4, 1, 4, 5, 1, 5, 2]);
-
     /// <summary>The first two call each other and themselves; the third is a sum of both, the second with two levels less.</summary>
     private static readonly FractalRecursive[] Similar =
     [
@@ -83,13 +79,6 @@ public class RecursiveLevelsTests
         }
     }
 
-    [Fact]
-    public void Searches_InRandomRecursives_AgreeWithAllFaces() => Seeded.RunMost(60, CheckRandom, minShare: 0.7);
-
-    [Fact]
-    [Trait("Category", "Soak")]
-    public void Searches_InManyRandomRecursives_AgreeWithAllFaces() => Seeded.RunMostInParallel(20_000, CheckRandom, minShare: 0.7);
-
     /// <summary>One recursive that calls itself is a repetition, and must have its bounds, counts and answers.</summary>
     [Fact]
     public void Hierarchy_OfOneRecursive_IsThatOfARepetition()
@@ -135,6 +124,21 @@ public class RecursiveLevelsTests
                 Near.Equal(limit.FindClosest(position).Distance, collider.FindClosest(position).Distance, Tolerance);
             });
         }
+    }
+
+    [Theory]
+    [MemberData(nameof(Roots))]
+    public void BestFirstSearch_InRecursives_FindsTheClosestOfAllFaces(bool isSimilar, int root)
+    {
+        var (hierarchy, expanded) = Create(isSimilar ? Similar : Skewed, root, 4);
+        BestFirstSearch bestFirst = new(hierarchy, Array.ConvertAll(hierarchy.BaseMeshes, TriangleBvh.For));
+        Seeded.Run(20, random =>
+        {
+            var position = RandomPosition(random, expanded.Box);
+            var search = new FractalSearchState(double.PositiveInfinity, 0, position.MaxAbsComponent(), expanded.Box.Diagonal, new());
+            bestFirst.Run(position, AffineMap.Identity, ref search);
+            Near.Equal(expanded.Distances(position).Min(), Math.Sqrt(search.ClosestDistanceSquared), Tolerance);
+        });
     }
 
     /// <summary>Steps are applied to recursives as to a base mesh. An instance that the identity makes twice counts once.</summary>
@@ -199,88 +203,6 @@ public class RecursiveLevelsTests
         Assert.Throws<ArgumentOutOfRangeException>(() => HierarchyDescription.Of([Calling(0, 1)], 1, 3));
         Assert.Throws<ArgumentOutOfRangeException>(() => HierarchyDescription.Of([Calling(0, 1)], 0, -1));
     }
-
-    private static bool CheckRandom(Random random)
-    {
-        var isSimilar = random.Next(2) == 0;
-        Mesh[] meshes = [Samples.Tetrahedron, Roof, Samples.Triangle, Mesh.Empty];
-        var count = random.Next(1, 5);
-        var recursives = Enumerable.Range(0, count).Select(_ => new FractalRecursive(
-            meshes[random.Next(meshes.Length)],
-            [.. Enumerable.Range(0, random.Next(random.Next(8) == 0 ? 0 : 1, 4)).Select(_ => new RecursiveCall(
-                RandomMap(random, isSimilar), random.Next(count), random.Next(4) == 0 ? 2 : 1))])).ToArray();
-        var (root, levels) = (random.Next(count), random.Next(6));
-        var (hierarchy, expanded) = Create(recursives, root, levels);
-        Assert.Equal((expanded.Instances.Count, expanded.FaceCount), Count(hierarchy));
-        if (expanded.FaceCount == 0)
-        {
-            Assert.True(hierarchy.Root.Box.IsEmpty);
-            return false;
-        }
-
-        AssertBounds(hierarchy, expanded, maxLooseness: 0.15);
-        var collider = new ExactFractalCollider(hierarchy);
-        for (var query = 0; query < 4; query++)
-        {
-            var position = RandomPosition(random, expanded.Box);
-            AssertClosest(collider, expanded, position);
-            AssertAllWithin(collider, expanded, position, random.Between(0, 1));
-        }
-
-        return true;
-    }
-
-    private static (FractalHierarchy Hierarchy, ExpandedRecursives Expanded) Create(FractalRecursive[] recursives, int root, int levels) =>
-        (FractalHierarchy.Build(HierarchyDescription.Of([.. recursives], root, levels)), new(recursives, root, levels));
-
-    private static (long Instances, long Faces) Count(FractalHierarchy hierarchy) => (
-        new InstanceCounts(hierarchy, static _ => 1, 1L << 60).SumAt(hierarchy.Levels),
-        new InstanceCounts(hierarchy, index => hierarchy.BaseMeshes[index].FaceCount, 1L << 60).SumAt(hierarchy.Levels));
-
-    /// <summary>The box of the hierarchy holds all faces and is hardly larger; the searched one is exact.</summary>
-    private static void AssertBounds(FractalHierarchy hierarchy, ExpandedRecursives expanded, double maxLooseness)
-    {
-        var (box, exact) = (hierarchy.Root.Box, expanded.Box);
-        Near.Equal(box.Minimum, BoundingBox.Union(box, exact).Minimum, Tolerance);
-        Near.Equal(box.Maximum, BoundingBox.Union(box, exact).Maximum, Tolerance);
-        Near.Equal(exact.Minimum, box.Minimum, maxLooseness * exact.Diagonal);
-        Near.Equal(exact.Maximum, box.Maximum, maxLooseness * exact.Diagonal);
-        var searched = FractalBounds.ComputeBox(hierarchy);
-        Near.Equal(exact.Minimum, searched.Minimum, Tolerance * exact.Diagonal);
-        Near.Equal(exact.Maximum, searched.Maximum, Tolerance * exact.Diagonal);
-    }
-
-    private static void AssertClosest(ExactFractalCollider collider, ExpandedRecursives expanded, Vector position)
-    {
-        var context = new QueryContext();
-        Assert.True(collider.TryFindClosest(position, double.PositiveInfinity, context, out var closest));
-        Near.Equal(expanded.Distances(position).Min(), closest.Distance, Tolerance);
-        var (a, b, c) = expanded.FaceOf(context.InstancePath, closest.FaceIndex);
-        Near.Equal(closest.Distance, Math.Sqrt(TriangleKernel.ClosestPoint(position, a, b, c).DistanceSquared), Tolerance);
-        Assert.False(closest.Distance > 1e-9 && collider.TryFindClosest(position, closest.Distance - 1e-9, context, out _));
-    }
-
-    private static void AssertAllWithin(ExactFractalCollider collider, ExpandedRecursives expanded, Vector position, double radius)
-    {
-        var expected = expanded.Distances(position).Where(distance => distance <= radius).Order().ToArray();
-        var hits = collider.FindAllWithin(position, radius, 1_000_000);
-        Assert.Equal(expected.Length, hits.Length);
-        for (var i = 0; i < expected.Length; i++)
-        {
-            Near.Equal(expected[i], hits[i].Distance, Tolerance);
-            var (a, b, c) = expanded.FaceOf(hits[i].InstancePath.AsSpan(), hits[i].FaceIndex);
-            Near.Equal(hits[i].Distance, Math.Sqrt(TriangleKernel.ClosestPoint(position, a, b, c).DistanceSquared), Tolerance);
-        }
-    }
-
-    private static Vector RandomPosition(Random random, BoundingBox box) =>
-        box.Centre + (0.7 * box.Size.Stretch(random.Vector()));
-
-    private static AffineMap MapOf(Transformation transformation) => new TransformationSet([transformation]).Maps[0];
-
-    private static AffineMap RandomMap(Random random, bool isSimilar) => MapOf(isSimilar
-        ? new(random.Vector(1.5), random.Degrees(), random.Between(0.3, 0.8) * Vector.One)
-        : random.Transformation());
 
     private static RecursiveCall Call(double x, double y, double z, double degrees, double scale, int recursive, int levelsLess = 1) =>
         new(MapOf(new(new(x, y, z), new(degrees, 0.5 * degrees, 0), scale * Vector.One)), recursive, levelsLess);
