@@ -165,7 +165,8 @@ internal sealed class PeriodicBound(
         var maxDistance = double.NegativeInfinity;
         foreach (var point in points)
         {
-            maxDistance = Math.Max(maxDistance, outerVolume.Hull?.DistanceUpperBound(point, Math.Max(floor, maxDistance)) ?? double.PositiveInfinity);
+            var cutoff = Math.Max(floor, maxDistance);
+            maxDistance = Math.Max(maxDistance, outerVolume.Hull?.DistanceUpperBound(point, cutoff) ?? double.PositiveInfinity);
         }
 
         return maxDistance;
