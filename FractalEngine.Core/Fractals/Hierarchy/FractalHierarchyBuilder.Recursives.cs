@@ -7,8 +7,8 @@ namespace FractalEngine.Core.Fractals.Hierarchy;
 /// <content>The levels of recursives that call each other, and what all levels have in common.</content>
 internal sealed partial class FractalHierarchyBuilder
 {
-    // Recursives that call only each other alternate, and may be empty in every second round or third.
-    private static readonly int[] PeriodsInRounds = [1, 2, 3, 4, 6];
+    // More are not compared, though a cycle of calls may take as many.
+    private const int MaxPeriodInRounds = 16;
 
     /// <summary>Adds the levels of the recursives in turns, up to that of the one that the steps are applied to.</summary>
     private void AddRecursives()
@@ -21,9 +21,14 @@ internal sealed partial class FractalHierarchyBuilder
             var levelCount = ((_description.Levels - 1 - round ?? EndlessRounds) * period) + _description.Root + 1;
             if (round >= nextAttempt)
             {
-                if (PeriodsInRounds.Any(rounds => TryRepeatRounds(rounds, round, levelCount)))
+                // Recursives that call only each other alternate: they may have faces only as often as a cycle of calls comes round.
+                var maxPeriod = Math.Min(period * Math.Max(1, _recursives.MaxRoundsDown), MaxPeriodInRounds);
+                for (var rounds = 1; rounds <= maxPeriod; rounds++)
                 {
-                    return;
+                    if (TryRepeatRounds(rounds, round, levelCount))
+                    {
+                        return;
+                    }
                 }
 
                 nextAttempt = round + 1 + (round / 8);
