@@ -55,7 +55,9 @@ internal sealed partial class FractalHierarchyBuilder
         // Two periods are compared, and in the last one calls lead down by as many levels as further up.
         return builtRounds >= Math.Max(2 * rounds, _recursives.MaxRoundsDown + rounds) && levelCount >= period
             && TryRepeatRound(
-                CreatePeriodicBound(period, builtRounds, _recursives.MaxExpandedRounds), _recursives.EdgesAt, levelCount);
+                CreatePeriodicBound(period, builtRounds, _recursives.MaxExpandedRounds, arePhasesAlike: false),
+                _recursives.EdgesAt,
+                levelCount);
     }
 
     private static bool HasOnlySimilarMaps(FractalStep step) => step switch

@@ -188,8 +188,8 @@ internal sealed partial class FractalHierarchyBuilder
         RequireAllowedChildren(_childCount);
     }
 
-    private PeriodicBound CreatePeriodicBound(int period, long round, int maxRoundsDown) =>
-        new(Built.Top, period, Built.VolumeAt, Built.EdgesAt, Math.Max(1, 0.125 * round), maxRoundsDown);
+    private PeriodicBound CreatePeriodicBound(int period, long round, int maxRoundsDown, bool arePhasesAlike = true) =>
+        new(Built.Top, period, Built.VolumeAt, Built.EdgesAt, Math.Max(1, 0.125 * round), maxRoundsDown, arePhasesAlike);
 
     /// <summary>The edges of a level of a repetition, built or above the last round.</summary>
     private ChildEdge[] EdgesOfRepetition(PeriodicBound bound, long level, long levelsBelowRepetition) => ChildInstanceBuilder.EdgesAt(

@@ -18,10 +18,11 @@ namespace FractalEngine.Core.Fractals.Hierarchy;
 /// Multiple of the usual tolerance for changes, at least 1. The choice of a hull's vertices may change a little from round to round without
 /// end.
 /// </param>
+/// <param name="arePhasesAlike">False for phases whose margins tell nothing of each other's.</param>
 /// <param name="maxRoundsDown">The largest number of rounds between a sub-fractal and its children, rounded up.</param>
 internal sealed class PeriodicBound(
     long topLevel, int period, Func<long, BoundingVolume> volumeAt, Func<long, ChildEdge[]> edgesAt, double toleranceFactor,
-    int maxRoundsDown)
+    int maxRoundsDown, bool arePhasesAlike = true)
 {
     // Bounds have converged when a round changes them by less than this part of their size, or of the margin by which they are too large
     // anyway.
@@ -51,9 +52,9 @@ internal sealed class PeriodicBound(
     /// <summary>Tells whether the bounds of the last two rounds differ little enough.</summary>
     public bool HasConverged()
     {
-        var threshold = ConvergenceThreshold();
         for (var phase = 0; phase < period; phase++)
         {
+            var threshold = ConvergenceThreshold(phase);
             if (!(RelativeChange(volumeAt(FirstLevel + phase), volumeAt(FirstLevel + phase - period), threshold) <= threshold))
             {
                 return false;
@@ -79,9 +80,9 @@ internal sealed class PeriodicBound(
     public BoundingVolume[]? TryProveInvariant(ChildInstance[][] children)
     {
         var coveredLevels = FindCoveredLevels(children);
-        var threshold = ConvergenceThreshold();
         for (var phase = 0; phase < period; phase++)
         {
+            var threshold = ConvergenceThreshold(phase);
             var lastVolume = volumeAt(FirstLevel + phase);
             foreach (var level in coveredLevels[phase])
             {
@@ -172,10 +173,10 @@ internal sealed class PeriodicBound(
         return maxDistance;
     }
 
-    private double ConvergenceThreshold()
+    private double ConvergenceThreshold(int phaseToTest)
     {
         var minRelativeMargin = double.PositiveInfinity;
-        for (var phase = 0; phase < period; phase++)
+        for (var phase = arePhasesAlike ? 0 : phaseToTest; phase < (arePhasesAlike ? period : phaseToTest + 1); phase++)
         {
             var volume = volumeAt(FirstLevel + phase);
             // NaN, of a volume without size, is smaller than all.
