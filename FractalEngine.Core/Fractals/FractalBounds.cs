@@ -65,18 +65,24 @@ public static class FractalBounds
 
     private static BoundingBox ComputeAffineBox(Fractal fractal)
     {
-        var search = new FarthestPointSearch(fractal);
         try
         {
-            return new(
-                new(0 - Support(-Vector.I), 0 - Support(-Vector.J), 0 - Support(-Vector.K)),
-                new(Support(Vector.I), Support(Vector.J), Support(Vector.K)));
+            return ComputeBox(fractal.Hierarchy);
         }
         catch (Exception exception) when (exception is FractalLimitException or SingularMatrixException)
         {
             // There is no hierarchy where maps flatten space, or where too many levels don't shrink.
             return LevelBoxes.ComputeBox(fractal);
         }
+    }
+
+    /// <summary>Computes a box that holds a fractal, perhaps of several recursives, that is not empty.</summary>
+    internal static BoundingBox ComputeBox(FractalHierarchy hierarchy)
+    {
+        var search = new FarthestPointSearch(hierarchy);
+        return new(
+            new(0 - Support(-Vector.I), 0 - Support(-Vector.J), 0 - Support(-Vector.K)),
+            new(Support(Vector.I), Support(Vector.J), Support(Vector.K)));
 
         double Support(Vector direction) =>
             search.Run(AffineMap.Identity, new SupportMeasure(direction), RelativeTolerance, MaxSearchedNodes);

@@ -25,7 +25,7 @@ internal static class BodyRadius
         return placed.Model switch
         {
             FractalModel { Fractal: { Description.Composition: Composition.Affine } fractal } =>
-                Math.Max(0, new FarthestPointSearch(fractal).Run(linear, new DistanceFromOrigin(), RelativeTolerance, MaxNodes)),
+                Math.Max(0, new FarthestPointSearch(fractal.Hierarchy).Run(linear, new DistanceFromOrigin(), RelativeTolerance, MaxNodes)),
             FractalModel { Fractal: var fractal } => FractalGenerator.Expand(fractal, FractalLimits.MaxDrawnInstances)
                 .Max(instance => MaxVertexDistance(fractal.BaseMesh, linear * instance)),
             _ => MaxVertexDistance(placed.Model.Mesh, linear),

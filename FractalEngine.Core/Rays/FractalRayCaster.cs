@@ -60,7 +60,7 @@ internal sealed class FractalRayCaster : RayCaster
         _minRadius = ExactFractalCollider.MinRadius(_root);
         ShapeMagnitude = BoundingVolume.MaxAbsCoordinate(_root.Box);
         _levels = new(_hierarchy);
-        _tree = new(fractal.BaseMesh, _bvh, _hierarchy, _minRadius);
+        _tree = new(_hierarchy, [_bvh], _minRadius);
         _basePlanes = new(fractal.BaseMesh);
     }
 
@@ -73,7 +73,7 @@ internal sealed class FractalRayCaster : RayCaster
         _minRadius = ExactFractalCollider.MinRadius(_root);
         ShapeMagnitude = BoundingVolume.MaxAbsCoordinate(_root.Box);
         _levels = whole._levels;
-        _tree = new(_fractal.BaseMesh, _bvh, _hierarchy, _minRadius);
+        _tree = new(_hierarchy, [_bvh], _minRadius);
         _basePlanes = whole._basePlanes;
     }
 

@@ -80,8 +80,7 @@ internal readonly struct AffineFrame : ISearchFrame<AffineFrame>
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public bool CanRefine(
-        SubFractal parent, SubFractal childSubFractal, long remainingLevels, int baseFaceCount, bool isUrgent,
-        in FractalSearchState search) => !isUrgent;
+        SubFractal parent, SubFractal childSubFractal, bool isSmallBase, bool isUrgent, in FractalSearchState search) => !isUrgent;
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

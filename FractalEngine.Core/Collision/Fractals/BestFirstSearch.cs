@@ -13,8 +13,8 @@ namespace FractalEngine.Core.Collision.Fractals;
 /// open what it did not visit.
 /// </remarks>
 /// <param name="hierarchy">The sub-fractals.</param>
-/// <param name="bvh">The hierarchy of the base mesh.</param>
-internal sealed class BestFirstSearch(FractalHierarchy hierarchy, TriangleBvh bvh)
+/// <param name="bvhs">The hierarchies of the base meshes.</param>
+internal sealed class BestFirstSearch(FractalHierarchy hierarchy, TriangleBvh[] bvhs)
 {
     // Beyond so many nodes children are visited depth first, so that memory stays within about 20 MB.
     private const int MaxNodes = 1 << 15;
@@ -101,7 +101,7 @@ internal sealed class BestFirstSearch(FractalHierarchy hierarchy, TriangleBvh bv
             node = Enter(in node, child, -1);
         }
 
-        if (AffineFrame.TryFindTriangle(bvh, position, in node.Map, ref search, out var closest))
+        if (AffineFrame.TryFindTriangle(bvhs[node.SubFractal.BaseIndex], position, in node.Map, ref search, out var closest))
         {
             search.UpdateClosest(closest.DistanceSquared, closest.FaceIndex, node.Depth);
         }
@@ -121,8 +121,8 @@ internal sealed class BestFirstSearch(FractalHierarchy hierarchy, TriangleBvh bv
             parent.Depth + 1);
     }
 
-    private static bool IsLeaf(in SearchNode node, in FractalSearchState search) =>
-        node.RemainingLevels == 0 || node.Depth >= FractalSearchState.MaxDepth
+    private bool IsLeaf(in SearchNode node, in FractalSearchState search) =>
+        hierarchy.IsBase(node.RemainingLevels) || node.Depth >= FractalSearchState.MaxDepth
         || node.SubFractal.RadiusSquared * node.Map.FrobeniusNormSquared() <= search.MinRadiusSquared;
 
     private static ChildQueue QueueChildren(in SearchNode node, Vector256<double> position, ref FractalSearchState search)
@@ -154,7 +154,7 @@ internal sealed class BestFirstSearch(FractalHierarchy hierarchy, TriangleBvh bv
     private void TestTriangles(
         in SearchNode node, Vector256<double> position, ExpandedChildren expandedChildren, ref FractalSearchState search)
     {
-        if (!AffineFrame.TryFindTriangle(bvh, position, in node.Map, ref search, out var closest))
+        if (!AffineFrame.TryFindTriangle(bvhs[node.SubFractal.BaseIndex], position, in node.Map, ref search, out var closest))
         {
             return;
         }

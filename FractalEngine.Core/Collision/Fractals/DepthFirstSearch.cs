@@ -1,4 +1,3 @@
-using FractalEngine.Core.Collision.Bvh;
 using FractalEngine.Core.Fractals.Hierarchy;
 
 namespace FractalEngine.Core.Collision.Fractals;
@@ -8,21 +7,25 @@ namespace FractalEngine.Core.Collision.Fractals;
 /// the closest triangle so far.
 /// </summary>
 /// <typeparam name="TFrame">How bounds and positions are compared; a struct, so that the search is compiled for it.</typeparam>
+/// <typeparam name="TBaseMeshes">One base mesh or several; a struct for the same reason.</typeparam>
 /// <param name="hierarchy">The sub-fractals.</param>
-/// <param name="bvh">The hierarchy of the base mesh.</param>
+/// <param name="baseMeshes">The base meshes.</param>
 /// <param name="expandedLevels">The levels that are searched as meshes.</param>
-internal sealed class DepthFirstSearch<TFrame>(FractalHierarchy hierarchy, TriangleBvh bvh, ExpandedLevels expandedLevels)
+internal sealed class DepthFirstSearch<TFrame, TBaseMeshes>(
+    FractalHierarchy hierarchy, TBaseMeshes baseMeshes, ExpandedLevels expandedLevels) : IDepthFirstSearch<TFrame>
     where TFrame : struct, ISearchFrame<TFrame>
+    where TBaseMeshes : struct, IBaseMeshes
 {
     private const int MaxUrgentLevels = 12;
 
+    // To test all triangles of a smaller base costs no more than to test its hull.
+    private const int MaxFacesWithoutHull = 8;
+
     // From here on, no sub-fractal is searched as a mesh.
     private readonly long _meshLevels = expandedLevels.Count;
-    private readonly int _baseFaceCount = bvh.FaceCount;
+    private readonly TBaseMeshes _baseMeshes = baseMeshes;
 
-    /// <summary>Searches the whole fractal.</summary>
-    /// <param name="frame">The frame of the whole fractal.</param>
-    /// <param name="search">The state of the search.</param>
+    /// <inheritdoc/>
     public void Run(TFrame frame, ref FractalSearchState search) => Visit(hierarchy.Root, hierarchy.Levels, ref frame, 0, 0, ref search);
 
     /// <summary>Searches a sub-fractal and its children.</summary>
@@ -41,9 +44,9 @@ internal sealed class DepthFirstSearch<TFrame>(FractalHierarchy hierarchy, Trian
             return;
         }
 
-        if (remainingLevels == 0 || frame.RadiusSquared(subFractal) <= search.MinRadiusSquared)
+        if (remainingLevels < _baseMeshes.Count || frame.RadiusSquared(subFractal) <= search.MinRadiusSquared)
         {
-            frame.TestTriangles(bvh, null, depth, ref search);
+            frame.TestTriangles(_baseMeshes.At(subFractal.BaseIndex), null, depth, ref search);
             return;
         }
 
@@ -107,10 +110,11 @@ internal sealed class DepthFirstSearch<TFrame>(FractalHierarchy hierarchy, Trian
             var childLevels = child.RemainingLevels(remainingLevels);
             var childSubFractal = hierarchy.At(child, childLevels);
             var childFrame = frame.Enter(child);
+            var isSmallBase = childLevels < _baseMeshes.Count && _baseMeshes.MaxFaceCount <= MaxFacesWithoutHull;
             // While nothing excludes any child, one around the position is visited as it is; but not from far above the faces.
             var isUrgent = childLevels < MaxUrgentLevels && !(cutoffSquared < double.PositiveInfinity) && queue.MayContain(closestChild);
             if ((refined & (1UL << closestChild)) == 0
-                && frame.CanRefine(subFractal, childSubFractal, childLevels, _baseFaceCount, isUrgent, in search))
+                && frame.CanRefine(subFractal, childSubFractal, isSmallBase, isUrgent, in search))
             {
                 // The child's own bounds are tighter than the box around its image. Only children that seem closest are refined.
                 var refinedBound = frame.RefinedBoundSquared(

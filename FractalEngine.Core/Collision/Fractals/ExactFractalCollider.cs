@@ -2,6 +2,7 @@ using System.Runtime.CompilerServices;
 using FractalEngine.Core.Collision.Bvh;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Fractals.Hierarchy;
+using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Collision.Fractals;
@@ -30,14 +31,16 @@ public sealed class ExactFractalCollider : Collider
 
     private static readonly AffineMap Identity = AffineMap.Identity;
 
-    private readonly Fractal _fractal;
     private readonly FractalHierarchy _hierarchy;
-    private readonly TriangleBvh _baseBvh;
+    private readonly TriangleBvh[] _baseBvhs;
+
+    // Null where there are several.
+    private readonly Mesh? _onlyMesh;
     private readonly ExpandedLevels _expandedLevels;
     private readonly double _precisionRadius;
     private readonly double _rootMagnitude;
-    private readonly DepthFirstSearch<SimilarityFrame> _similaritySearch;
-    private readonly DepthFirstSearch<AffineFrame> _affineSearch;
+    private readonly IDepthFirstSearch<SimilarityFrame> _similaritySearch;
+    private readonly IDepthFirstSearch<AffineFrame> _affineSearch;
     private readonly BestFirstSearch _bestFirstSearch;
 
     /// <summary>Prepares a fractal in affine composition for queries.</summary>
@@ -50,28 +53,31 @@ public sealed class ExactFractalCollider : Collider
     /// </exception>
     /// <remarks>Cost: microseconds to milliseconds, whatever the depth.</remarks>
     public ExactFractalCollider(Fractal fractal)
+        : this(HierarchyOf(fractal))
     {
-        if (fractal.Description.Composition != Composition.Affine)
-        {
-            throw new ArgumentException("expected affine composition: componentwise sums have no levels to search", nameof(fractal));
-        }
+    }
 
-        _fractal = fractal;
-        _hierarchy = fractal.Hierarchy;
-        _baseBvh = TriangleBvh.For(fractal.BaseMesh);
+    /// <summary>Prepares a hierarchy, perhaps of several recursives, for queries.</summary>
+    /// <remarks>A result has the index of a face in the base mesh of its instance, which the instance path tells.</remarks>
+    internal ExactFractalCollider(FractalHierarchy hierarchy)
+    {
+        _hierarchy = hierarchy;
+        _baseBvhs = Array.ConvertAll(hierarchy.BaseMeshes, TriangleBvh.For);
         _precisionRadius = PrecisionRadius(_hierarchy.Root);
         _rootMagnitude = BoundingVolume.MaxAbsCoordinate(_hierarchy.Root.Box);
-        _expandedLevels = ExpandedLevels.For(_hierarchy, _baseBvh);
-        _similaritySearch = new(_hierarchy, _baseBvh, _expandedLevels);
-        _affineSearch = new(_hierarchy, _baseBvh, ExpandedLevels.None);
-        _bestFirstSearch = new(_hierarchy, _baseBvh);
+        _expandedLevels = ExpandedLevels.For(_hierarchy, _baseBvhs[0]);
+        _onlyMesh = hierarchy.BaseMeshes is [var only] ? only : null;
+        _similaritySearch = CreateSearch<SimilarityFrame>(_expandedLevels);
+        _affineSearch = CreateSearch<AffineFrame>(ExpandedLevels.None);
+        _bestFirstSearch = new(_hierarchy, _baseBvhs);
     }
 
     /// <inheritdoc/>
     public override bool IsExact => true;
 
     /// <inheritdoc/>
-    public override long StorageBytes => _hierarchy.StorageBytes + _baseBvh.StorageBytes + _expandedLevels.StorageBytes;
+    public override long StorageBytes =>
+        _hierarchy.StorageBytes + _baseBvhs.Sum(static bvh => bvh.StorageBytes) + _expandedLevels.StorageBytes;
 
     /// <inheritdoc/>
     internal override bool SupportsTransformedQueries => true;
@@ -83,13 +89,22 @@ public sealed class ExactFractalCollider : Collider
 
     /// <inheritdoc/>
     private protected override ShapeTree CreateShapeTree() =>
-        new(_fractal.BaseMesh, _baseBvh, _hierarchy, RelativePrecision * _precisionRadius);
+        new(_hierarchy, _baseBvhs, RelativePrecision * _precisionRadius);
 
     /// <inheritdoc/>
     protected override bool FindClosestCore(Vector position, double maxDistance, double epsilon, QueryContext context,
         out ClosestPoint closest) =>
         IsFarther(in position, maxDistance, context, out closest) ? false
         : FindClosestInImage(in position, in Identity, _hierarchy.HasOnlySimilarities, maxDistance, epsilon, context, out closest);
+
+    private static FractalHierarchy HierarchyOf(Fractal fractal) => fractal.Description.Composition == Composition.Affine
+        ? fractal.Hierarchy
+        : throw new ArgumentException("expected affine composition: componentwise sums have no levels to search", nameof(fractal));
+
+    private IDepthFirstSearch<TFrame> CreateSearch<TFrame>(ExpandedLevels expandedLevels)
+        where TFrame : struct, ISearchFrame<TFrame> => _baseBvhs is [var only]
+        ? new DepthFirstSearch<TFrame, OneBaseMesh>(_hierarchy, new(only), expandedLevels)
+        : new DepthFirstSearch<TFrame, SeveralBaseMeshes>(_hierarchy, new(_baseBvhs), expandedLevels);
 
     /// <summary>Tells whether all of the fractal is beyond a radius, at the cost of one box.</summary>
     private bool IsFarther(in Vector position, double maxDistance, QueryContext context, out ClosestPoint closest)
@@ -123,7 +138,7 @@ public sealed class ExactFractalCollider : Collider
     {
         context.ClearPath();
         Unsafe.SkipInit(out closest);
-        if (_fractal.BaseMesh.FaceCount == 0 || _hierarchy.Root.Box.IsEmpty)
+        if (_hierarchy.Root.Box.IsEmpty)
         {
             closest = default;
             return false;
@@ -161,7 +176,8 @@ public sealed class ExactFractalCollider : Collider
         }
 
         var instance = _hierarchy.ResolveInstance(search.ClosestPath, in map, context, out var reach);
-        ClosestPointFactory.OnInstance(_fractal.BaseMesh, search.ClosestFace, in instance, in position, out closest);
+        var mesh = _onlyMesh ?? _hierarchy.BaseMeshAt(search.ClosestPath);
+        ClosestPointFactory.OnInstance(mesh, search.ClosestFace, in instance, in position, out closest);
         reach = Math.Max(reach, closest.Point.MaxAbsComponent());
         ClosestPoint.SetErrorBound(ref closest, search.ErrorBound(closest.Distance, reach));
         return closest.Distance <= maxDistance;

@@ -9,7 +9,7 @@ namespace FractalEngine.Core.Collision.Fractals;
 /// <remarks>
 /// Work is counted, not timed. Counts are the same on every machine and in every run, and so are the levels and the bits of all results.
 /// </remarks>
-/// <param name="hierarchy">The sub-fractals, all of whose maps are similarities.</param>
+/// <param name="hierarchy">The sub-fractals of one base mesh, all of whose maps are similarities.</param>
 /// <param name="bvh">The hierarchy of the base mesh.</param>
 internal sealed class ExpandedLevelSelector(FractalHierarchy hierarchy, TriangleBvh bvh)
 {
@@ -35,7 +35,8 @@ internal sealed class ExpandedLevelSelector(FractalHierarchy hierarchy, Triangle
     // Where less is saved, the samples don't tell whether anything is.
     private const double MaxRelativeWork = 0.92;
 
-    private readonly Dictionary<long, long> _instanceCounts = [];
+    // Enough to be too many, and no risk of an overflow.
+    private readonly InstanceCounts _instanceCounts = new(hierarchy, static _ => 1, MaxBytes);
 
     /// <summary>Selects the levels that are expanded.</summary>
     /// <param name="hierarchy">The sub-fractals, all of whose maps are similarities.</param>
@@ -110,33 +111,8 @@ internal sealed class ExpandedLevelSelector(FractalHierarchy hierarchy, Triangle
         return found;
     }
 
-    private long MeasureBytes(long level)
-    {
-        // Enough to be too many, and no risk of an overflow.
-        var instances = Math.Min(CountInstances(level), MaxBytes);
-        return instances * ((BytesPerFace * bvh.FaceCount) + (BytesPerVertex * bvh.Mesh.VertexCount));
-    }
-
-    private long CountInstances(long level)
-    {
-        if (level == 0)
-        {
-            return 1;
-        }
-
-        if (!_instanceCounts.TryGetValue(level, out var count))
-        {
-            foreach (var child in hierarchy.At(level).AllChildren())
-            {
-                count += child.Group is null ? CountInstances(child.RemainingLevels(level)) : 0;
-                count = Math.Min(count, MaxBytes);
-            }
-
-            _instanceCounts[level] = count;
-        }
-
-        return count;
-    }
+    private long MeasureBytes(long level) =>
+        _instanceCounts.SumAt(level) * ((BytesPerFace * bvh.FaceCount) + (BytesPerVertex * bvh.Mesh.VertexCount));
 
     /// <summary>Makes positions anywhere in the box, and near the surface.</summary>
     private Vector[] SamplePositions()
@@ -173,7 +149,7 @@ internal sealed class ExpandedLevelSelector(FractalHierarchy hierarchy, Triangle
 
     private double MeasureWork(ExpandedLevels expandedLevels, Vector[] positions)
     {
-        var depthFirst = new DepthFirstSearch<SimilarityFrame>(hierarchy, bvh, expandedLevels);
+        var depthFirst = new DepthFirstSearch<SimilarityFrame, OneBaseMesh>(hierarchy, new(bvh), expandedLevels);
         var magnitude = BoundingVolume.MaxAbsCoordinate(hierarchy.Root.Box);
         var context = new QueryContext();
         var work = 0.0;

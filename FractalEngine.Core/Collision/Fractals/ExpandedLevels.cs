@@ -25,9 +25,9 @@ internal sealed class ExpandedLevels(ExpandedSubFractal?[] levels)
 
     /// <summary>The levels of a fractal that are expanded, chosen by the first who asks.</summary>
     /// <param name="hierarchy">The sub-fractals.</param>
-    /// <param name="bvh">The hierarchy of the base mesh.</param>
+    /// <param name="bvh">The hierarchy of the first base mesh.</param>
     public static ExpandedLevels For(FractalHierarchy hierarchy, TriangleBvh bvh) =>
-        !bvh.HasFloatLeaves || !hierarchy.HasOnlySimilarities
+        hierarchy.BaseMeshes.Length > 1 || !bvh.HasFloatLeaves || !hierarchy.HasOnlySimilarities
             ? None
             : Shared.GetValue(hierarchy, key => ExpandedLevelSelector.Select(key, bvh));
 

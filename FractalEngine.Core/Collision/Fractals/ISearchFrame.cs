@@ -4,7 +4,9 @@ using FractalEngine.Core.Fractals.Hierarchy;
 
 namespace FractalEngine.Core.Collision.Fractals;
 
-/// <summary>How a <see cref="DepthFirstSearch{TFrame}"/> relates the sub-fractal it is in to the position of the query.</summary>
+/// <summary>
+/// How a <see cref="DepthFirstSearch{TFrame, TBaseMeshes}"/> relates the sub-fractal it is in to the position of the query.
+/// </summary>
 /// <typeparam name="TSelf">The type that implements the interface.</typeparam>
 internal interface ISearchFrame<TSelf>
     where TSelf : struct, ISearchFrame<TSelf>
@@ -36,13 +38,11 @@ internal interface ISearchFrame<TSelf>
     /// <summary>Tells whether the child's own bounds are worth their cost.</summary>
     /// <param name="parent">The sub-fractal of this frame.</param>
     /// <param name="childSubFractal">The sub-fractal of the child.</param>
-    /// <param name="remainingLevels">Remaining levels of the child.</param>
-    /// <param name="baseFaceCount">Number of faces of the base mesh.</param>
+    /// <param name="isSmallBase">True for a child that is a base mesh of so few triangles that a hull costs as much.</param>
     /// <param name="isUrgent">True while nothing excludes a child that is around the position.</param>
     /// <param name="search">The state of the search.</param>
     bool CanRefine(
-        SubFractal parent, SubFractal childSubFractal, long remainingLevels, int baseFaceCount, bool isUrgent,
-        in FractalSearchState search);
+        SubFractal parent, SubFractal childSubFractal, bool isSmallBase, bool isUrgent, in FractalSearchState search);
 
     /// <summary>Computes the best bound of a child there is: from the child's own box and hull.</summary>
     /// <param name="parent">The sub-fractal of this frame.</param>

@@ -14,17 +14,20 @@ internal readonly struct ShapeNode
     /// <param name="subFractal">The sub-fractal; null inside the base mesh.</param>
     /// <param name="remainingLevels">Its remaining levels.</param>
     /// <param name="part">The node or leaf of the base mesh's hierarchy.</param>
-    /// <param name="isBase">True for the base mesh and what is inside.</param>
+    /// <param name="isBase">True for a base mesh and what is inside.</param>
+    /// <param name="baseIndex">Index of that base mesh; meaningless above.</param>
     /// <param name="map">From the node's frame to that of the query.</param>
     /// <param name="localBox">A box around the node in its own frame.</param>
     /// <param name="reach">The largest absolute coordinate on the way to the node.</param>
     public ShapeNode(
-        SubFractal? subFractal, long remainingLevels, BvhChild part, bool isBase, in AffineMap map, BoundingBox localBox, double reach)
+        SubFractal? subFractal, long remainingLevels, BvhChild part, bool isBase, int baseIndex, in AffineMap map, BoundingBox localBox,
+        double reach)
     {
         SubFractal = subFractal;
         RemainingLevels = remainingLevels;
         Part = part;
         IsBase = isBase;
+        BaseIndex = baseIndex;
         Map = map;
         LocalBox = localBox;
         Box = localBox.Transform(map);
@@ -42,8 +45,11 @@ internal readonly struct ShapeNode
     /// <summary>The node or leaf of the base mesh's hierarchy; meaningless above the base mesh.</summary>
     public BvhChild Part { get; }
 
-    /// <summary>True for the base mesh and what is inside.</summary>
+    /// <summary>True for a base mesh and what is inside.</summary>
     public bool IsBase { get; }
+
+    /// <summary>Index of that base mesh; meaningless above.</summary>
+    public int BaseIndex { get; }
 
     /// <summary>From the node's frame to that of the query.</summary>
     public AffineMap Map { get; }

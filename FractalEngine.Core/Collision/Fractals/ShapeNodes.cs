@@ -85,7 +85,7 @@ internal sealed class ShapeNodes
         var node = _entries[leaf].Node;
         foreach (var face in _tree.Faces(in node))
         {
-            var (a, b, c) = _tree.Triangle(node.Map, face);
+            var (a, b, c) = _tree.Triangle(in node, face);
             _faces.Add(face);
             _triangles.Add((a, b, c));
             _triangleBoxes.Add(new(Vector.Min(a, Vector.Min(b, c)), Vector.Max(a, Vector.Max(b, c))));

@@ -65,7 +65,7 @@ internal static class ShapeTraversal
                 foreach (var face in tree.Faces(in node))
                 {
                     faceTests++;
-                    var (a, b, c) = tree.Triangle(node.Map, face);
+                    var (a, b, c) = tree.Triangle(in node, face);
                     if (!policy.Visit(face, a, b, c, in node, stack.Path(depth)))
                     {
                         return TraversalEnd.Found;

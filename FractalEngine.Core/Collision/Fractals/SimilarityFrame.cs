@@ -13,9 +13,6 @@ namespace FractalEngine.Core.Collision.Fractals;
 /// </summary>
 internal readonly struct SimilarityFrame : ISearchFrame<SimilarityFrame>
 {
-    // To test all triangles of a smaller base costs no more than to test its hull.
-    private const int MaxFacesWithoutHull = 8;
-
     private readonly Vector256<double> _position;
     private readonly double _scaleSquared;
     private readonly double _inverseScaleSquared;
@@ -82,9 +79,8 @@ internal readonly struct SimilarityFrame : ISearchFrame<SimilarityFrame>
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public bool CanRefine(
-        SubFractal parent, SubFractal childSubFractal, long remainingLevels, int baseFaceCount, bool isUrgent,
-        in FractalSearchState search) =>
-        !isUrgent && (remainingLevels > 0 || baseFaceCount > MaxFacesWithoutHull)
+        SubFractal parent, SubFractal childSubFractal, bool isSmallBase, bool isUrgent, in FractalSearchState search) =>
+        !isUrgent && !isSmallBase
         && (parent.HasRotatedChildren || childSubFractal.Hull is not null || childSubFractal.Clusters is not null
             || search.NeedsTightBounds);
 

@@ -33,6 +33,9 @@ internal sealed class BuiltLevels
     /// <summary>The set of the level with a number of remaining levels, at least 1.</summary>
     public MapSet MapSetAt(long remainingLevels) => _levels[FindIndex(remainingLevels)].Set!;
 
+    /// <summary>Index of the base mesh of the level with a number of remaining levels, see <see cref="SubFractal.BaseIndex"/>.</summary>
+    public int BaseIndexAt(long remainingLevels) => _levels[FindIndex(remainingLevels)].BaseIndex;
+
     /// <summary>Adds one level above all others; levels that don't recur form one run.</summary>
     public void Add(SubFractal subFractal, BoundingVolume volume, HierarchyLevel level) => Add(1, new Entry(subFractal, volume, level));
 

@@ -17,10 +17,11 @@ internal static class ChildGroups
     /// <param name="parentBox">A box around the parent and the base mesh: no group is smaller, so that none counts as a point.</param>
     /// <param name="childHull">The hull of the sub-fractal that the first child is an instance of.</param>
     /// <param name="hasOnlySimilarities">True when all maps of the fractal are similarities.</param>
+    /// <param name="baseIndex">See <see cref="SubFractal.BaseIndex"/>.</param>
     /// <returns>The outermost groups and their boxes.</returns>
     public static (ChildInstance[] Groups, BoundingBox[] Boxes) Create(
         MapSet set, ChildInstance[] children, BoundingBox[] childBoxes, BoundingBox parentBox, HullBound? childHull,
-        bool hasOnlySimilarities)
+        bool hasOnlySimilarities, int baseIndex)
     {
         var nonEmpty = new int[children.Length];
         var count = 0;
@@ -57,7 +58,7 @@ internal static class ChildGroups
             var hasFirstHull = parts[0].Group is null && parts[0].LevelStep == children[0].LevelStep;
             return new(
                 set, parts, boxes, box, parentBox, null, hasFirstHull ? childHull : null, null, null,
-                hasOnlySimilarities, isGroup: true);
+                hasOnlySimilarities, baseIndex, isGroup: true);
         }
 
         (ChildInstance[], BoundingBox[]) CollectChildren(ReadOnlySpan<int> members)

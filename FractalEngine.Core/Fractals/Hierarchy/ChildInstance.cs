@@ -44,7 +44,7 @@ internal sealed class ChildInstance
             inverse = set.Maps[mapIndex].Inverse() * inverse;
             ScaleSquared *= set.ScalesSquared[mapIndex];
             LevelStep = LevelStep.Then(levelStep);
-            areMapsOfLevels &= levelStep == LevelStep.Down(1) && set.Power is null && set != MapSet.Identity;
+            areMapsOfLevels &= set.IsOfCalls || (levelStep == LevelStep.Down(1) && set.Power is null && set != MapSet.Identity);
         }
 
         HasMapsOfLevels = areMapsOfLevels;
@@ -72,7 +72,7 @@ internal sealed class ChildInstance
     /// <summary>The edges, the outermost first.</summary>
     public ReadOnlySpan<ChildEdge> Edges => new(_edges, _firstEdge, _edgeCount);
 
-    /// <summary>Whether each edge goes down one level by a map of that level's set.</summary>
+    /// <summary>Whether each edge goes down by a map of its level's set, and skips no level with an identity.</summary>
     public bool HasMapsOfLevels { get; }
 
     /// <summary>The map from the child's frame to that of the parent.</summary>

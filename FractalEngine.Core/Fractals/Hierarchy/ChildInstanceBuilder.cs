@@ -5,7 +5,8 @@ namespace FractalEngine.Core.Fractals.Hierarchy;
 /// <summary>
 /// Determines the children of sub-fractals, such that no instance of the base mesh is reached by two paths. Equal children are built once.
 /// </summary>
-internal sealed class ChildInstanceBuilder
+/// <param name="baseCount">Number of base meshes, which are the levels below all others.</param>
+internal sealed class ChildInstanceBuilder(int baseCount)
 {
     // Levels are skipped by their identities until a level has so many edges.
     private const int MaxEdges = 256;
@@ -20,15 +21,15 @@ internal sealed class ChildInstanceBuilder
     // Single children of wider levels are not looked for among those of other levels, which would take as much memory as they do.
     private const int MaxComparedEdges = 4096;
 
-    /// <summary>Maximum number of rounds of a repetition between a sub-fractal and its children.</summary>
+    /// <summary>Maximum number of edges between a sub-fractal and its children: in a repetition, of rounds.</summary>
     public const int MaxExpandedLevels = 16;
 
-    private readonly Dictionary<ChildEdge[], ChildInstance> _instances = new(EdgeSequenceComparer.Instance);
+    private readonly Dictionary<ChildEdge[], ChildInstance> _instances = new(ChildEdgesComparer.Instance);
 
     // By reference: equal edges are shared.
     private readonly Dictionary<ChildEdge[], ChildInstance[]> _wideLevels = new(ReferenceEqualityComparer.Instance);
 
-    private readonly HashSet<ChildEdge[]> _sharedEdges = new(EdgeSequenceComparer.Instance);
+    private readonly HashSet<ChildEdge[]> _sharedEdges = new(ChildEdgesComparer.Instance);
 
     /// <summary>
     /// Lists the edges of a level. First come its own maps; then, where its identity lets it be skipped, the maps that the next levels of
@@ -88,7 +89,7 @@ internal sealed class ChildInstanceBuilder
     /// <summary>Builds the children of a level: its edges, expanded by the edges of the levels they lead to while these are few.</summary>
     /// <param name="level">Remaining levels of the parent.</param>
     /// <param name="edges">The edges of the level.</param>
-    /// <param name="edgesAt">Gives the edges of a lower level by its remaining levels; it is never called for the base, at 0.</param>
+    /// <param name="edgesAt">Gives the edges of a lower level by its remaining levels; it is never called for a base mesh.</param>
     public ChildInstance[] ExpandChildren(long level, ChildEdge[] edges, Func<long, ChildEdge[]> edgesAt)
     {
         if (edges.Length > MaxChildrenForSameLevel && !LeadToNothing(level, edges, edgesAt))
@@ -109,7 +110,7 @@ internal sealed class ChildInstanceBuilder
         {
             // The highest level is expanded first, so that all chains come to end at the same level and few levels are ever visited.
             var highestLevel = HighestLevel(chains);
-            if (highestLevel == 0)
+            if (highestLevel < baseCount)
             {
                 break;
             }
@@ -139,7 +140,7 @@ internal sealed class ChildInstanceBuilder
     }
 
     /// <summary>Tells whether the highest level that edges lead to has no edges itself.</summary>
-    private static bool LeadToNothing(long level, ChildEdge[] edges, Func<long, ChildEdge[]> edgesAt)
+    private bool LeadToNothing(long level, ChildEdge[] edges, Func<long, ChildEdge[]> edgesAt)
     {
         var highest = 0L;
         foreach (var edge in edges)
@@ -147,7 +148,7 @@ internal sealed class ChildInstanceBuilder
             highest = Math.Max(highest, edge.RemainingLevels(level));
         }
 
-        return highest > 0 && edgesAt(highest).Length == 0;
+        return highest >= baseCount && edgesAt(highest).Length == 0;
     }
 
     /// <summary>The children of a level that is too wide to be expanded: one for each edge, shared by levels with these edges.</summary>
@@ -215,18 +216,21 @@ internal sealed class ChildInstanceBuilder
         return true;
     }
 
-    /// <summary>True when all chains that don't lead to the base end at the same level.</summary>
-    private static bool HaveSameLevel(List<EdgeChain> chains)
+    /// <summary>True when all chains that don't lead to a base mesh end at the same level.</summary>
+    private bool HaveSameLevel(List<EdgeChain> chains)
     {
         var commonLevel = 0L;
         foreach (var chain in chains)
         {
-            if (chain.RemainingLevels > 0 && commonLevel > 0 && chain.RemainingLevels != commonLevel)
+            if (chain.RemainingLevels >= baseCount)
             {
-                return false;
-            }
+                if (commonLevel > 0 && chain.RemainingLevels != commonLevel)
+                {
+                    return false;
+                }
 
-            commonLevel = Math.Max(commonLevel, chain.RemainingLevels);
+                commonLevel = chain.RemainingLevels;
+            }
         }
 
         return true;
@@ -240,7 +244,7 @@ internal sealed class ChildInstanceBuilder
     private static void AddEdges(List<ChildEdge> edges, HashSet<AffineMap> offeredMaps, MapSet set, long levelsDown)
     {
         // Of the indices, since maps of wide sets are many bytes.
-        var mapsOfThisLevel = new HashSet<int>(set.Maps.Length, new MapComparer(set.Maps));
+        var mapsOfThisLevel = new HashSet<int>(set.Maps.Length, new MapIndexComparer(set.Maps));
         for (var i = 0; i < set.Maps.Length; i++)
         {
             // A map that a level above offers is found there, provided that this level could be skipped instead.
@@ -282,31 +286,5 @@ internal sealed class ChildInstanceBuilder
         }
 
         public EdgeChain Append(ChildEdge edge) => new([.. Edges, edge], edge.RemainingLevels(RemainingLevels));
-    }
-
-    /// <summary>Compares maps of a set by their indices.</summary>
-    private sealed class MapComparer(AffineMap[] maps) : IEqualityComparer<int>
-    {
-        public bool Equals(int index1, int index2) => maps[index1] == maps[index2];
-
-        public int GetHashCode(int index) => maps[index].GetHashCode();
-    }
-
-    private sealed class EdgeSequenceComparer : IEqualityComparer<ChildEdge[]>
-    {
-        public static EdgeSequenceComparer Instance { get; } = new();
-
-        public bool Equals(ChildEdge[]? edges1, ChildEdge[]? edges2) => edges1.AsSpan().SequenceEqual(edges2);
-
-        public int GetHashCode(ChildEdge[] edges)
-        {
-            var hash = 0;
-            foreach (ref readonly var edge in edges.AsSpan())
-            {
-                hash = HashCode.Combine(hash, edge.MapIndex, edge.LevelStep.GetHashCode());
-            }
-
-            return hash;
-        }
     }
 }

@@ -17,9 +17,9 @@ internal interface IPointMeasure
 }
 
 /// <summary>Finds the largest value of a measure over the points of a fractal, such as how far it reaches in a direction.</summary>
-/// <param name="fractal">The fractal, in affine composition.</param>
+/// <param name="hierarchy">The sub-fractals.</param>
 /// <remarks>Its memory serves one search after the other: 40 bytes for each sub-fractal that waits, some megabytes at most.</remarks>
-internal sealed class FarthestPointSearch(Fractal fractal)
+internal sealed class FarthestPointSearch(FractalHierarchy hierarchy)
 {
     // Beyond so many, the worst of what waits is given up: its bounds alone are kept.
     private const int MaxWaiting = 1 << 17;
@@ -50,7 +50,6 @@ internal sealed class FarthestPointSearch(Fractal fractal)
     public double Run<TMeasure>(AffineMap map, TMeasure measure, double relativeTolerance, int maxNodes)
         where TMeasure : struct, IPointMeasure
     {
-        var hierarchy = fractal.Hierarchy;
         if (hierarchy.Root.Box.IsEmpty)
         {
             return double.NegativeInfinity;
@@ -58,7 +57,7 @@ internal sealed class FarthestPointSearch(Fractal fractal)
 
         if (hierarchy.Root.Children.Length == 0)
         {
-            return measure.MaxOverVertices(fractal.BaseMesh, in map);
+            return measure.MaxOverVertices(hierarchy.BaseMeshes[hierarchy.Root.BaseIndex], in map);
         }
 
         _open.Clear();
@@ -92,8 +91,8 @@ internal sealed class FarthestPointSearch(Fractal fractal)
                 }
 
                 var childMap = opened.Map * child.Map;
-                var bound = levels == 0
-                    ? measure.MaxOverVertices(fractal.BaseMesh, in childMap)
+                var bound = hierarchy.IsBase(levels)
+                    ? measure.MaxOverVertices(hierarchy.BaseMeshes[subFractal.BaseIndex], in childMap)
                     : Math.Min(node.Bound, measure.UpperBound(subFractal, in childMap));
                 // Ties are common in symmetric fractals: of bounds that are equal to the tolerance the deepest is taken first.
                 var priority = (tolerance > 0 ? -Math.Round(bound / tolerance) : -bound, -(opened.Depth + 1));
@@ -129,7 +128,7 @@ internal sealed class FarthestPointSearch(Fractal fractal)
                 }
 
                 node = next;
-                opened = Open(hierarchy, next.Parent, next.Child);
+                opened = Open(next.Parent, next.Child);
             }
             while (measure.Key(opened.Map) is { } key && !_seen.Add((opened.SubFractal, opened.Levels, key)));
         }
@@ -164,7 +163,7 @@ internal sealed class FarthestPointSearch(Fractal fractal)
         _open.EnqueueRange(kept);
     }
 
-    private Opened Open(FractalHierarchy hierarchy, int parentIndex, ChildInstance child)
+    private Opened Open(int parentIndex, ChildInstance child)
     {
         var parent = _opened[parentIndex];
         var levels = child.RemainingLevels(parent.Levels);

@@ -1,6 +1,7 @@
 using System.Runtime.Intrinsics;
 using FractalEngine.Core.Collision;
 using FractalEngine.Core.Collision.Fractals;
+using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Fractals.Hierarchy;
@@ -8,6 +9,21 @@ namespace FractalEngine.Core.Fractals.Hierarchy;
 /// <content>The instance that a path of a search leads to.</content>
 internal sealed partial class FractalHierarchy
 {
+    /// <summary>The base mesh of the instance that a path leads to.</summary>
+    /// <param name="path">Indices of child instances from the root.</param>
+    public Mesh BaseMeshAt(ReadOnlySpan<int> path)
+    {
+        var (subFractal, level) = (Root, Levels);
+        foreach (var childIndex in path)
+        {
+            var child = subFractal.Children[childIndex];
+            level = child.RemainingLevels(level);
+            subFractal = At(child, level);
+        }
+
+        return BaseMeshes[subFractal.BaseIndex];
+    }
+
     /// <summary>Follows a path to an instance: composes its map, and records the map index of each level.</summary>
     /// <param name="path">Indices of child instances from the root.</param>
     /// <param name="rootMap">From the frame of the fractal to that of the query.</param>
@@ -55,6 +71,13 @@ internal sealed partial class FractalHierarchy
             foreach (var edge in child.Edges)
             {
                 var childLevels = edge.RemainingLevels(remainingLevels);
+                if (edge.Set.IsOfCalls)
+                {
+                    context.AppendToPath(edge.MapIndex);
+                    remainingLevels = childLevels;
+                    continue;
+                }
+
                 if (edge.Set.Power is { } power)
                 {
                     exponent = power.AppendToPath(context, exponent, childLevels);

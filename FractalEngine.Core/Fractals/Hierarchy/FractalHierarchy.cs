@@ -1,11 +1,17 @@
 using System.Runtime.CompilerServices;
+using FractalEngine.Core.Geometry;
 
 namespace FractalEngine.Core.Fractals.Hierarchy;
 
 /// <summary>
-/// The sub-fractals of a fractal, one for each number of remaining levels. Deep repetitions share those of one round once their bounds have
-/// converged, so the hierarchy takes kilobytes at any depth.
+/// The sub-fractals of a fractal, one for each state. Deep repetitions share those of one round once their bounds have converged, so the
+/// hierarchy takes kilobytes at any depth.
 /// </summary>
+/// <remarks>
+/// A state is a recursive and its remaining levels. States are numbered such that maps lead from any to lower ones. The number is called
+/// remaining levels too, since that is what it is for a fractal of one recursive. The states of several recursives take turns, see
+/// <see cref="RecursiveLevels"/>. The lowest states are the base meshes, and so many states have no children.
+/// </remarks>
 internal sealed partial class FractalHierarchy
 {
     // Up to here sub-fractals are found without a search.
@@ -15,9 +21,14 @@ internal sealed partial class FractalHierarchy
     private readonly HierarchyLevel[] _levels;
     private readonly LevelRegion[] _regions;
     private readonly SubFractal?[] _lowest;
+    private readonly int _rootRecursive;
+    private readonly long _recursiveTop;
 
-    private FractalHierarchy(FractalHierarchyBuilder builder, bool keepsAllLevels)
+    private FractalHierarchy(HierarchyDescription description, FractalHierarchyBuilder builder, bool keepsAllLevels)
     {
+        BaseMeshes = [.. description.Recursives.Select(static recursive => recursive.BaseMesh)];
+        _rootRecursive = description.Root;
+        _recursiveTop = builder.RecursiveTop;
         var built = builder.Built;
         _regions = [.. built.Regions];
         _levels = [.. built.Levels];
@@ -36,7 +47,10 @@ internal sealed partial class FractalHierarchy
         RadiusSquared = 0.25 * Root.Box.Size.LengthSquared();
     }
 
-    /// <summary>Number of levels of the whole fractal; a huge number where they are infinitely many.</summary>
+    /// <summary>The base meshes: that of each recursive.</summary>
+    public Mesh[] BaseMeshes { get; }
+
+    /// <summary>Number of levels of the whole fractal, which is its state; a huge number where they are infinitely many.</summary>
     public long Levels { get; }
 
     /// <summary>The sub-fractal with all levels, which is the whole fractal.</summary>
@@ -69,12 +83,28 @@ internal sealed partial class FractalHierarchy
     /// <param name="doublesPowers">False for one level for each set of the fractal, see <see cref="MapPowers"/>.</param>
     /// <param name="keepsAllLevels">True to keep levels that no search from the whole fractal visits.</param>
     /// <exception cref="FractalLimitException">Bounds overflow a double, or don't converge; the message names the level.</exception>
-    public static FractalHierarchy Build(Fractal fractal, bool doublesPowers = true, bool keepsAllLevels = false)
+    public static FractalHierarchy Build(Fractal fractal, bool doublesPowers = true, bool keepsAllLevels = false) =>
+        Build(HierarchyDescription.Of(fractal), doublesPowers, keepsAllLevels);
+
+    /// <summary>Builds the hierarchy of recursives and steps.</summary>
+    /// <param name="description">The recursives and the steps.</param>
+    /// <param name="doublesPowers">False for one level for each set, see <see cref="MapPowers"/>.</param>
+    /// <param name="keepsAllLevels">True to keep levels that no search from the whole fractal visits.</param>
+    /// <exception cref="FractalLimitException">Bounds overflow a double, or don't converge; the message names the level.</exception>
+    public static FractalHierarchy Build(HierarchyDescription description, bool doublesPowers = true, bool keepsAllLevels = false)
     {
-        var builder = new FractalHierarchyBuilder(fractal, doublesPowers);
-        builder.AddAllSteps();
-        return new(builder, keepsAllLevels);
+        var builder = new FractalHierarchyBuilder(description, doublesPowers);
+        builder.AddAllLevels();
+        return new(description, builder, keepsAllLevels);
     }
+
+    /// <summary>True for the number of a state without levels, which is a base mesh.</summary>
+    public bool IsBase(long remainingLevels) => remainingLevels < BaseMeshes.Length;
+
+    /// <summary>The state that a level stands for. Steps count as levels of the recursive that they are applied to.</summary>
+    public HierarchyState StateAt(long remainingLevels) => remainingLevels <= _recursiveTop
+        ? new((int)(remainingLevels % BaseMeshes.Length), remainingLevels / BaseMeshes.Length)
+        : new(_rootRecursive, (_recursiveTop / BaseMeshes.Length) + remainingLevels - _recursiveTop);
 
     /// <summary>The sub-fractal with a number of remaining levels, which must be one that a search can visit.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

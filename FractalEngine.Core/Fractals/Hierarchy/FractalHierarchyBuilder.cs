@@ -1,7 +1,3 @@
-using FractalEngine.Core.Collision;
-using FractalEngine.Core.Geometry;
-using FractalEngine.Core.Maths;
-
 namespace FractalEngine.Core.Fractals.Hierarchy;
 
 /// <summary>Builds the sub-fractals of a <see cref="FractalHierarchy"/>, from the base mesh upwards.</summary>
@@ -9,7 +5,7 @@ namespace FractalEngine.Core.Fractals.Hierarchy;
 /// The identity is not a child like the others. Where all levels below have it, the base mesh belongs to the level itself, and a child may
 /// skip levels that have it. Each chain of the other maps is then reached by one path, on its earliest levels (docs/colliders.md).
 /// </remarks>
-internal sealed class FractalHierarchyBuilder
+internal sealed partial class FractalHierarchyBuilder
 {
     /// <summary>Stands for infinitely many rounds: no search descends so many levels.</summary>
     public const long EndlessRounds = 1L << 40;
@@ -17,7 +13,7 @@ internal sealed class FractalHierarchyBuilder
     // More mean that the bounds grow or shrink too slowly to converge.
     private const int MaxSubFractals = 4000;
 
-    private readonly Fractal _fractal;
+    private readonly HierarchyDescription _description;
     private readonly bool _doublesPowers;
 
     // A set without maps on any level leaves nothing, however often it is repeated.
@@ -26,23 +22,30 @@ internal sealed class FractalHierarchyBuilder
     private readonly SubFractalFactory _subFractalFactory;
     private readonly Dictionary<TransformationSet, MapSet> _sets = new(ReferenceEqualityComparer.Instance);
     private long _childCount;
-    private readonly ChildInstanceBuilder _childBuilder = new();
+    private readonly ChildInstanceBuilder _childBuilder;
+    private readonly RecursiveLevels _recursives;
+    private int _baseIndex;
 
-    /// <summary>Begins with the base mesh, which has no remaining levels.</summary>
-    /// <param name="fractal">Fractal in affine composition.</param>
+    /// <summary>Begins with the base meshes, which have no remaining levels.</summary>
+    /// <param name="description">What the hierarchy is built from.</param>
     /// <param name="doublesPowers">
     /// True to double the levels of one map, see <see cref="MapPowers"/>; false for one level for each set, whose path colours need.
     /// </param>
-    public FractalHierarchyBuilder(Fractal fractal, bool doublesPowers)
+    public FractalHierarchyBuilder(HierarchyDescription description, bool doublesPowers)
     {
-        _fractal = fractal;
+        _description = description;
         _doublesPowers = doublesPowers;
-        _isEmpty = FractalSteps.CountUpTo(fractal.Description.Steps, 1).IsZero;
-        HasOnlySimilarities = fractal.Description.Steps.All(HasOnlySimilarMaps);
-        _union = new(Built, new(fractal));
-        _subFractalFactory = new(fractal.BaseMesh, HasOnlySimilarities);
-        var volume = _subFractalFactory.BaseVolume;
-        Built.Add(_subFractalFactory.CreateBase(), volume, new(null, volume.Box, [], static () => []));
+        _isEmpty = FractalSteps.CountUpTo(description.Steps, 1).IsZero;
+        _recursives = new(description.Recursives);
+        _childBuilder = new(_recursives.Period);
+        HasOnlySimilarities = description.Steps.All(HasOnlySimilarMaps) && _recursives.HaveOnlySimilarities;
+        _union = new(Built, new(description));
+        _subFractalFactory = new([.. description.Recursives.Select(static recursive => recursive.BaseMesh)], HasOnlySimilarities);
+        for (var i = 0; i < _recursives.Period; i++)
+        {
+            var volume = _subFractalFactory.BaseVolumes[i];
+            Built.Add(_subFractalFactory.CreateBase(i), volume, new(null, volume.Box, [], static () => [], i));
+        }
     }
 
     /// <summary>The levels that were built.</summary>
@@ -54,35 +57,21 @@ internal sealed class FractalHierarchyBuilder
     /// <summary>True when levels stand for doubled powers of one map.</summary>
     public bool HasDoubledPowers { get; private set; }
 
-    /// <summary>Adds the levels of all steps, the innermost first.</summary>
+    /// <summary>Level of the recursive that the steps are applied to.</summary>
+    public long RecursiveTop { get; private set; }
+
+    /// <summary>Adds the levels of the recursives, and those of all steps, the innermost first.</summary>
     /// <exception cref="FractalLimitException">Bounds overflow a double, or don't converge; the message names the level.</exception>
-    public void AddAllSteps()
+    public void AddAllLevels()
     {
-        RequireAllowedChildren(_fractal.Description.Steps.Sum(CountWideChildren));
-        foreach (var step in _fractal.Description.Steps.Reverse())
+        RequireAllowedChildren(_description.Steps.Sum(CountWideChildren));
+        AddRecursives();
+        RecursiveTop = Built.Top;
+        _baseIndex = _recursives.BaseIndexAt(RecursiveTop);
+        foreach (var step in _description.Steps.Reverse())
         {
             AddStep(step);
         }
-    }
-
-    private static bool HasOnlySimilarMaps(FractalStep step) => step switch
-    {
-        Repetition repetition => repetition.Body.All(HasOnlySimilarMaps),
-        TransformationSet set => HasOnlySimilarMaps(set.Maps.AsSpan()),
-        _ => throw new ArgumentException($"{step.GetType().Name} is no step of a fractal", nameof(step)),
-    };
-
-    private static bool HasOnlySimilarMaps(ReadOnlySpan<AffineMap> maps)
-    {
-        foreach (ref readonly var map in maps)
-        {
-            if (!Similarity.IsSimilarity(map.Linear))
-            {
-                return false;
-            }
-        }
-
-        return true;
     }
 
     /// <summary>
@@ -126,7 +115,8 @@ internal sealed class FractalHierarchyBuilder
             if (hasOnlySets && round >= nextAttempt)
             {
                 var remainingRounds = repetition.Count - round ?? EndlessRounds;
-                if (TryRepeatRound(levelsBelowRepetition, period, remainingRounds * period, Math.Max(1, 0.125 * round)))
+                var bound = CreatePeriodicBound(period, round, ChildInstanceBuilder.MaxExpandedLevels);
+                if (TryRepeatRound(bound, level => EdgesOfRepetition(bound, level, levelsBelowRepetition), remainingRounds * period))
                 {
                     return;
                 }
@@ -157,15 +147,7 @@ internal sealed class FractalHierarchyBuilder
     /// <param name="set">The set of the level.</param>
     private void AddLevel(long levelsBelowRepetition, int period, TransformationSet set)
     {
-        if (Built.Levels.Count > MaxSubFractals)
-        {
-            throw new FractalLimitException(
-                "exact search needs transformations that shrink, or less depth: "
-                + $"{Built.Top} levels above the base the fractal's bounds still change");
-        }
-
-        _childCount += set.Maps.Length;
-        RequireAllowedChildren(_childCount);
+        RequireAllowedLevel(set.Maps.Length);
         if (!_sets.TryGetValue(set, out var mapSet))
         {
             mapSet = new(set);
@@ -188,35 +170,51 @@ internal sealed class FractalHierarchyBuilder
             childVolumes[i] = Built.VolumeAt(children[i].RemainingLevels(level));
         }
 
-        var subFractal = _subFractalFactory.Create(mapSet, children, childVolumes, volume);
-        Built.Add(subFractal, volume, new(mapSet, volume.Box, edges, EdgeBoxesOf(edges, level, Built.VolumeAt)));
+        var subFractal = _subFractalFactory.Create(mapSet, children, childVolumes, volume, _baseIndex);
+        Built.Add(subFractal, volume, new(mapSet, volume.Box, edges, EdgeBoxesOf(edges, level, Built.VolumeAt), _baseIndex));
     }
 
-    /// <summary>Replaces all remaining rounds by one that is inflated a little, if it can be proved to contain them.</summary>
-    /// <param name="levelsBelowRepetition">Remaining levels below the repetition.</param>
-    /// <param name="period">Number of levels in a round.</param>
-    /// <param name="levelCount">Number of levels in the remaining rounds.</param>
-    /// <param name="toleranceFactor">See <see cref="PeriodicBound"/>.</param>
-    private bool TryRepeatRound(long levelsBelowRepetition, int period, long levelCount, double toleranceFactor)
+    /// <summary>Refuses a level on top of those before, if they or their children are too many.</summary>
+    private void RequireAllowedLevel(int childCount)
     {
-        var periodicBound = new PeriodicBound(Built.Top, period, Built.VolumeAt, Built.EdgesAt, toleranceFactor);
+        if (Built.Levels.Count > MaxSubFractals)
+        {
+            throw new FractalLimitException(
+                "exact search needs transformations that shrink, or less depth: "
+                + $"{Built.Top} levels above the base the fractal's bounds still change");
+        }
+
+        _childCount += childCount;
+        RequireAllowedChildren(_childCount);
+    }
+
+    private PeriodicBound CreatePeriodicBound(int period, long round, int maxRoundsDown, bool arePhasesAlike = true) =>
+        new(Built.Top, period, Built.VolumeAt, Built.EdgesAt, Math.Max(1, 0.125 * round), maxRoundsDown, arePhasesAlike);
+
+    /// <summary>The edges of a level of a repetition, built or above the last round.</summary>
+    private ChildEdge[] EdgesOfRepetition(PeriodicBound bound, long level, long levelsBelowRepetition) => ChildInstanceBuilder.EdgesAt(
+        level,
+        levelsBelowRepetition,
+        bound.Period,
+        Built.MapSetAt(bound.EquivalentLevel(level)),
+        lower => Built.MapSetAt(bound.EquivalentLevel(lower)));
+
+    /// <summary>Replaces all remaining rounds by one that is inflated a little, if it can be proved to contain them.</summary>
+    /// <param name="periodicBound">Proves that.</param>
+    /// <param name="edgesAt">Gives the edges of levels above the last round.</param>
+    /// <param name="levelCount">Number of levels in the remaining rounds.</param>
+    private bool TryRepeatRound(PeriodicBound periodicBound, Func<long, ChildEdge[]> edgesAt, long levelCount)
+    {
         if (!periodicBound.HasConverged())
         {
             return false;
         }
 
         // The children must be the same in rounds so far up that theirs lie in rounds like the last one, and in those between.
-        ChildInstance[] ChildrenAt(long level)
-        {
-            var edges = ChildInstanceBuilder.EdgesAt(
-                level,
-                levelsBelowRepetition,
-                period,
-                Built.MapSetAt(periodicBound.EquivalentLevel(level)),
-                lower => Built.MapSetAt(periodicBound.EquivalentLevel(lower)));
-            return _childBuilder.ExpandChildren(level, edges, lower => Built.EdgesAt(periodicBound.EquivalentLevel(lower)));
-        }
+        ChildInstance[] ChildrenAt(long level) =>
+            _childBuilder.ExpandChildren(level, edgesAt(level), lower => Built.EdgesAt(periodicBound.EquivalentLevel(lower)));
 
+        var period = periodicBound.Period;
         var children = Enumerable.Range(0, period).Select(phase => ChildrenAt(periodicBound.InductionLevel + phase)).ToArray();
         for (var level = Built.Top + 1; level < periodicBound.InductionLevel; level++)
         {
@@ -241,39 +239,14 @@ internal sealed class FractalHierarchyBuilder
             var set = Built.MapSetAt(level);
             var edges = Built.EdgesAt(level);
             var edgeBoxes = EdgeBoxesOf(edges, parentLevels, RepeatedVolumeAt);
+            var baseIndex = Built.BaseIndexAt(level);
             round[phase] = new(
-                _subFractalFactory.Create(set, children[phase], childVolumes, volumes[phase]),
+                _subFractalFactory.Create(set, children[phase], childVolumes, volumes[phase], baseIndex),
                 volumes[phase],
-                new(set, volumes[phase].Box, edges, edgeBoxes));
+                new(set, volumes[phase].Box, edges, edgeBoxes, baseIndex));
         }
 
         Built.Add(levelCount, round);
         return true;
-    }
-
-    /// <summary>
-    /// Makes the boxes of edges. Those of wide levels are computed at their use: they take much memory, and only drawing needs them.
-    /// </summary>
-    private static Func<BoundingBox[]> EdgeBoxesOf(ChildEdge[] edges, long level, Func<long, BoundingVolume> volumeAt)
-    {
-        if (edges.Length > ChildGroups.MaxUngroupedChildren)
-        {
-            return () => ComputeEdgeBoxes(edges, level, volumeAt);
-        }
-
-        var boxes = ComputeEdgeBoxes(edges, level, volumeAt);
-        return () => boxes;
-    }
-
-    private static BoundingBox[] ComputeEdgeBoxes(ChildEdge[] edges, long level, Func<long, BoundingVolume> volumeAt)
-    {
-        var boxes = new BoundingBox[edges.Length];
-        for (var i = 0; i < boxes.Length; i++)
-        {
-            var volume = volumeAt(edges[i].RemainingLevels(level));
-            boxes[i] = volume.Box.IsEmpty ? BoundingBox.Empty : volume.TransformedBox(edges[i].Map, edges[i].OperatorNormBound);
-        }
-
-        return boxes;
     }
 }

@@ -43,6 +43,9 @@ internal sealed class MapSet
     /// <summary>How a chain of the fractal's own maps replaces the map of this set; null where the set is one of the fractal's.</summary>
     public MapPower? Power { get; init; }
 
+    /// <summary>True where each map is that of a call: it leads to a recursive of its own, and skips no level by an identity.</summary>
+    public bool IsOfCalls { get; init; }
+
     /// <summary>The set that contains the identity alone.</summary>
     public static MapSet Identity { get; } = new([AffineMap.Identity]);
 

@@ -1,3 +1,4 @@
+using System.Collections.Immutable;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
@@ -16,10 +17,12 @@ internal sealed class OutlierClusters
     private readonly bool _hasOutliers;
 
     /// <summary>Determines whether a fractal has such maps.</summary>
-    public OutlierClusters(Fractal fractal)
+    public OutlierClusters(HierarchyDescription description)
     {
-        _baseDiagonal = fractal.BaseMesh.Bounds.Diagonal;
-        _hasOutliers = fractal.Description.Steps.Any(HasOutliers);
+        _baseDiagonal = description.Recursives.Where(static recursive => recursive.BaseMesh.FaceCount > 0)
+            .Select(static recursive => recursive.BaseMesh.Bounds.Diagonal).DefaultIfEmpty().Max();
+        _hasOutliers = description.Steps.Any(HasOutliers)
+            || description.Recursives.Any(recursive => HasOutliers([.. recursive.Calls.Select(static call => call.Map)]));
     }
 
     /// <summary>Computes the clusters of the union of some parts: the bulk, then what outliers throw away, the farthest first.</summary>
@@ -66,14 +69,12 @@ internal sealed class OutlierClusters
         return [.. clusters.Where(cluster => !cluster.IsEmpty)];
     }
 
-    private bool HasOutliers(FractalStep step)
-    {
-        if (step is Repetition repetition)
-        {
-            return repetition.Body.Any(HasOutliers);
-        }
+    private bool HasOutliers(FractalStep step) => step is Repetition repetition
+        ? repetition.Body.Any(HasOutliers)
+        : HasOutliers(((TransformationSet)step).Maps);
 
-        var maps = ((TransformationSet)step).Maps;
+    private bool HasOutliers(ImmutableArray<AffineMap> maps)
+    {
         if (maps.Length < 2)
         {
             return false;

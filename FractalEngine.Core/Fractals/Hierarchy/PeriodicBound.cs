@@ -18,8 +18,11 @@ namespace FractalEngine.Core.Fractals.Hierarchy;
 /// Multiple of the usual tolerance for changes, at least 1. The choice of a hull's vertices may change a little from round to round without
 /// end.
 /// </param>
+/// <param name="arePhasesAlike">False for phases whose margins tell nothing of each other's.</param>
+/// <param name="maxRoundsDown">The largest number of rounds between a sub-fractal and its children, rounded up.</param>
 internal sealed class PeriodicBound(
-    long topLevel, int period, Func<long, BoundingVolume> volumeAt, Func<long, ChildEdge[]> edgesAt, double toleranceFactor)
+    long topLevel, int period, Func<long, BoundingVolume> volumeAt, Func<long, ChildEdge[]> edgesAt, double toleranceFactor,
+    int maxRoundsDown, bool arePhasesAlike = true)
 {
     // Bounds have converged when a round changes them by less than this part of their size, or of the margin by which they are too large
     // anyway.
@@ -37,18 +40,21 @@ internal sealed class PeriodicBound(
 
     private const int MaxMarginIterations = 300;
 
+    /// <summary>Number of levels in a round.</summary>
+    public int Period => period;
+
     /// <summary>Remaining levels at the bottom of the last round.</summary>
     public long FirstLevel { get; } = topLevel - period + 1;
 
     /// <summary>The lowest level of a round so far up that all its children lie in rounds like the last one.</summary>
-    public long InductionLevel { get; } = topLevel + 1 + (ChildInstanceBuilder.MaxExpandedLevels * (long)period);
+    public long InductionLevel { get; } = topLevel + 1 + ((long)maxRoundsDown * period);
 
     /// <summary>Tells whether the bounds of the last two rounds differ little enough.</summary>
     public bool HasConverged()
     {
-        var threshold = ConvergenceThreshold();
         for (var phase = 0; phase < period; phase++)
         {
+            var threshold = ConvergenceThreshold(phase);
             if (!(RelativeChange(volumeAt(FirstLevel + phase), volumeAt(FirstLevel + phase - period), threshold) <= threshold))
             {
                 return false;
@@ -74,9 +80,9 @@ internal sealed class PeriodicBound(
     public BoundingVolume[]? TryProveInvariant(ChildInstance[][] children)
     {
         var coveredLevels = FindCoveredLevels(children);
-        var threshold = ConvergenceThreshold();
         for (var phase = 0; phase < period; phase++)
         {
+            var threshold = ConvergenceThreshold(phase);
             var lastVolume = volumeAt(FirstLevel + phase);
             foreach (var level in coveredLevels[phase])
             {
@@ -106,7 +112,7 @@ internal sealed class PeriodicBound(
     private static BoundingBox Inflate(IEnumerable<BoundingBox> boxes, double fraction)
     {
         var box = boxes.Aggregate(BoundingBox.Union);
-        return BoundingVolume.Inflate(box, (fraction * box.Diagonal) + (RoundingErrors.Chain * Magnitude(box)));
+        return box.IsEmpty ? box : BoundingVolume.Inflate(box, (fraction * box.Diagonal) + (RoundingErrors.Chain * Magnitude(box)));
     }
 
     /// <summary>
@@ -117,7 +123,7 @@ internal sealed class PeriodicBound(
     /// <param name="cutoff">The method may return early any change above this, since boxes take far less time than hulls.</param>
     private static double RelativeChange(BoundingVolume volume1, BoundingVolume volume2, double cutoff)
     {
-        if (volume1.Clusters.Length != volume2.Clusters.Length)
+        if (volume1.Clusters.Length != volume2.Clusters.Length || volume1.Box.IsEmpty != volume2.Box.IsEmpty)
         {
             return 1;
         }
@@ -160,20 +166,21 @@ internal sealed class PeriodicBound(
         var maxDistance = double.NegativeInfinity;
         foreach (var point in points)
         {
-            maxDistance = Math.Max(maxDistance, outerVolume.Hull!.DistanceUpperBound(point, Math.Max(floor, maxDistance)));
+            var cutoff = Math.Max(floor, maxDistance);
+            maxDistance = Math.Max(maxDistance, outerVolume.Hull?.DistanceUpperBound(point, cutoff) ?? double.PositiveInfinity);
         }
 
         return maxDistance;
     }
 
-    private double ConvergenceThreshold()
+    private double ConvergenceThreshold(int phaseToTest)
     {
         var minRelativeMargin = double.PositiveInfinity;
-        for (var phase = 0; phase < period; phase++)
+        for (var phase = arePhasesAlike ? 0 : phaseToTest; phase < (arePhasesAlike ? period : phaseToTest + 1); phase++)
         {
             var volume = volumeAt(FirstLevel + phase);
             // NaN, of a volume without size, is smaller than all.
-            minRelativeMargin = Math.Min(minRelativeMargin, volume.Margin / volume.Box.Diagonal);
+            minRelativeMargin = volume.Box.IsEmpty ? minRelativeMargin : Math.Min(minRelativeMargin, volume.Margin / volume.Box.Diagonal);
         }
 
         return Math.Max(ConvergenceTolerance, Math.Min(1, toleranceFactor * MarginTolerance) * minRelativeMargin);
@@ -220,7 +227,8 @@ internal sealed class PeriodicBound(
     {
         var outerBox = volumes[phase].Box;
         return CollapsedEdgesOf(phase)
-            .Select(edge => VolumeAt(volumes, edge.RemainingLevels).TransformedBox(edge.Map, edge.OperatorNormBound))
+            .Select(edge => (Volume: VolumeAt(volumes, edge.RemainingLevels), Edge: edge)).Where(item => !item.Volume.Box.IsEmpty)
+            .Select(item => item.Volume.TransformedBox(item.Edge.Map, item.Edge.OperatorNormBound))
             .All(box => BoundingBox.Union(outerBox, box) == outerBox);
     }
 
@@ -252,13 +260,14 @@ internal sealed class PeriodicBound(
             .SelectMany(phase => CollapsedEdgesOf(phase).Select(edge => (Phase: phase, Edge: edge))).ToArray();
         var fixedVolumes = edges.Where(item => item.Edge.RemainingLevels < FirstLevel).Select(item => item.Edge.RemainingLevels)
             .Concat(coveredLevels.SelectMany(levels => levels)).Select(volumeAt);
-        if (volumes.Any(volume => volume.Hull is null) || fixedVolumes.Any(volume => volume.Hull is null && !volume.Box.IsEmpty))
+        if (volumes.Concat(fixedVolumes).Any(volume => volume.Hull is null && !volume.Box.IsEmpty))
         {
             return WithoutHulls(volumes);
         }
 
         var margins = coveredLevels.Select((levels, phase) => levels.Select(volumeAt).Where(volume => volume.Hull is not null)
-            .Max(volume => volume.Margin + MaxDistanceOutside(volumes[phase], volume.Hull!.Vertices, 0))).ToArray();
+            .Select(volume => volume.Margin + MaxDistanceOutside(volumes[phase], volume.Hull!.Vertices, 0))
+            .DefaultIfEmpty().Max()).ToArray();
         var vertexDistances = edges.Select(item => VolumeAt(volumes, item.Edge.RemainingLevels).Hull is { } hull
             ? MaxDistanceOutside(volumes[item.Phase], [.. hull.Vertices.Select(vertex => item.Edge.Map * vertex)], 0)
             : double.NegativeInfinity).ToArray();

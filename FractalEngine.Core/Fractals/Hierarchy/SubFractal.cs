@@ -6,7 +6,10 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Fractals.Hierarchy;
 
-/// <summary>The part of a fractal that has a certain number of remaining levels, in its own frame: its children and bounds.</summary>
+/// <summary>
+/// A state of a fractal, which is a recursive with a certain number of remaining levels, in its own frame: its children or its base mesh,
+/// and its bounds.
+/// </summary>
 internal sealed class SubFractal
 {
     // A box for each child.
@@ -16,6 +19,9 @@ internal sealed class SubFractal
 
     private readonly Vector256<double> _halfSize;
     private readonly bool _isGroup;
+
+    // So small that it takes no place of its own: queries read most of the fields.
+    private readonly ushort _baseIndex;
 
     // That of a group is created at its first use, twice at worst and with the same result: wide sets have thousands.
     private ConvexSolid? _solid;
@@ -31,6 +37,7 @@ internal sealed class SubFractal
     /// <param name="solid">A convex solid around the sub-fractal; null where it is empty, and for groups.</param>
     /// <param name="clusters">Boxes that bound better than one; null where they don't.</param>
     /// <param name="hasOnlySimilarities">True when all maps of the fractal are similarities: only then floats are searched.</param>
+    /// <param name="baseIndex">Index of the base mesh, see <see cref="BaseIndex"/>.</param>
     /// <param name="isGroup">True for a group of children: no child is an instance of it, so that floats are not needed.</param>
     public SubFractal(
         MapSet? set,
@@ -43,10 +50,12 @@ internal sealed class SubFractal
         ConvexSolid? solid,
         ClusterBounds? clusters,
         bool hasOnlySimilarities,
+        int baseIndex,
         bool isGroup = false)
     {
         _solid = solid;
         _isGroup = isGroup;
+        _baseIndex = checked((ushort)baseIndex);
         Clusters = clusters;
         Set = set;
         Children = children;
@@ -84,6 +93,12 @@ internal sealed class SubFractal
 
     /// <summary>The children; none for the base.</summary>
     public ChildInstance[] Children { get; }
+
+    /// <summary>
+    /// Index of the base mesh that the sub-fractal is where it has no children. Otherwise that of the mesh that replaces it where it is
+    /// smaller than the precision of a search.
+    /// </summary>
+    public int BaseIndex => _baseIndex;
 
     /// <summary>Number of child boxes including padding, which is far from everything.</summary>
     public int PaddedCount { get; }

@@ -3,9 +3,9 @@ using FractalEngine.Core.Geometry;
 namespace FractalEngine.Core.Fractals.Hierarchy;
 
 /// <summary>Prepares sub-fractals for searches from their bounds, while a <see cref="FractalHierarchy"/> is built.</summary>
-/// <param name="mesh">The base mesh.</param>
+/// <param name="baseMeshes">The base meshes.</param>
 /// <param name="hasOnlySimilarities">True when all maps of the fractal are similarities.</param>
-internal sealed class SubFractalFactory(Mesh mesh, bool hasOnlySimilarities)
+internal sealed class SubFractalFactory(Mesh[] baseMeshes, bool hasOnlySimilarities)
 {
     // A hull that fills its box bounds no better than the box.
     private const double MaxHullFillRatio = 0.95;
@@ -13,21 +13,28 @@ internal sealed class SubFractalFactory(Mesh mesh, bool hasOnlySimilarities)
     // A hull that fills all of its box is the box.
     private const double MaxSolidFillRatio = 1 - 1e-6;
 
-    /// <summary>The bounds of the base mesh.</summary>
-    public BoundingVolume BaseVolume { get; } = BoundingVolume.FromMesh(mesh);
+    /// <summary>The bounds of the base meshes.</summary>
+    public BoundingVolume[] BaseVolumes { get; } = Array.ConvertAll(baseMeshes, BoundingVolume.FromMesh);
 
-    /// <summary>Creates the sub-fractal without levels: the base mesh.</summary>
-    public SubFractal CreateBase() => new(
-        null, [], [], BaseVolume.Box, BaseVolume.Box, CreateHullBound(BaseVolume), null, CreateSolid(BaseVolume), null,
-        hasOnlySimilarities);
+    /// <summary>Creates a sub-fractal without levels: a base mesh.</summary>
+    /// <param name="baseIndex">Its index.</param>
+    public SubFractal CreateBase(int baseIndex)
+    {
+        var volume = BaseVolumes[baseIndex];
+        return new(
+            null, [], [], volume.Box, volume.Box, CreateHullBound(volume), null, CreateSolid(volume), null, hasOnlySimilarities, baseIndex);
+    }
 
     /// <summary>Creates the sub-fractal of a level.</summary>
     /// <param name="set">The set of the level.</param>
     /// <param name="children">The children.</param>
     /// <param name="childVolumes">The bounds of the children, in their frames.</param>
     /// <param name="volume">The bounds of the sub-fractal.</param>
-    public SubFractal Create(MapSet set, ChildInstance[] children, BoundingVolume[] childVolumes, BoundingVolume volume)
+    /// <param name="baseIndex">See <see cref="SubFractal.BaseIndex"/>.</param>
+    public SubFractal Create(
+        MapSet set, ChildInstance[] children, BoundingVolume[] childVolumes, BoundingVolume volume, int baseIndex)
     {
+        var baseBox = BaseVolumes[baseIndex].Box;
         var childBoxes = new BoundingBox[children.Length];
         for (var i = 0; i < children.Length; i++)
         {
@@ -37,15 +44,15 @@ internal sealed class SubFractalFactory(Mesh mesh, bool hasOnlySimilarities)
         var childHull = childVolumes.Length > 0 ? CreateHullBound(childVolumes[0]) : null;
         if (children.Length > ChildGroups.MaxUngroupedChildren)
         {
-            var parentBox = BoundingBox.Union(volume.Box, BaseVolume.Box);
-            (children, childBoxes) = ChildGroups.Create(set, children, childBoxes, parentBox, childHull, hasOnlySimilarities);
+            var parentBox = BoundingBox.Union(volume.Box, baseBox);
+            (children, childBoxes) = ChildGroups.Create(set, children, childBoxes, parentBox, childHull, hasOnlySimilarities, baseIndex);
             childHull = null;
         }
 
         var hull = CreateHullBound(volume);
         return new(
-            set, children, childBoxes, volume.Box, BaseVolume.Box, hull, childHull, CreateSolid(volume), CreateClusters(volume),
-            hasOnlySimilarities);
+            set, children, childBoxes, volume.Box, baseBox, hull, childHull, CreateSolid(volume), CreateClusters(volume),
+            hasOnlySimilarities, baseIndex);
     }
 
     private static ClusterBounds? CreateClusters(BoundingVolume volume) => volume.Clusters.Length > 1 ? new(volume.Clusters) : null;

@@ -1,0 +1,19 @@
+using System.Runtime.CompilerServices;
+using FractalEngine.Core.Collision.Bvh;
+
+namespace FractalEngine.Core.Collision.Fractals;
+
+/// <summary>A single base mesh, as most fractals have.</summary>
+/// <param name="bvh">Its triangle hierarchy.</param>
+internal readonly struct OneBaseMesh(TriangleBvh bvh) : IBaseMeshes
+{
+    /// <inheritdoc/>
+    public int Count => 1;
+
+    /// <inheritdoc/>
+    public int MaxFaceCount { get; } = bvh.FaceCount;
+
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public TriangleBvh At(int index) => bvh;
+}
