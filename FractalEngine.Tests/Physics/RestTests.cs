@@ -56,6 +56,24 @@ public class RestTests
     });
 
     [Fact]
+    public void Push_AfterAllHaveSleptForLong_WakesOneAndWhatItHits()
+    {
+        var world = TestWorlds.Create(TestWorlds.Gravity, new PhysicsSettings());
+        world.AddStatic(Shapes.Box(new(new(-50, -1, -50), new(50, 0, 50))));
+        var (pushed, hit, far) = (Add(0), Add(3), Add(-3));
+        world.Run(120);
+        Assert.All(world.Bodies, static body => Assert.True(body.IsAsleep));
+        Assert.Equal(hit.Position, hit.InterpolatedMap(0.5).Translation);
+        world.ApplyImpulse(pushed, 4 * Vector.I);
+        world.Run(60);
+        Assert.True(hit.Position.X > 3.1 && !hit.IsAsleep);
+        Assert.Equal(new Vector(-3, 0.5, 0), far.Position);
+        Assert.True(far.IsAsleep);
+
+        Body Add(double x) => world.Add(new(new(x, 0.5, 0), 0.5) { Friction = 0.1 });
+    }
+
+    [Fact]
     public void Sleep_OnAFractal_CostsNothing()
     {
         var world = TestWorlds.Create(TestWorlds.Gravity, 1 / 60.0, TestWorlds.Place(AssetFractals.Load("menger", 3)));
