@@ -23,6 +23,9 @@ public sealed partial class Body
     /// <summary>True for a body that has slept through the beginning of a step: the next ones change nothing of it.</summary>
     internal bool IsIdle { get; set; }
 
+    /// <summary>How often the body has fallen asleep.</summary>
+    internal int SleepCount { get; private set; }
+
     /// <summary>Acceleration that remains after contacts have taken their part.</summary>
     internal Vector NetAcceleration { get; set; }
 

@@ -218,6 +218,7 @@ public sealed partial class Body
     internal void Sleep()
     {
         IsAsleep = true;
+        SleepCount++;
         Velocity = Vector.Zero;
         AngularVelocity = Vector.Zero;
         NetAcceleration = Vector.Zero;
