@@ -33,7 +33,11 @@ internal sealed partial class ContactGraph
                 continue;
             }
 
-            _idleCopies[i] = body.IsIdle ? (body, body.SleepCount) : default;
+            if (body.IsIdle || _idleCopies[i].Body is not null)
+            {
+                _idleCopies[i] = body.IsIdle ? (body, body.SleepCount) : default;
+            }
+
             if (_descriptions[i] != body.Description)
             {
                 _descriptions[i] = body.Description;
