@@ -43,6 +43,11 @@ public readonly record struct BoundingBox(Vector Minimum, Vector Maximum)
     /// <summary>Computes the smallest box that holds this one and a point.</summary>
     public BoundingBox Including(Vector point) => new(Vector.Min(Minimum, point), Vector.Max(Maximum, point));
 
+    /// <summary>Tells whether another box, which must hold a point, lies within this one.</summary>
+    internal bool Contains(in BoundingBox other) =>
+        other.Minimum.X >= Minimum.X && other.Minimum.Y >= Minimum.Y && other.Minimum.Z >= Minimum.Z
+        && other.Maximum.X <= Maximum.X && other.Maximum.Y <= Maximum.Y && other.Maximum.Z <= Maximum.Z;
+
     /// <summary>Computes the squared distance of a position: 0 inside, infinite for the empty box.</summary>
     public double DistanceSquared(Vector position) => IsEmpty ? double.PositiveInfinity
         : Vector.Max(Vector.Max(Minimum - position, position - Maximum), Vector.Zero).LengthSquared();

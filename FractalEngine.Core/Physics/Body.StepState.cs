@@ -20,6 +20,12 @@ public sealed partial class Body
     /// <summary>True once the body has been checked for an initial overlap, and is free of it.</summary>
     internal bool IsOverlapResolved { get; set; }
 
+    /// <summary>True for a body that has slept through the beginning of a step: the next ones change nothing of it.</summary>
+    internal bool IsIdle { get; set; }
+
+    /// <summary>How often the body has fallen asleep.</summary>
+    internal int SleepCount { get; private set; }
+
     /// <summary>Acceleration that remains after contacts have taken their part.</summary>
     internal Vector NetAcceleration { get; set; }
 

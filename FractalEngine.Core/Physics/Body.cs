@@ -125,6 +125,7 @@ public sealed partial class Body
         Scale = 1;
         PreviousScale = 1;
         IsAsleep = false;
+        IsIdle = false;
         IsStuck = false;
         FaceTests = 0;
         BoundTests = 0;
@@ -208,6 +209,7 @@ public sealed partial class Body
     internal void Wake()
     {
         IsAsleep = false;
+        IsIdle = false;
         SleepTimer = 0;
         MayTouchBodies = true;
     }
@@ -216,6 +218,7 @@ public sealed partial class Body
     internal void Sleep()
     {
         IsAsleep = true;
+        SleepCount++;
         Velocity = Vector.Zero;
         AngularVelocity = Vector.Zero;
         NetAcceleration = Vector.Zero;

@@ -12,12 +12,12 @@ namespace FractalEngine.Core.Physics;
 /// </remarks>
 internal sealed class BodyGrid
 {
-    // Of the number of bodies: at least twice as many buckets, and a power of two of them, for a cheap remainder.
-    private const int BucketsPerBody = 2;
+    // A power of two of them, for a cheap remainder. Most cells are empty, and should not share a bucket with one that is not.
+    private const int BucketsPerBody = 8;
     private const int MinBuckets = 16;
 
-    // Of the radius of the body that is larger than nine tenths of all: it fits into a cell with half its size to spare.
-    private const double CellSizeFactor = 3;
+    // Of the radius of the body that is larger than nine tenths of all: what falls fast crosses few cells in a step.
+    private const double CellSizeFactor = 4;
 
     // Beyond it, cell coordinates saturate: bodies so far away share a cell.
     private const double MaxCellCoordinate = 1e15;

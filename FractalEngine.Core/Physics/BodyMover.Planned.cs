@@ -5,6 +5,9 @@ namespace FractalEngine.Core.Physics;
 /// <content>What comes before and after the joint solve of islands: the surfaces that bodies may meet, and their planned motion.</content>
 internal sealed partial class BodyMover
 {
+    // Of the radius: what is met on a shorter way is met on the planned way.
+    private const double NegligibleWay = 0.01;
+
     // Of the radius: more than the solve leaves, and less than can be seen.
     private const double MaxKinematicOverlap = 2e-6;
 
@@ -77,7 +80,7 @@ internal sealed partial class BodyMover
     {
         var velocity = body.Contacts.ProjectVelocity(body.Velocity, body.Position, _planes, onlySurfaces: true);
         _sweep.ResetStepBudget();
-        if (velocity != Vector.Zero
+        if (stepLength * velocity.Length() > NegligibleWay * body.Radius
             && _sweep.TryFindImpact(new(body.Position, velocity, Vector.Zero), stepLength, out var hit, out var elapsed))
         {
             body.NearSurfaces.Add(in hit, hit.Normal(body.Position + (elapsed * velocity)), body.Contacts, body.Position);

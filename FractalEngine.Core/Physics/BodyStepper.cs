@@ -148,13 +148,14 @@ internal sealed class BodyStepper
         var motion = new Motion(body.Position, body.Velocity, body.FreeAcceleration);
         body.HasHeapMargin = false;
         SetMover(body, staticColliders, character, stepLength);
-        _nearbyBodies.Prepare(motion.SweptBox(stepLength), body.Radius * ContactTolerances.NeighbourRadiusFactor);
         if (body.IsCompound)
         {
+            _ = _nearbyBodies.Prepare(motion.SweptBox(stepLength), body.Radius * ContactTolerances.NeighbourRadiusFactor, body.Index);
             _compoundMover.Move(body, stepLength);
         }
         else
         {
+            _obstacles.PrepareNearbyBodies(in motion, stepLength, body.Index);
             _mover.Move(body, stepLength);
         }
 

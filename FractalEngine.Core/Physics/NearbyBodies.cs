@@ -20,7 +20,25 @@ internal sealed class NearbyBodies(BodyGrid grid, List<Body>? bodies = null)
     /// <summary>Collects what the cells about a box hold, if they are few enough, so that searches within it are fast.</summary>
     /// <param name="pathBounds">Box in which the centre of the mover is likely to stay.</param>
     /// <param name="radius">Radius of the mover's spheres, scene units.</param>
-    public void Prepare(in BoundingBox pathBounds, double radius) => TryCollect(grid.CellsAround(in pathBounds, radius));
+    /// <param name="excludedIndex">Index of the mover itself.</param>
+    /// <returns>True where the mover is known to meet no other body as long as it stays in the box, and none moves.</returns>
+    public bool Prepare(in BoundingBox pathBounds, double radius, int excludedIndex)
+    {
+        if (!TryCollect(grid.CellsAround(in pathBounds, radius)) || grid.LargeBodies.Count > 0)
+        {
+            return false;
+        }
+
+        foreach (var index in _inCells)
+        {
+            if (index != excludedIndex && grid.Overlaps(index, in pathBounds, radius))
+            {
+                return false;
+            }
+        }
+
+        return true;
+    }
 
     /// <summary>Collects the bodies that a moving sphere may meet.</summary>
     /// <param name="pathBounds">Box that holds the path of its centre.</param>

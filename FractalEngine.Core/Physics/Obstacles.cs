@@ -16,6 +16,9 @@ internal sealed partial class Obstacles(
     // Room for so many bodies near a mover; beyond it the list grows.
     private const int InitialCandidateCapacity = 256;
 
+    // Of the radius: so far from where a query was made, its result is as good as another one.
+    private const double NegligibleDistance = 0.01;
+
     private readonly List<int> _candidates = new(InitialCandidateCapacity);
     private StaticColliders? _staticColliders;
     private SafeDistance _safeDistance = new();
@@ -23,6 +26,8 @@ internal sealed partial class Obstacles(
     private double _radius;
     private double _searchMargin;
     private CharacterController? _character;
+    private BoundingBox _clearBox;
+    private bool _isClear;
 
     /// <summary>Radius of the mover's spheres, scene units.</summary>
     public double Radius => _radius;
@@ -45,6 +50,17 @@ internal sealed partial class Obstacles(
         _searchMargin = searchMargin;
         _character = character;
         _candidates.Clear();
+        _isClear = false;
+    }
+
+    /// <summary>Finds out whether the mover, one ball, may meet other bodies on its way, so that searches along it are fast.</summary>
+    /// <param name="motion">Its path, unless it meets anything.</param>
+    /// <param name="duration">Seconds that it takes.</param>
+    /// <param name="excludedIndex">Index of the mover itself.</param>
+    public void PrepareNearbyBodies(in Motion motion, double duration, int excludedIndex)
+    {
+        _clearBox = motion.SweptBox(duration);
+        _isClear = nearbyBodies.Prepare(in _clearBox, _radius * ContactTolerances.NeighbourRadiusFactor, excludedIndex);
     }
 
     /// <summary>Makes one ball of a compound the mover, whose nearby bodies stay collected.</summary>
@@ -63,7 +79,12 @@ internal sealed partial class Obstacles(
     public void CollectNearbyBodies(in Motion motion, double duration, int excludedIndex)
     {
         _candidates.Clear();
-        var box = motion.SweptBox(duration);
+        var box = duration > 0 ? motion.SweptBox(duration) : new(motion.Start, motion.Start);
+        if (_isClear && _clearBox.Contains(in box))
+        {
+            return;
+        }
+
         foreach (var sphere in _sphereOffsets)
         {
             box = BoundingBox.Union(box, new(box.Minimum + sphere, box.Maximum + sphere));
@@ -81,11 +102,13 @@ internal sealed partial class Obstacles(
     /// <summary>Lower bound on the free distance at a position, at most a maximum.</summary>
     /// <param name="position">Position of the mover, world space.</param>
     /// <param name="maxDistance">Largest free distance of interest; nothing beyond is searched for.</param>
-    public double FreeDistance(Vector position, double maxDistance)
+    /// <param name="sufficientDistance">A bound that is known already will do if it is at least this.</param>
+    public double FreeDistance(Vector position, double maxDistance, double sufficientDistance)
     {
-        if (_safeDistance.LowerBoundAt(position) - _radius >= maxDistance)
+        var known = _safeDistance.LowerBoundAt(position) - _radius;
+        if (known >= sufficientDistance || _safeDistance.IsKnownNear(position, NegligibleDistance * _radius))
         {
-            var distance = Math.Min(maxDistance, FreeDistanceToBodies(position, maxDistance));
+            var distance = Math.Min(maxDistance, FreeDistanceToBodies(position, Math.Min(known, maxDistance)));
             return TryFindCloserKinematic(position, ref distance, out var kinematic) ? kinematic.Gap(position) : distance;
         }
 

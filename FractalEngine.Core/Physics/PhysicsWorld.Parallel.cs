@@ -30,6 +30,7 @@ public sealed partial class PhysicsWorld
     // Threads set it in any order, to the same.
     private volatile bool _hasOthers;
     private int _awakeCount;
+    private bool _wasAtRest;
 
     private ParallelSteppers CreateParallelSteppers(int maxThreads) => new(
         context =>
@@ -72,9 +73,15 @@ public sealed partial class PhysicsWorld
         for (var i = job * BodiesPerJob; i < end; i++)
         {
             var body = _bodies[i];
+            if (body.IsIdle && _kinematics.Objects.Count == 0)
+            {
+                continue;
+            }
+
             if (_isFirstPart)
             {
                 body.BeginStep();
+                body.IsIdle = body.IsAsleep;
             }
 
             body.BeginPart();

@@ -71,6 +71,11 @@ public sealed partial class PhysicsWorld
     private void StepSubstep(CharacterController? character, double elapsed, double seconds)
     {
         BeginPartShared();
+        if (IsAtRest(character))
+        {
+            return;
+        }
+
         _kinematics.BeginPart(_clock.Time + elapsed, seconds);
         WakeNearKinematics(seconds);
         PlanIslands(character, seconds);
@@ -95,6 +100,14 @@ public sealed partial class PhysicsWorld
 
         StepCharacter(character, seconds);
         _kinematics.EndPart();
+    }
+
+    /// <summary>True where nothing can happen in a step: all sleep, and did so in the last one, which had nothing to plan.</summary>
+    private bool IsAtRest(CharacterController? character)
+    {
+        var isAtRest = _awakeCount == 0 && character is null && _kinematics.Objects.Count == 0;
+        (isAtRest, _wasAtRest) = (isAtRest && _wasAtRest, isAtRest);
+        return isAtRest;
     }
 
     /// <summary>Prepares all bodies that are awake, and solves their islands.</summary>

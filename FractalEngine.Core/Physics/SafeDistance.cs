@@ -59,6 +59,12 @@ internal sealed class SafeDistance
         return _hasClosest && position == _position;
     }
 
+    /// <summary>Tells whether the last query has found a closest point, at most so far from a position.</summary>
+    /// <param name="position">World space.</param>
+    /// <param name="distance">Scene units.</param>
+    public bool IsKnownNear(Vector position, double distance) =>
+        _hasClosest && (position - _position).LengthSquared() <= distance * distance;
+
     /// <summary>Lower bound on the distance from a position to the closest surface; negative where nothing is known.</summary>
     public double LowerBoundAt(Vector position) => _distance - (position - _position).Length();
 }

@@ -12,6 +12,9 @@ internal sealed class SphereSweep(Obstacles obstacles)
     // Of the radius. An obstacle grazed by less than 1/128 of it (the sagitta of an advance, 0.25²/8) may be missed.
     private const double MaxOverstep = 0.25;
 
+    // Of the way that is left: where so much of it is known to be free, a query at its end tells more than one at its beginning.
+    private const double SufficientPart = 0.5;
+
     // Of the radius: how close to touching the moment of an impact is found.
     private const double ImpactTolerance = 1e-10;
 
@@ -54,7 +57,8 @@ internal sealed class SphereSweep(Obstacles obstacles)
             var timeLeft = maxTime - elapsed;
             var maxTravel = remaining.MaxTravelDistance(timeLeft) + (obstacleSpeed * timeLeft);
             obstacles.Time = _startTime + elapsed;
-            var freeDistance = obstacles.FreeDistance(remaining.Start, maxTravel);
+            var freeDistance = obstacles.FreeDistance(
+                remaining.Start, maxTravel, Math.Max(0, (SufficientPart * maxTravel) - (MaxOverstep * radius)));
             if (maxTravel <= freeDistance)
             {
                 elapsed = maxTime;

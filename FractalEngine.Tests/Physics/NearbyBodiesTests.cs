@@ -21,7 +21,7 @@ public class NearbyBodiesTests
         for (var i = 0; i < 500; i++)
         {
             var mover = bodies[random.Next(bodies.Count)];
-            nearby.Prepare(RandomBox(mover.Position, random, 0.2), mover.Radius);
+            nearby.Prepare(RandomBox(mover.Position, random, 0.2), mover.Radius, mover.Index);
             for (var search = 0; search < 4; search++)
             {
                 var box = RandomBox(mover.Position, random, search == 3 ? 3 : 0.1);
@@ -34,6 +34,28 @@ public class NearbyBodiesTests
             mover.Position += random.Vector(0.3);
             grid.Update(mover.Index);
         }
+    }
+
+    [Fact]
+    public void Prepare_AmongSmallBodies_TellsWhetherAnyOverlapsTheBox()
+    {
+        var random = new Random(Seed);
+        var bodies = CreateBodies(random, 400).FindAll(static body => body.Radius < 0.1);
+        bodies = [.. bodies.Select((body, i) => new Body(body.Description, i, Vector.Zero))];
+        var grid = new BodyGrid();
+        grid.Build(bodies);
+        var nearby = new NearbyBodies(grid);
+        var clearCount = 0;
+        for (var i = 0; i < 500; i++)
+        {
+            var mover = bodies[random.Next(bodies.Count)];
+            var box = RandomBox(mover.Position, random, 0.05);
+            var isClear = nearby.Prepare(in box, mover.Radius, mover.Index);
+            Assert.Equal(!bodies.Exists(other => other != mover && Overlaps(other, box, mover)), isClear);
+            clearCount += isClear ? 1 : 0;
+        }
+
+        Assert.InRange(clearCount, 50, 450);
     }
 
     private static List<int> Collect(NearbyBodies nearby, BoundingBox box, Body mover)

@@ -56,6 +56,58 @@ public class RestTests
     });
 
     [Fact]
+    public void Push_AfterAllHaveSleptForLong_WakesOneAndWhatItHits()
+    {
+        var world = TestWorlds.Create(TestWorlds.Gravity, new PhysicsSettings());
+        world.AddStatic(Shapes.Box(new(new(-50, -1, -50), new(50, 0, 50))));
+        var (pushed, hit, far) = (Add(0), Add(3), Add(-3));
+        world.Run(120);
+        Assert.All(world.Bodies, static body => Assert.True(body.IsAsleep));
+        Assert.Equal(hit.Position, hit.InterpolatedMap(0.5).Translation);
+        world.ApplyImpulse(pushed, 4 * Vector.I);
+        world.Run(60);
+        Assert.True(hit.Position.X > 3.1 && !hit.IsAsleep);
+        Assert.Equal(new Vector(-3, 0.5, 0), far.Position);
+        Assert.True(far.IsAsleep);
+
+        Body Add(double x) => world.Add(new(new(x, 0.5, 0), 0.5) { Friction = 0.1 });
+    }
+
+    [Fact]
+    public void Sleeper_ThatHasMovedAlone_IsHitWhereItSleepsNow()
+    {
+        var world = TestWorlds.Create(TestWorlds.Gravity, new PhysicsSettings());
+        world.AddStatic(Shapes.Box(new(new(-50, -1, -50), new(50, 0, 50))));
+        var (sleeper, first, _) = (Add(0), Add(10), Add(12));
+        RunToSleep();
+        // Those that touch are searched for among all bodies, which the search remembers while they sleep.
+        world.ApplyImpulse(first, 4 * Vector.I);
+        RunToSleep();
+        world.ApplyImpulse(sleeper, 4 * Vector.K);
+        RunToSleep();
+        var place = sleeper.Position;
+        Assert.True(place.Z > 2);
+        world.Add(new(new(0, 0.5, 0), 0.5) { Velocity = new(-3, 0, 0) });
+        world.Add(new(place - (3 * Vector.I), 0.5) { Velocity = new(8, 0, 0) });
+        world.Run(60);
+        Assert.True(world.Bodies[3].Position.X < -2.9, "the place that it has left is free");
+        Assert.True(sleeper.Position.X > place.X + 0.5);
+
+        Body Add(double x) => world.Add(new(new(x, 0.5, 0), 0.5) { Friction = 0.5, RollingFriction = 0.1 });
+
+        void RunToSleep()
+        {
+            for (var step = 0; step < 600 && (step < 5 || world.IsMoving); step++)
+            {
+                world.Step();
+            }
+
+            Assert.False(world.IsMoving);
+            world.Run(3);
+        }
+    }
+
+    [Fact]
     public void Sleep_OnAFractal_CostsNothing()
     {
         var world = TestWorlds.Create(TestWorlds.Gravity, 1 / 60.0, TestWorlds.Place(AssetFractals.Load("menger", 3)));

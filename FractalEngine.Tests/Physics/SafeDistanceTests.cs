@@ -20,6 +20,18 @@ public class SafeDistanceTests
     }
 
     [Fact]
+    public void IsKnownNear_TellsHowFarAwayTheClosestPointWasSearchedFor()
+    {
+        var safeDistance = new SafeDistance();
+        Assert.False(safeDistance.IsKnownNear(Position, 1));
+        safeDistance.StoreClosest(Position, 0.5, new(1, 2, 2.5), isFlat: true);
+        Assert.True(safeDistance.IsKnownNear(Position + new Vector(0.25, 0, 0), 0.25));
+        Assert.False(safeDistance.IsKnownNear(Position + new Vector(0.25, 0, 0), 0.2));
+        safeDistance.Store(Position, 0.7);
+        Assert.False(safeDistance.IsKnownNear(Position, 1));
+    }
+
+    [Fact]
     public void TryRecall_AfterAnotherQueryOrAMove_GivesNothing()
     {
         var safeDistance = new SafeDistance();

@@ -90,7 +90,7 @@ internal sealed class CompoundSweep(Obstacles obstacles)
             obstacles.SelectBall(ball.Radius, ball.SafeDistance);
             var arm = ball.Offset.Length();
             var maxTravel = path.MaxTravelDistance(time, arm, timeLeft) + (_obstacleSpeed * timeLeft);
-            var freeDistance = obstacles.FreeDistance(CentreAt(body, i, in path, time), maxTravel);
+            var freeDistance = obstacles.FreeDistance(CentreAt(body, i, in path, time), maxTravel, maxTravel);
             if (maxTravel > freeDistance)
             {
                 isFree = false;

@@ -127,8 +127,8 @@ internal sealed partial class BallContactSolver
     private void EndRound(int index)
     {
         var group = _groups[index];
-        var norm = 0.0;
-        var maxImpulse = 0.0;
+        var norm = Vector256<double>.Zero;
+        var maxImpulse = Vector256<double>.Zero;
         var largest = Vector256<double>.Zero;
         var active = _active.AsSpan(group.First, group.ActiveCount);
         for (var k = active.Length - 1; k >= 0; k--)
@@ -136,9 +136,10 @@ internal sealed partial class BallContactSolver
             var i = active[k];
             Solve(i);
             var change = _changes[i];
-            norm += Vector256.Dot(change, change) * _rows[i].InverseNormalMass;
+            ref readonly var row = ref _rows[i];
+            norm += Vector256.Create(row.InverseNormalMass) * (change * change);
             largest = Vector256.MaxNative(largest, Vector256.Abs(change));
-            maxImpulse = Math.Max(maxImpulse, _rows[i].Impulse[NormalLane]);
+            maxImpulse = Vector256.MaxNative(maxImpulse, row.Impulse);
         }
 
         if (_isFull)
@@ -146,8 +147,8 @@ internal sealed partial class BallContactSolver
             ChooseActive(group);
         }
 
-        group.Norm = norm;
-        group.MaxImpulse = maxImpulse;
+        group.Norm = Vector256.Sum(norm);
+        group.MaxImpulse = maxImpulse[NormalLane];
         group.MaxChange = Math.Max(Math.Max(largest[0], largest[1]), Math.Max(largest[2], largest[3]));
     }
 

@@ -66,9 +66,9 @@ internal sealed partial class ContactGraph
     /// <summary>Makes an island of each set of two or more bodies, and lists its bodies.</summary>
     private void CollectBodies()
     {
-        for (var i = 0; i < bodies.Count; i++)
+        Array.Fill(_islandOf, -1, 0, bodies.Count);
+        for (var i = 0; _sets.JoinedCount > 0 && i < bodies.Count; i++)
         {
-            _islandOf[i] = -1;
             if (_sets.IsJoined(i))
             {
                 var root = _sets.RootOf(i);
@@ -97,7 +97,7 @@ internal sealed partial class ContactGraph
         }
 
         CollectionsMarshal.SetCount(_islandBodies, firstBody);
-        for (var i = 0; i < bodies.Count; i++)
+        for (var i = 0; firstBody > 0 && i < bodies.Count; i++)
         {
             if (_islandOf[i] >= 0)
             {

@@ -123,11 +123,11 @@ internal sealed partial class ContactGraph
     }
 
     /// <summary>Joins islands with all bodies that they may meet.</summary>
-    /// <returns>True where a body was joined.</returns>
+    /// <returns>True where a body was joined that was alone: only such look for what they may meet.</returns>
     private bool JoinNear()
     {
         RunOnPairs(_testMeeting!);
-        var hasJoined = false;
+        var joinedBefore = _sets.JoinedCount;
         foreach (ref var pair in CollectionsMarshal.AsSpan(_pairs))
         {
             if (pair is { IsMeeting: true, IsRow: false })
@@ -136,12 +136,11 @@ internal sealed partial class ContactGraph
                 if (!pair.IsSecondImmovable)
                 {
                     _sets.Join(pair.First, pair.Second);
-                    hasJoined = true;
                 }
             }
         }
 
-        return hasJoined;
+        return _sets.JoinedCount > joinedBefore;
     }
 
     private void TestMeeting(int job)

@@ -7,7 +7,7 @@ internal sealed partial class ContactGraph
     /// <returns>True where a body was woken.</returns>
     private bool PassPushes(SleepIslands islands)
     {
-        var hasChanged = true;
+        var hasChanged = ArePushed();
         while (hasChanged)
         {
             hasChanged = false;
@@ -26,6 +26,18 @@ internal sealed partial class ContactGraph
         }
 
         return false;
+    }
+
+    /// <summary>True where a kinematic object pushes a body.</summary>
+    private bool ArePushed()
+    {
+        var arePushed = false;
+        foreach (var search in _searches.AsSpan(0, _searchCount))
+        {
+            arePushed |= search.HasPushed;
+        }
+
+        return arePushed;
     }
 
     private void CollectPushedBy(Body body)

@@ -6,6 +6,9 @@ internal sealed partial class ContactGraph
     private Action<int>? _copyStates;
     private Action<int>? _updateStates;
 
+    // The bodies of which the copy of an earlier step holds as long as they sleep, with how often they had fallen asleep then.
+    private (Body? Body, int SleepCount)[] _idleCopies = new (Body?, int)[InitialCapacity];
+
     /// <summary>True where a body may sleep.</summary>
     private bool HasSleeping { get; set; }
 
@@ -15,10 +18,26 @@ internal sealed partial class ContactGraph
         var search = _searches[index];
         var (first, end) = BodiesOfSearch(index);
         search.HasSleeping = false;
+        search.HasPushed = false;
         var bounds = GridBounds.None;
         for (var i = first; i < end; i++)
         {
             var body = bodies[i];
+            search.HasPushed |= body.KinematicPush > 0;
+            if (body.IsIdle && _idleCopies[i] == (body, body.SleepCount))
+            {
+                _states[i].IsTouching = false;
+                _states[i].KinematicPush = body.KinematicPush;
+                search.HasSleeping = true;
+                bounds = bounds.With(_states[i].Position, _states[i].Radius);
+                continue;
+            }
+
+            if (body.IsIdle || _idleCopies[i].Body is not null)
+            {
+                _idleCopies[i] = body.IsIdle ? (body, body.SleepCount) : default;
+            }
+
             if (_descriptions[i] != body.Description)
             {
                 _descriptions[i] = body.Description;
@@ -44,6 +63,7 @@ internal sealed partial class ContactGraph
             CanMove = canMove,
             MaySearch = MaySearch(body),
             IsCompound = body.IsCompound,
+            IsIdle = body.IsIdle,
             HasHeapMargin = body.HasHeapMargin,
             Rounding = ContactTolerances.Slop(0, body.Position),
             Velocity = body.Velocity,
@@ -63,8 +83,16 @@ internal sealed partial class ContactGraph
         search.HasPushed = false;
         for (var i = first; i < end; i++)
         {
-            var body = bodies[i];
             ref var state = ref _states[i];
+            if (state.IsIdle && !state.IsTouching && !(state.KinematicPush > 0))
+            {
+                state.Push = 0;
+                state.HasLooked = false;
+                search.HasFaster |= IsFaster(in state);
+                continue;
+            }
+
+            var body = bodies[i];
             body.MayTouchBodies = state.IsTouching || (body.MayTouchBodies && body.IsAsleep);
             state.KinematicPush = body.KinematicPush;
             state.Velocity = body.Velocity;

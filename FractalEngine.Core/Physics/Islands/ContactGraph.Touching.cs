@@ -10,6 +10,9 @@ internal sealed partial class ContactGraph
     private const int MaxSearches = 64;
     private const int MinBodiesOfSearch = 64;
 
+    // More than rounding takes from a distance.
+    private const double RoundingFactor = 1 - 1e-9;
+
     private readonly Search[] _searches = [.. Enumerable.Range(0, MaxSearches).Select(static _ => new Search())];
     private Action<int>? _runSearch;
     private int _bodiesPerSearch = MinBodiesOfSearch;
@@ -102,6 +105,11 @@ internal sealed partial class ContactGraph
         foreach (var neighbour in CollectionsMarshal.AsSpan(search.Neighbours))
         {
             ref readonly var other = ref _states[neighbour];
+            if (neighbour < index && IsFoundBy(in other, in body))
+            {
+                continue;
+            }
+
             var maxNearGap = Math.Min(body.NearDistance, body.SearchReach + other.SearchReach);
             var maxDistance = body.Radius + other.Radius + Math.Max(maxTouchGap, maxNearGap);
             if (!((body.Position - other.Position).LengthSquared() <= maxDistance * maxDistance))
@@ -131,6 +139,13 @@ internal sealed partial class ContactGraph
         {
             FindSleeper(index, CollectionsMarshal.AsSpan(search.Pairs)[firstPair..], search);
         }
+    }
+
+    /// <summary>True for a pair that the search of its first body finds, as far as that is known without a root.</summary>
+    private static bool IsFoundBy(in GraphBody first, in GraphBody second)
+    {
+        var distance = RoundingFactor * (first.Radius + second.Radius + first.NearDistance);
+        return distance > 0 && (first.Position - second.Position).LengthSquared() < distance * distance;
     }
 
     /// <summary>Finds a body that sleeps and is hit.</summary>

@@ -198,6 +198,7 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
         _states = new GraphBody[2 * bodies.Count];
         _materials = new BodyMaterial[_states.Length];
         _descriptions = new BodyDescription?[_states.Length];
+        _idleCopies = new (Body?, int)[_states.Length];
         _grid.Reserve(_states.Length);
         _parts.Reserve(_states.Length);
         _islandOf = new int[_states.Length];

@@ -6,6 +6,9 @@ internal sealed class DisjointSets
     private int[] _parents = [];
     private bool[] _isJoined = [];
 
+    // Number of indices that have been put into sets.
+    private int _count;
+
     /// <summary>Puts each index into a set of its own.</summary>
     /// <param name="count">Number of indices.</param>
     public void Reset(int count)
@@ -14,14 +17,17 @@ internal sealed class DisjointSets
         {
             _parents = new int[2 * count];
             _isJoined = new bool[2 * count];
+            _count = 0;
         }
 
-        for (var i = 0; i < count; i++)
+        // While none is joined, each is its own set.
+        for (var i = JoinedCount > 0 ? 0 : _count; i < count; i++)
         {
             _parents[i] = i;
             _isJoined[i] = false;
         }
 
+        _count = JoinedCount > 0 ? count : Math.Max(_count, count);
         JoinedCount = 0;
     }
 

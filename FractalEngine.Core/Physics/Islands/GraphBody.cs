@@ -26,6 +26,9 @@ internal struct GraphBody
     /// <summary>True for a body of several balls.</summary>
     public bool IsCompound;
 
+    /// <summary>True for a body that has slept for some time, see <see cref="Body.IsIdle"/>.</summary>
+    public bool IsIdle;
+
     /// <summary>True for a body that was of a large island last, see <see cref="Body.HasHeapMargin"/>.</summary>
     public bool HasHeapMargin;
 
