@@ -12,7 +12,7 @@ internal sealed class FractalFacts
     private FractalModel? _measured;
     private double? _dimension;
 
-    /// <summary>Adds the facts.</summary>
+    /// <summary>Adds a line for each: counts are exact up to fifteen digits.</summary>
     public void Build(UserInterface ui, FractalModel model)
     {
         if (!ReferenceEquals(model, _measured))
