@@ -64,10 +64,22 @@ internal sealed partial class Document
     /// <param name="path">Full path of the file.</param>
     /// <param name="before">Text of the file before.</param>
     /// <param name="after">Text of the file now.</param>
-    public void MarkSaved(string path, string before, string after)
+    /// <param name="carry">Makes in a text what the save has changed beside the edits; null for nothing.</param>
+    public void MarkSaved(string path, string before, string after, Func<string, string>? carry = null)
     {
-        Edits = Edits.AfterSave(path, before, after);
-        History.Transform(state => state with { Edits = state.Edits.AfterSave(path, before, after) });
+        Edits = Edits.AfterSave(path, before, after, carry);
+        History.Transform(state => state with { Edits = state.Edits.AfterSave(path, before, after, carry) });
+    }
+
+    /// <summary>Drops the edit of a file that can't be loaded, also in all states that an undo returns to.</summary>
+    /// <param name="path">Full path of the file.</param>
+    /// <param name="refused">The text that can't be loaded.</param>
+    /// <param name="kept">The edits without it.</param>
+    public void DropEdit(string path, string refused, FileEdits kept)
+    {
+        Edits = kept;
+        History.Transform(state => state.Edits.Texts.GetValueOrDefault(path) == refused
+            ? state with { Edits = state.Edits.WithEditOf(path, kept) } : state);
     }
 
     /// <summary>Drops the edits of a file that is not shown any more, also in all states that an undo returns to.</summary>

@@ -1,3 +1,5 @@
+using FractalEngine.Render;
+
 namespace FractalEngine.App.Window;
 
 /// <content>Files that can't be loaded leave the document as it is, and say why.</content>
@@ -37,14 +39,25 @@ internal sealed partial class DocumentLoader
         return Redraw.Overlay;
     }
 
-    private Redraw PollFault(TimeSpan now)
+    private Redraw PollFault(RenderSettings settings, TimeSpan now)
     {
         if (_pendingFault is not var (error, time) || now < time)
         {
             return Redraw.None;
         }
 
+        if (_load is not null)
+        {
+            // What loads now tells more.
+            return Redraw.None;
+        }
+
         _pendingFault = null;
+        return TryWithoutEdit(error, settings) ? Redraw.None : ShowFault(error);
+    }
+
+    private Redraw ShowFault(string error)
+    {
         if (overlay.Error != error)
         {
             Console.Error.WriteLine(error);

@@ -101,7 +101,7 @@ internal sealed partial class DocumentLoader(
             Reload(settings);
         }
 
-        return PollLoad(now) | PollFault(now) | PollFirstSight();
+        return PollLoad(now) | PollFault(settings, now) | PollFirstSight() | PollWaiting();
     }
 
     /// <inheritdoc/>
@@ -111,7 +111,7 @@ internal sealed partial class DocumentLoader(
         Document?.Dispose();
     }
 
-    private void Start(string path, RenderSettings settings, Document? previous)
+    private void Start(string path, RenderSettings settings, Document? previous, FileEdits? trial = null)
     {
         if (Document is null)
         {
@@ -121,7 +121,11 @@ internal sealed partial class DocumentLoader(
 
         _editsAtStart = Document?.Edits ?? FileEdits.None;
         var edits = FileEdits.None;
-        if (previous is not null)
+        if (trial is not null)
+        {
+            edits = trial;
+        }
+        else if (previous is not null)
         {
             edits = _edits.Rebase(report);
             if (!ReferenceEquals(edits, _edits))
@@ -131,6 +135,7 @@ internal sealed partial class DocumentLoader(
             }
         }
 
+        _startedEdits = edits;
         _load = new(path, options.Load with { EditedTexts = edits.Texts }, settings, area.Aspect, _cache, previous, window.Wake);
     }
 
@@ -158,7 +163,8 @@ internal sealed partial class DocumentLoader(
         overlay.Progress = null;
         var loaded = load.TakeResult(out var exitCode, out var error);
         ExitCode = Document is null ? exitCode : ExitCode;
-        var redraw = loaded is not var (file, preparation) ? Refuse(load, error!, now)
+        var redraw = EndTrial(now, isSuccessful: loaded is not null) is { } ended ? ended
+            : loaded is not var (file, preparation) ? Refuse(load, error!, now)
             : WasEditedDuring(load) ? KeepEdited(load)
             : Show(load, file, preparation, now);
         if (_next is { } next)
@@ -210,6 +216,7 @@ internal sealed partial class DocumentLoader(
         var known = previous?.File.Warnings.Select(static warning => warning.ToString()).ToHashSet() ?? [];
         Document = document;
         _path = load.Path;
+        _shownEdits = _startedEdits;
         _pendingFault = null;
         overlay.Error = null;
         foreach (var message in file.Warnings.Select(static warning => warning.ToString()).Concat(preparation.Scene.Notices))

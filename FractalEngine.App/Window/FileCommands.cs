@@ -127,6 +127,13 @@ internal sealed class FileCommands(
             return;
         }
 
+        if (loader.IsEditLoading)
+        {
+            // Only what can be opened again is saved.
+            loader.WhenEditIsLoaded(() => Save(preference, proceed));
+            return;
+        }
+
         if (!document.Edits.IsEmpty)
         {
             SaveEdits(document, proceed);
@@ -165,7 +172,8 @@ internal sealed class FileCommands(
             // The last edit may still be loading.
             var written = isScene ? edited with { Text = document.Draft.WriteInto(view, edited.Text) } : edited;
             EditedFileWriter.Write(path, written);
-            document.MarkSaved(path, edited.SavedText, written.Text);
+            // The view is in the file from now on, so that it is in all texts that an undo returns to.
+            document.MarkSaved(path, edited.SavedText, written.Text, isScene ? text => document.Draft.Carry(view, text) : null);
             if (isScene)
             {
                 document.Draft.MarkSaved(written.Text, view);
@@ -259,7 +267,7 @@ internal sealed class FileCommands(
         }
         catch (Exception exception) when (exception is IOException or UnauthorizedAccessException or FractalEngineException)
         {
-            report($"error: {exception.Message}");
+            report(Failure.Of(exception).Text);
         }
     }
 }

@@ -40,7 +40,22 @@ internal sealed class SceneDraft
     /// <param name="text">A valid text of the scene, whose lines of the view are those that were loaded.</param>
     /// <exception cref="SourceException">The text is no scene.</exception>
     public string WriteInto(SceneView view, string text) =>
-        Write(view, text == _layout!.Source.Text ? _layout : SceneParser.Parse(new("scene", text)));
+        Write(view, text == _layout!.Source.Text ? _layout : SceneParser.Parse(new(_layout.Source.FileName, text)));
+
+    /// <summary>Returns a text of the scene with a view, or as it is where it is no scene.</summary>
+    /// <inheritdoc cref="WriteInto"/>
+    public string Carry(SceneView view, string text)
+    {
+        try
+        {
+            return WriteInto(view, text);
+        }
+        catch (SourceException)
+        {
+            // An undo may return to what never was a scene. It has no line for the view.
+            return text;
+        }
+    }
 
     private string Write(SceneView view, ParsedScene layout)
     {

@@ -142,11 +142,11 @@ internal sealed class WindowOverlay
     }
 
     /// <summary>Shows a message for a few seconds.</summary>
-    /// <param name="message">One line for the user.</param>
+    /// <param name="message">A line for the user, or several.</param>
     /// <param name="now">The present time.</param>
     public void ShowMessage(string message, TimeSpan now)
     {
-        _message = OverlayPanel.OfText(OverlayAnchor.Bottom, message);
+        _message = OverlayPanel.OfText(OverlayAnchor.Bottom, message.Split('\n'));
         NextExpiry = now + MessageDuration;
     }
 

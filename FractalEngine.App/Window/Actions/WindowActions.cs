@@ -76,6 +76,13 @@ internal sealed class WindowActions(
         return Redraw.Overlay;
     }
 
+    /// <summary>Shows an error for some time, and writes it to stderr.</summary>
+    public void ShowProblem(string error)
+    {
+        Console.Error.WriteLine(error);
+        overlay.ShowProblem(error, clock());
+    }
+
     /// <summary>Returns to the view before the last move, or makes it again.</summary>
     public Redraw Undo(bool isRedo)
     {

@@ -40,13 +40,21 @@ internal sealed class FileEdits : IEquatable<FileEdits>
     /// <summary>Makes the edits without those of a file.</summary>
     public FileEdits Without(string path) => Files.ContainsKey(path) ? new(Files.Remove(path)) : this;
 
+    /// <summary>Makes the edits with another state of one file.</summary>
+    /// <param name="path">Full path of the file.</param>
+    /// <param name="other">Edits of which that of the file is taken over, or that it has none.</param>
+    public FileEdits WithEditOf(string path, FileEdits other) =>
+        other.Files.TryGetValue(path, out var edited) ? new(Files.SetItem(path, edited)) : Without(path);
+
     /// <summary>Makes the edits with the same texts, after a file was saved.</summary>
     /// <param name="path">Full path of the file.</param>
     /// <param name="before">Text of the file before it was saved.</param>
     /// <param name="after">Text of the file now.</param>
-    public FileEdits AfterSave(string path, string before, string after)
+    /// <param name="carry">Makes in a text what the save has changed beside the edits; null for nothing.</param>
+    public FileEdits AfterSave(string path, string before, string after, Func<string, string>? carry = null)
     {
         var text = Files.TryGetValue(path, out var edited) ? edited.Text : before;
+        text = carry?.Invoke(text) ?? text;
         return text == after ? Without(path) : new(Files.SetItem(path, new(after, text)));
     }
 

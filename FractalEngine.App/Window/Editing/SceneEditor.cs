@@ -16,10 +16,28 @@ internal static class SceneEditor
     /// <summary>Changes the scene that a text declares. Objects and lights keep their numbers, or are added at the end.</summary>
     /// <param name="text">Text of the scene.</param>
     /// <param name="change">Returns the changed scene.</param>
+    /// <exception cref="ArgumentException">The name of an object, or that of its file, can't be written in a scene.</exception>
     public static string Change(string text, Func<Scene, Scene> change)
     {
         var parsed = SceneParser.Parse(new("scene", text));
-        return SceneWriter.Write(change(parsed.Scene), parsed);
+        var changed = change(parsed.Scene);
+        foreach (var declared in changed.Objects)
+        {
+            RequireWritable(declared.Name);
+            RequireWritable(declared.File);
+        }
+
+        return SceneWriter.Write(changed, parsed);
+    }
+
+    /// <summary>Throws for a name that a scene can't hold.</summary>
+    /// <exception cref="ArgumentException">It has a quote or a line break.</exception>
+    public static void RequireWritable(string? name)
+    {
+        if (name?.IndexOfAny(['"', '\n', '\r']) >= 0)
+        {
+            throw new ArgumentException($"a name in a scene can't have a quote or a line break: {name}");
+        }
     }
 
     /// <summary>Removes the line of an object.</summary>

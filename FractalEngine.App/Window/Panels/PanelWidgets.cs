@@ -5,6 +5,7 @@ using FractalEngine.Core;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Parsing.Text;
 using FractalEngine.Render.Ui;
 
 namespace FractalEngine.App.Window.Panels;
@@ -103,7 +104,8 @@ internal static class PanelWidgets
     }
 
     /// <summary>Changes the scene of the document, as a step that can be undone.</summary>
-    public static void ChangeScene(this WindowActions actions, UserInterface ui, Func<Scene, Scene> change) =>
+    /// <inheritdoc cref="EditScene"/>
+    public static bool ChangeScene(this WindowActions actions, UserInterface ui, Func<Scene, Scene> change) =>
         actions.EditScene(ui, text => SceneEditor.Change(text, change));
 
     /// <summary>Changes an object of the document's scene. Refused while the scene has other objects than were loaded.</summary>
@@ -144,23 +146,33 @@ internal static class PanelWidgets
         var loaded = actions.Document!.File.Scene.Scene;
         if ((present.Objects.Length, present.Lights.Length) != (loaded.Objects.Length, loaded.Lights.Length))
         {
-            throw new ArgumentException("the last change is not loaded: mend it, or take it back with Ctrl+Z");
+            throw new ArgumentException("the last change is not loaded yet: wait, or take it back with Ctrl+Z");
         }
     }
 
     /// <summary>Changes the text of the document's scene, as a step that can be undone.</summary>
-    public static void EditScene(this WindowActions actions, UserInterface ui, Func<string, string> edit)
+    /// <returns>False where the change is refused, since it would leave no scene. The user is told why.</returns>
+    public static bool EditScene(this WindowActions actions, UserInterface ui, Func<string, string> edit)
     {
         var document = actions.Document!;
+        var path = document.File.Path;
         try
         {
-            var text = document.Edits.TextOf(document.File.Path);
-            actions.Files.Edit(document.File.Path, edit(text), ui.Interaction);
+            var text = edit(document.Edits.TextOf(path));
+            SceneEditor.Parse(text);
+            actions.Files.Edit(path, text, ui.Interaction);
+            return true;
+        }
+        catch (SourceException exception)
+        {
+            actions.ShowProblem((exception.Diagnostic with { File = Path.GetFileName(path) }).ToString());
         }
         catch (Exception exception) when (exception is FractalEngineException or ArgumentException)
         {
             actions.Show(exception.Message);
         }
+
+        return false;
     }
 
     /// <summary>Formats a number for people, with at most six digits.</summary>

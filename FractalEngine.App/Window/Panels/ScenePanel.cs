@@ -114,9 +114,11 @@ internal sealed class ScenePanel(WindowActions actions)
         if ((ui.Button("Add") || isCommitted) && _addedFile.Trim() is { Length: > 0 } file)
         {
             var added = new SceneObject(file, Transformation.Identity);
-            actions.ChangeScene(ui, present => present with { Objects = present.Objects.Add(added) });
-            _objectToSelect = count;
-            _addedFile = "";
+            if (actions.ChangeScene(ui, present => present with { Objects = present.Objects.Add(added) }))
+            {
+                _objectToSelect = count;
+                _addedFile = "";
+            }
         }
     }
 
@@ -126,7 +128,7 @@ internal sealed class ScenePanel(WindowActions actions)
         var name = declared.Name ?? "";
         ui.Row(8, 1);
         ui.Label("name", isDim: true);
-        if (ui.TextField("no name", ref name) && !name.Contains('"', StringComparison.Ordinal))
+        if (ui.TextField("no name", ref name))
         {
             actions.ChangeObject(ui, index, present => present with { Name = name.Length > 0 ? name : null });
         }

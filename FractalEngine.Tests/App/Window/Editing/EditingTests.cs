@@ -130,6 +130,35 @@ public sealed class EditingTests : IDisposable
     }
 
     [Fact]
+    public void FileEdits_AfterASaveOfMore_AreNoneAndCarryTheRest()
+    {
+        _folder.Write("a.sdo", "view 1\none\n");
+        var path = _folder["a.sdo"];
+        static string Carry(string text) => text.Replace("view 1", "view 2", StringComparison.Ordinal);
+        var edits = FileEdits.None.With(path, "view 1\ntwo\n");
+        Assert.True(edits.AfterSave(path, "view 1\none\n", "view 2\ntwo\n", Carry).IsEmpty);
+        // The text before the edit has what was saved beside it.
+        Assert.Equal("view 2\none\n", FileEdits.None.AfterSave(path, "view 1\none\n", "view 2\ntwo\n", Carry).TextOf(path));
+    }
+
+    [Fact]
+    public void SceneEditor_NamesWithAQuote_AreRefused()
+    {
+        const string Text = "o \"cube.obj\" #\n";
+        foreach (var name in (string[])["a\"b", "a\nb", "a\rb"])
+        {
+            Assert.Throws<ArgumentException>(() => SceneEditor.Change(Text, scene => scene with
+            {
+                Objects = [scene.Objects[0] with { Name = name }],
+            }));
+            Assert.Throws<ArgumentException>(() => SceneEditor.Change(Text, scene => scene with
+            {
+                Objects = scene.Objects.Add(new(name, FractalEngine.Core.Maths.Transformation.Identity)),
+            }));
+        }
+    }
+
+    [Fact]
     public void FileEdits_ChangedElsewhereInTheSameLine_AreDroppedWithAMessage()
     {
         _folder.Write("a.fdo", "one\nx\n");

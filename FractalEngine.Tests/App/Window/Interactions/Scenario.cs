@@ -202,6 +202,10 @@ internal sealed class Scenario : IDisposable
     public static Action<Scenario> FileHas(string text, string file = "scene.sdo") => s =>
         Assert.Contains(text, File.ReadAllText(s._folder[file]), StringComparison.Ordinal);
 
+    /// <summary>The file on the disk has no such text.</summary>
+    public static Action<Scenario> FileLacks(string text, string file = "scene.sdo") => s =>
+        Assert.DoesNotContain(text, File.ReadAllText(s._folder[file]), StringComparison.Ordinal);
+
     /// <summary>The file on the disk is this text.</summary>
     public static Action<Scenario> FileIs(string text, string file = "scene.sdo") => s =>
         Assert.Equal(text.Replace("\r", "", StringComparison.Ordinal), File.ReadAllText(s._folder[file]));

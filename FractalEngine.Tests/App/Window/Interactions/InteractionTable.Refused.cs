@@ -1,0 +1,50 @@
+using static FractalEngine.Tests.App.Window.Interactions.Scenario;
+
+namespace FractalEngine.Tests.App.Window.Interactions;
+
+/// <content>Edits of a scene that can't be kept, and saves of several edits.</content>
+internal static partial class InteractionTable
+{
+    private static IEnumerable<Interaction> OfRefusedEdits =>
+    [
+        new("add a file that is missing", "scene.sdo",
+            [Keys("F2"), Click("file (.obj, .fdo"), Text("nothing.obj"), Keys("Return"), Reports("scene.sdo:6:3: error: the file")],
+            [Title("scene.sdo -"), FrameIsAsBefore, Keys("ctrl+z"), Shows("nothing to undo")]),
+        new("change objects after one was missing", "scene.sdo",
+            [
+                Keys("F2"), Click("file (.obj, .fdo"), Text("nothing.obj"), Keys("Return"), Reports("nothing.obj"), Title("scene.sdo -"),
+                Click("left"), Click("Remove"), Shows("Objects (1)"), Save(),
+            ],
+            [FileIs(SceneText.Replace("o \"cube.obj\" ((0, 0, 0), #, #) name \"left\" colour (0.8, 0.3, 0.2)\n", "", StringComparison.Ordinal))]),
+        new("save at once what is missing", "scene.sdo",
+            [Keys("F2"), Click("file (.obj, .fdo"), Text("nothing.obj"), Keys("Return ctrl+s"), Reports("nothing.obj")],
+            [Title("scene.sdo -"), FileIs(SceneText), Keys("ctrl+s"), Reports("saved scene.sdo"), FileIs(SceneText)]),
+        new("add a file with a quote in its name", "scene.sdo",
+            [Keys("F2"), Click("file (.obj, .fdo"), Keys("a quotedbl b Return"), Shows("a name in a scene")],
+            [Title("scene.sdo -"), Click("left"), Type("2", "scale", 0, 3, 1), Save(), FileHas("#, (2, 1, 1)) name \"left\"")]),
+        new("numbers after one was refused", "scene.sdo",
+            [
+                Keys("F2"), Click("left"), Type("0", "scale", 0, 3, 1), Reports("scene.sdo:3:"), Type("2", "scale", 1, 3, 1),
+                Title("scene.sdo*"), Click("right"), Type("3", "scale", 2, 3, 1), Save(),
+            ],
+            [FileHas("#, (1, 2, 1)) name \"left\""), FileHas("#, (1, 1, 3)) name \"right\""), Title("scene.sdo -")]),
+        new("a position beyond all numbers", "scene.sdo",
+            [Keys("F2"), Click("left"), Type("1.7e308", "position", 0, 3, 1), Type("1e308", "scale", 0, 3, 1), Reports("the placement takes")],
+            [Title("scene.sdo*"), Save(), FileHas("(1.7e308, 0, 0)"), FileLacks("1e308")]),
+        new("a quote in a name", "scene.sdo",
+            [Keys("F2"), Click("left"), ClickColumn("name", 1, 2, 0), Keys("ctrl+a a quotedbl"), Shows("a name in a scene"), Keys("b Return")],
+            [Title("scene.sdo*"), Save(), FileHas("name \"a\" colour")]),
+        new("save a number and the view together", "scene.sdo",
+            [Keys("F2"), Click("left"), Type("0.5", "position", 0, 3, 1), Title("scene.sdo*"), FrameDiffers(0.002), Keys("f 5"), Save()],
+            [
+                Title("scene.sdo -"), FileHas("((0.5, 0, 0), #, #) name \"left\""), FileHas("projection orthographic"),
+                FileLacks("c (0, 0, -8)"),
+                // All of it can be undone: the view in two steps, then the number.
+                Keys("ctrl+z ctrl+z"), Title("scene.sdo -"), Keys("ctrl+z"), Title("scene.sdo*"), ClickAt(SkyX, SkyY), FrameIsAsBefore,
+                Keys("ctrl+shift+z ctrl+shift+z ctrl+shift+z"), Title("scene.sdo -"), Keys("Escape"), Exits,
+            ]),
+        new("save a number and the projection, then close", "scene.sdo",
+            [Keys("F2"), Click("left"), Type("0.5", "position", 0, 3, 1), Title("scene.sdo*"), Keys("5"), Save(), Title("scene.sdo -")],
+            [Keys("Escape Escape Escape"), Exits, FileHas("((0.5, 0, 0), #, #)"), FileHas("projection orthographic")]),
+    ];
+}
