@@ -22,6 +22,7 @@ internal sealed partial class Document
     {
         Physics.ApplyTo(Renderer);
         Tool.Measure.Follow(Physics.CurrentScene, Physics.IsRunning);
+        Tool.Follow(Physics.CurrentScene);
         var view = View.Of(File.Scene with { Scene = GetCurrentScene() }, aspect) with
         {
             Section = Section.Shown,
@@ -67,7 +68,11 @@ internal sealed partial class Document
     public Func<Vector, Vector>? MapToDrawnFrame(FractalAddress? viewpoint) =>
         FlyingCamera.MapToDrawnFrame(viewpoint, isDeep: VisibleDepth > 0);
 
-    /// <summary>Returns the scene as it would be saved, with the present camera and projection.</summary>
+    /// <summary>Returns a camera as it is saved and shown: without the negative zeros that mirroring and turning leave.</summary>
+    public static Camera WithoutNegativeZeros(Camera camera) =>
+        camera with { Position = camera.Position + Vector.Zero, Rotation = camera.Rotation + Vector.Zero };
+
+    /// <summary>Returns the scene with the present camera and projection.</summary>
     public Scene GetCurrentScene() => File.Scene.Scene with
     {
         Camera = Camera,

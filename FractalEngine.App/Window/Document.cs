@@ -103,7 +103,7 @@ internal sealed partial class Document : IDisposable
     public SceneDraft Draft { get; }
 
     /// <summary>The part of the scene that the window changes, as it is now.</summary>
-    public SceneView SceneView => new(Camera, FlyingCamera.Projection, FlyingCamera.OrthographicHeight);
+    public SceneView SceneView => new(WithoutNegativeZeros(Camera), FlyingCamera.Projection, FlyingCamera.OrthographicHeight);
 
     /// <summary>True when the view differs from the one that was loaded or saved.</summary>
     public bool HasChanges => Draft.IsChanged(SceneView);

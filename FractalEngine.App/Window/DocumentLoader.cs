@@ -47,6 +47,9 @@ internal sealed partial class DocumentLoader(
         }
     }
 
+    /// <summary>Whether files may refer to others outside their folder.</summary>
+    public bool AllowsOutsideFiles => options.Load.AllowOutsideFiles;
+
     /// <summary>The exit code of the first load.</summary>
     public int ExitCode { get; private set; }
 

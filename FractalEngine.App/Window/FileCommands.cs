@@ -242,7 +242,8 @@ internal sealed class FileCommands(
 
         try
         {
-            NewSceneFile.Write(document.File, document.GetCurrentScene(), path);
+            var scene = document.GetCurrentScene() with { Camera = Document.WithoutNegativeZeros(document.Camera) };
+            NewSceneFile.Write(document.File, scene, path, loader.AllowsOutsideFiles);
         }
         catch (Exception exception) when (exception is IOException or UnauthorizedAccessException or FractalEngineException)
         {

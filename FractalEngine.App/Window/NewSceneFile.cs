@@ -25,8 +25,11 @@ internal static class NewSceneFile
     /// <param name="file">The file that the scene was loaded from.</param>
     /// <param name="scene">The scene to write.</param>
     /// <param name="path">Full path of the new file.</param>
-    /// <exception cref="IOException">The name is taken or has another ending, or the file can't be written.</exception>
-    public static void Write(LoadedFile file, Scene scene, string path)
+    /// <param name="allowsOutsideFiles">Whether the scene can be opened where its models lie outside its folder.</param>
+    /// <exception cref="IOException">
+    /// The name is taken or has another ending, the file can't be written, or could not be opened there.
+    /// </exception>
+    public static void Write(LoadedFile file, Scene scene, string path, bool allowsOutsideFiles)
     {
         if (!path.EndsWith(Extension, StringComparison.OrdinalIgnoreCase))
         {
@@ -49,6 +52,14 @@ internal static class NewSceneFile
             throw new IOException("a scene can't refer to a file with a quote or a line break in its path");
         }
 
+        var folder = AssetFolder.ForFile(path);
+        if (!allowsOutsideFiles && relocated.Objects.FirstOrDefault(declared => !folder.Contains(FullPath(path, declared))) is { } outside)
+        {
+            throw new IOException(
+                $"\"{outside.File}\" lies outside the folder of {Path.GetFileName(path)}: save the scene above its models, "
+                + "or allow that with --allow-outside");
+        }
+
         var text = Encoding.UTF8.GetBytes(SceneWriter.Write(relocated, file.ParsedScene));
         var written = AtomicFile.WriteWithoutReplacing(path, stream => stream.Write(text), out var isCreated);
         if (!isCreated || written != path)
@@ -62,4 +73,7 @@ internal static class NewSceneFile
             throw new IOException($"{Path.GetFileName(path)} exists already, and is not replaced");
         }
     }
+
+    private static string FullPath(string scene, SceneObject declared) =>
+        Path.GetFullPath(Path.Combine(Path.GetDirectoryName(scene)!, declared.File!));
 }

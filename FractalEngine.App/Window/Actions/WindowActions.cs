@@ -126,7 +126,7 @@ internal sealed class WindowActions(
     /// <summary>Copies the present camera as a line of a scene.</summary>
     public Redraw CopyCamera()
     {
-        window.ClipboardText = CameraText.Format(Document!.GetCurrentScene().Camera!);
+        window.ClipboardText = CameraText.Format(Document.WithoutNegativeZeros(Document!.Camera));
         return Show("the camera is in the clipboard, as a line of a scene");
     }
 

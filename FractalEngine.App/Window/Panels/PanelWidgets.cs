@@ -71,7 +71,8 @@ internal static class PanelWidgets
     /// <param name="step">Dragging gives multiples of this; 0 for a thousandth of the range.</param>
     public static Vector Vector(this UserInterface ui, string name, Vector value, Vector start, double? reach, double step)
     {
-        var (x, y, z) = value;
+        // Zero shows without a sign.
+        var (x, y, z) = value + Core.Maths.Vector.Zero;
         ui.Row(1);
         ui.Label(name, isDim: true);
         ui.Row(1, 1, 1);
@@ -81,7 +82,7 @@ internal static class PanelWidgets
             Slide("y", ref y, start.Y);
             Slide("z", ref z, start.Z);
         });
-        return new(x, y, z);
+        return new Vector(x, y, z) + Core.Maths.Vector.Zero;
 
         void Slide(string axis, ref double component, double from)
         {

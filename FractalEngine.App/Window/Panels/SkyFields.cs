@@ -14,6 +14,9 @@ internal sealed class SkyFields(WindowActions actions)
 
     private bool _isOpen;
 
+    // The sky that was taken away last, and the scene that had it.
+    private (string Path, Sky Sky)? _removed;
+
     /// <summary>Adds the branch of the sky.</summary>
     public void Build(UserInterface ui, Scene scene)
     {
@@ -26,7 +29,10 @@ internal sealed class SkyFields(WindowActions actions)
         var hasSky = scene.Sky is not null;
         if (ui.CheckBox("sky", ref hasSky))
         {
-            Change(ui, present => present with { Sky = hasSky ? new(DefaultZenith, DefaultHorizon) : null });
+            var path = actions.Document!.File.Path;
+            var added = _removed is var (owner, removed) && owner == path ? removed : new(DefaultZenith, DefaultHorizon);
+            _removed = scene.Sky is { } present ? (path, present) : _removed;
+            Change(ui, present => present with { Sky = hasSky ? added : null });
         }
 
         ui.Tooltip("light from all around; a background hides the sky itself");

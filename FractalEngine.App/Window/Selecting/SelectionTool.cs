@@ -64,6 +64,18 @@ internal sealed class SelectionTool(Document document)
         }
     }
 
+    /// <summary>Moves what is selected with its object.</summary>
+    /// <param name="scene">The scene with its bodies and moving objects where they are now.</param>
+    public void Follow(LoadedScene scene)
+    {
+        if (Selected is { Viewpoint: null } selected && selected.ObjectIndex < scene.Objects.Length
+            && scene.Objects[selected.ObjectIndex] is var placed && ReferenceEquals(placed.Model, selected.Object.Model)
+            && placed.ObjectToWorld != selected.Object.ObjectToWorld)
+        {
+            Selected = selected.ContinueIn(placed);
+        }
+    }
+
     /// <summary>Processes an event: a click selects, and a double click makes the point the centre of the orbit.</summary>
     /// <param name="windowEvent">Any event of the window.</param>
     /// <param name="size">Size of the frame in pixels.</param>

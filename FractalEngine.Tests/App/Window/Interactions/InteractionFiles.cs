@@ -47,6 +47,8 @@ internal static class InteractionFiles
     [
         ("cube.obj", "mtllib missing.mtl\nusemtl missing\n" + SampleFiles.Cube),
         ("scene.sdo", Scene),
+        ("spin.sdo", "c (0, 0, -8) (0, 0, 0) 60\no \"cube.obj\" # name \"spinner\" moving spin (0.3, 0.5, 0.7)\n"),
+        ("inner/cube.obj", SampleFiles.Cube),
         ("row.fdo", Row),
         ("other.fdo", SampleFiles.Row("4").Replace("\r", "", StringComparison.Ordinal)),
         ("two.sdo", "c (0, 0, -8) (0, 0, 0) 60\no \"row.fdo\" ((0, 0, 0), #, #)\no \"other.fdo\" ((0, 2, 0), #, #)\n"),

@@ -206,6 +206,9 @@ internal sealed class Scenario : IDisposable
     public static Action<Scenario> FileLacks(string text, string file = "scene.sdo") => s =>
         Assert.DoesNotContain(text, File.ReadAllText(s._folder[file]), StringComparison.Ordinal);
 
+    /// <summary>There is no such file on the disk.</summary>
+    public static Action<Scenario> FileIsMissing(string file) => s => Assert.False(File.Exists(s._folder[file]));
+
     /// <summary>The file on the disk is this text.</summary>
     public static Action<Scenario> FileIs(string text, string file = "scene.sdo") => s =>
         Assert.Equal(text.Replace("\r", "", StringComparison.Ordinal), File.ReadAllText(s._folder[file]));
