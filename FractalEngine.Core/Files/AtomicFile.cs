@@ -169,6 +169,9 @@ public static partial class AtomicFile
         var reason = FindFileAmongFolders(target) is { } file
             ? $"{file} is a file, not a directory"
             : exception.Message.Replace(temporary, target, StringComparison.Ordinal);
+        // The system's message may end in the path, which stands at the beginning.
+        var suffix = $" : '{target}'";
+        reason = reason.EndsWith(suffix, StringComparison.Ordinal) ? reason[..^suffix.Length] : reason;
         return new IOException($"{path} can't be written: {reason}", exception);
     }
 

@@ -27,6 +27,14 @@ public sealed class AtomicFileTests : IDisposable
     }
 
     [Fact]
+    public void Write_ToAFullDisk_NamesThePathOnce()
+    {
+        var error = Assert.Throws<IOException>(() => AtomicFile.Write(_folder["a"], static stream =>
+            throw new IOException($"No space left on device : '{((FileStream)stream).Name}'")));
+        Assert.Equal($"{_folder["a"]} can't be written: No space left on device", error.Message);
+    }
+
+    [Fact]
     public void Write_ThatFailsHalfway_LeavesNoFile()
     {
         Assert.Throws<InvalidOperationException>(() => AtomicFile.Write(_folder["a"], Fail));
