@@ -130,6 +130,7 @@ internal sealed class FileCommands(
         if (loader.IsEditLoading)
         {
             // Only what can be opened again is saved.
+            report($"saving {Path.GetFileName(document.File.Path)} once its last change is loaded");
             loader.WhenEditIsLoaded(() => Save(preference, proceed));
             return;
         }
