@@ -46,6 +46,24 @@ public sealed class SceneClipPlanesTests
         Assert.Equal((0, 0, 0, 255), image[5, 5]);
     }
 
+    /// <summary>The depths of a light's map are told apart as well as without the distant object.</summary>
+    [SkippableFact]
+    public void Draw_WithShadowsAndAnotherObjectFarAway_ShowsTheSameShadows()
+    {
+        (Model, Transformation, Colour?)[] near =
+        [
+            (RenderScenes.Model(RenderScenes.Cube(0.5)), Samples.Move(0, 0.5, 0), Colour.White),
+            (RenderScenes.Model(RenderScenes.Cube(4)), Samples.Move(0, -4, 0), Colour.White),
+        ];
+        var scene = new Scene { Background = Colour.Black, Lights = [new DirectionalLight(new(1, -1, 0.5), Colour.White, 0.8)] };
+        var view = new View(new(new(0, 3, -8), new(-0.3, 0, 0), 60), Projection.Perspective);
+        var alone = RenderScenes.Draw(RenderScenes.Scene(scene, near), view);
+        var both = RenderScenes.Draw(
+            RenderScenes.Scene(scene, [.. near, (RenderScenes.Model(RenderScenes.Cube(0.5)), Samples.Move(0, 1e6, 1e6), Colour.White)]),
+            view);
+        Assert.True(RenderScenes.Difference(alone, both) is { Share: < 0.002 });
+    }
+
     [Fact]
     public void Of_ObjectsWithinTheBaseRatio_AreThoseOfTheBounds()
     {
