@@ -53,8 +53,7 @@ public sealed class FrameRenderer : IDisposable
         _context.MakeCurrent();
         _context.ApplySettings(settings);
         var target = EnsureTarget(width, height, Math.Clamp(settings.Samples, 0, _context.MaxSampleCount));
-        var bounds = scene is null ? BoundingBox.Empty : LinesPass.BoundsIncludingLines(scene.Bounds, settings);
-        var frame = FrameView.Create(view, width, height, bounds);
+        var frame = FrameView.Create(view, width, height, scene, settings);
         scene?.UpdateShadows(in frame, settings);
         target.Bind();
         Clear(view.Background ?? scene?.Scene.Source.Scene.Background ?? settings.Background, in frame, width, height);
@@ -67,7 +66,7 @@ public sealed class FrameRenderer : IDisposable
         GL.Enable(EnableCap.DepthTest);
         GL.DepthFunc(_context.HasReversedDepth ? DepthFunction.Greater : DepthFunction.Less);
         GL.FrontFace(view.Camera.Handedness == Handedness.Left ? FrontFaceDirection.Cw : FrontFaceDirection.Ccw);
-        scene.Draw(in frame, nextView is null ? null : FrameView.Create(nextView, width, height, bounds), settings);
+        scene.Draw(in frame, nextView is null ? null : FrameView.Create(nextView, width, height, scene, settings), settings);
         if (view.DeepZoom is null)
         {
             _linesPass.DrawGridAndAxes(in frame, scene.Bounds, settings);

@@ -174,6 +174,19 @@ public sealed class SceneRenderer : IDisposable
         }
     }
 
+    /// <summary>Returns the depths of the near and far clip planes of a frame.</summary>
+    /// <param name="view">Camera and projection.</param>
+    /// <param name="width">Width of the frame in pixels.</param>
+    /// <param name="height">Height of the frame in pixels.</param>
+    /// <param name="settings">Whether grid and axes are drawn.</param>
+    /// <returns>
+    /// Those of <see cref="View.ClipPlanes"/>, unless they would cut away an object in view: then planes that enclose all objects in view,
+    /// up to a ratio of 10¹². In scene units.
+    /// </returns>
+    public (double Near, double Far) ClipPlanes(View view, int width, int height, RenderSettings settings) => SceneClipPlanes.Of(
+        view, view.EffectiveAspect(width, height), LinesPass.BoundsIncludingLines(Bounds, settings), settings.Grid || settings.Axes,
+        _transforms.Bounds, _spheres);
+
     /// <summary>Culls the instances for a frame without drawing it, on the context's thread.</summary>
     /// <param name="view">Camera and projection.</param>
     /// <param name="width">Width of the frame in pixels.</param>
@@ -183,7 +196,7 @@ public sealed class SceneRenderer : IDisposable
     {
         Context.MakeCurrent();
         Context.ApplySettings(settings);
-        CullFrame(FrameView.Create(view, width, height, LinesPass.BoundsIncludingLines(Bounds, settings)), settings);
+        CullFrame(FrameView.Create(view, width, height, this, settings), settings);
     }
 
     /// <summary>Deletes the scene's buffers and shaders. Harmless when repeated.</summary>

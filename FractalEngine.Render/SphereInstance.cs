@@ -11,4 +11,7 @@ public readonly record struct SphereInstance(Vector Centre, double Radius)
 {
     /// <summary>Colour of all spheres: coral in the palette.</summary>
     public static Colour Colour => ObjectPalette.ColourOf(2);
+
+    /// <summary>The box around the sphere, world space.</summary>
+    internal BoundingBox Bounds => new(Centre - (Radius * Vector.One), Centre + (Radius * Vector.One));
 }

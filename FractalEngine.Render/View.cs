@@ -225,10 +225,13 @@ public sealed record View(Camera Camera, Projection Projection)
     }
 
     /// <summary>Tests whether a whole box is deeper than a plane, so that this plane cuts through none of it.</summary>
-    internal bool IsBeyondDepth(BoundingBox box, double depth)
+    internal bool IsBeyondDepth(BoundingBox box, double depth) => DepthsOf(box).Nearest > depth;
+
+    /// <summary>Returns the smallest and the largest depth of a box; negative behind the camera.</summary>
+    internal (double Nearest, double Farthest) DepthsOf(BoundingBox box)
     {
         var (centreDepth, halfExtent) = DepthExtent(box);
-        return centreDepth - halfExtent > depth;
+        return (centreDepth - halfExtent, centreDepth + halfExtent);
     }
 
     /// <summary>Returns width divided by height of the viewport, exact where the view requests an aspect.</summary>

@@ -1,4 +1,7 @@
+using FractalEngine.Core.Collision;
+using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
 using FractalEngine.Render;
 
@@ -16,6 +19,7 @@ internal static class ClosestPointLines
     private static readonly Colour NormalColour = new(0.3, 0.9, 1);
 
     /// <summary>Creates two lines per body: one to its closest point, and the normal there. Awake bodies come first.</summary>
+    /// <remarks>Bodies beyond the limit of physics, or of their collider, have no lines.</remarks>
     /// <param name="world">The world whose bodies are shown.</param>
     /// <param name="alpha">The fraction of a step since the last one, from 0 to 1; see <see cref="Body.InterpolatedMap"/>.</param>
     public static List<LineSegment> Create(PhysicsWorld world, double alpha)
@@ -24,7 +28,7 @@ internal static class ClosestPointLines
         foreach (var body in world.Bodies.OrderBy(static body => body.IsAsleep).Take(MaxBodies))
         {
             var centre = body.InterpolatedMap(alpha).Translation;
-            if (world.TryFindClosest(centre, world.ColliderOverride ?? body.Description.Collider, out var closest))
+            if (TryFindClosest(world, body, centre, out var closest))
             {
                 lines.Add(new(centre, closest.Point, ClosestPointColour));
                 lines.Add(new(closest.Point, closest.Point + (NormalLengthRatio * body.Radius * closest.Normal), NormalColour));
@@ -32,5 +36,20 @@ internal static class ClosestPointLines
         }
 
         return lines;
+    }
+
+    private static bool TryFindClosest(PhysicsWorld world, Body body, Vector centre, out ClosestPoint closest)
+    {
+        closest = default;
+        try
+        {
+            return centre.MaxAbsComponent() <= PhysicsLimits.MaxCoordinate
+                && world.TryFindClosest(centre, world.ColliderOverride ?? body.Description.Collider, out closest);
+        }
+        catch (FractalLimitException)
+        {
+            // No line is as long as the distance, or the collider does not search so far away.
+            return false;
+        }
     }
 }

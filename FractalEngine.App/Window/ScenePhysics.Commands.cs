@@ -29,7 +29,7 @@ internal sealed partial class ScenePhysics
 
         return WhenReady(world =>
         {
-            MakeSteps(() =>
+            MakeSteps(world, () =>
             {
                 world.Step();
                 return 1;

@@ -51,7 +51,9 @@ internal sealed partial class ScenePhysics : IDisposable
         var cancellation = _cancellation.Token;
         _worldTask = Task.Run(() =>
         {
+            PhysicsLimits.RequireRange(scene);
             var world = _continued ?? new PhysicsWorld(scene, null, _colliders);
+            PhysicsLimits.RequireRange(world);
             if (world.Bodies.Count > 0 || world.Character is { IsActive: true } || alwaysBuild)
             {
                 BuildColliders(world, cancellation);
@@ -125,7 +127,7 @@ internal sealed partial class ScenePhysics : IDisposable
 
     private PhysicsWorld? World => _worldTask.IsCompletedSuccessfully ? _worldTask.Result : null;
 
-    private string NotReadyMessage => _worldTask.IsFaulted ? "there is no physics in this scene" : "the colliders are being built";
+    private string NotReadyMessage => _worldTask.IsFaulted ? $"no physics: {_worldTask.Exception.InnerException!.Message}" : "the colliders are being built";
 
     /// <summary>Ends the building of colliders after the one in progress. Those that are built stay for the next scene.</summary>
     public void Dispose()
@@ -161,7 +163,7 @@ internal sealed partial class ScenePhysics : IDisposable
             return false;
         }
 
-        MakeSteps(() => world.Advance(Speed * time.TotalSeconds));
+        MakeSteps(world, () => world.Advance(Speed * time.TotalSeconds));
         return true;
     }
 
@@ -248,9 +250,10 @@ internal sealed partial class ScenePhysics : IDisposable
         }
     }
 
-    /// <summary>Makes and times steps. Pauses the simulation when a body leaves the range of a double.</summary>
+    /// <summary>Makes and times steps. Pauses the simulation when a body goes beyond the limit of physics.</summary>
+    /// <param name="world">The world that makes them.</param>
     /// <param name="advance">Makes the steps, and returns their number.</param>
-    private void MakeSteps(Func<int> advance)
+    private void MakeSteps(PhysicsWorld world, Func<int> advance)
     {
         var start = Stopwatch.GetTimestamp();
         try
@@ -259,9 +262,10 @@ internal sealed partial class ScenePhysics : IDisposable
             if (stepCount > 0)
             {
                 _stepTime = Stopwatch.GetElapsedTime(start) / stepCount;
+                PhysicsLimits.RequireRange(world);
             }
         }
-        catch (InvalidOperationException exception)
+        catch (Exception exception) when (exception is InvalidOperationException or FractalEngineException { Kind: ErrorKind.Limit })
         {
             _problem = $"error: {exception.Message}";
             IsPaused = true;

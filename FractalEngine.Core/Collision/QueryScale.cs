@@ -15,16 +15,19 @@ internal static class QueryScale
     private const double MinMagnitude = 1e-40;
     private const double MaxMagnitude = 1e40;
 
+    // A sum of several coordinates of any shape, times this, is a double.
+    private const double SmallestEntry = 1e-3;
+
     // The power of two that makes the smallest numbers normal is a double, too.
     private const int MinExponent = -1000;
 
     /// <summary>Tells whether a query with such coordinates must be answered in other units.</summary>
-    /// <param name="magnitude">Largest coordinate of position and shape, or an upper bound.</param>
-    public static bool IsNeeded(double magnitude) => magnitude is < MinMagnitude or > MaxMagnitude && magnitude > 0;
+    /// <param name="magnitude">Largest coordinate of position and shape, or an upper bound; NaN where computing it went out of range.</param>
+    public static bool IsNeeded(double magnitude) => !(magnitude is >= MinMagnitude and <= MaxMagnitude) && magnitude != 0;
 
     /// <summary>The power of two by which coordinates are multiplied, so that products stay doubles: mostly 1.</summary>
-    /// <param name="magnitude">Largest coordinate of all shapes and positions.</param>
-    public static double Of(double magnitude) => IsNeeded(magnitude) ? Math.ScaleB(1, -Exponent(magnitude)) : 1;
+    /// <param name="magnitude">Largest coordinate of all shapes and positions; 1 serves where that is NaN.</param>
+    public static double Of(double magnitude) => !double.IsNaN(magnitude) && IsNeeded(magnitude) ? Math.ScaleB(1, -Exponent(magnitude)) : 1;
 
     /// <summary>The largest coordinate of a mesh, 0 for one without vertices.</summary>
     public static double Magnitude(Mesh mesh) => mesh.Bounds.IsEmpty ? 0 : BoundingVolume.MaxAbsCoordinate(mesh.Bounds);
@@ -39,18 +42,26 @@ internal static class QueryScale
 
     /// <summary>Answers a query in units in which the largest coordinate is about 1.</summary>
     /// <param name="collider">Supports queries under a map.</param>
-    /// <param name="position">In the frame of the image, finite.</param>
+    /// <param name="position">In the frame of the image.</param>
     /// <param name="map">From the shape's frame to that of the image.</param>
     /// <param name="magnitude">Largest coordinate, of which <see cref="IsNeeded"/> is true.</param>
     /// <param name="maxDistance">Search radius in the frame of the image.</param>
     /// <param name="epsilon">Allowed relative error.</param>
     /// <param name="context">Receives the costs and the instance.</param>
     /// <param name="closest">The closest point in the frame of the image. Its distance is infinite where it is beyond a double.</param>
+    /// <exception cref="ArgumentOutOfRangeException">The position is not finite.</exception>
+    /// <exception cref="FractalLimitException">The map is not finite, or no unit makes the image so.</exception>
     public static bool FindClosest(
         Collider collider, in Vector position, in AffineMap map, double magnitude, double maxDistance, double epsilon, QueryContext context,
         out ClosestPoint closest)
     {
-        if (!map.IsFinite())
+        if (!position.IsFinite())
+        {
+            throw new ArgumentOutOfRangeException(nameof(position), position, "expected finite coordinates");
+        }
+
+        // The collider asks again while coordinates are out of range: each time they are smaller, or that ends here.
+        if (!map.IsFinite() || (!double.IsFinite(magnitude) && IsSmallest(in position, in map)))
         {
             throw new FractalLimitException("the placement of the shape is beyond the range of a double");
         }
@@ -96,5 +107,10 @@ internal static class QueryScale
         }
     }
 
-    private static int Exponent(double magnitude) => Math.Max(Math.ILogB(Math.Min(magnitude, double.MaxValue)), MinExponent);
+    /// <summary>True where the image of any finite shape is finite, so that an infinite one can't become finite in other units.</summary>
+    private static bool IsSmallest(in Vector position, in AffineMap map) =>
+        position.MaxAbsComponent() <= 2 && map.Translation.MaxAbsComponent() <= 2 && map.Linear.MaxAbsEntry() <= SmallestEntry;
+
+    private static int Exponent(double magnitude) =>
+        double.IsFinite(magnitude) ? Math.Max(Math.ILogB(magnitude), MinExponent) : Math.ILogB(double.MaxValue);
 }

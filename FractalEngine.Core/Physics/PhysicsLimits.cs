@@ -51,7 +51,7 @@ public static class PhysicsLimits
         }
     }
 
-    /// <summary>Throws where an object of a scene moves by itself, or its belt, faster than bodies may.</summary>
+    /// <summary>Throws where an object of a scene moves by itself, or its belt, faster or farther away than bodies may.</summary>
     /// <exception cref="SceneObjectException">The limit is exceeded; the message names it, and the object.</exception>
     public static void RequireRange(LoadedScene scene)
     {
@@ -63,6 +63,11 @@ public static class PhysicsLimits
             if (declared.Belt.MaxAbsComponent() > MaxCoordinate)
             {
                 throw Error("the belt", name, "of 1e150", i);
+            }
+
+            if (declared.Motion is not null && !(scene.Objects[i].ObjectToWorld.Translation.MaxAbsComponent() <= MaxCoordinate))
+            {
+                throw Error("the position", name, "of 1e150", i);
             }
 
             if (declared.Motion is { } motion

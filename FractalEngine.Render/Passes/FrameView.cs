@@ -19,11 +19,12 @@ internal readonly record struct FrameView(View View, int X, int Y, int Width, in
     /// <param name="view">Camera and projection.</param>
     /// <param name="width">Width of the frame in pixels.</param>
     /// <param name="height">Height of the frame in pixels.</param>
-    /// <param name="bounds">Bounds of all that is drawn, world space.</param>
-    public static FrameView Create(View view, int width, int height, BoundingBox bounds)
+    /// <param name="scene">What is drawn; null for nothing.</param>
+    /// <param name="settings">Whether grid and axes are drawn.</param>
+    public static FrameView Create(View view, int width, int height, SceneRenderer? scene, RenderSettings settings)
     {
         var viewport = view.Viewport(width, height);
-        var (near, far) = view.ClipPlanes(bounds);
+        var (near, far) = scene?.ClipPlanes(view, width, height, settings) ?? view.ClipPlanes(BoundingBox.Empty);
         return new(view, viewport.X, viewport.Y, viewport.Width, viewport.Height, view.EffectiveAspect(width, height), near, far);
     }
 

@@ -21,7 +21,9 @@ internal sealed class ClipFields(WindowActions actions)
         ui.Row(1);
         if (ui.CheckBox("Fixed clip planes", ref isFixed))
         {
-            var planes = document.LatestView?.ClipPlanes(document.Renderer.Bounds) ?? (0.1, 1000);
+            var planes = document.LatestView is { } view
+                ? document.Renderer.ClipPlanes(view, ui.Width, ui.Height, actions.Settings)
+                : (0.1, 1000);
             Set(ui, isFixed ? (Math.Round(planes.Near, 6), Math.Round(planes.Far, 6)) : null);
         }
 

@@ -31,6 +31,9 @@ public sealed class ExactFractalCollider : Collider
 
     private static readonly AffineMap Identity = AffineMap.Identity;
 
+    // Sums of a few such coordinates are doubles in the fractal's own unit, too.
+    private const double MaxMagnitude = 1e307;
+
     private readonly FractalHierarchy _hierarchy;
     private readonly TriangleBvh[] _baseBvhs;
 
@@ -39,6 +42,9 @@ public sealed class ExactFractalCollider : Collider
     private readonly ExpandedLevels _expandedLevels;
     private readonly double _precisionRadius;
     private readonly double _rootMagnitude;
+
+    // Infinite for a fractal that is too large under any map, else 0.
+    private readonly double _excess;
     private readonly IDepthFirstSearch<SimilarityFrame> _similaritySearch;
     private readonly IDepthFirstSearch<AffineFrame> _affineSearch;
     private readonly BestFirstSearch _bestFirstSearch;
@@ -65,6 +71,7 @@ public sealed class ExactFractalCollider : Collider
         _baseBvhs = Array.ConvertAll(hierarchy.BaseMeshes, TriangleBvh.For);
         _precisionRadius = PrecisionRadius(_hierarchy.Root);
         _rootMagnitude = BoundingVolume.MaxAbsCoordinate(_hierarchy.Root.Box);
+        _excess = _rootMagnitude > MaxMagnitude ? double.PositiveInfinity : 0;
         _expandedLevels = ExpandedLevels.For(_hierarchy, _baseBvhs[0]);
         _onlyMesh = hierarchy.BaseMeshes is [var only] ? only : null;
         _similaritySearch = CreateSearch<SimilarityFrame>(_expandedLevels);
@@ -147,9 +154,14 @@ public sealed class ExactFractalCollider : Collider
         var positionMagnitude = position.MaxAbsComponent();
         // In the fractal's own frame, its box was tested before.
         var box = isSimilarity ? _hierarchy.Root.Box : _hierarchy.Root.Box.Transform(map);
-        var magnitude = Math.Max(positionMagnitude, isSimilarity ? _rootMagnitude : BoundingVolume.MaxAbsCoordinate(box));
+        var magnitude = Math.Max(positionMagnitude, isSimilarity ? _rootMagnitude : Math.Max(_excess, BoundingVolume.MaxAbsCoordinate(box)));
         if (QueryScale.IsNeeded(magnitude))
         {
+            if (double.IsFinite(positionMagnitude) && Math.Max(positionMagnitude, _rootMagnitude) > MaxMagnitude)
+            {
+                throw new FractalLimitException("the distances within the fractal, or to it, are beyond the range of a double");
+            }
+
             return QueryScale.FindClosest(this, in position, in map, magnitude, maxDistance, epsilon, context, out closest);
         }
 
