@@ -127,7 +127,8 @@ internal sealed partial class ScenePhysics : IDisposable
 
     private PhysicsWorld? World => _worldTask.IsCompletedSuccessfully ? _worldTask.Result : null;
 
-    private string NotReadyMessage => _worldTask.IsFaulted ? $"no physics: {_worldTask.Exception.InnerException!.Message}" : "the colliders are being built";
+    private string NotReadyMessage =>
+        _worldTask.IsFaulted ? $"no physics: {_worldTask.Exception.InnerException!.Message}" : "the colliders are being built";
 
     /// <summary>Ends the building of colliders after the one in progress. Those that are built stay for the next scene.</summary>
     public void Dispose()

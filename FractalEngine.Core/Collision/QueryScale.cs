@@ -22,7 +22,7 @@ internal static class QueryScale
     private const int MinExponent = -1000;
 
     /// <summary>Tells whether a query with such coordinates must be answered in other units.</summary>
-    /// <param name="magnitude">Largest coordinate of position and shape, or an upper bound; NaN where computing it went out of range.</param>
+    /// <param name="magnitude">Largest coordinate of position and shape, or an upper bound; NaN where that is out of range.</param>
     public static bool IsNeeded(double magnitude) => !(magnitude is >= MinMagnitude and <= MaxMagnitude) && magnitude != 0;
 
     /// <summary>The power of two by which coordinates are multiplied, so that products stay doubles: mostly 1.</summary>

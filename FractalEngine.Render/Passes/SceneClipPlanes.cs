@@ -103,10 +103,9 @@ internal static class SceneClipPlanes
             {
                 // How near the surface is that the camera is within the box of, is not known: it has the plane that it has alone.
                 var (nearest, farthest) = view.DepthsOf(box);
-                var depth = distanceSquared > 0
-                    ? Math.Max((1 - DepthMargin) * Math.Max(nearest, _cornerCosine * Math.Sqrt(distanceSquared)), MinNearOfObject * farthest)
-                    : view.ClipPlanes(box).Near;
-                Near = Math.Min(Near, depth);
+                var bound = (1 - DepthMargin) * Math.Max(nearest, _cornerCosine * Math.Sqrt(distanceSquared));
+                Near = Math.Min(
+                    Near, distanceSquared > 0 ? Math.Max(bound, MinNearOfObject * farthest) : view.ClipPlanes(box).Near);
             }
         }
 

@@ -9,7 +9,7 @@ using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Robustness;
 
-/// <summary>Queries under maps, and of objects that move, at the end of the range of a double: they end, with an answer or a refusal.</summary>
+/// <summary>Queries under maps, and of objects that move, at the end of the range of a double end, with an answer or a refusal.</summary>
 public sealed class TransformedRangeTests
 {
     private static readonly ColliderKind[] MeshKinds = [ColliderKind.Simple, ColliderKind.Hierarchy, ColliderKind.Exact];
@@ -112,7 +112,8 @@ public sealed class TransformedRangeTests
     private static IEnumerable<Collider> Colliders(double size)
     {
         var mesh = Shapes.Cube().Transform(v => size * v);
-        return [.. MeshKinds.Select(kind => Collider.For(mesh, kind)), Collider.For(Fractal.Of(mesh).Repeat([Samples.MoveAndScale(0, 0, 0, 0.5)], 2))];
+        var fractal = Fractal.Of(mesh).Repeat([Samples.MoveAndScale(0, 0, 0, 0.5)], 2);
+        return [.. MeshKinds.Select(kind => Collider.For(mesh, kind)), Collider.For(fractal)];
     }
 
     private static ClosestPoint Find(Collider collider, Vector position, AffineMap map)

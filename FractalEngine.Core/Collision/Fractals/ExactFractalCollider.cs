@@ -154,7 +154,8 @@ public sealed class ExactFractalCollider : Collider
         var positionMagnitude = position.MaxAbsComponent();
         // In the fractal's own frame, its box was tested before.
         var box = isSimilarity ? _hierarchy.Root.Box : _hierarchy.Root.Box.Transform(map);
-        var magnitude = Math.Max(positionMagnitude, isSimilarity ? _rootMagnitude : Math.Max(_excess, BoundingVolume.MaxAbsCoordinate(box)));
+        var magnitude = Math.Max(
+            positionMagnitude, isSimilarity ? _rootMagnitude : Math.Max(_excess, BoundingVolume.MaxAbsCoordinate(box)));
         if (QueryScale.IsNeeded(magnitude))
         {
             if (double.IsFinite(positionMagnitude) && Math.Max(positionMagnitude, _rootMagnitude) > MaxMagnitude)

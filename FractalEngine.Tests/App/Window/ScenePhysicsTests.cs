@@ -50,7 +50,8 @@ public sealed class ScenePhysicsTests
     [Fact]
     public void ClosestPointLines_OfBodiesWithoutADistance_AreNone()
     {
-        var world = new PhysicsWorld(new Scene { Objects = [Mill, new SceneObject(Shapes.Cube()) { Placement = Samples.Move(1e308, 0, 0) }] });
+        var distant = new SceneObject(Shapes.Cube()) { Placement = Samples.Move(1e308, 0, 0) };
+        var world = new PhysicsWorld(new Scene { Objects = [Mill, distant] });
         _ = world.Add(new(new(0, 0, 1e308), 0.7));
         Assert.Empty(ClosestPointLines.Create(world, 1));
         _ = world.Add(new(new(0, 0, 3), 0.7));
