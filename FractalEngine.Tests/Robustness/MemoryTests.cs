@@ -88,6 +88,28 @@ public sealed class MemoryTests : IDisposable
         Assert.Contains("110000 transformations on all levels", error);
     }
 
+    [Fact]
+    public void Query_OfTwoHundredDifferentLevels_IsWithinTheMemory()
+    {
+        var text = new StringBuilder();
+        var random = new Random(6);
+        for (var i = 0; i < 1000; i++)
+        {
+            text.Append(CultureInfo.InvariantCulture, $"v {random.Next(9)}.{i} {random.Next(99)} 0.0{i}\n");
+        }
+
+        text.Append("v 0.3 0.3 0.3\nt.a.b. (a, b, 1001)\nx. \"t.obj\"\nz<x>.");
+        for (var level = 0; level < 200; level++)
+        {
+            var maps = Enumerable.Range(0, 500)
+                .Select(_ => string.Create(CultureInfo.InvariantCulture, $"t.{random.Next(1000) + 1}.{random.Next(1000) + 1}"));
+            text.Append(CultureInfo.InvariantCulture, $" [{string.Join(", ", maps)}]");
+        }
+
+        _folder.Write("levels.fdo", text.Append(" x\n<$>. z 1\n").ToString());
+        QueryWithinMemory("levels.fdo");
+    }
+
     private void QueryWithinMemory(string file)
     {
         _folder.Write("points.txt", "0 0 0\n1 2 3\n");

@@ -24,25 +24,33 @@ internal sealed record BoundingVolume(BoundingBox Box, ConvexHull? Hull, double 
     public static BoundingVolume Empty { get; } = new(BoundingBox.Empty, null, 0);
 
     /// <summary>Computes the bounds of a mesh.</summary>
-    public static BoundingVolume FromMesh(Mesh mesh) => mesh.FaceCount == 0
-        ? Empty
-        : FromVertices(mesh.Bounds, UsedVertices(mesh), 0);
+    public static BoundingVolume FromMesh(Mesh mesh)
+    {
+        if (mesh.FaceCount == 0)
+        {
+            return Empty;
+        }
+
+        var vertices = UsedVertices(mesh);
+        return FromVertices(mesh.Bounds, vertices, vertices.Length, 0);
+    }
 
     /// <summary>Tells whether a volume of this box is small enough for a hull.</summary>
     public static bool CanHaveHull(BoundingBox box) => box.Diagonal < MaxHullSize && RoundingMargin(box) < MaxHullSize;
 
     /// <summary>Computes the bounds of the union of several volumes.</summary>
     /// <param name="box">Contains all volumes.</param>
-    /// <param name="vertices">The vertices of all their hulls; null where one of them has no hull.</param>
+    /// <param name="vertices">Begins with the vertices of all their hulls, and is not kept.</param>
+    /// <param name="vertexCount">Number of vertices; 0 where one of the volumes has no hull.</param>
     /// <param name="margin">The largest margin of the hulls.</param>
-    public static BoundingVolume FromVertices(BoundingBox box, Vector[]? vertices, double margin)
+    public static BoundingVolume FromVertices(BoundingBox box, Vector[] vertices, int vertexCount, double margin)
     {
-        if (vertices is null || vertices.Length == 0 || !CanHaveHull(box))
+        if (vertexCount == 0 || !CanHaveHull(box))
         {
             return new(box, null, 0);
         }
 
-        var hull = ConvexHull.Build(vertices, MaxHullVertices);
+        var hull = ConvexHull.Build(vertices, vertexCount, MaxHullVertices);
         return new BoundingVolume(box, hull, margin + hull.MaxOutsideDistance + RoundingMargin(box)).WithTightBox();
     }
 

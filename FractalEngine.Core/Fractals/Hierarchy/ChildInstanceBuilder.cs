@@ -18,16 +18,12 @@ internal sealed class ChildInstanceBuilder(int baseCount)
     // The limit for expansions that give all children the same number of remaining levels.
     private const int MaxChildrenForSameLevel = 48;
 
-    // Single children of wider levels are not looked for among those of other levels, which would take as much memory as they do.
-    private const int MaxComparedEdges = 4096;
-
     /// <summary>Maximum number of edges between a sub-fractal and its children: in a repetition, of rounds.</summary>
     public const int MaxExpandedLevels = 16;
 
     private readonly Dictionary<ChildEdge[], ChildInstance> _instances = new(ChildEdgesComparer.Instance);
 
-    // By reference: equal edges are shared.
-    private readonly Dictionary<ChildEdge[], ChildInstance[]> _wideLevels = new(ReferenceEqualityComparer.Instance);
+    private readonly Dictionary<ChildEdge[], ChildInstance[]> _wideLevels = new(ChildEdgesComparer.Instance);
 
     private readonly HashSet<ChildEdge[]> _sharedEdges = new(ChildEdgesComparer.Instance);
 
@@ -162,7 +158,8 @@ internal sealed class ChildInstanceBuilder(int baseCount)
         var children = new ChildInstance[edges.Length];
         for (var i = 0; i < children.Length; i++)
         {
-            children[i] = edges.Length > MaxComparedEdges ? new(edges, i, 1) : GetOrCreate([edges[i]]);
+            // Not looked for among those of other levels: that would take as much memory as they do.
+            children[i] = new(edges, i, 1);
         }
 
         _wideLevels.Add(edges, children);

@@ -7,11 +7,12 @@ namespace FractalEngine.Core.Fractals.Hierarchy;
 internal sealed partial class ConvexHull
 {
     /// <summary>Builds the hull of a set of points that is not flat.</summary>
-    /// <param name="points">The points.</param>
+    /// <param name="points">Begins with the points.</param>
+    /// <param name="pointCount">Number of points.</param>
     /// <param name="tolerance">Points no higher above a facet than this count as on it, in scene units.</param>
-    private sealed class QuickHull(Vector[] points, double tolerance)
+    private sealed class QuickHull(Vector[] points, int pointCount, double tolerance)
     {
-        private readonly int[] _nextPoint = new int[points.Length];
+        private readonly int[] _nextPoint = new int[pointCount];
         private readonly List<Facet> _facets = [];
         private readonly List<int> _vertices = [];
         private double _maxOutsideDistance;
@@ -32,7 +33,7 @@ internal sealed partial class ConvexHull
 
             _vertices.AddRange([i0, i1, i2, i3]);
             _facets.AddRange([CreateFacet(i0, i1, i2), CreateFacet(i0, i3, i1), CreateFacet(i1, i3, i2), CreateFacet(i2, i3, i0)]);
-            for (var point = 0; point < points.Length; point++)
+            for (var point = 0; point < pointCount; point++)
             {
                 AssignToFacet(point, 0);
             }

@@ -49,8 +49,15 @@ internal sealed partial class ConvexHull
     /// <summary>Builds the hull of some points.</summary>
     /// <param name="points">At least one point, all of them finite. Neither kept nor copied: wide sets have millions.</param>
     /// <param name="maxVertices">Maximum number of vertices, at least 4. Beyond it, points near the hull are left outside.</param>
-    public static ConvexHull Build(Vector[] points, int maxVertices)
+    public static ConvexHull Build(Vector[] points, int maxVertices) => Build(points, points.Length, maxVertices);
+
+    /// <summary>Builds the hull of the first points of an array, which may be larger.</summary>
+    /// <param name="array">Begins with the points, all of them finite. It is not kept.</param>
+    /// <param name="count">Number of points, at least one.</param>
+    /// <param name="maxVertices">Maximum number of vertices, at least 4. Beyond it, points near the hull are left outside.</param>
+    public static ConvexHull Build(Vector[] array, int count, int maxVertices)
     {
+        var points = array.AsSpan(0, count);
         var box = BoundingBox.Empty;
         foreach (var point in points)
         {
@@ -74,7 +81,7 @@ internal sealed partial class ConvexHull
         var normal = TriangleKernel.UnitNormal(points[i0], points[i1], points[i2]);
         var i3 = FindFarthest(points, points[i0], (point, origin) => Math.Abs(Vector.Dot(normal, point - origin)), out var height);
         return height > CoplanarTolerance * size
-            ? new QuickHull(points, CoplanarTolerance * size).Build(i0, i1, i2, i3, maxVertices)
+            ? new QuickHull(array, count, CoplanarTolerance * size).Build(i0, i1, i2, i3, maxVertices)
             : BuildFlatHull(points, direction, normal, height, maxVertices);
     }
 

@@ -1,5 +1,6 @@
+using System.Numerics;
 using FractalEngine.Core.Geometry;
-using FractalEngine.Core.Maths;
+using Vector = FractalEngine.Core.Maths.Vector;
 
 namespace FractalEngine.Core.Fractals.Hierarchy;
 
@@ -16,7 +17,7 @@ internal sealed class LevelUnion(BuiltLevels built, OutlierClusters clusters)
     private const int MaxHullVerticesOfPart = 256;
 
     // Serves all levels.
-    private Vector[] _part = [];
+    private Vector[] _vertices = [];
 
     /// <summary>Computes the bounds of the union of what the edges of a level lead to.</summary>
     /// <param name="edges">The edges.</param>
@@ -90,60 +91,69 @@ internal sealed class LevelUnion(BuiltLevels built, OutlierClusters clusters)
 
         if (!hasHulls || !BoundingVolume.CanHaveHull(box))
         {
-            return BoundingVolume.FromVertices(box, null, margin) with { Clusters = outliers };
+            return BoundingVolume.FromVertices(box, [], 0, margin) with { Clusters = outliers };
         }
 
-        var (vertices, maxOutsideDistance) = vertexCount <= MaxVerticesAtOnce
-            ? (CollectVertices(edges, vertexCount), 0)
+        var (vertices, count, maxOutsideDistance) = vertexCount <= MaxVerticesAtOnce
+            ? CollectVertices(edges, (int)vertexCount)
             : CollectExtremeVertices(edges, BoundingVolume.RoundingMargin(box));
-        return BoundingVolume.FromVertices(box, vertices, margin + maxOutsideDistance) with { Clusters = outliers };
+        return BoundingVolume.FromVertices(box, vertices, count, margin + maxOutsideDistance) with { Clusters = outliers };
     }
 
-    private Vector[] CollectVertices(IEnumerable<CollapsedEdge> edges, long vertexCount)
+    /// <summary>Collects the vertices of hulls into the shared array.</summary>
+    private (Vector[] Vertices, int Count, double MaxOutsideDistance) CollectVertices(IEnumerable<CollapsedEdge> edges, int vertexCount)
     {
-        var vertices = new Vector[vertexCount];
-        var next = 0;
+        if (_vertices.Length < vertexCount)
+        {
+            _vertices = new Vector[BitOperations.RoundUpToPowerOf2((uint)vertexCount)];
+        }
+
+        var count = 0;
         foreach (var edge in edges)
         {
             foreach (var vertex in built.VolumeAt(edge.RemainingLevels).Hull!.Vertices)
             {
-                vertices[next++] = edge.Map * vertex;
+                _vertices[count++] = edge.Map * vertex;
             }
         }
 
-        return vertices;
+        return (_vertices, count, 0);
     }
 
     /// <summary>Collects the vertices of hulls, each around a part of the vertices, and how far vertices lie outside of them.</summary>
-    private (Vector[] Vertices, double MaxOutsideDistance) CollectExtremeVertices(IEnumerable<CollapsedEdge> edges, double rounding)
+    private (Vector[] Vertices, int Count, double MaxOutsideDistance) CollectExtremeVertices(
+        IEnumerable<CollapsedEdge> edges, double rounding)
     {
         var extremes = new List<Vector>();
-        _part = _part.Length > 0 ? _part : new Vector[MaxVerticesAtOnce];
-        var part = _part;
+        if (_vertices.Length < MaxVerticesAtOnce)
+        {
+            _vertices = new Vector[MaxVerticesAtOnce];
+        }
+
         var count = 0;
         var maxOutsideDistance = 0.0;
         foreach (var edge in edges)
         {
             foreach (var vertex in built.VolumeAt(edge.RemainingLevels).Hull!.Vertices)
             {
-                part[count++] = edge.Map * vertex;
-                if (count == part.Length)
+                _vertices[count++] = edge.Map * vertex;
+                if (count == MaxVerticesAtOnce)
                 {
-                    Reduce(part);
+                    Reduce();
                 }
             }
         }
 
         if (count > 0)
         {
-            Reduce(part[..count]);
+            Reduce();
         }
 
-        return (extremes.ToArray(), maxOutsideDistance + rounding);
+        return (extremes.ToArray(), extremes.Count, maxOutsideDistance + rounding);
 
-        void Reduce(Vector[] vertices)
+        void Reduce()
         {
-            var hull = ConvexHull.Build(vertices, MaxHullVerticesOfPart);
+            var hull = ConvexHull.Build(_vertices, count, MaxHullVerticesOfPart);
             extremes.AddRange(hull.Vertices);
             maxOutsideDistance = Math.Max(maxOutsideDistance, hull.MaxOutsideDistance);
             count = 0;

@@ -205,6 +205,22 @@ public class ExactFractalColliderLimitTests
         }
     }
 
+    /// <summary>Levels as wide as this one are recognised as equal too, so that those above are not built.</summary>
+    [Fact]
+    public void Create_OfAnInfiniteFractalOfFiveThousandMaps_BuildsFewLevels()
+    {
+        var random = new Random(101);
+        var maps = Enumerable.Range(0, 5000)
+            .Select(_ => new Transformation(random.Vector(10), random.Vector(180), 0.02 * Vector.One)).ToArray();
+        var collider = new ExactFractalCollider(Samples.Repeated(null, maps));
+        var deep = new ExactFractalCollider(Samples.Repeated(20, maps));
+        for (var i = 0; i < 50; i++)
+        {
+            var position = random.Vector(20);
+            Assert.Equal(deep.FindClosest(position).Distance, collider.FindClosest(position).Distance, 1e-12);
+        }
+    }
+
     /// <summary>Six maps are too many to expand two levels at once, so that each level takes a frame of the stack.</summary>
     [Theory]
     [InlineData(0)]
