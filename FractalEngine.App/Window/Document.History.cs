@@ -71,6 +71,16 @@ internal sealed partial class Document
         History.Transform(state => state with { Edits = state.Edits.AfterSave(path, before, after, carry) });
     }
 
+    /// <summary>Takes over that the view was saved, also in the texts that an undo returns to.</summary>
+    /// <param name="text">Text of the scene's file now.</param>
+    /// <param name="view">The view that it contains.</param>
+    public void MarkViewSaved(string text, SceneView view)
+    {
+        var path = File.Path;
+        History.Transform(state => state with { Edits = state.Edits.Carry(path, before => Draft.Carry(view, before)) });
+        Draft.MarkSaved(text, view);
+    }
+
     /// <summary>Drops the edit of a file that can't be loaded, also in all states that an undo returns to.</summary>
     /// <param name="path">Full path of the file.</param>
     /// <param name="refused">The text that can't be loaded.</param>

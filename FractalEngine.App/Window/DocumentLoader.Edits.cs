@@ -16,15 +16,59 @@ internal sealed partial class DocumentLoader
 
     private Action? _waiting;
 
-    /// <summary>True until it is known whether the last edit of the scene can be loaded.</summary>
-    public bool IsEditLoading => (_load?.Previous is not null || _pendingFault is not null)
-        && Document is { File: { Kind: FileKind.Scene, Path: var path } }
-        && TextIn(_edits, path) is { } text && text != TextIn(_shownEdits, path);
+    /// <summary>
+    /// True until it is known whether the last edit of the scene can be loaded, and until a scene that was saved as another is shown.
+    /// </summary>
+    public bool IsEditLoading => IsChangingPath || ((_load is not null || _pendingFault is not null)
+        && Document is { File: { Kind: FileKind.Scene, Path: var path } } && TextIn(_edits, path) != TextIn(_shownEdits, path));
+
+    private bool IsChangingPath => (_load is { Previous: not null } load && load.Path != _path) || _next is (_, true, _);
+
+    /// <summary>Takes over that a file of the document was saved: what a load has read before may be older than that.</summary>
+    public void MarkSaved() => _saveCount++;
+
+    /// <summary>Takes over that the edits of a file were saved, which is shown already where they were.</summary>
+    /// <inheritdoc cref="Editing.FileEdits.AfterSave"/>
+    public void MarkSaved(string path, string before, string after, Func<string, string>? carry = null)
+    {
+        MarkSaved();
+        _shownEdits = _shownEdits.AfterSave(path, before, after, carry);
+    }
 
     /// <summary>Calls back once the last edit of the scene is loaded. An edit that is refused drops the call.</summary>
     public void WhenEditIsLoaded(Action action) => _waiting = action;
 
     private static string? TextIn(FileEdits edits, string path) => edits.Texts.GetValueOrDefault(path);
+
+    /// <summary>
+    /// Tells whether the user has changed the present document while another was loading, which would replace it.
+    /// </summary>
+    private bool WasEditedDuring(BackgroundLoad load) =>
+        (load.Previous is null || load.Path != _path) && Document is { } document && !document.Edits.Equals(_editsAtStart);
+
+    private Redraw KeepEdited(BackgroundLoad load)
+    {
+        report($"{Path.GetFileName(load.Path)} was not opened, since {Path.GetFileName(_path)} was changed meanwhile: save that first");
+        return Redraw.Overlay;
+    }
+
+    /// <summary>Tells whether a file of the document was saved while it was loaded, so that the load may have read an older one.</summary>
+    private bool IsOutdated(BackgroundLoad load) => _saveCountAtStart != _saveCount && Document is { } document
+        && (load.Previous is not null || Path.GetFullPath(load.Path) == document.File.Path);
+
+    private Redraw LoadAgain(BackgroundLoad load)
+    {
+        if (load.Previous is not null && load.Path == _path)
+        {
+            _needsReload = true;
+        }
+        else
+        {
+            _next ??= (load.Path, load.Previous is not null, _editsAtStart);
+        }
+
+        return Redraw.None;
+    }
 
     private Redraw PollWaiting()
     {

@@ -27,7 +27,14 @@ internal sealed partial class DocumentLoader(
     private FileEdits _edits = FileEdits.None;
     private FileEdits _editsAtStart = FileEdits.None;
     private BackgroundLoad? _load;
-    private Action? _next;
+
+    // The file to open after the one that is being loaded, with the edits of the document when the user asked for that.
+    private (string Path, bool KeepsState, FileEdits Edits)? _next;
+    private bool _needsReload;
+
+    // So many files were saved by now, and when the load in progress began.
+    private int _saveCount;
+    private int _saveCountAtStart;
     private (string Error, TimeSpan Time)? _pendingFault;
 
     /// <summary>The document shown; null until the first file is loaded.</summary>
@@ -62,13 +69,8 @@ internal sealed partial class DocumentLoader(
     /// <param name="keepsState">True for the same scene under another name: its camera and bodies go on.</param>
     public void Open(string path, RenderSettings settings, bool keepsState = false)
     {
-        if (_load is not null)
-        {
-            _next = () => Open(path, settings, keepsState);
-            return;
-        }
-
-        Start(path, settings, keepsState ? Document : null);
+        _next = (path, keepsState, Document?.Edits ?? FileEdits.None);
+        StartNext(settings);
     }
 
     /// <summary>Shows other texts of the files, in the place of those on the disk.</summary>
@@ -84,13 +86,8 @@ internal sealed partial class DocumentLoader(
     /// <summary>Loads the files of the document again that have changed. Camera and unchanged bodies go on.</summary>
     public void Reload(RenderSettings settings)
     {
-        if (_load is not null)
-        {
-            _next ??= () => Reload(settings);
-            return;
-        }
-
-        Start(_path, settings, Document);
+        _needsReload = true;
+        StartNext(settings);
     }
 
     /// <summary>Takes over the results that are ready. Must be called on the window's thread.</summary>
@@ -104,7 +101,7 @@ internal sealed partial class DocumentLoader(
             Reload(settings);
         }
 
-        return PollLoad(now) | PollFault(settings, now) | PollFirstSight() | PollWaiting();
+        return PollLoad(settings, now) | PollFault(settings, now) | PollFirstSight() | PollWaiting();
     }
 
     /// <inheritdoc/>
@@ -114,15 +111,36 @@ internal sealed partial class DocumentLoader(
         Document?.Dispose();
     }
 
+    /// <summary>Starts the next load, unless one is in progress.</summary>
+    private void StartNext(RenderSettings settings)
+    {
+        if (_load is not null)
+        {
+            return;
+        }
+
+        if (_next is var (path, keepsState, edits))
+        {
+            _next = null;
+            _editsAtStart = edits;
+            Start(path, settings, keepsState ? Document : null);
+        }
+        else if (_needsReload)
+        {
+            Start(_path, settings, Document);
+        }
+    }
+
     private void Start(string path, RenderSettings settings, Document? previous, FileEdits? trial = null)
     {
+        _saveCountAtStart = _saveCount;
         if (Document is null)
         {
             _path = path;
             ShowTitle(path);
         }
 
-        _editsAtStart = Document?.Edits ?? FileEdits.None;
+        _needsReload &= path != _path;
         var edits = FileEdits.None;
         if (trial is not null)
         {
@@ -148,7 +166,7 @@ internal sealed partial class DocumentLoader(
         window.Title = $"{Path.GetFileName(path)}{(_edits.IsEmpty ? "" : "*")}{note} - FractalEngine";
     }
 
-    private Redraw PollLoad(TimeSpan now)
+    private Redraw PollLoad(RenderSettings settings, TimeSpan now)
     {
         if (_load is not { } load)
         {
@@ -167,26 +185,12 @@ internal sealed partial class DocumentLoader(
         var loaded = load.TakeResult(out var exitCode, out var error);
         ExitCode = Document is null ? exitCode : ExitCode;
         var redraw = EndTrial(now, isSuccessful: loaded is not null) is { } ended ? ended
+            : IsOutdated(load) ? LoadAgain(load)
             : loaded is not var (file, preparation) ? Refuse(load, error!, now)
             : WasEditedDuring(load) ? KeepEdited(load)
             : Show(load, file, preparation, now);
-        if (_next is { } next)
-        {
-            _next = null;
-            next();
-        }
-
+        StartNext(settings);
         return redraw;
-    }
-
-    /// <summary>Tells whether the user has changed the present document while another was loading, which would replace it.</summary>
-    private bool WasEditedDuring(BackgroundLoad load) =>
-        load.Previous is null && Document is { } document && !document.Edits.Equals(_editsAtStart);
-
-    private Redraw KeepEdited(BackgroundLoad load)
-    {
-        report($"{Path.GetFileName(load.Path)} was not opened, since {Path.GetFileName(_path)} was changed meanwhile: save that first");
-        return Redraw.Overlay;
     }
 
     private Redraw Show(BackgroundLoad load, LoadedFile file, ScenePreparation preparation, TimeSpan now)
@@ -208,6 +212,8 @@ internal sealed partial class DocumentLoader(
         {
             Document?.Dispose();
             _edits = FileEdits.None;
+            _needsReload = false;
+            _waiting = null;
         }
         else if (!isSameFile && previous.File.Kind == FileKind.Scene)
         {

@@ -1,5 +1,4 @@
 using System.Collections.Immutable;
-using FractalEngine.App.Window.Editing;
 using FractalEngine.Core;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Parsing.Scenes;
@@ -15,7 +14,7 @@ namespace FractalEngine.App.Window;
 /// <param name="report">Shows a message.</param>
 /// <param name="settings">Returns the present render settings.</param>
 /// <param name="close">Closes the window.</param>
-internal sealed class FileCommands(
+internal sealed partial class FileCommands(
     DocumentLoader loader, PromptHost prompts, RecentFiles recent, Action<string> report, Func<RenderSettings> settings, Action close)
 {
     /// <summary>
@@ -157,42 +156,12 @@ internal sealed class FileCommands(
                 return;
             }
 
-            document.Draft.MarkSaved(merged.Text, view);
+            loader.MarkSaved();
+            document.MarkViewSaved(merged.Text, view);
             report($"saved {Path.GetFileName(document.File.Path)}");
             proceed?.Invoke();
         });
     }
-
-    /// <summary>Writes the edited texts into their files, and the view with that of the scene.</summary>
-    private void SaveEdits(Document document, Action? proceed) => Try(() =>
-    {
-        foreach (var (path, edited) in document.Edits.Files)
-        {
-            var isScene = path == document.File.Path && document.File.Kind == FileKind.Scene;
-            var view = document.SceneView;
-            // The last edit may still be loading.
-            var written = isScene ? edited with { Text = document.Draft.WriteInto(view, edited.Text) } : edited;
-            EditedFileWriter.Write(path, written);
-            // The view is in the file from now on, so that it is in all texts that an undo returns to.
-            document.MarkSaved(path, edited.SavedText, written.Text, isScene ? text => document.Draft.Carry(view, text) : null);
-            if (isScene)
-            {
-                document.Draft.MarkSaved(written.Text, view);
-            }
-
-            report($"saved {Path.GetFileName(path)}");
-        }
-
-        loader.Edit(document.Edits, settings());
-        if (document.HasChanges)
-        {
-            Save(MergePreference.None, proceed);
-        }
-        else
-        {
-            proceed?.Invoke();
-        }
-    });
 
     private void AskAboutConflicts(Document document, MergedScene merged, Action? proceed) => prompts.Open(new ChoicePrompt(
         $"{Path.GetFileName(document.File.Path)} has changed in the same place",
@@ -212,6 +181,7 @@ internal sealed class FileCommands(
         document = loader.Document ?? document;
         var draft = document.Draft;
         var merged = SceneFileMerge.Write(document.File.Path, draft.SavedText, draft.Write(document.SceneView), MergePreference.Theirs);
+        loader.MarkSaved();
         draft.MarkSaved(merged.Text, document.SceneView);
         report($"took the view of {Path.GetFileName(document.File.Path)}");
         loader.Reload(settings());
@@ -239,6 +209,20 @@ internal sealed class FileCommands(
         if (Path.GetExtension(path).Length == 0)
         {
             path += ".sdo";
+        }
+
+        if (loader.IsEditLoading)
+        {
+            // A copy without the last change would take it away.
+            report($"saving {Path.GetFileName(path)} once the last change is loaded");
+            loader.WhenEditIsLoaded(() =>
+            {
+                if (TrySaveAs(loader.Document!, path, proceed) is { } reason)
+                {
+                    report(reason);
+                }
+            });
+            return null;
         }
 
         try

@@ -1,6 +1,5 @@
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Parsing.Scenes;
-using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.App.Window;
 
@@ -26,40 +25,41 @@ internal sealed class SceneDraft
     /// <summary>The view that was loaded or saved last. What differs from it is a change.</summary>
     public SceneView SavedView { get; private set; }
 
-    /// <summary>The text of the file when the window and the file last agreed: what a merge begins with.</summary>
+    /// <summary>
+    /// The text of the file, with what is edited in it, when the lines of the view in the window and the file last agreed: what a merge of
+    /// these lines begins with.
+    /// </summary>
     public string SavedText { get; private set; }
 
     /// <summary>Tells whether a view differs from the one that was loaded or saved. A model that is no scene has nothing to save.</summary>
     public bool IsChanged(SceneView view) => _layout is not null && view != SavedView;
 
-    /// <summary>Returns the text of the scene with a view. Only what differs from the loaded view is written anew.</summary>
-    public string Write(SceneView view) => Write(view, _layout!);
+    /// <summary>Returns the saved text with a view. Only lines of the view can differ.</summary>
+    /// <remarks>
+    /// The loaded text may be older or newer than the saved one, while the file is being loaded again. So what is taken from it are only
+    /// the lines in which the view and the saved one differ.
+    /// </remarks>
+    public string Write(SceneView view) => Carry(view, SavedText);
 
-    /// <summary>Returns another text of the scene with a view, such as one that is edited and not loaded yet.</summary>
+    /// <summary>Returns another text of the scene with a view, such as one that is edited and not saved yet.</summary>
     /// <param name="view">The view to write.</param>
-    /// <param name="text">A valid text of the scene, whose lines of the view are those that were loaded.</param>
-    /// <exception cref="SourceException">The text is no scene.</exception>
-    public string WriteInto(SceneView view, string text) =>
-        Write(view, text == _layout!.Source.Text ? _layout : SceneParser.Parse(new(_layout.Source.FileName, text)));
-
-    /// <summary>Returns a text of the scene with a view, or as it is where it is no scene.</summary>
-    /// <inheritdoc cref="WriteInto"/>
-    public string Carry(SceneView view, string text)
+    /// <param name="text">A text that began with the saved one.</param>
+    /// <returns>Null where an editor has changed the same lines, so that the user must be asked.</returns>
+    public string? TryWriteInto(SceneView view, string text)
     {
-        try
-        {
-            return WriteInto(view, text);
-        }
-        catch (SourceException)
-        {
-            // An undo may return to what never was a scene. It has no line for the view.
-            return text;
-        }
+        var merged = SceneMerge.Merge(SavedText, Write(view), text);
+        return merged.Conflicts.Length == 0 ? merged.Text : null;
     }
 
-    private string Write(SceneView view, ParsedScene layout)
+    /// <summary>Returns another text of the scene with a view, whatever its lines of the view are.</summary>
+    /// <param name="view">The view to write.</param>
+    /// <param name="text">Any text: what never was a scene has its lines of the view, too.</param>
+    public string Carry(SceneView view, string text) =>
+        view == SavedView ? text : SceneMerge.Merge(WriteLayout(SavedView), WriteLayout(view), text, MergePreference.Mine).Text;
+
+    private string WriteLayout(SceneView view)
     {
-        var scene = layout.Scene;
+        var scene = _layout!.Scene;
         return SceneWriter.Write(
             scene with
             {
@@ -68,7 +68,7 @@ internal sealed class SceneDraft
                 OrthographicHeight =
                     view.OrthographicHeight.Equals(LayoutView.OrthographicHeight) ? scene.OrthographicHeight : view.OrthographicHeight,
             },
-            layout);
+            _layout);
     }
 
     /// <summary>Records that the file has a text that contains the view.</summary>

@@ -25,6 +25,23 @@ public static partial class AtomicFile
     /// <exception cref="IOException">The file can't be written.</exception>
     public static void Write(string path, Action<Stream> write) => WriteThen(path, write, static move => move());
 
+    /// <summary>Creates or replaces a file if a condition holds once all is written, such as that nobody else has replaced it.</summary>
+    /// <param name="path">Path of the file, as <see cref="Write"/> expects it. Devices and pipes are written unconditionally.</param>
+    /// <param name="write">Writes the contents. If it throws, the previous contents remain.</param>
+    /// <param name="condition">Asked just before the file takes its name. The previous contents remain where it is false.</param>
+    /// <exception cref="IOException">The file can't be written.</exception>
+    public static void WriteIf(string path, Action<Stream> write, Func<bool> condition)
+    {
+        ArgumentNullException.ThrowIfNull(condition);
+        WriteThen(path, write, move =>
+        {
+            if (condition())
+            {
+                move();
+            }
+        });
+    }
+
     // The last argument calls the one that it is given, which moves the file to its name.
     private static void WriteThen(string path, Action<Stream> write, Action<Action> commit)
     {

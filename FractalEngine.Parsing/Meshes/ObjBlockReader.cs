@@ -4,7 +4,9 @@ using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.Parsing.Meshes;
 
-/// <summary>Cuts the bytes of a file into blocks of whole lines, those that a backslash joins included.</summary>
+/// <summary>
+/// Cuts the bytes of a file into blocks of whole lines, those that a backslash joins included. A line with a NUL byte may be cut.
+/// </summary>
 /// <remarks>The length of the file is asked for once: what is written behind it meanwhile is not read.</remarks>
 internal sealed class ObjBlockReader
 {
@@ -67,8 +69,11 @@ internal sealed class ObjBlockReader
             var end = (int)Math.Min(Math.Max(target, length + 1L), Length - _position);
             Grow(ref buffer, length, end);
             ReadExactly(buffer, length, end - length);
+            var isBinary = buffer.AsSpan(length, end - length).Contains((byte)0);
             length = end;
             cut = length == Length - _position ? length : FindCut(buffer.AsSpan(0, length));
+            // A binary file may have no line break at all, and would be taken into memory whole. The caller refuses the block.
+            cut = cut == 0 && isBinary ? length : cut;
         }
 
         Keep(buffer.AsSpan(cut, length - cut));

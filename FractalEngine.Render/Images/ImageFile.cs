@@ -55,6 +55,12 @@ public static class ImageFile
     /// <summary>Null where the file is no PNG. Throws where no decoder should take memory for it.</summary>
     private static PixelImage? LoadPng(string path)
     {
+        // Opening a pipe waits for a writer, perhaps for ever. It may have taken the place of an image that was checked before.
+        if (FileTypes.IsSpecial(path))
+        {
+            throw new IOException("it is a pipe or a device");
+        }
+
         using var stream = new FileStream(path, FileMode.Open, FileAccess.Read, FileShare.Read, BufferBytes, FileOptions.SequentialScan);
         Span<byte> head = stackalloc byte[8];
         var count = stream.ReadAtLeast(head, head.Length, throwOnEndOfStream: false);

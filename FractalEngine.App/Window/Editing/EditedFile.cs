@@ -26,8 +26,9 @@ internal sealed record EditedFile(string SavedText, string Text)
 
         for (var i = 0; i < before.Length; i++)
         {
-            if (before[i] == after[i])
+            if (before[i] == after[i] || (lines.Length == after.Length && lines[i] == after[i]))
             {
+                // Not changed here, or the same on both sides, as after a save of which the window does not know yet.
                 continue;
             }
 

@@ -58,6 +58,12 @@ internal sealed class FileEdits : IEquatable<FileEdits>
         return text == after ? Without(path) : new(Files.SetItem(path, new(after, text)));
     }
 
+    /// <summary>Makes the edits of a file with what a save has changed beside them, in the saved and in the edited text.</summary>
+    /// <param name="path">Full path of the file.</param>
+    /// <param name="carry">Makes the change of the save in a text.</param>
+    public FileEdits Carry(string path, Func<string, string> carry) => !Files.TryGetValue(path, out var edited) ? this
+        : new(Files.SetItem(path, new(carry(edited.SavedText), carry(edited.Text))));
+
     /// <summary>Makes the same edits in the files as they are on the disk now.</summary>
     /// <param name="report">Told about edits that are lost, since another program has changed the same lines.</param>
     public FileEdits Rebase(Action<string> report)

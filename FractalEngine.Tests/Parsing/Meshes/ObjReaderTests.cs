@@ -104,6 +104,20 @@ public sealed class ObjReaderTests : IDisposable
         "test.obj:2:1: error: the file is binary (it has a NUL byte), expected UTF-8 text",
         () => Read("v 1 2 3\n" + string.Concat(Enumerable.Repeat("\0\n", 5000))));
 
+    /// <summary>A file that a program has reserved and not written yet is zeros without a line break.</summary>
+    [Fact]
+    public void Read_OfNulsWithoutALineBreak_NamesTheFirstAndTakesLittleMemory()
+    {
+        byte[] bytes = [.. "v 1 2 3\nv 1"u8, .. new byte[64 << 20]];
+        Allocation.RunWithin(8 << 20, () =>
+        {
+            using var stream = new MemoryStream(bytes);
+            Errors.AssertMessage("test.obj:2:4: error: the file is binary (it has a NUL byte), expected UTF-8 text",
+                () => ObjReader.Read(stream, "test.obj", threadCount: 1));
+            return true;
+        });
+    }
+
     [Fact]
     public void Read_OfLatin1BehindAName_ReadsTheNameAsLatin1()
     {

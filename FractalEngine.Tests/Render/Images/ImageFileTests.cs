@@ -1,6 +1,7 @@
 using FractalEngine.Core.Images;
 using FractalEngine.Render.Images;
 using FractalEngine.Tests.Images;
+using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Render.Images;
 
@@ -122,6 +123,18 @@ public sealed class ImageFileTests : IDisposable
     {
         var path = Path.Combine(_directory.FullName, "missing.png");
         Assert.StartsWith($"{path} can't be read: ", ErrorOf(path), StringComparison.Ordinal);
+    }
+
+    [SkippableFact]
+    public void Load_OfAPipe_IsAnErrorAtOnce()
+    {
+        Skip.If(OperatingSystem.IsWindows(), "there are no named pipes in folders");
+        var path = Path.Combine(_directory.FullName, "pipe.png");
+        System.Diagnostics.Process.Start("mkfifo", path).WaitForExit();
+        // On a thread of its own: those of the pool may all be taken by other tests.
+        var load = Task.Factory.StartNew(() => ErrorOf(path), default, TaskCreationOptions.LongRunning, TaskScheduler.Default);
+        Assert.True(load.Wait(Polling.Deadline), "opening the pipe waits");
+        Assert.Equal($"{path} can't be read: it is a pipe or a device", load.Result);
     }
 
     private static string ErrorOf(string path) => Assert.Throws<IOException>(() => ImageFile.Load(path)).Message;

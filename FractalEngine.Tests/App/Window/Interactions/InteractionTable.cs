@@ -25,13 +25,14 @@ internal static partial class InteractionTable
     [
         "rename an object", "change objects after one was missing", "undo and redo of two numbers", "bookmark", "measure two points",
         "double click while measuring", "key of the settings", "save at once what is missing", "numbers after one was refused",
-        "save a number and the view together", "a quote in a name",
+        "save a number and the view together", "a quote in a name", "save as another at once after an undo",
+        "save a number, then the view, while another file loads",
         "save first, then close", "new fractal",
     ];
 
     /// <summary>The interactions of all panels and of the window, in this order.</summary>
     public static IEnumerable<Interaction> All =>
-        [.. OfScene, .. OfRefusedEdits, .. OfLights, .. OfFractal, .. OfView, .. OfSelection, .. OfPhysics, .. OfWindow];
+        [.. OfScene, .. OfRefusedEdits, .. OfRaces, .. OfLights, .. OfFractal, .. OfView, .. OfSelection, .. OfPhysics, .. OfWindow];
 
     private static IEnumerable<Interaction> OfScene =>
     [

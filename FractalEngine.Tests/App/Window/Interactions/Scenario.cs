@@ -5,7 +5,7 @@ using FractalEngine.Tests.Support;
 namespace FractalEngine.Tests.App.Window.Interactions;
 
 /// <summary>A window of 900 × 700 pixels with the files of an interaction, and the steps and expectations that rows are made of.</summary>
-internal sealed class Scenario : IDisposable
+internal sealed partial class Scenario : IDisposable
 {
     private const int Width = 900;
     private const int Height = 700;
