@@ -17,6 +17,11 @@ internal readonly struct FloatRay
     // Smaller components are this: over the length of what is searched, they matter less than the margin.
     private const float MinComponent = 1e-12f;
 
+    // An origin that rounding has left so far away is anywhere as well, and its widening reaches all bounds. Absent children of a node
+    // have infinite bounds: beside these all must stay finite, the products with inverse components included.
+    private const float MaxOrigin = 1e18f;
+    private const float MaxWidening = 1e19f;
+
     // What rounding takes from a parameter and its key, as a factor.
     private const double LimitFactor = 1 + 1e-5;
 
@@ -33,10 +38,10 @@ internal readonly struct FloatRay
     {
         PerDistance = speed * inverseSize;
         Limit = LimitFor(in ray, PerDistance, search.MaxDistance);
-        Widening = Margin + (float)(ray.InverseScale * inverseSize * search.Error);
+        Widening = Math.Min(MaxWidening, Margin + (float)(ray.InverseScale * inverseSize * search.Error));
         var narrow = Vector256.Narrow(
             (ray.Origin - centre) * Vector256.Create(inverseSize), ray.Direction * Vector256.Create(inverseSpeed));
-        Origin = narrow.GetLower();
+        Origin = Vector128.Min(Vector128.Max(narrow.GetLower(), Vector128.Create(-MaxOrigin)), Vector128.Create(MaxOrigin));
         Direction = WithoutZeros(narrow.GetUpper());
         InverseDirection = Vector128<float>.One / Direction;
     }

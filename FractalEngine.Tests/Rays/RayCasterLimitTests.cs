@@ -1,5 +1,6 @@
 using FractalEngine.Core.Collision;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Generation;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Rays;
@@ -69,6 +70,35 @@ public class RayCasterLimitTests
             var isFound = caster.TryFindNearest(ray, new(), out var hit, 1e-9);
             Assert.Equal(direction.Z < 0, isFound);
             Assert.True(!isFound || (hit.Point.Z == -1 && hit.Distance >= 1));
+        }
+    }
+
+    /// <summary>Rounding is larger than all that is searched there, and floats do not reach so far.</summary>
+    [Theory]
+    [MemberData(nameof(Kinds))]
+    public void TryFindNearest_FromAnywhereWithinTheLimit_Ends(string kind)
+    {
+        var caster = Create(kind, MeshGenerators.Create("icosphere", 0, 1280));
+        var context = new QueryContext();
+        var random = new Random(7);
+        for (var exponent = 0; exponent <= 75; exponent++)
+        {
+            for (var i = 0; i < 20; i++)
+            {
+                var direction = random.Vector();
+                // Half of them along an axis, where the middle is met exactly.
+                direction = i % 2 == 0 ? direction : Math.CopySign(1, direction.X) * Vector.K;
+                var far = (Math.Pow(10, exponent) / direction.MaxAbsComponent()) * direction;
+                if (caster.TryFindNearest(new(-far, direction), context, out var hit))
+                {
+                    var difference = Math.Abs(hit.Distance - far.Length());
+                    Assert.True(difference <= 1 + (1e-12 * far.Length()), $"1e{exponent}, ray {i}: {hit.Distance}");
+                }
+                else
+                {
+                    Assert.True(exponent > 10, $"1e{exponent}, ray {i}: nothing");
+                }
+            }
         }
     }
 
