@@ -1,6 +1,7 @@
 using System.Diagnostics;
 using FractalEngine.App.Window.Actions;
 using FractalEngine.App.Window.Panels;
+using FractalEngine.Core;
 using FractalEngine.Render;
 using FractalEngine.Render.Windowing;
 
@@ -40,6 +41,10 @@ internal sealed partial class SceneWindow : IDisposable
     private Redraw _redraw = Redraw.Overlay | Redraw.Scene;
     private bool _isClosing;
     private bool _isVisible = true;
+
+    // Of the last frame, and one that was beyond the driver, in pixels.
+    private (int Width, int Height)? _shownSize;
+    private (int Width, int Height)? _refusedSize;
 
     private SceneWindow(string path, WindowOptions options)
     {
@@ -85,7 +90,10 @@ internal sealed partial class SceneWindow : IDisposable
     private bool NeedsFullFrame => _windowRenderer.IsReducedQuality && Document?.IsMoving != true;
 
     private bool NeedsRefresh =>
-        (_isVisible || !_options.IdleWhenUnchanged) && _redraw != Redraw.None && _window is { Width: > 0, Height: > 0 };
+        (_isVisible || !_options.IdleWhenUnchanged) && _redraw != Redraw.None && _window is { Width: > 0, Height: > 0 }
+        && Size != _refusedSize;
+
+    private (int Width, int Height) Size => (_window.Width, _window.Height);
 
     private void Run()
     {
@@ -189,6 +197,25 @@ internal sealed partial class SceneWindow : IDisposable
     }
 
     private void Refresh()
+    {
+        var size = Size;
+        try
+        {
+            ShowFrame();
+            _shownSize = size;
+            _refusedSize = null;
+        }
+        catch (FractalEngineException exception)
+            when (exception.Kind == ErrorKind.Limit && _shownSize is { } shown && shown != size && size != _refusedSize)
+        {
+            // A window of another size can be drawn, and has what was not saved.
+            _refusedSize = size;
+            _redraw = Redraw.Scene | Redraw.Overlay;
+            _overlay.Report(exception.Message, _clock.Elapsed);
+        }
+    }
+
+    private void ShowFrame()
     {
         var start = _clock.Elapsed;
         _lastRefresh = start;

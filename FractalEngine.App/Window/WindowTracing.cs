@@ -47,7 +47,7 @@ internal sealed class WindowTracing(WindowOptions options, Action published) : I
         TraceRequest? request = null;
         if (IsEnabled && document is not null)
         {
-            _obstacle = FindObstacle(document, settings);
+            _obstacle = (long)width * height > TracedImage.MaxPixels ? "too many pixels" : FindObstacle(document, settings);
             if (_obstacle is null && !document.IsMoving)
             {
                 request = new(document.Physics.CurrentScene, document.UpdateView((double)width / height), width, height);

@@ -1,4 +1,6 @@
 using FractalEngine.App.Window.Panels;
+using FractalEngine.Core;
+using FractalEngine.Core.Images;
 using FractalEngine.Render;
 using FractalEngine.Render.Windowing;
 
@@ -133,17 +135,31 @@ internal sealed class WindowActions(
     /// <summary>Saves what is shown without overlay as an image.</summary>
     public Redraw SaveScreenshot()
     {
-        var image = tracing.OpaqueImage ?? renderer.Capture(Document!, Settings, window.Width, window.Height);
-        overlay.Report(Screenshots.Save(image, Document!.File.Path), clock());
+        Save(() => tracing.OpaqueImage ?? renderer.Capture(Document!, Settings, window.Width, window.Height));
         return Redraw.Scene;
     }
 
     /// <summary>Saves what is shown, with menus and panels, as an image.</summary>
     public Redraw SaveWindowScreenshot()
     {
-        var image = renderer.CaptureWindow(tracing.Layer, Interface.Ui, overlay.Panels);
-        overlay.Report(Screenshots.Save(image, Document!.File.Path), clock());
+        Save(() => renderer.CaptureWindow(tracing.Layer, Interface.Ui, overlay.Panels));
         return Redraw.Overlay;
+    }
+
+    private void Save(Func<PixelImage> capture)
+    {
+        string message;
+        try
+        {
+            message = Screenshots.Save(capture(), Document!.File.Path);
+        }
+        catch (Exception exception) when (exception is FractalEngineException or InvalidOperationException or OutOfMemoryException)
+        {
+            // The window is larger than the driver can draw.
+            message = $"error: no screenshot: {exception.Message}";
+        }
+
+        overlay.Report(message, clock());
     }
 
     /// <summary>Traces views that stand still from now on, or draws them only; later windows do the same.</summary>

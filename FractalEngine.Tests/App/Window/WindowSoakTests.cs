@@ -49,6 +49,24 @@ public sealed class WindowSoakTests : IDisposable
     [Trait("Category", "Soak")]
     public void Window_OfAThousandSizes_GoesOn() => Resize(1000);
 
+    /// <summary>No driver has frames of so many pixels, but a window system may have such a window.</summary>
+    [SkippableFact]
+    public void Window_LargerThanTheDriverCanDraw_WaitsForAnotherSizeAndSaves()
+    {
+        using var window = Open();
+        window.Send("key 3");
+        var before = window.Screenshot();
+        window.Send("windowsize {window} 32000 32000");
+        window.WaitForError("32000");
+        window.Send("key F12");
+        window.WaitForError("no screenshot");
+        window.Send("key ctrl+F12 key ctrl+s");
+        window.WaitForError("saved scene.sdo");
+        window.Send("windowsize --sync {window} 640 480");
+        Polling.WaitUntil(() => DrivenWindow.DifferingFraction(before, window.Screenshot()) == 0, "frame as before");
+        Assert.Equal(0, window.CloseWith("key Escape"));
+    }
+
     private void KillWhileSaving(int count)
     {
         var random = new Random(5);
