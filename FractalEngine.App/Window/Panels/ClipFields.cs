@@ -39,7 +39,13 @@ internal sealed class ClipFields(WindowActions actions)
             | ui.Slider("far", ref far, 1e-3 * size, 10 * size, isBounded: false);
         if (isChanged && near > 0 && near < far)
         {
-            Set(ui, (near, far));
+            var (shownNear, shownFar) = clip.Value;
+            // The other one may have changed too, and not be loaded yet.
+            actions.ChangeScene(ui, scene => scene with
+            {
+                Clip = (near.Equals(shownNear) && scene.Clip is { } before ? before.Near : near,
+                    far.Equals(shownFar) && scene.Clip is { } other ? other.Far : far),
+            });
         }
     }
 

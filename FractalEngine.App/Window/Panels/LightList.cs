@@ -67,7 +67,7 @@ internal sealed class LightList(WindowActions actions)
 
         if (ui.Colour(light.Colour) is { } colour)
         {
-            actions.ChangeLight(ui, index, present => present with { Colour = colour });
+            actions.ChangeLight(ui, index, present => present with { Colour = PanelWidgets.Merge(present.Colour, light.Colour, colour) });
         }
 
         ui.Row(1);

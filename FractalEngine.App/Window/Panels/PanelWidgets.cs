@@ -104,6 +104,22 @@ internal static class PanelWidgets
         return isChanged ? new(red, green, blue) : null;
     }
 
+    /// <summary>Makes a change in a vector of which other components may have changed, and are not loaded yet.</summary>
+    /// <param name="present">The vector to change.</param>
+    /// <param name="before">The vector that widgets have shown.</param>
+    /// <param name="after">The vector that widgets have made of it.</param>
+    public static Vector Merge(Vector present, Vector before, Vector after) => new(
+        after.X.Equals(before.X) ? present.X : after.X,
+        after.Y.Equals(before.Y) ? present.Y : after.Y,
+        after.Z.Equals(before.Z) ? present.Z : after.Z);
+
+    /// <summary>Makes a change in a colour of which other components may have changed, and are not loaded yet.</summary>
+    /// <inheritdoc cref="Merge(Vector, Vector, Vector)"/>
+    public static Colour Merge(Colour present, Colour before, Colour after) => new(
+        after.Red.Equals(before.Red) ? present.Red : after.Red,
+        after.Green.Equals(before.Green) ? present.Green : after.Green,
+        after.Blue.Equals(before.Blue) ? present.Blue : after.Blue);
+
     /// <summary>Changes the scene of the document, as a step that can be undone.</summary>
     /// <inheritdoc cref="EditScene"/>
     public static bool ChangeScene(this WindowActions actions, UserInterface ui, Func<Scene, Scene> change) =>

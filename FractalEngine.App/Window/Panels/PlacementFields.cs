@@ -38,8 +38,8 @@ internal sealed class PlacementFields(WindowActions actions)
 
         // Only what was changed here: an earlier change of the rest may still be loading.
         actions.ChangeObject(ui, index, present => present.MovedTo(new(
-            position == placement.Position ? present.Placement.Position : position,
-            rotation == placement.Rotation ? present.Placement.Rotation : rotation,
-            scale == placement.Scale ? present.Placement.Scale : scale)));
+            PanelWidgets.Merge(present.Placement.Position, placement.Position, position),
+            PanelWidgets.Merge(present.Placement.Rotation, placement.Rotation, rotation),
+            PanelWidgets.Merge(present.Placement.Scale, placement.Scale, scale))));
     }
 }

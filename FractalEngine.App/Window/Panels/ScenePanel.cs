@@ -61,9 +61,13 @@ internal sealed class ScenePanel(WindowActions actions)
         _sky.Build(ui, scene);
         _camera.Build(ui, document);
         ui.Heading("Background");
-        if (ui.Colour(scene.Background ?? RenderSettings.DefaultBackground) is { } background)
+        var shown = scene.Background ?? RenderSettings.DefaultBackground;
+        if (ui.Colour(shown) is { } background)
         {
-            actions.ChangeScene(ui, present => present with { Background = background });
+            actions.ChangeScene(ui, present => present with
+            {
+                Background = PanelWidgets.Merge(present.Background ?? shown, shown, background),
+            });
         }
     }
 
@@ -136,9 +140,11 @@ internal sealed class ScenePanel(WindowActions actions)
         _placement.Build(ui, declared, index);
         ui.Row(1);
         ui.Label("colour", isDim: true);
-        if (ui.Colour(declared.Colour ?? Colour.White) is { } colour)
+        var shown = declared.Colour ?? Colour.White;
+        if (ui.Colour(shown) is { } colour)
         {
-            actions.ChangeObject(ui, index, present => present with { Colour = colour });
+            actions.ChangeObject(
+                ui, index, present => present with { Colour = PanelWidgets.Merge(present.Colour ?? shown, shown, colour) });
         }
 
         ui.Row(1, 1, 1);

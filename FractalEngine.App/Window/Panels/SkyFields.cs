@@ -38,8 +38,8 @@ internal sealed class SkyFields(WindowActions actions)
         ui.Tooltip("light from all around; a background hides the sky itself");
         if (scene.Sky is { } sky)
         {
-            BuildColour(ui, "zenith", sky.Zenith, (present, colour) => present with { Zenith = colour });
-            BuildColour(ui, "horizon", sky.Horizon, (present, colour) => present with { Horizon = colour });
+            BuildColour(ui, "zenith", sky.Zenith, static sky => sky.Zenith, (present, colour) => present with { Zenith = colour });
+            BuildColour(ui, "horizon", sky.Horizon, static sky => sky.Horizon, (present, colour) => present with { Horizon = colour });
         }
 
         ui.Row(1);
@@ -72,13 +72,17 @@ internal sealed class SkyFields(WindowActions actions)
         ui.Tooltip("density of the haze: after d units, exp(-density * d) of the light is left");
     }
 
-    private void BuildColour(UserInterface ui, string name, Colour colour, Func<Sky, Colour, Sky> change) => ui.Scope(name, () =>
+    private void BuildColour(
+        UserInterface ui, string name, Colour colour, Func<Sky, Colour> read, Func<Sky, Colour, Sky> change) => ui.Scope(name, () =>
     {
         ui.Row(1);
         ui.Label(name, isDim: true);
         if (ui.Colour(colour) is { } changed)
         {
-            Change(ui, present => present.Sky is { } sky ? present with { Sky = change(sky, changed) } : present);
+            Change(ui, present => present.Sky is { } sky ? present with
+            {
+                Sky = change(sky, PanelWidgets.Merge(read(sky), colour, changed)),
+            } : present);
         }
     });
 

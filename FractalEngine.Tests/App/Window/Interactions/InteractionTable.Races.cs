@@ -59,6 +59,12 @@ internal static partial class InteractionTable
         {
             Options = ["--no-watch"],
         },
+        new("numbers of a vector and of a colour at once", "scene.sdo",
+            [
+                Keys("F2"), Click("left"), TypeAtOnce("position", "0.5", "0.25", "0.75"), TypeAtOnce("Background", "0.9", "0.8", "0.7"),
+                Title("scene.sdo*"), FrameDiffers(0.2), Save(),
+            ],
+            [FileHas("((0.5, 0.25, 0.75), #, #) name \"left\""), FileHas("\nbackground (0.9, 0.8, 0.7)\n")]),
         new("undo a duplicate after the view was saved", "scene.sdo",
             [
                 Keys("F2"), Click("left"), Click("Duplicate"), Shows("Objects (3)"), Save(), Keys("5 ctrl+s"),

@@ -26,6 +26,7 @@ internal static partial class InteractionTable
         "rename an object", "change objects after one was missing", "undo and redo of two numbers", "bookmark", "measure two points",
         "double click while measuring", "key of the settings", "save at once what is missing", "numbers after one was refused",
         "save a number and the view together", "a quote in a name", "save as another at once after an undo",
+        "numbers of a vector and of a colour at once",
         "save a number, then the view, while another file loads",
         "save first, then close", "new fractal",
     ];

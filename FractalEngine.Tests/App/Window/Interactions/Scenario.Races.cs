@@ -30,6 +30,21 @@ internal sealed partial class Scenario
         });
     };
 
+    /// <summary>Types numbers into columns of the row below a text, all before the first of them can be loaded.</summary>
+    public static Action<Scenario> TypeAtOnce(string text, params string[] values) => s =>
+    {
+        var places = values.Select((_, column) => s.Place(text, column, values.Length, 1, isRight: false)).ToArray();
+        s.Window.WhileStopped(() =>
+        {
+            foreach (var (value, (x, y)) in values.Zip(places))
+            {
+                s.Window.Send(string.Create(
+                    CultureInfo.InvariantCulture, $"mousemove --window {{window}} {x} {y} click 1 key ctrl+a {KeysOf(value)} key Return"));
+            }
+        });
+        s.MoveAway();
+    };
+
     /// <summary>Changes a text in a file as an editor does.</summary>
     public static Action<Scenario> Replace(string before, string after, string file = "scene.sdo") => s =>
     {
