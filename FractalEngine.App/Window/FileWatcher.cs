@@ -25,6 +25,7 @@ internal sealed class FileWatcher : IDisposable
     private readonly Lock _lock = new();
     private readonly TimeProvider _time;
     private readonly Action _changed;
+    private readonly Func<string, FileStamp> _stampOf;
     private readonly ITimer _timer;
     private readonly Dictionary<string, FileSystemWatcher> _folders = [];
     private ImmutableDictionary<string, FileStamp> _loaded = ImmutableDictionary<string, FileStamp>.Empty;
@@ -33,12 +34,18 @@ internal sealed class FileWatcher : IDisposable
     private bool _isReported;
     private bool _isDisposed;
 
+    // While files are examined, which may take long on a network, and whether they must be examined once more then.
+    private bool _isChecking;
+    private bool _checksAgain;
+
     /// <summary>Creates a watcher of no files.</summary>
     /// <param name="changed">Called on another thread when <see cref="TakeChange"/> would return true.</param>
     /// <param name="time">The clock; null for that of the system.</param>
-    public FileWatcher(Action changed, TimeProvider? time = null)
+    /// <param name="stampOf">Examines a file; null for <see cref="FileStamp.Of"/>.</param>
+    public FileWatcher(Action changed, TimeProvider? time = null, Func<string, FileStamp>? stampOf = null)
     {
         _changed = changed;
+        _stampOf = stampOf ?? FileStamp.Of;
         _time = time ?? TimeProvider.System;
         _timer = _time.CreateTimer(_ => Check(), null, Timeout.InfiniteTimeSpan, Timeout.InfiniteTimeSpan);
     }
@@ -82,8 +89,10 @@ internal sealed class FileWatcher : IDisposable
         }
     }
 
+    /// <summary>Examines the files without the lock, for which the window would have to wait.</summary>
     private void Check()
     {
+        ImmutableDictionary<string, FileStamp> loaded;
         lock (_lock)
         {
             if (_isDisposed)
@@ -91,35 +100,60 @@ internal sealed class FileWatcher : IDisposable
                 return;
             }
 
-            var now = _time.GetTimestamp();
-            var present = _loaded.ToImmutableDictionary(static file => file.Key, static file => FileStamp.Of(file.Key));
-            if (!AreEqual(present, _seen))
+            if (_isChecking)
             {
-                _seen = present;
-                _seenSince = now;
-            }
-
-            var changed = _loaded.Where(file => present[file.Key] != file.Value).ToArray();
-            if (changed.Length == 0)
-            {
-                Schedule(PollInterval);
+                _checksAgain = true;
                 return;
             }
 
-            var settleTime = changed.Any(file => present[file.Key].Length <= 0 && file.Value.Length > 0) ? MissingSettleTime : SettleTime;
-            if (_time.GetElapsedTime(_seenSince, now) < settleTime)
-            {
-                Schedule(ChangeInterval);
-                return;
-            }
-
-            // Reported once: further changes count from here on until the files are loaded again.
-            _loaded = present;
-            _isReported = true;
-            Schedule(PollInterval);
+            _isChecking = true;
+            loaded = _loaded;
         }
 
-        _changed();
+        var present = loaded.ToImmutableDictionary(static file => file.Key, file => _stampOf(file.Key));
+        bool isReported;
+        lock (_lock)
+        {
+            _isChecking = false;
+            var wasReported = _isReported;
+            var delay = _isDisposed || !ReferenceEquals(loaded, _loaded) ? TimeSpan.Zero : Compare(present);
+            Schedule(_checksAgain ? TimeSpan.Zero : delay);
+            _checksAgain = false;
+            isReported = _isReported && !wasReported;
+        }
+
+        if (isReported)
+        {
+            _changed();
+        }
+    }
+
+    /// <summary>Compares the files with what was loaded, and returns when to look again.</summary>
+    private TimeSpan Compare(ImmutableDictionary<string, FileStamp> present)
+    {
+        var now = _time.GetTimestamp();
+        if (!AreEqual(present, _seen))
+        {
+            _seen = present;
+            _seenSince = now;
+        }
+
+        var changed = _loaded.Where(file => present[file.Key] != file.Value).ToArray();
+        if (changed.Length == 0)
+        {
+            return PollInterval;
+        }
+
+        var settleTime = changed.Any(file => present[file.Key].Length <= 0 && file.Value.Length > 0) ? MissingSettleTime : SettleTime;
+        if (_time.GetElapsedTime(_seenSince, now) < settleTime)
+        {
+            return ChangeInterval;
+        }
+
+        // Reported once: further changes count from here on until the files are loaded again.
+        _loaded = present;
+        _isReported = true;
+        return PollInterval;
     }
 
     private static bool AreEqual(ImmutableDictionary<string, FileStamp> stamps1, ImmutableDictionary<string, FileStamp> stamps2) =>

@@ -60,5 +60,29 @@ public sealed class FileWatcherTests : IDisposable
         Polling.WaitUntil(_watcher.TakeChange, "recreated file");
     }
 
+    /// <summary>As on a network that has gone: the window asks on its own thread, and must not wait.</summary>
+    [Fact]
+    public async Task Watcher_WhileAFileCantBeExamined_LetsNobodyWait()
+    {
+        var path = _folder.Write("a", "1");
+        using var hasBegun = new ManualResetEventSlim();
+        using var end = new ManualResetEventSlim();
+        using var watcher = new FileWatcher(static () => { }, stampOf: file =>
+        {
+            hasBegun.Set();
+            end.Wait();
+            return FileStamp.Of(file);
+        });
+        watcher.Watch(ImmutableDictionary<string, FileStamp>.Empty.Add(path, FileStamp.Missing));
+        Assert.True(hasBegun.Wait(Polling.Deadline));
+        var asks = Task.Factory.StartNew(watcher.TakeChange, default, TaskCreationOptions.LongRunning, TaskScheduler.Default);
+        await Task.WhenAny(asks, Task.Delay(TimeSpan.FromSeconds(5)));
+        var isAnswered = asks.IsCompleted;
+        end.Set();
+        Assert.True(isAnswered, "waited for the file");
+        Assert.False(await asks);
+        Polling.WaitUntil(watcher.TakeChange, "change");
+    }
+
     private void Watch(string path) => _watcher.Watch(ImmutableDictionary<string, FileStamp>.Empty.Add(path, FileStamp.Of(path)));
 }
