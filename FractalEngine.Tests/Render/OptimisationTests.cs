@@ -1,3 +1,4 @@
+using System.Collections.Concurrent;
 using FractalEngine.Core.Images;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Render;
@@ -61,6 +62,9 @@ public sealed class OptimisationTests : IDisposable
 
     private readonly TemporaryFolder _folder = new();
 
+    // The frames of both scenes with all optimisations, which every test of one optimisation compares with.
+    private static readonly ConcurrentDictionary<(string File, int Samples), PixelImage> Frames = new();
+
     public static TheoryData<string> Optimisations => [.. DisableOptimisation.Keys];
 
     public void Dispose() => _folder.Dispose();
@@ -69,16 +73,17 @@ public sealed class OptimisationTests : IDisposable
     [MemberData(nameof(Optimisations))]
     public void Frame_WithoutAnOptimisation_IsTheSame(string optimisation)
     {
-        foreach (var path in (string[])[Textured, WriteSmallScene()])
-        {
-            foreach (var samples in (int[])[0, 4])
-            {
-                var settings = new RenderSettings { Samples = samples };
-                var with = Draw(path, new(), settings).Image;
-                var without = DrawWithout(path, optimisation, settings).Image;
-                ImageComparison.AssertSame(with, without, $"{Path.GetFileName(path)}, {samples} samples");
-            }
-        }
+        CheckFrame(Textured, 0, optimisation);
+        CheckFrame(WriteSmallScene(), 4, optimisation);
+    }
+
+    [SkippableTheory]
+    [MemberData(nameof(Optimisations))]
+    [Trait("Category", "Soak")]
+    public void Frame_WithoutAnOptimisationOfOtherSamples_IsTheSame(string optimisation)
+    {
+        CheckFrame(Textured, 4, optimisation);
+        CheckFrame(WriteSmallScene(), 0, optimisation);
     }
 
     [SkippableFact]
@@ -113,6 +118,16 @@ public sealed class OptimisationTests : IDisposable
         Assert.Equal(0, DrawWithout(path, "frustum-culling", settings).Statistics.Culling.OutsideFrustum);
         Assert.Equal(0, DrawWithout(path, "occlusion-culling", settings).Statistics.Culling.Occluded);
     }
+
+    private static void CheckFrame(string path, int samples, string optimisation)
+    {
+        var settings = new RenderSettings { Samples = samples };
+        var without = DrawWithout(path, optimisation, settings).Image;
+        ImageComparison.AssertSame(DrawOnce(path, settings), without, $"{Path.GetFileName(path)}, {samples} samples");
+    }
+
+    private static PixelImage DrawOnce(string path, RenderSettings settings) =>
+        Frames.GetOrAdd((Path.GetFileName(path), settings.Samples), _ => Draw(path, new(), settings).Image);
 
     private static (PixelImage Image, FrameStatistics Statistics) DrawWithout(
         string path, string optimisation, RenderSettings settings) =>
