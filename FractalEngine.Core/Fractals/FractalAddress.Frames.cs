@@ -1,4 +1,5 @@
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Visibility;
 
 namespace FractalEngine.Core.Fractals;
 
@@ -167,5 +168,11 @@ public sealed partial class FractalAddress
         var scale = Depth == 0 ? Math.Exp(-LogUnit) : Math.Cbrt(Math.Abs(frameToCamera.Linear.Determinant()));
         _frameToCamera = new(frameToCamera.Linear / scale, frameToCamera.Translation / scale);
         LogUnit = Depth == 0 ? 0 : LogUnit + Math.Log(scale);
+    }
+
+    private double DistanceTo(LodRoot root)
+    {
+        var node = _hierarchy.NodeAt(root.RemainingLevels);
+        return node.IsEmpty ? double.PositiveInfinity : DistanceToBox(node.Box.Transform(root.FrameToCamera), Vector.Zero);
     }
 }

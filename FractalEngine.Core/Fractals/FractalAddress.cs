@@ -293,10 +293,4 @@ public sealed partial class FractalAddress
 
     private static bool IsWithinScale(AffineMap frameToCamera) =>
         frameToCamera.IsFinite() && !(frameToCamera.Linear.MaxAbsEntry() > MaxFrameScale);
-
-    private double DistanceTo(LodRoot root)
-    {
-        var node = _hierarchy.NodeAt(root.RemainingLevels);
-        return node.IsEmpty ? double.PositiveInfinity : DistanceToBox(node.Box.Transform(root.FrameToCamera), Vector.Zero);
-    }
 }

@@ -86,7 +86,7 @@ public sealed partial class Body
     internal Vector PlannedVelocity { get; set; }
 
     /// <summary>How far the planned path leads.</summary>
-    internal Vector PlannedWay { get; set; }
+    internal Vector PlannedDisplacement { get; set; }
 
     /// <summary>True for a body that was of a large island last, see <see cref="ContactTolerances.HeapMargin"/>.</summary>
     internal bool HasHeapMargin { get; set; }

@@ -13,7 +13,7 @@ public sealed partial class PhysicsWorld
     private void MoveIslands(CharacterController? character, double seconds)
     {
         _islandMover.SetTargets();
-        MoveWhatIsInTheWay(character, seconds);
+        MoveObstructing(character, seconds);
         foreach (var island in _planner.Graph.Islands)
         {
             MoveIsland(in island, character, seconds);
@@ -51,10 +51,10 @@ public sealed partial class PhysicsWorld
     }
 
     /// <summary>Moves bodies of no island first that stand where those of islands will be, such as what falls ahead of them.</summary>
-    private void MoveWhatIsInTheWay(CharacterController? character, double seconds)
+    private void MoveObstructing(CharacterController? character, double seconds)
     {
         var hasMoved = false;
-        for (var pair = 0; _islandMover.FindInTheWay(ref pair) is { } body;)
+        for (var pair = 0; _islandMover.FindObstructing(ref pair) is { } body;)
         {
             StepBody(body, character, seconds);
             hasMoved = true;

@@ -9,7 +9,7 @@ public sealed partial class PhysicsWorld
     private readonly List<int> _nearKinematic = new(InitialNeighbourCapacity);
 
     // Of the radius of a body: how far an object goes in a part of a step at most.
-    private const double MaxKinematicWay = 0.25;
+    private const double MaxKinematicTravel = 0.25;
 
     // Parts of a step at most: what is so fast still passes no body that is free.
     private const int MaxParts = 64;
@@ -70,22 +70,22 @@ public sealed partial class PhysicsWorld
         var parts = 1.0;
         foreach (var moved in _kinematics.Objects)
         {
-            var way = moved.MaxSpeed * seconds;
-            if (!(way > 0))
+            var distance = moved.MaxSpeed * seconds;
+            if (!(distance > 0))
             {
                 continue;
             }
 
             if (Character is { IsActive: true } character && character.IsNear(moved.SweptBounds))
             {
-                parts = Math.Max(parts, Math.Ceiling(way / (MaxKinematicWay * character.Description.Radius)));
+                parts = Math.Max(parts, Math.Ceiling(distance / (MaxKinematicTravel * character.Description.Radius)));
             }
 
             _nearKinematic.Clear();
             _nearbyBodies.CollectOverlaps(moved.SweptBounds, 0, Contact.NoBody, _nearKinematic);
             foreach (var index in _nearKinematic)
             {
-                parts = Math.Max(parts, Math.Ceiling(way / (MaxKinematicWay * _bodies[index].Radius)));
+                parts = Math.Max(parts, Math.Ceiling(distance / (MaxKinematicTravel * _bodies[index].Radius)));
             }
         }
 

@@ -1,16 +1,14 @@
 using System.Collections.Immutable;
 using FractalEngine.App.Window.Panels;
-using FractalEngine.App.Window.Selecting;
 using FractalEngine.App.Window.Tools;
 using FractalEngine.Core.Maths;
-using FractalEngine.Parsing.Assets;
 using FractalEngine.Render;
 using FractalEngine.Render.Windowing;
 
 namespace FractalEngine.App.Window.Actions;
 
 /// <summary>All actions of the window. Key bindings, menus, the list of keys and the manual's table follow from it.</summary>
-internal static class ActionTable
+internal static partial class ActionTable
 {
     /// <summary>Menus in the order in which they are shown.</summary>
     public static readonly ImmutableArray<string> Menus = ["File", "Edit", "View", "Go", "Physics", "Window"];
@@ -245,72 +243,4 @@ internal static class ActionTable
     /// <summary>Returns the action with an id.</summary>
     /// <exception cref="InvalidOperationException">There is no such action.</exception>
     public static WindowAction Get(string id) => All.First(action => action.Id == id);
-
-    private static bool HasDocument(WindowActions actions) => actions.Document is not null;
-
-    private static bool HasScene(WindowActions actions) => actions.Document?.File.Kind == FileKind.Scene;
-
-    private static bool HasSelection(WindowActions actions) => actions.Document?.Tool.Selected is not null;
-
-    private static bool HasSection(WindowActions actions) => actions.Document?.Section.IsOn == true;
-
-    private static WindowAction Handles(string id, string name, string verb, Key key, HandleKind kind) =>
-        new(id, "Edit", name, $"{verb} the selected object of a scene by handles, where Ctrl snaps; again for no handles")
-        {
-            Keys = [new(key)],
-            Run = a => a.Show(a.Document!.Tool.ToggleHandles(kind)) | Redraw.Scene,
-            IsOn = a => a.Document?.Tool.Handles == kind,
-            IsAvailable = HasDocument,
-        };
-
-    private static WindowAction Direction(string id, string name, Key key, Vector direction) =>
-        new(id, "View", name, $"view from the {name.ToLowerInvariant()}")
-        {
-            Keys = [new(key)], MoveCamera = (camera, aspect) => camera.LookAlong(direction, aspect), IsAvailable = HasDocument,
-        };
-
-    private static WindowAction Held(string id, string help, params ReadOnlySpan<Key> keys) =>
-        new(id, "Go", "", help) { Keys = [.. keys.ToArray().Select(static key => new KeyChord(key))] };
-
-    private static WindowAction Panel(string panel, string name, string contents, KeyChord key) =>
-        new(panel == "statistics" ? panel : $"panel-{panel}", "Window", name, $"show or hide the panel: {contents}")
-        {
-            Keys = [key],
-            Run = OverlayOf(a => a.Interface.Toggle(panel)),
-            IsOn = a => a.Interface.IsOpen(panel),
-        };
-
-    private static WindowAction Gesture(string id, string gesture, string help) => new(id, "Go", "", help) { Gesture = gesture };
-
-    private static WindowAction Setting(
-        string id, string name, string help, Key? key, string flag, Func<RenderSettings, bool> isOn,
-        Func<RenderSettings, bool, RenderSettings> set, string? onMessage = null, string? offMessage = null) => new(id, "View", name, help)
-        {
-            Keys = key is { } pressed ? [new(pressed)] : [],
-            Flag = flag,
-            IsOn = a => isOn(a.Settings),
-            Run = a =>
-            {
-                var on = !isOn(a.Settings);
-                a.Settings = set(a.Settings, on);
-                return (on ? onMessage : offMessage) is { } message ? a.Show(message) | Redraw.Scene : Redraw.Scene;
-            },
-        };
-
-    private static WindowAction OfPhysics(string id, string name, string help, Key key, Func<Document, string> command) =>
-        new(id, "Physics", name, help) { Keys = [new(key)], Run = Physics(command), IsAvailable = HasDocument };
-
-    private static Func<WindowActions, Redraw> Physics(Func<Document, string> command) => actions => actions.RunPhysics(command);
-
-    private static Func<WindowActions, Redraw> OfTool(Action<SelectionTool> command) => actions =>
-    {
-        command(actions.Document!.Tool);
-        return Redraw.Scene;
-    };
-
-    private static Func<WindowActions, Redraw> OverlayOf(Action<WindowActions> command) => actions =>
-    {
-        command(actions);
-        return Redraw.Overlay;
-    };
 }

@@ -13,20 +13,17 @@ internal readonly struct ShapeNode
     /// <summary>Creates a node of a shape.</summary>
     /// <param name="subFractal">The sub-fractal; null inside the base mesh.</param>
     /// <param name="remainingLevels">Its remaining levels.</param>
-    /// <param name="part">The node or leaf of the base mesh's hierarchy.</param>
-    /// <param name="isBase">True for a base mesh and what is inside.</param>
-    /// <param name="baseIndex">Index of that base mesh; meaningless above.</param>
+    /// <param name="bvhNode">The node or leaf of the base mesh's hierarchy.</param>
+    /// <param name="baseIndex">Index of the base mesh that the node is or is inside of; negative above the base meshes.</param>
     /// <param name="map">From the node's frame to that of the query.</param>
     /// <param name="localBox">A box around the node in its own frame.</param>
     /// <param name="reach">The largest absolute coordinate on the way to the node.</param>
     public ShapeNode(
-        SubFractal? subFractal, long remainingLevels, BvhChild part, bool isBase, int baseIndex, in AffineMap map, BoundingBox localBox,
-        double reach)
+        SubFractal? subFractal, long remainingLevels, BvhChild bvhNode, int baseIndex, in AffineMap map, BoundingBox localBox, double reach)
     {
         SubFractal = subFractal;
         RemainingLevels = remainingLevels;
-        Part = part;
-        IsBase = isBase;
+        BvhNode = bvhNode;
         BaseIndex = baseIndex;
         Map = map;
         LocalBox = localBox;
@@ -43,12 +40,12 @@ internal readonly struct ShapeNode
     public long RemainingLevels { get; }
 
     /// <summary>The node or leaf of the base mesh's hierarchy; meaningless above the base mesh.</summary>
-    public BvhChild Part { get; }
+    public BvhChild BvhNode { get; }
 
     /// <summary>True for a base mesh and what is inside.</summary>
-    public bool IsBase { get; }
+    public bool IsBase => BaseIndex >= 0;
 
-    /// <summary>Index of that base mesh; meaningless above.</summary>
+    /// <summary>Index of that base mesh; negative above.</summary>
     public int BaseIndex { get; }
 
     /// <summary>From the node's frame to that of the query.</summary>

@@ -81,7 +81,7 @@ internal sealed class ShapeTree
 
     /// <summary>Number of places for children; 0 for a leaf.</summary>
     public int ChildCount(in ShapeNode node) => !node.IsBase ? node.SubFractal!.Children.Length
-        : _bvhs?[node.BaseIndex] is { HasNodes: true } && node.Part.IsNode ? BvhLayout.BranchingFactor
+        : _bvhs?[node.BaseIndex] is { HasNodes: true } && node.BvhNode.IsNode ? BvhLayout.BranchingFactor
         : 0;
 
     /// <summary>Makes the node for one child of a node, in a sub-fractal or in a base mesh.</summary>
@@ -95,8 +95,8 @@ internal sealed class ShapeTree
     {
         if (node.IsBase)
         {
-            var exists = _bvhs![node.BaseIndex].TryGetChild(node.Part, index, out var part, out var box);
-            child = exists ? new(null, 0, part, isBase: true, node.BaseIndex, node.Map, box, node.Reach) : default;
+            var exists = _bvhs![node.BaseIndex].TryGetChild(node.BvhNode, index, out var bvhNode, out var box);
+            child = exists ? new(null, 0, bvhNode, node.BaseIndex, node.Map, box, node.Reach) : default;
             return exists;
         }
 
@@ -116,7 +116,7 @@ internal sealed class ShapeTree
 
     /// <summary>The face indices of a leaf.</summary>
     public ReadOnlySpan<int> Faces(in ShapeNode leaf) => _bvhs?[leaf.BaseIndex] is not { } bvh ? _allFaces
-        : bvh.HasNodes ? bvh.Faces(leaf.Part)
+        : bvh.HasNodes ? bvh.Faces(leaf.BvhNode)
         : bvh.AllFaces;
 
     /// <summary>Computes the corners of a face.</summary>
@@ -151,8 +151,8 @@ internal sealed class ShapeTree
         _hierarchy!.IsBase(levels) ? CreateBase(subFractal, subFractal.BaseIndex, in map, reach)
         : depth >= FractalSearchState.MaxDepth || subFractal.RadiusSquared * FrobeniusNormSquared(in map) <= minRadiusSquared
             ? CreateBase(null, subFractal.BaseIndex, in map, reach)
-            : new(subFractal, levels, default, isBase: false, 0, in map, subFractal.Box, reach);
+            : new(subFractal, levels, default, baseIndex: -1, in map, subFractal.Box, reach);
 
     private ShapeNode CreateBase(SubFractal? subFractal, int baseIndex, in AffineMap map, double reach) =>
-        new(subFractal, 0, BvhChild.Root, isBase: true, baseIndex, in map, subFractal?.Box ?? _meshes[baseIndex].Bounds, reach);
+        new(subFractal, 0, BvhChild.Root, baseIndex, in map, subFractal?.Box ?? _meshes[baseIndex].Bounds, reach);
 }

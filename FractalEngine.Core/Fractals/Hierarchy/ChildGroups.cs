@@ -40,13 +40,13 @@ internal static class ChildGroups
 
         (ChildInstance[], BoundingBox[]) CreateGroups(Range range)
         {
-            var parts = partition.Split(range, GroupSize, GroupSize);
-            var boxes = new BoundingBox[parts.Count];
-            var groups = new ChildInstance[parts.Count];
+            var ranges = partition.Split(range, GroupSize, GroupSize);
+            var boxes = new BoundingBox[ranges.Count];
+            var groups = new ChildInstance[ranges.Count];
             for (var i = 0; i < groups.Length; i++)
             {
-                boxes[i] = partition.BoundsOf(parts[i]);
-                groups[i] = ChildInstance.Of(CreateGroup(parts[i], boxes[i]));
+                boxes[i] = partition.BoundsOf(ranges[i]);
+                groups[i] = ChildInstance.Of(CreateGroup(ranges[i], boxes[i]));
             }
 
             return (groups, boxes);
@@ -54,24 +54,33 @@ internal static class ChildGroups
 
         SubFractal CreateGroup(Range range, BoundingBox box)
         {
-            var (parts, boxes) = BoxPartition.CountOf(range) > GroupSize ? CreateGroups(range) : CollectChildren(partition.Order[range]);
-            var hasFirstHull = parts[0].Group is null && parts[0].LevelStep == children[0].LevelStep;
-            return new(
-                set, parts, boxes, box, parentBox, null, hasFirstHull ? childHull : null, null, null,
-                hasOnlySimilarities, baseIndex, isGroup: true);
+            var (members, boxes) = BoxPartition.CountOf(range) > GroupSize ? CreateGroups(range) : CollectChildren(partition.Order[range]);
+            var hasFirstHull = members[0].Group is null && members[0].LevelStep == children[0].LevelStep;
+            return new(new()
+            {
+                Set = set,
+                Children = members,
+                ChildBoxes = boxes,
+                ChildHull = hasFirstHull ? childHull : null,
+                Box = box,
+                BaseBox = parentBox,
+                HasOnlySimilarities = hasOnlySimilarities,
+                BaseIndex = baseIndex,
+                IsGroup = true,
+            });
         }
 
-        (ChildInstance[], BoundingBox[]) CollectChildren(ReadOnlySpan<int> members)
+        (ChildInstance[], BoundingBox[]) CollectChildren(ReadOnlySpan<int> indices)
         {
-            var parts = new ChildInstance[members.Length];
-            var boxes = new BoundingBox[members.Length];
-            for (var i = 0; i < members.Length; i++)
+            var members = new ChildInstance[indices.Length];
+            var boxes = new BoundingBox[indices.Length];
+            for (var i = 0; i < indices.Length; i++)
             {
-                parts[i] = children[nonEmpty[members[i]]];
-                boxes[i] = childBoxes[nonEmpty[members[i]]];
+                members[i] = children[nonEmpty[indices[i]]];
+                boxes[i] = childBoxes[nonEmpty[indices[i]]];
             }
 
-            return (parts, boxes);
+            return (members, boxes);
         }
     }
 }

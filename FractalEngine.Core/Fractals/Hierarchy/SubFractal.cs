@@ -26,50 +26,28 @@ internal sealed class SubFractal
     // That of a group is created at its first use, twice at worst and with the same result: wide sets have thousands.
     private ConvexSolid? _solid;
 
-    /// <summary>Creates the sub-fractal of a level.</summary>
-    /// <param name="set">The set of the level; null for the base.</param>
-    /// <param name="children">The children; none for the base.</param>
-    /// <param name="childBoxes">Boxes around the children, in this frame.</param>
-    /// <param name="box">A box around the sub-fractal.</param>
-    /// <param name="baseBox">The box of the base mesh.</param>
-    /// <param name="hull">A hull around the sub-fractal, if it bounds better than the box.</param>
-    /// <param name="childHull">The hull of the sub-fractal that the first child is an instance of.</param>
-    /// <param name="solid">A convex solid around the sub-fractal; null where it is empty, and for groups.</param>
-    /// <param name="clusters">Boxes that bound better than one; null where they don't.</param>
-    /// <param name="hasOnlySimilarities">True when all maps of the fractal are similarities: only then floats are searched.</param>
-    /// <param name="baseIndex">Index of the base mesh, see <see cref="BaseIndex"/>.</param>
-    /// <param name="isGroup">True for a group of children: no child is an instance of it, so that floats are not needed.</param>
-    public SubFractal(
-        MapSet? set,
-        ChildInstance[] children,
-        ReadOnlySpan<BoundingBox> childBoxes,
-        BoundingBox box,
-        BoundingBox baseBox,
-        HullBound? hull,
-        HullBound? childHull,
-        ConvexSolid? solid,
-        ClusterBounds? clusters,
-        bool hasOnlySimilarities,
-        int baseIndex,
-        bool isGroup = false)
+    /// <summary>Creates a sub-fractal, and prepares its bounds for searches.</summary>
+    public SubFractal(in SubFractalDescription description)
     {
-        _solid = solid;
-        _isGroup = isGroup;
-        _baseIndex = checked((ushort)baseIndex);
-        Clusters = clusters;
-        Set = set;
-        Children = children;
-        Box = box;
-        Hull = hull;
-        Centre = SimdAffineMap.ToVector256(box.Centre);
-        _halfSize = SimdAffineMap.ToVector256((0.5 + RoundingErrors.MappedPoint) * box.Size);
-        Floats = !hasOnlySimilarities || isGroup ? null
-            : hull is null ? new(box, [], [], 0)
-            : new(box, hull.Planes, hull.CopyVertices(), hull.Margin);
-        Lanes = hasOnlySimilarities && clusters is null
-            ? ChildLanes.CreateOrNull(children, childBoxes, childHull, BoundingBox.Union(box, baseBox))
+        _solid = description.Solid;
+        _isGroup = description.IsGroup;
+        _baseIndex = checked((ushort)description.BaseIndex);
+        Clusters = description.Clusters;
+        Set = description.Set;
+        Children = description.Children;
+        Box = description.Box;
+        Hull = description.Hull;
+        Centre = SimdAffineMap.ToVector256(Box.Centre);
+        _halfSize = SimdAffineMap.ToVector256((0.5 + RoundingErrors.MappedPoint) * Box.Size);
+        Floats = !description.HasOnlySimilarities || _isGroup ? null
+            : Hull is null ? new(Box, [], [], 0)
+            : new(Box, Hull.Planes, Hull.CopyVertices(), Hull.Margin);
+        var boxWithBase = BoundingBox.Union(Box, description.BaseBox);
+        var childBoxes = description.ChildBoxes;
+        Lanes = description.HasOnlySimilarities && Clusters is null
+            ? ChildLanes.CreateOrNull(Children, childBoxes, description.ChildHull, boxWithBase)
             : null;
-        PaddedCount = VectorX4.PaddedCount(children.Length);
+        PaddedCount = VectorX4.PaddedCount(Children.Length);
         ChildBounds = new double[ValuesPerChild * PaddedCount];
         for (var i = 0; i < PaddedCount; i++)
         {
@@ -83,9 +61,11 @@ internal sealed class SubFractal
             }
         }
 
-        HasRotatedChildren = !UnrotatedChildBounds.HasNoRotation(children);
-        UnrotatedBounds = children.Length > 0 ? UnrotatedChildBounds.CreateOrNull(childHull, children, PaddedCount) : null;
-        RadiusSquared = 0.25 * BoundingBox.Union(Box, baseBox).Size.LengthSquared();
+        HasRotatedChildren = !UnrotatedChildBounds.HasNoRotation(Children);
+        UnrotatedBounds = Children.Length > 0
+            ? UnrotatedChildBounds.CreateOrNull(description.ChildHull, Children, PaddedCount)
+            : null;
+        RadiusSquared = 0.25 * boxWithBase.Size.LengthSquared();
     }
 
     /// <summary>The set of this level; null for the base.</summary>

@@ -21,8 +21,16 @@ internal sealed class SubFractalFactory(Mesh[] baseMeshes, bool hasOnlySimilarit
     public SubFractal CreateBase(int baseIndex)
     {
         var volume = BaseVolumes[baseIndex];
-        return new(
-            null, [], [], volume.Box, volume.Box, CreateHullBound(volume), null, CreateSolid(volume), null, hasOnlySimilarities, baseIndex);
+        return new(new()
+        {
+            Children = [],
+            Box = volume.Box,
+            BaseBox = volume.Box,
+            Hull = CreateHullBound(volume),
+            Solid = CreateSolid(volume),
+            HasOnlySimilarities = hasOnlySimilarities,
+            BaseIndex = baseIndex,
+        });
     }
 
     /// <summary>Creates the sub-fractal of a level.</summary>
@@ -49,10 +57,20 @@ internal sealed class SubFractalFactory(Mesh[] baseMeshes, bool hasOnlySimilarit
             childHull = null;
         }
 
-        var hull = CreateHullBound(volume);
-        return new(
-            set, children, childBoxes, volume.Box, baseBox, hull, childHull, CreateSolid(volume), CreateClusters(volume),
-            hasOnlySimilarities, baseIndex);
+        return new(new()
+        {
+            Set = set,
+            Children = children,
+            ChildBoxes = childBoxes,
+            ChildHull = childHull,
+            Box = volume.Box,
+            BaseBox = baseBox,
+            Hull = CreateHullBound(volume),
+            Solid = CreateSolid(volume),
+            Clusters = CreateClusters(volume),
+            HasOnlySimilarities = hasOnlySimilarities,
+            BaseIndex = baseIndex,
+        });
     }
 
     private static ClusterBounds? CreateClusters(BoundingVolume volume) => volume.Clusters.Length > 1 ? new(volume.Clusters) : null;

@@ -27,7 +27,7 @@ internal static class CapsuleRows
             {
                 for (var k = 0; k < rows.Length && !isInner[i]; k++)
                 {
-                    isInner[i] = rows[j].Part < rows[i].Part && rows[k].Part > rows[i].Part
+                    isInner[i] = rows[j].FeatureId < rows[i].FeatureId && rows[k].FeatureId > rows[i].FeatureId
                         && IsBetween(in rows[i], in rows[j], in rows[k]);
                 }
             }
@@ -47,7 +47,7 @@ internal static class CapsuleRows
 
     private static bool IsBetween(in ContactRow row, in ContactRow lower, in ContactRow upper)
     {
-        var share = (row.Part - lower.Part) / (double)(upper.Part - lower.Part);
+        var share = (row.FeatureId - lower.FeatureId) / (double)(upper.FeatureId - lower.FeatureId);
         return !row.IsBall && !lower.IsBall && !upper.IsBall
             && (row.Normal - lower.Normal).LengthSquared() <= SameNormal && (row.Normal - upper.Normal).LengthSquared() <= SameNormal
             && Height(in row) >= ((1 - share) * Height(in lower)) + (share * Height(in upper)) - (SamePlane * row.FirstRadius);

@@ -172,10 +172,10 @@ internal sealed partial class ContactGraph
         ref readonly var first = ref _states[pair.First];
         ref readonly var second = ref _states[pair.Second];
         var offset = first.Position - second.Position;
-        var way = _stepLength * RelativeVelocity(in pair);
-        var wayLengthSquared = way.LengthSquared();
-        var share = wayLengthSquared > 0 ? Math.Clamp(-Vector.Dot(offset, way) / wayLengthSquared, 0, 1) : 0;
+        var displacement = _stepLength * RelativeVelocity(in pair);
+        var lengthSquared = displacement.LengthSquared();
+        var share = lengthSquared > 0 ? Math.Clamp(-Vector.Dot(offset, displacement) / lengthSquared, 0, 1) : 0;
         var distance = first.Radius + second.Radius + DeviationLimit(in first) + (pair.IsSecondImmovable ? 0 : DeviationLimit(in second));
-        return (offset + (share * way)).LengthSquared() <= distance * distance;
+        return (offset + (share * displacement)).LengthSquared() <= distance * distance;
     }
 }

@@ -16,7 +16,7 @@ internal sealed partial class ContactGraph
         foreach (ref readonly var row in rows)
         {
             kinds |= row.Second >= 0 ? RowKinds.None : RowKinds.Immovable;
-            kinds |= row.SurfaceWay != Vector.Zero ? RowKinds.Pushing : RowKinds.None;
+            kinds |= row.SurfaceDisplacement != Vector.Zero ? RowKinds.Pushing : RowKinds.None;
             kinds |= row.IsOnMovingSurface ? RowKinds.Moving : RowKinds.None;
         }
 

@@ -9,7 +9,7 @@ internal struct ContactRow
     public const int Immovable = -1;
 
     // Above the bits of both indices, unless there are millions of bodies: then contacts may be taken for others, and begin badly.
-    private const int PartShift = 52;
+    private const int FeatureShift = 52;
 
     /// <summary>Index of the body on the normal's side.</summary>
     public int First;
@@ -17,8 +17,8 @@ internal struct ContactRow
     /// <summary>Index of the other body, or <see cref="Immovable"/>.</summary>
     public int Second;
 
-    /// <summary>Which balls of the two bodies touch.</summary>
-    public int Part;
+    /// <summary>Which balls touch: the index of the first body's, plus that of the second's times their maximum number.</summary>
+    public int FeatureId;
 
     /// <summary>True for two balls, whose line of contact turns as they move; false for the plane of a surface.</summary>
     public bool IsBall;
@@ -92,7 +92,7 @@ internal struct ContactRow
     private Vector _turnImpulse;
     private Vector _surfaceVelocity;
     private Vector _surfaceSpin;
-    private Vector _surfaceWay;
+    private Vector _surfaceDisplacement;
 
     /// <summary>Centre of the first ball relative to the first body's position.</summary>
     public readonly Vector FirstArm => HasArms ? _firstArm : Vector.Zero;
@@ -130,7 +130,7 @@ internal struct ContactRow
     public readonly Vector SurfaceSpin => _hasSurface ? _surfaceSpin : Vector.Zero;
 
     /// <summary>How far a surface goes in the step, its belt aside.</summary>
-    public readonly Vector SurfaceWay => _hasSurface ? _surfaceWay : Vector.Zero;
+    public readonly Vector SurfaceDisplacement => _hasSurface ? _surfaceDisplacement : Vector.Zero;
 
     /// <summary>True for the contact with a surface that moves or turns.</summary>
     public readonly bool IsOnMovingSurface => Second < 0 && (SurfaceVelocity != Vector.Zero || SurfaceSpin != Vector.Zero);
@@ -151,7 +151,7 @@ internal struct ContactRow
         row.IsAhead = false;
         row.HasArms = false;
         row._hasSurface = false;
-        row.Part = 0;
+        row.FeatureId = 0;
         row.NormalImpulse = 0;
         row.FrictionImpulse = Vector.Zero;
     }
@@ -166,17 +166,17 @@ internal struct ContactRow
     }
 
     /// <summary>Sets how the surface moves.</summary>
-    public void SetSurface(Vector velocity, Vector spin, Vector way)
+    public void SetSurface(Vector velocity, Vector spin, Vector displacement)
     {
         _hasSurface = true;
         _surfaceVelocity = velocity;
         _surfaceSpin = spin;
-        _surfaceWay = way;
+        _surfaceDisplacement = displacement;
     }
 
     /// <summary>Radius of the smaller one of two balls, as a share of the distance between them.</summary>
     public readonly double SmallerRadiusShare => Math.Min(FirstRadius, SecondRadius) / MinDistance;
 
     /// <summary>Says which contact it is, from step to step: both indices, and which of their balls.</summary>
-    public readonly long Key => (((long)First << 32) | (uint)(Second + 1)) ^ ((long)Part << PartShift);
+    public readonly long Key => (((long)First << 32) | (uint)(Second + 1)) ^ ((long)FeatureId << FeatureShift);
 }

@@ -28,7 +28,7 @@ internal static class ContactRows
             IsAhead = isAhead,
             RollingArm = body.Description.RollingFriction * body.BallRadius(ball),
             SpinningArm = body.Description.SpinningFriction * body.BallRadius(ball),
-            Part = ball,
+            FeatureId = ball,
         };
         row.Normal = row.Offset.UnitVectorOrZero();
         if (body.IsCompound)
@@ -79,7 +79,7 @@ internal static class ContactRows
             row.SetArms(body.BallOffset(ball), other.BallOffset(otherBall));
         }
 
-        row.Part = (MaxBalls * otherBall) + ball;
+        row.FeatureId = (MaxBalls * otherBall) + ball;
     }
 
     /// <summary>Sets the shape of a contact of two balls.</summary>

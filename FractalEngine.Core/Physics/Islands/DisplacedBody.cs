@@ -5,11 +5,11 @@ namespace FractalEngine.Core.Physics.Islands;
 /// <summary>What a separation of overlapping bodies needs of a body.</summary>
 internal struct DisplacedBody
 {
-    /// <summary>Way from the beginning of the step.</summary>
-    public Vector Way;
+    /// <summary>Displacement from the beginning of the step.</summary>
+    public Vector Displacement;
 
-    /// <summary>Way when contacts were last chosen that are near touching.</summary>
-    public Vector ChosenWay;
+    /// <summary>Displacement when contacts were last chosen that are near touching.</summary>
+    public Vector ChosenDisplacement;
 
     /// <summary>Inverse of the mass, 1/kg; 0 for a body that is held.</summary>
     public double InverseMass;

@@ -42,7 +42,7 @@ internal readonly struct Gap
     {
         First = row.First;
         Second = row.Second;
-        Offset = row.HasArms ? row.Offset + row.TurnShift - row.SurfaceWay : row.Offset - row.SurfaceWay;
+        Offset = row.HasArms ? row.Offset + row.TurnShift - row.SurfaceDisplacement : row.Offset - row.SurfaceDisplacement;
         Normal = row.Normal;
         MinDistance = row.MinDistance;
         var unit = row.IsBall ? row.MinDistance * row.SmallerRadiusShare : 0;

@@ -44,11 +44,11 @@ internal sealed class GapGroup
     {
         foreach (ref readonly var row in rows)
         {
-            var offset = row.Offset + movers[row.First].Way;
-            offset -= row.Second >= 0 ? movers[row.Second].Way : Vector.Zero;
+            var offset = row.Offset + movers[row.First].Displacement;
+            offset -= row.Second >= 0 ? movers[row.Second].Displacement : Vector.Zero;
             var maxDistance = row.MinDistance * (1 + aim.MaxGap);
             // The few that are more than balls are compared by their gaps.
-            if (row is { IsBall: true, HasFixedNormal: false, HasArms: false } && row.SurfaceWay == Vector.Zero
+            if (row is { IsBall: true, HasFixedNormal: false, HasArms: false } && row.SurfaceDisplacement == Vector.Zero
                 && offset.LengthSquared() >= maxDistance * maxDistance)
             {
                 continue;
@@ -155,7 +155,7 @@ internal sealed class GapGroup
         if (gap.IsOneSided && secondWeight > 0 && firstWeight > 0)
         {
             // The faster one ends where it touches.
-            var isFirstFaster = first.Way.LengthSquared() >= movers[gap.Second].Way.LengthSquared();
+            var isFirstFaster = first.Displacement.LengthSquared() >= movers[gap.Second].Displacement.LengthSquared();
             firstWeight = isFirstFaster ? firstWeight : 0;
             secondWeight = isFirstFaster ? 0 : secondWeight;
         }
@@ -168,11 +168,11 @@ internal sealed class GapGroup
 
         var overlap = gap.MinDistance - distance;
         var shift = ((gap.Relaxation * overlap) - gap.Aimed) / sum * normal;
-        first.Way += firstWeight * shift;
+        first.Displacement += firstWeight * shift;
         first.HasMoved = true;
         if (gap.Second >= 0)
         {
-            movers[gap.Second].Way -= secondWeight * shift;
+            movers[gap.Second].Displacement -= secondWeight * shift;
             movers[gap.Second].HasMoved = true;
         }
 
@@ -181,5 +181,5 @@ internal sealed class GapGroup
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     private static Vector OffsetOf(in Gap gap, ReadOnlySpan<DisplacedBody> movers) => gap.Second >= 0
-        ? gap.Offset + (movers[gap.First].Way - movers[gap.Second].Way) : gap.Offset + movers[gap.First].Way;
+        ? gap.Offset + (movers[gap.First].Displacement - movers[gap.Second].Displacement) : gap.Offset + movers[gap.First].Displacement;
 }

@@ -108,12 +108,12 @@ internal sealed partial class IslandMover
     {
         _hasOverlap = false;
         WorkerSet.Shared.Run((_graph.Pairs.Length + PairsPerJob - 1) / PairsPerJob, _maxThreads, _testPairs);
-        var hasReturned = false;
         if (!_hasOverlap)
         {
-            return hasReturned;
+            return false;
         }
 
+        var hasReturned = false;
         foreach (ref readonly var pair in _graph.Pairs)
         {
             var first = _bodies[pair.First];

@@ -89,7 +89,7 @@ internal sealed partial class IslandMover
     /// <summary>Finds a body of no island that stands where one of an island will be. It has to go first.</summary>
     /// <param name="pairIndex">Index of the pair from which to search; receives that after the one found.</param>
     /// <returns>Null where there is none left.</returns>
-    public Body? FindInTheWay(ref int pairIndex)
+    public Body? FindObstructing(ref int pairIndex)
     {
         var pairs = _graph.Islands is [var only] && only.BodyCount == _bodies.Count ? [] : _graph.Pairs;
         while (pairIndex < pairs.Length)
@@ -195,7 +195,7 @@ internal sealed partial class IslandMover
         {
             var body = _bodies[index];
             body.PlannedStart = body.Position;
-            body.Target = body.Position + body.PlannedWay;
+            body.Target = body.Position + body.PlannedDisplacement;
             body.IsHeld = false;
         }
     }
@@ -206,7 +206,7 @@ internal sealed partial class IslandMover
         {
             if (_separator.HasMoved(index))
             {
-                _bodies[index].Target = _bodies[index].PlannedStart + _separator.WayOf(index);
+                _bodies[index].Target = _bodies[index].PlannedStart + _separator.DisplacementOf(index);
             }
         }
     }

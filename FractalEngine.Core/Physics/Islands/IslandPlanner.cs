@@ -293,7 +293,7 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
             // Of a large island, what touches nothing follows its parabola too.
             var isStraight = isLarge && change != Vector.Zero
                 && _solver.Bodies[index].Velocity != body.Velocity + (stepLength * body.FreeAcceleration);
-            body.PlannedWay = stepLength * (body.Velocity + (isStraight ? change : 0.5 * stepLength * body.NetAcceleration));
+            body.PlannedDisplacement = stepLength * (body.Velocity + (isStraight ? change : 0.5 * stepLength * body.NetAcceleration));
         }
     }
 }

@@ -60,17 +60,17 @@ internal sealed class OverlapSeparator
         }
     }
 
-    /// <summary>Sets the way of a body from the beginning of the step, and its inverse mass; 0 where it is held.</summary>
-    public void SetBody(int index, Vector way, double inverseMass) => 
-        _movers[index] = new() { Way = way, ChosenWay = way, InverseMass = inverseMass };
+    /// <summary>Sets the displacement of a body from the beginning of the step, and its inverse mass; 0 where it is held.</summary>
+    public void SetBody(int index, Vector displacement, double inverseMass) =>
+        _movers[index] = new() { Displacement = displacement, ChosenDisplacement = displacement, InverseMass = inverseMass };
 
-    /// <summary>The way of a body after the separation.</summary>
-    public Vector WayOf(int index) => _movers[index].Way;
+    /// <summary>The displacement of a body after the separation.</summary>
+    public Vector DisplacementOf(int index) => _movers[index].Displacement;
 
-    /// <summary>True for a body whose way has been changed.</summary>
+    /// <summary>True for a body whose displacement has been changed.</summary>
     public bool HasMoved(int index) => _movers[index].HasMoved;
 
-    /// <summary>Separates all bodies of an island, whose ways must have been set.</summary>
+    /// <summary>Separates all bodies of an island, whose displacements must have been set.</summary>
     /// <param name="island">The island. Balls of a large one keep a margin, see <see cref="ContactTolerances.HeapMargin"/>.</param>
     /// <param name="others">Contacts that no plan knew.</param>
     public void Separate(in Island island, ReadOnlySpan<ContactRow> others)
@@ -134,8 +134,8 @@ internal sealed class OverlapSeparator
             ref var mover = ref _movers[index];
             if (mover.HasMoved)
             {
-                maxShiftSquared = Math.Max(maxShiftSquared, (mover.Way - mover.ChosenWay).LengthSquared());
-                mover.ChosenWay = mover.Way;
+                maxShiftSquared = Math.Max(maxShiftSquared, (mover.Displacement - mover.ChosenDisplacement).LengthSquared());
+                mover.ChosenDisplacement = mover.Displacement;
             }
         }
 

@@ -1,0 +1,80 @@
+using FractalEngine.App.Window.Selecting;
+using FractalEngine.App.Window.Tools;
+using FractalEngine.Core.Maths;
+using FractalEngine.Parsing.Assets;
+using FractalEngine.Render;
+using FractalEngine.Render.Windowing;
+
+namespace FractalEngine.App.Window.Actions;
+
+/// <content>What actions of one kind have in common, and when they are available.</content>
+internal static partial class ActionTable
+{
+    private static bool HasDocument(WindowActions actions) => actions.Document is not null;
+
+    private static bool HasScene(WindowActions actions) => actions.Document?.File.Kind == FileKind.Scene;
+
+    private static bool HasSelection(WindowActions actions) => actions.Document?.Tool.Selected is not null;
+
+    private static bool HasSection(WindowActions actions) => actions.Document?.Section.IsOn == true;
+
+    private static WindowAction Handles(string id, string name, string verb, Key key, HandleKind kind) =>
+        new(id, "Edit", name, $"{verb} the selected object of a scene by handles, where Ctrl snaps; again for no handles")
+        {
+            Keys = [new(key)],
+            Run = a => a.Show(a.Document!.Tool.ToggleHandles(kind)) | Redraw.Scene,
+            IsOn = a => a.Document?.Tool.Handles == kind,
+            IsAvailable = HasDocument,
+        };
+
+    private static WindowAction Direction(string id, string name, Key key, Vector direction) =>
+        new(id, "View", name, $"view from the {name.ToLowerInvariant()}")
+        {
+            Keys = [new(key)], MoveCamera = (camera, aspect) => camera.LookAlong(direction, aspect), IsAvailable = HasDocument,
+        };
+
+    private static WindowAction Held(string id, string help, params ReadOnlySpan<Key> keys) =>
+        new(id, "Go", "", help) { Keys = [.. keys.ToArray().Select(static key => new KeyChord(key))] };
+
+    private static WindowAction Panel(string panel, string name, string contents, KeyChord key) =>
+        new(panel == "statistics" ? panel : $"panel-{panel}", "Window", name, $"show or hide the panel: {contents}")
+        {
+            Keys = [key],
+            Run = OverlayOf(a => a.Interface.Toggle(panel)),
+            IsOn = a => a.Interface.IsOpen(panel),
+        };
+
+    private static WindowAction Gesture(string id, string gesture, string help) => new(id, "Go", "", help) { Gesture = gesture };
+
+    private static WindowAction Setting(
+        string id, string name, string help, Key? key, string flag, Func<RenderSettings, bool> isOn,
+        Func<RenderSettings, bool, RenderSettings> set, string? onMessage = null, string? offMessage = null) => new(id, "View", name, help)
+        {
+            Keys = key is { } pressed ? [new(pressed)] : [],
+            Flag = flag,
+            IsOn = a => isOn(a.Settings),
+            Run = a =>
+            {
+                var on = !isOn(a.Settings);
+                a.Settings = set(a.Settings, on);
+                return (on ? onMessage : offMessage) is { } message ? a.Show(message) | Redraw.Scene : Redraw.Scene;
+            },
+        };
+
+    private static WindowAction OfPhysics(string id, string name, string help, Key key, Func<Document, string> command) =>
+        new(id, "Physics", name, help) { Keys = [new(key)], Run = Physics(command), IsAvailable = HasDocument };
+
+    private static Func<WindowActions, Redraw> Physics(Func<Document, string> command) => actions => actions.RunPhysics(command);
+
+    private static Func<WindowActions, Redraw> OfTool(Action<SelectionTool> command) => actions =>
+    {
+        command(actions.Document!.Tool);
+        return Redraw.Scene;
+    };
+
+    private static Func<WindowActions, Redraw> OverlayOf(Action<WindowActions> command) => actions =>
+    {
+        command(actions);
+        return Redraw.Overlay;
+    };
+}
