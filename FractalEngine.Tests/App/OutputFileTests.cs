@@ -1,5 +1,4 @@
 using System.Diagnostics;
-using System.Globalization;
 using FractalEngine.App;
 using FractalEngine.Tests.Support;
 
@@ -19,13 +18,13 @@ public sealed class OutputFileTests : IDisposable
     [InlineData("HUP")]
     public void Export_EndedByASignalWhileWriting_LeavesNoFile(string signal)
     {
-        Skip.If(OperatingSystem.IsWindows(), "there are no POSIX signals");
+        Signals.Require(signal);
         _folder.Write("row.fdo", SampleFiles.Row("21"));
         using var process = AppProcess.Start(_folder.Path, [], "export", "row.fdo", "--output", "t.obj");
         try
         {
             Polling.WaitUntil(() => Directory.GetFiles(_folder.Path, "*.tmp").Length > 0, "output file");
-            Process.Start("kill", ["-s", signal, process.Id.ToString(CultureInfo.InvariantCulture)]).WaitForExit();
+            Signals.Send(process, signal);
             Assert.True(process.WaitForExit(Polling.Deadline), "the process does not end");
         }
         finally
@@ -42,18 +41,26 @@ public sealed class OutputFileTests : IDisposable
     [InlineData("TERM")]
     public void Trace_EndedByASignal_SaysSoAndLeavesNoFile(string signal)
     {
-        Skip.If(OperatingSystem.IsWindows(), "there are no POSIX signals");
+        Signals.Require(signal);
         using var process = AppProcess.Start(
             _folder.Path, [], "render", "cube.obj", "--output", "t.png", "--trace", "1000000", "--resolution", "200x200", "--verbose");
-        // Its time is told when the preparation is done; then samples are added.
-        for (var line = ""; !line.StartsWith("prepare", StringComparison.Ordinal);)
+        try
         {
-            line = process.StandardError.ReadLine() ?? throw new EndOfStreamException("the process has ended");
+            // Its time is told when the preparation is done; then samples are added.
+            for (var line = ""; !line.StartsWith("prepare", StringComparison.Ordinal);)
+            {
+                line = process.StandardError.ReadLine() ?? throw new EndOfStreamException("the process has ended");
+            }
+
+            Thread.Sleep(TimeSpan.FromMilliseconds(100));
+            Signals.Send(process, signal);
+            Assert.True(process.WaitForExit(Polling.Deadline), "the process does not end");
+        }
+        finally
+        {
+            process.Kill();
         }
 
-        Thread.Sleep(TimeSpan.FromMilliseconds(100));
-        Process.Start("kill", ["-s", signal, process.Id.ToString(CultureInfo.InvariantCulture)]).WaitForExit();
-        Assert.True(process.WaitForExit(Polling.Deadline), "the process does not end");
         Assert.Equal((130, "error: interrupted"), (process.ExitCode, process.StandardError.ReadToEnd().Trim()));
         Assert.Equal(["cube.obj"], Directory.GetFiles(_folder.Path).Select(Path.GetFileName));
     }
@@ -63,12 +70,20 @@ public sealed class OutputFileTests : IDisposable
     [InlineData("TERM")]
     public void Query_EndedByASignal_ExitsWith130AtOnce(string signal)
     {
-        Skip.If(OperatingSystem.IsWindows(), "there are no POSIX signals");
+        Signals.Require(signal);
         File.WriteAllLines(_folder["points.txt"], Enumerable.Repeat("1 2 3", 5_000_000));
         using var process = AppProcess.Start(_folder.Path, [], "query", "cube.obj", "--points", "points.txt", "--collider", "simple");
-        Thread.Sleep(TimeSpan.FromSeconds(1));
-        Process.Start("kill", ["-s", signal, process.Id.ToString(CultureInfo.InvariantCulture)]).WaitForExit();
-        Assert.True(process.WaitForExit(Polling.Deadline), "the process does not end");
+        try
+        {
+            Thread.Sleep(TimeSpan.FromSeconds(1));
+            Signals.Send(process, signal);
+            Assert.True(process.WaitForExit(Polling.Deadline), "the process does not end");
+        }
+        finally
+        {
+            process.Kill();
+        }
+
         Assert.Equal((130, ""), (process.ExitCode, process.StandardError.ReadToEnd()));
     }
 

@@ -53,24 +53,15 @@ public class MovingObjectTests
     [InlineData(2, 0.3)]
     [InlineData(20, 0)]
     [InlineData(60, 0.5)]
-    public void Blade_ThatTurns_CutsThroughNothing(double angularSpeed, double friction) => Seeded.Run(2, random =>
-    {
-        var world = new PhysicsWorld();
-        world.AddStatic(PhysicsMeshes.FloorMesh());
-        var blade = world.AddStatic(PhysicsMeshes.Cube, Box(new(0, 1.01, 0), new(8, 2, 0.1)));
-        world.AddRange(Enumerable.Range(0, 20).Select(_ => new BodyDescription(
-            new(random.Between(-3, 3), random.Between(0.4, 3), (random.NextDouble() < 0.5 ? -1 : 1) * random.Between(0.5, 3)), 0.3)
-        {
-            Friction = friction, Restitution = 0.3,
-        }));
-        blade.SetMotion(Vector.Zero, new(0, angularSpeed, 0));
-        world.Run(120, () => Assert.All(world.Bodies, body =>
-        {
-            Assert.True(world.TryFindClosest(body.Position, ColliderKind.Exact, out var closest));
-            var overlap = body.Radius - closest.Distance;
-            Assert.True(body.IsStuck || overlap < 2e-6, $"{body.Name} overlaps by {overlap:R}");
-        }));
-    });
+    public void Blade_ThatTurns_CutsThroughNothing(double angularSpeed, double friction) => CheckBlade(angularSpeed, friction, worlds: 1);
+
+    [Theory]
+    [InlineData(2, 0.3)]
+    [InlineData(20, 0)]
+    [InlineData(60, 0.5)]
+    [Trait("Category", "Soak")]
+    public void Blade_ThatTurnsInManyWorlds_CutsThroughNothing(double angularSpeed, double friction) =>
+        CheckBlade(angularSpeed, friction, worlds: 10);
 
     [Theory]
     [InlineData(-1, 0)]
@@ -393,6 +384,25 @@ public class MovingObjectTests
         }));
         return world;
     }
+
+    private static void CheckBlade(double angularSpeed, double friction, int worlds) => Seeded.Run(worlds, random =>
+    {
+        var world = new PhysicsWorld();
+        world.AddStatic(PhysicsMeshes.FloorMesh());
+        var blade = world.AddStatic(PhysicsMeshes.Cube, Box(new(0, 1.01, 0), new(8, 2, 0.1)));
+        world.AddRange(Enumerable.Range(0, 20).Select(_ => new BodyDescription(
+            new(random.Between(-3, 3), random.Between(0.4, 3), (random.NextDouble() < 0.5 ? -1 : 1) * random.Between(0.5, 3)), 0.3)
+        {
+            Friction = friction, Restitution = 0.3,
+        }));
+        blade.SetMotion(Vector.Zero, new(0, angularSpeed, 0));
+        world.Run(120, () => Assert.All(world.Bodies, body =>
+        {
+            Assert.True(world.TryFindClosest(body.Position, ColliderKind.Exact, out var closest));
+            var overlap = body.Radius - closest.Distance;
+            Assert.True(body.IsStuck || overlap < 2e-6, $"{body.Name} overlaps by {overlap:R}");
+        }));
+    });
 
     private static PhysicsWorld CreateMill(double speed)
     {

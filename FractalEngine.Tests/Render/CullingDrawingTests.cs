@@ -56,11 +56,11 @@ public sealed class CullingDrawingTests
     [MemberData(nameof(LargeInstances))]
     public void Frame_OfLargeInstances_IsThatOfEveryInstance(string name, int depth)
     {
-        var model = LoadModel(name, depth);
-        foreach (var projection in (Projection[])[Projection.Perspective, Projection.Orthographic])
-        {
-            AssertSameImage(RenderScenes.Scene(new Scene { Projection = projection }, (model, Transformation.Identity, null)));
-        }
+        var scene = RenderScenes.Scene(new Scene(), (LoadModel(name, depth), Transformation.Identity, null));
+        AssertSameImages(
+            scene,
+            [.. new[] { Projection.Perspective, Projection.Orthographic }.Select(projection =>
+                View.Of(scene with { Scene = scene.Scene with { Projection = projection } }, (double)Width / Height))]);
     }
 
     [SkippableTheory]
@@ -86,10 +86,7 @@ public sealed class CullingDrawingTests
             new View(ObliqueCamera, projection) { FixedClipPlanes = (4.5, 6.2), OrthographicHeight = 4 },
             new View(ObliqueCamera, projection) { Aspect = 1, OrthographicHeight = 4 },
         ];
-        foreach (var view in views)
-        {
-            AssertSameImage(scene, view);
-        }
+        AssertSameImages(scene, views);
     }
 
     [SkippableFact]
@@ -104,8 +101,9 @@ public sealed class CullingDrawingTests
             (LoadModel("tree", 4), new Transformation(new(0.5, -1, -1), new(0, 30, 0), new(1, 1, -1)), new Colour(0, 1, 0)),
             (RenderScenes.Model(RenderScenes.Sphere(6)), RenderScenes.TranslatedTo(-1, 0.8, -1), null),
             (RenderScenes.Model(RenderScenes.Sphere(40), "large.obj"), RenderScenes.TranslatedTo(1.5, 1, 0.5), null));
-        AssertSameImage(scene, new(ObliqueCamera, Projection.Perspective));
-        AssertSameImage(scene, new(ObliqueCamera, Projection.Orthographic) { OrthographicHeight = 5 });
+        AssertSameImages(
+            scene,
+            [new(ObliqueCamera, Projection.Perspective), new(ObliqueCamera, Projection.Orthographic) { OrthographicHeight = 5 }]);
     }
 
     [SkippableTheory]
@@ -366,14 +364,16 @@ public sealed class CullingDrawingTests
         return differences;
     }
 
-    private static void AssertSameImage(LoadedScene scene, View? view = null)
+    private static void AssertSameImage(LoadedScene scene, View? view = null) =>
+        AssertSameImages(scene, [view ?? View.Of(scene, (double)Width / Height)]);
+
+    private static void AssertSameImages(LoadedScene scene, View[] views)
     {
-        view ??= View.Of(scene, (double)Width / Height);
         using var context = GlTests.OpenContext();
         using var frame = new FrameRenderer(context);
         using var everyInstance = new SceneRenderer(context, DrawableScene.Prepare(scene, EveryInstance));
         using var culled = new SceneRenderer(context, DrawableScene.Prepare(scene, Culled));
-        foreach (var samples in (int[])[0, 4])
+        foreach (var (view, samples) in views.SelectMany(static _ => (int[])[0, 4], static (view, samples) => (view, samples)))
         {
             frame.Draw(everyInstance, view, Width, Height, EveryInstance with { Samples = samples });
             var all = frame.Capture();

@@ -2,8 +2,11 @@ using FractalEngine.Render.Windowing;
 
 namespace FractalEngine.Tests.Render;
 
-/// <summary>The collection of tests that draw. They run one after the other, since a context belongs to one thread at a time.</summary>
-[CollectionDefinition(Name, DisableParallelization = true)]
+/// <summary>
+/// The collection of tests that draw. They run one after the other, since a context belongs to one thread at a time, and beside tests that
+/// don't draw. Those with a limit of time belong to <see cref="Support.TimedTests"/>.
+/// </summary>
+[CollectionDefinition(Name)]
 public sealed class GlTests
 {
     public const string Name = "GL";

@@ -1,3 +1,4 @@
+using System.Collections.Concurrent;
 using FractalEngine.Core.Images;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Render;
@@ -61,6 +62,9 @@ public sealed class OptimisationTests : IDisposable
 
     private readonly TemporaryFolder _folder = new();
 
+    // The frames of both scenes with all optimisations, which every test of one optimisation compares with.
+    private static readonly ConcurrentDictionary<(string File, int Samples), PixelImage> Frames = new();
+
     public static TheoryData<string> Optimisations => [.. DisableOptimisation.Keys];
 
     public void Dispose() => _folder.Dispose();
@@ -74,7 +78,7 @@ public sealed class OptimisationTests : IDisposable
             foreach (var samples in (int[])[0, 4])
             {
                 var settings = new RenderSettings { Samples = samples };
-                var with = Draw(path, new(), settings).Image;
+                var with = DrawOnce(path, settings);
                 var without = DrawWithout(path, optimisation, settings).Image;
                 ImageComparison.AssertSame(with, without, $"{Path.GetFileName(path)}, {samples} samples");
             }
@@ -113,6 +117,9 @@ public sealed class OptimisationTests : IDisposable
         Assert.Equal(0, DrawWithout(path, "frustum-culling", settings).Statistics.Culling.OutsideFrustum);
         Assert.Equal(0, DrawWithout(path, "occlusion-culling", settings).Statistics.Culling.Occluded);
     }
+
+    private static PixelImage DrawOnce(string path, RenderSettings settings) =>
+        Frames.GetOrAdd((Path.GetFileName(path), settings.Samples), _ => Draw(path, new(), settings).Image);
 
     private static (PixelImage Image, FrameStatistics Statistics) DrawWithout(
         string path, string optimisation, RenderSettings settings) =>

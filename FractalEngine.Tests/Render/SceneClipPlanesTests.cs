@@ -8,6 +8,7 @@ using FractalEngine.Tests.Support;
 namespace FractalEngine.Tests.Render;
 
 /// <summary>What is near the camera and in view is drawn, however far away something else is.</summary>
+[Collection(GlTests.Name)]
 public sealed class SceneClipPlanesTests
 {
     private const double Aspect = 4.0 / 3;

@@ -18,26 +18,14 @@ public sealed class MemoryTests : IDisposable
 
     public void Dispose() => _folder.Dispose();
 
+    [Fact]
+    public void Info_OfMillionsOfSums_IsWithinTheMemory() => CheckSums("info", "--prepare");
+
     [Theory]
     [InlineData("info")]
-    [InlineData("info", "--prepare")]
     [InlineData("info", "--composition", "affine")]
-    public void Info_OfMillionsOfSums_IsWithinTheMemory(params string[] arguments)
-    {
-        _folder.Write("sums.fdo", """
-            composition componentwise
-            v 1.1 0.2 0.3
-            v 0.7 1 0.11
-            v 0.13 0.17 1
-            v 0.5 0.25 0.125
-            t.a.b. (a, b, #)
-            x. "t.obj"
-            z<x>. [#, t.1.2, t.2.3, t.3.1, t.4.4, t.1.3] x
-            <$>. z 100
-
-            """);
-        RunWithinMemory("sums.fdo", arguments);
-    }
+    [Trait("Category", "Soak")]
+    public void Info_OfMillionsOfSumsWithOtherOptions_IsWithinTheMemory(params string[] arguments) => CheckSums(arguments);
 
     [Theory]
     [InlineData("check")]
@@ -108,6 +96,23 @@ public sealed class MemoryTests : IDisposable
 
         _folder.Write("levels.fdo", text.Append(" x\n<$>. z 1\n").ToString());
         QueryWithinMemory("levels.fdo");
+    }
+
+    private void CheckSums(params string[] arguments)
+    {
+        _folder.Write("sums.fdo", """
+            composition componentwise
+            v 1.1 0.2 0.3
+            v 0.7 1 0.11
+            v 0.13 0.17 1
+            v 0.5 0.25 0.125
+            t.a.b. (a, b, #)
+            x. "t.obj"
+            z<x>. [#, t.1.2, t.2.3, t.3.1, t.4.4, t.1.3] x
+            <$>. z 100
+
+            """);
+        RunWithinMemory("sums.fdo", arguments);
     }
 
     private void QueryWithinMemory(string file)

@@ -23,7 +23,7 @@ public sealed class SlowDrawingTests : IDisposable
     public void Render_OfTrianglesThatFillTheFrame_EndsOnASignal(string signal, int seconds)
     {
         Skip.If(OperatingSystem.IsLinux() && Environment.GetEnvironmentVariable("DISPLAY") is null, "no display to draw on");
-        Skip.If(OperatingSystem.IsWindows(), "there are no signals");
+        Signals.Require(signal);
         _folder.Write("stack.obj", CreateStack(300_000));
         using var process = AppProcess.Start(
             _folder.Path, [],
@@ -33,7 +33,7 @@ public sealed class SlowDrawingTests : IDisposable
         if (!process.WaitForExit(TimeSpan.FromSeconds(seconds)))
         {
             var clock = Stopwatch.StartNew();
-            Process.Start("kill", [$"-{signal}", $"{process.Id}"]).WaitForExit();
+            Signals.Send(process, signal);
             Assert.True(process.WaitForExit(Polling.Deadline), error.IsCompleted ? error.Result : "no end");
             Assert.InRange(clock.Elapsed, TimeSpan.Zero, MaxDelay);
             Assert.Equal(130, process.ExitCode);

@@ -1,4 +1,3 @@
-using System.Diagnostics;
 using System.Globalization;
 using FractalEngine.Tests.Support;
 
@@ -241,14 +240,12 @@ public sealed class SimulateCommandTests : IDisposable
     [InlineData("TERM")]
     public void Simulate_Interrupted_WritesNothing(string signal)
     {
-        Skip.If(OperatingSystem.IsWindows(), "there are no POSIX signals");
-        Skip.If(signal == "INT" && IgnoresInterrupts(),
-            "processes that a shell starts in the background ignore interrupts, and so do their children");
+        Signals.Require(signal);
         using var process = AppProcess.Start(_folder.Path, [], "simulate", "scene.sdo", "--seconds", "100000", "--output", "bodies.csv");
         try
         {
             Polling.WaitUntil(() => Directory.GetFiles(_folder.Path, "*.tmp").Length > 0, "output file");
-            Process.Start("kill", ["-s", signal, process.Id.ToString(CultureInfo.InvariantCulture)]).WaitForExit();
+            Signals.Send(process, signal);
             Assert.True(process.WaitForExit(Polling.Deadline), "the process does not end");
         }
         finally
@@ -259,10 +256,6 @@ public sealed class SimulateCommandTests : IDisposable
         Assert.Equal((130, "error: interrupted"), (process.ExitCode, process.StandardError.ReadToEnd().Trim()));
         Assert.Equal(["cube.obj", "row.fdo", "scene.sdo", "still.sdo"], Directory.GetFiles(_folder.Path).Select(Path.GetFileName).Order());
     }
-
-    private static bool IgnoresInterrupts() => File.Exists("/proc/self/status")
-        && File.ReadLines("/proc/self/status").FirstOrDefault(line => line.StartsWith("SigIgn:", StringComparison.Ordinal)) is { } line
-        && (ulong.Parse(line["SigIgn:".Length..].Trim(), NumberStyles.HexNumber, CultureInfo.InvariantCulture) & 2) != 0;
 
     private static string State(string error) =>
         Assert.Single(error.Split('\n'), line => line.StartsWith("state ", StringComparison.Ordinal)).Trim();

@@ -89,15 +89,9 @@ internal sealed partial class DrivenWindow : IDisposable
     /// <summary>Stops the program meanwhile, so that it learns of all input at once.</summary>
     public void WhileStopped(Action send)
     {
-        Signal("STOP");
+        Signals.Send(_process, "STOP");
         send();
-        Signal("CONT");
-
-        void Signal(string name)
-        {
-            using var kill = Process.Start("kill", ["-s", name, $"{_process.Id}"]);
-            kill.WaitForExit();
-        }
+        Signals.Send(_process, "CONT");
     }
 
     /// <summary>Width and height of the window, as the window system knows them.</summary>

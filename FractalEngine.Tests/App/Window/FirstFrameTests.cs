@@ -1,12 +1,11 @@
 using System.Diagnostics;
 using System.Globalization;
-using FractalEngine.Tests.Render;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.App.Window;
 
 /// <summary>Measures the time from the start of the program until a scene is on the screen.</summary>
-[Collection(GlTests.Name)]
+[Collection(TimedTests.Name)]
 public sealed class FirstFrameTests : IDisposable
 {
     // Brighter than the dark background of a window without a scene, darker than the sky of the gallery.

@@ -9,7 +9,7 @@ using FractalEngine.Tests.Support;
 namespace FractalEngine.Tests.App.Window;
 
 /// <summary>Measures how long the examples take from a save to the next frame, without the settle time and the drawing.</summary>
-[Collection(GlTests.Name)]
+[Collection(TimedTests.Name)]
 public sealed class ReloadTimeTests : IDisposable
 {
     // A busy machine takes longer sometimes, but not each time.

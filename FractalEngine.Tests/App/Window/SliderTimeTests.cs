@@ -4,13 +4,12 @@ using FractalEngine.App.Window;
 using FractalEngine.Parsing.Fractals;
 using FractalEngine.Render;
 using FractalEngine.Render.Windowing;
-using FractalEngine.Tests.Render;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.App.Window;
 
 /// <summary>Measures how long it takes until a turned number is in the document.</summary>
-[Collection(GlTests.Name)]
+[Collection(TimedTests.Name)]
 public sealed class SliderTimeTests : IDisposable
 {
     private readonly TemporaryFolder _folder = new();

@@ -14,7 +14,14 @@ public class ConvexHullTests
 
     [Theory]
     [MemberData(nameof(Names))]
-    public void Build_OfAnyPoints_ContainsThemWithinMaxOutsideDistance(string name) => Seeded.Run(60, random =>
+    public void Build_OfAnyPoints_ContainsThemWithinMaxOutsideDistance(string name) => CheckContained(name, clouds: 20);
+
+    [Theory]
+    [MemberData(nameof(Names))]
+    [Trait("Category", "Soak")]
+    public void Build_OfManyPoints_ContainsThemWithinMaxOutsideDistance(string name) => CheckContained(name, clouds: 300);
+
+    private static void CheckContained(string name, int clouds) => Seeded.Run(clouds, random =>
     {
         var points = PointClouds.Generate(name, random);
         var hull = ConvexHull.Build(points, random.Next(4, 60));

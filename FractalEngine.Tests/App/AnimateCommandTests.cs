@@ -1,0 +1,182 @@
+using System.Buffers.Binary;
+using System.Text;
+using FractalEngine.Core.Images;
+using FractalEngine.Tests.Support;
+
+namespace FractalEngine.Tests.App;
+
+/// <summary>Tests the command <c>animate</c>. Each command runs as a process and draws.</summary>
+public sealed class AnimateCommandTests : IDisposable
+{
+    private readonly TemporaryFolder _folder = new();
+
+    public AnimateCommandTests()
+    {
+        _folder.Write("cube.obj", SampleFiles.Cube);
+        _folder.Write("scene.sdo", "background (0, 0, 1)\no \"cube.obj\" # colour (1, 0, 0)\nc (0, 0, -3) # 60\n");
+    }
+
+    public void Dispose() => _folder.Dispose();
+
+    [SkippableFact]
+    public void Animate_AsNumberedImages_WritesEachFrame()
+    {
+        RequireDisplay();
+        var (exitCode, output, error) = Run(
+            "animate", "scene.sdo", "--turntable", "--frames", "4", "--output", "out/f.png", "--resolution", "64x64");
+        Assert.Equal((0, ""), (exitCode, output));
+        Assert.Matches(@"^wrote out/f-0001.png to f-0004.png: 4 frames, [0-9.]+ s\n$", error);
+        Assert.Equal(
+            ["f-0001.png", "f-0002.png", "f-0003.png", "f-0004.png"],
+            Directory.GetFiles(_folder["out"]).Select(Path.GetFileName).Order());
+        // A quarter turn of a cube looks alike in shape, but its lit side differs.
+        Assert.Equal(64, ReadImage("out/f-0003.png").Width);
+    }
+
+    [SkippableFact]
+    public void Animate_AsAnimatedPng_HasAllFramesInOneFile()
+    {
+        RequireDisplay();
+        Assert.Equal(0, Run(
+            "animate", Repository.Full("assets/examples/zoom.sdo"), "--zoom", "2", "--frames", "5", "--fps", "10",
+            "--output", "a.apng", "--resolution", "64x64", "--no-shadows", "--no-ambient-occlusion").ExitCode);
+        var bytes = File.ReadAllBytes(_folder["a.apng"]);
+        Assert.Equal(5, BinaryPrimitives.ReadInt32BigEndian(bytes.AsSpan(bytes.AsSpan().IndexOf("acTL"u8) + 4)));
+        Assert.Equal(5, CountChunks("fcTL", bytes));
+        Assert.Equal(64, ReadImage("a.apng").Width);
+    }
+
+    [SkippableFact]
+    public void Animate_AlongAPath_BeginsAndEndsAtItsCameras()
+    {
+        RequireDisplay();
+        _folder.Write("cameras.txt", "# two\nc (0, 0, -3) # 60\n(3, 0, 0) look-at (0, 0, 0) 60\n");
+        Assert.Equal(0, Run(
+            "animate", "scene.sdo", "--path", "cameras.txt", "--frames", "3", "--output", "f.png", "--resolution", "64x64").ExitCode);
+        Render("scene.sdo", "a.png");
+        Render("scene.sdo", "b.png", "--look-from", "(3, 0, 0)", "--look-at", "(0, 0, 0)");
+        Assert.Equal(Pixels("a.png"), Pixels("f-0001.png"));
+        Assert.Equal(Pixels("b.png"), Pixels("f-0003.png"));
+    }
+
+    [Theory]
+    [InlineData("x.gif", "--fps", "101", "a .gif has at most 100 frames a second, not 101: expected a smaller --fps, or .apng")]
+    [InlineData("x.MP4", "--background", "transparent",
+        "a video has no transparent background: expected --output to end in .png or .apng, not .mp4")]
+    public void Animate_IntoAFormatThatCannotHoldIt_SaysSo(string output, string option, string value, string message) => Assert.Equal(
+        new AppResult(2, "", $"error: {message}\n"), Run("animate", "scene.sdo", "--turntable", "--output", output, option, value));
+
+    [Fact]
+    public void Animate_AlongAFaultyPath_PointsAtTheMistake()
+    {
+        _folder.Write("cameras.txt", "# two\nc (0, 0, -3) # 60\n  c (0, 0, -3) # 600\n");
+        Assert.Equal(
+            new AppResult(
+                1, "",
+                "cameras.txt:3:18: error: the angle of view must lie between 0 and 180 degrees\n"
+                + "    c (0, 0, -3) # 600\n                   ^\n"),
+            Run("animate", "scene.sdo", "--path", "cameras.txt", "--output", "f.png"));
+    }
+
+    [SkippableFact]
+    public void Animate_OfASimulation_ShowsTheBallFall()
+    {
+        RequireDisplay();
+        _folder.Write("drop.sdo", "p \"cube.obj\" ((0, 0, 0), #, #) 0.5 colour (1, 0, 0)\nc (0, 0, -3) # 60\nbackground (0, 0, 1)\n");
+        Assert.Equal(0, Run(
+            "animate", "drop.sdo", "--simulate", "--frames", "3", "--fps", "1", "--output", "f.png", "--resolution", "64x64").ExitCode);
+        Assert.NotEqual((byte)255, ReadImage("f-0001.png")[32, 32].Blue);
+        Assert.Equal((byte)255, ReadImage("f-0003.png")[32, 32].Blue);
+    }
+
+    [SkippableTheory]
+    [InlineData]
+    [InlineData("--trace", "8")]
+    public void Animate_WhenInterrupted_LeavesWholeFrames(params string[] options)
+    {
+        RequireDisplay();
+        Signals.Require("INT");
+        using var process = AppProcess.Start(
+            _folder.Path, [],
+            ["animate", "scene.sdo", "--turntable", "--frames", "100000", "--output", "f.png", "--resolution", "64x64", .. options]);
+        var error = process.StandardError.ReadToEndAsync();
+        try
+        {
+            Polling.WaitUntil(() => File.Exists(_folder["f-000005.png"]), "fifth frame");
+            Signals.Send(process, "INT");
+            Assert.True(process.WaitForExit(Polling.Deadline), "the process does not end");
+        }
+        finally
+        {
+            process.Kill();
+        }
+
+        Assert.Equal(130, process.ExitCode);
+        Assert.Contains(" frames, ", error.GetAwaiter().GetResult(), StringComparison.Ordinal);
+        var files = Directory.GetFiles(_folder.Path, "f-*");
+        Assert.All(files, file => Assert.Equal(64, ReadImage(file).Height));
+    }
+
+    [Theory]
+    [InlineData("nothing moves: expected --turntable, --zoom LEVELS, --path CAMERAS.txt or --simulate", "--output", "a.apng")]
+    [InlineData("--turntable, --zoom and --path exclude each other", "--output", "a.apng", "--turntable", "--zoom", "2")]
+    [InlineData("--output 'a.avi' must end in .png, .apng, .mp4, .webm or .gif", "--output", "a.avi", "--turntable")]
+    [InlineData("scene.sdo has no physics objects, so there is nothing to simulate", "--output", "a.apng", "--simulate")]
+    [InlineData("--seed needs --trace", "--output", "a.apng", "--turntable", "--seed", "1")]
+    [InlineData("--trace draws no transparent background: expected a colour",
+        "--output", "a.apng", "--turntable", "--trace", "1", "--background", "transparent")]
+    [InlineData("--zoom needs a fractal, or a scene whose only object is one, and --detail above 0",
+        "--output", "a.apng", "--zoom", "1", "--trace", "1")]
+    public void Animate_OfFaultyOptions_IsWrongUsage(string message, params string[] options) => Assert.Equal(
+        new AppResult(2, "", $"error: {message}\n"), Run(["animate", "scene.sdo", .. options]));
+
+    [Fact]
+    public void Animate_OfAVideoWithoutFfmpeg_SaysWhatIsMissing()
+    {
+        var dotnet = Path.GetDirectoryName(Environment.ProcessPath)!;
+        var environment = new Dictionary<string, string?> { ["PATH"] = dotnet };
+        Assert.Equal(
+            new AppResult(2, "", "error: a.mp4 needs the program ffmpeg, which is not installed; .png and .apng need none\n"),
+            AppProcess.Run(_folder.Path, environment, "animate", "scene.sdo", "--turntable", "--output", "a.mp4"));
+    }
+
+    [SkippableTheory]
+    [InlineData("a.mp4", 4, "ftyp")]
+    [InlineData("a.webm", 0, "\u001aE\u00df\u00a3")]
+    [InlineData("a.gif", 0, "GIF8")]
+    public void Animate_OfAVideo_IsWrittenThroughFfmpeg(string file, int offset, string signature)
+    {
+        RequireDisplay();
+        var folders = (Environment.GetEnvironmentVariable("PATH") ?? "").Split(Path.PathSeparator);
+        Skip.IfNot(Array.Exists(folders, folder => File.Exists(Path.Combine(folder, "ffmpeg"))), "ffmpeg is not installed");
+        // Odd sizes, which codecs don't have.
+        var (exitCode, _, error) = Run(
+            "animate", "scene.sdo", "--turntable", "--output", file, "--frames", "3", "--fps", "10", "--resolution", "33x21");
+        Assert.True(exitCode == 0, error);
+        Assert.Equal(signature, Encoding.Latin1.GetString(File.ReadAllBytes(_folder[file]).AsSpan(offset, signature.Length)));
+        Assert.Equal([_folder[file]], Directory.GetFiles(_folder.Path, "a.*"));
+    }
+
+    private static int CountChunks(string chunk, byte[] bytes) =>
+        Encoding.Latin1.GetString(bytes).Split(chunk).Length - 1;
+
+    private static void RequireDisplay() => Skip.If(
+        OperatingSystem.IsLinux() && Environment.GetEnvironmentVariable("DISPLAY") is null, "no display to draw on");
+
+    private void Render(string file, string output, params string[] options)
+    {
+        RequireDisplay();
+        var (exitCode, _, error) = Run(["render", file, "--output", output, "--resolution", "64x64", .. options]);
+        Assert.True(exitCode == 0, error);
+    }
+
+    private byte[] Pixels(string file) => ReadImage(file).Pixels;
+
+    private PixelImage ReadImage(string file)
+    {
+        using var stream = File.OpenRead(_folder[file]);
+        return PngReader.Read(stream);
+    }
+
+    private AppResult Run(params string[] arguments) => AppProcess.Run(_folder.Path, arguments);
+}

@@ -1,0 +1,38 @@
+using FractalEngine.Core.Images;
+using FractalEngine.Tests.Support;
+
+namespace FractalEngine.Tests.App;
+
+/// <summary>Tests that examples look as their pages show them. Each is drawn by the command <c>render</c>.</summary>
+public sealed class ExampleImageTests : IDisposable
+{
+    private readonly TemporaryFolder _folder = new();
+
+    public void Dispose() => _folder.Dispose();
+
+    [SkippableTheory]
+    [InlineData("tree-01.fdo")]
+    [InlineData("tree-02.fdo")]
+    [InlineData("tree-03.fdo")]
+    [InlineData("tree-04.fdo")]
+    [InlineData("tree-05.fdo")]
+    [InlineData("tree-06.fdo")]
+    [InlineData("tree-07.fdo")]
+    [InlineData("tree-08.fdo")]
+    [InlineData("tree-09.sdo")]
+    [InlineData("tree-10.sdo", "--time", "0.9")]
+    [InlineData("angles.sdo")]
+    public void Render_OfAnExample_LooksAsOnItsPage(string file, params string[] options)
+    {
+        Skip.If(OperatingSystem.IsLinux() && Environment.GetEnvironmentVariable("DISPLAY") is null, "no display to draw on");
+        var image = Repository.Full($"docs/images/{Path.GetFileNameWithoutExtension(file)}.png");
+        using var stream = File.OpenRead(image);
+        var size = PngReader.Read(stream);
+        // Where twigs are thinner than a pixel, a shift by a part of one gives 26 dB; another camera gives 15 to 24 dB.
+        var (exitCode, _, error) = AppProcess.Run(
+            _folder.Path,
+            ["render", Repository.Full($"assets/examples/{file}"), "--output", "a.png", "--resolution", $"{size.Width}x{size.Height}",
+            "--reference", image, "--threshold", "25", .. options]);
+        Assert.True(exitCode == 0, error);
+    }
+}
