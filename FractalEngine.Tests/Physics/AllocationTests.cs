@@ -8,7 +8,7 @@ namespace FractalEngine.Tests.Physics;
 /// <summary>A step allocates nothing once everything is built.</summary>
 public class AllocationTests
 {
-    private const int CountedSteps = 400;
+    private const int CountedSteps = 250;
 
     [Fact]
     public void Step_WithBodiesOnAFractal_AllocatesNothing()

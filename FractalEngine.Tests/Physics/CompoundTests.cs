@@ -167,7 +167,8 @@ public class CompoundTests
         var touching = 0;
         world.Run(90, () =>
         {
-            foreach (var body in world.Bodies)
+            // All cubes are compared with all balls, which takes longer than a step.
+            foreach (var body in world.StepCount % 3 == 0 ? world.Bodies : [])
             {
                 for (var ball = 0; ball < body.BallCount; ball++)
                 {

@@ -53,7 +53,8 @@ public class MovingObjectTests
     [InlineData(2, 0.3)]
     [InlineData(20, 0)]
     [InlineData(60, 0.5)]
-    public void Blade_ThatTurns_CutsThroughNothing(double angularSpeed, double friction) => CheckBlade(angularSpeed, friction, worlds: 1);
+    public void Blade_ThatTurns_CutsThroughNothing(double angularSpeed, double friction) =>
+        CheckBlade(angularSpeed, friction, worlds: 1, steps: 60);
 
     [Theory]
     [InlineData(2, 0.3)]
@@ -61,7 +62,7 @@ public class MovingObjectTests
     [InlineData(60, 0.5)]
     [Trait("Category", "Soak")]
     public void Blade_ThatTurnsInManyWorlds_CutsThroughNothing(double angularSpeed, double friction) =>
-        CheckBlade(angularSpeed, friction, worlds: 10);
+        CheckBlade(angularSpeed, friction, worlds: 10, steps: 240);
 
     [Theory]
     [InlineData(-1, 0)]
@@ -283,27 +284,19 @@ public class MovingObjectTests
     }
 
     [Fact]
-    public void Run_WithMovers_RepeatsBitForBit()
-    {
-        Assert.Equal(Run(2), Run(2));
-        // Velocities belong to the state, even where nothing is touched.
-        Assert.NotEqual(Run(2), Run(2.5));
+    public void Run_WithMovers_RepeatsBitForBit() => CheckRepeats(steps: 50);
 
-        static string Run(double speed)
-        {
-            var world = CreateMill(speed);
-            world.Run(120);
-            return world.StateHash;
-        }
-    }
+    [Fact]
+    [Trait("Category", "Soak")]
+    public void LongRun_WithMovers_RepeatsBitForBit() => CheckRepeats(steps: 300);
 
     [Fact]
     public void Step_WithMovers_AllocatesNothing()
     {
         var world = CreateMill(3);
-        world.Run(300);
+        world.Run(120);
         var before = GC.GetAllocatedBytesForCurrentThread();
-        world.Run(300);
+        world.Run(180);
         Assert.Equal(0, GC.GetAllocatedBytesForCurrentThread() - before);
     }
 
@@ -385,7 +378,7 @@ public class MovingObjectTests
         return world;
     }
 
-    private static void CheckBlade(double angularSpeed, double friction, int worlds) => Seeded.Run(worlds, random =>
+    private static void CheckBlade(double angularSpeed, double friction, int worlds, int steps) => Seeded.Run(worlds, random =>
     {
         var world = new PhysicsWorld();
         world.AddStatic(PhysicsMeshes.FloorMesh());
@@ -396,13 +389,27 @@ public class MovingObjectTests
             Friction = friction, Restitution = 0.3,
         }));
         blade.SetMotion(Vector.Zero, new(0, angularSpeed, 0));
-        world.Run(120, () => Assert.All(world.Bodies, body =>
+        world.Run(steps, () => Assert.All(world.Bodies, body =>
         {
             Assert.True(world.TryFindClosest(body.Position, ColliderKind.Exact, out var closest));
             var overlap = body.Radius - closest.Distance;
             Assert.True(body.IsStuck || overlap < 2e-6, $"{body.Name} overlaps by {overlap:R}");
         }));
     });
+
+    private static void CheckRepeats(int steps)
+    {
+        Assert.Equal(Run(2, steps), Run(2, steps));
+        // Velocities belong to the state, even where nothing is touched.
+        Assert.NotEqual(Run(2, 1), Run(2.5, 1));
+
+        static string Run(double speed, int steps)
+        {
+            var world = CreateMill(speed);
+            world.Run(steps);
+            return world.StateHash;
+        }
+    }
 
     private static PhysicsWorld CreateMill(double speed)
     {

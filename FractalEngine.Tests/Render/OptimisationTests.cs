@@ -73,16 +73,17 @@ public sealed class OptimisationTests : IDisposable
     [MemberData(nameof(Optimisations))]
     public void Frame_WithoutAnOptimisation_IsTheSame(string optimisation)
     {
-        foreach (var path in (string[])[Textured, WriteSmallScene()])
-        {
-            foreach (var samples in (int[])[0, 4])
-            {
-                var settings = new RenderSettings { Samples = samples };
-                var with = DrawOnce(path, settings);
-                var without = DrawWithout(path, optimisation, settings).Image;
-                ImageComparison.AssertSame(with, without, $"{Path.GetFileName(path)}, {samples} samples");
-            }
-        }
+        CheckFrame(Textured, 0, optimisation);
+        CheckFrame(WriteSmallScene(), 4, optimisation);
+    }
+
+    [SkippableTheory]
+    [MemberData(nameof(Optimisations))]
+    [Trait("Category", "Soak")]
+    public void Frame_WithoutAnOptimisationOfOtherSamples_IsTheSame(string optimisation)
+    {
+        CheckFrame(Textured, 4, optimisation);
+        CheckFrame(WriteSmallScene(), 0, optimisation);
     }
 
     [SkippableFact]
@@ -116,6 +117,13 @@ public sealed class OptimisationTests : IDisposable
         Assert.True(Draw(path, new(), settings).Statistics.Culling.OutsideFrustum > 0);
         Assert.Equal(0, DrawWithout(path, "frustum-culling", settings).Statistics.Culling.OutsideFrustum);
         Assert.Equal(0, DrawWithout(path, "occlusion-culling", settings).Statistics.Culling.Occluded);
+    }
+
+    private static void CheckFrame(string path, int samples, string optimisation)
+    {
+        var settings = new RenderSettings { Samples = samples };
+        var without = DrawWithout(path, optimisation, settings).Image;
+        ImageComparison.AssertSame(DrawOnce(path, settings), without, $"{Path.GetFileName(path)}, {samples} samples");
     }
 
     private static PixelImage DrawOnce(string path, RenderSettings settings) =>

@@ -46,13 +46,13 @@ public sealed class CameraStabilityTests(ITestOutputHelper output)
     [SkippableTheory]
     [InlineData("menger")]
     [InlineData("sierpinski")]
-    public void Frame_OfASelfSimilarFractal_IsTheSameAtAnyDepth(string name) => CheckFrames(name, [41, 42, 47, 100, 1040]);
+    public void Frame_OfASelfSimilarFractal_IsTheSameAtAnyDepth(string name) => CheckFrames(name, [41, 47, 1040]);
 
     [SkippableTheory]
     [InlineData("menger")]
     [InlineData("sierpinski")]
     [Trait("Category", "Soak")]
-    public void Frame_OfASelfSimilarFractal_IsTheSameAMillionLevelsDown(string name) => CheckFrames(name, [100_000, 999_990]);
+    public void Frame_OfASelfSimilarFractal_IsTheSameAMillionLevelsDown(string name) => CheckFrames(name, [42, 100, 100_000, 999_990]);
 
     private void CheckThereAndBack(string name, int maxDepth, [CallerMemberName] string test = "")
     {

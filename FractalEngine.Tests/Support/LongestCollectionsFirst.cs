@@ -17,6 +17,7 @@ public sealed class LongestCollectionsFirst : ITestCollectionOrderer
         NameOf<App.CommandLineTests>(), NameOf<App.ImageCommandTests>(), NameOf<App.ExampleImageTests>(), NameOf<App.AnimateCommandTests>(),
         NameOf<Physics.MovingObjectTests>(), NameOf<App.Commands.SimulateCommandTests>(), NameOf<App.ShellTests>(),
         NameOf<Physics.CompoundTests>(), NameOf<Robustness.MemoryTests>(), NameOf<Generation.MeshGeneratorTests>(),
+        NameOf<Visibility.VisibleSetLimitTests>(), NameOf<App.Commands.QueryCommandTests>(), NameOf<App.TracedAnimationTests>(),
     ];
 
     /// <inheritdoc/>

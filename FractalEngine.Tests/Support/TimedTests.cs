@@ -1,6 +1,9 @@
 namespace FractalEngine.Tests.Support;
 
-/// <summary>Tests with a limit of time that others, in parallel, would use up: they run alone.</summary>
+/// <summary>
+/// Tests with a limit of time that others, in parallel, would use up, and of threads that leave the processor to all others: they run
+/// alone.
+/// </summary>
 [CollectionDefinition(Name, DisableParallelization = true)]
 public class TimedTests
 {

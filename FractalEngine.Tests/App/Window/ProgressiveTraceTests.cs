@@ -13,6 +13,7 @@ using FractalEngine.Tests.Support;
 namespace FractalEngine.Tests.App.Window;
 
 /// <summary>Tests the traced image of a window without a window: what is traced when, and that it ends.</summary>
+[Collection(TimedTests.Name)]
 public class ProgressiveTraceTests
 {
     private static readonly LoadedScene Sponge = LoadedScene.Of(new() { Objects = [new SceneObject(AssetFractals.Load("menger", 3))] });

@@ -36,7 +36,7 @@ public sealed class WindowSoakTests : IDisposable
     public void Save_KilledTwoHundredTimes_LosesNothing() => KillWhileSaving(200);
 
     [SkippableFact]
-    public void Window_OfRandomInput_GoesOn() => SendRandomInput(300);
+    public void Window_OfRandomInput_GoesOn() => SendRandomInput(150);
 
     [SkippableFact]
     [Trait("Category", "Soak")]
