@@ -40,6 +40,27 @@ public class RestTests
     [Trait("Category", "Soak")]
     public void Rest_WithSleepForLong_StaysInPlace(string name, double friction) => CheckRest(name, friction, null, SoakSteps);
 
+    /// <summary>One ball that falls and is pushed back in each step would keep all of its heap awake.</summary>
+    [Fact]
+    [Trait("Category", "Soak")]
+    public void HeapsOnASponge_FallAsleep()
+    {
+        var sponge = AssetFractals.Load("menger", 5);
+        var scale = 1 / sponge.Bounds.Size.MaxAbsComponent();
+        var world = new PhysicsWorld();
+        world.AddStatic(sponge, new(-scale * sponge.Bounds.Centre, Vector.Zero, scale * Vector.One));
+        world.AddStatic(PhysicsMeshes.FloorMesh(), Samples.Move(0, -0.6, 0));
+        var random = new Random(3);
+        world.AddRange(Enumerable.Range(0, 6000).Select(_ => new BodyDescription(
+            new(random.NextDouble() - 0.5, 0.6 + (0.6 * random.NextDouble()), random.NextDouble() - 0.5),
+            0.004 + (0.006 * random.NextDouble()))
+        {
+            Restitution = 0.5, Friction = 0.4, IsRotationLocked = true,
+        }));
+        world.Run(480);
+        Assert.DoesNotContain(world.Bodies, static body => !body.IsAsleep);
+    }
+
     [Fact]
     public void Rest_InAGroove_IsWhereBothSidesAreARadiusAway() => Seeded.Run(50, random =>
     {

@@ -54,4 +54,4 @@ set xlabel 'faces of the fractal'
 set ylabel 'ms a frame'
 set key inside top left Left reverse maxrows 2
 plot folder.'drawing.csv' using 3:(strcol(4) eq 'all' ? $6 : NaN) with linespoints lw 2 pt 7 ps 0.5 lc rgb C[2] title 'every instance drawn', \
-     folder.'drawing.csv' using 3:(strcol(4) eq 'chosen' ? $6 : NaN) with linespoints lw 2 pt 7 ps 0.5 lc rgb C[1] title 'visible instances drawn'
+     folder.'drawing.csv' using 3:(strcol(4) eq 'culled' ? $6 : NaN) with linespoints lw 2 pt 7 ps 0.5 lc rgb C[1] title 'visible instances drawn'

@@ -15,7 +15,7 @@ internal sealed partial class IslandMover
     private const double SearchMargin = 0.5;
 
     // Of the way that the speed tells: a body that gets less far is held up, and for how many steps it may be.
-    private const double JamFraction = 0.25;
+    private const double JamFraction = 0.5;
     private const int MaxJammedSteps = 8;
 
     private const int BodiesPerJob = 256;
