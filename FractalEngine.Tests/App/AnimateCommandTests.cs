@@ -1,34 +1,23 @@
 using System.Buffers.Binary;
 using System.Text;
-using FractalEngine.Core.Images;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.App;
 
 /// <summary>Tests the command <c>animate</c>. Each command runs as a process and draws.</summary>
-public sealed class AnimateCommandTests : IDisposable
+public sealed class AnimateCommandTests : DrawingCommandTests
 {
-    private readonly TemporaryFolder _folder = new();
-
-    public AnimateCommandTests()
-    {
-        _folder.Write("cube.obj", SampleFiles.Cube);
-        _folder.Write("scene.sdo", "background (0, 0, 1)\no \"cube.obj\" # colour (1, 0, 0)\nc (0, 0, -3) # 60\n");
-    }
-
-    public void Dispose() => _folder.Dispose();
-
     [SkippableFact]
     public void Animate_AsNumberedImages_WritesEachFrame()
     {
-        RequireDisplay();
+        Display.Require();
         var (exitCode, output, error) = Run(
             "animate", "scene.sdo", "--turntable", "--frames", "4", "--output", "out/f.png", "--resolution", "64x64");
         Assert.Equal((0, ""), (exitCode, output));
         Assert.Matches(@"^wrote out/f-0001.png to f-0004.png: 4 frames, [0-9.]+ s\n$", error);
         Assert.Equal(
             ["f-0001.png", "f-0002.png", "f-0003.png", "f-0004.png"],
-            Directory.GetFiles(_folder["out"]).Select(Path.GetFileName).Order());
+            Directory.GetFiles(Folder["out"]).Select(Path.GetFileName).Order());
         // A quarter turn of a cube looks alike in shape, but its lit side differs.
         Assert.Equal(64, ReadImage("out/f-0003.png").Width);
     }
@@ -36,11 +25,11 @@ public sealed class AnimateCommandTests : IDisposable
     [SkippableFact]
     public void Animate_AsAnimatedPng_HasAllFramesInOneFile()
     {
-        RequireDisplay();
+        Display.Require();
         Assert.Equal(0, Run(
             "animate", Repository.Full("assets/examples/zoom.sdo"), "--zoom", "2", "--frames", "5", "--fps", "10",
             "--output", "a.apng", "--resolution", "64x64", "--no-shadows", "--no-ambient-occlusion").ExitCode);
-        var bytes = File.ReadAllBytes(_folder["a.apng"]);
+        var bytes = File.ReadAllBytes(Folder["a.apng"]);
         Assert.Equal(5, BinaryPrimitives.ReadInt32BigEndian(bytes.AsSpan(bytes.AsSpan().IndexOf("acTL"u8) + 4)));
         Assert.Equal(5, CountChunks("fcTL", bytes));
         Assert.Equal(64, ReadImage("a.apng").Width);
@@ -49,8 +38,8 @@ public sealed class AnimateCommandTests : IDisposable
     [SkippableFact]
     public void Animate_AlongAPath_BeginsAndEndsAtItsCameras()
     {
-        RequireDisplay();
-        _folder.Write("cameras.txt", "# two\nc (0, 0, -3) # 60\n(3, 0, 0) look-at (0, 0, 0) 60\n");
+        Display.Require();
+        Folder.Write("cameras.txt", "# two\nc (0, 0, -3) # 60\n(3, 0, 0) look-at (0, 0, 0) 60\n");
         Assert.Equal(0, Run(
             "animate", "scene.sdo", "--path", "cameras.txt", "--frames", "3", "--output", "f.png", "--resolution", "64x64").ExitCode);
         Render("scene.sdo", "a.png");
@@ -69,7 +58,7 @@ public sealed class AnimateCommandTests : IDisposable
     [Fact]
     public void Animate_AlongAFaultyPath_PointsAtTheMistake()
     {
-        _folder.Write("cameras.txt", "# two\nc (0, 0, -3) # 60\n  c (0, 0, -3) # 600\n");
+        Folder.Write("cameras.txt", "# two\nc (0, 0, -3) # 60\n  c (0, 0, -3) # 600\n");
         Assert.Equal(
             new AppResult(
                 1, "",
@@ -81,8 +70,8 @@ public sealed class AnimateCommandTests : IDisposable
     [SkippableFact]
     public void Animate_OfASimulation_ShowsTheBallFall()
     {
-        RequireDisplay();
-        _folder.Write("drop.sdo", "p \"cube.obj\" ((0, 0, 0), #, #) 0.5 colour (1, 0, 0)\nc (0, 0, -3) # 60\nbackground (0, 0, 1)\n");
+        Display.Require();
+        Folder.Write("drop.sdo", "p \"cube.obj\" ((0, 0, 0), #, #) 0.5 colour (1, 0, 0)\nc (0, 0, -3) # 60\nbackground (0, 0, 1)\n");
         Assert.Equal(0, Run(
             "animate", "drop.sdo", "--simulate", "--frames", "3", "--fps", "1", "--output", "f.png", "--resolution", "64x64").ExitCode);
         Assert.NotEqual((byte)255, ReadImage("f-0001.png")[32, 32].Blue);
@@ -94,15 +83,15 @@ public sealed class AnimateCommandTests : IDisposable
     [InlineData("--trace", "8")]
     public void Animate_WhenInterrupted_LeavesWholeFrames(params string[] options)
     {
-        RequireDisplay();
+        Display.Require();
         Signals.Require("INT");
         using var process = AppProcess.Start(
-            _folder.Path, [],
+            Folder.Path, [],
             ["animate", "scene.sdo", "--turntable", "--frames", "100000", "--output", "f.png", "--resolution", "64x64", .. options]);
         var error = process.StandardError.ReadToEndAsync();
         try
         {
-            Polling.WaitUntil(() => File.Exists(_folder["f-000005.png"]), "fifth frame");
+            Polling.WaitUntil(() => File.Exists(Folder["f-000005.png"]), "fifth frame");
             Signals.Send(process, "INT");
             Assert.True(process.WaitForExit(Polling.Deadline), "the process does not end");
         }
@@ -113,7 +102,7 @@ public sealed class AnimateCommandTests : IDisposable
 
         Assert.Equal(130, process.ExitCode);
         Assert.Contains(" frames, ", error.GetAwaiter().GetResult(), StringComparison.Ordinal);
-        var files = Directory.GetFiles(_folder.Path, "f-*");
+        var files = Directory.GetFiles(Folder.Path, "f-*");
         Assert.All(files, file => Assert.Equal(64, ReadImage(file).Height));
     }
 
@@ -137,7 +126,7 @@ public sealed class AnimateCommandTests : IDisposable
         var environment = new Dictionary<string, string?> { ["PATH"] = dotnet };
         Assert.Equal(
             new AppResult(2, "", "error: a.mp4 needs the program ffmpeg, which is not installed; .png and .apng need none\n"),
-            AppProcess.Run(_folder.Path, environment, "animate", "scene.sdo", "--turntable", "--output", "a.mp4"));
+            AppProcess.Run(Folder.Path, environment, "animate", "scene.sdo", "--turntable", "--output", "a.mp4"));
     }
 
     [SkippableTheory]
@@ -146,37 +135,17 @@ public sealed class AnimateCommandTests : IDisposable
     [InlineData("a.gif", 0, "GIF8")]
     public void Animate_OfAVideo_IsWrittenThroughFfmpeg(string file, int offset, string signature)
     {
-        RequireDisplay();
+        Display.Require();
         var folders = (Environment.GetEnvironmentVariable("PATH") ?? "").Split(Path.PathSeparator);
         Skip.IfNot(Array.Exists(folders, folder => File.Exists(Path.Combine(folder, "ffmpeg"))), "ffmpeg is not installed");
         // Odd sizes, which codecs don't have.
         var (exitCode, _, error) = Run(
             "animate", "scene.sdo", "--turntable", "--output", file, "--frames", "3", "--fps", "10", "--resolution", "33x21");
         Assert.True(exitCode == 0, error);
-        Assert.Equal(signature, Encoding.Latin1.GetString(File.ReadAllBytes(_folder[file]).AsSpan(offset, signature.Length)));
-        Assert.Equal([_folder[file]], Directory.GetFiles(_folder.Path, "a.*"));
+        Assert.Equal(signature, Encoding.Latin1.GetString(File.ReadAllBytes(Folder[file]).AsSpan(offset, signature.Length)));
+        Assert.Equal([Folder[file]], Directory.GetFiles(Folder.Path, "a.*"));
     }
 
     private static int CountChunks(string chunk, byte[] bytes) =>
         Encoding.Latin1.GetString(bytes).Split(chunk).Length - 1;
-
-    private static void RequireDisplay() => Skip.If(
-        OperatingSystem.IsLinux() && Environment.GetEnvironmentVariable("DISPLAY") is null, "no display to draw on");
-
-    private void Render(string file, string output, params string[] options)
-    {
-        RequireDisplay();
-        var (exitCode, _, error) = Run(["render", file, "--output", output, "--resolution", "64x64", .. options]);
-        Assert.True(exitCode == 0, error);
-    }
-
-    private byte[] Pixels(string file) => ReadImage(file).Pixels;
-
-    private PixelImage ReadImage(string file)
-    {
-        using var stream = File.OpenRead(_folder[file]);
-        return PngReader.Read(stream);
-    }
-
-    private AppResult Run(params string[] arguments) => AppProcess.Run(_folder.Path, arguments);
 }

@@ -30,7 +30,7 @@ public sealed class ExampleImageTests : IDisposable
 
     private void Check(string file, params string[] options)
     {
-        Skip.If(OperatingSystem.IsLinux() && Environment.GetEnvironmentVariable("DISPLAY") is null, "no display to draw on");
+        Display.Require();
         var image = Repository.Full($"docs/images/{Path.GetFileNameWithoutExtension(file)}.png");
         using var stream = File.OpenRead(image);
         var size = PngReader.Read(stream);

@@ -1,23 +1,12 @@
-using FractalEngine.Core.Images;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.App;
 
 /// <summary>Tests the options of <c>render</c>. Each command runs as a process and draws.</summary>
-public sealed class ImageCommandTests : IDisposable
+public sealed class ImageCommandTests : DrawingCommandTests
 {
     // For tests of shapes and places: what fractals see of the sky takes seconds.
     private static readonly string[] Unshaded = ["--no-shadows", "--no-ambient-occlusion"];
-
-    private readonly TemporaryFolder _folder = new();
-
-    public ImageCommandTests()
-    {
-        _folder.Write("cube.obj", SampleFiles.Cube);
-        _folder.Write("scene.sdo", "background (0, 0, 1)\no \"cube.obj\" # colour (1, 0, 0)\nc (0, 0, -3) # 60\n");
-    }
-
-    public void Dispose() => _folder.Dispose();
 
     [SkippableFact]
     public void Camera_AsTextAndAsTarget_IsTheSame()
@@ -39,7 +28,7 @@ public sealed class ImageCommandTests : IDisposable
     public void View_FromASide_ShowsTheObjectOnThatSide(string view, string position)
     {
         // A small red cube stands on the side in question, and hides the middle of the green one.
-        _folder.Write(
+        Folder.Write(
             "two.sdo",
             $"o \"cube.obj\" # colour (0, 1, 0)\no \"cube.obj\" ({position}, #, (0.9, 0.9, 0.9)) colour (1, 0, 0)\n"
             + "light ambient (1, 1, 1)\n");
@@ -84,7 +73,7 @@ public sealed class ImageCommandTests : IDisposable
     [SkippableFact]
     public void Background_BehindHazeWithoutAColour_IsWhatTheHazeFadesTo()
     {
-        _folder.Write("haze.sdo", "background (0, 0, 1)\nfog 100\no \"cube.obj\" # colour (1, 0, 0)\nc (0, 0, -3) # 60\n");
+        Folder.Write("haze.sdo", "background (0, 0, 1)\nfog 100\no \"cube.obj\" # colour (1, 0, 0)\nc (0, 0, -3) # 60\n");
         Render("haze.sdo", "a.png", "--background", "(0, 1, 0)");
         Assert.Equal(((byte)0, (byte)255, (byte)0, (byte)255), ReadImage("a.png")[32, 32]);
     }
@@ -94,7 +83,7 @@ public sealed class ImageCommandTests : IDisposable
     {
         Render("scene.sdo", "a.png");
         Assert.Equal(0, Run("render", "scene.sdo", "--output", "b.png", "--resolution", "64x64", "--reference", "a.png").ExitCode);
-        Assert.False(File.Exists(_folder["b-difference.png"]));
+        Assert.False(File.Exists(Folder["b-difference.png"]));
         string[] moved = ["render", "scene.sdo", "--output", "b.png", "--resolution", "64x64", "--camera", "(1, 0, -3) # 60"];
         var (exitCode, _, error) = Run([.. moved, "--reference", "a.png"]);
         Assert.Equal(5, exitCode);
@@ -108,11 +97,11 @@ public sealed class ImageCommandTests : IDisposable
     [InlineData("text.png", "text.png:1:1: error: the image can't be read: ")]
     public void Reference_ThatCannotBeRead_IsAnErrorOfTheFile(string reference, string message)
     {
-        _folder.Write("text.png", "no image");
+        Folder.Write("text.png", "no image");
         var (exitCode, output, error) = Run("render", "scene.sdo", "--output", "b.png", "--reference", reference);
         Assert.Equal((1, ""), (exitCode, output));
         Assert.StartsWith(message, error, StringComparison.Ordinal);
-        Assert.False(File.Exists(_folder["b.png"]));
+        Assert.False(File.Exists(Folder["b.png"]));
     }
 
     [SkippableFact]
@@ -141,24 +130,4 @@ public sealed class ImageCommandTests : IDisposable
     [InlineData("--zoom needs a fractal, or a scene whose only object is one, and --detail above 0", "--zoom", "3")]
     public void Render_OfAFaultyView_IsWrongUsage(string message, params string[] options) => Assert.Equal(
         new AppResult(2, "", $"error: {message}\n"), Run(["render", "scene.sdo", "--output", "a.png", .. options]));
-
-    private static void RequireDisplay() => Skip.If(
-        OperatingSystem.IsLinux() && Environment.GetEnvironmentVariable("DISPLAY") is null, "no display to draw on");
-
-    private void Render(string file, string output, params string[] options)
-    {
-        RequireDisplay();
-        var (exitCode, _, error) = Run(["render", file, "--output", output, "--resolution", "64x64", .. options]);
-        Assert.True(exitCode == 0, error);
-    }
-
-    private byte[] Pixels(string file) => ReadImage(file).Pixels;
-
-    private PixelImage ReadImage(string file)
-    {
-        using var stream = File.OpenRead(_folder[file]);
-        return PngReader.Read(stream);
-    }
-
-    private AppResult Run(params string[] arguments) => AppProcess.Run(_folder.Path, arguments);
 }

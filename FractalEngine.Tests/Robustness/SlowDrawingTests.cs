@@ -22,7 +22,7 @@ public sealed class SlowDrawingTests : IDisposable
     [Trait("Category", "Soak")]
     public void Render_OfTrianglesThatFillTheFrame_EndsOnASignal(string signal, int seconds)
     {
-        Skip.If(OperatingSystem.IsLinux() && Environment.GetEnvironmentVariable("DISPLAY") is null, "no display to draw on");
+        Display.Require();
         Signals.Require(signal);
         _folder.Write("stack.obj", CreateStack(300_000));
         using var process = AppProcess.Start(

@@ -1,3 +1,5 @@
+using System.Runtime.CompilerServices;
+
 namespace FractalEngine.Core.Fractals.Hierarchy;
 
 /// <summary>Compares the edges of levels, or of child instances, in their order.</summary>
@@ -15,7 +17,7 @@ internal sealed class ChildEdgesComparer : IEqualityComparer<ChildEdge[]>
         var hash = 0;
         foreach (ref readonly var edge in edges.AsSpan())
         {
-            hash = HashCode.Combine(hash, edge.MapIndex, edge.LevelStep.GetHashCode());
+            hash = HashCode.Combine(hash, RuntimeHelpers.GetHashCode(edge.Set), edge.MapIndex, edge.LevelStep.GetHashCode());
         }
 
         return hash;

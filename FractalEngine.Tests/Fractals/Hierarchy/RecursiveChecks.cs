@@ -13,7 +13,7 @@ internal static class RecursiveChecks
 {
     public const double Tolerance = 1e-12;
 
-    /// <summary>The second base mesh.</summary>
+    /// <summary>A gabled roof of side 1, for recursives whose base mesh is not that of the others.</summary>
     public static readonly Mesh Roof = new(
         [0, 0, 0, 1, 0, 0, 1, 0, 1, 0, 0, 1, 0.5, 0.8, 0, 0.5, 0.8, 1], [0, 4, 1, 3, 2, 5, 0, 3, 5, 0, 5, 4, 1, 4, 5, 1, 5, 2]);
 
