@@ -20,12 +20,15 @@ public abstract partial class Collider
     /// <summary>Finds all faces within a distance of a position.</summary>
     /// <param name="position">In the shape's frame, scene units, finite.</param>
     /// <param name="radius">Scene units, not negative; may be infinite. A face at exactly this distance counts.</param>
-    /// <param name="maxFaces">Number of faces beyond which the query is refused, not negative.</param>
+    /// <param name="maxFaces">
+    /// Number of faces beyond which the query is refused, not negative. Those of an instance count for each chain of maps that makes it,
+    /// but for chains that differ only in where they have the identity, or in equal maps of a set.
+    /// </param>
     /// <param name="context">Receives the costs; null where they don't matter.</param>
     /// <returns>
-    /// The closest point of each face, by ascending distance; of equal distances by instance path, then by face. Chains of transformations
-    /// that differ only in where they have the identity, or in equal maps of a set, are one instance. Of a fractal, what is smaller than
-    /// the last digit of its size counts as one base mesh, as in <see cref="FindClosest"/>.
+    /// The closest point of each face, by ascending distance; of equal distances by instance path, then by face. Instances whose images of
+    /// the base mesh differ by rounding only are one, the first by its path. Of a fractal, what is smaller than the last digit of its size
+    /// counts as one base mesh, as in <see cref="FindClosest"/>.
     /// </returns>
     /// <exception cref="ArgumentOutOfRangeException">The position is not finite, or a limit is negative or NaN.</exception>
     /// <exception cref="FractalLimitException">
@@ -125,19 +128,29 @@ public abstract partial class Collider
     /// <summary>Describes faces in the frame of the shape, in the order of the query's result.</summary>
     private static ImmutableArray<ClosestHit> CreateHits(ShapeTree tree, List<BallHit> hits, double scale, QueryContext context)
     {
-        var sorted = new ClosestHit[hits.Count];
-        int[]? path = null;
-        ImmutableArray<int> instancePath = [];
-        for (var i = 0; i < sorted.Length; i++)
+        var instancePaths = new Dictionary<int[], int[]>(ReferenceEqualityComparer.Instance);
+        foreach (var hit in hits)
         {
-            var hit = hits[i];
-            instancePath = ReferenceEquals(path, hit.Path) ? instancePath : [.. tree.InstancePath(hit.Path, context)];
-            path = hit.Path;
-            sorted[i] = new(hit.Distance / scale, hit.Point / scale, hit.Normal, hit.FaceIndex, instancePath);
+            if (!instancePaths.ContainsKey(hit.Path))
+            {
+                instancePaths.Add(hit.Path, tree.InstancePath(hit.Path, context));
+            }
         }
 
-        Array.Sort(sorted, CompareHits);
-        return ImmutableCollectionsMarshal.AsImmutableArray(sorted);
+        tree.RemoveRepeated(instancePaths, context);
+        var sorted = new List<ClosestHit>(hits.Count);
+        foreach (var hit in hits)
+        {
+            if (instancePaths.TryGetValue(hit.Path, out var instancePath))
+            {
+                sorted.Add(new(
+                    hit.Distance / scale, hit.Point / scale, hit.Normal, hit.FaceIndex,
+                    ImmutableCollectionsMarshal.AsImmutableArray(instancePath)));
+            }
+        }
+
+        sorted.Sort(CompareHits);
+        return [.. sorted];
     }
 
     private static int CompareHits(ClosestHit hit1, ClosestHit hit2)

@@ -13,6 +13,9 @@ public static class DistinctInstances
     // A proof visits every round until the boxes converge: those of sponges do so at once, others within a hundred rounds.
     private const int MaxProvedRounds = 1500;
 
+    // Images that touch overlap by the rounding of their coordinates.
+    private const double TouchTolerance = 64 * 2.220446049250313e-16;
+
     /// <summary>Counts the distinct instances of a fractal.</summary>
     /// <param name="fractal">Fractal of any composition and depth.</param>
     /// <param name="budget">
@@ -29,21 +32,21 @@ public static class DistinctInstances
 
         var maxInstances = budget ?? FractalLimits.MaxEnumeratedInstances;
         var maxChains = budget ?? FractalLimits.MaxCountedInstances;
-        if (fractal.Description.Composition == Composition.Affine)
+        if (AreProvedDistinct(fractal))
         {
-            return AreProvedDistinct(fractal) ? fractal.InstanceCount
-                : FractalSteps.HasAtMostInstances(fractal.Description.Steps, maxChains)
-                    ? FractalGenerator.ExpandAffine(fractal, maxChains).Length
-                : FractalGenerator.TryExpandLevels(fractal, maxInstances)?.Length;
+            return fractal.InstanceCount;
         }
 
         try
         {
-            return FractalGenerator.ExpandComponentwise(fractal, maxInstances).Length;
+            return fractal.Description.Composition == Composition.Affine
+                && FractalSteps.HasAtMostInstances(fractal.Description.Steps, maxChains)
+                ? FractalGenerator.Expand(fractal, maxChains).Length
+                : FractalGenerator.ExpandDistinct(fractal, maxInstances).Length;
         }
         catch (FractalLimitException)
         {
-            // More sums than are enumerated: their number is unknown.
+            // More instances than are enumerated: their number is unknown.
             return null;
         }
     }
@@ -52,9 +55,10 @@ public static class DistinctInstances
     /// Tests whether different chains certainly give different instances. False proves nothing.
     /// </summary>
     /// <remarks>
-    /// At every level the images of the next level's box must lie side by side: equal maps would have equal images, which overlap entirely.
+    /// At every level the images of the next level's box must lie side by side: equal instances would lie in the overlap of two images.
     /// Boxes are exact bounds for maps that scale and permute the axes (scales, mirrors, quarter turns), so only those are tested. Images
-    /// that touch may overlap by rounding.
+    /// that touch may overlap by rounding along an axis where no instance is as thin as that, and must be apart along others. Once the
+    /// boxes have converged, images are taken to touch on all levels above as they do there.
     /// </remarks>
     public static bool AreProvedDistinct(Fractal fractal)
     {
@@ -64,14 +68,30 @@ public static class DistinctInstances
         }
 
         var boxes = new LevelBoxes(fractal.BaseMesh, MaxProvedRounds);
-        return boxes.Ascend(fractal.Description.Steps).All(set => HasExactDisjointImages(set, boxes.Volume.Box)) && boxes.Volume.IsFinite();
+        var thinnest = fractal.BaseMesh.Bounds.Size;
+        foreach (var set in boxes.Ascend(fractal.Description.Steps))
+        {
+            if (set.Maps.IsEmpty || !set.Maps.All(map => map.Linear.IsScaledAxisPermutation()))
+            {
+                return false;
+            }
+
+            var size = thinnest;
+            thinnest = set.Maps.Select(map => map.Linear.Absolute() * size).Aggregate(Vector.Min);
+            if (!HasDisjointImages(set, boxes.Volume.Box, thinnest))
+            {
+                return false;
+            }
+        }
+
+        return boxes.Volume.IsFinite();
     }
 
-    private static bool HasExactDisjointImages(TransformationSet set, BoundingBox box) =>
-        set.Maps.Length > 0 && set.Maps.All(map => map.Linear.IsScaledAxisPermutation()) && HasDisjointImages(set, box);
-
     /// <summary>Tests whether all images of a box lie side by side, in O(n log n) for n images that hardly overlap.</summary>
-    internal static bool HasDisjointImages(TransformationSet set, BoundingBox box)
+    /// <param name="set">The maps.</param>
+    /// <param name="box">The box.</param>
+    /// <param name="thinnest">Along each axis, the size of the thinnest instance in an image.</param>
+    internal static bool HasDisjointImages(TransformationSet set, BoundingBox box, Vector thinnest)
     {
         BoundingBox[] images = [.. set.Maps.Select(box.Transform)];
         if (images.Length <= 1)
@@ -79,66 +99,36 @@ public static class DistinctInstances
             return true;
         }
 
-        var extents = ExtentsOf(images);
-        var bvh = ObjectBvh.Build([.. extents.Select((extent, index) => new ObjectBvhLeaf(index, extent))]);
-        for (var i = 0; i < images.Length; i++)
+        // Images that overlap by no more than rounding become disjoint, or those that are not apart by more than that overlap.
+        var whole = images.Aggregate(BoundingBox.Union);
+        var rounding = TouchTolerance * Math.Max(whole.Minimum.MaxAbsComponent(), whole.Maximum.MaxAbsComponent());
+        var inset = new Vector(Inset(thinnest.X), Inset(thinnest.Y), Inset(thinnest.Z));
+        var cores = Array.ConvertAll(images, image => new BoundingBox(image.Minimum + inset, image.Maximum - inset));
+        if (!cores.All(static core => core.Minimum.IsFinite() && core.Maximum.IsFinite()))
         {
-            if (OverlapsAnother(bvh.Root, images, i, extents[i]))
-            {
-                return false;
-            }
+            return false;
         }
 
-        return true;
+        var bvh = ObjectBvh.Build([.. cores.Select((core, index) => new ObjectBvhLeaf(index, core))]);
+        return !cores.Index().Any(core => OverlapsAnother(bvh.Root, cores, core.Index));
+
+        double Inset(double thickness) => (thickness > 4 * rounding ? 0.5 : -0.5) * rounding;
     }
 
-    /// <summary>
-    /// Extends each box that is flat along an axis over the whole of that axis, where nothing counts as disjoint from it. Boxes that are
-    /// not disjoint then have extents with common inner points.
-    /// </summary>
-    private static BoundingBox[] ExtentsOf(BoundingBox[] boxes)
-    {
-        var whole = boxes.Aggregate(BoundingBox.Union);
-        if (whole.IsEmpty || !whole.Size.IsFinite())
-        {
-            // Boxes without numbers are compared with all others.
-            whole = new(double.NegativeInfinity * Vector.One, double.PositiveInfinity * Vector.One);
-            return [.. Enumerable.Repeat(whole, boxes.Length)];
-        }
-
-        // Wider than any box, so that flat ones have common inner points with all, and with each other.
-        var margin = (1 + (1e-6 * Vector.Max(whole.Minimum.Absolute(), whole.Maximum.Absolute()).MaxAbsComponent())) * Vector.One;
-        whole = new(whole.Minimum - margin, whole.Maximum + margin);
-        return [.. boxes.Select(Extend)];
-
-        BoundingBox Extend(BoundingBox box)
-        {
-            var (minimum, maximum) = box;
-            var (width, height, depth) = box.Size;
-            return new(
-                new(
-                    width > 0 ? minimum.X : whole.Minimum.X, height > 0 ? minimum.Y : whole.Minimum.Y,
-                    depth > 0 ? minimum.Z : whole.Minimum.Z),
-                new(
-                    width > 0 ? maximum.X : whole.Maximum.X, height > 0 ? maximum.Y : whole.Maximum.Y,
-                    depth > 0 ? maximum.Z : whole.Maximum.Z));
-        }
-    }
-
-    /// <summary>Tests whether a box is not disjoint from one with a smaller index below a node.</summary>
-    private static bool OverlapsAnother(ObjectBvhNode node, BoundingBox[] boxes, int index, BoundingBox extent)
+    /// <summary>Tests whether a box has common points with one of a smaller index below a node.</summary>
+    private static bool OverlapsAnother(ObjectBvhNode node, BoundingBox[] boxes, int index)
     {
         for (var slot = 0; slot < node.ChildCount; slot++)
         {
-            if (!HaveCommonInnerPoints(extent, node.BoxOf(slot)))
+            if (BoundingBox.Intersection(boxes[index], node.BoxOf(slot)).IsEmpty)
             {
                 continue;
             }
 
-            var overlaps = node[slot] is ObjectBvhNode child
-                ? OverlapsAnother(child, boxes, index, extent)
-                : node[slot] is ObjectBvhLeaf { Index: var other } && other < index && !AreDisjoint(boxes[index], boxes[other]);
-            if (overlaps)
+            if (node[slot] is ObjectBvhNode child
+                ? OverlapsAnother(child, boxes, index)
+                : node[slot] is ObjectBvhLeaf { Index: var other } && other < index
+                    && !BoundingBox.Intersection(boxes[index], boxes[other]).IsEmpty)
             {
                 return true;
             }
@@ -146,22 +136,4 @@ public static class DistinctInstances
 
         return false;
     }
-
-    private static bool HaveCommonInnerPoints(BoundingBox box1, BoundingBox box2) =>
-        box1.Minimum.X < box2.Maximum.X && box2.Minimum.X < box1.Maximum.X
-        && box1.Minimum.Y < box2.Maximum.Y && box2.Minimum.Y < box1.Maximum.Y
-        && box1.Minimum.Z < box2.Maximum.Z && box2.Minimum.Z < box1.Maximum.Z;
-
-    /// <summary>Tests whether two boxes lie side by side along an axis, where a little overlap counts as rounding.</summary>
-    internal static bool AreDisjoint(BoundingBox box1, BoundingBox box2)
-    {
-        var overlap = Vector.Min(box1.Maximum, box2.Maximum) - Vector.Max(box1.Minimum, box2.Minimum);
-        var size1 = box1.Size;
-        var size2 = box2.Size;
-        return AreIntervalsDisjoint(overlap.X, size1.X, size2.X) || AreIntervalsDisjoint(overlap.Y, size1.Y, size2.Y)
-            || AreIntervalsDisjoint(overlap.Z, size1.Z, size2.Z);
-    }
-
-    private static bool AreIntervalsDisjoint(double overlap, double size1, double size2) =>
-        size1 > 0 && size2 > 0 && overlap <= 1e-9 * Math.Min(size1, size2);
 }

@@ -19,52 +19,27 @@ public static class FractalGenerator
     /// </param>
     /// <exception cref="FractalLimitException">The fractal has more instances.</exception>
     /// <remarks>
-    /// Two maps count as equal when they differ by rounding only (see <see cref="DistinctMaps"/>); the first in the order of the file is
-    /// kept. Time and memory are proportional to the instances, 96 bytes each.
+    /// Two instances are the same when their images of the base mesh differ by rounding only (see <see cref="DistinctMaps"/>); the first in
+    /// the order of the file is kept. Time and memory are proportional to the instances, 120 bytes each.
     /// </remarks>
     public static ImmutableArray<AffineMap> Expand(Fractal fractal, long maxInstances)
     {
-        if (fractal.Description.Composition == Composition.Componentwise)
-        {
-            return [.. ExpandComponentwise(fractal, maxInstances).Select(transformation => transformation.ToAffineMap())];
-        }
-
-        var instances = ExpandAffine(fractal, maxInstances);
-        return MemoryMarshal.TryGetArray(instances, out var segment) && segment.Array!.Length == instances.Length
-            ? ImmutableCollectionsMarshal.AsImmutableArray(segment.Array)
-            : [.. instances.Span];
-    }
-
-    /// <summary>Expands a fractal in affine composition like <see cref="Expand"/>, without a copy of the result.</summary>
-    /// <exception cref="FractalLimitException">The fractal has more instances.</exception>
-    internal static ReadOnlyMemory<AffineMap> ExpandAffine(Fractal fractal, long maxInstances)
-    {
-        // What no array holds is refused at once, whatever the caller allows.
-        maxInstances = Math.Min(maxInstances, Array.MaxLength);
         if (FractalSteps.HasAtMostInstances(fractal.Description.Steps, 0))
         {
-            return default;
+            return [];
         }
 
-        if (!FractalSteps.HasAtMostInstances(fractal.Description.Steps, maxInstances) || fractal.Description.IsInfinite)
+        // What no array holds is refused at once, whatever the caller allows.
+        maxInstances = Math.Min(maxInstances, Array.MaxLength);
+        if (fractal.Description.Composition == Composition.Componentwise)
         {
-            throw LimitError(fractal, maxInstances);
+            return ExpandDistinctSums(fractal, maxInstances);
         }
 
-        var isProvedDistinct = DistinctInstances.AreProvedDistinct(fractal);
-        ReadOnlyMemory<AffineMap> instances = new[] { AffineMap.Identity };
-        for (var level = 0L; level < fractal.LevelCount; level++)
-        {
-            var set = fractal.LevelAt(level);
-            // A level of the identity alone changes nothing; a recursion of a million levels may consist of them.
-            if (set.Maps is not [var only] || only != AffineMap.Identity)
-            {
-                var pairs = ConcatenatePair(instances.Span, set.Maps.AsSpan(), static (m1, m2) => m1 * m2);
-                instances = isProvedDistinct ? pairs : DistinctMaps.Deduplicate(pairs);
-            }
-        }
-
-        return instances;
+        return FractalSteps.HasAtMostInstances(fractal.Description.Steps, maxInstances) && !fractal.Description.IsInfinite
+            && TryExpandLevels(fractal, maxInstances, long.MaxValue) is { } instances
+            ? instances
+            : throw LimitError(fractal, maxInstances);
     }
 
     /// <summary>
@@ -89,44 +64,78 @@ public static class FractalGenerator
             return Expand(fractal, maxInstances);
         }
 
-        return TryExpandLevels(fractal, Math.Min(maxInstances, FractalLimits.MaxEnumeratedInstances)) is { } instances
-            ? ImmutableCollectionsMarshal.AsImmutableArray(instances)
-            : throw LimitError(fractal, maxInstances);
+        return TryExpandLevels(fractal, Math.Min(maxInstances, FractalLimits.MaxEnumeratedInstances), FractalLimits.MaxComparedProducts)
+            ?? throw LimitError(fractal, maxInstances);
     }
 
     /// <summary>Expands a fractal level by level, and removes the repeated instances of each level before the next.</summary>
-    /// <param name="fractal">In affine composition, with finitely many levels.</param>
+    /// <param name="fractal">In affine composition, with finitely many levels and at least one instance.</param>
     /// <param name="maxInstances">Maximum number of distinct instances of each level.</param>
+    /// <param name="maxProducts">Maximum number of products of maps on all levels together.</param>
     /// <returns>The distinct instances, as those of <see cref="Expand"/>; null if they are too many, or take too long.</returns>
-    internal static AffineMap[]? TryExpandLevels(Fractal fractal, long maxInstances)
+    internal static ImmutableArray<AffineMap>? TryExpandLevels(Fractal fractal, long maxInstances, long maxProducts)
     {
-        // Different chains of these would be different instances, however they are enumerated.
-        if (DistinctInstances.AreProvedDistinct(fractal) && !FractalSteps.HasAtMostInstances(fractal.Description.Steps, maxInstances))
+        var isProvedDistinct = DistinctInstances.AreProvedDistinct(fractal);
+        var hasFewChains = FractalSteps.HasAtMostInstances(fractal.Description.Steps, maxInstances);
+        if (isProvedDistinct && !hasFewChains)
         {
             return null;
         }
 
         ReadOnlyMemory<AffineMap> instances = new[] { AffineMap.Identity };
         var products = 0L;
-        for (var level = 0L; level < fractal.LevelCount; level++)
+        using var level = LevelsOf(fractal).GetEnumerator();
+        for (var exists = level.MoveNext(); exists;)
         {
-            var maps = fractal.LevelAt(level).Maps.AsSpan();
-            if (maps is [var only] && only == AffineMap.Identity)
+            var maps = level.Current.Maps.AsSpan();
+            exists = level.MoveNext();
+            products += instances.Length * (long)maps.Length;
+            if (isProvedDistinct || (hasFewChains && exists))
             {
+                instances = ConcatenatePair(instances.Span, maps, static (m1, m2) => m1 * m2);
                 continue;
             }
 
-            products += instances.Length * (long)maps.Length;
-            if (products > FractalLimits.MaxComparedProducts
-                || DistinctMaps.DeduplicateProducts(instances.Span, maps, maxInstances) is not { } distinct)
+            if (products > maxProducts
+                || DistinctMaps.Products(instances.Span, maps, exists ? null : fractal, maxInstances) is not { } distinct)
             {
                 return null;
             }
 
-            instances = distinct;
+            instances = distinct.Items;
         }
 
-        return instances.ToArray();
+        return MemoryMarshal.TryGetArray(instances, out var segment) && segment.Array!.Length == instances.Length
+            ? ImmutableCollectionsMarshal.AsImmutableArray(segment.Array)
+            : [.. instances.Span];
+    }
+
+    /// <summary>Lists the levels, outermost first, but those that change nothing: a recursion of a million levels may consist of them.</summary>
+    private static IEnumerable<TransformationSet> LevelsOf(Fractal fractal)
+    {
+        for (var level = 0L; level < fractal.LevelCount; level++)
+        {
+            var set = fractal.LevelAt(level);
+            if (set.Transformations is not [{ IsIdentity: true }])
+            {
+                yield return set;
+            }
+        }
+    }
+
+    private static ImmutableArray<AffineMap> ExpandDistinctSums(Fractal fractal, long maxInstances)
+    {
+        var sums = ExpandSums(fractal, maxInstances);
+        var images = DistinctMaps.Images(fractal, sums.Length);
+        foreach (ref readonly var sum in sums.Span)
+        {
+            if (!images.TryAdd(sum.ToAffineMap(), sums.Length))
+            {
+                throw LimitError(fractal, maxInstances);
+            }
+        }
+
+        return [.. images.Items.Span];
     }
 
     private static FractalLimitException LimitError(Fractal fractal, long maxInstances)
@@ -197,9 +206,12 @@ public static class FractalGenerator
     /// </param>
     /// <remarks>Since this composition commutes, the number of sums grows like a power of the depth only.</remarks>
     /// <exception cref="FractalLimitException">There are more than <paramref name="maxInstances"/>, or the fractal is infinite.</exception>
-    public static ImmutableArray<Transformation> ExpandComponentwise(Fractal fractal, long maxInstances)
+    public static ImmutableArray<Transformation> ExpandComponentwise(Fractal fractal, long maxInstances) =>
+        [.. ExpandSums(fractal, maxInstances).Span];
+
+    private static ReadOnlyMemory<Transformation> ExpandSums(Fractal fractal, long maxInstances)
     {
-        if (fractal.LevelCount is not { } levels)
+        if (fractal.Description.IsInfinite)
         {
             throw new FractalLimitException("an infinite fractal can't be composed componentwise: its positions don't shrink");
         }
@@ -207,15 +219,8 @@ public static class FractalGenerator
         maxInstances = Math.Min(maxInstances, FractalLimits.MaxComponentwiseSums);
         ReadOnlyMemory<Transformation> sums = new[] { Transformation.Identity };
         var compared = 0L;
-        for (var level = 0L; level < levels; level++)
+        foreach (var set in LevelsOf(fractal).Select(static set => set.Transformations))
         {
-            var set = fractal.LevelAt(level).Transformations;
-            // A level of the identity alone changes nothing; a recursion of a million levels may consist of them.
-            if (set is [{ IsIdentity: true }])
-            {
-                continue;
-            }
-
             compared += sums.Length * (long)set.Length;
             if (compared > FractalLimits.MaxComparedProducts)
             {
@@ -223,11 +228,11 @@ public static class FractalGenerator
                     $"the sums of all levels are more than the limit of {FractalLimits.MaxComparedProducts} compared ones");
             }
 
-            sums = DistinctMaps.DeduplicateSums(set.AsSpan(), sums.Span, maxInstances) ?? throw new FractalLimitException(
+            sums = DistinctMaps.Sums(set.AsSpan(), sums.Span, maxInstances)?.Items ?? throw new FractalLimitException(
                 $"componentwise composition of the fractal has more than {maxInstances} distinct sums");
         }
 
-        return [.. sums.Span];
+        return sums;
     }
 
     /// <summary>Composes all pairs of two sets, the paper's concatPair: [m1·m2 | ∀ m1 ∈ set1, ∀ m2 ∈ set2], in that order.</summary>

@@ -1,4 +1,5 @@
 using FractalEngine.Core.Collision.Bvh;
+using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Fractals.Hierarchy;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
@@ -141,6 +142,34 @@ internal sealed class ShapeTree
         context.ClearPath();
         _hierarchy.ResolveInstance(path, AffineMap.Identity, context, out _);
         return context.InstancePath.ToArray();
+    }
+
+    /// <summary>Removes all but the first of the paths, by their instances, that lead to the same instance of a base mesh.</summary>
+    /// <param name="instancePaths">Paths of child instances from the root, with those of <see cref="InstancePath"/>.</param>
+    /// <param name="context">Lends its memory.</param>
+    public void RemoveRepeated(Dictionary<int[], int[]> instancePaths, QueryContext context)
+    {
+        if (_hierarchy is null || instancePaths.Count < 2)
+        {
+            return;
+        }
+
+        foreach (var paths in instancePaths.GroupBy(path => _hierarchy.BaseMeshAt(path.Key)).ToArray())
+        {
+            var images = DistinctMaps.Images(paths.Key.Bounds, _hierarchy.Levels, paths.Count());
+            foreach (var (path, _) in paths.OrderBy(
+                static path => path.Value, Comparer<int[]>.Create(static (path1, path2) => path1.AsSpan().SequenceCompareTo(path2))))
+            {
+                context.ClearPath();
+                var map = _hierarchy.ResolveInstance(path, AffineMap.Identity, context, out _);
+                var count = images.Count;
+                images.TryAdd(map.ToAffineMap(), int.MaxValue);
+                if (images.Count == count)
+                {
+                    instancePaths.Remove(path);
+                }
+            }
+        }
     }
 
     private static double FrobeniusNormSquared(in AffineMap map) =>
