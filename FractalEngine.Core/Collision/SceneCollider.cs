@@ -21,6 +21,9 @@ public sealed partial class SceneCollider
 {
     private readonly Dictionary<Model, Lazy<Collider>> _sharedColliders;
     private readonly ColliderKind _kind;
+
+    // Differs for the paper's descent, which needs a fractal: meshes beside fractals take the hierarchy.
+    private readonly ColliderKind _kindOfMeshes;
     private readonly SpareContext _spareContext = new();
     private readonly Lock _hierarchyLock = new();
 
@@ -29,7 +32,9 @@ public sealed partial class SceneCollider
 
     /// <summary>Prepares the colliders of a scene made in code, or loaded from a file. Builds none of them yet.</summary>
     /// <param name="scene">With its models.</param>
-    /// <param name="kind">The collider of all objects, see <see cref="ColliderFactory"/>.</param>
+    /// <param name="kind">
+    /// The collider of all objects, see <see cref="ColliderFactory"/>. Meshes beside fractals take the hierarchy for the paper's descent.
+    /// </param>
     /// <exception cref="FractalEngineException">An object names a file that is not loaded.</exception>
     public SceneCollider(Scene scene, ColliderKind kind = ColliderKind.Exact)
         : this(LoadedScene.Of(scene), kind)
@@ -38,7 +43,9 @@ public sealed partial class SceneCollider
 
     /// <summary>Prepares the colliders of a scene. Builds none of them yet.</summary>
     /// <param name="scene">With its models.</param>
-    /// <param name="kind">The collider of all objects, see <see cref="ColliderFactory"/>.</param>
+    /// <param name="kind">
+    /// The collider of all objects, see <see cref="ColliderFactory"/>. Meshes beside fractals take the hierarchy for the paper's descent.
+    /// </param>
     /// <exception cref="ArgumentOutOfRangeException">There is no such kind.</exception>
     public SceneCollider(LoadedScene scene, ColliderKind kind = ColliderKind.Exact)
         : this(scene, kind, null)
@@ -55,8 +62,12 @@ public sealed partial class SceneCollider
         ArgumentNullException.ThrowIfNull(scene);
         ColliderFactory.ThrowIfUnknown(kind);
         _kind = kind;
+        _kindOfMeshes = kind == ColliderKind.Fractal && scene.Models.Any(static model => model is FractalModel)
+            ? ColliderKind.Hierarchy
+            : kind;
         _sharedColliders = scene.Models.ToDictionary(
-            model => model, model => cache?.GetOrAdd(model, kind, () => CreateCollider(model)) ?? new(() => CreateCollider(model)));
+            model => model,
+            model => cache?.GetOrAdd(model, KindFor(model), () => CreateCollider(model)) ?? new(() => CreateCollider(model)));
         var instances = new ColliderInstance[scene.Objects.Length];
         for (var i = 0; i < instances.Length; i++)
         {
@@ -66,11 +77,12 @@ public sealed partial class SceneCollider
         _objects = SceneObjects.Of(ImmutableCollectionsMarshal.AsImmutableArray(instances));
     }
 
-    private SceneCollider(SceneObjects objects, Dictionary<Model, Lazy<Collider>> sharedColliders, ColliderKind kind)
+    private SceneCollider(SceneObjects objects, Dictionary<Model, Lazy<Collider>> sharedColliders, SceneCollider kinds)
     {
         _objects = objects;
         _sharedColliders = sharedColliders;
-        _kind = kind;
+        _kind = kinds._kind;
+        _kindOfMeshes = kinds._kindOfMeshes;
     }
 
     /// <summary>
@@ -95,7 +107,7 @@ public sealed partial class SceneCollider
             throw new ArgumentException("expected the model of an object of the scene", nameof(placed));
         }
 
-        return new(objects.With(CreateInstance(index, placed)), _sharedColliders, _kind);
+        return new(objects.With(CreateInstance(index, placed)), _sharedColliders, this);
     }
 
     /// <summary>Makes the collider of the same scene with another object behind the others. Colliders that exist are shared.</summary>
@@ -109,8 +121,8 @@ public sealed partial class SceneCollider
         }
 
         var objects = _objects;
-        var withModel = new SceneCollider(objects, sharedColliders, _kind);
-        return new(objects.Add(withModel.CreateInstance(objects.Count, placed)), sharedColliders, _kind);
+        var withModel = new SceneCollider(objects, sharedColliders, this);
+        return new(objects.Add(withModel.CreateInstance(objects.Count, placed)), sharedColliders, this);
     }
 
     /// <summary>Makes the collider of the same scene without one of its objects. The indices of the others stay.</summary>
@@ -121,7 +133,7 @@ public sealed partial class SceneCollider
         var objects = _objects;
         removed = objects[index];
         // No query comes near an empty box.
-        return new(objects.With(new(index, removed.Collider, Similarity.Identity, null, BoundingBox.Empty)), _sharedColliders, _kind);
+        return new(objects.With(new(index, removed.Collider, Similarity.Identity, null, BoundingBox.Empty)), _sharedColliders, this);
     }
 
     /// <summary>The collider of one object at its place.</summary>
@@ -130,14 +142,17 @@ public sealed partial class SceneCollider
     private ColliderInstance CreateInstance(int index, PlacedModel placed)
     {
         var isSimilar = Similarity.TryCreate(placed.ObjectToWorld, out var similarity);
-        return isSimilar || ColliderFactory.SupportsTransformedQueries(_kind)
+        return isSimilar || ColliderFactory.SupportsTransformedQueries(KindFor(placed.Model))
             ? new(index, _sharedColliders[placed.Model], similarity, isSimilar ? null : placed.ObjectToWorld, placed.Bounds)
             : new(index, new(() => CreateCollider(placed)), Similarity.Identity, null, placed.Bounds);
     }
 
-    private Collider CreateCollider(Model model) => NameMismatch(model, () => ColliderFactory.Create(model, _kind));
+    private ColliderKind KindFor(Model model) => model is FractalModel ? _kind : _kindOfMeshes;
 
-    private Collider CreateCollider(PlacedModel placed) => NameMismatch(placed.Model, () => ColliderFactory.Create(placed, _kind));
+    private Collider CreateCollider(Model model) => NameMismatch(model, () => ColliderFactory.Create(model, KindFor(model)));
+
+    private Collider CreateCollider(PlacedModel placed) =>
+        NameMismatch(placed.Model, () => ColliderFactory.Create(placed, KindFor(placed.Model)));
 
     /// <summary>Says which model a collider does not fit.</summary>
     private static Collider NameMismatch(Model model, Func<Collider> create)

@@ -108,14 +108,17 @@ public readonly record struct Vector(double X, double Y, double Z)
     /// Computes the local right, up and forward axes of an Euler rotation as the columns of a matrix (paper §4.1.2),
     /// <c>Pitch(x)·Yaw(y)·Roll(z)</c>. This vector holds the three angles in radians.
     /// </summary>
-    public Matrix LocalAxes() => Matrix.Pitch(X) * Matrix.Yaw(Y) * Matrix.Roll(Z);
+    public Matrix LocalAxes() => AxesOf(SineCosine.FromRadians);
 
     /// <summary>
     /// Computes the axes of <see cref="LocalAxes"/> from angles in degrees, exactly at multiples of 90°.
     /// </summary>
     /// <remarks>Quarter turns have entries of exactly 0 and ±1, so that they keep coordinates exact.</remarks>
-    public Matrix LocalAxesFromDegrees() =>
-        Matrix.Pitch(SineCosine.FromDegrees(X)) * Matrix.Yaw(SineCosine.FromDegrees(Y)) * Matrix.Roll(SineCosine.FromDegrees(Z));
+    public Matrix LocalAxesFromDegrees() => AxesOf(SineCosine.FromDegrees);
+
+    // The order of the turns stands here alone.
+    private Matrix AxesOf(Func<double, SineCosine> convert) =>
+        Matrix.Pitch(convert(X)) * Matrix.Yaw(convert(Y)) * Matrix.Roll(convert(Z));
 
     /// <summary>Tells whether all components are finite numbers.</summary>
     public bool IsFinite() => double.IsFinite(X) && double.IsFinite(Y) && double.IsFinite(Z);

@@ -70,16 +70,21 @@ public sealed partial class FractalParser
     private bool ParseOutput(
         Cursor cursor, List<string> parameters, Vector defaultValue, out FunctionOutput output, out Cursor rest)
     {
-        output = new(null, defaultValue);
+        output = new(null, null, defaultValue, cursor);
         rest = cursor;
         if (char.IsAsciiDigit(cursor.Current) && !IsDecimal(cursor))
         {
-            if (!ParseVectorNumber(cursor, out var number, out var vector, out rest))
+            if (!ParseInteger(cursor, ValueAsVectorNumber.VectorNumber, out var number, out rest))
             {
                 return false;
             }
 
-            output = new(null, vector);
+            if (number == 0)
+            {
+                throw VectorError(cursor, "");
+            }
+
+            output = output with { VectorNumber = number };
             ListOutput(number);
             _outputCount++;
             return true;
@@ -88,7 +93,7 @@ public sealed partial class FractalParser
         if (char.IsLetter(cursor.Current) && ParseName(cursor, "a parameter", out var name, out var afterName)
             && parameters.IndexOf(name) is >= 0 and var index)
         {
-            output = new(index, default);
+            output = output with { Parameter = index };
             _outputCount++;
             rest = afterName;
             return true;
@@ -121,13 +126,20 @@ public sealed partial class FractalParser
 
         if (number < 1 || number > _vectors.Count)
         {
-            var fault = number == 0 ? "vectors are numbered from 1"
-                : "it is not declared above, and values stand in vectors of their own";
-            throw Error(cursor, $"vector {TextBetween(cursor, rest)} of {_vectors.Count}: {fault}");
+            throw VectorError(cursor, " above");
         }
 
         vector = _vectors[number - 1];
         return true;
+    }
+
+    /// <summary>Creates the error of a number that is that of no vector.</summary>
+    private SourceException VectorError(Cursor start, string place)
+    {
+        ParseInteger(start, ValueAsVectorNumber.VectorNumber, out var number, out var end);
+        var fault = number == 0 ? "vectors are numbered from 1"
+            : $"it is not declared{place}, and values stand in vectors of their own";
+        return Error(start, $"vector {TextBetween(start, end)} of {_vectors.Count}: {fault}");
     }
 
     /// <summary>Parses a set of calls: <c>[#, t.1, u.6.10]</c>.</summary>
@@ -231,7 +243,12 @@ public sealed partial class FractalParser
             throw Error(cursor, $"'{name}' takes {ArgumentCountText(function.ParameterCount)}, not {argumentCount}{hint}");
         }
 
-        transformation = function.Apply(_arguments);
+        if (function.Last.VectorNumber > _vectors.Count)
+        {
+            throw VectorError(function.Last.Start, $" above the call in line {Source.LineOf(cursor.Offset)}");
+        }
+
+        transformation = function.Apply(_arguments, _vectors);
         Hint(cursor, RotationUnits.DescribeRadians(transformation.Rotation));
         return ScaleCheck.IsInvertible(transformation.Scale)
             ? true

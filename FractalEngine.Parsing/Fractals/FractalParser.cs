@@ -61,6 +61,11 @@ public sealed partial class FractalParser : Parser
             }
         }
 
+        if (_functions.Values.FirstOrDefault(function => function.Last.VectorNumber > _vectors.Count) is { } uncalled)
+        {
+            throw VectorError(uncalled.Last.Start, "");
+        }
+
         if (_result is not { } result)
         {
             throw _hasDeclaration

@@ -59,7 +59,7 @@ public abstract partial class Parser
         return true;
     }
 
-    /// <summary>Parses a name: a letter or underscore, then letters, digits and underscores.</summary>
+    /// <summary>Parses a name: a letter or underscore, then letters, digits, underscores, and hyphens before letters.</summary>
     protected bool ParseName(Cursor cursor, string expected, out string name, out Cursor rest)
     {
         name = "";
@@ -70,7 +70,7 @@ public abstract partial class Parser
         }
 
         var length = 1;
-        while (IsNameCharacter(cursor.Peek(length)))
+        while (IsNameCharacter(cursor.Peek(length)) || (cursor.Peek(length) == '-' && char.IsLetter(cursor.Peek(length + 1))))
         {
             length++;
         }

@@ -67,6 +67,28 @@ public class SceneColliderTests
         Assert.Contains("expected exact, hierarchy", error.Message, StringComparison.Ordinal);
     }
 
+    // The paper's car on a fractal terrain (§4.4.3): its descent takes the fractal, and the hierarchy the mesh, wherever they stand.
+    [Theory]
+    [InlineData(1, 1)]
+    [InlineData(1, 0.5)]
+    public void FindClosest_WithTheFractalColliderBesideAMesh_FindsTheMeshExactly(double width, double height)
+    {
+        var placement = new Transformation(new(50, 0, 0), new(0, 30, 0), new(width, height, 1));
+        var mesh = new MeshModel(Samples.Tetrahedron) { SourcePath = "/m.obj" };
+        var fractal = new FractalModel(Samples.AppendixBAt(2)) { SourcePath = "/f.fdo" };
+        var scene = new LoadedScene(new(), [new(new("m.obj", placement), mesh), new(new("f.fdo", Transformation.Identity), fractal)]);
+        var collider = new SceneCollider(scene, ColliderKind.Fractal);
+        var exact = new SceneCollider(scene);
+        collider.Build();
+        Seeded.Run(50, random =>
+        {
+            var position = new Vector(50, 0, 0) + random.Vector(3);
+            Assert.Equal(exact.FindClosest(position), collider.FindClosest(position));
+        });
+        var moved = collider.WithObject(0, new(new("m.obj", placement with { Position = new(70, 0, 0) }), mesh));
+        Assert.Equal(0, moved.FindClosest(new(70, 0, 0)).ObjectIndex);
+    }
+
     private static LoadedScene RandomScene(Random random)
     {
         Model[] models =

@@ -84,10 +84,42 @@ public class FractalParserErrorTests
 
     [Fact]
     public void Function_WithAVectorNumberOutOfRange_SaysHowManyThereAre() => Fails("v 1 1 1\nt. (1, 2, #)\n<$>. [t.] \"b.obj\"", """
-        test.fdo:2:8: error: vector 2 of 1: it is not declared above, and values stand in vectors of their own
+        test.fdo:2:8: error: vector 2 of 1: it is not declared above the call in line 3, and values stand in vectors of their own
           t. (1, 2, #)
                  ^
         """);
+
+    [Fact]
+    public void Function_CalledAboveItsVector_SaysWhichCall() => Fails("t. (2, 1, #)\nv 1 1 1\n<$>. [t.] \"b.obj\"\nv 2 2 2", """
+        test.fdo:1:5: error: vector 2 of 1: it is not declared above the call in line 3, and values stand in vectors of their own
+          t. (2, 1, #)
+              ^
+        """);
+
+    [Fact]
+    public void Function_NeverCalledWithAVectorThatIsNeverDeclared_IsRefused() => Fails("t. (#, 1, 2)\nv 1 1 1\n<$>. \"b.obj\"", """
+        test.fdo:1:11: error: vector 2 of 1: it is not declared, and values stand in vectors of their own
+          t. (#, 1, 2)
+                    ^
+        """);
+
+    [Fact]
+    public void Function_WithAVectorBelowIt_TakesItWhenItIsCalled()
+    {
+        var fractal = Samples.ParseFractal("t.a. (2, #, a)\nv 1 2 3\nv 4 5 6\nx. \"b.obj\"\n<$>. [t.1] x");
+        var set = Assert.IsType<TransformationSet>(Assert.Single(fractal.Description.Steps));
+        Assert.Equal(new(new(4, 5, 6), new(0, 0, 0), new(1, 2, 3)), Assert.Single(set.Transformations));
+    }
+
+    // The paper's names are strings. A hyphen before a letter belongs to a name, and before a digit it does not.
+    [Fact]
+    public void Names_WithHyphens_AreNames()
+    {
+        var fractal = Samples.ParseFractal(
+            "v .5 .5 .5\nmove-up.by-x. (by-x, #, #)\nmy-base. \"b.obj\"\nmy-tree<my-base>. [move-up.1] my-base\n<$>. my-tree 3");
+        Assert.Equal(3, Assert.IsType<Repetition>(Assert.Single(fractal.Description.Steps)).Count);
+        Assert.Throws<SourceException>(() => Samples.ParseFractal("x. \"b.obj\"\nz<x>. [#] x\n<$>. z-5"));
+    }
 
     [Theory]
     [InlineData("t.1.2", "'t' takes 1 argument, not 2")]
