@@ -17,6 +17,11 @@ internal sealed class SkyMaskBaker
     // Flat tiles in sheared frames make up a landscape. Their masks are turned wrong by a little at each level, and all directions that
     // matter lie close to the ground: drawn mountains are 3 dB farther from traced ones than without. By the diagonal.
     private const double MaxFlatness = 0.05;
+    private const double MaxShearOfTiles = 0.01;
+
+    // Elsewhere directions are turned wrong by as much, and where an axis is stretched, level after level, they leave it: what is open
+    // along it turns black. Ratios of axes up to about 1.2 darken no more than none at all.
+    private const double MaxShear = 0.4;
 
     // In each round, so many lines of sight are cast for each child, and one point votes for each mask.
     private const int RoundCount = 7;
@@ -52,14 +57,17 @@ internal sealed class SkyMaskBaker
             return false;
         }
 
-        var occluder = new SkyOccluder(hierarchy, windingSign);
-        if (IsFlat(hierarchy.Mesh.Bounds) && occluder.Nodes.Exists(static state => Array.Exists(state.Node.ChildMaps, IsShear)))
-        {
-            return false;
-        }
+        var baker = new SkyMaskBaker(new(hierarchy, windingSign), hierarchy);
+        return !baker.HasShearedMasks() && baker.IsAffordable() && baker.Bake(keepsAll, cancellation);
+    }
 
-        var baker = new SkyMaskBaker(occluder, hierarchy);
-        return baker.IsAffordable() && baker.Bake(keepsAll, cancellation);
+    /// <summary>Tells whether masks of a level reach those above through maps that turn directions wrong.</summary>
+    private bool HasShearedMasks()
+    {
+        var isFlat = IsFlat(_hierarchy.Mesh.Bounds);
+        return _occluder.Nodes.Exists(state => state.Node.ChildMaps.Index().Any(child => isFlat
+            ? ShearOf(child.Item) > MaxShearOfTiles
+            : ShearOf(child.Item) > MaxShear && _occluder.ChildOf(state.Node, state.Levels, child.Index).Node.ChildMaps.Length > 0));
     }
 
     /// <summary>
@@ -96,14 +104,13 @@ internal sealed class SkyMaskBaker
     private static bool IsFlat(BoundingBox box) =>
         Math.Min(box.Size.X, Math.Min(box.Size.Y, box.Size.Z)) < MaxFlatness * box.Diagonal;
 
-    /// <summary>Tells whether a map changes angles.</summary>
-    private static bool IsShear(SimdAffineMap map)
+    /// <summary>Measures how far a map is from a similarity, by the squares of lengths: 0 for one.</summary>
+    private static double ShearOf(SimdAffineMap map)
     {
         var (x, y, z) = (SimdAffineMap.ToVector(map.V1), SimdAffineMap.ToVector(map.V2), SimdAffineMap.ToVector(map.V3));
-        const double Tolerance = 0.01;
         var size = map.FrobeniusNormSquared() / 3;
-        return Math.Abs(x.LengthSquared() - size) + Math.Abs(y.LengthSquared() - size) + Math.Abs(z.LengthSquared() - size)
-            + Math.Abs(Vector.Dot(x, y)) + Math.Abs(Vector.Dot(y, z)) + Math.Abs(Vector.Dot(z, x)) > Tolerance * size;
+        return (Math.Abs(x.LengthSquared() - size) + Math.Abs(y.LengthSquared() - size) + Math.Abs(z.LengthSquared() - size)
+            + Math.Abs(Vector.Dot(x, y)) + Math.Abs(Vector.Dot(y, z)) + Math.Abs(Vector.Dot(z, x))) / size;
     }
 
     private bool Bake(bool keepsAll, CancellationToken cancellation)

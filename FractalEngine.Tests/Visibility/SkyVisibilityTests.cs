@@ -143,6 +143,45 @@ public class SkyVisibilityTests
         }
     }
 
+    // Pillars: each level halves the width and keeps or stretches the height. What sees two fifths of the sky is not black.
+    [Theory]
+    [InlineData(1.25, 0.7, 1, 0.55)]
+    [InlineData(0.6, 0.5, 0.55, 0.58)]
+    [InlineData(0.5, 0.5, 0.5, 0.5)]
+    public void Parts_OfAFractalThatStretchesAnAxis_AreNotBlackWhereTheSkyIsOpen(double s1, double s2, double s3, double s4)
+    {
+        static Transformation Pillar(double x, double z, double height) => new(new(x, 0, z), Vector.Zero, new(0.5, height, 0.5));
+        var fractal = Fractal.Of(Shapes.Cube())
+            .Repeat([Pillar(-0.5, -0.5, s1), Pillar(0.5, -0.5, s2), Pillar(-0.5, 0.5, s3), Pillar(0.5, 0.5, s4)], 5);
+        var hierarchy = LodHierarchy.Build(fractal);
+        hierarchy.BakeSkyMasks(1);
+        var occluder = new SkyOccluder(hierarchy, 1);
+        var (node, levels) = occluder.Nodes[0];
+        var (random, sample, path, parts) = (new Random(1), new SkySample(), new SkyPath(), new float[SkySides.Count]);
+        var (blackened, open) = (0, 0);
+        for (var i = 0; i < 3000; i++)
+        {
+            if (!occluder.TrySample(node, levels, random, sample))
+            {
+                continue;
+            }
+
+            var free = occluder.FreeDirections(node, levels, -1, sample.Point, SkyDirections.Above(sample.Normal));
+            if (SkyDirections.VisiblePart(free, ToVector256(sample.Normal)) > 0.4)
+            {
+                path.Set(sample.Steps);
+                path.ComputeParts(hierarchy, sample.Leaf!, sample.Steps.Count, VisibleSides.All, parts);
+                var part = SkySides.Blend(parts, (sample.FromMesh.Linear.Transpose() * sample.Normal).UnitVector());
+                blackened += part < 0.05 ? 1 : 0;
+                open++;
+            }
+        }
+
+        // Hidden directions of a whole cell are those of its few voting points.
+        Assert.InRange(open, 200, 3000);
+        Assert.InRange(blackened, 0, open / 100);
+    }
+
     [Fact]
     public void Masks_OfADeepFractal_AreShared()
     {
