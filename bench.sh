@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Measures, and draws what was measured: docs/benchmarks/*.csv and *.svg. `./bench.sh quick` takes smaller shapes, and some
-# minutes. Names of commands after that measure those only; all plots are drawn.
+# minutes; its tables go to out/benchmarks, and no plots are drawn. Names of commands after that measure those only.
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/eng/setup.sh"
 
@@ -11,7 +11,7 @@ measure_stability() {
     [ "$skipped" = 0 ] || fail "tests of stability were skipped, since there is no display: nothing is written"
     [ "$failed" = 0 ] && [ "$passed" != 0 ] || fail "tests of stability failed: nothing is written"
     # Files in one order everywhere. Machine and header are the same in all.
-    local - LC_ALL=C file="docs/benchmarks/$table.csv"
+    local - LC_ALL=C file="$folder/$table.csv"
     set +f
     local files=("$fragments"/*.csv)
     if ! { echo "# $command" && sed -n 2,3p "${files[0]}" && tail -qn +4 "${files[@]}"; } >"$file.tmp"; then
@@ -22,10 +22,13 @@ measure_stability() {
 }
 
 quick=
+folder=docs/benchmarks
 if [ "${1:-}" = quick ]; then
     quick=yes
+    folder=out/benchmarks
     shift
 fi
+mkdir -p "$root/$folder"
 
 commands=(front growth loading precision rays trace light frames skips physics window paper stability classes)
 [ $# = 0 ] || commands=("$@")
@@ -38,7 +41,7 @@ words() {
     case "$1" in
         front | growth | loading | precision | rays | trace | light) echo "$1 ${quick:+--quick}" ;;
         frames) echo "frames ${quick:+menger:5:afar menger:5:inside --rounds 1 --no-truth}" ;;
-        skips) echo "skips ${quick:+--rounds 1} --images docs/benchmarks/skips" ;;
+        skips) echo "skips ${quick:+--rounds 1} --images $folder/skips" ;;
         physics) echo "physics ${quick:+--rounds 1}" ;;
         # The paper's models have one size, and a window one cost.
         window | paper) echo "$1" ;;
@@ -89,10 +92,11 @@ for command in "${commands[@]}"; do
 
     words="$(words "$command")" || exit 2
     read -ra line <<<"$words"
-    "${benchmarks[@]}" "${line[@]}" --output docs/benchmarks </dev/null || fail "the command '$command' failed"
+    "${benchmarks[@]}" "${line[@]}" --output "$folder" </dev/null || fail "the command '$command' failed"
 done
 set +f
 
+[ -z "$quick" ] || exit 0
 for plot in eng/plots/*.gp; do
     gnuplot "$plot" || fail "gnuplot can't draw $plot"
 done

@@ -40,7 +40,8 @@ internal static class InfoCommand
     private static TimeSpan MeasurePreparation(LoadedFile file)
     {
         var clock = Stopwatch.StartNew();
-        DrawableScene.Prepare(file.Scene, new RenderSettings());
+        // What the first picture needs: the window computes the light within fractals while it shows that.
+        new ScenePreparation(file.Scene, new()).PrepareAll(null, CancellationToken.None);
         return clock.Elapsed;
     }
 }

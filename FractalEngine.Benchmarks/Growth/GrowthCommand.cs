@@ -27,17 +27,19 @@ internal static class GrowthCommand
     /// <param name="args">The words after the command's name.</param>
     public static int Run(ReadOnlySpan<string> args)
     {
-        var options = new TableOptions("growth", false, CommandLineParser.DefaultFolder);
+        var isQuick = false;
+        string? output = null;
         var names = new List<string>();
         var parser = new CommandLineParser($"{Usage}\nTables: {string.Join(' ', Tables.Keys)}")
-            .Flag("--quick", () => options = options with { IsQuick = true })
-            .Option("--output", folder => options = options with { Folder = folder })
+            .Flag("--quick", () => isQuick = true)
+            .Option("--output", folder => output = folder)
             .Names(Tables.ContainsKey, names);
         if (!parser.TryParse(args))
         {
             return 2;
         }
 
+        var options = new TableOptions("growth", isQuick, output ?? CommandLineParser.FolderFor(isQuick));
         foreach (var (name, write) in Tables.Where(table => names.Count == 0 || names.Contains(table.Key)))
         {
             var watch = Stopwatch.StartNew();

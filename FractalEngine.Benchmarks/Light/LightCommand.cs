@@ -40,13 +40,13 @@ internal static class LightCommand
     {
         var isQuick = false;
         var hasTruth = true;
-        var folder = CommandLineParser.DefaultFolder;
+        string? output = null;
         string? images = null;
         var scenes = new List<string>();
         var parser = new CommandLineParser(Usage)
             .Flag("--quick", () => isQuick = true)
             .Flag("--no-truth", () => hasTruth = false)
-            .Option("--output", value => folder = value)
+            .Option("--output", value => output = value)
             .Option("--images", value => images = Directory.CreateDirectory(value).FullName)
             .Names(static name => name == "occlusion" || File.Exists(PathOf(name)), scenes);
         if (!parser.TryParse(args))
@@ -54,6 +54,7 @@ internal static class LightCommand
             return 2;
         }
 
+        var folder = output ?? CommandLineParser.FolderFor(isQuick);
         if (scenes.Count == 0)
         {
             scenes.AddRange(isQuick ? ["menger"] : ["menger", "playground", "gallery", "inside"]);

@@ -13,6 +13,10 @@ internal sealed class CommandLineParser(string usage)
     /// <summary>Folder in which the repository keeps its measurements.</summary>
     public static string DefaultFolder => Path.Combine(Path.GetDirectoryName(FractalCase.Assets)!, "docs", "benchmarks");
 
+    /// <summary>Folder of measurements unless stated: those of small shapes are kept apart, where git ignores them.</summary>
+    public static string FolderFor(bool isQuick) =>
+        isQuick ? Path.Combine(Path.GetDirectoryName(FractalCase.Assets)!, "out", "benchmarks") : DefaultFolder;
+
     /// <summary>Declares an option without a value.</summary>
     public CommandLineParser Flag(string option, Action set)
     {

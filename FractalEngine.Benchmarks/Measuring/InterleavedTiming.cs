@@ -10,12 +10,15 @@ internal static class InterleavedTiming
     /// <param name="actions">Actions to be timed.</param>
     /// <param name="rounds">Number of rounds, at least one.</param>
     /// <param name="clock">Clock that times the calls; the system's by default.</param>
-    public static double[] MeasureBestSeconds(IReadOnlyList<Action> actions, int rounds, TimeProvider? clock = null)
+    /// <param name="warmUp">Shortest time for which rounds go on, so that the compiler has done its best in the last ones.</param>
+    public static double[] MeasureBestSeconds(
+        IReadOnlyList<Action> actions, int rounds, TimeProvider? clock = null, TimeSpan warmUp = default)
     {
         clock ??= TimeProvider.System;
+        var begin = clock.GetTimestamp();
         var best = new double[actions.Count];
         Array.Fill(best, double.PositiveInfinity);
-        for (var round = 0; round < rounds; round++)
+        for (var round = 0; round < rounds || clock.GetElapsedTime(begin) < warmUp; round++)
         {
             for (var i = 0; i < best.Length; i++)
             {

@@ -3,7 +3,7 @@ namespace FractalEngine.Benchmarks.Measuring;
 /// <summary>Options of a command that writes tables.</summary>
 /// <param name="Command">Name of the command.</param>
 /// <param name="IsQuick">True for fewer points and rounds.</param>
-/// <param name="Folder">Folder of the tables.</param>
+/// <param name="Folder">Folder of the tables: unless stated, that of the repository's for whole measurements only.</param>
 internal sealed record TableOptions(string Command, bool IsQuick, string Folder)
 {
     /// <summary>Number of rounds, the best of which counts.</summary>
@@ -16,10 +16,13 @@ internal sealed record TableOptions(string Command, bool IsQuick, string Folder)
     /// <summary>Parses <c>--quick</c> and <c>--output FOLDER</c>, or returns null where there are other words.</summary>
     public static TableOptions? TryParse(string command, string usage, ReadOnlySpan<string> args)
     {
-        var options = new TableOptions(command, false, CommandLineParser.DefaultFolder);
+        var isQuick = false;
+        string? output = null;
         return new CommandLineParser(usage)
-            .Flag("--quick", () => options = options with { IsQuick = true })
-            .Option("--output", folder => options = options with { Folder = folder })
-            .TryParse(args) ? options : null;
+            .Flag("--quick", () => isQuick = true)
+            .Option("--output", folder => output = folder)
+            .TryParse(args)
+            ? new(command, isQuick, output ?? CommandLineParser.FolderFor(isQuick))
+            : null;
     }
 }

@@ -15,7 +15,7 @@ internal static class RaysCommand
     private const string Usage = """
         rays [--quick] [--output FOLDER]
           Million rays a second on one thread, of a camera, towards the sun, and at random; what all cores gain for a batch;
-          writes rays.csv.
+          writes rays.csv, into docs/benchmarks or, with --quick, out/benchmarks unless stated.
         """;
 
     private const long MaxExpandedFaces = 3_000_000;
@@ -54,7 +54,7 @@ internal static class RaysCommand
             ? RayCaster.For(FractalGenerator.Flatten(fractal, MaxExpandedFaces))
             : null;
         List<Action> actions = [.. Actions(caster, sets), .. expansion is null ? [] : Actions(expansion, sets)];
-        var seconds = InterleavedTiming.MeasureBestSeconds(actions, options.Rounds);
+        var seconds = InterleavedTiming.MeasureBestSeconds(actions, options.Rounds, warmUp: TimeSpan.FromSeconds(1));
         int[] counts = [sets.Primary.Length, sets.Shadow.Length, sets.Random.Length];
         var context = new QueryContext();
         var hits = sets.Primary.Count(ray => caster.TryFindNearest(ray, context, out _));

@@ -26,11 +26,11 @@ internal static class TraceCommand
     public static int Run(ReadOnlySpan<string> args)
     {
         var isQuick = false;
-        var folder = CommandLineParser.DefaultFolder;
+        string? output = null;
         var names = new List<string>();
         var parser = new CommandLineParser(Usage)
             .Flag("--quick", () => isQuick = true)
-            .Option("--output", value => folder = value)
+            .Option("--output", value => output = value)
             .Names(name => Scenes.Contains(name) && !names.Contains(name), names);
         if (!parser.TryParse(args))
         {
@@ -38,7 +38,7 @@ internal static class TraceCommand
         }
 
         var table = new CsvTable(
-            Path.Combine(folder, "trace.csv"), string.Join(' ', ["trace", .. names, .. isQuick ? ["--quick"] : Array.Empty<string>()]),
+            Path.Combine(output ?? CommandLineParser.FolderFor(isQuick), "trace.csv"), string.Join(' ', ["trace", .. names, .. isQuick ? ["--quick"] : Array.Empty<string>()]),
             "scene", "width", "height", "sample_ms_one_bounce", "sample_ms", "drawn_frame_ms", "samples_of_truth", "db_after_5_s",
             "db_after_10_s");
         var (width, height) = isQuick ? (160, 90) : (960, 540);
