@@ -7,7 +7,7 @@ namespace FractalEngine.Tests.Collision.Fractals;
 
 /// <summary>
 /// Creates random fractals of few instances with all that breaks bounds: skew, mirrors, maps close to singular, overlaps, identities,
-/// several sets a level, huge and tiny scales and translations, faces without area, wide sets.
+/// several sets a level, huge and tiny scales and translations, faces without area, wide sets. Half of them are <see cref="RandomShapes"/>.
 /// </summary>
 internal static class RandomAdversarialFractals
 {
@@ -15,6 +15,11 @@ internal static class RandomAdversarialFractals
 
     public static Fractal Create(Random random)
     {
+        if (random.Next(2) == 0)
+        {
+            return RandomShapes.Create(random, MaxChains);
+        }
+
         var steps = new List<FractalStep>();
         var chains = 1L;
         var spread = Spread(random);
