@@ -1,20 +1,33 @@
 #!/usr/bin/env bash
 # Runs all tests; `./test.sh soak` runs those with long counts. Further arguments go to `dotnet test`.
-# The last line is "N passed, N failed, N skipped".
+# The last line is "N passed, N failed, N skipped", below what was skipped and why. A skip fails the run where installed packages
+# would have run the test; `--allow-skips` is for those who can't have them.
 set -uo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/eng/setup.sh"
 
 filter='Category!=Soak'
-if [ "${1:-}" = soak ]; then
-    filter='Category=Soak'
+packages=tests
+allow_skips=
+while [ "${1:-}" = soak ] || [ "${1:-}" = --allow-skips ]; do
+    if [ "$1" = soak ]; then
+        filter='Category=Soak'
+        packages=soak
+    else
+        allow_skips=yes
+    fi
     shift
-fi
+done
 
-install_packages tests
+[ -n "$allow_skips" ] && [ "$packages" = soak ] && packages=tests
+install_packages "$packages"
 build FractalEngine.Tests
 
 results="$(mktemp -d)"
 trap 'rm -rf "$results"' EXIT
 run_tests "$results" "$filter" "$@"
+skips=0
+report_skips "$results" || skips=1
+[ "$skips" = 0 ] || [ -n "$allow_skips" ] \
+    || echo "error: tests were skipped that could run here: see the reasons above, or pass --allow-skips" >&2
 echo "$passed passed, $failed failed, $skipped skipped"
-[ "$failed" = 0 ] && [ "$passed" != 0 ]
+[ "$failed" = 0 ] && [ "$passed" != 0 ] && { [ "$skips" = 0 ] || [ -n "$allow_skips" ]; }
