@@ -1,6 +1,8 @@
 #!/usr/bin/env bash
 # Runs all tests; `./test.sh soak` runs those with long counts, and then the tests against 50 mutants of the day. Further arguments go
-# to `dotnet test`. The last line is "N passed, N failed, N skipped".
+# to `dotnet test`.
+# The last line is "N passed, N failed, N skipped", below what was skipped and why. A skip fails the run where installed packages
+# would have run the test; `--allow-skips` is for those who can't have them.
 # `./test.sh mutants [--sample N] [--seed S] [--in FOLDER] [--only ID[,ID]]` says which small faults in the product the tests notice.
 set -uo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/eng/setup.sh"
@@ -17,15 +19,23 @@ if [ "${1:-}" = mutants ]; then
     exit
 fi
 
-soak=
 filter='Category!=Soak'
-if [ "${1:-}" = soak ]; then
-    soak=yes
-    filter='Category=Soak'
+packages=tests
+allow_skips=
+while [ "${1:-}" = soak ] || [ "${1:-}" = --allow-skips ]; do
+    if [ "$1" = soak ]; then
+        filter='Category=Soak'
+        packages=soak
+    else
+        allow_skips=yes
+    fi
     shift
-fi
+done
+soak=
+[ "$packages" != soak ] || soak=yes
 
-install_packages tests
+[ -n "$allow_skips" ] && [ "$packages" = soak ] && packages=tests
+install_packages "$packages"
 build FractalEngine.Tests
 
 results="$(mktemp -d)"
@@ -35,5 +45,10 @@ if [ -n "$soak" ] && [ $# = 0 ]; then
     # Another draw each day. So few may miss the demanded share by chance, which is allowed for.
     run_mutants --sample 50 --seed "$(date +%F)" --allow-chance || failed=$((failed + 1))
 fi
+
+skips=0
+report_skips "$results" || skips=1
+[ "$skips" = 0 ] || [ -n "$allow_skips" ] \
+    || echo "error: tests were skipped that could run here: see the reasons above, or pass --allow-skips" >&2
 echo "$passed passed, $failed failed, $skipped skipped"
-[ "$failed" = 0 ] && [ "$passed" != 0 ]
+[ "$failed" = 0 ] && [ "$passed" != 0 ] && { [ "$skips" = 0 ] || [ -n "$allow_skips" ]; }

@@ -1,3 +1,4 @@
+using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Parsing.Text;
 using Spectre.Console;
@@ -21,6 +22,11 @@ internal static class ConsoleLoader
         var cache = new AssetCache();
         var file = Console.IsErrorRedirected ? AssetLoader.Load(path, options, null, cache) : LoadWithProgressBar(path, options, cache);
         InputFiles.Add(cache);
+        if (options.Composition is not null && !file.Scene.Models.Any(static model => model is FractalModel))
+        {
+            throw new UsageException($"{path} has no fractal, so --composition has no effect");
+        }
+
         foreach (var warning in file.Warnings.Where(warning => !(isTraced && warning.ConcernsDrawnFrames)))
         {
             Console.Error.WriteLine(warning);

@@ -51,12 +51,26 @@ internal static class SceneWorld
         }
     }
 
+    /// <summary>Requires a scene to have physics objects or moving ones.</summary>
+    /// <param name="path">Path of the scene, for messages.</param>
+    /// <param name="scene">The scene.</param>
+    /// <param name="consequence">What follows where it has none.</param>
+    /// <exception cref="UsageException">It has none.</exception>
+    public static void RequireMotion(string path, LoadedScene scene, string consequence)
+    {
+        if (!scene.Objects.Any(static placed => placed.Declaration is PhysicsObject or { Motion: not null }))
+        {
+            throw new UsageException($"{path} has no physics objects, so {consequence}");
+        }
+    }
+
     /// <summary>Returns a scene as it is after some time, to the nearest step.</summary>
     /// <param name="path">Path of the scene, for messages.</param>
     /// <param name="file">The file that the scene was loaded from.</param>
     /// <param name="scene">The scene, perhaps with another projection.</param>
     /// <param name="seconds">Time since the beginning; at 0 the scene stays as it is.</param>
     /// <exception cref="SourceException">A body is invalid, or leaves the range of a double.</exception>
+    /// <exception cref="UsageException">Nothing in the scene moves.</exception>
     public static LoadedScene After(string path, LoadedFile file, LoadedScene scene, double seconds)
     {
         if (!(seconds > 0))
@@ -64,6 +78,7 @@ internal static class SceneWorld
             return scene;
         }
 
+        RequireMotion(path, scene, "--time has no effect");
         var world = Create(file, scene, new());
         while (world.Time + (0.5 * world.Settings.TimeStep) < seconds)
         {

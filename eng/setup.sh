@@ -25,8 +25,13 @@ missing_packages() {
     { ls /usr/lib/*/dri/swrast_dri.so || ls /usr/lib/*/libgallium*; } >/dev/null 2>&1 || echo libgl1-mesa-dri
     command -v Xvfb >/dev/null || echo xvfb
     command -v xauth >/dev/null || echo xauth
-    if [ "${1:-}" = tests ]; then
+    if [ "${1:-}" = tests ] || [ "${1:-}" = soak ]; then
         command -v xdotool >/dev/null || echo xdotool
+        command -v script >/dev/null || echo bsdutils
+    fi
+    if [ "${1:-}" = soak ]; then
+        command -v openbox >/dev/null || echo openbox
+        command -v ffmpeg >/dev/null || echo ffmpeg
     fi
     if [ "${1:-}" = plots ]; then
         command -v gnuplot >/dev/null || echo gnuplot-nox
@@ -134,6 +139,10 @@ run_tests() {
     if command -v xvfb-run >/dev/null; then
         command=(xvfb-run -a -s '-screen 0 1280x960x24 -noreset' "${command[@]}")
     fi
+    # What a shell starts in the background ignores interrupts, and so would the programs that tests interrupt.
+    if env --default-signal=INT true 2>/dev/null; then
+        command=(env --default-signal=INT "${command[@]}")
+    fi
     "${command[@]}" </dev/null || status=$?
     passed="$(count_results "$results" Passed)"
     failed="$(count_results "$results" Failed)"
@@ -146,4 +155,37 @@ run_tests() {
 
 count_results() {
     grep -o '<UnitTestResult [^>]*outcome="[^"]*"' "$1/tests.trx" 2>/dev/null | grep -c "outcome=\"$2\"" || true
+}
+
+# How the reasons of tests begin that are not meant for the machine, as in FractalEngine.Tests/Support/Elsewhere.cs.
+elsewhere='not meant for this system: '
+
+# Prints each reason of skipped tests with their number before it, the most frequent first.
+skip_reasons() {
+    awk 'BEGIN { RS = "<UnitTestResult " } /^[^>]*outcome="NotExecuted"/ {
+        reason = "no reason is given"
+        if (match($0, /<(Message|StdOut)>[^<]*/)) {
+            reason = substr($0, RSTART, RLENGTH)
+            sub(/^<[A-Za-z]*>/, "", reason)
+            gsub(/[\r\n]+/, " ", reason)
+        }
+        gsub(/&amp;/, "\\&", reason); gsub(/&quot;/, "\"", reason); gsub(/&apos;|&#39;/, "\047", reason)
+        gsub(/^ +| +$/, "", reason)
+        print reason
+    }' "$1/tests.trx" 2>/dev/null | sort | uniq -c | sort -rn
+}
+
+# Tells what was skipped and why. Fails where a test was skipped that is meant for the machine.
+report_skips() {
+    local count reason status=0
+    while read -r count reason; do
+        case "$reason" in
+            "$elsewhere"*) echo "skipped $count: $reason" ;;
+            *)
+                echo "skipped $count that could run: $reason"
+                status=1
+                ;;
+        esac
+    done < <(skip_reasons "$1")
+    return "$status"
 }

@@ -29,7 +29,7 @@ var scene = new Scene { Objects = [new(sponge)] };
 using var renderer = Renderer.Offscreen(1280, 720);
 renderer.Draw(scene, Camera.Framing(scene)).SavePng("sponge.png");      // a managed writer, no native library
 
-FractalFile.Write("sponge.fdo", sponge);                                // and sponge.obj, for the cube has no file
+FractalFile.Write("sponge.fdo", sponge);                                // and sponge-base.obj, for the cube has no file
 Console.WriteLine(
     FormattableString.Invariant($"{nearest.Distance:F9} {ball.Velocity.Y:F9} {FractalFile.Read("sponge.fdo").Equals(sponge)}"));
 

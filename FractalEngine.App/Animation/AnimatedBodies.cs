@@ -22,11 +22,7 @@ internal sealed class AnimatedBodies
     /// <exception cref="UsageException">The scene has neither physics objects nor moving ones.</exception>
     public AnimatedBodies(string path, LoadedFile file, LoadedScene scene)
     {
-        if (!scene.Objects.Any(static placed => placed.Declaration is PhysicsObject or { Motion: not null }))
-        {
-            throw new UsageException($"{path} has no physics objects, so there is nothing to simulate");
-        }
-
+        SceneWorld.RequireMotion(path, scene, "there is nothing to simulate");
         _path = path;
         _world = SceneWorld.Create(file, scene, new());
         Maps = CurrentMaps();

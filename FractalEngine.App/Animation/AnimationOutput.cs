@@ -28,6 +28,9 @@ internal abstract class AnimationOutput : IDisposable
         }
     }
 
+    /// <summary>Returns whether an output is a list of images, none of which has a time.</summary>
+    public static bool HasNoTimes(string path) => path.EndsWith(".png", StringComparison.OrdinalIgnoreCase);
+
     /// <summary>Creates the output for the ending of a name.</summary>
     /// <param name="path">Path that ends in one of <see cref="Endings"/>.</param>
     /// <param name="frameCount">Number of frames that will follow.</param>

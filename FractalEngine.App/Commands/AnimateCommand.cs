@@ -70,6 +70,17 @@ internal static class AnimateCommand
             };
             var traced = trace.Choice(result);
             draw.RequireEffect(result, traced);
+            if (result.GetValue(path) is not null && camera.IsGiven(result))
+            {
+                throw new UsageException("--camera, --view, --look-from and --look-at have no effect with --path, which names the cameras");
+            }
+
+            if (result.GetValue(rate) is not null && !result.GetValue(simulate)
+                && AnimationOutput.HasNoTimes(result.GetRequiredValue(output)))
+            {
+                throw new UsageException("--fps has no effect on numbered images unless --simulate moves something");
+            }
+
             var animation = new AnimationJob(
                 job, result.GetRequiredValue(output), result.GetValue(frames) ?? DefaultFrameCount,
                 result.GetValue(rate) ?? DefaultFramesPerSecond, result.GetValue(turntable), result.GetValue(path),

@@ -47,6 +47,12 @@ internal sealed class CameraOptions
     /// <summary>Returns the number of levels that the camera flies into a fractal.</summary>
     public double Zoom(ParseResult result) => result.GetValue(_zoom) ?? 0;
 
+    /// <summary>Returns whether the options choose a camera.</summary>
+    public bool IsGiven(ParseResult result) =>
+        result.GetValue(_camera) is not null || result.GetValue(_view) is not null || HasTarget(result);
+
+    private bool HasTarget(ParseResult result) => result.GetValue(_lookFrom) is not null || result.GetValue(_lookAt) is not null;
+
     /// <summary>Returns the view of a scene that the options ask for, without the zoom.</summary>
     /// <param name="result">The parsed command line.</param>
     /// <param name="scene">The scene, with the projection of the command line.</param>
@@ -55,7 +61,7 @@ internal sealed class CameraOptions
     /// <exception cref="UsageException">The options contradict each other, or have a faulty value.</exception>
     public View View(ParseResult result, LoadedScene scene, bool hasProjection, double aspect)
     {
-        var hasTarget = result.GetValue(_lookFrom) is not null || result.GetValue(_lookAt) is not null;
+        var hasTarget = HasTarget(result);
         if (new[] { result.GetValue(_camera) is not null, hasTarget, result.GetValue(_view) is not null }.Count(static given => given) > 1)
         {
             throw new UsageException("--camera, --view and --look-from or --look-at exclude each other: give one of the three");

@@ -109,16 +109,57 @@ internal sealed class DrawOptions
     /// <summary>Returns true unless <c>--without</c> names the optimisation.</summary>
     public bool IsEnabled(ParseResult result, Optimisation optimisation) => !(result.GetValue(_disabled) ?? []).Contains(optimisation);
 
-    /// <summary>Refuses options that change nothing in a traced image.</summary>
+    /// <summary>Refuses options that change nothing.</summary>
     /// <param name="result">The command line.</param>
     /// <param name="traced">How the image is traced; null where it is drawn.</param>
+    /// <param name="hasWindow">Whether frames are shown in a window, whose keys switch shadows and the like.</param>
     /// <exception cref="UsageException">Such an option was given.</exception>
-    public void RequireEffect(ParseResult result, TracedImage? traced)
+    public void RequireEffect(ParseResult result, TracedImage? traced = null, bool hasWindow = false)
     {
         if (traced is not null && FindDrawnOnly(result) is { } option)
         {
             throw new UsageException($"{option} draws triangles, and has no effect with --trace");
         }
+
+        foreach (var (isGiven, words, obstacle) in FindObstacles(result, hasWindow))
+        {
+            if (isGiven && obstacle is not null)
+            {
+                throw new UsageException($"{words} has no effect {obstacle}");
+            }
+        }
+    }
+
+    /// <summary>Lists whether options are given, with what would take away their effect.</summary>
+    private IEnumerable<(bool IsGiven, string Words, string? Obstacle)> FindObstacles(ParseResult result, bool hasWindow)
+    {
+        var settings = Settings(result);
+        var wholeDetail = settings.Culling is null ? "with --detail 0" : null;
+        var image = hasWindow ? null : "without a window";
+        var wireframe = !hasWindow && settings.Wireframe ? "with --wireframe" : null;
+        var plainLight = wireframe ?? (!hasWindow && settings.Shading == Shading.PerVertex ? "with --shading vertex" : null);
+        var noShadows = plainLight ?? (!hasWindow && !settings.Shadows ? "with --no-shadows" : null);
+        var noOcclusion = wholeDetail ?? plainLight;
+        return
+        [
+            (settings.Shading == Shading.PerVertex, "--shading vertex", wireframe),
+            (!settings.Shadows, "--no-shadows", plainLight),
+            (!settings.AmbientOcclusion, "--no-ambient-occlusion", noOcclusion),
+            Without(Optimisation.BackFaceCulling, wireframe),
+            Without(Optimisation.FrustumCulling, wholeDetail),
+            Without(Optimisation.OcclusionCulling, wholeDetail ?? wireframe),
+            Without(Optimisation.LightCulling, noShadows),
+            Without(Optimisation.CasterCulling, noShadows),
+            Without(
+                Optimisation.BakeSkipping,
+                noOcclusion ?? (!hasWindow && !settings.AmbientOcclusion ? "with --no-ambient-occlusion" : null)),
+            Without(Optimisation.LazyLoading, image),
+            Without(Optimisation.Idle, image),
+        ];
+
+        (bool IsGiven, string Words, string? Obstacle) Without(Optimisation optimisation, string? obstacle) => (
+            !IsEnabled(result, optimisation),
+            $"--without {Array.Find(OptimisationWords, known => known.Value == optimisation).Word}", obstacle);
     }
 
     private string? FindDrawnOnly(ParseResult result) =>

@@ -28,17 +28,22 @@ internal static class GenerateCommand
         };
         report.AddTo(command);
         command.SetAction(result => Run(
-            result.GetRequiredValue(name), result.GetRequiredValue(output), result.GetValue(seed) ?? 0, result.GetValue(faces),
+            result.GetRequiredValue(name), result.GetRequiredValue(output), result.GetValue(seed), result.GetValue(faces),
             report.Begin(result)));
         return command;
     }
 
-    private static int Run(string name, string output, ulong seed, int? faces, WrittenReport report)
+    private static int Run(string name, string output, ulong? seed, int? faces, WrittenReport report)
     {
         var generator = MeshGenerators.Find(name)
             ?? throw new UsageException($"unknown mesh '{name}', expected one of: {Names()}");
-        var mesh = generator.Create(seed, faces);
-        OutputFile.Write(output, stream => ObjMeshWriter.Write(mesh, stream, name));
+        if (seed is not null && !generator.HasRandomDetails)
+        {
+            throw new UsageException($"the mesh '{name}' has no random details, so --seed has no effect");
+        }
+
+        var mesh = report.Measure("generate", () => generator.Create(seed ?? 0, faces));
+        report.Measure("write", () => OutputFile.Write(output, stream => ObjMeshWriter.Write(mesh, stream, name)));
         if (output != StandardInput.Name)
         {
             Console.WriteLine(mesh.FaceCount);

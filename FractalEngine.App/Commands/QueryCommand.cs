@@ -57,6 +57,11 @@ internal static class QueryCommand
         shared.AddTo(command);
         command.SetAction(result =>
         {
+            if (result.GetValue(json) && result.GetValue(header))
+            {
+                throw new UsageException("--header names the columns of lines, and has no effect with --json");
+            }
+
             var path = result.GetRequiredValue(shared.File);
             var options = shared.LoadOptions(result);
             return (result.GetValue(points), result.GetValue(rays)) switch

@@ -49,9 +49,10 @@ internal static class ViewCommand
         command.Add(trailLength);
         command.Add(trace);
         command.Add(noTrace);
-        command.SetAction(result => Run(
-            result.GetValue(shared.File) ?? FindGallery(),
-            new()
+        command.SetAction(result =>
+        {
+            draw.RequireEffect(result, hasWindow: true);
+            return Run(result.GetValue(shared.File) ?? FindGallery(), new()
             {
                 Load = draw.WithLoadOptions(result, shared.LoadOptions(result)),
                 Settings = draw.Settings(result),
@@ -65,7 +66,8 @@ internal static class ViewCommand
                 SettingsPath = WindowSettings.DefaultPath,
                 RecentFilesPath = RecentFiles.DefaultPath,
                 IdleWhenUnchanged = draw.IsEnabled(result, Optimisation.Idle),
-            }));
+            });
+        });
         return command;
     }
 

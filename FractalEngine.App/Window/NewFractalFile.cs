@@ -1,5 +1,6 @@
 using System.Text;
 using FractalEngine.Core.Files;
+using FractalEngine.Parsing.Fractals;
 
 namespace FractalEngine.App.Window;
 
@@ -14,7 +15,7 @@ internal static class NewFractalFile
     public static string Propose(FractalTemplate template, string folder) => Enumerable.Range(1, int.MaxValue)
         .Select(number => Path.Combine(
             folder, number == 1 ? $"{template.Name}{Extension}" : FormattableString.Invariant($"{template.Name}-{number}{Extension}")))
-        .First(static path => !Path.Exists(path) && !Path.Exists(MeshPath(path)));
+        .First(static path => !Path.Exists(path) && !Path.Exists(FractalFile.BaseMeshPath(path)));
 
     /// <summary>Writes a fractal, and its base mesh beside it.</summary>
     /// <param name="template">What the fractal begins with.</param>
@@ -37,7 +38,7 @@ internal static class NewFractalFile
             throw new IOException("the name of a fractal has no quote and no line break");
         }
 
-        var meshPath = MeshPath(path);
+        var meshPath = FractalFile.BaseMeshPath(path);
         if (FirstTaken(path, meshPath) is { } taken)
         {
             throw new IOException($"{Path.GetFileName(taken)} exists already, and is not replaced");
@@ -46,8 +47,6 @@ internal static class NewFractalFile
         WriteNew(meshPath, template.MeshText);
         WriteNew(path, template.TextWith(Path.GetFileName(meshPath)));
     }
-
-    private static string MeshPath(string path) => Path.ChangeExtension(path, null) + "-base.obj";
 
     private static string? FirstTaken(params ReadOnlySpan<string> paths)
     {

@@ -24,6 +24,7 @@ public static class FractalGenerator
     /// </remarks>
     public static ImmutableArray<AffineMap> Expand(Fractal fractal, long maxInstances)
     {
+        ArgumentNullException.ThrowIfNull(fractal);
         if (FractalSteps.HasAtMostInstances(fractal.Description.Steps, 0))
         {
             return [];
@@ -152,10 +153,13 @@ public static class FractalGenerator
     /// The fractal has more faces, or more vertices or faces than an array holds. Nothing is expanded then.
     /// </exception>
     /// <remarks>Mirrored instances are inside out: the normal of a face is that of its image.</remarks>
-    public static Mesh Flatten(Fractal fractal, long maxFaces) =>
-        Flatten(fractal.BaseMesh, Expand(fractal, Math.Min(
+    public static Mesh Flatten(Fractal fractal, long maxFaces)
+    {
+        ArgumentNullException.ThrowIfNull(fractal);
+        return Flatten(fractal.BaseMesh, Expand(fractal, Math.Min(
             maxFaces / Math.Max(1, fractal.BaseMesh.FaceCount),
             Array.MaxLength / Math.Max(1, Math.Max(fractal.BaseMesh.Positions.Length, fractal.BaseMesh.VertexIndices.Length)))));
+    }
 
     /// <summary>Joins instances of a mesh into one mesh.</summary>
     /// <param name="mesh">Mesh whose vertices and faces are repeated for each instance.</param>

@@ -12,7 +12,7 @@ public sealed class Repetition : FractalStep
     /// <exception cref="ArgumentException">The body is empty or infinite itself.</exception>
     public Repetition(ImmutableArray<FractalStep> body, int? count)
     {
-        if (body.Length == 0 || body.Any(step => step.LevelCount is null))
+        if (body.IsDefaultOrEmpty || body.Any(step => step.LevelCount is null))
         {
             throw new ArgumentException("expected at least one step, and only finite ones", nameof(body));
         }

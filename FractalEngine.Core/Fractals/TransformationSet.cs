@@ -11,7 +11,8 @@ public sealed class TransformationSet : FractalStep
     /// <summary>Makes a set in the order of its declaration; a transformation may occur more than once.</summary>
     public TransformationSet(ImmutableArray<Transformation> transformations)
     {
-        Transformations = transformations;
+        Transformations = transformations.IsDefault
+            ? throw new ArgumentException("expected transformations", nameof(transformations)) : transformations;
         var maps = new AffineMap[transformations.Length];
         for (var i = 0; i < maps.Length; i++)
         {

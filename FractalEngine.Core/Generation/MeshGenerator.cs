@@ -16,6 +16,9 @@ public sealed class MeshGenerator
         _generate = generate;
     }
 
+    internal MeshGenerator(string name, string description, int defaultFaceCount, int minFaceCount, Func<int, Mesh> generate)
+        : this(name, description, defaultFaceCount, minFaceCount, (_, faces) => generate(faces)) => HasRandomDetails = false;
+
     /// <summary>Name of the generator on the command line.</summary>
     public string Name { get; }
 
@@ -27,6 +30,9 @@ public sealed class MeshGenerator
 
     /// <summary>Minimum number of faces that make the shape.</summary>
     public int MinFaceCount { get; }
+
+    /// <summary>Whether another seed makes another mesh.</summary>
+    public bool HasRandomDetails { get; } = true;
 
     /// <summary>Generates a mesh with a number of faces.</summary>
     /// <param name="seed">

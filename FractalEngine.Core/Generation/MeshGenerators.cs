@@ -25,8 +25,8 @@ public static class MeshGenerators
             "tree-stump", "A tree stump with bark, roots and growth rings; the paper's model 2",
             237_664, TreeStump.MinFaceCount, TreeStump.Create),
         new("terrain", "Mountains and valleys, a height field of noise", 2 * 256 * 256, 2, Terrain.Create),
-        new("icosphere", "A sphere of nearly equal triangles", 1280, 20, (_, faces) => RoundShapes.Icosphere(faces)),
-        new("torus-knot", "A tube along a knot", 12_288, 200, (_, faces) => RoundShapes.TorusKnot(faces)),
+        new("icosphere", "A sphere of nearly equal triangles", 1280, 20, RoundShapes.Icosphere),
+        new("torus-knot", "A tube along a knot", 12_288, 200, RoundShapes.TorusKnot),
     ];
 
     /// <summary>Finds the generator of a name.</summary>

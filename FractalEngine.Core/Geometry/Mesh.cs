@@ -20,13 +20,13 @@ public sealed class Mesh : IEquatable<Mesh>
     /// </exception>
     public Mesh(ImmutableArray<double> positions, ImmutableArray<int> vertexIndices)
     {
-        Require(positions.Length % 3 == 0, nameof(positions), "three coordinates a vertex");
+        Require(!positions.IsDefault && positions.Length % 3 == 0, nameof(positions), "three coordinates a vertex");
         Bounds = BoundsOf(positions.AsSpan());
         // A minimum or maximum with NaN is NaN, so that the bounds of other coordinates are never finite.
         Require(positions.IsEmpty || (Bounds.Minimum.IsFinite() && Bounds.Maximum.IsFinite()), nameof(positions), "finite coordinates");
         Positions = positions;
         VertexIndices = vertexIndices;
-        RequireIndices(vertexIndices, vertexIndices.Length, positions.Length / 3, 0, nameof(vertexIndices));
+        RequireIndices(vertexIndices, null, positions.Length / 3, 0, nameof(vertexIndices));
     }
 
     /// <summary>The mesh without vertices.</summary>
@@ -73,7 +73,7 @@ public sealed class Mesh : IEquatable<Mesh>
     /// <exception cref="ArgumentException">There are not three components a vertex.</exception>
     public Mesh WithColours(ImmutableArray<double> colours)
     {
-        Require(colours.Length == Positions.Length, nameof(colours), "three components a vertex");
+        Require(!colours.IsDefault && colours.Length == Positions.Length, nameof(colours), "three components a vertex");
         return new(this) { Colours = colours };
     }
 
@@ -82,7 +82,7 @@ public sealed class Mesh : IEquatable<Mesh>
     /// <param name="indices">Indices into them, −1 for none, [faces × 3].</param>
     public Mesh WithTextureCoordinates(ImmutableArray<double> coordinates, ImmutableArray<int> indices)
     {
-        Require(coordinates.Length % 2 == 0, nameof(coordinates), "two coordinates each");
+        Require(!coordinates.IsDefault && coordinates.Length % 2 == 0, nameof(coordinates), "two coordinates each");
         RequireIndices(indices, VertexIndices.Length, coordinates.Length / 2, -1, nameof(indices));
         return new(this) { TextureCoordinates = coordinates, TextureIndices = indices };
     }
@@ -92,7 +92,7 @@ public sealed class Mesh : IEquatable<Mesh>
     /// <param name="indices">Indices into them, −1 for none, [faces × 3].</param>
     public Mesh WithNormals(ImmutableArray<double> normals, ImmutableArray<int> indices)
     {
-        Require(normals.Length % 3 == 0, nameof(normals), "three components each");
+        Require(!normals.IsDefault && normals.Length % 3 == 0, nameof(normals), "three components each");
         RequireIndices(indices, VertexIndices.Length, normals.Length / 3, -1, nameof(indices));
         return new(this) { Normals = normals, NormalIndices = indices };
     }
@@ -198,9 +198,10 @@ public sealed class Mesh : IEquatable<Mesh>
     private static bool HaveSameBits(ImmutableArray<double> numbers1, ImmutableArray<double> numbers2) =>
         MemoryMarshal.AsBytes(numbers1.AsSpan()).SequenceEqual(MemoryMarshal.AsBytes(numbers2.AsSpan()));
 
-    private static void RequireIndices(ImmutableArray<int> indices, int length, int count, int minIndex, string name)
+    private static void RequireIndices(ImmutableArray<int> indices, int? length, int count, int minIndex, string name)
     {
-        Require(indices.Length % 3 == 0 && indices.Length == length, name, "three indices a face");
+        Require(
+            !indices.IsDefault && indices.Length % 3 == 0 && (length ?? indices.Length) == indices.Length, name, "three indices a face");
         Require(AreWithin(indices.AsSpan(), minIndex, count - 1), name, "indices of elements that exist");
     }
 

@@ -60,6 +60,7 @@ public sealed partial class PhysicsWorld
     /// <exception cref="ArgumentException">A number is not finite, or outside its range; the message names it and the body.</exception>
     public Body Add(BodyDescription description)
     {
+        ArgumentNullException.ThrowIfNull(description);
         Validate(description);
         var body = AppendBody(description);
         _grid.Build(_bodies);

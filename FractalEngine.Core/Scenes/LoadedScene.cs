@@ -21,5 +21,9 @@ public sealed record LoadedScene(Scene Scene, ImmutableArray<PlacedModel> Object
 
     /// <summary>Places the models of a scene made in code, or loaded from a file.</summary>
     /// <exception cref="FractalEngineException">An object names a file that is not loaded.</exception>
-    public static LoadedScene Of(Scene scene) => new(scene, [.. scene.Objects.Select(declared => new PlacedModel(declared))]);
+    public static LoadedScene Of(Scene scene)
+    {
+        ArgumentNullException.ThrowIfNull(scene);
+        return new(scene, [.. scene.Objects.Select(declared => new PlacedModel(declared))]);
+    }
 }

@@ -29,6 +29,7 @@ internal static class FileKinds
     /// <exception cref="ArgumentException">The path has another ending.</exception>
     public static void Require(string path, FileKind kind)
     {
+        ArgumentNullException.ThrowIfNull(path);
         if (FromName(path) != kind)
         {
             throw new ArgumentException($"expected the name of a {Ending(kind)} file", nameof(path));
@@ -42,6 +43,7 @@ internal static class FileKinds
     /// <exception cref="ArgumentException">The path has another ending.</exception>
     public static void RequirePlainObj(string path)
     {
+        ArgumentNullException.ThrowIfNull(path);
         if (!IsPlainObj(path))
         {
             throw new ArgumentException("expected the name of a .obj file", nameof(path));

@@ -16,7 +16,7 @@ namespace FractalEngine.Parsing.Fractals;
 /// <see cref="LoadOptions.AllowOutsideFiles"/>, where its base mesh has a file outside the folder of the new one.
 /// </summary>
 /// <example><code>
-/// FractalFile.Write("sponge.fdo", Fractal.Of(Shapes.Cube()).Repeat(maps, 5)); // and sponge.obj
+/// FractalFile.Write("sponge.fdo", Fractal.Of(Shapes.Cube()).Repeat(maps, 5)); // and sponge-base.obj
 /// var sponge = FractalFile.Read("sponge.fdo");
 /// </code></example>
 public static class FractalFile
@@ -32,7 +32,7 @@ public static class FractalFile
         return ((FractalModel)AssetLoader.Load(path, options).Scene.Objects[0].Model).Fractal;
     }
 
-    /// <summary>Creates or replaces the file of a fractal, and writes <c>NAME.obj</c> beside it for a base mesh without a file.</summary>
+    /// <summary>Creates or replaces the file of a fractal, and its base mesh beside it if that has no file.</summary>
     /// <param name="path">Path that ends in <c>.fdo</c>; its folder is created if it is missing.</param>
     /// <param name="fractal">Fractal made in code or read from a file.</param>
     /// <exception cref="ArgumentException">The path does not end in <c>.fdo</c>.</exception>
@@ -41,17 +41,25 @@ public static class FractalFile
     /// <remarks>
     /// A base mesh that was loaded from a file keeps that file, which is named relative to the new one. Reading needs
     /// <see cref="LoadOptions.AllowOutsideFiles"/> if it lies outside the new file's <see cref="AssetFolder"/>. Any other base mesh is
-    /// written beside the fractal as <c>NAME.obj</c>: a file with equal contents is used as it is; a different one stays untouched, and
-    /// <c>NAME-2.obj</c> and so on are tried.
+    /// written as <see cref="BaseMeshPath"/>: a file with equal contents is used as it is; a different one stays untouched, and
+    /// <c>NAME-base-2.obj</c> and so on are tried.
     /// </remarks>
     public static void Write(string path, Fractal fractal)
     {
         FileKinds.Require(path, FileKind.Fractal);
+        ArgumentNullException.ThrowIfNull(fractal);
         using var companions = new NewFiles();
         var text = WriteText(Path.GetFullPath(path), fractal, ImmutableDictionary<string, Material>.Empty, companions);
         AtomicFile.Write(path, stream => stream.Write(text));
         companions.Keep();
     }
+
+    /// <summary>
+    /// Returns the path of the base mesh that is written beside a fractal: <c>NAME-base.obj</c>, as <c>NAME.obj</c> is where one would
+    /// write the mesh that the fractal makes.
+    /// </summary>
+    /// <param name="path">Path that ends in <c>.fdo</c>.</param>
+    public static string BaseMeshPath(string path) => $"{Path.ChangeExtension(path, null)}-base.obj";
 
     /// <summary>Returns the text of a fractal file, and writes the base mesh if it has no file.</summary>
     /// <param name="fullPath">Full path of the fractal file, or of another one in the same folder.</param>
@@ -68,7 +76,7 @@ public static class FractalFile
 
         if (fractal.BaseMeshPath is not { } meshPath || !File.Exists(meshPath))
         {
-            meshPath = MeshFile.WriteNew(Path.ChangeExtension(fullPath, ".obj"), fractal.BaseMesh, materials, companions);
+            meshPath = MeshFile.WriteNew(BaseMeshPath(fullPath), fractal.BaseMesh, materials, companions);
         }
 
         return Encoding.UTF8.GetBytes(FractalWriter.Write(fractal.Description, FileReference.Create(fullPath, meshPath)));

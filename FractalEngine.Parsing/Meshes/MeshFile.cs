@@ -29,6 +29,7 @@ public static class MeshFile
     public static void Write(string path, Mesh mesh)
     {
         FileKinds.RequirePlainObj(path);
+        ArgumentNullException.ThrowIfNull(mesh);
         AtomicFile.Write(path, stream => WriteChecked(mesh, stream));
     }
 

@@ -36,6 +36,7 @@ public static class SceneFile
     public static void Write(string path, Scene scene)
     {
         FileKinds.Require(path, FileKind.Scene);
+        ArgumentNullException.ThrowIfNull(scene);
         using var companions = new NewFiles();
         var models = new SceneModelWriter(Path.GetFullPath(path), companions);
         var named = scene with { Objects = [.. scene.Objects.Select(declared => declared with { File = models.FileOf(declared) })] };

@@ -129,7 +129,31 @@ public sealed class AnimateCommandTests : DrawingCommandTests
             AppProcess.Run(Folder.Path, environment, "animate", "scene.sdo", "--turntable", "--output", "a.mp4"));
     }
 
+    /// <summary>The encoder itself is a large package, which only the long tests need; here another program takes its name.</summary>
+    [SkippableFact]
+    public void Animate_OfAVideo_GivesTheEncoderEachFrame()
+    {
+        Elsewhere.SkipOnWindows("there are no shell scripts");
+        Display.Require();
+        Folder.Write("bin/ffmpeg", "#!/bin/sh\necho \"$@\" >arguments.txt\nfor last; do :; done\ncat >\"$last\"\n");
+        if (!OperatingSystem.IsWindows())
+        {
+            File.SetUnixFileMode(Folder["bin/ffmpeg"], UnixFileMode.UserRead | UnixFileMode.UserExecute);
+        }
+
+        var environment = new Dictionary<string, string?> { ["PATH"] = $"{Folder["bin"]}:{Environment.GetEnvironmentVariable("PATH")}" };
+        var (exitCode, _, error) = AppProcess.Run(
+            Folder.Path, environment,
+            "animate", "scene.sdo", "--turntable", "--output", "a.mp4", "--frames", "3", "--fps", "10", "--resolution", "33x21");
+        Assert.True(exitCode == 0, error);
+        Assert.Equal(3, CountChunks("IEND", File.ReadAllBytes(Folder["a.mp4"])));
+        Assert.Matches(
+            @"^-loglevel error -y -f image2pipe -c:v png -framerate 10 -i - -vf \S+ -pix_fmt yuv420p .*a\.\w+\.unfinished\.mp4\n$",
+            File.ReadAllText(Folder["arguments.txt"]));
+    }
+
     [SkippableTheory]
+    [Trait("Category", "Soak")]
     [InlineData("a.mp4", 4, "ftyp")]
     [InlineData("a.webm", 0, "\u001aE\u00df\u00a3")]
     [InlineData("a.gif", 0, "GIF8")]

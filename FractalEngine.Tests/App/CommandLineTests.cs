@@ -252,7 +252,7 @@ public sealed class CommandLineTests : IDisposable
     [SkippableFact]
     public void Check_OfANamedPipe_DoesNotWait()
     {
-        Skip.If(OperatingSystem.IsWindows(), "there are no named pipes");
+        Elsewhere.SkipOnWindows("there are no named pipes");
         System.Diagnostics.Process.Start("mkfifo", _folder["pipe.obj"]).WaitForExit();
         Assert.Equal(new AppResult(1, "", "pipe.obj:1:1: error: this is a pipe or a device, expected a file\n"), Run("check", "pipe.obj"));
     }
@@ -388,7 +388,7 @@ public sealed class CommandLineTests : IDisposable
     [SkippableFact]
     public void Render_WithoutDisplay_ExitsWith4AndWritesNothing()
     {
-        Skip.IfNot(OperatingSystem.IsLinux(), "only X11 and Wayland find their display by variables of the environment");
+        Elsewhere.SkipIf(!OperatingSystem.IsLinux(), "only X11 and Wayland find their display by variables of the environment");
         var noDisplay = new Dictionary<string, string?> { ["DISPLAY"] = null, ["WAYLAND_DISPLAY"] = null };
         var (exitCode, output, error) = AppProcess.Run(_folder.Path, noDisplay, "render", "cube.obj", "--output", "a.png");
         Assert.Equal((4, ""), (exitCode, output));

@@ -92,7 +92,7 @@ public sealed class OutputFileTests : IDisposable
     [InlineData("link.obj")]
     public void Export_OntoAFileThatWasRead_IsRefusedAndReplacesNothing(string output)
     {
-        Skip.If(OperatingSystem.IsWindows(), "links need rights there");
+        Elsewhere.SkipOnWindows("links need rights there");
         _folder.Write("row.fdo", SampleFiles.Row("3"));
         File.CreateSymbolicLink(_folder["link.obj"], _folder["cube.obj"]);
         var (exitCode, _, error) = AppProcess.Run(_folder.Path, "export", "row.fdo", "--output", output);
@@ -103,7 +103,7 @@ public sealed class OutputFileTests : IDisposable
     [SkippableFact]
     public void Export_OntoAFileThatWasReadThroughALinkedFolder_IsRefused()
     {
-        Skip.If(OperatingSystem.IsWindows(), "links need rights there");
+        Elsewhere.SkipOnWindows("links need rights there");
         Directory.CreateSymbolicLink(_folder["elsewhere"], _folder.Path);
         var (exitCode, _, error) = AppProcess.Run(_folder.Path, "export", "cube.obj", "--output", "elsewhere/cube.obj");
         Assert.Equal((2, "error: elsewhere/cube.obj is one of the files that are read, and is not overwritten"), (exitCode, error.Trim()));
@@ -113,7 +113,7 @@ public sealed class OutputFileTests : IDisposable
     [SkippableFact]
     public void Export_IntoAPipeThatNothingReads_IsAnErrorInsteadOfAWait()
     {
-        Skip.If(OperatingSystem.IsWindows() || Shell("mkfifo pipe.obj").ExitCode != 0, "there are no named pipes");
+        Elsewhere.SkipIf(OperatingSystem.IsWindows() || Shell("mkfifo pipe.obj").ExitCode != 0, "there are no named pipes");
         var (exitCode, _, error) = AppProcess.Run(_folder.Path, "export", "cube.obj", "--output", "pipe.obj");
         Assert.Equal((2, "error: pipe.obj can't be written: it is a pipe that nothing reads"), (exitCode, error.Trim()));
     }
@@ -121,7 +121,7 @@ public sealed class OutputFileTests : IDisposable
     [SkippableFact]
     public void Export_IntoAPipe_WritesIntoIt()
     {
-        Skip.If(OperatingSystem.IsWindows() || Shell("mkfifo pipe.obj").ExitCode != 0, "there are no named pipes");
+        Elsewhere.SkipIf(OperatingSystem.IsWindows() || Shell("mkfifo pipe.obj").ExitCode != 0, "there are no named pipes");
         var app = Path.ChangeExtension(typeof(OutputFile).Assembly.Location, ".dll");
         var result = Shell($"cat pipe.obj >copy.obj & dotnet exec '{app}' export cube.obj --output pipe.obj; wait; test -p pipe.obj");
         Assert.Equal(0, result.ExitCode);
@@ -146,7 +146,7 @@ public sealed class OutputFileTests : IDisposable
     public void Streams_ThatAreFullOrClosed_DoNotChangeTheRest(string command, int exitCode, string output)
     {
         // A node of its own instead of /dev/full: an error here must not harm the machine's.
-        Skip.If(OperatingSystem.IsWindows() || Shell("mknod full c 1 7").ExitCode != 0, "only root can make device nodes");
+        Elsewhere.SkipIf(OperatingSystem.IsWindows() || Shell("mknod full c 1 7").ExitCode != 0, "this user can't make device nodes");
         _folder.Write("points.txt", "1.5 0.1 0.2\n");
         _folder.Write("scene.sdo", "p \"cube.obj\" # 0.5\n");
         var app = Path.ChangeExtension(typeof(OutputFile).Assembly.Location, ".dll");

@@ -1,3 +1,5 @@
+using System.CommandLine;
+using FractalEngine.App.Commands;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.App;
@@ -71,24 +73,85 @@ public sealed class RefusalTests : IDisposable
             StringComparison.Ordinal);
     }
 
+    /// <summary>Every option that the other options or the file leave without effect, with the reason.</summary>
     [Theory]
-    [InlineData("--samples", "8")]
-    [InlineData("--detail", "0")]
-    [InlineData("--instances", "10")]
-    [InlineData("--without", "frustum-culling")]
-    public void Render_TracedWithAnOptionOfDrawing_IsRefused(string option, string value)
+    [InlineData("query cube.obj --rays r.txt --epsilon 1", "--collider, --within, --epsilon and --error-bound need --points")]
+    [InlineData("query --epsilon 1 --rays r.txt cube.obj", "--collider, --within, --epsilon and --error-bound need --points")]
+    [InlineData("query cube.obj --rays r.txt --collider exact", "--collider, --within, --epsilon and --error-bound need --points")]
+    [InlineData("query cube.obj --rays r.txt --within 1", "--collider, --within, --epsilon and --error-bound need --points")]
+    [InlineData("query cube.obj --rays r.txt --error-bound", "--collider, --within, --epsilon and --error-bound need --points")]
+    [InlineData("query cube.obj --points r.txt --json --header", "--header names the columns of lines, and has no effect with --json")]
+    [InlineData("query cube.obj --rays r.txt --json --header", "--header names the columns of lines, and has no effect with --json")]
+    [InlineData("info cube.obj --composition affine", "cube.obj has no fractal, so --composition has no effect")]
+    [InlineData("simulate drop.sdo --composition affine", "drop.sdo has no fractal, so --composition has no effect")]
+    [InlineData("export cube.obj -o a.obj --depth 3", "cube.obj has no recursive fractal, so --depth has no effect")]
+    [InlineData("simulate drop.sdo --seconds 1 --every 61", "--every 61 is beyond the 60 steps, so nothing would be written")]
+    [InlineData("generate icosphere -o a.obj --seed 1", "the mesh 'icosphere' has no random details, so --seed has no effect")]
+    [InlineData("generate --seed 1 torus-knot -o a.obj", "the mesh 'torus-knot' has no random details, so --seed has no effect")]
+    [InlineData("render cube.obj -o a.png --time 1", "cube.obj has no physics objects, so --time has no effect")]
+    [InlineData("render cube.obj -o a.png --up (0,1,0)", "--up needs --look-from or --look-at")]
+    [InlineData("render cube.obj -o a.png --view top --up (0,1,0)", "--up needs --look-from or --look-at")]
+    [InlineData("render cube.obj -o a.png --keep-partial", "--seed and --keep-partial need --trace")]
+    [InlineData("render cube.obj -o a.png --threshold 30", "--threshold needs --reference IMAGE")]
+    [InlineData("render cube.obj -o a.png --trace 1 --samples 8", "--samples draws triangles, and has no effect with --trace")]
+    [InlineData("render cube.obj -o a.png --trace 1 --detail 0", "--detail draws triangles, and has no effect with --trace")]
+    [InlineData("render cube.obj -o a.png --trace 1 --instances 1", "--instances draws triangles, and has no effect with --trace")]
+    [InlineData("render cube.obj -o a.png --trace 1 --grid", "--grid draws triangles, and has no effect with --trace")]
+    [InlineData("render cube.obj -o a.png --trace 1 --no-shadows", "--no-shadows draws triangles, and has no effect with --trace")]
+    [InlineData("render cube.obj -o a.png --trace 1 --shading vertex", "--shading vertex draws triangles, and has no effect with --trace")]
+    [InlineData("render cube.obj -o a.png --trace 1 --without idle", "--without draws triangles, and has no effect with --trace")]
+    [InlineData("render cube.obj -o a.png --trace 1 --no-ambient-occlusion",
+        "--no-ambient-occlusion draws triangles, and has no effect with --trace")]
+    [InlineData("render --no-ambient-occlusion --trace 1 cube.obj -o a.png",
+        "--no-ambient-occlusion draws triangles, and has no effect with --trace")]
+    [InlineData("animate cube.obj -o a.apng --turntable --trace 1 --wireframe",
+        "--wireframe draws triangles, and has no effect with --trace")]
+    [InlineData("render cube.obj -o a.png --without idle", "--without idle has no effect without a window")]
+    [InlineData("animate cube.obj -o a.apng --turntable --without lazy-loading", "--without lazy-loading has no effect without a window")]
+    [InlineData("render cube.obj -o a.png --detail 0 --without frustum-culling", "--without frustum-culling has no effect with --detail 0")]
+    [InlineData("view cube.obj --detail 0 --without occlusion-culling", "--without occlusion-culling has no effect with --detail 0")]
+    [InlineData("view --detail 0 --no-ambient-occlusion cube.obj", "--no-ambient-occlusion has no effect with --detail 0")]
+    [InlineData("view cube.obj --detail 0 --without bake-skipping", "--without bake-skipping has no effect with --detail 0")]
+    [InlineData("render cube.obj -o a.png --no-shadows --without caster-culling",
+        "--without caster-culling has no effect with --no-shadows")]
+    [InlineData("render cube.obj -o a.png --no-shadows --without light-culling", "--without light-culling has no effect with --no-shadows")]
+    [InlineData("render cube.obj -o a.png --no-ambient-occlusion --without bake-skipping",
+        "--without bake-skipping has no effect with --no-ambient-occlusion")]
+    [InlineData("render cube.obj -o a.png --wireframe --shading vertex", "--shading vertex has no effect with --wireframe")]
+    [InlineData("render cube.obj -o a.png --wireframe --no-shadows", "--no-shadows has no effect with --wireframe")]
+    [InlineData("render cube.obj -o a.png --wireframe --no-ambient-occlusion",
+        "--no-ambient-occlusion has no effect with --wireframe")]
+    [InlineData("render cube.obj -o a.png --wireframe --without backface-culling",
+        "--without backface-culling has no effect with --wireframe")]
+    [InlineData("render cube.obj -o a.png --wireframe --without occlusion-culling",
+        "--without occlusion-culling has no effect with --wireframe")]
+    [InlineData("render cube.obj -o a.png --shading vertex --no-shadows", "--no-shadows has no effect with --shading vertex")]
+    [InlineData("render cube.obj -o a.png --shading vertex --no-ambient-occlusion",
+        "--no-ambient-occlusion has no effect with --shading vertex")]
+    [InlineData("animate cube.obj -o a.apng --turntable --seed 1", "--seed needs --trace")]
+    [InlineData("animate cube.obj -o a.apng --turntable --time 1", "cube.obj has no physics objects, so --time has no effect")]
+    [InlineData("animate cube.obj -o a.png --turntable --fps 5",
+        "--fps has no effect on numbered images unless --simulate moves something")]
+    [InlineData("animate cube.obj -o a.apng --path c.txt --view top",
+        "--camera, --view, --look-from and --look-at have no effect with --path, which names the cameras")]
+    public void Option_WithoutEffect_IsRefused(string arguments, string message)
     {
-        var (exitCode, _, error) = Run("render", "cube.obj", "--output", "a.png", "--trace", "1", option, value);
-        Assert.Equal(
-            (2, $"error: {option} draws triangles, and has no effect with --trace\n"), (exitCode, error));
+        _folder.Write("drop.sdo", "p \"cube.obj\" # 0.5\n");
+        _folder.Write("r.txt", "0 0 -3 0 0 1\n");
+        Assert.Equal(new AppResult(2, "", $"error: {message}\n"), Run(arguments.Split(' ')));
     }
 
     [Fact]
-    public void Animate_TracedWithAnOptionOfDrawing_IsRefused()
+    public void Grid_OfTheCommandLine_HasTheAxes()
     {
-        var (exitCode, _, error) = Run(
-            "animate", "cube.obj", "--output", "a.apng", "--turntable", "--frames", "1", "--trace", "1", "--wireframe");
-        Assert.Equal((2, "error: --wireframe draws triangles, and has no effect with --trace\n"), (exitCode, error));
+        var draw = new DrawOptions();
+        var command = new Command("draw");
+        draw.AddTo(command);
+        Assert.All((bool[])[true, false], isAsked =>
+        {
+            var settings = draw.Settings(command.Parse(isAsked ? "--grid" : ""));
+            Assert.Equal((isAsked, isAsked), (settings.Grid, settings.Axes));
+        });
     }
 
     /// <summary>Shown once, with the name that the user knows.</summary>

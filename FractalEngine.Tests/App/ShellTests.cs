@@ -69,7 +69,7 @@ public sealed class ShellTests : IDisposable
     [SkippableFact]
     public void Output_ThroughALink_IsToldWithTheSizeOfTheFile()
     {
-        Skip.If(OperatingSystem.IsWindows(), "links need rights there");
+        Elsewhere.SkipOnWindows("links need rights there");
         File.CreateSymbolicLink(_folder["link.obj"], "flat.obj");
         var (_, _, error) = Run("export", "cube.obj", "--output", "link.obj");
         Assert.Contains($": 12 faces, {new FileInfo(_folder["flat.obj"]).Length} bytes, ", error, StringComparison.Ordinal);
@@ -78,7 +78,7 @@ public sealed class ShellTests : IDisposable
     [SkippableFact]
     public void View_OfAMissingFileWithoutADisplay_NamesTheFile()
     {
-        Skip.IfNot(OperatingSystem.IsLinux(), "elsewhere there is always a display");
+        Elsewhere.SkipIf(!OperatingSystem.IsLinux(), "elsewhere there is always a display");
         var environment = new Dictionary<string, string?> { ["DISPLAY"] = null, ["WAYLAND_DISPLAY"] = null };
         var (exitCode, _, error) = AppProcess.Run(_folder.Path, environment, "view", "cub.obj");
         Assert.Equal((1, "cub.obj:1:1: error: file not found: did you mean \"cube.obj\"?\n"), (exitCode, error));
@@ -110,14 +110,14 @@ public sealed class ShellTests : IDisposable
     [SkippableFact]
     public void Info_OfAClosedStandardInput_DoesNotWait()
     {
-        Skip.IfNot(OperatingSystem.IsLinux(), "only Linux tells that it is closed");
+        Elsewhere.SkipIf(!OperatingSystem.IsLinux(), "only Linux tells that it is closed");
         Assert.Equal(new AppResult(1, "", "-:1:1: error: the standard input is closed\n"), RunInShell("{0} info - <&-"));
     }
 
     [SkippableFact]
     public void Info_OfAFolderAsStandardInput_SaysSo()
     {
-        Skip.If(OperatingSystem.IsWindows(), "the shell there opens no folders");
+        Elsewhere.SkipOnWindows("the shell there opens no folders");
         Assert.Equal(
             new AppResult(1, "", "-:1:1: error: the standard input can't be read: Is a directory\n"), RunInShell("{0} info - < ."));
     }
@@ -125,7 +125,7 @@ public sealed class ShellTests : IDisposable
     [SkippableFact]
     public void Messages_OfNamesWithLineBreaks_AreOneLine()
     {
-        Skip.If(OperatingSystem.IsWindows(), "no name has line breaks there");
+        Elsewhere.SkipOnWindows("no name has line breaks there");
         Assert.Equal(new AppResult(1, "", "no\\u000Aname.fdo:1:1: error: file not found\n"), Run("info", "no\nname.fdo"));
         var (_, _, error) = Run("export", "cube.obj", "--output", "a\nb.obj");
         Assert.StartsWith("wrote a\\u000Ab.obj: 12 faces, ", error, StringComparison.Ordinal);
@@ -141,7 +141,7 @@ public sealed class ShellTests : IDisposable
     [InlineData("check .")]
     public void AnyCommand_InAFolderThatIsGone_SaysSo(string command)
     {
-        Skip.If(OperatingSystem.IsWindows(), "a folder that is in use can't be removed there");
+        Elsewhere.SkipOnWindows("a folder that is in use can't be removed there");
         Assert.Equal(
             new AppResult(2, "", "error: the current folder has been removed\n"),
             RunInShell($"mkdir gone && cd gone && rmdir ../gone && {{0}} {command}"));
@@ -162,7 +162,7 @@ public sealed class ShellTests : IDisposable
     [InlineData("/dev/stdin")]
     public void Query_OfPointsFromAPipe_PrintsAHeaderOnRequest(string points)
     {
-        Skip.IfNot(OperatingSystem.IsLinux() || points == "-", "only Unix has /dev/stdin");
+        Elsewhere.SkipIf(!(OperatingSystem.IsLinux() || points == "-"), "only Unix has /dev/stdin");
         var (exitCode, output, _) = RunWithInput("0 0 1\n", "query", "cube.obj", "--points", points, "--header", "--error-bound");
         Assert.Equal(0, exitCode);
         Assert.StartsWith("distance x y z nx ny nz faceTests errorBound\n0.5 ", output, StringComparison.Ordinal);

@@ -1,9 +1,6 @@
 using FractalEngine.Core.Generation;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
-using FractalEngine.Parsing;
-using FractalEngine.Parsing.Meshes;
-using FractalEngine.Parsing.Text;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Collision;
@@ -38,11 +35,6 @@ internal static class CollisionMeshes
 
     /// <summary>The names of all meshes, for theories.</summary>
     public static TheoryData<string> Names => [.. All.Keys];
-
-    /// <summary>Loads a scanned model; null where there are no files beside the checkout.</summary>
-    public static Mesh? LoadScan(string file) => SharedModels.Folder is { } folder
-        ? ObjParser.Parse(SourceText.Read(Path.Combine(folder, file), file, ParsingLimits.MaxObjBytes, acceptLatin1: true)).Mesh
-        : null;
 
     /// <summary>Creates unconnected random triangles in the cube from −1 to 1.</summary>
     /// <param name="seed">Seed of the random numbers.</param>

@@ -233,6 +233,20 @@ public sealed class DeepZoomDrawingTests
         }
     }
 
+    [SkippableFact]
+    public void Fog_WithDeepZoom_IsThatOfTheOrdinaryFrame()
+    {
+        // As dense as it takes to hide a part of what is near: the unit is a ninth of the scene's.
+        using var stage = new Stage(
+            "menger", Transformation.Identity, [RenderScenes.FullLight], fog: new(9, new(0, 0, 1)));
+        var dive = new FractalDive(stage.Hierarchy, 7, AffineMap.Identity, new(-1, 1, 0.8));
+        dive.GoToDepth(2, 0.2);
+        var camera = stage.CreateCamera(dive);
+        var unit = Math.Exp(dive.Address.LogUnit);
+        var ordinary = stage.Draw(new(camera, Projection.Perspective) { FixedClipPlanes = (0.01 * unit, 100) });
+        ImageComparison.AssertSame(ordinary, stage.DrawZoomed(camera, (0.01, 100 / unit), dive.Address), "in fog");
+    }
+
     private static void AssertSameShadows(string name, int[] depths)
     {
         using var stage = new Stage(name, Transformation.Identity, [Grazing]);
@@ -291,10 +305,10 @@ public sealed class DeepZoomDrawingTests
         private readonly FrameRenderer _frame;
         private readonly LoadedScene _scene;
 
-        public Stage(string name, Transformation placement, Light[] lights, Gradient? gradient = null)
-            : this(FractalAddressTests.CreateInfinite(name), placement, lights, gradient) => Name = name;
+        public Stage(string name, Transformation placement, Light[] lights, Gradient? gradient = null, Fog? fog = null)
+            : this(FractalAddressTests.CreateInfinite(name), placement, lights, gradient, fog) => Name = name;
 
-        public Stage(Fractal fractal, Transformation placement, Light[] lights, Gradient? gradient = null)
+        public Stage(Fractal fractal, Transformation placement, Light[] lights, Gradient? gradient = null, Fog? fog = null)
         {
             var declaration = new SceneObject("a.fdo", placement)
             {
@@ -302,7 +316,7 @@ public sealed class DeepZoomDrawingTests
                 Gradient = gradient,
             };
             var scene = new LoadedScene(
-                new() { Background = Colour.Black, Lights = [.. lights] },
+                new() { Background = Colour.Black, Lights = [.. lights], Fog = fog },
                 [new(declaration, new FractalModel(fractal) { SourcePath = "a.fdo" })]);
             _scene = scene;
             var drawable = DrawableScene.Prepare(scene, Settings);

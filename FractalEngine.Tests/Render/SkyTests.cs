@@ -5,6 +5,7 @@ using FractalEngine.Core.Scenes;
 using FractalEngine.Render.Images;
 using FractalEngine.Render.Passes;
 using FractalEngine.Render.Tracing;
+using FractalEngine.Tests.Render.Tracing;
 
 namespace FractalEngine.Tests.Render;
 
@@ -67,6 +68,15 @@ public sealed class SkyTests
         var (mean, share) = RenderScenes.Difference(drawn, tracer.ToImage());
         Assert.InRange(mean, 0, 1.5);
         Assert.InRange(share, 0, 0.03);
+    }
+
+    [SkippableFact]
+    public void Fog_BehindGlass_IsDrawnOfTheWholeWay()
+    {
+        var scene = LoadedScene.Of(PathTracerTests.FogBehindGlass());
+        var image = RenderScenes.Draw(scene, new(new(Vector.Zero, Vector.Zero, 1), Projection.Perspective), 8, 8);
+        // Both layers are rounded to values of 256.
+        Assert.Equal(255 * Srgb(PathTracerTests.LightOfFogBehindGlass), image[4, 4].Green, 1.5);
     }
 
     [SkippableTheory]

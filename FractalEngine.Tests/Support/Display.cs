@@ -5,5 +5,5 @@ internal static class Display
 {
     /// <summary>Skips the test where there is none.</summary>
     public static void Require() => Skip.If(
-        OperatingSystem.IsLinux() && Environment.GetEnvironmentVariable("DISPLAY") is null, "no display to draw on");
+        OperatingSystem.IsLinux() && string.IsNullOrEmpty(Environment.GetEnvironmentVariable("DISPLAY")), "no display to draw on");
 }

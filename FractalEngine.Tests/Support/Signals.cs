@@ -10,8 +10,8 @@ internal static class Signals
     /// <param name="signal">Name without SIG, such as "TERM".</param>
     public static void Require(string signal)
     {
-        Skip.If(OperatingSystem.IsWindows(), "there are no POSIX signals");
-        Skip.If(signal == "INT" && IgnoresInterrupts(),
+        Elsewhere.SkipOnWindows("there are no POSIX signals");
+        Elsewhere.SkipIf(signal == "INT" && IgnoresInterrupts(),
             "processes that a shell starts in the background ignore interrupts, and so do their children");
     }
 

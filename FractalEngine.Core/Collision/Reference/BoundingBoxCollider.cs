@@ -39,6 +39,7 @@ public sealed class BoundingBoxCollider : Collider
     /// <exception cref="FractalLimitException">Coordinates of the mesh are beyond 1e40.</exception>
     public BoundingBoxCollider(Mesh mesh, int? depth = null)
     {
+        ArgumentNullException.ThrowIfNull(mesh);
         Depth = depth ?? DefaultDepth(mesh.FaceCount);
         ArgumentOutOfRangeException.ThrowIfNegative(Depth, nameof(depth));
         ArgumentOutOfRangeException.ThrowIfGreaterThan(Depth, MaxDepth, nameof(depth));

@@ -87,7 +87,7 @@ public sealed class ExportCommandTests : IDisposable
     [SkippableFact]
     public void Export_IntoALinkedFolder_NamesTexturesFromWhereItIs()
     {
-        Skip.If(OperatingSystem.IsWindows(), "links need rights there");
+        Elsewhere.SkipOnWindows("links need rights there");
         Directory.CreateDirectory(_folder["a/b/c"]);
         File.CreateSymbolicLink(_folder["out"], "a/b/c");
         Assert.Equal(0, Run("export", "models/mesh.obj", "--output", "out/flat.obj").ExitCode);
@@ -146,7 +146,7 @@ public sealed class ExportCommandTests : IDisposable
     [InlineData("a\nb.obj")]
     public void Export_IntoANameThatTheFormatCantExpress_SaysSo(string output)
     {
-        Skip.If(OperatingSystem.IsWindows(), "such names are those of Unix");
+        Elsewhere.SkipOnWindows("such names are those of Unix");
         var (exitCode, _, error) = Run("export", "models/mesh.obj", "--output", output);
         Assert.Equal(2, exitCode);
         Assert.StartsWith("error: a mesh can't name the material file 'a", error, StringComparison.Ordinal);

@@ -54,7 +54,7 @@ internal sealed partial class DrivenWindow : IDisposable
 
     private static DrivenWindow Open(TemporaryFolder folder, string file, string[] options, bool isTraced)
     {
-        Skip.If(string.IsNullOrEmpty(Environment.GetEnvironmentVariable("DISPLAY")), "there is no display");
+        Display.Require();
         Skip.IfNot(IsAvailable, "xdotool is not installed");
         return new(folder.Path, file, options, isTraced);
     }

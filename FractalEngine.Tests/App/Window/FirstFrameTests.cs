@@ -23,7 +23,7 @@ public sealed class FirstFrameTests : IDisposable
     [Trait("Category", "Soak")]
     public void View_OfTheGallery_IsOnTheScreenSoon()
     {
-        Skip.If(string.IsNullOrEmpty(Environment.GetEnvironmentVariable("DISPLAY")), "there is no display");
+        Display.Require();
         using var screen = new ScreenPixel();
         Skip.IfNot(screen.IsAvailable && screen.Brightness(640, 360) < SceneBrightness, "the screen shows something else");
         var times = Enumerable.Range(0, 3).Select(_ => TimeFirstFrame(screen).TotalSeconds).ToList();

@@ -15,7 +15,7 @@ public sealed class FullScreenTests : IDisposable
     [Trait("Category", "Soak")]
     public void FullScreen_ByItsKey_FillsTheScreenAndReturns()
     {
-        Skip.If(string.IsNullOrEmpty(Environment.GetEnvironmentVariable("DISPLAY")), "there is no display");
+        Display.Require();
         var path = (Environment.GetEnvironmentVariable("PATH") ?? "").Split(Path.PathSeparator);
         Skip.IfNot(path.Any(static folder => File.Exists(Path.Combine(folder, "openbox"))), "openbox is not installed");
         using var manager = Process.Start("openbox", ["--sm-disable"]);

@@ -56,7 +56,7 @@ public sealed class SliderTimeTests : IDisposable
 
     private static RenderWindow Open()
     {
-        Skip.If(string.IsNullOrEmpty(Environment.GetEnvironmentVariable("DISPLAY")), "there is no display");
+        Display.Require();
         return new("slider", 640, 480);
     }
 

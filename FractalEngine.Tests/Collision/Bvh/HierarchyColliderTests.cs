@@ -95,16 +95,12 @@ public class HierarchyColliderTests
         });
     }
 
-    [SkippableTheory]
-    [InlineData("meshes/spot.obj")]
-    [InlineData("meshes/mountain.obj")]
-    [InlineData("meshes/nefertiti-lowres.obj")]
-    public void TryFindClosest_OnAScan_EqualsTheSimpleCollider(string file)
-    {
-        var mesh = CollisionMeshes.LoadScan(file);
-        Skip.If(mesh is null, "there is no folder of real models beside the checkout");
-        Compare(mesh, 60);
-    }
+    [Theory]
+    [InlineData("spaceship-interior", 20_000)]
+    [InlineData("tree-stump", 70_000)]
+    [InlineData("terrain", 30_000)]
+    public void TryFindClosest_OnALargeMesh_EqualsTheSimpleCollider(string generator, int faces) =>
+        Compare(MeshGenerators.Create(generator, 1, faces), 60);
 
     [Theory]
     [MemberData(nameof(Meshes))]

@@ -110,7 +110,7 @@ public sealed class MaterialLoaderTests : IDisposable
         WritePngHeader("WOOD.png", 2, 2);
         WritePngHeader("Wood.png", 2, 2);
         WritePngHeader("wood.png", 2, 2);
-        Skip.If(Directory.GetFiles(Path.GetDirectoryName(_folder["wood.png"])!, "*.png").Length < 3, "names have no case here");
+        Elsewhere.SkipIf(Directory.GetFiles(Path.GetDirectoryName(_folder["wood.png"])!, "*.png").Length < 3, "names have no case here");
         foreach (var (name, expected) in new[] { ("wood.png", "wood.png"), ("Wood.png", "Wood.png"), ("wooD.png", "WOOD.png") })
         {
             _folder.Write("a.mtl", $"newmtl wood\nmap_Kd {name}\n");
@@ -204,7 +204,7 @@ public sealed class MaterialLoaderTests : IDisposable
     [InlineData("norm")]
     public void Load_WithAPipeForABumpOrNormalMap_DoesNotWait(string statement)
     {
-        Skip.If(OperatingSystem.IsWindows(), "there are no pipes in the file system");
+        Elsewhere.SkipOnWindows("there are no pipes in the file system");
         System.Diagnostics.Process.Start("mkfifo", _folder["a.png"]).WaitForExit();
         AssertMapIsRefused(statement, "\"a.png\" is empty, expected an image");
     }
@@ -301,7 +301,7 @@ public sealed class MaterialLoaderTests : IDisposable
     [SkippableFact]
     public void Load_WithAPipeForAnImage_DoesNotWait()
     {
-        Skip.If(OperatingSystem.IsWindows(), "there are no pipes in the file system");
+        Elsewhere.SkipOnWindows("there are no pipes in the file system");
         System.Diagnostics.Process.Start("mkfifo", _folder["a.png"]).WaitForExit();
         AssertImageIsRefused("\"a.png\" is empty, expected an image");
     }
@@ -441,24 +441,6 @@ public sealed class MaterialLoaderTests : IDisposable
         File.WriteAllBytes(_folder[name], header);
         _folder.Write("a.mtl", $"newmtl m\nmap_Kd {name}\n");
         Assert.Contains($" {size} ", SingleWarning(Load("mtllib a.mtl\nusemtl m\nf 1 2 3\n")), StringComparison.Ordinal);
-    }
-
-    [SkippableFact]
-    public void Load_OfRealFiles_FindsTheirMaterialsAndTextures()
-    {
-        Skip.If(SharedModels.Folder is null, "there is no folder of real models beside the checkout");
-        foreach (var (file, materials, textures) in ((string, int, int)[])[
-            ("trimesh/capsule.obj", 1, 1),
-            ("online3dviewer/cube with white spaces.obj", 3, 1),
-            ("online3dviewer/texture_parameters.obj", 4, 4),
-            ("tinyobjloader/cornell_box.obj", 4, 0)])
-        {
-            var loaded = AssetLoader.Load(Path.Combine(SharedModels.Folder!, file));
-            Assert.Empty(loaded.Warnings);
-            var found = loaded.Scene.Objects[0].Model.Materials.Values.ToArray();
-            Assert.Equal((file, textures), (file, found.Count(material => material.Texture is not null)));
-            Assert.True(found.Length >= materials, $"{file}: {found.Length} materials");
-        }
     }
 
     private static Material MaterialOf(LoadedFile file) => Assert.Single(file.Scene.Objects[0].Model.Materials).Value;

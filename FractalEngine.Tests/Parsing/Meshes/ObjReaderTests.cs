@@ -23,14 +23,6 @@ public sealed class ObjReaderTests : IDisposable
     public void Read_OfEveryAsset_IsWhatTheGrammarReads() =>
         Assert.All(AssetFiles, path => Assert.True(ObjOutcome.AssertSame(File.ReadAllBytes(path))));
 
-    [SkippableFact]
-    public void Read_OfEveryRealFile_IsWhatTheGrammarReads()
-    {
-        Skip.If(SharedModels.Folder is null, "there is no folder of real models beside the checkout");
-        Assert.All(Directory.GetFiles(SharedModels.Folder!, "*.obj", SearchOption.AllDirectories),
-            path => ObjOutcome.AssertSame(File.ReadAllBytes(path)));
-    }
-
     [Fact]
     public void Read_OfMutatedFiles_IsWhatTheGrammarReads() => CheckMutated(3_000);
 

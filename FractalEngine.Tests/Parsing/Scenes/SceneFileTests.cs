@@ -43,7 +43,7 @@ public sealed class SceneFileTests : IDisposable
             Player = new(Vector.One, 0.3, 1.8),
         });
         Assert.Equal(
-            ["world-a-row-.fdo", "world-a-row-.obj", "world-mesh-2.obj", "world-mesh.obj", "world.sdo"], Files);
+            ["world-a-row--base.obj", "world-a-row-.fdo", "world-mesh-2.obj", "world-mesh.obj", "world.sdo"], Files);
         Assert.Equal(["world-mesh.obj", "world-a-row-.fdo", "world-mesh-2.obj"], read.Objects.Select(declared => declared.File));
         Assert.Equal(Samples.Triangle, read.Objects[0].Model!.Mesh);
         Assert.Equal(Row(), Assert.IsType<FractalModel>(read.Objects[1].Model).Fractal);
@@ -64,7 +64,7 @@ public sealed class SceneFileTests : IDisposable
     {
         var model = Model.Of(Row());
         var read = WriteAndRead(Of(new SceneObject(model) { Name = "first" }, new SceneObject(model) { Name = "second" }));
-        Assert.Equal(["world-first.fdo", "world-first.obj", "world.sdo"], Files);
+        Assert.Equal(["world-first-base.obj", "world-first.fdo", "world.sdo"], Files);
         Assert.Same(read.Objects[0].Model, read.Objects[1].Model);
     }
 
@@ -72,7 +72,7 @@ public sealed class SceneFileTests : IDisposable
     public void Write_OfFractalsWithOneBaseMesh_WritesTheMeshOnce()
     {
         WriteAndRead(Of(new SceneObject(Row(1)), new SceneObject(Row(2))));
-        Assert.Equal(["world-fractal-2.fdo", "world-fractal.fdo", "world-fractal.obj", "world.sdo"], Files);
+        Assert.Equal(["world-fractal-2.fdo", "world-fractal-base.obj", "world-fractal.fdo", "world.sdo"], Files);
     }
 
     [Fact]
@@ -152,7 +152,7 @@ public sealed class SceneFileTests : IDisposable
         var red = new Material("red") { Diffuse = new(1, 0, 0) };
         var model = new FractalModel(Fractal.Of(mesh)) { Materials = new[] { red }.ToImmutableDictionary(material => material.Name) };
         Assert.Equal([red], WriteAndRead(Of(new SceneObject(model))).Objects[0].Model!.Materials.Values);
-        Assert.Equal(["world-fractal.fdo", "world-fractal.mtl", "world-fractal.obj", "world.sdo"], Files);
+        Assert.Equal(["world-fractal-base.mtl", "world-fractal-base.obj", "world-fractal.fdo", "world.sdo"], Files);
     }
 
     [Fact]
@@ -166,11 +166,11 @@ public sealed class SceneFileTests : IDisposable
     public void Write_BesideDifferentFiles_ChoosesOtherNames()
     {
         _folder.Write("world-fractal.fdo", "<$>. \"x.obj\"");
-        _folder.Write("world-fractal.obj", "v 1 2 3\n");
+        _folder.Write("world-fractal-base.obj", "v 1 2 3\n");
         var read = WriteAndRead(Of(new SceneObject(Row())));
         Assert.Equal("world-fractal-2.fdo", read.Objects[0].File);
         Assert.Equal("<$>. \"x.obj\"", File.ReadAllText(_folder["world-fractal.fdo"]));
-        Assert.Equal("v 1 2 3\n", File.ReadAllText(_folder["world-fractal.obj"]));
+        Assert.Equal("v 1 2 3\n", File.ReadAllText(_folder["world-fractal-base.obj"]));
         Assert.Equal(Row(), Assert.IsType<FractalModel>(read.Objects[0].Model).Fractal);
     }
 

@@ -30,8 +30,10 @@ public class PathTracerTests
         }
     }
 
-    [Fact]
-    public void AddSample_OfADeepZoom_ShowsWhatTheWorldShows()
+    [Theory]
+    [InlineData(false)]
+    [InlineData(true)]
+    public void AddSample_OfADeepZoom_ShowsWhatTheWorldShows(bool hasFog)
     {
         const int size = 24;
         var fractal = AssetFractals.Load("menger", 6);
@@ -39,7 +41,9 @@ public class PathTracerTests
         dive.GoToDepth(2, 0.2);
         var unit = Math.Exp(dive.Address.LogUnit);
         var light = new PointLight(new(-3, 4, 2), Colour.White, 1, 30);
-        var scene = LoadedScene.Of(Scene([WhiteSky, light], new SceneObject(fractal) { Colour = Colour.White }));
+        var scene = LoadedScene.Of(Scene([WhiteSky, light], new SceneObject(fractal) { Colour = Colour.White })
+            // As dense as it takes to hide a part of what is near.
+            with { Fog = hasFog ? new(1 / unit, new(0, 0, 1)) : null });
         var camera = new Camera(
             dive.Address.WorldPosition(AffineMap.Identity), CameraFraming.LookRotation(dive.LocateTarget(Vector.Zero)), 50);
         var world = new View(camera, Projection.Perspective) { FixedClipPlanes = (0.001 * unit, 100) };
@@ -130,6 +134,27 @@ public class PathTracerTests
 
         Assert.Equal(0.75, Mean(tracer), 0.01);
     }
+
+    [Fact]
+    public void AddSample_OfFogBehindGlass_IsThatOfTheWholeWay()
+    {
+        var tracer = Trace(FogBehindGlass(), new(Vector.Zero, Vector.Zero, 1), 8, 256);
+
+        // Of 16,384 paths, a quarter end at the glass.
+        Assert.Equal(LightOfFogBehindGlass, Mean(tracer), 0.005);
+    }
+
+    /// <summary>The light of white fog before a black pane at 2 units, and, through it, before a black wall at 5.</summary>
+    internal static double LightOfFogBehindGlass => (0.25 * (1 - Math.Exp(-0.2 * 2))) + (0.75 * (1 - Math.Exp(-0.2 * 5)));
+
+    /// <summary>A black wall in white fog behind a black pane that lets three quarters through, seen from the origin along z.</summary>
+    internal static Scene FogBehindGlass() => Scene(
+        [], Matt(Quad(new(-5, -5, 2), new(-5, 5, 2), new(5, 5, 2), new(5, -5, 2)), Colour.Black, opacity: 0.25),
+        Matt(Quad(new(-50, -50, 5), new(-50, 50, 5), new(50, 50, 5), new(50, -50, 5)), Colour.Black)) with
+    {
+        Fog = new(0.2, Colour.White),
+        Background = Colour.White,
+    };
 
     [Theory]
     [InlineData(4, 6, 1)]
