@@ -20,7 +20,7 @@ internal sealed class ReachStore
     /// <summary>Tells whether a mutant was recorded.</summary>
     public bool Knows(Mutation mutation) => File.Exists(PathOf(mutation.Id));
 
-    /// <summary>Keeps a recording.</summary>
+    /// <summary>Keeps what a recording found.</summary>
     public void Write(IEnumerable<Mutation> mutations, Recording recording)
     {
         string[] all = [.. recording.Tests.Values.OrderBy(test => test.Name, StringComparer.Ordinal).Select(test => string.Create(

@@ -8,7 +8,7 @@ namespace FractalEngine.Mutants;
 /// <param name="Milliseconds">Time that it took when it was recorded.</param>
 internal sealed record Test(string Class, string Method, double Milliseconds)
 {
-    /// <summary>Full name.</summary>
+    /// <summary>Names the class and the method.</summary>
     public string Name => $"{Class}.{Method}";
 }
 

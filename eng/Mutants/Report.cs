@@ -17,13 +17,13 @@ internal sealed class Report
     {
     }
 
-    /// <summary>The whole text.</summary>
+    /// <summary>The text of the report.</summary>
     public string Text => _text.ToString();
 
     /// <summary>Whether enough was noticed.</summary>
     public bool IsPassed { get; private set; } = true;
 
-    /// <summary>Writes the report.</summary>
+    /// <summary>Writes the report of a draw.</summary>
     /// <param name="title">What was drawn.</param>
     /// <param name="mutations">The mutants.</param>
     /// <param name="verdicts">What became of them, by their names.</param>

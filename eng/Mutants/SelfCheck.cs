@@ -23,7 +23,7 @@ internal static class SelfCheck
         }
         """;
 
-    /// <summary>Runs all checks.</summary>
+    /// <summary>Runs all checks of the tool.</summary>
     /// <exception cref="InvalidOperationException">One fails.</exception>
     public static void Run()
     {

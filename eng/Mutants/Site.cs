@@ -36,10 +36,10 @@ internal sealed class Site
     /// <summary>Types and member around the site, with the types of parameters.</summary>
     public required string Member { get; init; }
 
-    /// <summary>What is replaced.</summary>
+    /// <summary>The span that is replaced.</summary>
     public required TextSpan Span { get; init; }
 
-    /// <summary>The replaced text.</summary>
+    /// <summary>The text that is replaced.</summary>
     public required string Original { get; init; }
 
     /// <summary>The form to try first.</summary>
@@ -64,10 +64,10 @@ internal sealed class Site
 /// <summary>A site with the change that was drawn.</summary>
 internal sealed class Mutation(Site site, Change change)
 {
-    /// <summary>The place.</summary>
+    /// <summary>The place that is changed.</summary>
     public Site Site { get; } = site;
 
-    /// <summary>The change.</summary>
+    /// <summary>The change that was drawn.</summary>
     public Change Change { get; } = change;
 
     /// <summary>The form in which it stands in the copy.</summary>

@@ -11,7 +11,8 @@ internal sealed class TestProcess : IDisposable
     // Mutants that fill the memory must not take the machine with them.
     private const string HeapLimit = "0x140000000";
     private static readonly string Token = Guid.NewGuid().ToString("N");
-    private static readonly List<Process> Displays = [];
+    private static readonly List<(Process Process, string Number)> Displays = [];
+    private static volatile bool _isEnding;
     private readonly Process _process;
     private readonly string _temporary;
     private readonly string _token;
@@ -32,6 +33,11 @@ internal sealed class TestProcess : IDisposable
     public static TestProcess Start(
         string tree, string folder, int worker, IReadOnlyDictionary<string, string> environment, params string[] arguments)
     {
+        if (_isEnding)
+        {
+            Thread.Sleep(Timeout.Infinite);
+        }
+
         string temporary = Path.Combine(folder, "tmp");
         Directory.CreateDirectory(temporary);
         string token = $"{Token}-{Guid.NewGuid():N}";
@@ -57,7 +63,7 @@ internal sealed class TestProcess : IDisposable
         start.Environment["DOTNET_GCHeapHardLimit"] = HeapLimit;
         if (worker < Displays.Count)
         {
-            start.Environment["DISPLAY"] = DisplayOf(worker);
+            start.Environment["DISPLAY"] = ":" + Displays[worker].Number;
         }
 
         return new(Process.Start(start)!, temporary, token);
@@ -67,16 +73,22 @@ internal sealed class TestProcess : IDisposable
     /// <exception cref="InvalidOperationException">It failed; the message is its output.</exception>
     public static void Dotnet(string tree, params string[] arguments)
     {
+        if (!TryDotnet(tree, out string output, arguments))
+        {
+            throw new InvalidOperationException($"dotnet {string.Join(' ', arguments)} failed in {tree}:\n{output}");
+        }
+    }
+
+    /// <summary>Runs a command of the SDK in the copy, and returns whether it succeeds.</summary>
+    public static bool TryDotnet(string tree, out string output, params string[] arguments)
+    {
         var start = new ProcessStartInfo("dotnet", arguments) { WorkingDirectory = tree, RedirectStandardOutput = true };
         start.Environment[TokenName] = Token;
         start.Environment["MSBUILDDISABLENODEREUSE"] = "1";
         using var process = Process.Start(start)!;
-        string output = process.StandardOutput.ReadToEnd();
+        output = process.StandardOutput.ReadToEnd();
         process.WaitForExit();
-        if (process.ExitCode != 0)
-        {
-            throw new InvalidOperationException($"dotnet {string.Join(' ', arguments)} failed in {tree}:\n{output}");
-        }
+        return process.ExitCode == 0;
     }
 
     /// <summary>Starts a display for each worker, where the machine has the program for it.</summary>
@@ -97,21 +109,33 @@ internal sealed class TestProcess : IDisposable
                 return false;
             }
 
-            Displays.Add(display);
-            Numbers.Add(number);
+            Displays.Add((display, number));
         }
 
         return true;
     }
 
     /// <summary>Ends all that this program started.</summary>
-    public static void EndAll() => Kill(Token);
+    public static void EndAll()
+    {
+        _isEnding = true;
+        Kill(Token);
+        // What was being started meanwhile.
+        Thread.Sleep(200);
+        Kill(Token);
+    }
 
     /// <summary>Waits for the end.</summary>
     /// <returns>The exit code.</returns>
     public int Wait()
     {
         _process.WaitForExit();
+        if (_isEnding)
+        {
+            // What was killed from outside has no verdict.
+            Thread.Sleep(Timeout.Infinite);
+        }
+
         return _process.ExitCode;
     }
 
@@ -134,10 +158,6 @@ internal sealed class TestProcess : IDisposable
             }
         }
     }
-
-    private static readonly List<string> Numbers = [];
-
-    private static string DisplayOf(int worker) => ":" + Numbers[worker];
 
     // Children of tests, and theirs, are found by the variable that they inherit: some have sessions of their own.
     private static void Kill(string token)

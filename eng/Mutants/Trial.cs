@@ -12,7 +12,7 @@ internal sealed record Verdict(string Id, string Outcome, int Tests, string Note
     /// <summary>Writes a line that <see cref="Read"/> reads.</summary>
     public override string ToString() => string.Create(CultureInfo.InvariantCulture, $"{Id}\t{Outcome}\t{Tests}\t{Note}");
 
-    /// <summary>Reads a line.</summary>
+    /// <summary>Reads a line of verdicts.</summary>
     public static Verdict Read(string line)
     {
         string[] parts = line.Split('\t', 4);
@@ -26,7 +26,7 @@ internal static class Trial
     // A process under test is cold, and the machine busy: what a test takes anyway, before ten times its own time counts.
     private const double StartMilliseconds = 20_000;
 
-    /// <summary>Tests a mutant.</summary>
+    /// <summary>Tests one mutant to its verdict.</summary>
     /// <param name="tree">The copy.</param>
     /// <param name="folder">Folder for what the process writes; made anew.</param>
     /// <param name="worker">Number of the worker.</param>
