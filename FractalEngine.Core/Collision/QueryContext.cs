@@ -9,7 +9,7 @@ namespace FractalEngine.Core.Collision;
 /// What a caller lends to queries: counts of their work, the instance that the last one found, and memory that is kept for the next. One
 /// thread uses a context at a time, for any number of queries to any colliders.
 /// </summary>
-/// <remarks>Its memory, some 20 KB, is made by its first queries. It doubles where one goes deeper into a fractal than all before.</remarks>
+/// <remarks>Its first queries make its memory, some 20 KB. It doubles where one goes deeper into a fractal than all before.</remarks>
 public sealed class QueryContext
 {
     private readonly List<int> _instancePath = new(64);
