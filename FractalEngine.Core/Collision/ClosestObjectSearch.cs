@@ -22,16 +22,16 @@ internal ref struct ClosestObjectSearch(Vector position, double maxDistance, Que
     private int _objectIndex = -1;
 
     /// <summary>Searches a few objects, whose boxes are all tested.</summary>
-    public void RunAmongFew(ReadOnlySpan<ColliderInstance> objects)
+    public void RunAmongFew(SceneObjects objects)
     {
-        var bounds = context.ObjectBoundsBuffer(objects.Length);
-        for (var i = 0; i < objects.Length; i++)
+        var bounds = context.ObjectBoundsBuffer(objects.Count);
+        for (var i = 0; i < objects.Count; i++)
         {
             bounds[i] = i == excludedObject ? double.PositiveInfinity : BoundDistance(objects[i]);
         }
 
-        context.Statistics.BoundTests += objects.Length;
-        for (var remaining = objects.Length; remaining > 0; remaining--)
+        context.Statistics.BoundTests += objects.Count;
+        for (var remaining = objects.Count; remaining > 0; remaining--)
         {
             var next = 0;
             for (var i = 1; i < bounds.Length; i++)

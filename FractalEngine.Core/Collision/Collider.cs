@@ -9,7 +9,7 @@ namespace FractalEngine.Core.Collision;
 
 /// <summary>
 /// Finds the point of a shape closest to a position (paper §4.4.2–4.4.3). Immutable: any number of threads may query at once, each with a
-/// context of its own. Queries with a context allocate nothing.
+/// context of its own. Queries with a context allocate nothing, see <see cref="QueryContext"/>.
 /// </summary>
 public abstract partial class Collider
 {

@@ -9,6 +9,7 @@ namespace FractalEngine.Core.Collision;
 /// What a caller lends to queries: counts of their work, the instance that the last one found, and memory that is kept for the next. One
 /// thread uses a context at a time, for any number of queries to any colliders.
 /// </summary>
+/// <remarks>Its first queries make its memory, some 20 KB. It doubles where one goes deeper into a fractal than all before.</remarks>
 public sealed class QueryContext
 {
     private readonly List<int> _instancePath = new(64);
@@ -82,6 +83,17 @@ public sealed class QueryContext
         _savedPath.Clear();
     }
 
+    /// <summary>Makes the memory of most searches before the first of them.</summary>
+    internal void MakeRoom()
+    {
+        PathBuffer(FractalSearchState.MaxStackDepth);
+        BestPathBuffer(FractalSearchState.MaxStackDepth);
+        ScratchBuffer(FractalSearchState.InitialScratchLength);
+        ObjectBoundsBuffer(SceneObjects.MaxFew);
+        _traversalStack ??= new();
+        _objectQueue ??= new();
+    }
+
     internal void ClearPath() => _instancePath.Clear();
 
     internal void AppendToPath(int mapIndex) => _instancePath.Add(mapIndex);
@@ -94,7 +106,7 @@ public sealed class QueryContext
     {
         if (buffer.Length < length)
         {
-            Array.Resize(ref buffer, length);
+            Array.Resize(ref buffer, Math.Max(length, 2 * buffer.Length));
         }
 
         return buffer;

@@ -249,7 +249,7 @@ public sealed partial class SceneCollider
         else
         {
             // Without a hierarchy all objects are loose. From very far away the boxes of a hierarchy tell nothing.
-            search.RunAmongFew(objects.Hierarchy is null ? objects.Loose.AsSpan() : objects.ToArray());
+            search.RunAmongFew(objects);
         }
 
         return search.TryGetResult(out closest, out objectIndex);

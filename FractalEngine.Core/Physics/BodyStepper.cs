@@ -46,6 +46,13 @@ internal sealed class BodyStepper
         _compoundMover = new(bodies, obstacles, islands, planner);
     }
 
+    /// <summary>Makes room for so many bodies near one.</summary>
+    public void Reserve(int bodyCount)
+    {
+        _nearbyBodies.Reserve(bodyCount);
+        _obstacles.Reserve(bodyCount);
+    }
+
     /// <summary>Begins the step of a body that is awake: all but its motion.</summary>
     /// <param name="body">Its previous state must have been saved.</param>
     /// <param name="staticColliders">Colliders of the body's kind; null where there are no static objects.</param>

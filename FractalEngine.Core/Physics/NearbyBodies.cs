@@ -10,12 +10,12 @@ namespace FractalEngine.Core.Physics;
 /// </summary>
 internal sealed class NearbyBodies(BodyGrid grid, List<Body>? bodies = null)
 {
-    // Room for so many bodies near a mover; beyond it the list grows.
-    private const int InitialCapacity = 256;
-
-    private readonly List<int> _inCells = new(InitialCapacity);
+    private readonly List<int> _inCells = [];
     private BodyGrid.CellRange _cells;
     private long _version = -1;
+
+    /// <summary>Makes room for so many bodies near a mover.</summary>
+    public void Reserve(int bodyCount) => _inCells.EnsureCapacity(bodyCount);
 
     /// <summary>Collects what the cells about a box hold, if they are few enough, so that searches within it are fast.</summary>
     /// <param name="pathBounds">Box in which the centre of the mover is likely to stay.</param>

@@ -13,13 +13,10 @@ namespace FractalEngine.Core.Physics;
 internal sealed partial class Obstacles(
     List<Body> bodies, NearbyBodies nearbyBodies, QueryContext queryContext, KinematicSet kinematics)
 {
-    // Room for so many bodies near a mover; beyond it the list grows.
-    private const int InitialCandidateCapacity = 256;
-
     // Of the radius: so far from where a query was made, its result is as good as another one.
     private const double NegligibleDistance = 0.01;
 
-    private readonly List<int> _candidates = new(InitialCandidateCapacity);
+    private readonly List<int> _candidates = [];
     private StaticColliders? _staticColliders;
     private SafeDistance _safeDistance = new();
     private Vector[] _sphereOffsets = [Vector.Zero];
@@ -31,6 +28,9 @@ internal sealed partial class Obstacles(
 
     /// <summary>Radius of the mover's spheres, scene units.</summary>
     public double Radius => _radius;
+
+    /// <summary>Makes room for so many bodies near a mover.</summary>
+    public void Reserve(int bodyCount) => _candidates.EnsureCapacity(bodyCount);
 
     /// <summary>Sets up another mover.</summary>
     /// <param name="staticColliders">Colliders of the static objects; null where there are none.</param>

@@ -40,22 +40,39 @@ internal sealed class ParallelSteppers(Func<QueryContext, BodyStepper> createSte
         return (faces, bounds);
     }
 
+    /// <summary>Makes the steppers for so many bodies, and for fewer, if they are many.</summary>
+    public void Reserve(int bodyCount)
+    {
+        _runGroup ??= RunGroup;
+        for (var missing = AreMany(bodyCount) ? SetGroups(bodyCount) - _steppers.Count : 0; missing > 0; missing--)
+        {
+            var context = new QueryContext();
+            context.MakeRoom();
+            _steppers.Add((createStepper(context), context));
+        }
+
+        foreach (var (stepper, _) in _steppers)
+        {
+            stepper.Reserve(bodyCount);
+        }
+    }
+
     /// <summary>Lets the first bodies of the world act, or those of an island, in groups that threads share.</summary>
-    /// <param name="count">Their number.</param>
+    /// <param name="count">Their number, for which there must be steppers.</param>
     /// <param name="act">Changes the body of an index below that alone. What it does must not depend on the stepper.</param>
     public void Run(int count, Action<BodyStepper, int> act)
     {
         _act = act;
         _count = count;
-        _bodiesPerGroup = Math.Max(MinBodiesOfGroup, (count + MaxGroups - 1) / MaxGroups);
-        var groupCount = (count + _bodiesPerGroup - 1) / _bodiesPerGroup;
-        while (_steppers.Count < groupCount)
-        {
-            var context = new QueryContext();
-            _steppers.Add((createStepper(context), context));
-        }
+        WorkerSet.Shared.Run(SetGroups(count), maxThreads, _runGroup!);
+    }
 
-        WorkerSet.Shared.Run(groupCount, maxThreads, _runGroup ??= RunGroup);
+    /// <summary>Sets how many bodies are in a group.</summary>
+    /// <returns>The number of groups.</returns>
+    private int SetGroups(int count)
+    {
+        _bodiesPerGroup = Math.Max(MinBodiesOfGroup, (count + MaxGroups - 1) / MaxGroups);
+        return (count + _bodiesPerGroup - 1) / _bodiesPerGroup;
     }
 
     private void RunGroup(int group)

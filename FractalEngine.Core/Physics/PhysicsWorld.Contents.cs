@@ -10,6 +10,12 @@ namespace FractalEngine.Core.Physics;
 /// <content>What the world consists of: adding and changing static objects, bodies and the character.</content>
 public sealed partial class PhysicsWorld
 {
+    // Contacts and bodies that it may meet, of a ball in a heap.
+    private const int ContactsPerBall = 4;
+
+    private int _bodyRoom;
+    private int _contactRoom;
+
     /// <summary>Adds a fractal that bodies collide with. Equal fractals share one collider, and existing colliders are kept.</summary>
     /// <param name="fractal">May be infinite.</param>
     /// <param name="placement">Placement in world space; null to leave the fractal in its own frame.</param>
@@ -63,7 +69,7 @@ public sealed partial class PhysicsWorld
         ArgumentNullException.ThrowIfNull(description);
         Validate(description);
         var body = AppendBody(description);
-        _grid.Build(_bodies);
+        PlaceBodies();
         return body;
     }
 
@@ -82,7 +88,7 @@ public sealed partial class PhysicsWorld
             AppendBody(description);
         }
 
-        _grid.Build(_bodies);
+        PlaceBodies();
     }
 
     /// <summary>Puts a character into the world, in place of the previous one. It is not yet active.</summary>
@@ -103,17 +109,20 @@ public sealed partial class PhysicsWorld
         return Character = new(this, _obstacles, player);
     }
 
-    /// <summary>Builds all colliders that bodies and character use, instead of at their first queries.</summary>
+    /// <summary>Builds all colliders that bodies, triggers and character use, instead of at their first queries.</summary>
     /// <remarks>Colliders that exist are kept.</remarks>
     /// <exception cref="ColliderMismatchException">A collider does not fit an object.</exception>
     /// <exception cref="FractalLimitException">A fractal is too large for its collider.</exception>
     /// <exception cref="OperationCanceledException">It was cancelled between two colliders.</exception>
     public void BuildColliders(CancellationToken cancellation = default)
     {
-        foreach (var kind in _bodies.Select(ColliderKindOf).Append(CharacterColliderKind).Distinct())
+        var ofTriggers = _statics.Objects.Any(static target => target.IsTrigger) ? [ColliderKind.Exact] : Array.Empty<ColliderKind>();
+        foreach (var kind in _bodies.Select(ColliderKindOf).Append(CharacterColliderKind).Concat(ofTriggers).Distinct())
         {
             _statics.AllCollidersOf(kind)?.Build(cancellation);
         }
+
+        _bodies.ForEach(body => _ = CollidersOf(body));
     }
 
     /// <summary>
@@ -142,7 +151,7 @@ public sealed partial class PhysicsWorld
             AppendBody(added.Description).ContinueFrom(added);
         }
 
-        _grid.Build(_bodies);
+        PlaceBodies();
         _clock.ContinueFrom(previous._clock);
         _accumulatedTime = previous._accumulatedTime;
         ResetKinematics();
@@ -237,6 +246,29 @@ public sealed partial class PhysicsWorld
         _areMixed |= body.IsCompound || description.Collider != _bodies[0].Description.Collider;
         _nearbyBodies.HasFilters |= description.Mask != Layers.All || description.Layer != 0;
         return body;
+    }
+
+    /// <summary>Puts all bodies into the grid, and makes room for their steps, which then allocate nothing.</summary>
+    private void PlaceBodies()
+    {
+        _grid.Build(_bodies);
+        _parallel.Reserve(_bodies.Count);
+        var contactCount = ContactsPerBall * _bodies.Sum(static body => body.BallCount);
+        if (_bodies.Count <= _bodyRoom && contactCount <= _contactRoom)
+        {
+            return;
+        }
+
+        // Twice as much as is needed, so that adding one by one takes linear time.
+        _bodyRoom = 2 * _bodies.Count;
+        _contactRoom = 2 * contactCount;
+        _queryContext.MakeRoom();
+        _stepper.Reserve(_bodyRoom);
+        _islands.Reserve(_bodyRoom);
+        _planner.Reserve(_bodyRoom, _contactRoom);
+        _islandMover.Reserve(_bodyRoom, _contactRoom);
+        _energyGuard.Reserve(_bodyRoom);
+        _contactLog.Reserve(_contactRoom);
     }
 
     private void Validate(BodyDescription description)

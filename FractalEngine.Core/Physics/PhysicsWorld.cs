@@ -13,7 +13,8 @@ namespace FractalEngine.Core.Physics;
 /// or from a scene; bodies and static objects may be added at any time.
 /// </summary>
 /// <remarks>
-/// Deterministic: the same calls give the same bits. A step allocates nothing once all colliders are built. For one thread at a time.
+/// Deterministic: the same calls give the same bits. For one thread at a time. A step allocates nothing once all colliders are built, but
+/// where it has more contacts than any before and than room is made for when bodies are added: four of each ball.
 /// </remarks>
 public sealed partial class PhysicsWorld
 {
@@ -108,7 +109,7 @@ public sealed partial class PhysicsWorld
         Character = scene.Scene.Player is not { } player ? null
             : player.FindFault() is { } fault ? throw new FractalEngineException($"player: {fault}")
             : new(this, _obstacles, player);
-        _grid.Build(_bodies);
+        PlaceBodies();
     }
 
     /// <summary>Step length and thresholds of the world.</summary>

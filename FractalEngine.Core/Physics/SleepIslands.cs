@@ -11,10 +11,13 @@ internal sealed class SleepIslands(List<Body> bodies, NearbyBodies nearbyBodies)
 
     private readonly List<int> _neighbours = new(InitialNeighbourCapacity);
     private readonly List<int> _candidates = new(InitialNeighbourCapacity);
-    private readonly Stack<Body> _stack = new(InitialNeighbourCapacity);
+    private readonly Stack<Body> _stack = [];
 
     /// <summary>True where a body may sleep; else nothing need be woken.</summary>
     public bool HasSleeping { get; set; }
+
+    /// <summary>Makes room for islands of so many bodies.</summary>
+    public void Reserve(int bodyCount) => _stack.EnsureCapacity(bodyCount);
 
     /// <summary>Puts a body to sleep that has barely moved for some time, unless it is of an island.</summary>
     /// <param name="body">Awake, after its step.</param>

@@ -18,7 +18,7 @@ internal sealed class SpinFriction(List<Body> bodies)
     // Seconds: in a shorter time friction does nothing that rounding does not.
     private const double MinDuration = 1e-12;
 
-    private readonly ContactSolver _solver = new();
+    private readonly ContactSolver _solver = CreateSolver();
     private readonly ContactRow[] _rows = new ContactRow[HalfSpaces.Capacity];
 
     /// <summary>Finds the accelerations, constant for a time.</summary>
@@ -79,6 +79,13 @@ internal sealed class SpinFriction(List<Body> bodies)
             netAcceleration = Vector.Zero;
             spinAcceleration = Vector.Zero;
         }
+    }
+
+    private static ContactSolver CreateSolver()
+    {
+        var solver = new ContactSolver();
+        solver.Reserve(bodyCount: 1, HalfSpaces.Capacity);
+        return solver;
     }
 
     /// <summary>What turns has other velocities where the body will be.</summary>

@@ -9,7 +9,6 @@ namespace FractalEngine.Core.Physics;
 internal sealed class StaticColliders
 {
     private readonly StaticObjectSet _set;
-    private readonly Dictionary<PlacedModel, ColliderInstance> _single = new(ReferenceEqualityComparer.Instance);
 
     /// <summary>Creates the view of a set. No collider is built yet.</summary>
     /// <param name="set">The objects, at least one.</param>
@@ -44,12 +43,7 @@ internal sealed class StaticColliders
     public bool TryFindClosestOf(
         StaticObject target, Vector position, double maxDistance, QueryContext context, out ClosestPoint closest)
     {
-        if (!_single.TryGetValue(target.Reference, out var collider))
-        {
-            collider = FindCollider(target);
-            _single[target.Reference] = collider;
-        }
-
+        var collider = FindCollider(target);
         if (target.Kinematic is not { } kinematic)
         {
             return collider.TryFindClosest(position, maxDistance, context, out closest, epsilon: 0);
@@ -62,8 +56,15 @@ internal sealed class StaticColliders
 
     private ColliderInstance FindCollider(StaticObject target)
     {
-        var index = Kinematics.FindIndex(pair => pair.Object.Target == target);
-        return index >= 0 ? Kinematics[index].Collider : Scene.ColliderOf(target.Index);
+        foreach (var (kinematic, collider) in Kinematics)
+        {
+            if (kinematic.Target == target)
+            {
+                return collider;
+            }
+        }
+
+        return Scene.ColliderOf(target.Index);
     }
 
     /// <summary>Answers queries for the closest point, in world space.</summary>

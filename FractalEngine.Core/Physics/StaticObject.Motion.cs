@@ -24,7 +24,7 @@ public sealed partial class StaticObject
     /// <exception cref="ArgumentException">A coordinate is not finite.</exception>
     /// <remarks>
     /// It replaces the motion that the scene declares, until <see cref="PhysicsWorld.Reset"/>. Bodies that the object meets are pushed, and
-    /// those that lie on it are carried along by friction. Wakes all bodies. Steps allocate nothing.
+    /// those that lie on it are carried along by friction. Wakes all bodies.
     /// </remarks>
     public void SetMotion(Vector velocity, Vector angularVelocity = default) => _world.SetMotion(this, velocity, angularVelocity);
 

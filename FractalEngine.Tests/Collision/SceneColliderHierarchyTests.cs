@@ -87,18 +87,13 @@ public class SceneColliderHierarchyTests
         var collider = new SceneCollider(Scene(RandomObjects(random, 1000)));
         var positions = Enumerable.Range(0, 200).Select(_ => random.Vector(30)).ToArray();
         var context = new QueryContext();
-        Run();
-        Allocation.RunWithin(0, Run);
-
-        bool Run()
+        Assert.Equal(0, Allocation.Measure(() =>
         {
             foreach (var position in positions)
             {
                 collider.TryFindClosest(position, double.PositiveInfinity, context, out _, out _);
             }
-
-            return true;
-        }
+        }));
     }
 
     [Fact]

@@ -197,16 +197,6 @@ public class CompoundTests
         Assert.Equal(Run(), Run());
     }
 
-    [Fact]
-    public void Step_WithCompounds_AllocatesNothing()
-    {
-        var world = CreateHeap(20, 6);
-        world.Run(120);
-        var before = GC.GetAllocatedBytesForCurrentThread();
-        world.Run(30);
-        Assert.Equal(0, GC.GetAllocatedBytesForCurrentThread() - before);
-    }
-
     /// <summary>Centres of all cubes of a sponge of side 1 about the origin.</summary>
     private static List<Vector> CubesOfTheSponge(int depth)
     {

@@ -291,16 +291,6 @@ public class MovingObjectTests
     public void LongRun_WithMovers_RepeatsBitForBit() => CheckRepeats(steps: 300);
 
     [Fact]
-    public void Step_WithMovers_AllocatesNothing()
-    {
-        var world = CreateMill(3);
-        world.Run(120);
-        var before = GC.GetAllocatedBytesForCurrentThread();
-        world.Run(180);
-        Assert.Equal(0, GC.GetAllocatedBytesForCurrentThread() - before);
-    }
-
-    [Fact]
     public void TryFindClosest_OnAMover_FindsItWhereItIs()
     {
         var world = new PhysicsWorld();

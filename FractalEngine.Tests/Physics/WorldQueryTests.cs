@@ -90,24 +90,6 @@ public class WorldQueryTests
     }
 
     [Fact]
-    public void CastSphere_AllocatesNothing()
-    {
-        var world = CreateWorld(out _, out _);
-        Cast();
-        var before = GC.GetAllocatedBytesForCurrentThread();
-        Cast();
-        Assert.Equal(0, GC.GetAllocatedBytesForCurrentThread() - before);
-
-        void Cast()
-        {
-            for (var i = 0; i < 100; i++)
-            {
-                _ = world.TryCastSphere(new(-5, 0.01 * i, 0), 0.5, new(20, 0, 0), out _);
-            }
-        }
-    }
-
-    [Fact]
     public void Impulse_AtAPoint_MovesAndTurns()
     {
         var world = new PhysicsWorld { Gravity = Vector.Zero };

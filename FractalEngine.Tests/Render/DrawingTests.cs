@@ -7,6 +7,7 @@ using FractalEngine.Parsing.Text;
 using FractalEngine.Render;
 using FractalEngine.Render.Gl;
 using FractalEngine.Render.Preparation;
+using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Render;
 
@@ -218,9 +219,7 @@ public sealed class DrawingTests
             frame.Draw(renderer, view, 64, 64, settings);
         }
 
-        var before = GC.GetAllocatedBytesForCurrentThread();
-        frame.Draw(renderer, view, 64, 64, settings);
-        Assert.Equal(0, GC.GetAllocatedBytesForCurrentThread() - before);
+        Assert.Equal(0, Allocation.Measure(() => frame.Draw(renderer, view, 64, 64, settings)));
     }
 
     [SkippableFact]

@@ -6,6 +6,7 @@ using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Render;
 using FractalEngine.Render.Preparation;
+using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Render;
 
@@ -496,9 +497,7 @@ public sealed class MaterialTests : IDisposable
             frame.Draw(renderer, view, 64, 64, settings);
         }
 
-        var before = GC.GetAllocatedBytesForCurrentThread();
-        frame.Draw(renderer, view, 64, 64, settings);
-        Assert.Equal(0, GC.GetAllocatedBytesForCurrentThread() - before);
+        Assert.Equal(0, Allocation.Measure(() => frame.Draw(renderer, view, 64, 64, settings)));
     }
 
     private static Scene FullLightOnBlack => new() { Lights = [RenderScenes.FullLight], Background = Colour.Black };

@@ -1,8 +1,8 @@
 namespace FractalEngine.Tests.Support;
 
 /// <summary>
-/// Tests with a limit of time that others, in parallel, would use up, and of threads that leave the processor to all others: they run
-/// alone.
+/// Tests with a limit of time that others, in parallel, would use up, of threads that leave the processor to all others, and of what all
+/// threads allocate: they run alone.
 /// </summary>
 [CollectionDefinition(Name, DisableParallelization = true)]
 public class TimedTests

@@ -5,8 +5,16 @@ namespace FractalEngine.Core.Collision.Fractals;
 /// <summary>The state of a search on the levels of a fractal: the closest triangle so far, what that excludes, and the cost.</summary>
 internal ref struct FractalSearchState
 {
-    // Each child instance takes a frame of the stack, about 1 KB. Searches that need more of either are left to BestFirstSearch.
-    private const int MaxStackDepth = 128;
+    /// <summary>
+    /// Child instances of a search on the stack, of which each takes about 1 KB. Searches that need more are left to
+    /// <see cref="BestFirstSearch"/>.
+    /// </summary>
+    public const int MaxStackDepth = 128;
+
+    /// <summary>Numbers of a search that suffice for some forty levels.</summary>
+    public const int InitialScratchLength = 2048;
+
+    // Searches that need more are left to BestFirstSearch, too.
     private const int MaxBoundTests = 50_000;
 
     // About a second of work. What is still open then is said in the error bound of the result.
@@ -14,9 +22,6 @@ internal ref struct FractalSearchState
 
     // So many bounds suffice for most queries. What needs more has many sub-fractals at nearly the same distance.
     private const int MaxRoughBoundTests = 2500;
-
-    // Suffices for some twenty levels.
-    private const int InitialScratchLength = 1024;
 
     // A larger error is allowed, but its square times that of a distance would leave the range of a double.
     private const double MaxEpsilon = 1e8;

@@ -6,19 +6,31 @@ namespace FractalEngine.Core.Physics.Events;
 /// <summary>Collects the contacts of a step with their impulses, and tells which have begun, stayed and ended.</summary>
 internal sealed class ContactLog(List<Body> bodies, StaticObjectSet statics)
 {
-    private const int InitialCapacity = 256;
+    // Bounces, impulses and forces of a contact are added one by one.
+    private const int RecordsPerContact = 4;
 
-    private List<ContactRecord> _records = new(InitialCapacity);
-    private List<ContactRecord> _previous = new(InitialCapacity);
+    private List<ContactRecord> _records = [];
+    private List<ContactRecord> _previous = [];
 
     /// <summary>Whether contacts are collected at all.</summary>
     public bool IsEnabled { get; set; }
 
     /// <summary>What has happened in the last step, in the order of the bodies.</summary>
-    public List<ContactEvent> Events { get; } = new(InitialCapacity);
+    public List<ContactEvent> Events { get; } = [];
 
     /// <summary>Number of contacts that have been collected in this step.</summary>
     public int Count => _records.Count;
+
+    /// <summary>Makes room for the contacts of a step.</summary>
+    public void Reserve(int contactCount)
+    {
+        if (IsEnabled)
+        {
+            _records.EnsureCapacity(RecordsPerContact * contactCount);
+            _previous.EnsureCapacity(RecordsPerContact * contactCount);
+            Events.EnsureCapacity(contactCount);
+        }
+    }
 
     /// <summary>Forgets the contacts of all steps so far.</summary>
     public void Clear()

@@ -200,18 +200,17 @@ internal sealed partial class BallContactSolver
         return index;
     }
 
-    private void Reserve(int rowCount, int bodyCount)
+    /// <summary>Makes room for contacts, and for bodies with a moving surface under each.</summary>
+    public void Reserve(int rowCount, int bodyCount)
     {
         if (_bodies.Length < bodyCount + ImmovableCount)
         {
-            // Room for a moving surface under each.
             _bodies = new Body[(2 * bodyCount) + ImmovableCount];
         }
 
         if (_rows.Length < rowCount)
         {
-            // At once for all bodies, so that islands that grow allocate nothing.
-            _rows = new Row[Math.Max(2 * rowCount, ContactsPerBody * bodyCount)];
+            _rows = new Row[Math.Max(rowCount, 2 * _rows.Length)];
             _turns = new Turn[_rows.Length];
             _changes = new Vector256<double>[_rows.Length];
             _directions = new Vector256<double>[_rows.Length];

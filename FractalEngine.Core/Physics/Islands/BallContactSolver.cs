@@ -12,8 +12,6 @@ namespace FractalEngine.Core.Physics.Islands;
 /// </remarks>
 internal sealed partial class BallContactSolver
 {
-    private const int InitialCapacity = 256;
-    private const int ContactsPerBody = 4;
     private const int NormalLane = 3;
     private const int ImmovableStride = 2;
     private const int ImmovableCount = ImmovableStride * (IslandParts.MaxCount + 1);
@@ -27,14 +25,14 @@ internal sealed partial class BallContactSolver
     private readonly Action<int> _loadGroup;
     private readonly Action<int> _storeBodies;
     private readonly Action<int> _storeGroup;
-    private Body[] _bodies = new Body[(2 * InitialCapacity) + ImmovableCount];
-    private Row[] _rows = new Row[InitialCapacity];
-    private Turn[] _turns = new Turn[InitialCapacity];
-    private Vector256<double>[] _changes = new Vector256<double>[InitialCapacity];
-    private Vector256<double>[] _directions = new Vector256<double>[InitialCapacity];
+    private Body[] _bodies = [];
+    private Row[] _rows = [];
+    private Turn[] _turns = [];
+    private Vector256<double>[] _changes = [];
+    private Vector256<double>[] _directions = [];
 
     // The contacts of the next round of each group, in their order.
-    private int[] _active = new int[InitialCapacity];
+    private int[] _active = [];
 
     private int _partCount;
     private bool _hasTurns;

@@ -6,9 +6,9 @@ namespace FractalEngine.Core.Physics.Islands;
 internal sealed partial class ContactGraph
 {
     // Places of the pairs that are contacts, one island after the other.
-    private readonly List<int> _sortedPairs = new(InitialCapacity);
-    private int[] _islandOf = new int[InitialCapacity];
-    private int[] _next = new int[InitialCapacity];
+    private readonly List<int> _sortedPairs = [];
+    private int[] _islandOf = [];
+    private int[] _next = [0];
 
     /// <summary>Makes islands of the joined sets, and contacts of their pairs and surfaces.</summary>
     /// <param name="onlyImpacts">True to make none for large islands that cannot bounce: their step's solve has their impacts.</param>

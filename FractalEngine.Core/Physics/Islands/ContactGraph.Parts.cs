@@ -6,10 +6,10 @@ namespace FractalEngine.Core.Physics.Islands;
 internal sealed partial class ContactGraph
 {
     private readonly IslandParts _parts = new();
-    private readonly List<int> _partPairs = new(InitialCapacity);
-    private readonly List<int> _partEnds = new(InitialCapacity);
+    private readonly List<int> _partPairs = [];
+    private readonly List<int> _partEnds = [];
     private readonly int[] _partStarts = new int[IslandParts.MaxCount + 2];
-    private readonly List<int> _partBodies = new(InitialCapacity);
+    private readonly List<int> _partBodies = [];
     private readonly int[] _partBodyEnds = new int[IslandParts.MaxCount];
     private readonly int[] _partRows = new int[IslandParts.MaxCount + 1];
     private readonly RowKinds[] _partKinds = new RowKinds[IslandParts.MaxCount + 1];

@@ -7,7 +7,7 @@ namespace FractalEngine.Core.Physics.Islands;
 /// <content>How contacts are made of pairs and surfaces.</content>
 internal sealed partial class ContactGraph
 {
-    private ContactRow[] _rows = new ContactRow[InitialCapacity];
+    private ContactRow[] _rows = [];
     private int _count;
 
     private static RowKinds Examine(ReadOnlySpan<ContactRow> rows)

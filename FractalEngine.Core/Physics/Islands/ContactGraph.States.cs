@@ -7,7 +7,7 @@ internal sealed partial class ContactGraph
     private Action<int>? _updateStates;
 
     // The bodies of which the copy of an earlier step holds as long as they sleep, with how often they had fallen asleep then.
-    private (Body? Body, int SleepCount)[] _idleCopies = new (Body?, int)[InitialCapacity];
+    private (Body? Body, int SleepCount)[] _idleCopies = [];
 
     /// <summary>True where a body may sleep.</summary>
     private bool HasSleeping { get; set; }

@@ -45,14 +45,15 @@ internal sealed partial class ContactGraph
         return PassPushes(islands);
     }
 
-    /// <summary>Makes room for what bodies find, so that steps need not allocate.</summary>
     private void ReserveSearches(int pairCount)
     {
-        foreach (var search in _searches)
+        SetSearches();
+        foreach (var search in _searches.AsSpan(0, Math.Min(2 * _searchCount, MaxSearches)))
         {
-            // They may have more than their share.
-            search.NearPairs.EnsureCapacity(InitialCapacity + (2 * pairCount / MaxSearches));
-            search.Pairs.EnsureCapacity(InitialCapacity + (2 * pairCount / MaxSearches));
+            // Some may have more than their share.
+            search.Neighbours.EnsureCapacity(pairCount / _searchCount);
+            search.NearPairs.EnsureCapacity(2 * pairCount / _searchCount);
+            search.Pairs.EnsureCapacity(2 * pairCount / _searchCount);
         }
     }
 
@@ -215,13 +216,13 @@ internal sealed partial class ContactGraph
     private sealed class Search
     {
         /// <summary>The bodies near one of the group.</summary>
-        public List<int> Neighbours { get; } = new(InitialCapacity);
+        public List<int> Neighbours { get; } = [];
 
         /// <summary>The pairs that touch, in the order of their searching body.</summary>
-        public List<BodyPair> Pairs { get; } = new(InitialCapacity);
+        public List<BodyPair> Pairs { get; } = [];
 
         /// <summary>The pairs that are near and do not touch, in the order of their searching body.</summary>
-        public List<NearPair> NearPairs { get; } = new(InitialCapacity);
+        public List<NearPair> NearPairs { get; } = [];
 
         /// <summary>Index of a body that sleeps and is hit; negative for none.</summary>
         public int Sleeper { get; set; }

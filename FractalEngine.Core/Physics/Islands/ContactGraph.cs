@@ -9,26 +9,22 @@ namespace FractalEngine.Core.Physics.Islands;
 /// </summary>
 internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearbyBodies, int maxThreads)
 {
-    private const int InitialCapacity = 256;
-
-    private const int ContactsPerBody = 4;
-
     // Of the radius: how much farther than its free path a body is expected to get, pushed by others.
     private const double ReachMargin = 0.1;
 
     // Of the radius: bodies that get farther do not search for all that they may meet before it is known that they touch anything.
     private const double MaxEarlyDistance = 4;
 
-    private readonly List<int> _neighbours = new(InitialCapacity);
-    private readonly List<BodyPair> _pairs = new(InitialCapacity);
-    private readonly List<BodyPair> _found = new(InitialCapacity);
-    private readonly List<Island> _islands = new(InitialCapacity);
-    private readonly List<int> _islandBodies = new(InitialCapacity);
+    private readonly List<int> _neighbours = [];
+    private readonly List<BodyPair> _pairs = [];
+    private readonly List<BodyPair> _found = [];
+    private readonly List<Island> _islands = [];
+    private readonly List<int> _islandBodies = [];
     private readonly DisjointSets _sets = new();
     private readonly NeighbourGrid _grid = new();
-    private GraphBody[] _states = new GraphBody[InitialCapacity];
-    private BodyMaterial[] _materials = new BodyMaterial[InitialCapacity];
-    private BodyDescription?[] _descriptions = new BodyDescription?[InitialCapacity];
+    private GraphBody[] _states = [];
+    private BodyMaterial[] _materials = [];
+    private BodyDescription?[] _descriptions = [];
     private bool _mayHavePairs;
     private double _stepLength;
 
@@ -40,6 +36,9 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
 
     /// <summary>Number of contacts of all islands.</summary>
     public int RowCount { get; private set; }
+
+    /// <summary>Number of contacts that there is room for.</summary>
+    public int RowCapacity => _rows.Length;
 
     /// <summary>A contact by its index among those of all islands, which stand one island after the other.</summary>
     public ref ContactRow Row(int index) => ref _rows[index];
@@ -153,12 +152,6 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
     {
         _stepLength = stepLength;
         _pairs.Clear();
-        if (_states.Length < bodies.Count)
-        {
-            Grow();
-        }
-
-        CreateJobs();
         _searchCount = 0;
         _mayHavePairs = bodies.Exists(static body => body.KinematicPush > 0 || MaySearch(body));
         if (!_mayHavePairs)
@@ -179,7 +172,6 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
         _grid.Build(nearbyBodies.HasFilters ? [] : _states.AsSpan(0, bodies.Count), in bounds);
     }
 
-    /// <summary>Makes what threads run before it is needed, so that steps allocate nothing.</summary>
     private void CreateJobs()
     {
         _runSearch ??= RunSearch;
@@ -192,27 +184,30 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
         _fillPart ??= FillPart;
     }
 
-    /// <summary>Makes room for as many contacts as bodies in a heap have, so that steps need not allocate.</summary>
-    private void Grow()
+    /// <summary>Makes room for the bodies of a world and their contacts, and makes what threads run.</summary>
+    public void Reserve(int bodyCount, int contactCount)
     {
-        _states = new GraphBody[2 * bodies.Count];
-        _materials = new BodyMaterial[_states.Length];
-        _descriptions = new BodyDescription?[_states.Length];
-        _idleCopies = new (Body?, int)[_states.Length];
-        _grid.Reserve(_states.Length);
-        _parts.Reserve(_states.Length);
-        _islandOf = new int[_states.Length];
-        _next = new int[_states.Length];
-        var contacts = ContactsPerBody * _states.Length;
-        ReserveSearches(contacts);
-        _pairs.EnsureCapacity(contacts);
-        _found.EnsureCapacity(contacts);
-        _sortedPairs.EnsureCapacity(contacts);
-        _partPairs.EnsureCapacity(contacts);
-        _islands.EnsureCapacity(_states.Length);
-        _islandBodies.EnsureCapacity(_states.Length);
-        _partBodies.EnsureCapacity(_states.Length);
-        Array.Resize(ref _rows, Math.Max(contacts, _rows.Length));
+        CreateJobs();
+        _states = new GraphBody[bodyCount];
+        _materials = new BodyMaterial[bodyCount];
+        _descriptions = new BodyDescription?[bodyCount];
+        _idleCopies = new (Body?, int)[bodyCount];
+        _grid.Reserve(bodyCount);
+        _parts.Reserve(bodyCount);
+        _sets.Reserve(bodyCount);
+        _islandOf = new int[bodyCount];
+        _next = new int[bodyCount + 1];
+        ReserveSearches(contactCount);
+        _neighbours.EnsureCapacity(bodyCount);
+        _pairs.EnsureCapacity(contactCount);
+        _found.EnsureCapacity(contactCount);
+        _sortedPairs.EnsureCapacity(contactCount);
+        _partPairs.EnsureCapacity(contactCount);
+        _partEnds.EnsureCapacity(bodyCount);
+        _islands.EnsureCapacity(bodyCount);
+        _islandBodies.EnsureCapacity(bodyCount);
+        _partBodies.EnsureCapacity(bodyCount);
+        ReserveRows(contactCount);
     }
 
     private double ReachOf(in GraphBody body) => (_stepLength * body.Velocity.Length()) + body.Slack + body.KinematicPush;

@@ -5,7 +5,7 @@ namespace FractalEngine.Core.Physics.Islands;
 /// <content>Contacts of compounds, which an impulse turns wherever it points.</content>
 internal sealed partial class ContactSolver
 {
-    private Matrix[] _inverseInertias = new Matrix[InitialCapacity];
+    private Matrix[] _inverseInertias = [];
 
     /// <summary>Sets the velocities and inverse masses of a body.</summary>
     public void Load(int index, Body body)

@@ -20,9 +20,6 @@ internal sealed partial class ContactSolver(int maxThreads = 1)
     private const double FineTolerance = 1e-13;
     private const int FineRounds = 32;
 
-    private const int InitialCapacity = 256;
-    private const int ContactsPerBody = 4;
-
     // Of a change of friction, in late rounds: where balls pass their slip to and fro, smaller changes come to an end.
     private const double LateFrictionShare = 0.5;
 
@@ -39,9 +36,9 @@ internal sealed partial class ContactSolver(int maxThreads = 1)
     private readonly BallContactSolver _balls = new(maxThreads);
     private double _frictionShare = 1;
     private double _rounding;
-    private SolverBody[] _bodies = new SolverBody[InitialCapacity];
-    private Direction[] _changes = new Direction[InitialCapacity];
-    private Direction[] _directions = new Direction[InitialCapacity];
+    private SolverBody[] _bodies = [];
+    private Direction[] _changes = [];
+    private Direction[] _directions = [];
 
     /// <summary>Bodies by their index in the world.</summary>
     public Span<SolverBody> Bodies => _bodies;
@@ -49,15 +46,15 @@ internal sealed partial class ContactSolver(int maxThreads = 1)
     /// <summary>Rounds of the last solve.</summary>
     public int Rounds { get; private set; }
 
-    /// <summary>Grows the arrays to the bodies of a world, so that its steps allocate nothing.</summary>
-    public void Reserve(int bodyCount)
+    /// <summary>Makes room for the bodies of a world and their contacts.</summary>
+    public void Reserve(int bodyCount, int contactCount)
     {
-        if (_bodies.Length < bodyCount)
+        _bodies = new SolverBody[bodyCount];
+        _inverseInertias = new Matrix[bodyCount];
+        ReserveContacts(contactCount);
+        if (contactCount > MinBallRows)
         {
-            Array.Resize(ref _bodies, Math.Max(bodyCount, 2 * _bodies.Length));
-            Array.Resize(ref _inverseInertias, _bodies.Length);
-            Array.Resize(ref _changes, Math.Max(ContactsPerBody * _bodies.Length, _changes.Length));
-            Array.Resize(ref _directions, _changes.Length);
+            _balls.Reserve(contactCount, bodyCount);
         }
     }
 
@@ -162,12 +159,7 @@ internal sealed partial class ContactSolver(int maxThreads = 1)
     /// <returns>False where it has not converged: then the impulses are those of the last round.</returns>
     public bool Solve(Span<ContactRow> rows, int maxRounds)
     {
-        if (_changes.Length < rows.Length)
-        {
-            Array.Resize(ref _changes, Math.Max(rows.Length, 2 * _changes.Length));
-            Array.Resize(ref _directions, _changes.Length);
-        }
-
+        ReserveContacts(rows.Length);
         _rounding = ComputeRounding(rows);
         var isOfBalls = rows.Length > MinBallRows && !HasArms(rows);
         if (isOfBalls)
@@ -196,6 +188,15 @@ internal sealed partial class ContactSolver(int maxThreads = 1)
         var isConverged = Iterate(graph.RowsOf(in island), isOfBalls: true, maxRounds);
         _balls.Store(rebounding);
         return isConverged;
+    }
+
+    private void ReserveContacts(int count)
+    {
+        if (_changes.Length < count)
+        {
+            _changes = new Direction[Math.Max(count, 2 * _changes.Length)];
+            _directions = new Direction[_changes.Length];
+        }
     }
 
     private bool Iterate(Span<ContactRow> rows, bool isOfBalls, int maxRounds)

@@ -9,17 +9,18 @@ internal sealed class DisjointSets
     // Number of indices that have been put into sets.
     private int _count;
 
+    /// <summary>Makes room for indices.</summary>
+    public void Reserve(int count)
+    {
+        _parents = new int[count];
+        _isJoined = new bool[count];
+        _count = 0;
+    }
+
     /// <summary>Puts each index into a set of its own.</summary>
-    /// <param name="count">Number of indices.</param>
+    /// <param name="count">Number of indices, for which room must have been made.</param>
     public void Reset(int count)
     {
-        if (_parents.Length < count)
-        {
-            _parents = new int[2 * count];
-            _isJoined = new bool[2 * count];
-            _count = 0;
-        }
-
         // While none is joined, each is its own set.
         for (var i = JoinedCount > 0 ? 0 : _count; i < count; i++)
         {

@@ -9,7 +9,6 @@ namespace FractalEngine.Core.Physics.Islands;
 internal sealed class EnergyGuard
 {
     private const int BodiesPerJob = 256;
-    private const int InitialJobCount = 64;
 
     private readonly List<Body> _bodies;
     private readonly ContactGraph _graph;
@@ -18,7 +17,7 @@ internal sealed class EnergyGuard
     private readonly Action<int> _addPlan;
 
     // What contacts have added to the energy of each group of bodies.
-    private double[] _gains = new double[InitialJobCount];
+    private double[] _gains = [];
     private Island _island;
 
     public EnergyGuard(List<Body> bodies, ContactGraph graph, IslandMover mover, int maxThreads)
@@ -30,16 +29,14 @@ internal sealed class EnergyGuard
         _addPlan = AddPlan;
     }
 
+    /// <summary>Makes room for the bodies of a world.</summary>
+    public void Reserve(int bodyCount) => _gains = new double[(bodyCount + BodiesPerJob - 1) / BodiesPerJob];
+
     /// <summary>Gives the bodies of an island, all of which have moved, their new velocities, and checks their energy.</summary>
     public void FinishVelocities(in Island island)
     {
         _island = island;
         var jobCount = (island.BodyCount + BodiesPerJob - 1) / BodiesPerJob;
-        if (_gains.Length < jobCount)
-        {
-            _gains = new double[2 * jobCount];
-        }
-
         WorkerSet.Shared.Run(jobCount, _maxThreads, _addPlan);
         var gain = 0.0;
         foreach (var part in _gains.AsSpan(0, jobCount))

@@ -22,7 +22,7 @@ internal sealed class GapGroup
     /// <summary>The contacts of the group.</summary>
     public ReadOnlySpan<Gap> Gaps => _gaps.AsSpan(0, _count);
 
-    /// <summary>Grows the arrays to the bodies of a world, so that its steps allocate nothing.</summary>
+    /// <summary>Makes room for the bodies of a world, and for so many contacts of the group.</summary>
     public void Reserve(int bodyCount, int contactCount)
     {
         if (_gaps.Length < contactCount)

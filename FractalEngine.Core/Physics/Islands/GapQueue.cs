@@ -9,33 +9,31 @@ namespace FractalEngine.Core.Physics.Islands;
 internal sealed class GapQueue
 {
     private const int BitsPerWord = 64;
-    private const int InitialCapacity = 256;
-
     // Ends the list of a body's contacts.
     private const int None = -1;
 
     // A bit for each contact.
-    private ulong[] _waiting = new ulong[InitialCapacity / BitsPerWord];
+    private ulong[] _waiting = [];
 
     // Lists of the contacts of each body: entry 2·contact is of its first body, the next one of its second.
-    private int[] _heads = new int[InitialCapacity];
-    private int[] _next = new int[2 * InitialCapacity];
+    private int[] _heads = [];
+    private int[] _next = [];
     private int _wordCount;
 
-    /// <summary>Grows the arrays, so that steps allocate nothing.</summary>
+    /// <summary>Makes room for bodies and contacts.</summary>
     /// <param name="bodyCount">Number of bodies of the world.</param>
     /// <param name="contactCount">Number of contacts of an island.</param>
     public void Reserve(int bodyCount, int contactCount)
     {
         if (_heads.Length < bodyCount)
         {
-            _heads = new int[2 * bodyCount];
+            _heads = new int[bodyCount];
         }
 
         if (_next.Length < 2 * contactCount)
         {
-            _next = new int[4 * contactCount];
-            _waiting = new ulong[((2 * contactCount) + BitsPerWord - 1) / BitsPerWord];
+            _next = new int[2 * contactCount];
+            _waiting = new ulong[(contactCount + BitsPerWord - 1) / BitsPerWord];
         }
     }
 

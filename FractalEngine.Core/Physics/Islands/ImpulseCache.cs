@@ -5,9 +5,6 @@ namespace FractalEngine.Core.Physics.Islands;
 /// <summary>Keeps the impulses of a step, from which the solve of the next one begins: what rests is then solved at once.</summary>
 internal sealed class ImpulseCache
 {
-    private const int InitialCapacity = 256;
-    private const int ContactsPerBody = 4;
-
     // Cosine between normals from which on two contacts with one surface count as the same.
     private const double MinCosine = 0.99;
 
@@ -17,11 +14,13 @@ internal sealed class ImpulseCache
     private const int RowsPerJob = 1024;
     private const int SlotBits = 3;
 
+    private readonly Action<int> _storeRows;
     private ContactGraph? _graph;
-    private Action<int>? _storeRows;
-    private Entry[] _entries = new Entry[InitialCapacity];
-    private int[] _slots = CreateSlots(4 * InitialCapacity);
-    private int _mask = (4 * InitialCapacity) - 1;
+    private Entry[] _entries = [];
+    private int[] _slots = [];
+    private int _mask;
+
+    public ImpulseCache() => _storeRows = StoreRows;
 
     /// <summary>Gives contacts the impulses that they had in the step before; 0 to new ones.</summary>
     public void Recall(Span<ContactRow> rows)
@@ -53,16 +52,13 @@ internal sealed class ImpulseCache
         }
     }
 
-    /// <summary>Makes room for the contacts of so many bodies in a heap. Discards what is stored where it has to grow.</summary>
-    public void ReserveForBodies(int bodyCount) => Reserve(ContactsPerBody * bodyCount);
-
     /// <summary>Stores the impulses of all contacts that push, on all threads.</summary>
     public void Store(ContactGraph graph, int maxThreads)
     {
-        Reserve(graph.RowCount);
+        Reserve(graph.RowCapacity);
         Array.Fill(_slots, None);
         _graph = graph;
-        WorkerSet.Shared.Run((graph.RowCount + RowsPerJob - 1) / RowsPerJob, maxThreads, _storeRows ??= StoreRows);
+        WorkerSet.Shared.Run((graph.RowCount + RowsPerJob - 1) / RowsPerJob, maxThreads, _storeRows);
     }
 
     private void StoreRows(int job)
@@ -90,25 +86,16 @@ internal sealed class ImpulseCache
     /// <summary>Discards the impulses of all contacts.</summary>
     public void Clear() => Array.Fill(_slots, None);
 
-    private void Reserve(int count)
+    /// <summary>Makes room for so many contacts. Discards what is stored where it has to grow.</summary>
+    public void Reserve(int count)
     {
         if (_entries.Length < count)
         {
-            Array.Resize(ref _entries, 2 * count);
-        }
-
-        if (_slots.Length < 2 * count)
-        {
-            _slots = CreateSlots(4 << int.Log2(count));
+            _entries = new Entry[count];
+            _slots = new int[4 << int.Log2(count)];
             _mask = _slots.Length - 1;
+            Clear();
         }
-    }
-
-    private static int[] CreateSlots(int count)
-    {
-        var slots = new int[count];
-        Array.Fill(slots, None);
-        return slots;
     }
 
     // Contacts of one body have places side by side, and those of the next one follow: rows are in that order, and so the memory is.

@@ -10,7 +10,7 @@ internal sealed partial class IslandMover
 
     private const int PairsPerJob = 1024;
 
-    private Place[] _places = new Place[InitialCapacity];
+    private Place[] _places = [];
     private int _bodiesPerCellJob;
     private volatile bool _hasOverlap;
 

@@ -9,8 +9,6 @@ namespace FractalEngine.Core.Physics.Islands;
 /// </summary>
 internal sealed partial class IslandMover
 {
-    private const int InitialCapacity = 256;
-
     // Of the radius: how far others may have moved to where a body unexpectedly goes.
     private const double SearchMargin = 0.5;
 
@@ -34,12 +32,12 @@ internal sealed partial class IslandMover
     private readonly Action<int> _setWays;
     private readonly Action<int> _dampJammed;
     private readonly Action<int> _updateCells;
-    private readonly List<int>[] _leftCells = [.. Enumerable.Range(0, MaxCellJobs).Select(static _ => new List<int>(InitialCapacity))];
+    private readonly List<int>[] _leftCells = [.. Enumerable.Range(0, MaxCellJobs).Select(static _ => new List<int>())];
     private readonly OverlapSeparator _separator;
-    private readonly List<int> _neighbours = new(InitialCapacity);
+    private readonly List<int> _neighbours = [];
 
     // Contacts that no plan knew.
-    private readonly List<ContactRow> _unplanned = new(InitialCapacity);
+    private readonly List<ContactRow> _unplanned = [];
 
     private Island _island;
     private double _stepLength;
@@ -66,23 +64,25 @@ internal sealed partial class IslandMover
     /// <summary>Number of times that a body had to stay where it was.</summary>
     public long ReturnCount { get; private set; }
 
+    /// <summary>Makes room for the bodies of a world and their contacts.</summary>
+    public void Reserve(int bodyCount, int contactCount)
+    {
+        _separator.Reserve(bodyCount, contactCount);
+        _places = new Place[bodyCount];
+        _neighbours.EnsureCapacity(bodyCount);
+        _unplanned.EnsureCapacity(bodyCount / 2);
+        foreach (var left in _leftCells)
+        {
+            left.EnsureCapacity(Math.Min(bodyCount, Math.Max(BodiesPerJob, (bodyCount + MaxCellJobs - 1) / MaxCellJobs)));
+        }
+    }
+
     /// <summary>Sets the targets of all bodies of all islands, which have been planned.</summary>
     public void SetTargets()
     {
         foreach (var island in _graph.Islands)
         {
             RunOnMembers(in island, _setTargets);
-        }
-
-        _separator.Reserve(_bodies.Count);
-        if (_places.Length < _bodies.Count)
-        {
-            _places = new Place[2 * _bodies.Count];
-        }
-
-        foreach (var left in _leftCells)
-        {
-            left.EnsureCapacity(Math.Max(BodiesPerJob, (_bodies.Count + MaxCellJobs - 1) / MaxCellJobs));
         }
     }
 

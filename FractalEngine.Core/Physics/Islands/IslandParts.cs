@@ -11,8 +11,6 @@ internal sealed class IslandParts
     /// <summary>Maximum number of parts that an island is cut into.</summary>
     public const int MaxCount = 8;
 
-    private const int InitialCapacity = 256;
-
     // Smaller parts have too many of their contacts across a cut.
     private const int MinPairsOfPart = 800;
 
@@ -21,7 +19,7 @@ internal sealed class IslandParts
 
     private readonly int[] _bins = new int[BinCount];
     private readonly byte[] _partOfBin = new byte[BinCount];
-    private byte[] _partOf = new byte[InitialCapacity];
+    private byte[] _partOf = [];
 
     /// <summary>The part of a body of an island that has been cut.</summary>
     public int PartOf(int body) => _partOf[body];
@@ -33,14 +31,8 @@ internal sealed class IslandParts
     public int PartOf(in BodyPair pair, int count) =>
         pair.IsSecondImmovable || _partOf[pair.First] == _partOf[pair.Second] ? _partOf[pair.First] : count;
 
-    /// <summary>Makes room for the bodies of a world, so that steps allocate nothing.</summary>
-    public void Reserve(int bodyCount)
-    {
-        if (_partOf.Length < bodyCount)
-        {
-            _partOf = new byte[2 * bodyCount];
-        }
-    }
+    /// <summary>Makes room for the bodies of a world.</summary>
+    public void Reserve(int bodyCount) => _partOf = new byte[bodyCount];
 
     /// <summary>Cuts an island across its longest side.</summary>
     /// <param name="island">Indices of its bodies, for which room must have been made.</param>

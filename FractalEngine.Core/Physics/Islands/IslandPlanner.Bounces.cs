@@ -12,10 +12,10 @@ internal sealed partial class IslandPlanner
     // Each takes energy away, so that none must converge.
     private const int MaxReboundRounds = 8;
 
-    private readonly List<int> _rebounding = new(InitialCapacity);
+    private readonly List<int> _rebounding = [];
     private readonly bool[] _isRebounding = new bool[IslandParts.MaxCount + 1];
     private readonly List<int>[] _reboundingOfParts =
-        [.. Enumerable.Range(0, IslandParts.MaxCount + 1).Select(static _ => new List<int>(InitialCapacity))];
+        [.. Enumerable.Range(0, IslandParts.MaxCount + 1).Select(static _ => new List<int>())];
 
     /// <summary>Lets all pairs bounce until none approaches fast enough any more.</summary>
     private void BounceAll(Span<ContactRow> rows)

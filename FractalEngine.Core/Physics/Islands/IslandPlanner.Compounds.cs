@@ -11,7 +11,6 @@ internal sealed partial class IslandPlanner
     /// <param name="rows">Their contacts.</param>
     public void StopApproachesOf(ReadOnlySpan<int> members, Span<ContactRow> rows)
     {
-        _solver.Reserve(bodies.Count);
         Load(members, rows);
         _ = StopApproaches(rows);
         StoreVelocities(members);

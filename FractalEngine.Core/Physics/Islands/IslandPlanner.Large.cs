@@ -25,7 +25,6 @@ internal sealed partial class IslandPlanner
     private Action<int>? _storeChanges;
     private int _largeIndex;
 
-    /// <summary>Makes what threads run before it is needed, so that steps allocate nothing.</summary>
     private void CreateJobs()
     {
         _loadBodies ??= LoadBodies;

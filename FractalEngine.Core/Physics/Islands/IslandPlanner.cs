@@ -13,9 +13,6 @@ namespace FractalEngine.Core.Physics.Islands;
 /// </remarks>
 internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies nearbyBodies, ContactLog contactLog, int maxThreads)
 {
-    private const int InitialCapacity = 256;
-    private const int ContactsPerBody = 4;
-
     // Times that the lines of contact are corrected for how far the bodies move in the step.
     private const int MaxTurns = 4;
     private const int MinTurns = 2;
@@ -46,19 +43,24 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
         _cache.Clear();
     }
 
+    /// <summary>Makes room for the bodies of a world and their contacts, before the first step with them.</summary>
+    public void Reserve(int bodyCount, int contactCount)
+    {
+        CreateJobs();
+        Graph.Reserve(bodyCount, contactCount);
+        _solver.Reserve(bodyCount, contactCount);
+        _cache.Reserve(contactCount);
+        _rebounding.EnsureCapacity(contactCount);
+        for (var i = 0; i < _reboundingOfParts.Length; i++)
+        {
+            _reboundingOfParts[i].EnsureCapacity(contactCount / (i + 1));
+        }
+    }
+
     /// <summary>Takes away all approaching velocities of bodies that touch. They must have been joined.</summary>
     public void StopApproaches()
     {
-        CreateJobs();
         Graph.Group(onlyImpacts: true);
-        _solver.Reserve(bodies.Count);
-        _cache.ReserveForBodies(bodies.Count);
-        _rebounding.EnsureCapacity(ContactsPerBody * bodies.Count);
-        foreach (var rebounding in _reboundingOfParts)
-        {
-            rebounding.EnsureCapacity(bodies.Count);
-        }
-
         foreach (var island in Graph.Islands)
         {
             var rows = Graph.RowsOf(in island);

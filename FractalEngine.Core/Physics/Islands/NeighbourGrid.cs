@@ -17,8 +17,6 @@ internal sealed class NeighbourGrid
     private const int MaxCellsPerBody = 16;
     private const int MinCells = 4096;
 
-    private const int InitialCapacity = 256;
-
     private int[] _starts = [];
     private int[] _indices = [];
     private int[] _cells = [];
@@ -30,12 +28,10 @@ internal sealed class NeighbourGrid
     private double _maxRadius;
     private (int X, int Y, int Z) _size;
 
-    public NeighbourGrid() => Reserve(InitialCapacity);
-
     /// <summary>True where the last bodies were few cells apart, so that they can be searched.</summary>
     public bool IsBuilt { get; private set; }
 
-    /// <summary>Makes room for the bodies of a world, so that steps allocate nothing.</summary>
+    /// <summary>Makes room for the bodies of a world.</summary>
     public void Reserve(int bodyCount)
     {
         // Four are read at once, beyond the last one.

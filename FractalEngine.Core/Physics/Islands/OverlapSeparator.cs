@@ -11,9 +11,6 @@ internal sealed class OverlapSeparator
     /// <summary>Of the smaller radius: overlaps that are left.</summary>
     public const double NegligibleOverlap = 3e-7;
 
-    private const int InitialCapacity = 256;
-    private const int ContactsPerBody = 4;
-
     // Rounds over the contacts that are near touching, and times that these are chosen anew.
     private const int MaxRounds = 60;
     private const int MaxChoices = 4;
@@ -26,7 +23,7 @@ internal sealed class OverlapSeparator
 
     // One for each part, and behind them one for the contacts between parts.
     private readonly GapGroup[] _groups = [.. Enumerable.Range(0, IslandParts.MaxCount + 1).Select(static _ => new GapGroup())];
-    private DisplacedBody[] _movers = new DisplacedBody[InitialCapacity];
+    private DisplacedBody[] _movers = [];
     private Island _island;
     private SeparationAim _aim;
     private double _reach;
@@ -39,24 +36,18 @@ internal sealed class OverlapSeparator
         _choose = Choose;
         _separate = SeparatePart;
         _takeBackSurfaces = TakeBackSurfaces;
-        foreach (var group in _groups)
-        {
-            group.Reserve(InitialCapacity, ContactsPerBody * InitialCapacity);
-        }
     }
 
     private GapGroup Between => _groups[_island.PartCount];
 
-    /// <summary>Grows the arrays to the bodies of a world, so that its steps allocate nothing.</summary>
-    public void Reserve(int bodyCount)
+    /// <summary>Makes room for the bodies of a world and their contacts.</summary>
+    public void Reserve(int bodyCount, int contactCount)
     {
-        if (_movers.Length < bodyCount)
+        _movers = new DisplacedBody[bodyCount];
+        for (var i = 0; i < _groups.Length; i++)
         {
-            Array.Resize(ref _movers, Math.Max(bodyCount, 2 * _movers.Length));
-            foreach (var group in _groups)
-            {
-                group.Reserve(_movers.Length, ContactsPerBody * _movers.Length);
-            }
+            // An island has so many parts at least where it has this one.
+            _groups[i].Reserve(bodyCount, contactCount / (i + 1));
         }
     }
 

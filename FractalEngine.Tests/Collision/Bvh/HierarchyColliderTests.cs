@@ -211,11 +211,10 @@ public class HierarchyColliderTests
         var context = new QueryContext();
         var random = new Random(1);
         var positions = Enumerable.Range(0, 200).Select(_ => CollisionMeshes.RandomPosition(random, mesh)).ToArray();
-        var sum = RunAllQueries();
-        var before = GC.GetAllocatedBytesForCurrentThread();
-        sum -= RunAllQueries();
-        Assert.Equal(0, GC.GetAllocatedBytesForCurrentThread() - before);
-        Assert.Equal(0, sum);
+        var first = RunAllQueries();
+        var last = 0.0;
+        Assert.Equal(0, Allocation.Measure(() => last = RunAllQueries()));
+        Assert.Equal(first, last);
 
         double RunAllQueries()
         {

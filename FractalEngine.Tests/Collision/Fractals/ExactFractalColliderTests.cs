@@ -143,14 +143,13 @@ public class ExactFractalColliderTests
     {
         var collider = new ExactFractalCollider(CreateMenger(6));
         var context = new QueryContext();
-        collider.TryFindClosest(new(0.1, 0.2, 0.3), double.PositiveInfinity, context, out _);
-        var before = GC.GetAllocatedBytesForCurrentThread();
-        for (var i = 0; i < 100; i++)
+        Assert.Equal(0, Allocation.Measure(() =>
         {
-            collider.TryFindClosest(new(0.01 * i, 0.2, 0.3), double.PositiveInfinity, context, out _);
-        }
-
-        Assert.Equal(0, GC.GetAllocatedBytesForCurrentThread() - before);
+            for (var i = 0; i < 100; i++)
+            {
+                collider.TryFindClosest(new(0.01 * i, 0.2, 0.3), double.PositiveInfinity, context, out _);
+            }
+        }));
     }
 
     [Fact]

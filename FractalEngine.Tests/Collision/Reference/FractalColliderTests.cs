@@ -149,10 +149,11 @@ public class FractalColliderTests
         var collider = new FractalCollider(AssetFractals.Load("tree", null), 8);
         var context = new QueryContext();
         Assert.True(collider.TryFindClosest(new(1, 2, 3), double.PositiveInfinity, context, out var closest));
-        var before = GC.GetAllocatedBytesForCurrentThread();
-        Assert.True(collider.TryFindClosest(new(1, 2, 3), closest.Distance, context, out _));
-        Assert.False(collider.TryFindClosest(new(1, 2, 3), 0.99 * closest.Distance, context, out _));
-        Assert.Equal(before, GC.GetAllocatedBytesForCurrentThread());
+        Assert.Equal(0, Allocation.Measure(() =>
+        {
+            Assert.True(collider.TryFindClosest(new(1, 2, 3), closest.Distance, context, out _));
+            Assert.False(collider.TryFindClosest(new(1, 2, 3), 0.99 * closest.Distance, context, out _));
+        }));
     }
 
     [Fact]
