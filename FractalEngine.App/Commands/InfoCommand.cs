@@ -1,7 +1,6 @@
 using System.CommandLine;
 using System.Diagnostics;
 using FractalEngine.Parsing.Assets;
-using FractalEngine.Render;
 using FractalEngine.Render.Preparation;
 
 namespace FractalEngine.App.Commands;

@@ -38,7 +38,8 @@ internal static class TraceCommand
         }
 
         var table = new CsvTable(
-            Path.Combine(output ?? CommandLineParser.FolderFor(isQuick), "trace.csv"), string.Join(' ', ["trace", .. names, .. isQuick ? ["--quick"] : Array.Empty<string>()]),
+            Path.Combine(output ?? CommandLineParser.FolderFor(isQuick), "trace.csv"),
+            string.Join(' ', ["trace", .. names, .. isQuick ? ["--quick"] : Array.Empty<string>()]),
             "scene", "width", "height", "sample_ms_one_bounce", "sample_ms", "drawn_frame_ms", "samples_of_truth", "db_after_5_s",
             "db_after_10_s");
         var (width, height) = isQuick ? (160, 90) : (960, 540);

@@ -8,9 +8,10 @@ namespace FractalEngine.Core.Fractals;
 /// largest coordinate.
 /// </summary>
 /// <remarks>
-/// The same sum or product in another order differs by rounding only, which the tolerance covers, but where coordinates on the way were some
-/// ten times larger than those of the image: such instances may count more than once. What is far away has no part in it. Counts, exports, the comparison colliders and lists of faces use the rule. Searches and culling leave
-/// out, before anything is computed, what equal maps in a set and identities make more than once: that needs no tolerance.
+/// The same sum or product in another order differs by rounding only, which the tolerance covers, but where coordinates on the way were
+/// some ten times larger than those of the image: such instances may count more than once. What is far away has no part in it. Counts,
+/// exports, the comparison colliders and lists of faces use the rule. Searches and culling leave out, before anything is computed, what
+/// equal maps in a set and identities make more than once: that needs no tolerance.
 /// </remarks>
 internal static class DistinctMaps
 {

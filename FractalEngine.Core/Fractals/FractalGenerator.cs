@@ -111,7 +111,9 @@ public static class FractalGenerator
             : [.. instances.Span];
     }
 
-    /// <summary>Lists the levels, outermost first, but those that change nothing: a recursion of a million levels may consist of them.</summary>
+    /// <summary>
+    /// Lists the levels, outermost first, but those that change nothing: a recursion of a million levels may consist of them.
+    /// </summary>
     private static IEnumerable<TransformationSet> LevelsOf(Fractal fractal)
     {
         for (var level = 0L; level < fractal.LevelCount; level++)

@@ -5,7 +5,7 @@ namespace FractalEngine.Parsing.Fractals;
 
 /// <summary>One vector of what a transformation function returns: an argument of the call, a vector of the file, or '#'.</summary>
 /// <param name="Parameter">Index of the parameter, from 0; null where there is none.</param>
-/// <param name="VectorNumber">Number of the vector, from 1, which is looked up when the function is called; null where there is none.</param>
+/// <param name="VectorNumber">Number of the vector, from 1, which is looked up when the function is called; null for none.</param>
 /// <param name="Default">What '#' stands for here.</param>
 /// <param name="Start">Place in the file.</param>
 internal readonly record struct FunctionOutput(int? Parameter, int? VectorNumber, Vector Default, Cursor Start)

@@ -28,7 +28,8 @@ public partial class ArchitecturePageTests
             var rooms = Directory.EnumerateFiles(root, "*.cs", SearchOption.AllDirectories)
                 .Select(file => Path.GetDirectoryName(Path.GetRelativePath(root, file))!.Replace('\\', '/')).Distinct()
                 .Where(room => room is not ("" or "Properties") && room.Split('/')[0] is not ("bin" or "obj"));
-            var drawn = Regex.Matches(Page, $@"^    {project}_\w+\[""(.+)""\]$", RegexOptions.Multiline).Select(match => match.Groups[1].Value);
+            var drawn = Regex.Matches(Page, $@"^    {project}_\w+\[""(.+)""\]$", RegexOptions.Multiline)
+                .Select(match => match.Groups[1].Value);
             Assert.Equal(rooms.Order(StringComparer.Ordinal), drawn);
         });
     }

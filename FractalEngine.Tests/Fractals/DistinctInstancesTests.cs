@@ -158,7 +158,10 @@ public class DistinctInstancesTests
         var mesh = Samples.Tetrahedron.Transform(v => v.Stretch(new(1, 1, thickness)));
         var up = Samples.MoveAndScale(0, 0, 1, scale);
         var fractal = new Fractal(
-            new([TransformationSet.Of([Transformation.Identity, up, Samples.Move(7, 0, 0)]), TransformationSet.Of([up, Transformation.Identity])]),
+            new([
+                TransformationSet.Of([Transformation.Identity, up, Samples.Move(7, 0, 0)]),
+                TransformationSet.Of([up, Transformation.Identity]),
+            ]),
             mesh);
         Assert.Equal(5, DistinctInstances.Count(fractal));
         Assert.Equal(5, FractalGenerator.Expand(fractal, 100).Length);
@@ -205,7 +208,8 @@ public class DistinctInstancesTests
     {
         var isLattice = random.Next(2) == 0;
         var maps = Enumerable.Range(0, random.Next(2, 5)).Select(_ => isLattice
-            ? Samples.MoveAndScale(0.1 * random.Next(-3, 4), 0.7 * random.Next(2), random.Next(6) == 0 ? 1e11 : 0, random.Next(3) == 0 ? 0.5 : 1)
+            ? Samples.MoveAndScale(
+                0.1 * random.Next(-3, 4), 0.7 * random.Next(2), random.Next(6) == 0 ? 1e11 : 0, random.Next(3) == 0 ? 0.5 : 1)
             : random.Next(5) == 0 ? Transformation.Identity : random.Transformation()).ToArray();
         var mesh = Samples.Tetrahedron.Transform(v => v.Stretch(new(1, random.Next(2), 1)) + (random.Next(3) * 500 * Vector.I));
         var fractal = new Fractal(Samples.Repeated(random.Next(1, 5), maps).Description, mesh);
@@ -216,7 +220,8 @@ public class DistinctInstancesTests
         foreach (var image in images)
         {
             var magnitude = image.Max(corner => corner.MaxAbsComponent());
-            if (!distinct.Any(other => image.Zip(other).All(pair => (pair.First - pair.Second).MaxAbsComponent() <= 5e-15 * (1 + magnitude))))
+            var tolerance = 5e-15 * (1 + magnitude);
+            if (!distinct.Any(other => image.Zip(other).All(pair => (pair.First - pair.Second).MaxAbsComponent() <= tolerance)))
             {
                 distinct.Add(image);
             }

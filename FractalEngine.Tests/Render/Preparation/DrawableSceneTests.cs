@@ -3,7 +3,6 @@ using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Assets;
-using FractalEngine.Parsing.Text;
 using FractalEngine.Render;
 using FractalEngine.Render.Preparation;
 using FractalEngine.Tests.Support;
