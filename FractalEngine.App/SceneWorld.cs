@@ -14,7 +14,7 @@ internal static class SceneWorld
     /// <param name="scene">The scene, perhaps with another projection.</param>
     /// <param name="settings">Checked by the command line.</param>
     /// <exception cref="SourceException">The scene declares an invalid body, such as one without size.</exception>
-    /// <exception cref="FractalEngineException">A limit is exceeded: of bodies at one place, or of coordinates.</exception>
+    /// <exception cref="FractalEngineException">A limit is exceeded: of bodies that overlap, or of coordinates.</exception>
     public static PhysicsWorld Create(LoadedFile file, LoadedScene scene, PhysicsSettings settings)
     {
         try

@@ -6,6 +6,9 @@ namespace FractalEngine.App.Window;
 /// <content>What the user does with bodies and with the player.</content>
 internal sealed partial class ScenePhysics
 {
+    // Of the first size, where the scene says nothing of shrinking.
+    private const double ShrinkagePerSecond = 0.1;
+
     /// <summary>Pauses the simulation, or resumes it.</summary>
     public string TogglePause()
     {
@@ -75,6 +78,14 @@ internal sealed partial class ScenePhysics
 
     /// <summary>Switches all bodies to the next collider that fits the scene.</summary>
     public string SwitchCollider() => WhenReady(world => ColliderSwitch.SwitchToNext(world, _scene));
+
+    /// <summary>Lets bodies shrink (paper §5.5), those that the scene lets, or all where it lets none; or lets none shrink.</summary>
+    public string ToggleShrinking() => WhenReady(world =>
+    {
+        var areDeclared = world.Bodies.Any(static body => body.Description.Shrinkage > 0);
+        world.ShrinkageOverride = IsShrinking ? 0 : areDeclared ? null : ShrinkagePerSecond;
+        return !IsShrinking ? "nothing shrinks" : areDeclared ? "shrinking, as the scene has it" : "all bodies shrink";
+    });
 
     /// <summary>Shows or hides the lines to closest points.</summary>
     public string ToggleClosestPoints()

@@ -53,6 +53,7 @@ internal sealed partial class ScenePhysics : IDisposable
         {
             PhysicsLimits.RequireRange(scene);
             var world = _continued ?? new PhysicsWorld(scene, null, _colliders);
+            PhysicsLimits.Require(world.Bodies);
             PhysicsLimits.RequireRange(world);
             if (world.Bodies.Count > 0 || world.Character is { IsActive: true } || alwaysBuild)
             {
@@ -85,6 +86,10 @@ internal sealed partial class ScenePhysics : IDisposable
 
     /// <summary>Whether closest points and normals are shown as lines.</summary>
     public bool ShowsClosestPoints { get; set; }
+
+    /// <summary>Whether bodies shrink: some as the scene has it, or all.</summary>
+    public bool IsShrinking => (World ?? _continued) is { } world
+        && (world.ShrinkageOverride ?? world.Bodies.Max(static body => (double?)body.Shrinkage)) > 0;
 
     /// <summary>The fraction of a step by which frames follow the last step, from 0 to 1; see <see cref="Body.InterpolatedMap"/>.</summary>
     public double InterpolationAlpha => IsPaused || (World ?? _continued) is not { } world ? 1 : world.InterpolationAlpha;
@@ -125,7 +130,8 @@ internal sealed partial class ScenePhysics : IDisposable
     /// <summary>Number of colliders built so far, and number of all colliders.</summary>
     public (int Built, int All) ColliderCounts => World?.ColliderCounts ?? (0, _colliderCount);
 
-    private PhysicsWorld? World => _worldTask.IsCompletedSuccessfully ? _worldTask.Result : null;
+    /// <summary>The world, once its colliders are built; null until then, and where it can't be made.</summary>
+    public PhysicsWorld? World => _worldTask.IsCompletedSuccessfully ? _worldTask.Result : null;
 
     private string NotReadyMessage =>
         _worldTask.IsFaulted ? $"no physics: {_worldTask.Exception.InnerException!.Message}" : "the colliders are being built";
@@ -242,6 +248,7 @@ internal sealed partial class ScenePhysics : IDisposable
             var world = new PhysicsWorld(_scene, null, _colliders);
             world.Continue(earlier);
             world.ColliderOverride = earlier.ColliderOverride;
+            world.ShrinkageOverride = earlier.ShrinkageOverride;
             return world;
         }
         catch (FractalEngineException)

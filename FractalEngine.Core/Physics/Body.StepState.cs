@@ -122,5 +122,5 @@ public sealed partial class Body
     internal bool AreNearSurfacesKnown { get; set; }
 
     /// <summary>True while the body shrinks and has not reached its minimum scale.</summary>
-    internal bool IsShrinking => Description.Shrinkage > 0 && Scale > Description.MinScale;
+    internal bool IsShrinking => Shrinkage > 0 && Scale > Description.MinScale;
 }

@@ -73,6 +73,11 @@ public sealed partial class Body
         }
     }
 
+    /// <summary>
+    /// Fraction of its initial size that the body loses per second: its own, or <see cref="PhysicsWorld.ShrinkageOverride"/>.
+    /// </summary>
+    public double Shrinkage { get; internal set; }
+
     /// <summary>Relative size before the last step, for interpolation between steps.</summary>
     public double PreviousScale { get; internal set; }
 

@@ -66,7 +66,7 @@ internal sealed class BodyStepper
         var description = body.Description;
         if (body.IsShrinking)
         {
-            body.Scale = Math.Max(description.MinScale, body.Scale - (description.Shrinkage * stepLength));
+            body.Scale = Math.Max(description.MinScale, body.Scale - (body.Shrinkage * stepLength));
             body.UpdateBalls();
         }
 

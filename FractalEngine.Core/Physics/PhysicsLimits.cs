@@ -7,12 +7,12 @@ namespace FractalEngine.Core.Physics;
 /// <summary>The limits of physics: each bounds time or memory, and is named in the error that it causes.</summary>
 public static class PhysicsLimits
 {
-    /// <summary>The limit of <see cref="MaxBodiesAtOnePlace"/>.</summary>
-    public static Limit BodiesAtOnePlace { get; } = new(
-        "bodies-at-one-place", 1_000, "bodies whose centres lie within a radius at the start", "each touches all others");
+    /// <summary>The limit of <see cref="MaxOverlappingPairs"/>.</summary>
+    public static Limit OverlappingPairs { get; } = new(
+        "overlapping-pairs", 500_000, "pairs of bodies that overlap at the start", "half a second a step, until they are apart");
 
-    /// <summary>Maximum number of bodies whose centres begin within a cube as wide as a radius.</summary>
-    public static int MaxBodiesAtOnePlace => (int)BodiesAtOnePlace.Value;
+    /// <summary>Maximum number of pairs of bodies that overlap at the start. A thousand bodies at one place are as many.</summary>
+    public static int MaxOverlappingPairs => (int)OverlappingPairs.Value;
 
     /// <summary>Largest coordinate of positions, velocities and gravity in size: the squares of larger ones leave a double.</summary>
     public const double MaxCoordinate = 1e150;
@@ -29,8 +29,11 @@ public static class PhysicsLimits
     /// </summary>
     public const double MinRadiusShare = 1e-12;
 
+    // Of the radius: bodies that touch do not overlap.
+    private const double NegligibleOverlap = 1e-6;
+
     /// <summary>All limits of physics, in the order of a listing.</summary>
-    public static ImmutableArray<Limit> All { get; } = [BodiesAtOnePlace];
+    public static ImmutableArray<Limit> All { get; } = [OverlappingPairs];
 
     /// <summary>Throws where gravity, or a body, is beyond <see cref="MaxCoordinate"/>: such a body would stand still for ever.</summary>
     /// <exception cref="FractalEngineException">
@@ -79,8 +82,8 @@ public static class PhysicsLimits
     }
 
     /// <summary>
-    /// Throws where more bodies than <see cref="MaxBodiesAtOnePlace"/> begin at one place, or one is smaller than
-    /// <see cref="MinRadiusShare"/> of its coordinates.
+    /// Throws where more pairs of bodies than <see cref="MaxOverlappingPairs"/> overlap, or a body is smaller than
+    /// <see cref="MinRadiusShare"/> of its coordinates. Cost O(n·log n) for n bodies, and O(1) for each pair up to the limit.
     /// </summary>
     /// <exception cref="FractalEngineException">
     /// The limit is exceeded; the message names it. For a body of the scene that is too small it is a <see cref="SceneObjectException"/>.
@@ -93,19 +96,22 @@ public static class PhysicsLimits
             RequireRadius(body);
         }
 
-        if (bodies.Count <= MaxBodiesAtOnePlace)
+        // Each pair is found from both of its bodies.
+        var left = 2L * MaxOverlappingPairs;
+        var grid = new BodyGrid();
+        grid.Build([.. bodies]);
+        var nearbyBodies = new NearbyBodies(grid);
+        var neighbours = new List<int>();
+        for (var i = 0; i < bodies.Count; i++)
         {
-            return;
-        }
-
-        var width = bodies.Max(static body => body.Radius);
-        var mostInCube = bodies.CountBy(body => (
-            Math.Floor(body.Position.X / width), Math.Floor(body.Position.Y / width), Math.Floor(body.Position.Z / width)))
-            .Max(static cube => cube.Value);
-        if (mostInCube > MaxBodiesAtOnePlace)
-        {
-            throw new FractalEngineException(
-                ErrorKind.Limit, $"{mostInCube} bodies begin at one place, more than the limit of {MaxBodiesAtOnePlace}");
+            neighbours.Clear();
+            nearbyBodies.CollectOverlaps(bodies[i].Position, bodies[i].Radius * (1 - NegligibleOverlap), i, neighbours);
+            left -= neighbours.Count;
+            if (left < 0)
+            {
+                throw new FractalEngineException(
+                    ErrorKind.Limit, $"the bodies overlap each other in more than the limit of {MaxOverlappingPairs} pairs");
+            }
         }
     }
 

@@ -241,7 +241,7 @@ public sealed partial class PhysicsWorld
 
     private Body AppendBody(BodyDescription description)
     {
-        var body = new Body(description, _bodies.Count, _gravity);
+        var body = new Body(description, _bodies.Count, _gravity) { Shrinkage = ShrinkageOverride ?? description.Shrinkage };
         _bodies.Add(body);
         _areMixed |= body.IsCompound || description.Collider != _bodies[0].Description.Collider;
         _nearbyBodies.HasFilters |= description.Mask != Layers.All || description.Layer != 0;

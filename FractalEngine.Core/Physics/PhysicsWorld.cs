@@ -178,6 +178,27 @@ public sealed partial class PhysicsWorld
     }
 
     /// <summary>
+    /// Fraction of its initial size that each body loses per second (paper §5.5), instead of its own; null for its own. Setting another one
+    /// wakes all bodies.
+    /// </summary>
+    /// <exception cref="ArgumentException">It is negative or not finite.</exception>
+    public double? ShrinkageOverride
+    {
+        get;
+        set
+        {
+            ArgumentCheck.Require(
+                value is null || (value >= 0 && double.IsFinite(value.Value)), "the shrinkage must not be negative", null, nameof(value));
+            if (field != value)
+            {
+                field = value;
+                _bodies.ForEach(body => body.Shrinkage = value ?? body.Description.Shrinkage);
+                InvalidateSurroundings(mayOverlap: false);
+            }
+        }
+    }
+
+    /// <summary>
     /// Number of colliders of static objects that have been built, and how many there are, of the kind that the character uses.
     /// </summary>
     public (int Built, int All) ColliderCounts => _statics.CountColliders(CharacterColliderKind);
@@ -195,8 +216,8 @@ public sealed partial class PhysicsWorld
     /// added are removed. Static objects that were added stay, at the placement they were added with.
     /// </summary>
     /// <remarks>
-    /// <see cref="Gravity"/>, <see cref="ColliderOverride"/>, the character and all colliders are kept. Removed bodies no longer belong to
-    /// this world.
+    /// <see cref="Gravity"/>, <see cref="ColliderOverride"/>, <see cref="ShrinkageOverride"/>, the character and all colliders are kept.
+    /// Removed bodies no longer belong to this world.
     /// </remarks>
     public void Reset()
     {

@@ -207,7 +207,7 @@ public sealed class CommandLineTests : IDisposable
     {
         _folder.Write("bodies.sdo", string.Concat(Enumerable.Repeat("p \"cube.obj\" # 0.5\n", 1_001)));
         var (exitCode, _, error) = Run("simulate", "bodies.sdo", "--seconds", "1");
-        Assert.Equal((3, "error: 1001 bodies begin at one place, more than the limit of 1000"), (exitCode, error.Trim()));
+        Assert.Equal((3, "error: the bodies overlap each other in more than the limit of 500000 pairs"), (exitCode, error.Trim()));
     }
 
     [Fact]

@@ -76,6 +76,30 @@ public class ShrinkageTests
     }
 
     [Fact]
+    public void ShrinkageOverride_OfAWorld_IsThatOfAllBodiesUntilItIsNull()
+    {
+        var world = TestWorlds.Create(TestWorlds.Gravity, 1 / 64.0, TestWorlds.Place(PhysicsMeshes.FloorMesh()));
+        var still = world.Add(new(new(0, 1, 0), 1));
+        var shrinking = world.Add(new(new(9, 1, 0), 1) { Shrinkage = 0.25 });
+        world.ShrinkageOverride = 0;
+        world.Run(64);
+        Assert.Equal((1, 1), (still.Scale, shrinking.Scale));
+        Assert.True(still.IsAsleep && shrinking.IsAsleep);
+        world.ShrinkageOverride = 0.5;
+        var added = world.Add(new(new(-9, 1, 0), 1) { MinScale = 0.75 });
+        world.Run(64);
+        // Binary fractions, which add up without rounding.
+        Assert.Equal((0.5, 0.5, 0.75), (still.Scale, shrinking.Scale, added.Scale));
+        world.ShrinkageOverride = null;
+        world.Run(64);
+        Assert.Equal((0.5, 0.25), (still.Scale, shrinking.Scale));
+        Assert.Throws<ArgumentException>(() => world.ShrinkageOverride = -0.1);
+        Assert.Throws<ArgumentException>(() => world.ShrinkageOverride = double.NaN);
+        Assert.Throws<ArgumentException>(() => world.ShrinkageOverride = double.PositiveInfinity);
+        Assert.Null(world.ShrinkageOverride);
+    }
+
+    [Fact]
     public void InterpolatedMap_OfAFraction_LiesBetweenTheSteps() => Seeded.Run(20, random =>
     {
         var world = TestWorlds.Create(TestWorlds.Gravity, 0.02);

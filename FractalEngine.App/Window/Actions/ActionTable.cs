@@ -190,6 +190,11 @@ internal static partial class ActionTable
             static document => document.Physics.Reset()),
         OfPhysics("next-collider", "Next collider", "the next collider that fits the scene, for all bodies; the top line shows its cost",
             Key.C, static document => document.Physics.SwitchCollider()),
+        new("shrinking", "Physics", "Shrinking", "let bodies shrink (paper §5.5): as the scene has it, or all; or let none")
+        {
+            Keys = [new(Key.J)], Run = Physics(static document => document.Physics.ToggleShrinking()), IsAvailable = HasDocument,
+            IsOn = static a => a.Document?.Physics.IsShrinking == true,
+        },
         new("closest-points", "Physics", "Closest points", "lines from bodies to their closest points, and the normals there")
         {
             Keys = [new(Key.V)], Run = Physics(static document => document.Physics.ToggleClosestPoints()), IsAvailable = HasDocument,

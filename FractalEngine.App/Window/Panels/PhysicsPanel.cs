@@ -25,6 +25,7 @@ internal sealed class PhysicsPanel(WindowActions actions, Action<WindowAction> c
         ui.Action(actions, "reset-bodies", choose);
         ui.Action(actions, "walk", choose);
         ui.Row(1);
+        ui.Action(actions, "shrinking", choose);
         ui.Action(actions, "closest-points", choose);
         ui.Action(actions, "next-collider", choose);
         var speed = document.Physics.Speed;

@@ -48,6 +48,53 @@ public sealed class ScenePhysicsTests
     }
 
     [Fact]
+    public void Advance_OfBodiesThatOverlapByTheThousand_SaysSoAndMovesNothing()
+    {
+        var bodies = Enumerable.Repeat<SceneObject>(new PhysicsObject(new MeshModel(Shapes.Cube()), 0), 1_001);
+        using var physics = Create(new() { Objects = [.. bodies] });
+        Assert.False(physics.Advance(TimeSpan.FromSeconds(1)));
+        Assert.EndsWith("more than the limit of 500000 pairs", physics.TakeProblem(), StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void Shrinking_OfAScene_IsSwitchedForThoseThatItLetsShrink()
+    {
+        var scene = SceneWith(4);
+        var declared = (PhysicsObject)scene.Objects[0] with { Shrinkage = 0.2 };
+        using var physics = Create(scene with { Objects = [declared, scene.Objects[0] with { Placement = Samples.Move(9, 9, 9) }] });
+        Assert.True(physics.IsShrinking);
+        Assert.Equal("nothing shrinks", physics.ToggleShrinking());
+        Assert.False(physics.IsShrinking);
+        Assert.Equal("shrinking, as the scene has it", physics.ToggleShrinking());
+        Assert.Equal([0.2, 0], physics.World!.Bodies.Select(static body => body.Shrinkage));
+    }
+
+    [Fact]
+    public void Shrinking_OfASceneThatLetsNoneShrink_IsSwitchedForAllAndOutlivesAnEdit()
+    {
+        using var physics = Create(SceneWith(4));
+        Assert.False(physics.IsShrinking);
+        Assert.Equal("all bodies shrink", physics.ToggleShrinking());
+        var dropped = physics.World!.AddSphere(new(0, 50, 0), 1);
+        Advance(physics, 30);
+        Assert.InRange(dropped.Scale, 0.94, 0.96);
+        using var edited = Create(SceneWith(5), physics);
+        Assert.True(edited.IsShrinking);
+        Assert.Equal("nothing shrinks", edited.ToggleShrinking());
+        var before = edited.World!.Bodies.Select(static body => body.Scale).ToArray();
+        Advance(edited, 30);
+        Assert.Equal(before, edited.World.Bodies.Select(static body => body.Scale));
+
+        static void Advance(ScenePhysics physics, int steps)
+        {
+            for (var step = 0; step < steps; step++)
+            {
+                _ = physics.StepOnce();
+            }
+        }
+    }
+
+    [Fact]
     public void ClosestPointLines_OfBodiesWithoutADistance_AreNone()
     {
         var distant = new SceneObject(Shapes.Cube()) { Placement = Samples.Move(1e308, 0, 0) };
