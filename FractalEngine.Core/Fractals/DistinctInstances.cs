@@ -120,7 +120,7 @@ public static class DistinctInstances
     {
         for (var slot = 0; slot < node.ChildCount; slot++)
         {
-            if (BoundingBox.Intersection(boxes[index], node.BoxOf(slot)).IsEmpty)
+            if (!HaveCommonPoints(boxes[index], node.BoxOf(slot)))
             {
                 continue;
             }
@@ -128,7 +128,7 @@ public static class DistinctInstances
             if (node[slot] is ObjectBvhNode child
                 ? OverlapsAnother(child, boxes, index)
                 : node[slot] is ObjectBvhLeaf { Index: var other } && other < index
-                    && !BoundingBox.Intersection(boxes[index], boxes[other]).IsEmpty)
+                    && HaveCommonPoints(boxes[index], boxes[other]))
             {
                 return true;
             }
@@ -136,4 +136,9 @@ public static class DistinctInstances
 
         return false;
     }
+
+    private static bool HaveCommonPoints(BoundingBox box1, BoundingBox box2) =>
+        box1.Minimum.X <= box2.Maximum.X && box2.Minimum.X <= box1.Maximum.X
+        && box1.Minimum.Y <= box2.Maximum.Y && box2.Minimum.Y <= box1.Maximum.Y
+        && box1.Minimum.Z <= box2.Maximum.Z && box2.Minimum.Z <= box1.Maximum.Z;
 }

@@ -36,9 +36,17 @@ public readonly record struct BoundingBox(Vector Minimum, Vector Maximum)
     public static BoundingBox Union(BoundingBox box1, BoundingBox box2) =>
         new(Vector.Min(box1.Minimum, box2.Minimum), Vector.Max(box1.Maximum, box2.Maximum));
 
-    /// <summary>Computes the box of the points that are in two boxes.</summary>
-    internal static BoundingBox Intersection(BoundingBox box1, BoundingBox box2) =>
-        new(Vector.Max(box1.Minimum, box2.Minimum), Vector.Min(box1.Maximum, box2.Maximum));
+    /// <summary>Computes the box of what two boxes both bound.</summary>
+    /// <remarks>
+    /// Rounding may leave a gap between them along an axis where they are flat. The box fills it: what it bounds lies beyond neither side
+    /// of the gap by more than the rounding of the boxes, and so beyond none of the filled box.
+    /// </remarks>
+    internal static BoundingBox Intersection(BoundingBox box1, BoundingBox box2)
+    {
+        var minimum = Vector.Max(box1.Minimum, box2.Minimum);
+        var maximum = Vector.Min(box1.Maximum, box2.Maximum);
+        return new(Vector.Min(minimum, maximum), Vector.Max(minimum, maximum));
+    }
 
     /// <summary>Computes the smallest box that holds this one and a point.</summary>
     public BoundingBox Including(Vector point) => new(Vector.Min(Minimum, point), Vector.Max(Maximum, point));

@@ -32,6 +32,7 @@ internal sealed class RayPlanes
         }
 
         var box = new RayBox(volume.Box);
+        var rounding = RoundingErrors.Chain * (1 + (BoundingVolume.MaxAbsCoordinate(volume.Box) * box.InverseHalfExtent));
         var groups = (hull.Planes.Length + LaneCount - 1) / LaneCount;
         _rows = new Vector256<double>[groups * RowCount];
         for (var i = 0; i < groups * LaneCount; i++)
@@ -39,7 +40,7 @@ internal sealed class RayPlanes
             // The last plane fills the lanes that are left over.
             var (normal, offset, _) = hull.Planes[Math.Min(i, hull.Planes.Length - 1)];
             var height = (offset + volume.Margin - Vector.Dot(normal, volume.Box.Centre)) * box.InverseHalfExtent;
-            ReadOnlySpan<double> values = [normal.X, normal.Y, normal.Z, height + RoundingErrors.Chain];
+            ReadOnlySpan<double> values = [normal.X, normal.Y, normal.Z, height + rounding];
             for (var row = 0; row < RowCount; row++)
             {
                 ref var lanes = ref _rows[(i / LaneCount * RowCount) + row];

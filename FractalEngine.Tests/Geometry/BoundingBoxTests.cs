@@ -26,6 +26,16 @@ public class BoundingBoxTests
         Assert.Equal(new(new(-1, 0, 0), new(1, 1, 5)), BoundingBox.Union(Unit, new(new(-1, 0, 2), new(0, 1, 5))));
 
     [Fact]
+    public void Intersection_OfFlatBoxesThatRoundingParts_HoldsBothSidesOfTheGap()
+    {
+        // Both bound the same, such as a triangle at the height 0.3, and neither is as exact as the other.
+        var box = BoundingBox.Intersection(
+            new(new(-1, 0.1 + 0.2, 0), new(2, 0.1 + 0.2, 4)), new(new(0, 0.3, -1), new(3, 0.3, 3)));
+        Assert.Equal(new(new(0, 0.3, 0), new(2, 0.1 + 0.2, 3)), box);
+        Assert.False(box.IsEmpty);
+    }
+
+    [Fact]
     public void CentreSizeAndDiagonal_OfAnyBox_FollowFromItsCorners()
     {
         var box = new BoundingBox(new(-1, 0, 2), new(1, 3, 8));

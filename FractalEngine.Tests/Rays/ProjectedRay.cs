@@ -65,12 +65,22 @@ internal readonly struct ProjectedRay
         var sum = weightA + weightB + weightC;
         var distance = ((weightA * Vector.Dot(a, Direction)) + (weightB * Vector.Dot(b, Direction)) + (weightC * Vector.Dot(c, Direction)))
             / sum;
-        // A corner that is off moves the hit by as much, and by more on a slope. Rounded weights move it along a needle.
-        var slope = Vector.Cross(b - a, c - a).Length() / Math.Abs(area);
-        var needle = Math.Max((b - a).LengthSquared(), Math.Max((c - a).LengthSquared(), (c - b).LengthSquared())) / Math.Abs(area);
-        var error = Math.Max(DistanceError, Math.Max(CornerError * slope, WeightError * needle));
         var reach = Math.Max(triangle.Reach, Math.Max(Origin.MaxAbsComponent(), (Origin + (distance * Direction)).MaxAbsComponent()));
-        return new(inside, distance, error * reach, reach);
+        return new(inside, distance, DistanceTolerance(in triangle, reach), reach);
+    }
+
+    /// <summary>Computes how far off the distance to a triangle may be.</summary>
+    /// <param name="triangle">The triangle.</param>
+    /// <param name="reach">The largest absolute coordinate on the way.</param>
+    public double DistanceTolerance(in ExpandedTriangle triangle, double reach)
+    {
+        // A corner that is off moves the hit by as much, and by more on a slope. Rounded weights move it along a needle.
+        var (ab, ac) = (triangle.B - triangle.A, triangle.C - triangle.A);
+        var doubledArea = Vector.Cross(ab, ac);
+        var seenArea = Math.Abs(Vector.Dot(doubledArea, Direction));
+        var longestSquared = Math.Max(ab.LengthSquared(), Math.Max(ac.LengthSquared(), (ac - ab).LengthSquared()));
+        var error = Math.Max(CornerError * doubledArea.Length(), WeightError * longestSquared) / seenArea;
+        return Math.Max(DistanceError, error) * reach;
     }
 
     /// <summary>Finds the distances at which the ray enters and leaves a box; the first is greater where it misses.</summary>

@@ -49,7 +49,7 @@ public class RayCasterAdversarialTests
     private static void CheckRandom(int firstSeed, int fractals) =>
         Parallel.For(firstSeed, firstSeed + fractals, seed => Seeded.RunOne(seed, random =>
         {
-            var fractal = random.Next(3) == 0 ? RandomFractals.Create(random) : RandomAdversarialFractals.Create(random);
+            var fractal = random.Next(3) == 0 ? RandomFractals.Create(random) : RandomShapes.Create(random);
             if (fractal.InstanceCount > 0)
             {
                 CheckRays(random, "random", fractal, RaysPerFractal);

@@ -23,7 +23,7 @@ public class RayCasterWatertightTests
     public static TheoryData<string> Solids => ["icosphere", "skewed icosphere", "rotated cube", "needle", "far"];
 
     /// <summary>Placements of a tiled square: nothing is as exact as the first.</summary>
-    public static TheoryData<string> Placements => ["none", "rotated", "skewed", "mirrored", "thirds", "far"];
+    public static TheoryData<string> Placements => ["none", "rotated", "skewed", "mirrored", "thirds", "far", "returned"];
 
     [Theory]
     [MemberData(nameof(Solids))]
@@ -126,17 +126,19 @@ public class RayCasterWatertightTests
     private static void CheckTiles(string name, int seed, int rays)
     {
         var count = name == "thirds" ? 3 : 2;
+        var away = name == "returned" ? new Vector(1000, -999, 0.7) : Vector.Zero;
         var tiles = from x in Enumerable.Range(0, count) from y in Enumerable.Range(0, count) select Tile(x, y);
         var placement = name switch
         {
-            "rotated" => new(new(0.1, 0.2, 0.3), new(33, 44, 55), Vector.One),
+            "rotated" or "returned" => new(new(0.1, 0.2, 0.3), new(33, 44, 55), Vector.One),
             "skewed" => new Transformation(Vector.Zero, new(33, 44, 55), new(1, 3, 0.1)),
             "mirrored" => new(Vector.I, new(-20, 70, 10), new(-1, 1, 1)),
             "far" => new(new(1e5, 2e5, -1e5), new(33, 44, 55), Vector.One),
             _ => Transformation.Identity,
         };
         var outer = name == "skewed" ? [placement, Samples.Move(1e3, 0, 0) with { Rotation = new(0, 10, 0) }] : new[] { placement };
-        var caster = RayCaster.For(Fractal.Of(Square).Repeat([.. tiles], 5).Apply(outer));
+        var square = Square.Transform(v => v + away);
+        var caster = RayCaster.For(Fractal.Of(square).Repeat([.. tiles], 5).Apply([Samples.Move(-away.X, -away.Y, -away.Z)]).Apply(outer));
         var map = placement.ToAffineMap();
         var context = new QueryContext();
         var cells = (int)Math.Pow(count, 5);
@@ -153,11 +155,13 @@ public class RayCasterWatertightTests
                     : new Ray(origin, target - origin);
                 Assert.True(caster.TryFindNearest(ray, context, out var hit), $"{ray} leaks");
                 Assert.True(caster.HitsAny(ray, context), $"{ray} leaks");
-                var reach = Math.Max(target.MaxAbsComponent(), ray.Origin.MaxAbsComponent());
+                var reach = Math.Max(away.MaxAbsComponent(), Math.Max(target.MaxAbsComponent(), ray.Origin.MaxAbsComponent()));
                 AssertDistance(ray with { Direction = target - ray.Origin }, hit, reach);
             }
         });
 
-        Transformation Tile(int x, int y) => new(new((double)x / count, (double)y / count, 0), Vector.Zero, Vector.One / count);
+        // Tiles are placed away from the origin, to which the whole returns.
+        Transformation Tile(int x, int y) => Transformation.At(
+            (new Vector(x, y, 0) / count) + away - (away / count), 1.0 / count);
     }
 }

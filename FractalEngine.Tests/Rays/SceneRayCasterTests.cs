@@ -139,7 +139,8 @@ public class SceneRayCasterTests
     {
         var certain = 0;
         Parallel.For(firstSeed, firstSeed + scenes, seed => Seeded.RunOne(seed, random => Interlocked.Add(ref certain, CheckOne(random))));
-        Seeded.AssertMost(certain, scenes * RaysPerScene, 0.1);
+        // Most rays pass outliers and thin shapes.
+        Seeded.AssertMost(certain, scenes * RaysPerScene, 0.05);
     }
 
     /// <summary>Checks rays at one scene, and counts those that had to hit.</summary>
@@ -189,7 +190,8 @@ public class SceneRayCasterTests
 
     private static LoadedScene RandomScene(Random random)
     {
-        Model[] models = [Model.Of(Samples.Tetrahedron), Model.Of(RandomFractals.Create(random)), Model.Of(RandomFractals.Create(random))];
+        Model[] models =
+            [Model.Of(RandomMeshes.Create(random)), Model.Of(RandomFractals.Create(random)), Model.Of(RandomShapes.Create(random))];
         var objects = Enumerable.Range(0, random.Next(1, 8)).Select(_ => new SceneObject(models[random.Next(models.Length)])
         {
             Placement = random.Transformation() with { Position = random.Vector(4) },

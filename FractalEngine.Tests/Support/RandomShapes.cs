@@ -20,7 +20,29 @@ internal static class RandomShapes
     {
         var mesh = RandomMeshes.Create(random);
         var budget = Math.Max(1, Math.Min(maxInstances, maxFaces / mesh.FaceCount));
-        return new(new([.. CreateSteps(random, budget, excluded)]), mesh);
+        IEnumerable<FractalStep> steps = CreateSteps(random, budget, excluded);
+        var centre = mesh.Bounds.Centre;
+        var isMovable = centre.MaxAbsComponent() > 1e-9
+            && (centre.MaxAbsComponent() < 1e5 || (excluded & MapTraits.Outliers) == 0);
+        var place = !isMovable ? 0 : random.Draw((55, 0), (30, 1), (15, 2));
+        steps = place == 1 ? steps.Select(step => About(centre, step)) : place == 2 ? steps.Append(Return(random, centre)) : steps;
+        return new(new([.. steps]), mesh);
+    }
+
+    /// <summary>Makes the same step about another centre than the origin, so that the fractal stays around it.</summary>
+    private static FractalStep About(Vector centre, FractalStep step) => step is Repetition repetition
+        ? new Repetition([.. repetition.Body.Select(inner => About(centre, inner))], repetition.Count)
+        : TransformationSet.Of(((TransformationSet)step).Transformations.Select(map => map == Transformation.Identity
+            ? map
+            : map with { Position = map.Position + centre - (map.ToAffineMap().Linear * centre) }));
+
+    /// <summary>Makes a step that moves a base mesh to the origin: rounding of its coordinates is large beside the result.</summary>
+    private static TransformationSet Return(Random random, Vector centre)
+    {
+        var angles = 90 * new Vector(random.Next(-1, 2), random.Next(4), random.Next(4));
+        var rotation = random.Draw((1, Vector.Zero), (1, angles), (1, random.Degrees()));
+        var map = new Transformation(Vector.Zero, rotation, Vector.One);
+        return TransformationSet.Of(map with { Position = -(map.ToAffineMap().Linear * centre) });
     }
 
     private static List<FractalStep> CreateSteps(Random random, int budget, MapTraits excluded)

@@ -15,7 +15,8 @@ internal sealed partial class ConvexHull
     private static ConvexHull BuildFlatHull(ReadOnlySpan<Vector> points, Vector along, Vector normal, double height, int maxVertices)
     {
         var vertices = FindFlatHullVertices(points, along, Vector.Cross(normal, along), maxVertices);
-        var maxOutsideDistance = height;
+        // Vertices may be on the other side of the plane.
+        var maxOutsideDistance = 2 * height;
         var planeOffset = Vector.Dot(normal, points[0]);
         var planes = new List<HullPlane> { new(normal, planeOffset, 1), new(-normal, -planeOffset, 1) };
         for (var i = 0; i < vertices.Count; i++)

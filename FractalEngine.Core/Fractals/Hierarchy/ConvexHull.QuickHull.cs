@@ -10,12 +10,21 @@ internal sealed partial class ConvexHull
     /// <param name="points">Begins with the points.</param>
     /// <param name="pointCount">Number of points.</param>
     /// <param name="tolerance">Points no higher above a facet than this count as on it, in scene units.</param>
-    private sealed class QuickHull(Vector[] points, int pointCount, double tolerance)
+    /// <param name="rounding">How far off a computed point may be.</param>
+    private sealed class QuickHull(Vector[] points, int pointCount, double tolerance, double rounding)
     {
+        // Rounding moves facets and edges of a solid that is thinner than this, or has such facets, by more than the tolerance.
+        private const double MinThickness = 4e-3;
+
+        // Facets of one plane are crossed at the same place, but for rounding.
+        private const double SamePlace = 1e-6;
+
         private readonly int[] _nextPoint = new int[pointCount];
         private readonly List<Facet> _facets = [];
         private readonly List<int> _vertices = [];
+        private readonly List<int> _insidePoints = [];
         private double _maxOutsideDistance;
+        private bool _isThin;
 
         /// <summary>Builds the hull from an initial tetrahedron.</summary>
         /// <param name="i0">Index of its first vertex.</param>
@@ -25,8 +34,10 @@ internal sealed partial class ConvexHull
         /// <param name="maxVertices">Maximum number of vertices of the hull.</param>
         public ConvexHull Build(int i0, int i1, int i2, int i3, int maxVertices)
         {
+            var height = Vector.Dot(TriangleKernel.UnitNormal(points[i0], points[i1], points[i2]), points[i3] - points[i0]);
+            _isThin = !(Math.Abs(height) > MinThickness * (points[i1] - points[i0]).Length());
             // The first facet must face away from the fourth vertex.
-            if (Vector.Dot(TriangleKernel.UnitNormal(points[i0], points[i1], points[i2]), points[i3] - points[i0]) > 0)
+            if (height > 0)
             {
                 (i1, i2) = (i2, i1);
             }
@@ -55,9 +66,16 @@ internal sealed partial class ConvexHull
             }
 
             var vertices = new Vector[_vertices.Count];
+            var centre = Vector.Zero;
             for (var i = 0; i < vertices.Length; i++)
             {
                 vertices[i] = points[_vertices[i]];
+                centre += vertices[i] / vertices.Length;
+            }
+
+            foreach (var point in _isThin ? _insidePoints : [])
+            {
+                TrackInsidePoint(points[point], centre);
             }
 
             return new ConvexHull(vertices, MergePlanes(), _maxOutsideDistance, facets).WithConservativeOffsets();
@@ -129,6 +147,9 @@ internal sealed partial class ConvexHull
 
         private Facet CreateFacet(int a, int b, int c)
         {
+            var (ab, ac, bc) = (points[b] - points[a], points[c] - points[a], points[c] - points[b]);
+            var longestSquared = Math.Max(ab.LengthSquared(), Math.Max(ac.LengthSquared(), bc.LengthSquared()));
+            _isThin |= !(Vector.Cross(ab, ac).Length() > MinThickness * longestSquared);
             var normal = TriangleKernel.UnitNormal(points[a], points[b], points[c]);
             return new(a, b, c, normal, Vector.Dot(normal, points[a]));
         }
@@ -148,7 +169,13 @@ internal sealed partial class ConvexHull
                 }
             }
 
-            if (highest is null || point == highest.A || point == highest.B || point == highest.C)
+            if (highest is null)
+            {
+                _insidePoints.Add(point);
+                return;
+            }
+
+            if (point == highest.A || point == highest.B || point == highest.C)
             {
                 return;
             }
@@ -172,6 +199,39 @@ internal sealed partial class ConvexHull
         private void TrackOutsidePoint(int point, Facet facet) => _maxOutsideDistance = Math.Max(
             _maxOutsideDistance,
             Math.Sqrt(TriangleKernel.ClosestPoint(points[point], points[facet.A], points[facet.B], points[facet.C]).DistanceSquared));
+
+        /// <summary>
+        /// Records how far outside a point may be that seemed to be inside: rounding misplaces thin facets. The line from the centre
+        /// through the point meets a facet behind it. The point is no farther from the solid than that place is from the facet.
+        /// </summary>
+        private void TrackInsidePoint(Vector point, Vector centre)
+        {
+            var exit = double.PositiveInfinity;
+            foreach (var facet in _facets)
+            {
+                exit = Math.Min(exit, ExitOf(facet));
+            }
+
+            var outsideDistance = double.PositiveInfinity;
+            foreach (var facet in _facets)
+            {
+                if (ExitOf(facet) <= exit + (SamePlace * Math.Abs(exit)))
+                {
+                    var factor = exit is >= 1 and < double.PositiveInfinity ? exit : 1;
+                    var image = centre + (factor * (point - centre));
+                    var apart = TriangleKernel.ClosestPoint(image, points[facet.A], points[facet.B], points[facet.C]).DistanceSquared;
+                    outsideDistance = Math.Min(outsideDistance, Math.Sqrt(apart) / factor);
+                }
+            }
+
+            _maxOutsideDistance = outsideDistance > rounding ? Math.Max(_maxOutsideDistance, outsideDistance) : _maxOutsideDistance;
+
+            double ExitOf(Facet facet)
+            {
+                var slope = Vector.Dot(facet.Normal, point - centre);
+                return slope > 0 ? (facet.Offset - Vector.Dot(facet.Normal, centre)) / slope : double.PositiveInfinity;
+            }
+        }
 
         /// <summary>Joins facets of the same plane, and orders the planes by descending area.</summary>
         private HullPlane[] MergePlanes()

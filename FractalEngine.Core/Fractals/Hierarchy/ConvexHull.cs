@@ -64,7 +64,9 @@ internal sealed partial class ConvexHull
             box = box.Including(point);
         }
 
-        var size = box.Diagonal;
+        // Far from the origin, coordinates are rounded by more than a part of the size.
+        var largest = BoundingVolume.MaxAbsCoordinate(box);
+        var tolerance = Math.Max(CoplanarTolerance * box.Diagonal, RoundingErrors.Chain * largest);
         var (i0, i1) = FindFarthestPair(points);
         if (points[i0] == points[i1])
         {
@@ -73,15 +75,15 @@ internal sealed partial class ConvexHull
 
         var direction = (points[i1] - points[i0]).UnitVector();
         var i2 = FindFarthest(points, points[i0], (point, origin) => Vector.Cross(direction, point - origin).Length(), out var width);
-        if (!(width > CoplanarTolerance * size))
+        if (!(width > tolerance))
         {
             return new([points[i0], points[i1]], [], width, [new(points[i0], points[i1], points[i1])]);
         }
 
         var normal = TriangleKernel.UnitNormal(points[i0], points[i1], points[i2]);
         var i3 = FindFarthest(points, points[i0], (point, origin) => Math.Abs(Vector.Dot(normal, point - origin)), out var height);
-        return height > CoplanarTolerance * size
-            ? new QuickHull(array, count, CoplanarTolerance * size).Build(i0, i1, i2, i3, maxVertices)
+        return height > tolerance
+            ? new QuickHull(array, count, tolerance, RoundingErrors.Norm * largest).Build(i0, i1, i2, i3, maxVertices)
             : BuildFlatHull(points, direction, normal, height, maxVertices);
     }
 

@@ -28,6 +28,10 @@ public class ConvexHullTests
         var rounding = Rounding * PointClouds.MaxAbsCoordinate(points);
         Assert.True(hull.MaxOutsideDistance >= 0);
         Assert.All(hull.Vertices, vertex => Assert.Contains(vertex, points));
+        // In any direction no point is farther out than a vertex, whatever the planes say.
+        var directions = Enumerable.Range(0, 20).Select(_ => random.Direction());
+        Assert.All(directions, direction => Assert.InRange(
+            points.Max(point => Vector.Dot(direction, point)) - hull.Support(direction), -rounding, hull.MaxOutsideDistance + rounding));
         foreach (var point in points)
         {
             var distance = hull.DistanceUpperBound(point);

@@ -24,6 +24,8 @@ internal static class PointClouds
         ["far from the origin"] = random => Repeat(100, () => random.Vector() + (1e5 * Vector.One)),
         ["needle"] = random => Repeat(100, () => random.Vector().Stretch(new(1, 1e-5, 1e-9))),
         ["twice"] = RandomPairs,
+        ["flat, far from the origin"] = random => RandomFarPlane(random, 6),
+        ["flat, one point far away"] = random => [.. RandomFarPlane(random, 6), 1e6 * random.Direction()],
     };
 
     /// <summary>Generates a set of points, half of the time scaled by a power of ten from 1e-30 to 1e30.</summary>
@@ -65,6 +67,13 @@ internal static class PointClouds
         var u = random.Direction();
         var v = random.Direction();
         return Repeat(100, () => (random.Between(-1, 1) * u) + (random.Between(-1, 1) * v) + random.Vector(noise));
+    }
+
+    /// <summary>Generates a few points of a plane, which rounding at their place puts off it.</summary>
+    private static Vector[] RandomFarPlane(Random random, int count)
+    {
+        var offset = 1e6 * random.Direction();
+        return [.. RandomOnPlane(random, 0)[..count].Select(point => point + offset)];
     }
 
     private static Vector[] RandomOnLine(Random random, double noise)

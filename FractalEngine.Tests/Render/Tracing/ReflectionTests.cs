@@ -128,7 +128,7 @@ public class ReflectionTests
     }
 
     /// <summary>The part of light that facets reflect once and out, where each reflects all.</summary>
-    /// <remarks>Walter and others, equations 20, 33 and 34, over the facets themselves, u = 1 − 1/(1 + tan²θ/α²) of which lean by less than θ.</remarks>
+    /// <remarks>Walter and others, equations 20, 33 and 34, over the facets: u = 1 − 1/(1 + tan²θ/α²) lean by less than θ.</remarks>
     private static double AlbedoOfFacets(double alpha, double degrees)
     {
         const int Steps = 400;
