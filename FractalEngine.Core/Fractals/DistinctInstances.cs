@@ -138,7 +138,5 @@ public static class DistinctInstances
     }
 
     private static bool HaveCommonPoints(BoundingBox box1, BoundingBox box2) =>
-        box1.Minimum.X <= box2.Maximum.X && box2.Minimum.X <= box1.Maximum.X
-        && box1.Minimum.Y <= box2.Maximum.Y && box2.Minimum.Y <= box1.Maximum.Y
-        && box1.Minimum.Z <= box2.Maximum.Z && box2.Minimum.Z <= box1.Maximum.Z;
+        !new BoundingBox(Vector.Max(box1.Minimum, box2.Minimum), Vector.Min(box1.Maximum, box2.Maximum)).IsEmpty;
 }
