@@ -43,6 +43,11 @@ public readonly record struct BoundingBox(Vector Minimum, Vector Maximum)
     /// </remarks>
     internal static BoundingBox Intersection(BoundingBox box1, BoundingBox box2)
     {
+        if (box1.IsEmpty || box2.IsEmpty)
+        {
+            return Empty;
+        }
+
         var minimum = Vector.Max(box1.Minimum, box2.Minimum);
         var maximum = Vector.Min(box1.Maximum, box2.Maximum);
         return new(Vector.Min(minimum, maximum), Vector.Max(minimum, maximum));

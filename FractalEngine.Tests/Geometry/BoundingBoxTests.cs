@@ -36,6 +36,14 @@ public class BoundingBoxTests
     }
 
     [Fact]
+    public void Intersection_WithTheEmptyBox_IsEmpty()
+    {
+        var box = new BoundingBox(Vector.Zero, Vector.One);
+        Assert.Equal(BoundingBox.Empty, BoundingBox.Intersection(box, BoundingBox.Empty));
+        Assert.Equal(BoundingBox.Empty, BoundingBox.Intersection(BoundingBox.Empty, BoundingBox.Empty));
+    }
+
+    [Fact]
     public void CentreSizeAndDiagonal_OfAnyBox_FollowFromItsCorners()
     {
         var box = new BoundingBox(new(-1, 0, 2), new(1, 3, 8));
