@@ -10,7 +10,7 @@ namespace FractalEngine.Core.Collision;
 /// <param name="FaceIndex">Index of the face in the mesh, from 0.</param>
 /// <param name="InstancePath">
 /// For each level of a fractal, the outermost first, the index of the transformation in its set. Empty for a mesh. Shorter than the depth
-/// of the fractal where deeper levels are below the precision of the result.
+/// of the fractal where deeper levels are below the precision of the result, or below identities without end.
 /// </param>
 /// <param name="ObjectIndex">Index of the object in its scene; 0 where a single shape was queried.</param>
 public sealed record ClosestHit(

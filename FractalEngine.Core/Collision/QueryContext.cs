@@ -29,7 +29,7 @@ public sealed class QueryContext
 
     /// <summary>
     /// The instance that the last query found: for each level, the outermost first, the index of the transformation in its set. Empty for
-    /// a mesh. Shorter than the fractal's depth where deeper levels are below the precision of the result.
+    /// a mesh. Shorter than the fractal's depth where deeper levels are below the precision of the result, or below identities without end.
     /// </summary>
     public ReadOnlySpan<int> InstancePath => CollectionsMarshal.AsSpan(_instancePath);
 
@@ -95,6 +95,8 @@ public sealed class QueryContext
     }
 
     internal void ClearPath() => _instancePath.Clear();
+
+    internal void ShortenPath(int length) => CollectionsMarshal.SetCount(_instancePath, length);
 
     internal void AppendToPath(int mapIndex) => _instancePath.Add(mapIndex);
 

@@ -44,6 +44,7 @@ internal sealed partial class FractalHierarchy
         var map = new SimdAffineMap(rootMap);
         var maxTranslation = Vector256.Abs(map.Translation);
         var exponent = 0L;
+        int? end = null;
         var subFractal = At(remainingLevels);
         foreach (var childIndex in path)
         {
@@ -81,6 +82,7 @@ internal sealed partial class FractalHierarchy
                 if (edge.Set.Power is { } power)
                 {
                     exponent = power.AppendToPath(context, exponent, childLevels);
+                    end ??= exponent == 0 && power.Count > FractalLimits.MaxDepth ? context.InstancePath.Length : null;
                     remainingLevels = childLevels;
                     continue;
                 }
@@ -93,8 +95,10 @@ internal sealed partial class FractalHierarchy
                     return map;
                 }
 
-                // Levels that are skipped take their identity.
-                for (var level = remainingLevels; level > (isIdentity ? childLevels : childLevels + 1); level--)
+                // Levels that are skipped take their identity. A path that takes it without end can't name what follows.
+                var lastSkipped = isIdentity ? childLevels : childLevels + 1;
+                end ??= remainingLevels - lastSkipped > FractalLimits.MaxDepth ? context.InstancePath.Length : null;
+                for (var level = remainingLevels; level > lastSkipped && end is null; level--)
                 {
                     context.AppendToPath(MapSetAt(level)!.IdentityIndex);
                 }
@@ -110,6 +114,7 @@ internal sealed partial class FractalHierarchy
             subFractal = At(remainingLevels);
         }
 
+        context.ShortenPath(end ?? context.InstancePath.Length);
         reach = SimdAffineMap.ToVector(maxTranslation).MaxAbsComponent();
         return map;
     }

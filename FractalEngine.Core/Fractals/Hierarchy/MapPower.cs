@@ -29,7 +29,7 @@ internal sealed record MapPower(int MapIndex, int IdentityIndex, long Exponent, 
         }
 
         // A path that ends early goes on with identities.
-        for (var i = exponent; i < Count && (LevelBelow > 0 || Count <= FractalSearchState.MaxDepth); i++)
+        for (var i = exponent; i < Count && Count <= (LevelBelow > 0 ? FractalLimits.MaxDepth : FractalSearchState.MaxDepth); i++)
         {
             context.AppendToPath(IdentityIndex);
         }

@@ -154,6 +154,26 @@ public class ExactFractalColliderLimitTests
     public void Create_OfADeepAsset_HasBoundedStorage(string name, int? depth) =>
         Assert.InRange(new ExactFractalCollider(AssetFractals.Load(name, depth)).StorageBytes, 1, 128 * 1024);
 
+    /// <summary>The instance of the set below lies behind identities without end, which no path can name.</summary>
+    [Theory]
+    [InlineData(true)]
+    [InlineData(false)]
+    public void TryFindClosest_BehindIdentitiesWithoutEnd_EndsThePathThere(bool hasMoreMaps)
+    {
+        var round = new[] { Transformation.Identity, Samples.MoveAndScale(20, 0, 0, 0.5) };
+        var fractal = Fractal.Of(Samples.Tetrahedron).Apply([Samples.Move(0, 5, 0), Transformation.Identity])
+            .Repeat(hasMoreMaps ? [.. round, Samples.MoveAndScale(0, 0, 20, 0.25)] : round);
+        var context = new QueryContext();
+        var (instance, face) = (new Vector(2, 5, 0), new Vector(20 + 1, 2.5, 0));
+        Assert.True(Collider.For(fractal).TryFindClosest(instance + Vector.I, 10, context, out var closest));
+        Assert.Equal((1.0, instance), (closest.Distance, closest.Point));
+        Assert.True(context.InstancePath.Length < 2);
+        Assert.True(Collider.For(fractal).TryFindClosest(face + Vector.I, 10, context, out closest));
+        Assert.Equal((1.0, face), (closest.Distance, closest.Point));
+        Assert.Equal(1, context.InstancePath[0]);
+        Assert.True(context.InstancePath.Length < 3);
+    }
+
     [Fact]
     public void Create_OfAnInfiniteFractalOfSixMaps_HasBoundedStorage()
     {

@@ -1,0 +1,151 @@
+using FractalEngine.Core;
+using FractalEngine.Core.Collision;
+using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Tests.Support;
+
+namespace FractalEngine.Tests.Recorded;
+
+/// <summary>Records closest points, regions and pairs with what they cost.</summary>
+public class QueryRecordTests
+{
+    private const int PositionCount = 24;
+    private const int MaxExpanded = 20_000;
+
+    [Fact]
+    public void Queries_OfFractals_AreAsRecorded() =>
+        RecordedText.Check("queries.txt", RecordedShapes.Fractals().SelectMany(shape => Lines(
+            shape.Name, kind => Collider.For(shape.Fractal, kind), shape.Fractal.Bounds, RecordedShapes.TargetsOf(shape.Fractal), shape.Fractal.FaceCount > MaxExpanded)));
+
+    [Fact]
+    public void Queries_OfMeshes_AreAsRecorded() =>
+        RecordedText.Check("mesh-queries.txt", RecordedShapes.Meshes().SelectMany(shape => Lines(
+            shape.Name, kind => Collider.For(shape.Mesh, kind), shape.Mesh.Bounds, RecordedShapes.TargetsOf(shape.Mesh), false)));
+
+    [Fact]
+    public void Regions_AreAsRecorded() =>
+        RecordedText.Check("regions.txt", All().Select(shape => RegionLine(shape.Name, shape.Collider, shape.Box, shape.Target)));
+
+    [Fact]
+    public void Pairs_AreAsRecorded()
+    {
+        // Pairs of fractals without end go on until their limit of work.
+        var all = All().Where(shape => !shape.Name.StartsWith("infinite ", StringComparison.Ordinal)).ToList();
+        RecordedText.Check("pairs.txt", all.Select((shape, i) => PairLine(shape, all[((i * 11) + 5) % all.Count], i)));
+    }
+
+    private static IEnumerable<(string Name, Collider Collider, BoundingBox Box, Func<Random, Vector> Target)> All() =>
+        [
+            .. RecordedShapes.Fractals().Where(shape => shape.Fractal.Description.Composition == Composition.Affine)
+                .Select(shape => (shape.Name, Collider.For(shape.Fractal), shape.Fractal.Bounds, RecordedShapes.TargetsOf(shape.Fractal))),
+            .. RecordedShapes.Meshes().Select(shape => (shape.Name, Collider.For(shape.Mesh), shape.Mesh.Bounds, RecordedShapes.TargetsOf(shape.Mesh))),
+        ];
+
+    private static IEnumerable<string> Lines(string name, Func<ColliderKind, Collider> create, BoundingBox box, Func<Random, Vector> target, bool isLarge)
+    {
+        var kinds = Enum.GetValues<ColliderKind>().Where(kind => !isLarge || kind is ColliderKind.Exact or ColliderKind.Fractal);
+        foreach (var kind in kinds)
+        {
+            string line;
+            try
+            {
+                line = QueryLine(create(kind), box, target);
+            }
+            catch (FractalEngineException exception)
+            {
+                line = exception.Message.Split('\n')[0];
+            }
+
+            yield return $"{name}, {kind}: {line}";
+        }
+    }
+
+    private static string QueryLine(Collider collider, BoundingBox box, Func<Random, Vector> target)
+    {
+        var context = new QueryContext();
+        var (points, normals, places, paths) = (new Digest(), new Digest(), new Digest(), new Digest());
+        var (errors, allowed) = (new Digest(), new Digest());
+        int found = 0;
+        var positions = RecordedShapes.Positions(target, box, 1, collider.IsExact ? PositionCount : PositionCount / 3);
+        for (int i = 0; i < positions.Length; i++)
+        {
+            double radius = i % 3 == 1 ? 0.2 * box.Diagonal : double.PositiveInfinity;
+            double epsilon = collider.IsExact && i % 4 == 3 ? 0.3 : 0;
+            if (collider.TryFindClosest(positions[i], radius, context, out var closest, epsilon))
+            {
+                found++;
+                points.Add(closest.Distance).Add(closest.Point);
+                normals.Add(closest.Normal);
+                places.Add(closest.Barycentrics).Add((int)closest.Feature).Add(closest.FaceIndex);
+                paths.Add(context.InstancePath);
+                (epsilon == 0 ? errors : allowed).AddBound(closest.ErrorBound);
+            }
+        }
+
+        return $"{collider.StorageBytes} bytes, {found} found {points} {normals} {places} {paths} errors {errors} {allowed}"
+            + Work(context);
+    }
+
+    private static string RegionLine(string name, Collider collider, BoundingBox box, Func<Random, Vector> target)
+    {
+        var context = new QueryContext();
+        var (all, overlaps) = (new Digest(), new Digest());
+        int count = 0;
+        foreach (var position in RecordedShapes.Positions(target, box, 2, 6))
+        {
+            double radius = 0.02 * box.Diagonal;
+            try
+            {
+                foreach (var hit in collider.FindAllWithin(position, radius, 3000, context))
+                {
+                    count++;
+                    all.Add(hit.Distance).Add(hit.Point).Add(hit.Normal).Add(hit.FaceIndex).Add(hit.InstancePath.AsSpan());
+                }
+            }
+            catch (FractalLimitException)
+            {
+                all.Add(-1);
+            }
+
+            var around = new BoundingBox(position - (radius * Vector.One), position + (2 * radius * Vector.One));
+            overlaps.Add(collider.Overlaps(position, radius, context) ? 1 : 0).Add(collider.Overlaps(around, context) ? 1 : 0);
+        }
+
+        return $"{name}: {count} within {all} overlaps {overlaps}{Work(context)}";
+    }
+
+    private static string PairLine(
+        (string Name, Collider Collider, BoundingBox Box, Func<Random, Vector> Target) first,
+        (string Name, Collider Collider, BoundingBox Box, Func<Random, Vector> Target) second,
+        int seed)
+    {
+        var random = new Random(seed);
+        var context = new QueryContext();
+        var (points, paths, errors) = (new Digest(), new Digest(), new Digest());
+        for (int i = 0; i < 2 && context.Statistics.FaceTests < 5_000; i++)
+        {
+            // Of about the same size, beside each other.
+            double scale = first.Box.Diagonal / second.Box.Diagonal;
+            var turned = scale * random.Transformation().ToAffineMap().Linear;
+            var place = first.Target(random) + (first.Box.Diagonal * random.Between(0, 0.3) * random.Direction());
+            var placement = new AffineMap(turned, place - (turned * second.Target(random)));
+            try
+            {
+                var pair = first.Collider.FindClosestPair(second.Collider, placement, context);
+                points.Add(pair.Distance).Add(pair.Point).Add(pair.OtherPoint);
+                paths.Add(pair.FaceIndex).Add(pair.OtherFaceIndex).Add(pair.InstancePath.AsSpan()).Add(pair.OtherInstancePath.AsSpan());
+                errors.AddBound(pair.ErrorBound);
+            }
+            catch (FractalEngineException exception)
+            {
+                return $"{first.Name}, {second.Name}: {exception.Message.Split('\n')[0]}";
+            }
+        }
+
+        return $"{first.Name}, {second.Name}: {points} {paths} errors {errors}{Work(context)}";
+    }
+
+    private static string Work(QueryContext context) => $", {context.Statistics.FaceTests} faces, {context.Statistics.BoundTests} bounds";
+}

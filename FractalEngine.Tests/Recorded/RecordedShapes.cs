@@ -1,0 +1,86 @@
+using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Generation;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Parsing.Assets;
+using FractalEngine.Tests.Support;
+
+namespace FractalEngine.Tests.Recorded;
+
+/// <summary>The shapes of the recorded tables: the project's own fractals, meshes of all generators, and what breaks bounds.</summary>
+internal static class RecordedShapes
+{
+    private const int RandomCount = 45;
+    private const int MaxChain = 50;
+
+    /// <summary>Fractals by their names: those of the assets, and drawn ones in both compositions, some without end.</summary>
+    public static IEnumerable<(string Name, Fractal Fractal)> Fractals()
+    {
+        var files = Directory.GetFiles(Repository.Full("assets/fractals"), "*.fdo").Order(StringComparer.Ordinal);
+        foreach (string file in files)
+        {
+            yield return (Path.GetFileName(file), ((FractalModel)AssetLoader.Load(file).Scene.Models.Single()).Fractal);
+        }
+
+        for (int seed = 1; seed <= RandomCount; seed++)
+        {
+            yield return ($"shape {seed}", RandomShapes.Create(new(seed), 2000, 8000));
+        }
+
+        for (int seed = 1; seed <= 6; seed++)
+        {
+            yield return ($"sums {seed}", RandomFractals.Create(new(seed), Composition.Componentwise));
+            yield return ($"infinite {seed}", RandomFractals.Create(new(seed), infinite: true));
+        }
+    }
+
+    /// <summary>Meshes by their names: one of each generator, and drawn ones.</summary>
+    public static IEnumerable<(string Name, Mesh Mesh)> Meshes()
+    {
+        foreach (var generator in MeshGenerators.All)
+        {
+            yield return (generator.Name, generator.Create(7, 700));
+        }
+
+        for (int seed = 1; seed <= 20; seed++)
+        {
+            yield return ($"mesh {seed}", RandomMeshes.Create(new(seed)));
+        }
+    }
+
+    /// <summary>Positions in and around a box and far away, and every second one within a hundredth of the shape's size of a face.</summary>
+    public static Vector[] Positions(Func<Random, Vector> target, BoundingBox box, int seed, int count)
+    {
+        var random = new Random(seed);
+        return [.. Enumerable.Range(0, count).Select(i => i % 2 == 0
+            ? target(random) + (0.01 * box.Diagonal * random.Vector())
+            : box.Centre + ((i % 8 == 1 ? 15 : i % 8 == 3 ? 2 : 0.55) * random.Vector().Stretch(box.Size)))];
+    }
+
+    /// <summary>Draws a point on a face of a mesh.</summary>
+    public static Func<Random, Vector> TargetsOf(Mesh mesh) => random =>
+    {
+        var (a, b, c) = mesh.Face(random.Next(mesh.FaceCount));
+        var (u, v) = random.Barycentrics();
+        return a + (u * (b - a)) + (v * (c - a));
+    };
+
+    /// <summary>Draws a point on a face of an instance of a fractal; of one that is composed componentwise, a point nearby.</summary>
+    public static Func<Random, Vector> TargetsOf(Fractal fractal)
+    {
+        var onMesh = TargetsOf(fractal.BaseMesh);
+        long levels = Math.Min(fractal.LevelCount ?? MaxChain, MaxChain);
+        return random =>
+        {
+            var map = AffineMap.Identity;
+            for (long level = 0; level < levels; level++)
+            {
+                var maps = fractal.LevelAt(level).Maps;
+                map = map * maps[random.Next(maps.Length)];
+            }
+
+            return map * onMesh(random);
+        };
+    }
+}
