@@ -94,7 +94,7 @@ public class SceneColliderTests
         Model[] models =
         [
             new MeshModel(Samples.Tetrahedron) { SourcePath = "/mesh.obj" },
-            new FractalModel(RandomFractals.Create(random)) { SourcePath = "/fractal.fdo" },
+            new FractalModel(RandomFractals.CreateAny(random)) { SourcePath = "/fractal.fdo" },
             new FractalModel(RandomFractals.Create(random, Composition.Componentwise)) { SourcePath = "/sums.fdo" },
         ];
         var objects = Enumerable.Range(0, 5)

@@ -49,14 +49,14 @@ public class FractalCountTests
     [Fact]
     public void InstanceCount_OfAnyFractal_IsTheNumberOfChains() => Seeded.Run(100, random =>
     {
-        var fractal = RandomFractals.Create(random);
+        var fractal = RandomFractals.CreateAny(random);
         Assert.Equal(NaiveFractal.Chains(fractal.Description).Count, fractal.InstanceCount);
     });
 
     [Fact]
     public void LevelAt_OfAnyFractal_IsTheSetThere() => Seeded.Run(100, random =>
     {
-        var fractal = RandomFractals.Create(random);
+        var fractal = RandomFractals.CreateAny(random);
         var levels = NaiveFractal.Levels(fractal.Description.Steps).ToList();
         Assert.Equal(levels.Count, fractal.LevelCount);
         var found = Enumerable.Range(0, levels.Count)

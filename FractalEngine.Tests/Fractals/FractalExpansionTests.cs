@@ -17,7 +17,7 @@ public class FractalExpansionTests
     [MemberData(nameof(Compositions))]
     public void Expand_OfAnyFractal_IsEveryChainOnce(Composition composition) => Seeded.Run(200, random =>
     {
-        var fractal = RandomFractals.Create(random, composition);
+        var fractal = RandomFractals.CreateAny(random, composition);
         var expected = NaiveFractal.Distinct(NaiveFractal.Chains(fractal.Description), Tolerance);
         NaiveFractal.AssertSameMaps(expected, FractalGenerator.Expand(fractal, Budget), Tolerance);
     });
@@ -74,7 +74,7 @@ public class FractalExpansionTests
     [MemberData(nameof(Compositions))]
     public void Expand_WithSetsInAnotherOrder_IsTheSameSetOfMaps(Composition composition) => Seeded.Run(50, random =>
     {
-        var fractal = RandomFractals.Create(random, composition);
+        var fractal = RandomFractals.CreateAny(random, composition);
         var shuffled = new Fractal(fractal.Description with { Steps = Shuffle(random, fractal.Description.Steps) }, fractal.BaseMesh);
         double[][][] expected = [.. FractalGenerator.Expand(fractal, Budget).Select(NaiveFractal.Rows)];
         NaiveFractal.AssertSameMaps(expected, FractalGenerator.Expand(shuffled, Budget), Tolerance);
@@ -158,7 +158,7 @@ public class FractalExpansionTests
     [Fact]
     public void WithPlacement_MovesEveryInstance() => Seeded.Run(50, random =>
     {
-        var fractal = RandomFractals.Create(random);
+        var fractal = RandomFractals.CreateAny(random);
         var placement = random.Transformation();
         var expected = FractalGenerator.Expand(fractal, Budget)
             .Select(map => NaiveFractal.Compose(NaiveFractal.MapOf(placement), NaiveFractal.Rows(map)));

@@ -69,8 +69,19 @@ internal static class NaiveFractal
         return distinct;
     }
 
-    public static double MaxDifference(double[][] map1, double[][] map2) =>
-        Enumerable.Range(0, 12).Max(i => Math.Abs(map1[i / 4][i % 4] - map2[i / 4][i % 4]));
+    /// <summary>Returns the largest difference of two entries, as a part of the largest entry of both where that is above 1.</summary>
+    public static double MaxDifference(double[][] map1, double[][] map2)
+    {
+        var (difference, largest) = (0.0, 1.0);
+        for (var i = 0; i < 12; i++)
+        {
+            var (entry1, entry2) = (map1[i / 4][i % 4], map2[i / 4][i % 4]);
+            difference = Math.Max(difference, Math.Abs(entry1 - entry2));
+            largest = Math.Max(largest, Math.Max(Math.Abs(entry1), Math.Abs(entry2)));
+        }
+
+        return difference / largest;
+    }
 
     public static double[][] Rows(AffineMap map)
     {

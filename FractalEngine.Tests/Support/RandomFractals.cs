@@ -8,6 +8,17 @@ namespace FractalEngine.Tests.Support;
 /// </summary>
 internal static class RandomFractals
 {
+    private const int MaxInstances = 200;
+
+    // Oracles that compare maps by one relative tolerance can't tell what these set apart; others draw from all of RandomShapes.
+    private const MapTraits BeyondOracles = MapTraits.Outliers | MapTraits.NearlyFlat | MapTraits.LargeScales;
+
+    /// <summary>Creates a fractal that has none of these traits, or one of <see cref="RandomShapes"/> with all that oracles can tell.</summary>
+    public static Fractal CreateAny(Random random, Composition composition = Composition.Affine) =>
+        composition == Composition.Affine && random.Next(2) == 0
+            ? RandomShapes.Create(random, MaxInstances, 4 * MaxInstances, BeyondOracles)
+            : Create(random, composition);
+
     public static Fractal Create(Random random, Composition composition = Composition.Affine, bool infinite = false)
     {
         TransformationSet[] body = random.Next(3) == 0 ? [RandomSet(random), RandomSet(random, 2)] : [RandomSet(random)];

@@ -17,7 +17,7 @@ public class ExactFractalColliderTests
     [Fact]
     public void TryFindClosest_OnRandomFractals_EqualsBruteForce() => Seeded.Run(400, random =>
     {
-        var fractal = RandomFractals.Create(random);
+        var fractal = RandomFractals.CreateAny(random);
         var collider = new ExactFractalCollider(fractal);
         var oracle = new SimpleCollider(FractalGenerator.Flatten(fractal, 10_000_000));
         for (var query = 0; query < 12; query++)
@@ -41,7 +41,7 @@ public class ExactFractalColliderTests
     [Fact]
     public void TryFindClosest_FromAVertex_IsAtDistanceZero() => Seeded.Run(40, random =>
     {
-        var fractal = RandomFractals.Create(random);
+        var fractal = RandomFractals.CreateAny(random);
         var collider = new ExactFractalCollider(fractal);
         var context = new QueryContext();
         var size = fractal.Bounds.Diagonal;
@@ -56,7 +56,7 @@ public class ExactFractalColliderTests
     [Fact]
     public void TryFindClosest_WithMaxDistance_FindsWhatIsThereAndNothingElse() => Seeded.RunMost(200, random =>
     {
-        var fractal = RandomFractals.Create(random);
+        var fractal = RandomFractals.CreateAny(random);
         var collider = new ExactFractalCollider(fractal);
         var context = new QueryContext();
         var position = RandomPosition(random, fractal);
@@ -74,7 +74,7 @@ public class ExactFractalColliderTests
     [Fact]
     public void TryFindClosest_WithEpsilon_IsWithinTheFactor() => Seeded.RunMost(200, random =>
     {
-        var fractal = RandomFractals.Create(random);
+        var fractal = RandomFractals.CreateAny(random);
         var collider = new ExactFractalCollider(fractal);
         var context = new QueryContext();
         var position = RandomPosition(random, fractal);
@@ -92,7 +92,7 @@ public class ExactFractalColliderTests
     [Fact]
     public void TryFindClosest_NamesTheInstanceThatItFound() => Seeded.RunMost(200, random =>
     {
-        var fractal = RandomFractals.Create(random);
+        var fractal = RandomFractals.CreateAny(random);
         var context = new QueryContext();
         var position = RandomPosition(random, fractal);
         if (!new ExactFractalCollider(fractal).TryFindClosest(position, double.PositiveInfinity, context, out var closest))

@@ -47,7 +47,7 @@ public class ObjSceneWriterTests
     [InlineData(Composition.Componentwise)]
     public void Write_OfAnyFractal_IsItsExpansion(Composition composition) => Seeded.Run(40, random =>
     {
-        var (fractal, placement) = (RandomFractals.Create(random, composition), random.Transformation());
+        var (fractal, placement) = (RandomFractals.CreateAny(random, composition), random.Transformation());
         var written = WriteAndParse(Scene((Model(fractal), placement)));
         // Without repeated instances; the corners of a face keep their order but for mirrored ones, so faces are compared as sets of
         // corners.
