@@ -60,15 +60,18 @@ public sealed class RecordedCommandTests : IDisposable
         "commands-info.txt",
         "info cube.obj", "info cube.obj --json", "info row.fdo", "info row.fdo --json", "info infinite.fdo --json", "info infinite.fdo",
         "info scene.sdo --json", "info drop.sdo --json", "info m.obj --json", "info warn.obj", "info empty.obj --json",
-        "info blank.sdo", "info blank.sdo --json", "info row.fdo --composition componentwise --json", "info row.fdo --composition both", "info row.fdo --composition affine --composition componentwise",
+        "info blank.sdo", "info blank.sdo --json", "info row.fdo --composition componentwise --json", "info row.fdo --composition both",
+        "info row.fdo --composition affine --composition componentwise",
         "info cube.obj --composition affine", "info", "info --json", "info \"\"", "info -x", "info --jason cube.obj", "info cube.obj extra",
-        "info cube.obj --json --json", "info inner/out.sdo --allow-outside --json=false", "info row.fdo --limit depth=2 --limit depth=3 --json", "info missing.obj", "info cub.obj", "info inner", "info a.txt",
+        "info cube.obj --json --json", "info inner/out.sdo --allow-outside --json=false",
+        "info row.fdo --limit depth=2 --limit depth=3 --json", "info missing.obj", "info cub.obj", "info inner", "info a.txt",
         "info binary.obj", "info faulty.fdo", "info deep.fdo", "info row.fdo --limit depth=2",
         "info row.fdo --limit depth=0", "info row.fdo --limit depth=x",
         "info row.fdo --limit depth=-1", "info row.fdo --limit depth=9999999999", "info row.fdo --limit depths=2",
         "info row.fdo --limit depth", "info row.fdo --limit 5", "info row.fdo --limit", "info inner/out.sdo",
         "info row.fdo --prepare", "info row.fdo --json --prepare", "limits --limit depth=7",
-        "limits extra", "inf cube.obj", "nonsense", "query --points", "--limit depth=3 info row.fdo", "view cube.obj --trail 0",
+        "limits extra", "inf cube.obj", "nonsense", "rendr cube.obj -o a.png", "render cube.obj --outptu a.png",
+        "export row.fdo -o a.obj --dpeth 2", "query --points", "--limit depth=3 info row.fdo", "view cube.obj --trail 0",
         "view cube.obj --trace --no-trace", "view cube.obj --trace 0", "view cube.obj --resolution 10", "render --help=5");
 
     [Fact]
@@ -129,7 +132,8 @@ public sealed class RecordedCommandTests : IDisposable
     [Fact]
     public void Query_BeyondTheLimitOfWork_SaysHowManyAnswersAreUncertain() => Check(
         "commands-uncertain.txt",
-        "query walk.fdo --points one.txt", "query walk.fdo --points one.txt --error-bound", "query walk.fdo --points one.txt --collider simple");
+        "query walk.fdo --points one.txt", "query walk.fdo --points one.txt --error-bound",
+        "query walk.fdo --points one.txt --collider simple");
 
     [Fact]
     public void Simulate_OfAScene_IsAsRecorded() => Check(
@@ -144,6 +148,28 @@ public sealed class RecordedCommandTests : IDisposable
         "simulate drop.sdo -o h.txt", "simulate drop.sdo -o h.csv --collider box", "simulate drop.sdo -o drop.sdo",
         "simulate drop.sdo -o h.csv --collider fractal", "simulate drop.sdo -o i.csv --seconds 0.1 --limit bodies=1",
         "simulate missing.sdo -o h.csv", "simulate blank.sdo -o h.csv", "simulate drop.sdo -o a.txt/h.csv --seconds 0.1");
+
+    /// <summary>What only a process has: its standard streams, its culture and the name by which it was called.</summary>
+    [Fact]
+    public void Streams_OfProcesses_AreAsRecorded()
+    {
+        foreach (string line in (string[])[
+            "$APP export row.fdo -o - --depth 1 --verbose", "$APP simulate drop.sdo --seconds 0.05",
+            "$APP save scene.sdo -o - | $APP save - -o -",
+            "$APP query row.fdo --points - < points.txt", "$APP query - --rays rays.txt < row.fdo",
+            "$APP query /dev/stdin --points - < points.txt",
+            "$APP info - <&-", "$APP check - < faulty.fdo", "$APP info - --limit description-bytes=9 < row.fdo",
+            "LC_ALL=de_DE.UTF-8 $APP render --help --json | tail -5",
+            "LC_ALL=de_DE.UTF-8 $APP query row.fdo --points points.txt --header", "FRACTALENGINE_PROGRAM=./run.sh $APP limits --help",
+            "FRACTALENGINE_PROGRAM= $APP info -x",
+            "$APP generate icosphere --faces 20 -o - | head -3",
+            "mkdir gone; cd gone; rmdir ../gone; $APP info ../cube.obj; $APP export ../cube.obj -o x.obj"])
+        {
+            _transcript.RunShell(line);
+        }
+
+        RecordedText.Check("commands-streams.txt", _transcript.Lines);
+    }
 
     private void Check(string file, params string[] commandLines)
     {

@@ -29,7 +29,8 @@ public class RecordedOptionTests
             .. Optimisations.Select(name => $"--without {name}"), $"--without {string.Join(" --without ", Optimisations)}",
         ];
         string whole = Text("");
-        RecordedText.Check("options-drawing.txt", options.Select(option => $"{option}: {(option.Length == 0 ? whole : Difference(whole, Text(option)))}"));
+        RecordedText.Check("options-drawing.txt",
+            options.Select(option => $"{option}: {(option.Length == 0 ? whole : Difference(whole, Text(option)))}"));
 
         string Text(string option)
         {
@@ -58,8 +59,10 @@ public class RecordedOptionTests
                 ["--view", "back"], ["--view", "left"], ["--view", "bottom"], ["--view", "isometric"]])
             {
                 var result = command.Parse(arguments);
-                lines.Add($"{Path.GetFileName(file)} {string.Join(' ', arguments)}: {options.IsGiven(result)} {Description.Of(options.Zoom(result))} "
-                    + Description.Of(options.View(result, scene, arguments is ["--view", "isometric"] && file.EndsWith(".sdo", StringComparison.Ordinal), 1.5)));
+                lines.Add($"{Path.GetFileName(file)} {string.Join(' ', arguments)}: {options.IsGiven(result)} "
+                    + $"{Description.Of(options.Zoom(result))} "
+                    + Description.Of(options.View(result, scene, arguments is ["--view", "isometric"] && file.EndsWith(".sdo",
+                        StringComparison.Ordinal), 1.5)));
             }
         }
 
@@ -68,5 +71,6 @@ public class RecordedOptionTests
 
     // What one text has in other words than another.
     private static string Difference(string whole, string text) =>
-        string.Join(' ', text.Split(' ').Except(whole.Split(' '))) + " without " + string.Join(' ', whole.Split(' ').Except(text.Split(' ')));
+        string.Join(' ', text.Split(' ').Except(whole.Split(' '))) + " without " + string.Join(' ',
+            whole.Split(' ').Except(text.Split(' ')));
 }

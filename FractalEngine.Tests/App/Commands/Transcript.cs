@@ -1,6 +1,6 @@
 using System.CommandLine;
+using System.Diagnostics;
 using System.Globalization;
-using System.Reflection;
 using System.Text;
 using System.Text.RegularExpressions;
 using FractalEngine.App.Commands;
@@ -22,18 +22,13 @@ internal sealed partial class Transcript : IDisposable
     private const int ShownLines = 4;
 
     private readonly TemporaryFolder _folder = new();
-    private readonly string _before = Directory.GetCurrentDirectory();
     private readonly Dictionary<string, DateTime> _known = [];
 
     private readonly int _maxLines;
 
-    /// <summary>Begins in an empty folder, which becomes the current one.</summary>
+    /// <summary>Begins in an empty folder.</summary>
     /// <param name="maxLines">Number of lines of a text that are all kept.</param>
-    public Transcript(int maxLines = 14)
-    {
-        _maxLines = maxLines;
-        Directory.SetCurrentDirectory(_folder.Path);
-    }
+    public Transcript(int maxLines = 14) => _maxLines = maxLines;
 
     /// <summary>All lines so far.</summary>
     public List<string> Lines { get; } = [];
@@ -41,11 +36,7 @@ internal sealed partial class Transcript : IDisposable
     /// <summary>The folder of the commands.</summary>
     public TemporaryFolder Folder => _folder;
 
-    public void Dispose()
-    {
-        Directory.SetCurrentDirectory(_before);
-        _folder.Dispose();
-    }
+    public void Dispose() => _folder.Dispose();
 
     /// <summary>Runs one command line after the other.</summary>
     /// <param name="commandLines">Arguments, separated by blanks; quotes hold blanks together.</param>
@@ -55,15 +46,26 @@ internal sealed partial class Transcript : IDisposable
         foreach (string commandLine in commandLines)
         {
             string[] arguments = [.. Words().Matches(commandLine).Select(match => match.Value.Replace("\"", "", StringComparison.Ordinal))];
-            Note($"$ {commandLine}", RunHere(arguments));
+            Note($"$ {commandLine}", AppInProcess.Run(_folder.Path, arguments));
         }
     }
 
-    /// <summary>Runs a command line in a process of its own, with an input and its environment changed.</summary>
-    public void RunProcess(string commandLine, string script, Dictionary<string, string?> environment)
+    /// <summary>Runs a line of the shell, in which <c>$APP</c> is the program.</summary>
+    public void RunShell(string line)
     {
         FindChanged();
-        Note($"$ {script}", AppProcess.Run(_folder.Path, environment, commandLine.Split(' ')));
+        string program = $"dotnet exec {Path.ChangeExtension(typeof(InfoCommand).Assembly.Location, ".dll")}";
+        var start = new ProcessStartInfo("sh", ["-c", line.Replace("$APP", program, StringComparison.Ordinal)])
+        {
+            WorkingDirectory = _folder.Path,
+            RedirectStandardOutput = true,
+            RedirectStandardError = true,
+        };
+        using var process = Process.Start(start)!;
+        var output = process.StandardOutput.ReadToEndAsync();
+        var error = process.StandardError.ReadToEndAsync();
+        Assert.True(process.WaitForExit(Polling.Deadline), $"{line} did not end");
+        Note($"$ {line}", new(process.ExitCode, output.GetAwaiter().GetResult(), error.GetAwaiter().GetResult()));
     }
 
     /// <summary>Notes what a command has done.</summary>
@@ -89,7 +91,8 @@ internal sealed partial class Transcript : IDisposable
 
         foreach (string line in lines.Take(lines.Length > _maxLines ? ShownLines : _maxLines))
         {
-            Lines.AddRange((line.Length == 0 ? [[]] : line.Chunk(MaxLine)).Select((part, i) => (i > 0 ? $"{prefix}… " : prefix) + new string(part)));
+            Lines.AddRange((line.Length == 0 ? [[]] : line.Chunk(MaxLine)).Select((part,
+                i) => (i > 0 ? $"{prefix}… " : prefix) + new string(part)));
         }
 
         if (lines.Length > _maxLines)
@@ -100,32 +103,6 @@ internal sealed partial class Transcript : IDisposable
             int hash = words.Aggregate(17, (sum, letter) => unchecked((sum * 31) + letter));
             Lines.Add(string.Create(
                 CultureInfo.InvariantCulture, $"{prefix}… {lines.Length} lines, {Description.OfNumbers(numbers)}, words {hash:x8}"));
-        }
-    }
-
-    private static AppResult RunHere(string[] arguments)
-    {
-        var (output, error) = (Console.Out, Console.Error);
-        using var outputText = new StringWriter(CultureInfo.InvariantCulture);
-        using var errorText = new StringWriter(CultureInfo.InvariantCulture);
-        Console.SetOut(outputText);
-        Console.SetError(errorText);
-        try
-        {
-            int exitCode = FractalEngine.App.CommandLine.Run(arguments);
-            return new(exitCode, outputText.ToString(), errorText.ToString());
-        }
-        finally
-        {
-            Console.SetOut(output);
-            Console.SetError(error);
-            // What a process would forget.
-            foreach (var limit in LimitsCommand.All)
-            {
-                limit.Value = limit.Default;
-            }
-
-            ((HashSet<string>)typeof(FractalEngine.App.InputFiles).GetField("Paths", BindingFlags.NonPublic | BindingFlags.Static)!.GetValue(null)!).Clear();
         }
     }
 
@@ -164,7 +141,8 @@ internal sealed partial class Transcript : IDisposable
 
     private string Mask(string text)
     {
-        text = text.Replace(_folder.Path, "<folder>", StringComparison.Ordinal).Replace(Repository.Root, "<root>", StringComparison.Ordinal);
+        text = text.Replace(_folder.Path, "<folder>", StringComparison.Ordinal).Replace(Repository.Root, "<root>",
+            StringComparison.Ordinal);
         text = text.Replace($"  {RootCommand.ExecutableName} ", "  <program> ", StringComparison.Ordinal);
         return Times().Replace(text, match => match.Groups[1].Value + "#" + match.Groups[3].Value);
     }
@@ -175,6 +153,9 @@ internal sealed partial class Transcript : IDisposable
     [GeneratedRegex(@"-?\d+(?:\.\d+)?(?:[eE][+-]?\d+)?")]
     private static partial Regex Numbers();
 
-    [GeneratedRegex(@"((?:^|[ \n])(?:load|prepare|write|draw|trace|generate|build|step|queries|rays) |(?<=\nstate )|loadMilliseconds"":? *|loadMilliseconds +|prepareMilliseconds""?:? +(?=\d)|, (?=\d+\.\d s))([\d.,a-f]+)( ms| a second| s|)")]
+    // Times, and what another machine rounds differently.
+    [GeneratedRegex(
+        @"((?:^|[ \n])(?:load|prepare|write|draw|trace|generate|build|step|queries|rays) |(?<=\nstate )|loadMilliseconds"":? *"
+        + @"|loadMilliseconds +|prepareMilliseconds""?:? +(?=\d)|, (?=\d+\.\d s))([\d.,a-f]+)( ms| a second| s|)")]
     private static partial Regex Times();
 }
