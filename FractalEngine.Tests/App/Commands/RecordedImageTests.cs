@@ -106,6 +106,38 @@ public sealed class RecordedImageTests : IDisposable
         "animate row.fdo -o h.apng --zoom 5 --frames 2 --trace 1",
         "animate row.fdo -o h.apng --turntable --trace 1 --background transparent");
 
+    /// <summary>The encoder itself is a large package; here another program takes its name, and writes what it was asked.</summary>
+    [SkippableFact]
+    public void Animate_OfVideos_AsksTheEncoderAsRecorded()
+    {
+        Elsewhere.SkipOnWindows("there are no shell scripts");
+        const string script = "#!/bin/sh\ncat >/dev/null\necho \"$@\" >arguments.txt\nfor last; do :; done\necho video >\"$last\"\n";
+        _transcript.Folder.Write("bin/ffmpeg", script);
+        _transcript.Folder.Write("broken/ffmpeg", "#!/bin/sh\ncat >/dev/null\necho 'no such\ncodec' >&2\nexit 3\n");
+        string? before = Environment.GetEnvironmentVariable("PATH");
+        try
+        {
+            foreach (string folder in (string[])["bin", "broken", "none"])
+            {
+                if (folder != "none" && !OperatingSystem.IsWindows())
+                {
+                    File.SetUnixFileMode(_transcript.Folder[$"{folder}/ffmpeg"], UnixFileMode.UserRead | UnixFileMode.UserExecute);
+                }
+
+                Environment.SetEnvironmentVariable(
+                    "PATH", folder == "none" ? _transcript.Folder[folder] : $"{_transcript.Folder[folder]}:{before}");
+                _transcript.Run([.. ((string[])["a.mp4 --fps 12.5", "v/b.WEBM", "c.gif --fps 100"]).Select(
+                    output => $"animate row.fdo -o {output} --turntable --frames 2 --trace 1 --resolution 5x3")]);
+            }
+        }
+        finally
+        {
+            Environment.SetEnvironmentVariable("PATH", before);
+        }
+
+        RecordedText.Check("images-videos.txt", _transcript.Lines);
+    }
+
     private void Check(string file, string options, params string[] commandLines)
     {
         _transcript.Run([.. commandLines.Select(line => line + options)]);

@@ -144,6 +144,7 @@ internal sealed partial class Transcript : IDisposable
         text = text.Replace(_folder.Path, "<folder>", StringComparison.Ordinal).Replace(Repository.Root, "<root>",
             StringComparison.Ordinal);
         text = text.Replace($"  {RootCommand.ExecutableName} ", "  <program> ", StringComparison.Ordinal);
+        text = Guids().Replace(text, "<guid>");
         return Times().Replace(text, match => match.Groups[1].Value + "#" + match.Groups[3].Value);
     }
 
@@ -152,6 +153,9 @@ internal sealed partial class Transcript : IDisposable
 
     [GeneratedRegex(@"-?\d+(?:\.\d+)?(?:[eE][+-]?\d+)?")]
     private static partial Regex Numbers();
+
+    [GeneratedRegex(@"\b[0-9a-f]{32}\b")]
+    private static partial Regex Guids();
 
     // Times, and what another machine rounds differently.
     [GeneratedRegex(

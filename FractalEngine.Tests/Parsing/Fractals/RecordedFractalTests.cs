@@ -140,6 +140,11 @@ public class RecordedFractalTests
             .Concat(FractalNumber.FindAll(parsed.Source).Take(12).Select(number => Description.Of(number)));
     }));
 
+    [Fact]
+    public void Numbers_ThatAreReplaced_AreAsRecorded() => RecordedText.Check(
+        "fractals-replaced.txt", FractalNumber.FindAll(new("t.fdo", Small)).SelectMany(number => ((double[])[-3, 0.25, 2.5, 7.75]).Select(
+            value => number.Replace(Small, value).Replace("\n", "⏎", StringComparison.Ordinal))).Distinct());
+
     // First letters of the lines, with how often each comes.
     private static string Kinds(string text) => string.Join(
         '/', text.Split('\n').GroupBy(line => line.Length > 0 ? line[0] : '-').Select(group => $"{group.Key}{group.Count()}"));

@@ -1,7 +1,6 @@
 using System.Buffers.Binary;
 using System.IO.Compression;
 using System.Text;
-using FractalEngine.Core;
 using FractalEngine.Parsing;
 using FractalEngine.Parsing.Meshes;
 using FractalEngine.Parsing.Text;
@@ -86,9 +85,8 @@ public sealed class RecordedMeshTests : IDisposable
             });
         }
 
-        string[] faulty = [.. ((int[])[1, 2, 99, 100, 101]).Select(count => string.Concat(Enumerable.Repeat("newmtl a\nKd x\n",
-            count)) + "newmtl z\n")];
-        var ends = faulty.Select(text => MtlParser.Parse(new("t.mtl", text)))
+        var ends = ((int[])[1, 2, 99, 100, 101]).Select(count => string.Concat(Enumerable.Repeat("newmtl a\nKd x\n", count)))
+            .Select(text => MtlParser.Parse(new("t.mtl", text + "newmtl z\n")))
             .Select(parsed => $"{parsed.Materials.Count} "
                 + $"{string.Join(' ', parsed.Warnings.Select(warning => warning.ToString().Split('\n')[0]))}");
         RecordedText.Check("mtl-faults.txt", sweep.Lines().Concat(ends));
@@ -101,11 +99,10 @@ public sealed class RecordedMeshTests : IDisposable
             "int32", "uint32", "float32", "float64"];
         string[][] names =
         [
-            ["x", "y", "z", "nx", "ny", "nz", "u", "v", "red", "green", "blue"], ["x", "y", "z", "normal_x", "normal_y", "normal_z", "s",
-            "t", "r", "g", "b"],
-            ["x", "y", "z", "texture_u", "texture_v", "diffuse_red", "diffuse_green", "diffuse_blue"], ["z", "x", "y", "texture_s",
-            "texture_t", "alpha"],
-            ["x", "y", "z", "nx", "ny", "u", "red", "green"],
+            ["x", "y", "z", "nx", "ny", "nz", "u", "v", "red", "green", "blue"],
+            ["x", "y", "z", "normal_x", "normal_y", "normal_z", "s", "t", "r", "g", "b"],
+            ["x", "y", "z", "texture_u", "texture_v", "diffuse_red", "diffuse_green", "diffuse_blue"],
+            ["z", "x", "y", "texture_s", "texture_t", "alpha"], ["x", "y", "z", "nx", "ny", "u", "red", "green"],
         ];
         var lines = new List<string>();
         foreach (string[] properties in names)
@@ -144,13 +141,12 @@ public sealed class RecordedMeshTests : IDisposable
         byte[] many = [.. ply[..^17], 200, 1, 2, 3];
         (string Name, byte[] Bytes)[] files =
         [
-            ("whole.ply", ply), ("cut.ply", ply[..^5]), ("cut2.ply", ply[..^30]), ("head.ply", ply[..20]), ("none.ply", []), ("many.ply",
-            many), ("whole.stl", stl), ("cut.stl", stl[..^1]),
-            ("short.stl", stl[..83]), ("none.stl", []), ("solid.stl", solid), ("solidcut.stl", solid[..^1]), ("infinite.stl", infinite),
-            ("more.stl", [.. stl, 1]),
+            ("whole.ply", ply), ("cut.ply", ply[..^5]), ("cut2.ply", ply[..^30]), ("head.ply", ply[..20]), ("none.ply", []),
+            ("many.ply", many), ("whole.stl", stl), ("cut.stl", stl[..^1]), ("short.stl", stl[..83]), ("none.stl", []),
+            ("solid.stl", solid), ("solidcut.stl", solid[..^1]), ("infinite.stl", infinite), ("more.stl", [.. stl, 1]),
         ];
         RecordedText.Check("binary-meshes.txt", files.Select(file =>
-            $"{file.Name}: {MeshTexts.Outcome(_folder.Path, () => MeshReader.Read(Write(file.Name, file.Bytes), file.Name))}"));
+            $"{file.Name}: {Outcome(() => MeshReader.Read(Write(file.Name, file.Bytes), file.Name))}"));
     }
 
     [Fact]
@@ -172,34 +168,31 @@ public sealed class RecordedMeshTests : IDisposable
         (string Name, byte[] Bytes)[] files =
         [
             ("utf8.obj", utf8), ("mark.obj", [.. Encoding.UTF8.Preamble, .. utf8]), ("latin1.obj", Encoding.Latin1.GetBytes(text)),
-            ("utf16.obj", [.. Encoding.Unicode.Preamble, .. Encoding.Unicode.GetBytes(text)]), ("big.obj",
-            [.. Encoding.BigEndianUnicode.Preamble, .. Encoding.BigEndianUnicode.GetBytes(text)]),
-            ("nul.obj", [.. utf8, 0, 10]), ("nulmark.obj", [.. Encoding.UTF8.Preamble, 0]), ("good.obj.gz", compressed), ("cut.obj.gz",
-            compressed[..^1]), ("short.obj.gz", compressed[..17]),
-            ("plain.obj.gz", utf8), ("wrong.obj.gz", [.. compressed[..^8], 1, .. compressed[^7..]]), ("size.obj.gz",
-            [.. compressed[..^4], 255, 255, 255, 0]), ("double.obj.gz", [.. compressed, .. compressed]),
+            ("utf16.obj", [.. Encoding.Unicode.Preamble, .. Encoding.Unicode.GetBytes(text)]),
+            ("big.obj", [.. Encoding.BigEndianUnicode.Preamble, .. Encoding.BigEndianUnicode.GetBytes(text)]),
+            ("nul.obj", [.. utf8, 0, 10]), ("nulmark.obj", [.. Encoding.UTF8.Preamble, 0]), ("good.obj.gz", compressed),
+            ("cut.obj.gz", compressed[..^1]), ("short.obj.gz", compressed[..17]), ("plain.obj.gz", utf8),
+            ("wrong.obj.gz", [.. compressed[..^8], 1, .. compressed[^7..]]), ("size.obj.gz", [.. compressed[..^4], 255, 255, 255, 0]),
+            ("double.obj.gz", [.. compressed, .. compressed]),
             ("empty.obj", []), ("line.obj", "\n"u8.ToArray()), ("odd.obj", [0xFF, 0xFE, 0x61]), ("lone.fdo", [0xFF, 0xFE, 0, 0xD8]),
             ("latin1.fdo", Encoding.Latin1.GetBytes("# ä\n<$>. \"a.obj\"")),
             ("mark.sdo", [.. Encoding.UTF8.Preamble, .. "fog 1"u8]), ("nul.sdo", "fog 1\n a\0"u8.ToArray()),
         ];
         var lines = files.Select(file => $"{file.Name}: " + (file.Name.Contains(".obj", StringComparison.Ordinal)
-            ? MeshTexts.Outcome(_folder.Path, () => MeshReader.Read(Write(file.Name, file.Bytes), file.Name))
-            : MeshTexts.Outcome(_folder.Path, () => SourceText.Read(Write(file.Name, file.Bytes), file.Name, 1000,
-                acceptLatin1: file.Name == "latin1.fdo")))).ToList();
-        foreach (var (limit, value) in ((Limit, long)[])[(ParsingLimits.ObjBytes, 56), (ParsingLimits.ObjBytes, utf8.Length),
-            (ParsingLimits.ObjBytes, utf8.Length - 1)])
+            ? Outcome(() => MeshReader.Read(Write(file.Name, file.Bytes), file.Name))
+            : Outcome(() => SourceText.Read(Write(file.Name, file.Bytes), file.Name, 1000, file.Name == "latin1.fdo")))).ToList();
+        foreach (int bytes in (int[])[56, utf8.Length, utf8.Length - 1])
         {
-            limit.Value = value;
-            lines.Add($"{limit.Name}={value} "
-                + $"{MeshTexts.Outcome(_folder.Path, () => MeshReader.Read(_folder["utf8.obj"], "utf8.obj"))} "
-                    + $"{MeshTexts.Outcome(_folder.Path, () => MeshReader.Read(_folder["good.obj.gz"], "good.obj.gz"))}");
-            limit.Value = limit.Default;
+            ParsingLimits.ObjBytes.Value = bytes;
+            string plain = Outcome(() => MeshReader.Read(_folder["utf8.obj"], "utf8.obj"));
+            lines.Add($"obj-bytes={bytes} {plain} {Outcome(() => MeshReader.Read(_folder["good.obj.gz"], "good.obj.gz"))}");
+            ParsingLimits.ObjBytes.Value = ParsingLimits.ObjBytes.Default;
         }
 
-        RecordedText.Check("encodings.txt", lines.Append(MeshTexts.Outcome(_folder.Path, () => SourceText.Read(_folder["missing"],
-            "missing", 10)))
-            .Append(MeshTexts.Outcome(_folder.Path, () => SourceText.Read(_folder.Path, "folder",
-                10))).Append(MeshTexts.Outcome(_folder.Path, () => SourceText.Read(_folder["mark.sdo"], "mark.sdo", 7))));
+        lines.Add(Outcome(() => SourceText.Read(_folder["missing"], "missing", 10)));
+        lines.Add(Outcome(() => SourceText.Read(_folder.Path, "folder", 10)));
+        lines.Add(Outcome(() => SourceText.Read(_folder["mark.sdo"], "mark.sdo", 7)));
+        RecordedText.Check("encodings.txt", lines);
     }
 
     [Fact]
@@ -208,15 +201,14 @@ public sealed class RecordedMeshTests : IDisposable
         ParsingLimits.PolygonCorners.Value = 4;
         try
         {
-            const string vertices = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0.5 0\n";
+            const string four = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0.5 0\nf 1 2 3 4\n";
+            string five = four.Replace("3 4", "3 4 5", StringComparison.Ordinal);
+            byte[] ply = Encoding.UTF8.GetBytes(Ply.Replace("2 0 1 5", "5 0 1 2 3 1 5", StringComparison.Ordinal));
             RecordedText.Check("polygons.txt",
             [
-                MeshTexts.Outcome(_folder.Path, () => ObjParser.Parse(new("t.obj", vertices + "f 1 2 3 4\n"))),
-                    MeshTexts.Outcome(_folder.Path, () => ObjParser.Parse(new("t.obj", vertices + "f 1 2 3 4 5\n"))),
-                MeshTexts.Outcome(_folder.Path, () => ObjReader.Read(new MemoryStream(Encoding.UTF8.GetBytes(vertices
-                    + "f 1 2 3 4 5\n")), "t.obj")),
-                MeshTexts.Outcome(_folder.Path, () => PlyReader.Read(new MeshBytes("t.ply", Encoding.UTF8.GetBytes(Ply.Replace("2 0 1 5",
-                    "5 0 1 2 3 1 5", StringComparison.Ordinal))))),
+                Outcome(() => ObjParser.Parse(new("t.obj", four))), Outcome(() => ObjParser.Parse(new("t.obj", five))),
+                Outcome(() => ObjReader.Read(new MemoryStream(Encoding.UTF8.GetBytes(five)), "t.obj")),
+                Outcome(() => PlyReader.Read(new MeshBytes("t.ply", ply))),
             ]);
         }
         finally
@@ -236,6 +228,8 @@ public sealed class RecordedMeshTests : IDisposable
         RecordedText.Check("progress.txt", ((List<double>[])[grammar, reader]).Select(reports => string.Join(' ',
             reports.Select(RecordedText.Text))));
     }
+
+    private string Outcome(Func<object> read) => MeshTexts.Outcome(_folder.Path, read);
 
     private string Write(string name, byte[] bytes)
     {
