@@ -75,7 +75,7 @@ internal sealed class InterruptSignal : IDisposable
         const string status = "/proc/self/status";
         return File.Exists(status)
             && File.ReadLines(status).FirstOrDefault(line => line.StartsWith(prefix, StringComparison.Ordinal)) is { } line
-            && ulong.TryParse(line[prefix.Length..].Trim(), NumberStyles.HexNumber, CultureInfo.InvariantCulture, out var mask)
+            && ulong.TryParse(line[prefix.Length..], NumberStyles.HexNumber, CultureInfo.InvariantCulture, out var mask)
             && (mask & 1) != 0;
     }
 }

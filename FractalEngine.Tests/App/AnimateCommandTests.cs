@@ -129,6 +129,20 @@ public sealed class AnimateCommandTests : DrawingCommandTests
             AppProcess.Run(Folder.Path, environment, "animate", "scene.sdo", "--turntable", "--output", "a.mp4"));
     }
 
+    [SkippableFact]
+    public void Animate_OfADamagedTexture_SaysSo()
+    {
+        Display.Require();
+        Folder.Write("m.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl a\nf 1/1 2/1 3/1\n");
+        Folder.Write("m.mtl", "newmtl a\nmap_Kd a.png\n");
+        var png = File.ReadAllBytes(Repository.Full("assets/models/crate.png"));
+        File.WriteAllBytes(Folder["a.png"], png[..(png.Length / 2)]);
+        var (exitCode, _, error) = Run(
+            "animate", "m.obj", "--turntable", "--frames", "1", "--resolution", "16x16", "--output", "m.png", "--quiet");
+        Assert.Equal(0, exitCode);
+        Assert.StartsWith("a.png:1:1: warning: the texture can't be decoded, drawn grey: ", error, StringComparison.Ordinal);
+    }
+
     /// <summary>The encoder itself is a large package, which only the long tests need; here another program takes its name.</summary>
     [SkippableFact]
     public void Animate_OfAVideo_GivesTheEncoderEachFrame()

@@ -17,16 +17,7 @@ public sealed class ShellTests : IDisposable
     public void Dispose() => _folder.Dispose();
 
     [Theory]
-    [InlineData("view")]
     [InlineData("render")]
-    [InlineData("info")]
-    [InlineData("count")]
-    [InlineData("export")]
-    [InlineData("check")]
-    [InlineData("save")]
-    [InlineData("generate")]
-    [InlineData("query")]
-    [InlineData("simulate")]
     [InlineData("limits")]
     public void Help_OfACommand_NamesTheProgramAsCalledAndEndsWithTwoExamples(string command)
     {
@@ -38,18 +29,6 @@ public sealed class ShellTests : IDisposable
         Assert.DoesNotContain("fractal-engine", output, StringComparison.Ordinal);
         Assert.Equal("Examples:", lines[^3]);
         Assert.All(lines[^2..], static line => Assert.StartsWith("  ./run.sh ", line, StringComparison.Ordinal));
-    }
-
-    [Theory]
-    [InlineData("error: there is no command or file 'rendr': did you mean 'render'?", "rendr", "cube.obj", "--output", "a.png")]
-    [InlineData("error: there is no command or file 'frobnicate'", "frobnicate")]
-    [InlineData("error: unknown option '--jsn': did you mean '--json'?", "info", "cube.obj", "--jsn")]
-    [InlineData("error: unknown option '--outptu': did you mean '--output'?", "render", "cube.obj", "--outptu", "a.png")]
-    [InlineData("error: unknown option '--dpeth': did you mean '--depth'?", "export", "row.fdo", "--output", "a.obj", "--dpeth", "2")]
-    public void Arguments_NearlyRight_GetAProposal(string message, params string[] arguments)
-    {
-        var (exitCode, output, error) = Run(arguments);
-        Assert.Equal((2, "", message), (exitCode, output, error.Split('\n')[0]));
     }
 
     [Theory]

@@ -70,21 +70,6 @@ public sealed class QueryCommandTests : IDisposable
         Assert.Equal(2, results.RootElement[0].GetProperty("distance").GetDouble(), 1e-14);
     }
 
-    /// <summary>A walk whose steps turn has more parts around a position than any search visits.</summary>
-    [Fact]
-    public void Query_BeyondTheLimitOfWork_SaysHowManyAnswersAreUncertain()
-    {
-        _folder.Write(
-            "walk.fdo",
-            "v 1 0 0\nv 0 13 7\nv -1 .3 0\nx. \"cube.obj\"\nt.a. (a, 2, #)\nz<x>. [t.1, t.3] x\n<$>. z 1000\n");
-        _folder.Write("points.txt", "0 0 5\n");
-        const string warning = "\nuncertain 1: the search met its limit of work, and --error-bound prints how far it may be wrong\n";
-        Assert.EndsWith(warning, Run("query", "walk.fdo", "--points", "points.txt").Error, StringComparison.Ordinal);
-        Assert.DoesNotContain(
-            "uncertain", Run("query", "walk.fdo", "--points", "points.txt", "--error-bound").Error, StringComparison.Ordinal);
-        Assert.DoesNotContain("uncertain", Run("query", "cube.obj", "--points", "points.txt").Error, StringComparison.Ordinal);
-    }
-
     [Fact]
     public void Query_OfRays_PrintsWhatEachHits()
     {
