@@ -63,10 +63,7 @@ internal static class RayHitFactory
         Vector origin, Vector direction, in RaySearch search, double planeDistance, Vector a, Vector b, Vector c)
     {
         ReadOnlySpan<double> distances =
-        [
-            planeDistance, search.MaxDistance, DistanceToEdge(origin, direction, a, b), DistanceToEdge(origin, direction, b, c),
-            DistanceToEdge(origin, direction, c, a),
-        ];
+            [planeDistance, search.MaxDistance, TrianglePlane.ApproachEdges(origin, direction, a, b, c).Distance];
         var rounding = ErrorFactor * search.Error;
         var (best, weights, least) = (search.MaxDistance, Vector.I, double.PositiveInfinity);
         foreach (var distance in distances)
@@ -82,24 +79,6 @@ internal static class RayHitFactory
         }
 
         return (best, weights);
-    }
-
-    /// <summary>Computes the distance at which a ray is nearest to an edge.</summary>
-    private static double DistanceToEdge(Vector origin, Vector direction, Vector start, Vector end)
-    {
-        var size = (end - start).MaxAbsComponent();
-        if (!(size > 0))
-        {
-            return Vector.Dot(start - origin, direction);
-        }
-
-        var (edge, toStart) = ((end - start) / size, (start - origin) / size);
-        var along = Vector.Dot(edge, direction);
-        var across = edge - (along * direction);
-        var place = -Vector.Dot(toStart - (Vector.Dot(toStart, direction) * direction), across) / across.LengthSquared();
-        // Along the ray, all places of the edge are as near.
-        place = place >= 0 ? Math.Min(place, 1) : 0;
-        return Vector.Dot(toStart + (place * edge), direction) * size;
     }
 
     /// <summary>Computes the weights of the corners at a point in the plane of a well-shaped triangle, as parts of its area.</summary>

@@ -79,6 +79,46 @@ internal static class TrianglePlane
         // From a point near the triangle, so that what a far origin rounds away does not count.
         parameter + (Vector.Dot(normal, corner - (origin + (parameter * direction))) / Vector.Dot(normal, direction));
 
+    /// <summary>Finds where a ray is nearest to the edges of a triangle.</summary>
+    /// <param name="origin">Origin of the ray.</param>
+    /// <param name="direction">Its direction, of length 1.</param>
+    /// <param name="a">The first corner.</param>
+    /// <param name="b">The second corner.</param>
+    /// <param name="c">The third corner.</param>
+    /// <returns>The distance along the line of the ray, and how far the edge is from there.</returns>
+    public static (double Distance, double Apart) ApproachEdges(Vector origin, Vector direction, Vector a, Vector b, Vector c)
+    {
+        var best = ApproachEdge(origin, direction, a, b);
+        var other = ApproachEdge(origin, direction, b, c);
+        best = other.Apart < best.Apart ? other : best;
+        other = ApproachEdge(origin, direction, c, a);
+        return other.Apart < best.Apart ? other : best;
+    }
+
+    /// <summary>Finds where a ray is nearest to an edge.</summary>
+    /// <param name="origin">Origin of the ray.</param>
+    /// <param name="direction">Its direction, of length 1.</param>
+    /// <param name="start">Start of the edge.</param>
+    /// <param name="end">Its end.</param>
+    /// <returns>The distance along the line of the ray, and how far the edge is from there.</returns>
+    private static (double Distance, double Apart) ApproachEdge(Vector origin, Vector direction, Vector start, Vector end)
+    {
+        var toNearest = start - origin;
+        var size = (end - start).MaxAbsComponent();
+        if (size > 0)
+        {
+            var (edge, toStart) = ((end - start) / size, toNearest / size);
+            var across = edge - (Vector.Dot(edge, direction) * direction);
+            var place = -Vector.Dot(toStart - (Vector.Dot(toStart, direction) * direction), across) / across.LengthSquared();
+            // Along the ray, all places of the edge are as near.
+            place = place >= 0 ? Math.Min(place, 1) : 0;
+            toNearest = (toStart + (place * edge)) * size;
+        }
+
+        var distance = Vector.Dot(toNearest, direction);
+        return (distance, (toNearest - (distance * direction)).Length());
+    }
+
     private static (Vector Corner, Vector Edge) LongestEdge(Vector a, Vector b, Vector c)
     {
         var (ab, bc, ca) = ((b - a).MaxAbsComponent(), (c - b).MaxAbsComponent(), (a - c).MaxAbsComponent());

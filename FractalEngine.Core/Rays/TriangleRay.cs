@@ -25,6 +25,9 @@ internal readonly struct TriangleRay
     // Of an area that is a smaller part of the squared extent, rounding is too large a part.
     private const double UncertainArea = 1e-3;
 
+    // Largest area of an edge and a ray beside it, as a part of the triangle's. Lower triangles are seen nearly edge on.
+    private const double MaxAreaBeside = 0.1;
+
     private readonly Vector _origin;
     private readonly Vector _direction;
     private readonly int _x;
@@ -57,7 +60,10 @@ internal readonly struct TriangleRay
         _shearX = Vector256.Create(ray.Direction.GetElement(_x) * inverse);
         _shearY = Vector256.Create(ray.Direction.GetElement(_y) * inverse);
         _inverseZ = Vector256.Create(inverse);
-        _widening = Vector256.Create(2 * ray.InverseScale * error);
+        // Coordinates in the frame of the triangles may be larger than those of the query: maps lead back to the origin.
+        var magnitude = Vector256.MaxNative(
+            Vector256.MaxNative(Vector256.Abs(_originX), Vector256.Abs(_originY)), Vector256.Abs(_originZ));
+        _widening = Vector256.Create(2 * ray.InverseScale * error) + (Vector256.Create(2 * RoundingErrors.Coordinate) * magnitude);
         _directionError = Vector256.Create(ray.Scale == 1 && ray.InverseScale == 1 ? QueryDirectionError : MappedDirectionError);
         _start = ray.Start;
         _origin = SimdAffineMap.ToVector(ray.Origin);
@@ -71,8 +77,48 @@ internal readonly struct TriangleRay
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public bool TryIntersect(ref Vector256<double> quad, ref RaySearch search)
     {
-        var distances = Distances(ref quad, out var isUncertain);
-        var hits = Vector256.GreaterThanOrEqual(distances, Vector256.Create(search.MinDistance))
+        var az = Unsafe.Add(ref quad, _z) - _originZ;
+        var bz = Unsafe.Add(ref quad, 3 + _z) - _originZ;
+        var cz = Unsafe.Add(ref quad, 6 + _z) - _originZ;
+        var ax = Unsafe.Add(ref quad, _x) - _originX - (_shearX * az);
+        var bx = Unsafe.Add(ref quad, 3 + _x) - _originX - (_shearX * bz);
+        var cx = Unsafe.Add(ref quad, 6 + _x) - _originX - (_shearX * cz);
+        var ay = Unsafe.Add(ref quad, _y) - _originY - (_shearY * az);
+        var by = Unsafe.Add(ref quad, 3 + _y) - _originY - (_shearY * bz);
+        var cy = Unsafe.Add(ref quad, 6 + _y) - _originY - (_shearY * cz);
+        var u = (cx * by) - (cy * bx);
+        var v = (ax * cy) - (ay * cx);
+        var w = (bx * ay) - (by * ax);
+        var extent = Vector256.Abs(ax) + Vector256.Abs(ay) + Vector256.Abs(bx) + Vector256.Abs(by) + Vector256.Abs(cx) + Vector256.Abs(cy);
+        var rounding = Vector256.Create(RoundingErrors.Coordinate) * extent;
+        var sum = u + v + w;
+        // Seen edge on, a triangle has no area but that of rounding, also of the direction, and is not hit. Nor is one without area.
+        var depthExtent = Vector256.Abs(az) + Vector256.Abs(bz) + Vector256.Abs(cz);
+        var isSeen = Vector256.GreaterThan(
+            Vector256.Abs(sum), (rounding + (_directionError * depthExtent)) * extent);
+        // All areas get the sign of a hit; those that have the other one are of edges that the ray passes outside.
+        var sign = sum & Vector256.Create(-0.0);
+        (u, v, w) = (u ^ sign, v ^ sign, w ^ sign);
+        var least = Vector256.MinNative(Vector256.MinNative(u, v), w);
+        // An area beside an edge is that of the edge, no longer than the extent, and of what the ray is off by: √3 times as much, sheared.
+        var reach = _widening + rounding;
+        var minArea = Vector256.MaxNative(-(reach + reach) * extent, Vector256.Create(-MaxAreaBeside) * Vector256.Abs(sum));
+        var isClose = isSeen & Vector256.GreaterThanOrEqual(least, minArea);
+        var close = isClose.ExtractMostSignificantBits();
+        if (close == 0)
+        {
+            return false;
+        }
+
+        var depth = ((u * az) + (v * bz) + (w * cz)) / (u + v + w);
+        var distances = Vector256.Create(_start) + (depth * _inverseZ);
+        var inside = Vector256.GreaterThanOrEqual(least, Vector256<double>.Zero).ExtractMostSignificantBits();
+        if ((close & ~inside) != 0)
+        {
+            distances = WithDistancesBeside(distances, close & ~inside, reach, ref quad);
+        }
+
+        var hits = isClose & Vector256.GreaterThanOrEqual(distances, Vector256.Create(search.MinDistance))
             & Vector256.LessThanOrEqual(distances, Vector256.Create(search.MaxDistance));
         var mask = hits.ExtractMostSignificantBits();
         if (mask == 0)
@@ -80,7 +126,9 @@ internal readonly struct TriangleRay
             return false;
         }
 
-        return TryUpdate(distances, mask, isUncertain.ExtractMostSignificantBits(), ref quad, ref search);
+        var isSmall = Vector256.LessThan(Vector256.Abs(sum), Vector256.Create(UncertainArea) * extent * extent);
+        // Where a ray passes beside a face, it may cross the plane far from there.
+        return TryUpdate(distances, mask, inside & isSmall.ExtractMostSignificantBits(), ref quad, ref search);
     }
 
     private bool TryUpdate(
@@ -114,58 +162,33 @@ internal readonly struct TriangleRay
     /// <summary>Computes the distance of a triangle whose area is so small that rounding moves it.</summary>
     private double CorrectDistance(double distance, int lane, ref Vector256<double> quad)
     {
-        var a = CornerOf(ref quad, lane);
-        var b = CornerOf(ref Unsafe.Add(ref quad, 3), lane);
-        var c = CornerOf(ref Unsafe.Add(ref quad, 6), lane);
+        var (a, b, c) = CornersOf(ref quad, lane);
         return _start + TrianglePlane.Correct(_origin, _direction, distance - _start, a, b, c);
     }
 
+    /// <summary>
+    /// Replaces the distances of triangles that the ray passes beside by those of the nearest edges; NaN where it passes by more than its
+    /// rounding.
+    /// </summary>
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    private Vector256<double> WithDistancesBeside(
+        Vector256<double> distances, uint lanes, Vector256<double> reach, ref Vector256<double> quad)
+    {
+        var speed = _direction.Length();
+        for (; lanes != 0; lanes &= lanes - 1)
+        {
+            var lane = System.Numerics.BitOperations.TrailingZeroCount(lanes);
+            var (a, b, c) = CornersOf(ref quad, lane);
+            var (distance, apart) = TrianglePlane.ApproachEdges(_origin, _direction / speed, a, b, c);
+            distances = distances.WithElement(lane, apart <= reach[lane] ? _start + (distance / speed) : double.NaN);
+        }
+
+        return distances;
+    }
+
+    private static (Vector A, Vector B, Vector C) CornersOf(ref Vector256<double> quad, int lane) =>
+        (CornerOf(ref quad, lane), CornerOf(ref Unsafe.Add(ref quad, 3), lane), CornerOf(ref Unsafe.Add(ref quad, 6), lane));
+
     private static Vector CornerOf(ref Vector256<double> rows, int lane) => new(
         rows.GetElement(lane), Unsafe.Add(ref rows, 1).GetElement(lane), Unsafe.Add(ref rows, 2).GetElement(lane));
-
-    /// <summary>Computes the distances of four triangles along the ray; NaN or infinite where it misses them.</summary>
-    /// <param name="quad">The triangles.</param>
-    /// <param name="isUncertain">All bits set inside a triangle whose area is so small that rounding moves the distance.</param>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private Vector256<double> Distances(ref Vector256<double> quad, out Vector256<double> isUncertain)
-    {
-        var az = Unsafe.Add(ref quad, _z) - _originZ;
-        var bz = Unsafe.Add(ref quad, 3 + _z) - _originZ;
-        var cz = Unsafe.Add(ref quad, 6 + _z) - _originZ;
-        var ax = Unsafe.Add(ref quad, _x) - _originX - (_shearX * az);
-        var bx = Unsafe.Add(ref quad, 3 + _x) - _originX - (_shearX * bz);
-        var cx = Unsafe.Add(ref quad, 6 + _x) - _originX - (_shearX * cz);
-        var ay = Unsafe.Add(ref quad, _y) - _originY - (_shearY * az);
-        var by = Unsafe.Add(ref quad, 3 + _y) - _originY - (_shearY * bz);
-        var cy = Unsafe.Add(ref quad, 6 + _y) - _originY - (_shearY * cz);
-        var u = (cx * by) - (cy * bx);
-        var v = (ax * cy) - (ay * cx);
-        var w = (bx * ay) - (by * ax);
-        var extent = Vector256.Abs(ax) + Vector256.Abs(ay) + Vector256.Abs(bx) + Vector256.Abs(by) + Vector256.Abs(cx) + Vector256.Abs(cy);
-        var rounding = Vector256.Create(RoundingErrors.Coordinate) * extent;
-        var sum = u + v + w;
-        // Seen edge on, a triangle has no area but that of rounding, also of the direction, and is not hit. Nor is one without area.
-        var depthExtent = Vector256.Abs(az) + Vector256.Abs(bz) + Vector256.Abs(cz);
-        var isSeen = Vector256.GreaterThan(
-            Vector256.Abs(sum), (rounding + (_directionError * depthExtent)) * extent);
-        var isSmall = Vector256.LessThan(Vector256.Abs(sum), Vector256.Create(UncertainArea) * extent * extent);
-        // All areas get the sign of a hit; those that have the other one are of edges that the ray passes outside.
-        var sign = sum & Vector256.Create(-0.0);
-        (u, v, w) = (u ^ sign, v ^ sign, w ^ sign);
-        var isInside = Vector256.GreaterThanOrEqual(Vector256.MinNative(Vector256.MinNative(u, v), w), Vector256<double>.Zero);
-        (u, v, w) = (
-            Vector256.MaxNative(u, Vector256<double>.Zero), Vector256.MaxNative(v, Vector256<double>.Zero),
-            Vector256.MaxNative(w, Vector256<double>.Zero));
-        // Where a ray passes beside a face, it may cross the plane far from there.
-        isUncertain = isSmall & isInside;
-        // Beside an edge the point on it counts, if the ray passes it by no more than its rounding.
-        sum = u + v + w;
-        var reach = (_widening + rounding) * sum;
-        var isBeside = Vector256.LessThanOrEqual(Vector256.Abs((u * ax) + (v * bx) + (w * cx)), reach)
-            & Vector256.LessThanOrEqual(Vector256.Abs((u * ay) + (v * by) + (w * cy)), reach);
-        var isHit = isSeen & (isInside | isBeside);
-        var depth = ((u * az) + (v * bz) + (w * cz)) / sum;
-        var distances = Vector256.Create(_start) + (depth * _inverseZ);
-        return Vector256.ConditionalSelect(isHit, distances, Vector256.Create(double.NaN));
-    }
 }

@@ -71,6 +71,28 @@ public sealed class ImageCommandTests : DrawingCommandTests
     }
 
     [SkippableFact]
+    public void Grid_Requested_IsDrawnWithTheAxesInTheirColours()
+    {
+        // Seen from where all three axes come closer; the grid is grey, and so is the cube.
+        string[] seen = ["--look-from", "(9, 8, 7)", "--look-at", "(3, 2, 1)", "--background", "(0, 0, 0)"];
+        Render("cube.obj", "without.png", seen);
+        Render("cube.obj", "with.png", ["--grid", .. seen]);
+        Assert.Equal((0, 0, 0), CountOfEachAxis("without.png"));
+        var (red, green, blue) = CountOfEachAxis("with.png");
+        Assert.True(Math.Min(red, Math.Min(green, blue)) >= 5, $"pixels of the axes: {red}, {green}, {blue}");
+
+        (int Red, int Green, int Blue) CountOfEachAxis(string name)
+        {
+            var image = ReadImage(name);
+            var pixels = (from x in Enumerable.Range(0, 64) from y in Enumerable.Range(0, 64) select image[x, y]).ToArray();
+            return (
+                pixels.Count(static pixel => pixel.Red > pixel.Green + 40 && pixel.Red > pixel.Blue + 40),
+                pixels.Count(static pixel => pixel.Green > pixel.Red + 40 && pixel.Green > pixel.Blue + 40),
+                pixels.Count(static pixel => pixel.Blue > pixel.Red + 40 && pixel.Blue > pixel.Green + 40));
+        }
+    }
+
+    [SkippableFact]
     public void Background_BehindHazeWithoutAColour_IsWhatTheHazeFadesTo()
     {
         Folder.Write("haze.sdo", "background (0, 0, 1)\nfog 100\no \"cube.obj\" # colour (1, 0, 0)\nc (0, 0, -3) # 60\n");

@@ -1,6 +1,8 @@
 using System.Globalization;
 using System.Text.Json;
+using FractalEngine.Core.Maths;
 using FractalEngine.Tests.Support;
+using static System.FormattableString;
 
 namespace FractalEngine.Tests.App.Commands;
 
@@ -79,6 +81,55 @@ public sealed class QueryCommandTests : IDisposable
         Assert.Matches(
             "^distance x y z nx ny nz face\n2.5 0.25 0.125 -0.5 -?0 -?0 -1 [0-9]+\nnone\n$", output);
         Assert.Matches("^rays [0-9]+ a second\nface tests [0-9.]+ a ray\nbound tests [0-9.]+ a ray\n$", error);
+    }
+
+    /// <summary>Bounds of a base mesh in a plane beside the origin have no thickness, and must hold their rays by rounding.</summary>
+    [Theory]
+    [InlineData(1, 6, 2)]
+    [InlineData(2, 4, 5)]
+    [InlineData(3, 8, 2)]
+    [InlineData(4, 5, 3)]
+    [InlineData(5, 7, 4)]
+    [InlineData(6, 8, 3)]
+    public void Query_OfRaysAimedAtAFlatBase_HitsAsItsExportDoes(int seed, int mapCount, int depth)
+    {
+        var random = new Random(seed);
+        Vector[] moves = [.. Enumerable.Range(0, mapCount).Select(_ => 2 * random.Vector())];
+        var maps = Enumerable.Range(1, mapCount).Select(i => $"t.{i}.{mapCount + 1}");
+        _folder.Write("flat.obj", "v 0.1 0.7 -0.2\nv 1 0.7 0.3\nv -0.3 0.7 0.9\nf 1 2 3\n");
+        _folder.Write("flat.fdo", $"{string.Concat(moves.Append(0.6 * Vector.One).Select(v => Invariant($"v {v.X:R} {v.Y:R} {v.Z:R}\n")))}"
+            + $"x. \"flat.obj\"\nt.a.b. (a, #, b)\nz<x>. [{string.Join(", ", maps)}] x\n<$>. z {depth}\n");
+        _folder.Write("rays.txt", string.Concat(Enumerable.Range(0, 457).Select(_ => DrawRay())));
+        Assert.Equal(0, Run("export", "flat.fdo", "--output", "all.obj").ExitCode);
+        var expected = Distances("all.obj");
+        var actual = Distances("flat.fdo");
+        Assert.Equal(457, expected.Length);
+        for (var i = 0; i < expected.Length; i++)
+        {
+            // Coordinates of some units, printed with all digits, and rays that cross the plane at a sine of at least 0.07.
+            Assert.True(Math.Abs(actual[i] - expected[i]) <= 1e-13, $"seed {seed}, ray {i}: {actual[i]:R} for {expected[i]:R}");
+        }
+
+        // None misses what it is aimed at, so a distance that is no number is a failure.
+        double[] Distances(string file) =>
+        [
+            .. Run("query", file, "--rays", "rays.txt").Output.Split('\n', StringSplitOptions.RemoveEmptyEntries)
+                .Select(line => line == "none" ? double.NaN : double.Parse(line.Split(' ')[0], CultureInfo.InvariantCulture)),
+        ];
+
+        string DrawRay()
+        {
+            var (u, v) = random.Barycentrics();
+            var point = new Vector(0.1 + (0.9 * u) - (0.4 * v), 0.7, -0.2 + (0.5 * u) + (1.1 * v));
+            for (var level = 0; level < depth; level++)
+            {
+                point = moves[random.Next(mapCount)] + (0.6 * point);
+            }
+
+            var direction = new Vector(random.Between(-1, 1), (random.Next(2) == 0 ? 1 : -1) * random.Between(0.1, 1), random.Between(-1, 1));
+            var (x, y, z) = point - (random.Between(0.5, 4) * direction);
+            return Invariant($"{x:R} {y:R} {z:R} {direction.X:R} {direction.Y:R} {direction.Z:R}\n");
+        }
     }
 
     [Fact]

@@ -18,6 +18,7 @@ public sealed class SliderTimeTests : IDisposable
 
     /// <summary>The limit is ten times what a quiet machine needs, and a tenth of what expanding the fractal would take.</summary>
     [SkippableFact]
+    [Trait("Category", "Soak")]
     public void Edit_OfAFractalOfAMillionFaces_IsShownAtOnce()
     {
         foreach (var (folder, name) in ((string, string)[])[("fractals", "tree.fdo"), ("models", "branch.obj")])
