@@ -122,8 +122,8 @@ public class TurningObjectTests
     }
 
     /// <summary>
-    /// A solid ball that rolls on a disc has the acceleration 2/7·Ω × v, where v is relative to the axis: it goes round in circles, wherever
-    /// the axis is.
+    /// A solid ball that rolls on a disc has the acceleration 2/7·Ω × v, where v is relative to the axis: it goes round in circles,
+    /// wherever the axis is.
     /// </summary>
     [Theory]
     [InlineData(0)]

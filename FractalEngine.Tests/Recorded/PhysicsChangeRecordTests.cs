@@ -129,6 +129,7 @@ public class PhysicsChangeRecordTests
         .. RecordWalk("steps", [PhysicsMeshes.FloorMesh(), .. Steps()], null, static step => (Vector.I, step == 50)),
         .. RecordWalk("slope", [Slope(35), PhysicsMeshes.FloorMesh()], null, static _ => (Vector.I, false)),
         .. RecordWalk("steep", [Slope(60), PhysicsMeshes.FloorMesh()], null, static step => (new(1, 0, 0.2), step % 30 == 0)),
+        .. RecordWalk("downhill", [Slope(-40).Transform(static vertex => vertex - (1.2 * Vector.J))], null, static _ => (Vector.I, false)),
         .. RecordWalk("sponge", [PhysicsMeshes.FloorMesh()], PhysicsMeshes.CreateSponge(2), static step => (new(1, 0, 0.3), step == 10)),
         .. RecordWalk("among balls", [PhysicsMeshes.FloorMesh()], null, static step => (Vector.I, step == 30), null,
             Ball(new(1.2, 0.3, 0), 0.3, 2), Ball(new(2, 0.4, 0.1), 0.4, 3), Compound(new(3, 0.25, 0), Bar, 3)),
@@ -139,6 +140,7 @@ public class PhysicsChangeRecordTests
             static _ => (Vector.Zero, false), static world => world.StaticObjects[1].SetMotion(new(3, 0, 0))),
         .. RecordWalk("under a ceiling", [PhysicsMeshes.FloorMesh(), Shapes.Box(new(new(-9, 2, -9), new(9, 3, 9)))], null,
             static step => (0.5 * Vector.K, step % 7 == 0)),
+        .. RecordContinued(),
     ]);
 
     [Fact]
@@ -175,6 +177,19 @@ public class PhysicsChangeRecordTests
         world.StaticObjects[1].SetMotion(velocity, angularVelocity);
         world.StaticObjects[1].SetBelt(belt);
         return Record(name, world, Few);
+    }
+
+    private static IEnumerable<string> RecordContinued()
+    {
+        var (previous, world) = (OnFloor(), OnFloor());
+        var jumper = previous.AddCharacter(new(new(0, 1, 0), 0.3, 1.8));
+        jumper.IsActive = true;
+        jumper.MoveInput = Vector.I;
+        jumper.Jump();
+        previous.Run(9);
+        world.Continue(previous);
+        world.Character!.IsActive = true;
+        return [new WorldRecorder("continued", world).Line(), .. Record("continued", world, [10, 30])];
     }
 
     private static IEnumerable<string> RecordSleepers()

@@ -62,6 +62,18 @@ public class NeighbourGridTests
         Assert.Equal(isBuilt, Build(bodies).IsBuilt);
     }
 
+    [Fact]
+    public void Bounds_OfTwoSets_HoldBoth()
+    {
+        var first = GridBounds.None.With(new(1, 5, -3), 0.5).With(new(2, 4, 0), 0.25);
+        var second = GridBounds.None.With(new(-1, 6, -2), 0.75);
+        var expected = new GridBounds(new(-1, 4, -3), new(2, 6, 0), 0.75);
+        Assert.Equal(new(new(1, 4, -3), new(2, 5, 0), 0.5), first);
+        Assert.Equal(expected, GridBounds.Union(in first, in second));
+        Assert.Equal(expected, GridBounds.Union(in second, in first));
+        Assert.Equal(first, GridBounds.Union(in first, GridBounds.None));
+    }
+
     private static GraphBody[] CreateBodies(Random random, int count, Vector extent)
     {
         var centre = random.Vector(100);
