@@ -53,7 +53,7 @@ internal static class SimulateCommand
         string path, LoadOptions options, double seconds, double step, long every, ColliderKind? collider, string? output)
     {
         // A time that is shorter than a step takes one.
-        var steps = Math.Max(seconds > 0 ? 1 : 0, Math.Ceiling((seconds / step) - StepTolerance));
+        var steps = Math.Max(1, Math.Ceiling((seconds / step) - StepTolerance));
         if (steps > MaxSteps)
         {
             throw new FractalEngineException(ErrorKind.Limit, FormattableString.Invariant(

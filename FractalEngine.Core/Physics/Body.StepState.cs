@@ -29,6 +29,9 @@ public sealed partial class Body
     /// <summary>Acceleration that remains after contacts have taken their part.</summary>
     internal Vector NetAcceleration { get; set; }
 
+    /// <summary>True for a body that neither moves nor turns, and that contacts hold.</summary>
+    internal bool IsResting => NetAcceleration == Vector.Zero && Velocity == Vector.Zero && AngularVelocity == Vector.Zero;
+
     /// <summary>1/(kilogram · unit²); 0 for a body that does not turn. Of a compound, at least that about any axis.</summary>
     internal double InverseInertia => IsCompound && !Description.IsRotationLocked ? MaxInverseInertia : _inverseInertia;
 

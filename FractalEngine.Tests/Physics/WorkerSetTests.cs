@@ -48,4 +48,56 @@ public class WorkerSetTests
         Assert.Equal("job 7", exception.Message);
         Assert.All(counts, count => Assert.Equal(1, count));
     }
+
+    /// <summary>Two jobs that wait for each other: each call has a second thread, also after a job has failed.</summary>
+    [Fact]
+    public void Run_AgainAndAgain_HasMoreThreadsEachTime()
+    {
+        var workers = new WorkerSet();
+        for (var call = 0; call < 5; call++)
+        {
+            using var barrier = new Barrier(2);
+            var fails = call == 2;
+            void Meet(int i)
+            {
+                // Far longer than any thread waits for a core.
+                Assert.True(barrier.SignalAndWait(TimeSpan.FromSeconds(30)), $"job {i} of call {call} is alone");
+                if (fails)
+                {
+                    throw new InvalidOperationException("failed");
+                }
+            }
+
+            var exception = Record.Exception(() => workers.Run(2, 2, Meet));
+            Assert.Equal(fails ? "failed" : null, exception?.Message);
+        }
+    }
+
+    [Fact]
+    public void Run_WithinAJob_DoesItsJobsOnTheSameThread()
+    {
+        var workers = new WorkerSet();
+        var threads = new int[20, 20];
+        workers.Run(20, 4, i => workers.Run(20, 4, j => threads[i, j] = Environment.CurrentManagedThreadId));
+        for (var i = 0; i < 20; i++)
+        {
+            Assert.Single(Enumerable.Range(0, 20).Select(j => threads[i, j]).Distinct());
+        }
+    }
+
+    [Theory]
+    [InlineData(1, 5)]
+    [InlineData(0, 5)]
+    [InlineData(9, 1)]
+    public void Run_OfOneJobOrOneThread_StaysOnTheCallersThread(int count, int maxThreads)
+    {
+        var own = Environment.CurrentManagedThreadId;
+        var order = new List<int>();
+        new WorkerSet().Run(count, maxThreads, i =>
+        {
+            Assert.Equal(own, Environment.CurrentManagedThreadId);
+            order.Add(i);
+        });
+        Assert.Equal(Enumerable.Range(0, count), order);
+    }
 }

@@ -59,9 +59,8 @@ internal sealed partial class IslandPlanner
         foreach (var index in members)
         {
             var body = bodies[index];
-            var isResting = body.NetAcceleration == Vector.Zero && body.Velocity == Vector.Zero;
-            body.PlannedChange = isResting ? Vector.Zero : _solver.Bodies[index].Velocity - body.Velocity;
-            body.PlannedSpinChange = isResting ? Vector.Zero : _solver.Bodies[index].Spin - body.AngularVelocity;
+            body.PlannedChange = body.IsResting ? Vector.Zero : _solver.Bodies[index].Velocity - body.Velocity;
+            body.PlannedSpinChange = body.IsResting ? Vector.Zero : _solver.Bodies[index].Spin - body.AngularVelocity;
         }
     }
 

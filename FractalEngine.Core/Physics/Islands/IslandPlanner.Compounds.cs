@@ -59,8 +59,7 @@ internal sealed partial class IslandPlanner
             if (body.IsCompound)
             {
                 hasCompound = true;
-                var isResting = body.NetAcceleration == Vector.Zero && body.Velocity == Vector.Zero;
-                body.PlannedTurn = isResting ? Vector.Zero : 0.5 * stepLength * (body.SpinBase + _solver.Bodies[index].Spin);
+                body.PlannedTurn = body.IsResting ? Vector.Zero : 0.5 * stepLength * (body.SpinBase + _solver.Bodies[index].Spin);
             }
         }
 

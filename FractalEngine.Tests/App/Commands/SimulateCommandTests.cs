@@ -138,6 +138,9 @@ public sealed class SimulateCommandTests : IDisposable
     [InlineData("1", "0.3", 4)]
     [InlineData("10", "0.0166667", 600)]
     [InlineData("0.001", "1", 1)]
+    [InlineData("1e-12", "1", 1)]
+    [InlineData("1e-300", "0.1", 1)]
+    [InlineData("3.0000000001", "1", 3)]
     public void Simulate_OfADuration_MakesAsManyStepsAsReachItsEnd(string seconds, string step, int steps) =>
         Assert.Equal(3 * steps, Rows(Run("simulate", "scene.sdo", "--seconds", seconds, "--step", step).Output).Length);
 
