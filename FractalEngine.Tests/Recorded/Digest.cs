@@ -3,7 +3,9 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Tests.Recorded;
 
-/// <summary>Sums up numbers in their order, each with a weight of its own, so that one that changes or two that change places are seen.</summary>
+/// <summary>
+/// Sums up numbers in their order, each with a weight of its own, so that one that changes or two that change places are seen.
+/// </summary>
 internal sealed class Digest
 {
     // The fractional parts of its multiples lie apart (Weyl).
@@ -16,7 +18,8 @@ internal sealed class Digest
     private double _sum;
 
     /// <summary>Adds a coordinate: its order of magnitude, so that large ones don't hide small ones; those below 1e-6 count less.</summary>
-    public Digest Add(double value) => Sum(double.IsFinite(value) ? Math.Asinh(value / Unit) : double.IsNaN(value) ? 0.3 : Math.Sign(value) * 2e3);
+    public Digest Add(double value) =>
+        Sum(double.IsFinite(value) ? Math.Asinh(value / Unit) : double.IsNaN(value) ? 0.3 : Math.Sign(value) * 2e3);
 
     /// <summary>Adds a number of which only 0 is as small as rounding: a bound, or a tolerance.</summary>
     public Digest AddBound(double value) => Sum(value > 0 && double.IsFinite(value) ? Math.Log(value) : value == 0 ? 1e3 : 3e3);

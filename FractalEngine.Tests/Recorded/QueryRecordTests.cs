@@ -17,7 +17,8 @@ public class QueryRecordTests
     [Fact]
     public void Queries_OfFractals_AreAsRecorded() =>
         RecordedText.Check("queries.txt", RecordedShapes.Fractals().SelectMany(shape => Lines(
-            shape.Name, kind => Collider.For(shape.Fractal, kind), shape.Fractal.Bounds, RecordedShapes.TargetsOf(shape.Fractal), shape.Fractal.FaceCount > MaxExpanded)));
+            shape.Name, kind => Collider.For(shape.Fractal, kind), shape.Fractal.Bounds, RecordedShapes.TargetsOf(shape.Fractal),
+            shape.Fractal.FaceCount > MaxExpanded)));
 
     [Fact]
     public void Queries_OfMeshes_AreAsRecorded() =>
@@ -40,10 +41,12 @@ public class QueryRecordTests
         [
             .. RecordedShapes.Fractals().Where(shape => shape.Fractal.Description.Composition == Composition.Affine)
                 .Select(shape => (shape.Name, Collider.For(shape.Fractal), shape.Fractal.Bounds, RecordedShapes.TargetsOf(shape.Fractal))),
-            .. RecordedShapes.Meshes().Select(shape => (shape.Name, Collider.For(shape.Mesh), shape.Mesh.Bounds, RecordedShapes.TargetsOf(shape.Mesh))),
+            .. RecordedShapes.Meshes()
+                .Select(shape => (shape.Name, Collider.For(shape.Mesh), shape.Mesh.Bounds, RecordedShapes.TargetsOf(shape.Mesh))),
         ];
 
-    private static IEnumerable<string> Lines(string name, Func<ColliderKind, Collider> create, BoundingBox box, Func<Random, Vector> target, bool isLarge)
+    private static IEnumerable<string> Lines(
+        string name, Func<ColliderKind, Collider> create, BoundingBox box, Func<Random, Vector> target, bool isLarge)
     {
         var kinds = Enum.GetValues<ColliderKind>().Where(kind => !isLarge || kind is ColliderKind.Exact or ColliderKind.Fractal);
         foreach (var kind in kinds)

@@ -14,11 +14,15 @@ public class RayRecordTests
 
     [Fact]
     public void Rays_AtFractals_AreAsRecorded() => RecordedText.Check(
-        "rays.txt", RecordedShapes.Fractals().Select(shape => Line(shape.Name, () => RayCaster.For(shape.Fractal), shape.Fractal.Bounds, RecordedShapes.TargetsOf(shape.Fractal))));
+        "rays.txt",
+        RecordedShapes.Fractals().Select(shape => Line(
+            shape.Name, () => RayCaster.For(shape.Fractal), shape.Fractal.Bounds, RecordedShapes.TargetsOf(shape.Fractal))));
 
     [Fact]
     public void Rays_AtMeshes_AreAsRecorded() => RecordedText.Check(
-        "mesh-rays.txt", RecordedShapes.Meshes().Select(shape => Line(shape.Name, () => RayCaster.For(shape.Mesh), shape.Mesh.Bounds, RecordedShapes.TargetsOf(shape.Mesh))));
+        "mesh-rays.txt",
+        RecordedShapes.Meshes().Select(shape => Line(
+            shape.Name, () => RayCaster.For(shape.Mesh), shape.Mesh.Bounds, RecordedShapes.TargetsOf(shape.Mesh))));
 
     private static string Line(string name, Func<RayCaster> create, BoundingBox box, Func<Random, Vector> targetOf)
     {
@@ -41,9 +45,11 @@ public class RayRecordTests
         {
             var target = i % 4 == 0 ? box.Centre + (0.5 * random.Vector().Stretch(box.Size)) : targetOf(random);
             var origin = i % 6 == 5 ? box.Centre + (0.4 * random.Vector().Stretch(box.Size)) : box.Centre + (size * random.Direction());
-            var direction = i % 10 == 9 ? (i % 20 == 9 ? -1 : 1) * (i / 10 % 3 == 0 ? Vector.I : i / 10 % 3 == 1 ? Vector.J : Vector.K) : target - origin;
+            var axis = (i / 10 % 3) switch { 0 => Vector.I, 1 => Vector.J, _ => Vector.K };
+            var direction = i % 10 == 9 ? (i % 20 == 9 ? -1 : 1) * axis : target - origin;
             var ray = new Ray(i % 10 == 9 ? target - (size * direction) : origin, random.Between(0.1, 10) * direction);
-            var footprint = i % 5 == 4 || name.StartsWith("infinite", StringComparison.Ordinal) ? new RayFootprint(1e-4 * size, 0.01) : default;
+            bool isWide = i % 5 == 4 || name.StartsWith("infinite", StringComparison.Ordinal);
+            var footprint = isWide ? new RayFootprint(1e-4 * size, 0.01) : default;
             var (least, most) = i % 4 == 3 ? (0.3 * size, 1.1 * size) : (0, double.PositiveInfinity);
             if (caster.TryFindNearest(ray, context, out var hit, least, most, footprint))
             {

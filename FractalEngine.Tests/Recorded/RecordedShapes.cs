@@ -49,7 +49,7 @@ internal static class RecordedShapes
         }
     }
 
-    /// <summary>Positions in and around a box and far away, and every second one within a hundredth of the shape's size of a face.</summary>
+    /// <summary>Positions in and around a box and far away, and every second one near a face.</summary>
     public static Vector[] Positions(Func<Random, Vector> target, BoundingBox box, int seed, int count)
     {
         var random = new Random(seed);

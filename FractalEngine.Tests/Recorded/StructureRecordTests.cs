@@ -35,7 +35,8 @@ public class StructureRecordTests
     [Fact]
     public void VisibleInstances_AreAsRecorded() => Check("visible.txt", fractal =>
     {
-        var culled = CullingViews.CreateObject(fractal) with { GradientKind = (Core.Scenes.GradientKind)(1 + (fractal.BaseMesh.FaceCount % 3)) };
+        var gradient = (Core.Scenes.GradientKind)(1 + (fractal.BaseMesh.FaceCount % 3));
+        var culled = CullingViews.CreateObject(fractal) with { GradientKind = gradient };
         var visible = new VisibleSet();
         var (instances, factors) = (new Digest(), new Digest());
         var total = default(CullingStatistics);
@@ -99,7 +100,8 @@ public class StructureRecordTests
 
     [Fact]
     public void GeneratedMeshes_AreAsRecorded() => RecordedText.Check("generated.txt", MeshGenerators.All.SelectMany(
-        generator => ((ulong, int?)[])[(1, generator.MinFaceCount), (2, Math.Max(1001, generator.MinFaceCount + 1))], (generator, arguments) =>
+        generator => ((ulong, int?)[])[(1, generator.MinFaceCount), (2, Math.Max(1001, generator.MinFaceCount + 1))],
+        (generator, arguments) =>
         {
             var mesh = generator.Create(arguments.Item1, arguments.Item2);
             var positions = new Digest();

@@ -13,7 +13,7 @@ internal static class RandomFractals
     // Oracles that compare maps by one relative tolerance can't tell what these set apart; others draw from all of RandomShapes.
     private const MapTraits BeyondOracles = MapTraits.Outliers | MapTraits.NearlyFlat | MapTraits.LargeScales;
 
-    /// <summary>Creates a fractal that has none of these traits, or one of <see cref="RandomShapes"/> with all that oracles can tell.</summary>
+    /// <summary>Creates one by <see cref="Create"/>, or one of <see cref="RandomShapes"/> with all that oracles can tell.</summary>
     public static Fractal CreateAny(Random random, Composition composition = Composition.Affine) =>
         composition == Composition.Affine && random.Next(2) == 0
             ? RandomShapes.Create(random, MaxInstances, 4 * MaxInstances, BeyondOracles)

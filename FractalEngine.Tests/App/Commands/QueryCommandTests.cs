@@ -126,7 +126,8 @@ public sealed class QueryCommandTests : IDisposable
                 point = moves[random.Next(mapCount)] + (0.6 * point);
             }
 
-            var direction = new Vector(random.Between(-1, 1), (random.Next(2) == 0 ? 1 : -1) * random.Between(0.1, 1), random.Between(-1, 1));
+            var rise = (random.Next(2) == 0 ? 1 : -1) * random.Between(0.1, 1);
+            var direction = new Vector(random.Between(-1, 1), rise, random.Between(-1, 1));
             var (x, y, z) = point - (random.Between(0.5, 4) * direction);
             return Invariant($"{x:R} {y:R} {z:R} {direction.X:R} {direction.Y:R} {direction.Z:R}\n");
         }
