@@ -18,6 +18,15 @@ public sealed class ImageCommandTests : DrawingCommandTests
         Assert.Equal(Pixels("b.png"), Pixels("c.png"));
     }
 
+    [SkippableFact]
+    public void View_WithoutAWindow_DrawsAndSaysSo()
+    {
+        var environment = new Dictionary<string, string?> { ["FRACTALENGINE_NO_WINDOW"] = "1" };
+        var (exitCode, _, error) = AppProcess.Run(Folder.Path, environment, "view", "scene.sdo");
+        Assert.Equal((0, "there is no display for a window, so out/scene.png was drawn instead\n"), (exitCode, error));
+        Assert.NotEmpty(Pixels("out/scene.png"));
+    }
+
     [SkippableTheory]
     [InlineData("front", "(0, 0, -9)")]
     [InlineData("back", "(0, 0, 9)")]

@@ -93,6 +93,19 @@ public class FractalBoundsTests
     });
 
     [Fact]
+    public void Bounds_OfMoreSumsThanAreListed_AreTheSumsWidenedByTheMesh()
+    {
+        var mesh = Samples.Triangle.Transform(v => 3 * v);
+        var half = Samples.MoveAndScale(1, 0, 0, 2) with { Rotation = Vector.I };
+        var fractal = new Fractal(
+            new(
+                [new Repetition([TransformationSet.Of([Samples.Move(0, -1, 0), Samples.Move(1, 0, 2)])], 200), TransformationSet.Of(half)],
+                Composition.Componentwise),
+            mesh);
+        AssertNear(new(new Vector(1, -200, 0) - (6 * Vector.One), new Vector(201, 0, 400) + (6 * Vector.One)), fractal.Bounds, 1e-12);
+    }
+
+    [Fact]
     public void Bounds_OfAnyComponentwiseFractal_AreThoseOfItsExpandedVertices() => Seeded.Run(300, random =>
     {
         var fractal = RandomFractals.Create(random, Composition.Componentwise);

@@ -1,5 +1,6 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Tests.Support;
 
@@ -153,6 +154,15 @@ public class FractalExpansionTests
         Assert.Equal(19_600, FractalGenerator.ExpandComponentwise(fractal, 19_600).Distinct().Count());
         var error = Assert.Throws<FractalLimitException>(() => FractalGenerator.ExpandComponentwise(fractal, 19_599));
         Assert.Contains("19599", error.Message, StringComparison.Ordinal);
+    }
+
+    /// <summary>More vertices than an array holds, though the faces would fit.</summary>
+    [Fact]
+    public void Flatten_BeyondAnArray_IsRefusedBeforeAnythingIsExpanded()
+    {
+        var mesh = new Mesh([.. Enumerable.Range(0, 3_000_000).Select(i => i % 7.0)], [0, 1, 2]);
+        var fractal = new Fractal(Samples.Repeated(10, Samples.Move(1, 0, 0), Samples.MoveAndScale(0, 1, 0, 0.3)).Description, mesh);
+        Assert.Throws<FractalLimitException>(() => FractalGenerator.Flatten(fractal, 1_000_000));
     }
 
     [Fact]

@@ -53,7 +53,7 @@ public sealed class ObjReaderTests : IDisposable
     [InlineData("f 1/1 2/2 3/3\nf 1 2 3\nf 1//1 2//1 3//1 4//1\n")]
     [InlineData("f 1 2 3\nf 1/-1/-1 2/-2/-1 3//-1 4/1\n")]
     [InlineData("usemtl a\nf 1 2 3\nusemtl b\ng x\nf 1 2 3 4\ns 1\no y\n")]
-    [InlineData("v 1 2 3 # comment\nv 1 2 3 .5 .5 .5\r\nv 1 2 \\\n3\nunknown line\nl 1 2\rp 1\n\n")]
+    [InlineData("v 1 2 3 # comment\nv 1 2 3 .5 .5 .5\r\nv 1 2 \\\n3\nunknown line \nvtx 1 2 \nvnx 1 2 3 \nvx 1\nfx 1 2 3\nl 1 2\rp 1\n\n")]
     public void Read_OfBlockBorders_AtAnyPlace_ChangesNothing(string lines)
     {
         var random = new Random(1);

@@ -94,8 +94,8 @@ public sealed class SourceTextTests : IDisposable
     [Fact]
     public void Read_OfLatin1_IsRefusedAtItsPosition()
     {
-        var error = Errors.ThrownBy(() => Read(Encoding.Latin1.GetBytes("# one\n# Größe\n"))).Diagnostic;
-        Assert.Equal((2, 5), (error.Line, error.Column));
+        var error = Errors.ThrownBy(() => Read(Encoding.Latin1.GetBytes("# one\n# two\n# Größe\n"))).Diagnostic;
+        Assert.Equal((3, 5), (error.Line, error.Column));
         Assert.Contains("UTF-8", error.Message, StringComparison.Ordinal);
     }
 
