@@ -165,6 +165,21 @@ public class ExactFractalColliderLimitTests
     public void Create_OfADeepAsset_HasBoundedStorage(string name, int? depth, long expected) => Assert.InRange(
         new ExactFractalCollider(AssetFractals.Load(name, depth)).StorageBytes, expected * 49 / 50, expected * 51 / 50);
 
+    /// <summary>Powers of two change no digits: results at tiny shapes are those at others, scaled.</summary>
+    [Theory]
+    [InlineData(-600)]
+    [InlineData(-500)]
+    public void TryFindClosest_AtATinyShape_ScalesTheErrorBound(int exponent)
+    {
+        var size = Math.ScaleB(1, exponent);
+        var fractal = Fractal.Of(Samples.Tetrahedron.Transform(v => size * v))
+            .Repeat([Samples.MoveAndScale(size, 0, 0, 0.5), Samples.MoveAndScale(0, size, 0, 0.5)], 3);
+        var position = size * new Vector(1, 2, 3);
+        Assert.True(Collider.For(fractal).TryFindClosest(position, double.PositiveInfinity, new(), out var closest));
+        // Some units in the last place of the position.
+        Assert.InRange(closest.ErrorBound, Math.ScaleB(size, -52), Math.ScaleB(size, -40));
+    }
+
     /// <summary>The instance of the set below lies behind identities without end, which no path can name.</summary>
     [Theory]
     [InlineData(true)]
