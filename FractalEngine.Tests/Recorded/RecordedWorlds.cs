@@ -23,7 +23,7 @@ internal static class RecordedWorlds
     public static IEnumerable<string> Record(string name, PhysicsWorld world, int[] steps, Action<int>? beforeEach = null) =>
         new WorldRecorder(name, world).Run(steps, beforeEach);
 
-    /// <summary>Adds much at once.</summary>
+    /// <summary>Adds static meshes, then bodies, in their order.</summary>
     public static PhysicsWorld Fill(this PhysicsWorld world, Mesh[] meshes, BodyDescription[] bodies)
     {
         foreach (var mesh in meshes)

@@ -88,16 +88,11 @@ internal sealed partial class FractalHierarchy
                 }
 
                 var isIdentity = edge.Set == MapSet.Identity;
-                if (isIdentity && childLevels == 0 && remainingLevels > FractalSearchState.MaxDepth)
-                {
-                    // A path that ends early goes on with identities.
-                    reach = SimdAffineMap.ToVector(maxTranslation).MaxAbsComponent();
-                    return map;
-                }
-
-                // Levels that are skipped take their identity. A path that takes it without end can't name what follows.
+                // Levels that are skipped take their identity. A path that ends early goes on with identities, and one that takes them
+                // without end can't name what follows.
                 var lastSkipped = isIdentity ? childLevels : childLevels + 1;
-                end ??= remainingLevels - lastSkipped > FractalLimits.MaxDepth ? context.InstancePath.Length : null;
+                var maxSkipped = isIdentity && childLevels == 0 ? FractalSearchState.MaxDepth : FractalLimits.MaxDepth;
+                end ??= remainingLevels - lastSkipped > maxSkipped ? context.InstancePath.Length : null;
                 for (var level = remainingLevels; level > lastSkipped && end is null; level--)
                 {
                     context.AppendToPath(MapSetAt(level)!.IdentityIndex);
