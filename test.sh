@@ -3,7 +3,8 @@
 # to `dotnet test`.
 # The last line is "N passed, N failed, N skipped", below what was skipped and why. A skip fails the run where installed packages
 # would have run the test; `--allow-skips` is for those who can't have them.
-# `./test.sh mutants [--sample N] [--seed S] [--in FOLDER] [--only ID[,ID]]` says which small faults in the product the tests notice.
+# `./test.sh mutants [--sample N] [--seed S] [--in FOLDER] [--only ID[,ID]] [--faults FILE]` says which small faults in the product
+# the tests notice.
 set -uo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/eng/setup.sh"
 

@@ -39,8 +39,4 @@ internal static class SectionText
             throw new UsageException($"{option}: the normal of the plane must be neither 0 nor beyond the range of numbers");
         }
     }
-
-    /// <summary>Formats a plane as <see cref="Parse"/> reads it, with all digits.</summary>
-    public static string Format(SectionPlane plane) => string.Create(
-        CultureInfo.InvariantCulture, $"{plane.Normal.X:R},{plane.Normal.Y:R},{plane.Normal.Z:R},{plane.Distance:R}");
 }

@@ -21,13 +21,13 @@ internal static class ClosestPointLines
     /// <summary>Creates two lines per body: one to its closest point, and the normal there. Awake bodies come first.</summary>
     /// <remarks>Bodies beyond the limit of physics, or of their collider, have no lines.</remarks>
     /// <param name="world">The world whose bodies are shown.</param>
-    /// <param name="alpha">The fraction of a step since the last one, from 0 to 1; see <see cref="Body.InterpolatedMap"/>.</param>
+    /// <param name="alpha">The fraction of a step since the last one, from 0 to 1.</param>
     public static List<LineSegment> Create(PhysicsWorld world, double alpha)
     {
         var lines = new List<LineSegment>();
         foreach (var body in world.Bodies.OrderBy(static body => body.IsAsleep).Take(MaxBodies))
         {
-            var centre = body.InterpolatedMap(alpha).Translation;
+            var centre = body.PreviousPosition + (alpha * (body.Position - body.PreviousPosition));
             if (TryFindClosest(world, body, centre, out var closest))
             {
                 lines.Add(new(centre, closest.Point, ClosestPointColour));

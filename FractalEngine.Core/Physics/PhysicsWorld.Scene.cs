@@ -1,4 +1,5 @@
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 
 namespace FractalEngine.Core.Physics;
@@ -19,7 +20,8 @@ public sealed partial class PhysicsWorld
                 var original = _scene.Objects[index];
                 var placement = original.Declaration.Placement;
                 var scale = alpha == 1 ? body.Scale : body.PreviousScale + (alpha * (body.Scale - body.PreviousScale));
-                var position = alpha == 1 ? body.Position : body.InterpolatedMap(alpha).Translation;
+                var isAsItStands = alpha == 1 && body.Description.ObjectOffset == Vector.Zero;
+                var position = isAsItStands ? body.Position : body.InterpolatedMap(alpha).Translation;
                 var orientation =
                     alpha == 1 ? body.Orientation : Orientation.Interpolate(body.PreviousOrientation, body.Orientation, alpha);
                 placement = placement with { Position = position, Scale = scale * placement.Scale };

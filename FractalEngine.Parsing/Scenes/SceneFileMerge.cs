@@ -1,5 +1,4 @@
 using System.Text;
-using FractalEngine.Core;
 using FractalEngine.Core.Files;
 using FractalEngine.Parsing.Text;
 
@@ -19,8 +18,9 @@ public static class SceneFileMerge
     /// <returns>The text that the file has now, and the conflicts for which nothing was written.</returns>
     /// <exception cref="IOException">The file can't be read or written, or its folder is missing. It is unchanged then.</exception>
     /// <remarks>
-    /// The file is replaced whole, and only if it is still the one that was merged. Its encoding stays: UTF-8 with or without a byte
-    /// order mark, UTF-16, or bytes that are no text at all.
+    /// The file is replaced whole, and only if it is still the one that was merged. That is asked just before the new file takes
+    /// its name; what another program writes within the microseconds between is lost. Its encoding stays: UTF-8 with or
+    /// without a byte order mark, UTF-16, or bytes that are no text at all.
     /// </remarks>
     public static MergedScene Write(string path, string original, string mine, MergePreference preference = MergePreference.None)
     {
@@ -57,23 +57,10 @@ public static class SceneFileMerge
             return true;
         }
 
-        try
-        {
-            AtomicFile.Write(path, stream =>
-            {
-                stream.Write(after);
-                stream.Flush();
-                if (FileStamp.Of(path) != stamp)
-                {
-                    throw new FileChangedException(path);
-                }
-            });
-            return true;
-        }
-        catch (FileChangedException)
-        {
-            return false;
-        }
+        // Asked last, when the file has only to take its name: between the two no more than the rename lies.
+        var isUnchanged = true;
+        AtomicFile.WriteIf(path, stream => stream.Write(after), () => isUnchanged = FileStamp.Of(path) == stamp);
+        return isUnchanged;
     }
 
     private static byte[] ReadBytes(string path)
@@ -106,6 +93,4 @@ public static class SceneFileMerge
             return Encoding.Latin1.GetString(bytes);
         }
     }
-
-    private sealed class FileChangedException(string path) : FractalEngineException($"{path} has changed while it was written");
 }

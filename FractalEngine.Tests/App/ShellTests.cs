@@ -86,6 +86,10 @@ public sealed class ShellTests : IDisposable
         new AppResult(1, "", "-:1:3: error: the file \"cub.obj\" is not found: did you mean \"cube.obj\"?\n  o \"cub.obj\" #\n    ^\n"),
         RunWithInput("o \"cub.obj\" #", "check", "-"));
 
+    [Fact]
+    public void Check_OfOneCharacterOfStandardInput_ReadsIt() =>
+        Assert.StartsWith("-:1:1: error: ", RunWithInput("?", "check", "-").Error, StringComparison.Ordinal);
+
     [SkippableFact]
     public void Info_OfAClosedStandardInput_DoesNotWait()
     {

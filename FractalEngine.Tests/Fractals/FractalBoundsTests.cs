@@ -99,10 +99,14 @@ public class FractalBoundsTests
         var half = Samples.MoveAndScale(1, 0, 0, 2) with { Rotation = Vector.I };
         var fractal = new Fractal(
             new(
-                [new Repetition([TransformationSet.Of([Samples.Move(0, -1, 0), Samples.Move(1, 0, 2)])], 200), TransformationSet.Of(half)],
+                [
+                    TransformationSet.Of(Samples.MoveAndScale(0, 0, 0, 1.5)),
+                    new Repetition([TransformationSet.Of([Samples.Move(0, -1, 0), Samples.Move(1, 0, 2)])], 200),
+                    TransformationSet.Of(half),
+                ],
                 Composition.Componentwise),
             mesh);
-        AssertNear(new(new Vector(1, -200, 0) - (6 * Vector.One), new Vector(201, 0, 400) + (6 * Vector.One)), fractal.Bounds, 1e-12);
+        AssertNear(new(new Vector(1, -200, 0) - (9 * Vector.One), new Vector(201, 0, 400) + (9 * Vector.One)), fractal.Bounds, 1e-12);
     }
 
     [Fact]

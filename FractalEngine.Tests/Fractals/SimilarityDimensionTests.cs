@@ -32,6 +32,16 @@ public class SimilarityDimensionTests
     public void Of_SetsInARound_MultipliesThem() =>
         Assert.Equal(Math.Log(6) / Math.Log(6), Of(null, Set([1 / 2.0, 1 / 2.0]), Set([1 / 3.0, 1 / 3.0, 1 / 3.0])), 1e-12);
 
+    /// <summary>Two levels of one set and six of another, three by three in a repetition of their own.</summary>
+    [Fact]
+    public void Of_RepetitionsWithinRepetitions_CountsAllTheirLevels()
+    {
+        Repetition Times(int count, FractalStep step) => new([step], count);
+        var round = new Repetition([Times(2, Set([0.5, 0.5, 0.5])), Times(2, Times(3, Set([1 / 3.0, 1 / 3.0])))], 5);
+        var expected = ((2 * Math.Log(3)) + (6 * Math.Log(2))) / ((2 * Math.Log(2)) + (6 * Math.Log(3)));
+        Assert.Equal(expected, SimilarityDimension.Of(new([round]))!.Value, 1e-12);
+    }
+
     /// <summary>A round that stays beside its child instances is the same limit.</summary>
     [Fact]
     public void Of_IdentitiesBesideParts_LeavesThemOut()

@@ -1,3 +1,4 @@
+using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
 using FractalEngine.Core.Physics.Compounds;
@@ -86,6 +87,37 @@ public class CompoundShapeTests
 
         // It is drawn where it was placed.
         Near.Equal(placed.ObjectToWorld.Translation, body.InterpolatedMap(1).Translation, 1e-12);
+    }
+
+    /// <summary>A model may lie anywhere about its origin; the body turns about its centre.</summary>
+    [Fact]
+    public void GetCurrentScene_OfACompoundBesideItsOrigin_HasItWhereItsBallsAre()
+    {
+        var plank = new Mesh([6, 0, 0, 9, 0, 0, 6, 0.4, 0, 6, 0, 0.4], [0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3]);
+        var placed = new PlacedModel(new PhysicsObject(Model.Of(plank))
+        {
+            Placement = new(new(1, 2, 3), new(0, 30, 20), 1.5 * Vector.One), Shape = BodyShape.Capsule, Velocity = new(3, 1, -2),
+        });
+        var world = new PhysicsWorld(new LoadedScene(new(), [placed])) { Gravity = new(0, -10, 0) };
+        world.AddStatic(Model.Of(PhysicsMeshes.Cube)).MoveTo(new(new(0, -100, 0), Vector.Zero, 100 * Vector.One));
+        var body = Assert.Single(world.Bodies);
+        // It falls onto the floor, and turns there.
+        for (var step = 0; step < 300; step++)
+        {
+            world.Step(1.0 / 60);
+        }
+
+        Assert.NotEqual(Orientation.Identity, body.Orientation);
+        foreach (var alpha in (double[])[1, 1 - 1e-9])
+        {
+            var moved = world.GetCurrentScene(alpha).Objects[0];
+            for (var vertex = 0; vertex < plank.VertexCount; vertex++)
+            {
+                var point = moved.ObjectToWorld * plank.Vertex(vertex);
+                Assert.Contains(Enumerable.Range(0, body.BallCount), ball =>
+                    (body.BallCentre(ball) - point).Length() <= body.BallRadius(ball) * 1.04);
+            }
+        }
     }
 
     [Fact]

@@ -6,7 +6,7 @@ using FractalEngine.Render.Ui;
 namespace FractalEngine.Tests.Render;
 
 /// <summary>Tests images that are shown over a frame.</summary>
-[Collection("GL")]
+[Collection(GlTests.Name)]
 public class ImageLayerTests
 {
     private const int Width = 16;

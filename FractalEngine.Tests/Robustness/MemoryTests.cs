@@ -18,14 +18,12 @@ public sealed class MemoryTests : IDisposable
 
     public void Dispose() => _folder.Dispose();
 
-    [Fact]
-    public void Info_OfMillionsOfSums_IsWithinTheMemory() => CheckSums("info", "--prepare");
-
     [Theory]
+    [InlineData("info", "--prepare")]
     [InlineData("info")]
     [InlineData("info", "--composition", "affine")]
     [Trait("Category", "Soak")]
-    public void Info_OfMillionsOfSumsWithOtherOptions_IsWithinTheMemory(params string[] arguments) => CheckSums(arguments);
+    public void Info_OfMillionsOfSums_IsWithinTheMemory(params string[] arguments) => CheckSums(arguments);
 
     [Theory]
     [InlineData("check")]
@@ -36,14 +34,12 @@ public sealed class MemoryTests : IDisposable
         RunWithinMemory("wide.fdo", [command]);
     }
 
-    [Theory]
-    [InlineData(100_000, 1)]
-    [InlineData(47_500, 2)]
-    public void Query_OfManyMaps_IsWithinTheMemory(int maps, int levels)
-    {
-        WriteWideSet(levels, maps);
-        QueryWithinMemory("wide.fdo");
-    }
+    [Fact]
+    public void Query_OfManyMaps_IsWithinTheMemory() => CheckWideQuery(100_000, 1);
+
+    [Fact]
+    [Trait("Category", "Soak")]
+    public void Query_OfManyMapsOnTwoLevels_IsWithinTheMemory() => CheckWideQuery(47_500, 2);
 
     [Fact]
     public void Check_OfTwoWideLevels_IsWithinTheMemory()
@@ -77,6 +73,7 @@ public sealed class MemoryTests : IDisposable
     }
 
     [Fact]
+    [Trait("Category", "Soak")]
     public void Query_OfTwoHundredDifferentLevels_IsWithinTheMemory()
     {
         var text = new StringBuilder();
@@ -113,6 +110,12 @@ public sealed class MemoryTests : IDisposable
 
             """);
         RunWithinMemory("sums.fdo", arguments);
+    }
+
+    private void CheckWideQuery(int maps, int levels)
+    {
+        WriteWideSet(levels, maps);
+        QueryWithinMemory("wide.fdo");
     }
 
     private void QueryWithinMemory(string file)

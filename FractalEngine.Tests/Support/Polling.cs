@@ -10,7 +10,8 @@ internal static class Polling
     /// </summary>
     public static readonly TimeSpan Deadline = TimeSpan.FromSeconds(60);
 
-    private static readonly TimeSpan Interval = TimeSpan.FromMilliseconds(10);
+    // Each look at a window is a process of its own.
+    private static readonly TimeSpan Interval = TimeSpan.FromMilliseconds(25);
 
     /// <summary>Asks again and again until there is an answer.</summary>
     /// <param name="get">Returns null while there is no answer yet.</param>

@@ -1,3 +1,4 @@
+using System.Reflection.PortableExecutable;
 using System.Text.Json;
 using Microsoft.CodeAnalysis;
 using Microsoft.CodeAnalysis.CSharp;
@@ -8,7 +9,7 @@ namespace FractalEngine.Mutants;
 /// <summary>Finds the mutants that don't compile, without a build.</summary>
 internal sealed class Checker
 {
-    // What the SDK imports, as the projects ask it to.
+    // What the SDK imports and grants, as the projects ask it to.
     private const string ImplicitUsings = """
         global using System;
         global using System.Collections.Generic;
@@ -17,6 +18,9 @@ internal sealed class Checker
         global using System.Net.Http;
         global using System.Threading;
         global using System.Threading.Tasks;
+        [assembly: System.Runtime.CompilerServices.InternalsVisibleTo("FractalEngine.Parsing")]
+        [assembly: System.Runtime.CompilerServices.InternalsVisibleTo("FractalEngine.Render")]
+        [assembly: System.Runtime.CompilerServices.InternalsVisibleTo("FractalEngine.App")]
         """;
 
     private static readonly string[] Projects =
@@ -165,10 +169,23 @@ internal sealed class Checker
         return [.. (bracketed.Count > 0 ? bracketed : inMember).Select(one => one.Mutation)];
     }
 
+    private static bool IsManaged(string path)
+    {
+        using var stream = File.OpenRead(path);
+        using var reader = new PEReader(stream);
+        return reader.HasMetadata;
+    }
+
     private static List<MetadataReference> References(string tree)
     {
-        var paths = ((string)AppContext.GetData("TRUSTED_PLATFORM_ASSEMBLIES")!).Split(Path.PathSeparator)
-            .Where(path => !Path.GetFileName(path).StartsWith("Microsoft.CodeAnalysis", StringComparison.Ordinal)).ToList();
+        // As the SDK has them: the runtime's own lack the fields by which a variable of ImmutableArray can be unassigned.
+        string runtime = Path.GetDirectoryName(typeof(object).Assembly.Location)!;
+        string packs = Path.GetFullPath(Path.Combine(runtime, "../../../packs/Microsoft.NETCore.App.Ref"));
+        string assemblies = Directory.Exists(packs)
+            ? Directory.EnumerateDirectories(packs, "10.*").Select(pack => Path.Combine(pack, "ref/net10.0"))
+                .FirstOrDefault(Directory.Exists, runtime)
+            : runtime;
+        var paths = Directory.EnumerateFiles(assemblies, "*.dll").Where(IsManaged).ToList();
         using var assets = JsonDocument.Parse(File.ReadAllText(Path.Combine(tree, "FractalEngine.App/obj/project.assets.json")));
         var folders = assets.RootElement.GetProperty("packageFolders").EnumerateObject().Select(folder => folder.Name).ToList();
         foreach (var library in assets.RootElement.GetProperty("targets").EnumerateObject().First().Value.EnumerateObject())

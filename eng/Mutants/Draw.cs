@@ -67,6 +67,13 @@ internal sealed class Draw
         _left["chosen"] = new();
     }
 
+    /// <summary>Takes faults besides. One that doesn't compile isn't replaced.</summary>
+    public void Add(IEnumerable<Mutation> faults)
+    {
+        _drawn.AddRange(faults);
+        _left[HandFaults.Group] = new();
+    }
+
     /// <summary>The mutants drawn so far.</summary>
     public IReadOnlyList<Mutation> Drawn => _drawn;
 

@@ -8,26 +8,27 @@ namespace FractalEngine.Mutants;
 /// <param name="Seed">Seed of the draw.</param>
 /// <param name="In">Folder to draw all mutants from, relative to the checkout; null for the five groups.</param>
 /// <param name="Only">Mutants to test, in place of a draw.</param>
+/// <param name="Faults">A list of faults to test beside the draw, or null.</param>
 /// <param name="Report">A further file for the report, or null.</param>
 /// <param name="Workers">Number of mutants that are tested at the same time.</param>
 /// <param name="Cap">Seconds of tests, as recorded, that one mutant gets.</param>
 /// <param name="AllowChance">Whether a share that may be due to the small sample passes.</param>
 /// <param name="Fresh">Whether results of earlier runs are thrown away.</param>
 internal sealed record Options(
-    string Root, int Sample, string Seed, string? In, IReadOnlyList<string> Only, string? Report, int Workers, double Cap,
+    string Root, int Sample, string Seed, string? In, IReadOnlyList<string> Only, string? Faults, string? Report, int Workers, double Cap,
     bool AllowChance, bool Fresh)
 {
     /// <summary>What is printed with a wrong command line.</summary>
     public const string Usage = """
-        usage: ./test.sh mutants [--sample N] [--seed S] [--in FOLDER] [--only ID[,ID]] [--report FILE]
-               [--workers N] [--cap SECONDS] [--allow-chance] [--fresh]
+        usage: ./test.sh mutants [--sample N] [--seed S] [--in FOLDER] [--only ID[,ID]] [--faults FILE]
+               [--report FILE] [--workers N] [--cap SECONDS] [--allow-chance] [--fresh]
         """;
 
     /// <summary>Reads the command line.</summary>
     /// <exception cref="ArgumentException">An option is unknown, or its value can't be used.</exception>
     public static Options Parse(string[] arguments)
     {
-        var options = new Options(FindRoot(), 500, "1", null, [], null, 2, 120, false, false);
+        var options = new Options(FindRoot(), 500, "1", null, [], null, null, 2, 120, false, false);
         for (int i = 0; i < arguments.Length; i++)
         {
             string name = arguments[i];
@@ -38,6 +39,11 @@ internal sealed record Options(
                 "--seed" => options with { Seed = Value() },
                 "--in" => options with { In = Value().Trim('/') },
                 "--only" => options with { Only = Value().Split(',', StringSplitOptions.RemoveEmptyEntries) },
+                // No draw but where one is asked for as well.
+                "--faults" => options with
+                {
+                    Faults = Path.GetFullPath(Value()), Sample = arguments.Contains("--sample") ? options.Sample : 0,
+                },
                 "--report" => options with { Report = Path.GetFullPath(Value()) },
                 "--workers" => options with { Workers = Number(name, Value()) },
                 "--cap" => options with { Cap = Number(name, Value()) },

@@ -98,6 +98,8 @@ internal static class Program
         string what = options.Only.Count > 0
             ? $"only {string.Join(',', options.Only)}"
             : string.Create(CultureInfo.InvariantCulture, $"{options.Sample} {options.Seed} {options.In}");
+        var faults = options.Faults is null ? [] : HandFaults.Read(options.Faults, workspace.Sources);
+        what += options.Faults is null ? "" : $" {Hashing.Hex(File.ReadAllText(options.Faults), 16)}";
         string tree = Path.Combine(workspace.Folder, options.Only.Count > 0 ? "only" : "tree");
         string state = Path.Combine(workspace.Folder, "states", Hashing.Hex($"{what}|{workspace.TestedHash}", 16));
         if (options.Fresh && Directory.Exists(state))
@@ -113,13 +115,13 @@ internal static class Program
         List<Mutation> mutations;
         if (File.Exists(drawn))
         {
-            mutations = ReadDrawn(drawn, sites);
+            mutations = ReadDrawn(drawn, sites, faults);
         }
         else
         {
             workspace.Copy(tree, new Dictionary<string, string>());
             TestProcess.Dotnet(tree, "restore", "FractalEngine.Tests", "-v", "quiet", "-nodeReuse:false");
-            mutations = DrawMutations(options, workspace, sites, tree);
+            mutations = DrawMutations(options, workspace, sites, faults, tree);
             File.WriteAllLines(drawn, mutations.Select(one => $"{one.Id}\t{one.Form}\t{one.Group}"));
         }
 
@@ -127,7 +129,8 @@ internal static class Program
         return (mutations, state, tree);
     }
 
-    private static List<Mutation> DrawMutations(Options options, Workspace workspace, List<Site> sites, string tree)
+    private static List<Mutation> DrawMutations(
+        Options options, Workspace workspace, List<Site> sites, List<Mutation> faults, string tree)
     {
         Draw draw;
         if (options.Only.Count > 0)
@@ -146,8 +149,14 @@ internal static class Program
             draw = new Draw(sites, options.In is null ? Group.All : [Group.Of(options.In)], options.Sample, options.Seed);
         }
 
+        draw.Add(faults);
         int replaced = new Checker(workspace.Sources, workspace.Text(MutantFile), tree).Settle(draw);
         Say($"drew {draw.Drawn.Count} mutants; {replaced} that don't compile were replaced");
+        foreach (var fault in faults.Except(draw.Drawn))
+        {
+            Say($"doesn't compile, and is left out: {fault.Site.Path}: {fault.Site.OneLine} -> {fault.Change.Text}");
+        }
+
         var mutations = draw.Drawn.OrderBy(one => one.Site.Path, StringComparer.Ordinal).ThenBy(one => one.Site.Span.Start)
             .ThenBy(one => one.Id, StringComparer.Ordinal).ToList();
         for (int i = 0; i < mutations.Count; i++)
@@ -158,10 +167,10 @@ internal static class Program
         return mutations;
     }
 
-    private static List<Mutation> ReadDrawn(string file, List<Site> sites)
+    private static List<Mutation> ReadDrawn(string file, List<Site> sites, List<Mutation> faults)
     {
-        var byId = sites.SelectMany(site => site.Changes.Select(change => new Mutation(site, change))).DistinctBy(one => one.Id)
-            .ToDictionary(one => one.Id);
+        var byId = sites.SelectMany(site => site.Changes.Select(change => new Mutation(site, change))).Concat(faults)
+            .DistinctBy(one => one.Id).ToDictionary(one => one.Id);
         var mutations = new List<Mutation>();
         foreach (string[] parts in File.ReadLines(file).Select(line => line.Split('\t')))
         {

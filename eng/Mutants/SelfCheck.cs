@@ -63,12 +63,33 @@ internal static class SelfCheck
         Expect(sites.Count.ToString(), all.Select(one => one.Site).Distinct().Count().ToString());
         Expect(all.Count.ToString(), sites.Count.ToString());
 
+        CheckFaultsByHand();
         var form = new Mutation(sites.Find(site => site.Original == "-step")!, new("- dropped", "step")) { Number = 7 };
         string text = Instrumenter.Write(Source, [form]).Text;
         ExpectPart("(global::FractalEngineMutants.Mutant.Is(7) ? (step) : (-step))", text);
         form.Form = Form.Body;
         text = Instrumenter.Write(Source, [form]).Text;
         ExpectPart("{ if (global::FractalEngineMutants.Mutant.Is(7)) {", text);
+    }
+
+    private static void CheckFaultsByHand()
+    {
+        const string Path = "FractalEngine.Parsing/Counter.cs";
+        string file = System.IO.Path.GetTempFileName();
+        try
+        {
+            File.WriteAllText(file, $"{Path}\t_count += step;\t\n{Path}\tApply(_count, 2.5);\tApply(_count, 2);\tRounded.\n");
+            var faults = HandFaults.Read(file, new Dictionary<string, string> { [Path] = Source });
+            faults[1].Number = 1;
+            string text = Instrumenter.Write(Source, faults).Text;
+            ExpectPart("Mutant.Is(1)) { Apply(_count, 2); } else { Apply(_count, 2.5); } }", text);
+            Expect("True", (SiteFinder.At(Path, Source, "int _count") is null).ToString());
+            Expect("True", (SiteFinder.At(Path, Source, "step") is null).ToString());
+        }
+        finally
+        {
+            File.Delete(file);
+        }
     }
 
     private static void ExpectPart(string part, string text) => Expect(part, text.Contains(part, StringComparison.Ordinal) ? part : text);

@@ -42,6 +42,26 @@ internal sealed class SiteFinder : CSharpSyntaxWalker
         return finder._sites;
     }
 
+    /// <summary>Returns the place of a fragment, whose member is to stand twice; null unless it occurs once and in a body.</summary>
+    /// <param name="path">Path relative to the checkout, with slashes.</param>
+    /// <param name="source">Text of the file.</param>
+    /// <param name="fragment">Text within a member's body.</param>
+    public static Site? At(string path, string source, string fragment)
+    {
+        int start = source.IndexOf(fragment, StringComparison.Ordinal);
+        if (fragment.Length == 0 || start < 0 || source.IndexOf(fragment, start + 1, StringComparison.Ordinal) >= 0)
+        {
+            return null;
+        }
+
+        var (member, body) = Surroundings(CSharpSyntaxTree.ParseText(source, Parsing.Options).GetRoot().FindToken(start).Parent!);
+        // The semicolon after an arrow's expression belongs to the member.
+        var span = TextSpan.FromBounds(start, Math.Min(start + fragment.Length, body?.Expression?.End ?? int.MaxValue));
+        return body is not null && (body.Expression ?? body.Span).Contains(span)
+            ? new Site { Path = path, Member = member, Span = span, Original = source[span.Start..span.End], Form = Form.Body, Body = body }
+            : null;
+    }
+
     public override void Visit(SyntaxNode? node)
     {
         if (node is null || IsConstant(node))

@@ -44,6 +44,7 @@ public sealed class RecordedCommandTests : IDisposable
             """);
         folder.Write("inner/out.sdo", "o \"../cube.obj\" #\n");
         folder.Write("points.txt", "# three\n0 0 5\n2, 0.2, 0.1\n\n0.1 -3 0 # below\n");
+        folder.Write("ray.txt", "0 0 5 0 0 -1\n");
         folder.Write("rays.txt", "0 0 5 0 0 -1\n0.1 0.2 -4, 0 0 2\n9 9 9 1 0 0\n");
         folder.Write("one.txt", "0 0 5\n");
         folder.Write(
@@ -124,7 +125,8 @@ public sealed class RecordedCommandTests : IDisposable
         "query blank.sdo --points points.txt", "query row.fdo --points bad.txt", "query row.fdo --points missing.txt",
         "query row.fdo", "query row.fdo --points points.txt --rays rays.txt", "query row.fdo --rays rays.txt",
         "query row.fdo --rays rays.txt --json", "query row.fdo --rays rays.txt --header", "query scene.sdo --rays rays.txt --json",
-        "query row.fdo --rays none.txt", "query row.fdo --rays none.txt --json", "query row.fdo --rays none.txt --header",
+        "query row.fdo --rays none.txt", "query row.fdo --rays ray.txt",
+        "query row.fdo --rays none.txt --json", "query row.fdo --rays none.txt --header",
         "query row.fdo --rays points.txt", "query row.fdo --rays rays.txt --epsilon 1", "query row.fdo --rays rays.txt --json --header",
         "query blank.sdo --rays rays.txt", "query - --points -", "query - --rays -", "query missing.fdo --points points.txt");
 

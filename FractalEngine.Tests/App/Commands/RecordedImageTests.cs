@@ -25,6 +25,10 @@ public sealed class RecordedImageTests : IDisposable
         _transcript.Folder.Write("numbered.obj", File.ReadAllText(_transcript.Folder["m.obj"]).Replace("m.mtl", "numbered.mtl",
             StringComparison.Ordinal));
         _transcript.Folder.Write("numbered.mtl", "newmtl a\nmap_Kd b-0002.png\nnewmtl b\nmap_Kd b-0000.png\n");
+        _transcript.Folder.Write("first.obj", "mtllib first.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n");
+        _transcript.Folder.Write("first.mtl", "newmtl a\nmap_Kd d-0001.png\n");
+        _transcript.Folder.Write("pair.fdo", SampleFiles.Row("1"));
+        File.Copy(_transcript.Folder["a.png"], _transcript.Folder["d-0001.png"]);
         File.Copy(_transcript.Folder["a.png"], _transcript.Folder["b-0002.png"]);
         File.Copy(_transcript.Folder["a.png"], _transcript.Folder["b-0000.png"]);
     }
@@ -72,7 +76,8 @@ public sealed class RecordedImageTests : IDisposable
         "render scene.sdo -o a.png --trace 1 --resolution 8x1000001", "render scene.sdo -o a.png --trace 1 --resolution 8193x8192",
         "render scene.sdo -o a.png --trace 1 --resolution 8x8x8", "render scene.sdo -o a.png --trace 1 --resolution \" 8x8\"",
         "render scene.sdo -o a.png --trace 1 --resolution 1x1", "render scene.sdo -o a.png --trace 1 --resolution 3x2 --resolution 4x2",
-        "render scene.sdo -o b.png --trace 1 --resolution 3x2 --trace 2", "render scene.sdo -o b.png --samples 33",
+        "render scene.sdo -o b.png --trace 1 --resolution 3x2 --trace 2", "render row.fdo -o q.png --resolution 3x2 --trace",
+        "render scene.sdo -o b.png --samples 33",
         "render scene.sdo -o b.png --samples -1", "render scene.sdo -o b.png --detail 1001", "render scene.sdo -o b.png --detail -0.1",
         "render scene.sdo -o b.png --instances 0", "render scene.sdo -o b.png --instances 100000001",
         "render scene.sdo -o b.png --shading flat",
@@ -103,7 +108,8 @@ public sealed class RecordedImageTests : IDisposable
         "animate scene.sdo -o h.apng --turntable --fps 0.001", "animate scene.sdo -o h.apng --turntable --seed 1",
         "animate scene.sdo -o h.apng --turntable --keep-partial", "animate scene.sdo --turntable",
         "animate numbered.obj -o b.png --turntable --frames 2 --trace 1", "animate numbered.obj -o b.png --turntable --frames 1 --trace 1",
-        "animate row.fdo -o h.apng --zoom 5 --frames 2 --trace 1",
+        "animate first.obj -o d.png --turntable --frames 2 --trace 1",
+        "animate row.fdo -o h.apng --zoom 5 --frames 2 --trace 1", "animate pair.fdo -o h.apng --zoom 5 --frames 2 --trace 1",
         "animate row.fdo -o h.apng --turntable --trace 1 --background transparent");
 
     /// <summary>The encoder itself is a large package; here another program takes its name, and writes what it was asked.</summary>

@@ -10,6 +10,9 @@ namespace FractalEngine.Tests.App.Window;
 /// <summary>A process of the program whose window xdotool drives.</summary>
 internal sealed partial class DrivenWindow : IDisposable
 {
+    /// <summary>The collection of all tests that drive windows: one window at a time has the keyboard.</summary>
+    public const string Collection = "driven windows";
+
     private readonly Process _process;
     private readonly List<string> _errorLines = [];
     private readonly string _folder;

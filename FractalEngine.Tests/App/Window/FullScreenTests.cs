@@ -4,7 +4,7 @@ using FractalEngine.Tests.Support;
 namespace FractalEngine.Tests.App.Window;
 
 /// <summary>Tests the full screen under a window manager, without which no window can leave it again.</summary>
-[Collection("GL")]
+[Collection(DrivenWindow.Collection)]
 public sealed class FullScreenTests : IDisposable
 {
     private readonly TemporaryFolder _folder = new();

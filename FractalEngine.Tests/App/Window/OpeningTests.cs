@@ -4,7 +4,7 @@ using FractalEngine.Tests.Support;
 namespace FractalEngine.Tests.App.Window;
 
 /// <summary>Opens files from a driven window.</summary>
-[Collection("GL")]
+[Collection(DrivenWindow.Collection)]
 public sealed class OpeningTests : IDisposable
 {
     private const string Warning = "missing.mtl";

@@ -6,7 +6,7 @@ using FractalEngine.Tests.Support;
 namespace FractalEngine.Tests.App.Window;
 
 /// <summary>Tests menus and panels of the window as a process, driven by xdotool.</summary>
-[Collection("GL")]
+[Collection(DrivenWindow.Collection)]
 public sealed class PanelWindowTests : IDisposable
 {
     private const string Warning = "missing.mtl";

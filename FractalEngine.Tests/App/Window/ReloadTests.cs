@@ -5,7 +5,7 @@ using FractalEngine.Tests.Support;
 namespace FractalEngine.Tests.App.Window;
 
 /// <summary>Changes files below a driven window, in the ways of many editors, and looks at what it shows.</summary>
-[Collection("GL")]
+[Collection(DrivenWindow.Collection)]
 public sealed class ReloadTests : IDisposable
 {
     private const string Warning = "missing.mtl";

@@ -5,7 +5,7 @@ using FractalEngine.Tests.Support;
 namespace FractalEngine.Tests.App.Window;
 
 /// <summary>Saves from a driven window while the file is edited elsewhere.</summary>
-[Collection("GL")]
+[Collection(DrivenWindow.Collection)]
 public sealed class SavingTests : IDisposable
 {
     private const string Warning = "missing.mtl";

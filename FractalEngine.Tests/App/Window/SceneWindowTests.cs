@@ -11,7 +11,7 @@ namespace FractalEngine.Tests.App.Window;
 /// <summary>
 /// Tests the window as users see it: a process on the display of the tests, driven with keys, mouse and resizes by xdotool.
 /// </summary>
-[Collection("GL")]
+[Collection(DrivenWindow.Collection)]
 public sealed class SceneWindowTests : IDisposable
 {
     // The program warns of the missing file as soon as it shows the cube.

@@ -6,7 +6,7 @@ using FractalEngine.Tests.Support;
 namespace FractalEngine.Tests.App.Window;
 
 /// <summary>Tests sections, handles and the numbers of panels in the window as a process, driven by xdotool.</summary>
-[Collection("GL")]
+[Collection(DrivenWindow.Collection)]
 public sealed class ToolWindowTests : IDisposable
 {
     private const string Scene =

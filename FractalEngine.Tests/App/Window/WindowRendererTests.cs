@@ -4,12 +4,13 @@ using FractalEngine.Parsing.Assets;
 using FractalEngine.Render;
 using FractalEngine.Render.Preparation;
 using FractalEngine.Render.Windowing;
+using FractalEngine.Tests.Render;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.App.Window;
 
 /// <summary>Tests the frames that a window draws while the camera moves and when it stands still.</summary>
-[Collection("GL")]
+[Collection(GlTests.Name)]
 public sealed class WindowRendererTests : IDisposable
 {
     private const int Width = 160;

@@ -5,7 +5,7 @@ using FractalEngine.Tests.Support;
 namespace FractalEngine.Tests.App.Window;
 
 /// <summary>Hard use of driven windows: kills while saving, random input, many sizes.</summary>
-[Collection("GL")]
+[Collection(DrivenWindow.Collection)]
 public sealed class WindowSoakTests : IDisposable
 {
     private const string Warning = "missing.mtl";

@@ -1,7 +1,7 @@
 namespace FractalEngine.Tests.App.Window.Interactions;
 
 /// <summary>Each interaction of the table, in a window of its own that real X events drive.</summary>
-[Collection("GL")]
+[Collection(DrivenWindow.Collection)]
 public class InteractionTests
 {
     public static TheoryData<string> Some => [.. InteractionTable.Default];

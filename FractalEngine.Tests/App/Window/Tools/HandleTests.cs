@@ -92,10 +92,12 @@ public class HandleTests
         }
     });
 
-    [Fact]
-    public void LengthOf_Pixels_IsProjectedBack()
+    [Theory]
+    [InlineData(Projection.Perspective)]
+    [InlineData(Projection.Orthographic)]
+    public void LengthOf_Pixels_IsProjectedBack(Projection projection)
     {
-        var view = new View(new(new(0, 0, -5), Vector.Zero, 60), Projection.Perspective);
+        var view = new View(new(new(0, 0, -5), Vector.Zero, 60), projection) { OrthographicHeight = 7 };
         var pointer = new PointerMath(view, Size.Width, Size.Height);
         var length = pointer.LengthOf(80, Vector.Zero);
         Assert.Equal(80, pointer.Project(length * Vector.I)!.Value.X - pointer.Project(Vector.Zero)!.Value.X, 1e-9);
