@@ -6,7 +6,7 @@ internal static class HandFaults
     /// <summary>Name of their group, of which the report demands its own share.</summary>
     public const string Group = "by hand";
 
-    /// <summary>Reads a list of faults.</summary>
+    /// <summary>Reads a list of faults, each as a mutant of the member around its fragment.</summary>
     /// <param name="file">A line for each: path, fragment that occurs once in that file, and its replacement, with tabs between.</param>
     /// <param name="sources">All C# files of the product by their paths.</param>
     /// <exception cref="ArgumentException">A line is no fault: the message says why.</exception>
