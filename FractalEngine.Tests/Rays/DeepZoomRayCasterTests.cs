@@ -86,10 +86,20 @@ public class DeepZoomRayCasterTests
         Assert.InRange(Allocation.Measure(cast), 0, 200);
     }
 
-    [Fact]
-    public void GradientFactorOf_SomeLevelsDeep_IsThatOfTheWholeFractal()
+    [Theory]
+    [InlineData(false)]
+    [InlineData(true)]
+    public void GradientFactorOf_SomeLevelsDeep_IsThatOfTheWholeFractal(bool hasTwoSets)
     {
         var fractal = FractalAddressTests.CreateInfinite("menger").WithDepth(6);
+        if (hasTwoSets)
+        {
+            // The same shape by turns with and without another map far away: a place in the one is another in the other.
+            var set = (TransformationSet)((Repetition)fractal.Description.Steps[0]).Body[0];
+            TransformationSet larger = new([.. set.Transformations, Samples.MoveAndScale(40, 0, 0, 0.01)]);
+            fractal = new(new([new Repetition([set, larger], 3)]), fractal.BaseMesh);
+        }
+
         var whole = RayCaster.For(fractal);
         var dive = new FractalDive(LodHierarchy.Build(fractal), 7, AffineMap.Identity, new(-1, 1, 0.8));
         dive.GoToDepth(3);

@@ -30,6 +30,32 @@ public class SceneRayCasterTests
     }
 
     [Fact]
+    public void WithObject_OfManyObjectsThatChangePlaces_StaysAsFastAsTheSceneMadeAnew()
+    {
+        // Each goes to the other end of a row: boxes of what was near would then be as long as the row.
+        const int Count = 256;
+        var model = Model.Of(Samples.Tetrahedron);
+        var places = Enumerable.Range(0, Count).Select(i => (i * 97) % Count).ToArray();
+        SceneObject At(int place) => new(model) { Placement = Samples.Move(2 * place, 0, 0) };
+        var caster = new SceneRayCaster(new Scene { Objects = [.. Enumerable.Range(0, Count).Select(At)] });
+        for (var i = 0; i < Count; i++)
+        {
+            caster = caster.WithObject(i, new(At(places[i]), model));
+        }
+
+        var anew = new SceneRayCaster(new Scene { Objects = [.. places.Select(At)] });
+        var (moved, built) = (new QueryContext(), new QueryContext());
+        Seeded.Run(200, random =>
+        {
+            var ray = new Ray(new(random.Between(0, 2 * Count), 0.1, -2), new(random.Between(-0.1, 0.1), 0, 1));
+            var isHit = anew.TryFindNearest(ray, built, out var expected, out var expectedIndex);
+            Assert.Equal(isHit, caster.TryFindNearest(ray, moved, out var hit, out var index));
+            Assert.Equal((expectedIndex, expected), (index, hit));
+        });
+        Assert.InRange(moved.Statistics.BoundTests, 1, 3 * built.Statistics.BoundTests);
+    }
+
+    [Fact]
     public void WithObject_OfWrongArguments_IsRefused()
     {
         var scene = LoadedScene.Of(new Scene { Objects = [new(Samples.Tetrahedron)] });

@@ -26,6 +26,22 @@ public class ExactFractalColliderTests
         }
     });
 
+    [Fact]
+    public void TryFindClosest_OnSetsBesideInnerRepetitions_EqualsBruteForce() => Seeded.Run(40, random =>
+    {
+        // A round has more levels than steps. Of more than two rounds, those that recur are not built again.
+        var set = TransformationSet.Of(random.Transformation());
+        var inner = new Repetition([TransformationSet.Of([random.Transformation(), random.Transformation()])], 2);
+        FractalStep[] body = random.Next(2) == 0 ? [set, inner] : [inner, set];
+        var fractal = new Fractal(new([new Repetition([.. body], random.Next(3, 6))]), Samples.Tetrahedron);
+        var collider = new ExactFractalCollider(fractal);
+        var oracle = new SimpleCollider(FractalGenerator.Flatten(fractal, 10_000_000));
+        for (var query = 0; query < 12; query++)
+        {
+            Check(collider, oracle, fractal, RandomPosition(random, fractal));
+        }
+    });
+
     [Theory]
     [InlineData(1)]
     [InlineData(2)]

@@ -51,6 +51,9 @@ public class CarriedCharacterTests
         world.Run(120);
         Near.Equal(new(3 * Math.Cos(1), 0.9, -3 * Math.Sin(1)), walker.Position, 1e-6);
         Near.Equal(1, walker.CarriedAngle, 1e-12);
+        Near.Equal(1 - (0.5 / 60), walker.PreviousCarriedAngle, 1e-12);
+        walker.Teleport(new(3, 0.9, 0));
+        Assert.Equal((0.0, 0.0), (walker.CarriedAngle, walker.PreviousCarriedAngle));
     }
 
     [Fact]
@@ -64,6 +67,20 @@ public class CarriedCharacterTests
         walker.Jump();
         world.Run(60, () => highest = Math.Max(highest, walker.Position.Y));
         var speed = walker.Description.JumpSpeed(9.8) + 2;
+        Near.Equal(speed * speed / 19.6, highest - start, 0.05);
+    }
+
+    [Fact]
+    public void Jump_FromASinkingLift_IsAsFastAsFromTheGround()
+    {
+        var walker = CreateOn(new(4, 1, 4), out var world, out var lift);
+        lift.SetMotion(new(0, -2, 0));
+        world.Run(10);
+        var start = walker.Position.Y;
+        var highest = start;
+        walker.Jump();
+        world.Run(60, () => highest = Math.Max(highest, walker.Position.Y));
+        var speed = walker.Description.JumpSpeed(9.8);
         Near.Equal(speed * speed / 19.6, highest - start, 0.05);
     }
 

@@ -144,6 +144,37 @@ public class PathTracerTests
         Assert.Equal(LightOfFogBehindGlass, Mean(tracer), 0.005);
     }
 
+    [Theory]
+    [InlineData(4.5, 0.75)]
+    [InlineData(5.5, 0)]
+    [InlineData(0.5, 1)]
+    public void Transmittance_OfGlassAndALid_IsOfWhatStandsBeforeTheLight(double distance, double expected)
+    {
+        var pane = Matt(Quad(new(-5, 1, -5), new(-5, 1, 5), new(5, 1, 5), new(5, 1, -5)), Colour.Black, opacity: 0.25);
+        var lid = Matt(Quad(new(-5, 5, -5), new(-5, 5, 5), new(5, 5, 5), new(5, 5, -5)), Colour.Black);
+        var scene = new TracedScene(LoadedScene.Of(Scene([WhiteSky], pane, lid)), new());
+
+        Assert.Equal(expected, scene.Transmittance(new(new(0.3, 0, 0.2), Vector.J), default, distance, new()), 1e-12);
+    }
+
+    [Theory]
+    [InlineData(20, false)]
+    [InlineData(60, true)]
+    public void Reflected_InASmallerUnit_IsDarkBehindWhatStandsBeforeTheLight(double height, bool isLit)
+    {
+        // The light is 4 units of the world above the floor, which are 40 of the traced scene's.
+        var lid = Matt(Quad(new(-5, height, -5), new(-5, height, 5), new(5, height, 5), new(5, height, -5)), Colour.Black);
+        var loaded = LoadedScene.Of(Scene([new PointLight(new(0, 4, 0), Colour.White, 1, 40)], lid));
+        var surface = new TracedSurface(Vector.Zero, Vector.J, Vector.J, Vector.One, Vector.Zero, 1, Vector.Zero, 1);
+        var samples = new SampleSequence(0, 0, 0);
+
+        var light = new TracedLights(loaded).Reflected(
+            in surface, Vector.Zero, new(0, 1e-6, 0), Vector.J, 0, new(loaded, new()), 0.1, ref samples, new());
+
+        Assert.Equal(isLit, light.X > 0.1);
+        Assert.Equal(isLit, light != Vector.Zero);
+    }
+
     /// <summary>The light of white fog before a black pane at 2 units, and, through it, before a black wall at 5.</summary>
     internal static double LightOfFogBehindGlass => (0.25 * (1 - Math.Exp(-0.2 * 2))) + (0.75 * (1 - Math.Exp(-0.2 * 5)));
 
