@@ -38,6 +38,7 @@ soak=
 [ -n "$allow_skips" ] && [ "$packages" = soak ] && packages=tests
 install_packages "$packages"
 build FractalEngine.Tests
+use_ready_program
 
 results="$(mktemp -d)"
 trap 'rm -rf "$results"' EXIT

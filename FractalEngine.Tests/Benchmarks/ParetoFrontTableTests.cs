@@ -52,6 +52,7 @@ public sealed class ParetoFrontTableTests : IDisposable
     }
 
     [Fact]
+    [Trait("Category", "Soak")]
     public void Add_OfAFractalOfTooManyFaces_HasNoErrors()
     {
         var table = Measure(BenchmarkShape.Create("infinite-menger"));

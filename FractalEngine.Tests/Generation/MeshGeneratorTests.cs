@@ -17,11 +17,8 @@ public sealed class MeshGeneratorTests
     [Theory]
     [InlineData("spaceship-interior", 277_654)]
     [InlineData("tree-stump", 237_664)]
-    public void PaperModel_ByDefault_HasExactlyThePapersFaces(string name, int faces)
-    {
+    public void PaperModel_ByDefault_HasExactlyThePapersFaces(string name, int faces) =>
         Assert.Equal(faces, CreateDefault(name).FaceCount);
-        Assert.Equal(faces, MeshGenerators.Create(name, 77).FaceCount);
-    }
 
     [Theory]
     [InlineData("spaceship-interior", 277_654)]
@@ -43,10 +40,8 @@ public sealed class MeshGeneratorTests
     [Theory]
     [InlineData("spaceship-interior", 20_000)]
     [InlineData("spaceship-interior", 60_001)]
-    [InlineData("spaceship-interior", 500_000)]
     [InlineData("tree-stump", 300)]
     [InlineData("tree-stump", 5_001)]
-    [InlineData("tree-stump", 400_000)]
     [InlineData("terrain", 2)]
     [InlineData("terrain", 3)]
     [InlineData("terrain", 10_007)]
@@ -54,6 +49,13 @@ public sealed class MeshGeneratorTests
     [InlineData("torus-knot", 5_002)]
     [InlineData("icosphere", 320)]
     public void Create_OfANumberOfFaces_HasExactlyThat(string name, int faces) =>
+        Assert.Equal(faces, MeshGenerators.Create(name, 3, faces).FaceCount);
+
+    [Theory]
+    [InlineData("spaceship-interior", 500_000)]
+    [InlineData("tree-stump", 400_000)]
+    [Trait("Category", "Soak")]
+    public void Create_OfManyFaces_HasExactlyThat(string name, int faces) =>
         Assert.Equal(faces, MeshGenerators.Create(name, 3, faces).FaceCount);
 
     [Theory]
@@ -81,7 +83,7 @@ public sealed class MeshGeneratorTests
     {
         var first = MeshGenerators.Create(name, 5, 12_000);
         var second = MeshGenerators.Create(name, 5, 12_000);
-        Assert.Equal(Bits(first), Bits(second));
+        Assert.True(Bits(first).AsSpan().SequenceEqual(Bits(second)));
         Assert.True(first.VertexIndices.AsSpan().SequenceEqual(second.VertexIndices.AsSpan()));
         Assert.True(first.NormalIndices.AsSpan().SequenceEqual(second.NormalIndices.AsSpan()));
     }

@@ -163,14 +163,12 @@ public sealed class DeepZoomDrawingTests
         }
     }
 
-    [SkippableTheory]
-    [InlineData("menger")]
-    [InlineData("sierpinski")]
-    public void Shadows_AtAFixedPoint_AreTheSameAtAnyDepth(string name) => AssertSameShadows(name, [21, 10_000]);
+    [SkippableFact]
+    public void Shadows_AtAFixedPoint_AreTheSameAtAnyDepth() => AssertSameShadows("sierpinski", [21, 10_000]);
 
     [SkippableFact]
     [Trait("Category", "Soak")]
-    public void Shadows_AMillionLevelsDeep_AreTheSame() => AssertSameShadows("menger", [1000, 1_000_000]);
+    public void Shadows_AMillionLevelsDeep_AreTheSame() => AssertSameShadows("menger", [21, 1000, 1_000_000]);
 
     [SkippableTheory]
     [InlineData("menger")]

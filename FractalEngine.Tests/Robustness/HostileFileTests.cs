@@ -77,6 +77,7 @@ public sealed class HostileFileTests : IDisposable
     }
 
     [Fact]
+    [Trait("Category", "Soak")]
     public void Count_OfAHundredComponentwiseLevels_Ends()
     {
         _folder.Write("sums.fdo", """

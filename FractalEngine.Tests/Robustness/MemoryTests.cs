@@ -35,6 +35,7 @@ public sealed class MemoryTests : IDisposable
     }
 
     [Fact]
+    [Trait("Category", "Soak")]
     public void Query_OfManyMaps_IsWithinTheMemory() => CheckWideQuery(100_000, 1);
 
     [Fact]
@@ -51,6 +52,7 @@ public sealed class MemoryTests : IDisposable
     [Theory]
     [InlineData("#")]
     [InlineData("((1,2,3),#,#)")]
+    [Trait("Category", "Soak")]
     public void Query_OfAHundredThousandObjectsAtOnePlace_IsWithinTheMemory(string placement)
     {
         var line = $"o \"t.obj\" {placement}\n";

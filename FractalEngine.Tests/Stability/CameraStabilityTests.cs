@@ -44,15 +44,14 @@ public sealed class CameraStabilityTests(ITestOutputHelper output)
 
     /// <summary>Each frame shows the whole fractal from the same side. The depth does not change a pixel.</summary>
     [SkippableTheory]
-    [InlineData("menger")]
     [InlineData("sierpinski")]
-    public void Frame_OfASelfSimilarFractal_IsTheSameAtAnyDepth(string name) => CheckFrames(name, [41, 47, 1040]);
+    public void Frame_OfASelfSimilarFractal_IsTheSameAtAnyDepth(string name) => CheckFrames(name, [41, 1040]);
 
     [SkippableTheory]
     [InlineData("menger")]
     [InlineData("sierpinski")]
     [Trait("Category", "Soak")]
-    public void Frame_OfASelfSimilarFractal_IsTheSameAMillionLevelsDown(string name) => CheckFrames(name, [42, 100, 100_000, 999_990]);
+    public void Frame_OfASelfSimilarFractal_IsTheSameAMillionLevelsDown(string name) => CheckFrames(name, [42, 47, 1040, 100_000, 999_990]);
 
     private void CheckThereAndBack(string name, int maxDepth, [CallerMemberName] string test = "")
     {

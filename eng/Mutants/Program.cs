@@ -52,6 +52,11 @@ internal static class Program
         {
             return Run(options);
         }
+        catch (InvalidDataException exception)
+        {
+            Console.Error.WriteLine($"error: {exception.Message}");
+            return 2;
+        }
         finally
         {
             TestProcess.EndAll();

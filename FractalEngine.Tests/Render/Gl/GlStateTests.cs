@@ -60,7 +60,7 @@ public sealed class GlStateTests
         var expected = scenes.Select(scene => RenderScenes.Draw(scene, RenderScenes.FrontView, settings: new())).ToArray();
         using var context = GlTests.OpenContext();
         using var frame = new FrameRenderer(context);
-        for (var i = 0; i < 9; i++)
+        for (var i = 0; i < 4; i++)
         {
             using var renderer = new SceneRenderer(context, DrawableScene.Prepare(scenes[i % 3], settings));
             // Lines and text between the frames bind objects of their own, which the second frame finds bound.
