@@ -93,6 +93,19 @@ internal sealed partial class Obstacles(
         nearbyBodies.CollectOverlaps(in box, _radius * ContactTolerances.NeighbourRadiusFactor, excludedIndex, _candidates);
     }
 
+    /// <summary>Drops the collected bodies that something with a layer and a mask does not meet.</summary>
+    public void DropBodiesOfOtherLayers(int layer, uint mask)
+    {
+        for (var i = _candidates.Count - 1; i >= 0; i--)
+        {
+            var body = bodies[_candidates[i]].Description;
+            if (!Layers.CanMeet(layer, mask, body.Layer, body.Mask))
+            {
+                _candidates.RemoveAt(i);
+            }
+        }
+    }
+
     /// <summary>Largest gap of the mover that rounding cannot tell from 0, see <see cref="ContactTolerances.Touch"/>.</summary>
     public double TouchTolerance(Vector position) => ContactTolerances.Touch(_radius, position);
 

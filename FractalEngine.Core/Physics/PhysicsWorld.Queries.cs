@@ -41,7 +41,8 @@ public sealed partial class PhysicsWorld
         ArgumentCheck.RequireFinite(displacement, nameof(displacement));
         ArgumentCheck.Require(radius > 0 && double.IsFinite(radius), "the radius must be positive", null, nameof(radius));
         ArgumentCheck.RequireLayer(layer, nameof(layer));
-        return _queries.TryCastSphere(_statics.CollidersOf(ColliderKind.Exact, layer, mask), start, radius, displacement, out hit);
+        var colliders = _statics.CollidersOf(ColliderKind.Exact, layer, mask);
+        return _queries.TryCastSphere(colliders, start, radius, displacement, layer, mask, out hit);
     }
 
     /// <summary>Finds what a ray meets first, as the world is now: faces from both sides, and the balls of bodies.</summary>

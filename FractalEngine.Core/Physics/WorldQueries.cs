@@ -18,7 +18,8 @@ internal sealed class WorldQueries(
     private readonly Dictionary<StaticObject, (PlacedModel Placed, SceneRayCaster Caster)> _rayCasters = [];
 
     /// <summary>Finds what a sphere meets first on a straight way.</summary>
-    public bool TryCastSphere(StaticColliders? colliders, Vector start, double radius, Vector way, out CastHit hit)
+    public bool TryCastSphere(
+        StaticColliders? colliders, Vector start, double radius, Vector way, int layer, uint mask, out CastHit hit)
     {
         _safeDistance.Invalidate();
         obstacles.SetMover(colliders, BodyStepper.SingleSphereOffset, radius, _safeDistance, 0);
@@ -28,6 +29,7 @@ internal sealed class WorldQueries(
         {
             var motion = new Motion(start, way, Vector.Zero);
             obstacles.CollectNearbyBodies(in motion, 1, Contact.NoBody);
+            obstacles.DropBodiesOfOtherLayers(layer, mask);
             _sweep.ResetStepBudget();
             var elapsed = 0.0;
             var isHit = (obstacles.TryFindClosestContact(start, 0, out var contact)

@@ -302,6 +302,22 @@ public sealed class CommandLineTests : IDisposable
     }
 
     [Fact]
+    public void Check_OfAFaultAndALimit_IsThatOfAFaultyFile()
+    {
+        _folder.Write("deep.fdo", SampleFiles.Row("99999999"));
+        _folder.Write("both.sdo", "o \"deep.fdo\" #\no \"nope.obj\" #\n");
+        Assert.Equal(3, Run("check", "deep.fdo").ExitCode);
+        Assert.Equal(1, Run("check", "both.sdo").ExitCode);
+    }
+
+    [Fact]
+    public void Check_OfAFolderWithoutModels_SaysSo()
+    {
+        Directory.CreateDirectory(_folder["empty"]);
+        Assert.Equal(new AppResult(2, "", "error: the folder empty has no mesh, fractal or scene\n"), Run("check", "empty"));
+    }
+
+    [Fact]
     public void Check_OfABadBase_NamesTheReferringLine()
     {
         _folder.Write("bad.fdo", "x. \"nope.obj\"\n<$>. x\n");

@@ -91,9 +91,9 @@ public sealed class TracedAnimationTests : IDisposable
             return height;
         }
 
-        var (height2, height25, height3) = (HeightAt(2), HeightAt(2.5), HeightAt(3));
+        var (height2, height225, height3) = (HeightAt(2), HeightAt(2.25), HeightAt(3));
         Assert.True(height2 > height3);
-        Assert.Equal((height2 + height3) / 2, height25, 1e-12);
+        Assert.Equal((0.75 * height2) + (0.25 * height3), height225, 1e-12);
     }
 
     [SkippableTheory]

@@ -22,16 +22,13 @@ public class MeasuredCountsTests
     private const double RelativeTolerance = 1e-6;
 
     [Theory]
-    [InlineData("shell")]
-    public void Front_CountedAgain_HasTheCountsAndErrorsOfTheTable(string name) => AssertFrontIsCurrent(name);
-
-    [Theory]
     [Trait("Category", "Soak")]
+    [InlineData("shell")]
     [InlineData("appendix-b:3")]
     [InlineData("sierpinski:5")]
     [InlineData("snowflake")]
     [InlineData("tetrahedron:8")]
-    public void Front_CountedAgainForLargeShapes_HasTheCountsAndErrorsOfTheTable(string name) => AssertFrontIsCurrent(name);
+    public void Front_CountedAgain_HasTheCountsAndErrorsOfTheTable(string name) => AssertFrontIsCurrent(name);
 
     // The sponge of 38 million faces takes 8 GB to expand, and the others little.
     [Theory]

@@ -87,6 +87,9 @@ public class SceneColliderTests
         });
         var moved = collider.WithObject(0, new(new("m.obj", placement with { Position = new(70, 0, 0) }), mesh));
         Assert.Equal(0, moved.FindClosest(new(70, 0, 0)).ObjectIndex);
+        // Skewed anew, so that its collider is made anew.
+        var skewed = collider.WithObject(0, new(new("m.obj", placement with { Scale = new(width, 0.3, 2) }), mesh));
+        Assert.Equal(0, skewed.FindClosest(new(50, 0, 0)).ObjectIndex);
     }
 
     private static LoadedScene RandomScene(Random random)

@@ -63,6 +63,7 @@ public class FractalCountTests
             .Select(level => (IReadOnlyList<Transformation>)fractal.LevelAt(level).Transformations);
         Assert.Equal(levels, found);
         Assert.Throws<ArgumentOutOfRangeException>(() => fractal.LevelAt(levels.Count));
+        Assert.Throws<ArgumentOutOfRangeException>("count", () => new Repetition([TransformationSet.Of(Transformation.Identity)], -1));
     });
 
     [Fact]

@@ -139,7 +139,7 @@ public class CompoundTests
     [Fact]
     public void Heap_InABox_NeitherOverlapsNorLeavesNorGainsEnergy_AndComesToRest()
     {
-        var world = CheckHeap(24, 1);
+        var world = CheckHeap(16, 1);
         Assert.False(world.IsMoving, $"{world.Bodies.Count(body => !body.IsAsleep)} are awake");
     }
 

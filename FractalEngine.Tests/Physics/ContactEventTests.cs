@@ -1,6 +1,7 @@
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
 using FractalEngine.Core.Physics.Events;
+using FractalEngine.Core.Scenes;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Physics;
@@ -87,6 +88,31 @@ public class ContactEventTests
         // From 8 − 0.25 to 6, and to 4 − 0.25 on.
         var inside = Math.Sqrt(2 * 4.25 / 9.8) - Math.Sqrt(2 * 1.75 / 9.8);
         Near.Equal(inside * 60, events.Count - 1, 1);
+    }
+
+    [Fact]
+    public void Trigger_ThatIsInsideOut_HasWithinWhatIsWithin()
+    {
+        var world = new PhysicsWorld(Reporting);
+        var trigger = world.AddStatic(
+            PhysicsMeshes.Cube, new(new(0, 5, 0), Vector.Zero, new(-20, 20, 20)));
+        trigger.IsTrigger = true;
+        // The mirror turns its faces inwards. The ball is far from all of them.
+        world.AddSphere(new(0.5, 5, 0), 0.25);
+        Assert.Equal(ContactPhase.Begin, Assert.Single(Collect(world, 1)).Phase);
+        world.AddSphere(new(15, 5, 0), 0.25);
+        Assert.Equal(ContactPhase.Stay, Assert.Single(Collect(world, 1)).Phase);
+    }
+
+    [Fact]
+    public void Reset_WhileBodiesTouch_LetsTheirContactsBeginAgain()
+    {
+        var cube = new MeshModel(PhysicsMeshes.Cube);
+        var ball = new PhysicsObject(cube, 0.5) { Placement = Samples.Move(0, 0.5, 0) };
+        var world = new PhysicsWorld(new Scene { Objects = [new SceneObject(cube) { Placement = Floor }, ball] }, Reporting);
+        var first = Collect(world, 3).Select(static contact => contact.Phase).ToArray();
+        world.Reset();
+        Assert.Equal(first, Collect(world, 3).Select(static contact => contact.Phase));
     }
 
     [Fact]

@@ -44,6 +44,8 @@ public class DeterminismTests
         world.Run(50);
         world.Reset();
         Assert.Equal((start, 0L, 0.0, 6), (world.StateHash, world.StepCount, world.Time, world.Bodies.Count));
+        // Drawn between the step before and the next one, bodies stand still.
+        Assert.All(world.Bodies, body => Assert.Equal(body.InterpolatedMap(1), body.InterpolatedMap(0)));
         Assert.Equal(expected, HashesWhileRunning(world));
     }
 
@@ -77,6 +79,7 @@ public class DeterminismTests
         Assert.Equal(world.Settings.MaxStepsPerAdvance, world.Advance(1000));
         Assert.Equal(0, world.Advance(-1));
         Assert.Equal(world.Settings.MaxStepsPerAdvance, world.StepCount);
+        Assert.Equal(1, new PhysicsWorld(new PhysicsSettings { MaxStepsPerAdvance = 1 }).Advance(1000));
     }
 
     private static string[] HashesWhileRunning(PhysicsWorld world)

@@ -90,6 +90,30 @@ public class WorldQueryTests
     }
 
     [Fact]
+    public void Cast_WithAMask_MeetsBodiesOfItsLayers()
+    {
+        var world = new PhysicsWorld();
+        world.Add(new(new(0, 3, 0), 0.75) { Layer = 4 });
+        Assert.False(world.TryCastSphere(new(-5, 3.2, 0), 0.5, new(20, 0, 0), out _, mask: ~16u));
+        Assert.True(world.TryCastSphere(new(-5, 3.2, 0), 0.5, new(20, 0, 0), out _, mask: 16u));
+        Assert.False(world.TryCastRay(new(new(-5, 3.2, 0), Vector.I), out _, mask: ~16u));
+        Assert.True(world.TryCastRay(new(new(-5, 3.2, 0), Vector.I), out _, mask: 16u));
+    }
+
+    [Fact]
+    public void Force_OnABodyThatSleeps_WakesIt()
+    {
+        var world = new PhysicsWorld();
+        world.AddStatic(PhysicsMeshes.FloorMesh());
+        var body = world.AddSphere(new(0, 0.5, 0), 0.5);
+        world.Run(300);
+        Assert.True(body.IsAsleep);
+        world.ApplyForce(body, new(0, 2000, 0));
+        world.Run(2);
+        Assert.True(body.Position.Y > 0.6, $"{body.Position}");
+    }
+
+    [Fact]
     public void Impulse_AtAPoint_MovesAndTurns()
     {
         var world = new PhysicsWorld { Gravity = Vector.Zero };

@@ -131,6 +131,7 @@ public class DeepZoomRayCasterTests
         var fractal = FractalAddressTests.CreateInfinite("menger").WithDepth(2);
         var componentwise = new Fractal(fractal.Description with { Composition = Composition.Componentwise }, fractal.BaseMesh);
         Assert.Throws<ArgumentException>(() => new DeepZoomRayCaster(componentwise, []));
+        Assert.Throws<ArgumentNullException>("fractal", () => new DeepZoomRayCaster(null!, []));
     }
 
     /// <summary>Compares rays at a depth with those at depth 50, where an infinite fractal looks the same.</summary>

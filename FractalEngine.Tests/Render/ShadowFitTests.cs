@@ -17,7 +17,7 @@ public class ShadowFitTests
     public void Fit_OfMoreLightsThanMaps_LeavesTheOthersAsTheyAreAlone()
     {
         // Lamps within what they light have six maps each: five lamps have 30, a sixth has no place, and a sun has one: as large as the brightest light is allowed.
-        var lamps = Enumerable.Range(0, 5).Select(static i => (Light)new PointLight(new(0, 0.1, 0.2 * (i - 2)), Colour.White, 0.3, 20)).ToArray();
+        Light[] lamps = [.. Enumerable.Range(-2, 5).Select(static i => new PointLight(new(0, 0.1, 0.2 * i), Colour.White, 0.3, 20))];
         var sun = new DirectionalLight(new(0.2, -1, 0.3), Colour.White, 1);
         var without = Fit([.. lamps, sun]);
         var with = Fit([.. lamps, new PointLight(new(0.5, 0, 0), Colour.White, 0.2, 20), sun]);

@@ -45,6 +45,9 @@ public sealed class ViewShiftTests
         var box = new BoundingBox(new(5.5, -1, -1), new(6, 1, 1));
         Assert.False((RenderScenes.FrontView with { HorizontalShift = 0 }).MayIntersectFrustum(new(new(6, -1, -1), new(7, 1, 0)), 5 / 3.0));
         Assert.True((RenderScenes.FrontView with { HorizontalShift = -0.2 }).MayIntersectFrustum(box, 5 / 3.0));
+        var wider = new BoundingBox(new(6.2, -1, -1), new(6.4, 1, 0));
+        Assert.True((RenderScenes.FrontView with { HorizontalShift = -0.2 }).MayIntersectFrustum(wider, 5 / 3.0));
+        Assert.False((RenderScenes.FrontView with { HorizontalShift = -0.02 }).MayIntersectFrustum(wider, 5 / 3.0));
     }
 
     /// <summary>A shifted image is a part of a wider one, to the pixel.</summary>

@@ -1,5 +1,4 @@
 using FractalEngine.Core.Collision;
-using FractalEngine.Core.Collision.Fractals;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Maths;
 using FractalEngine.Tests.Support;
@@ -19,7 +18,7 @@ public class ExactFractalColliderAdversarialTests
         var checker = new ExactColliderChecker(name, fractal);
         var oracle = ExactColliderChecker.BruteForce(fractal);
         var context = new QueryContext();
-        Seeded.Run(150, random =>
+        Seeded.Run(60, random =>
         {
             var position = FractalPositions.RandomPosition(random, fractal);
             Assert.True(oracle.TryFindClosest(position, double.PositiveInfinity, context, out var expected));
@@ -83,11 +82,16 @@ public class ExactFractalColliderAdversarialTests
     /// <summary>Runs queries on a thread with a stack of 256 KB, and returns what they throw.</summary>
     internal static Exception? RunOnSmallStack(Fractal fractal)
     {
-        var collider = new ExactFractalCollider(fractal);
+        var checker = new ExactColliderChecker("on a small stack", fractal);
         var failure = default(Exception);
         var thread = new Thread(
-            () => failure = Record.Exception(() => Seeded.Run(50, random => Assert.True(
-                collider.TryFindClosest(random.Next(2) == 0 ? Vector.Zero : random.Vector(5), double.PositiveInfinity, new(), out _)))),
+            () => failure = Record.Exception(() => Seeded.Run(50, random =>
+            {
+                var position = random.Next(2) == 0 ? Vector.Zero : random.Vector(5);
+                var context = new QueryContext();
+                Assert.True(checker.Collider.TryFindClosest(position, double.PositiveInfinity, context, out var closest));
+                checker.CheckResult(position, context, closest);
+            })),
             maxStackSize: 262_144);
         thread.Start();
         thread.Join();

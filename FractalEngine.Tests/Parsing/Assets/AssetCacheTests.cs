@@ -37,6 +37,17 @@ public sealed class AssetCacheTests : IDisposable
         Assert.Equal(FileStamp.Missing, _cache.Files[_folder["a.png"]]);
     }
 
+    [Fact]
+    public void Load_Again_RepeatsTheWarningsOfEachFile()
+    {
+        _folder.Write("b.obj", "curv 1\n" + SampleFiles.Cube);
+        _folder.Write("c.obj", SampleFiles.Cube + "curv 1\ncurv 2\n");
+        _folder.Write("scene.sdo", "o \"b.obj\" #\no \"a.obj\" #\no \"c.obj\" #\n");
+        var first = Load().Warnings;
+        Assert.True(first.Select(static warning => warning.File).Distinct().Count() > 1);
+        Assert.Equal(first.AsEnumerable(), Load().Warnings);
+    }
+
     [Theory]
     [InlineData("a.mtl", "newmtl a\nKd 0 1 0\n", 0)]
     [InlineData("a.png", "not an image", 0)]

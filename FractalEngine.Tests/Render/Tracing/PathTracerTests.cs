@@ -7,6 +7,7 @@ using FractalEngine.Render;
 using FractalEngine.Render.Tracing;
 using FractalEngine.Tests.Collision;
 using FractalEngine.Tests.Fractals;
+using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Render.Tracing;
 
@@ -142,6 +143,33 @@ public class PathTracerTests
 
         // Of 16,384 paths, a quarter end at the glass.
         Assert.Equal(LightOfFogBehindGlass, Mean(tracer), 0.005);
+    }
+
+    [Fact]
+    public void AddSample_OfFogBehindTwoPanes_IsThatOfTheWholeWay()
+    {
+        SceneObject Pane(double z, double opacity) =>
+            Matt(Quad(new(-50, -50, z), new(-50, 50, z), new(50, 50, z), new(50, -50, z)), Colour.Black, opacity: opacity);
+        var scene = Scene([], Pane(1, 1e-9), Pane(3, 1e-9), Pane(5, 1)) with { Fog = new(0.2, Colour.White), Background = Colour.White };
+        var tracer = Trace(scene, new(Vector.Zero, Vector.Zero, 1), 8, 4);
+
+        Assert.Equal(1 - Math.Exp(-0.2 * 5), Mean(tracer), 1e-4);
+    }
+
+    [Fact]
+    public void TryIntersect_OfAStretchedSphere_HasTheNormalsOfAnEllipsoid()
+    {
+        var size = new Vector(3, 1, 0.5);
+        var sphere = new SceneObject(Shapes.Sphere(5)) { Placement = Transformation.Identity with { Scale = size } };
+        var scene = new TracedScene(LoadedScene.Of(Scene([WhiteSky], sphere)), new() { CreaseAngle = 180 });
+        Seeded.Run(100, random =>
+        {
+            var origin = 5 * random.Vector().UnitVector();
+            Assert.True(scene.TryIntersect(new(origin, -origin.UnitVector()), default, 0, 10, new(), out var surface));
+            var (x, y, z) = surface.Position;
+            var expected = new Vector(x / (size.X * size.X), y / (size.Y * size.Y), z / (size.Z * size.Z)).UnitVector();
+            Assert.InRange((surface.Normal - expected).Length(), 0, 0.05);
+        });
     }
 
     [Theory]

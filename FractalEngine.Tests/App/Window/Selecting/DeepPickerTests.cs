@@ -1,5 +1,6 @@
 using FractalEngine.App.Window;
 using FractalEngine.App.Window.Selecting;
+using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Visibility;
@@ -99,6 +100,41 @@ public class DeepPickerTests
     }
 
     [Fact]
+    public void Measure_OfPointsSeenFromDifferentPlaces_IsInTheFrameOfTheSecond()
+    {
+        var dive = new Dive(40);
+        var first = dive.Pick((150, 100))!;
+        dive.Camera.Move(new(0.1, 0.05, -3));
+        var second = dive.Pick((165, 100))!;
+        var tool = new MeasureTool();
+        tool.Toggle();
+        tool.Click(first, dive.Scene);
+        tool.Click(second, dive.Scene);
+        var dimension = Assert.Single(tool.Dimensions);
+        Assert.True((first.Point - dive.Point(first)).Length() > 0.1, "the camera has not moved");
+        Near.Equal(dive.Point(first), dimension.From, 1e-9 * (1 + dimension.From.Length()));
+        Near.Equal(dive.Point(second), dimension.To, 1e-9 * (1 + dimension.To.Length()));
+    }
+
+    [Fact]
+    public void PickDeep_AfterAnotherSceneWasShown_PicksInTheNewOne()
+    {
+        var sponge = new Dive(15);
+        var maps = from x in (double[])[-1, 1]
+                   from y in (double[])[-1, 1]
+                   from z in (double[])[-1, 1]
+                   select Samples.MoveAndScale(2 / 3.0 * x, 2 / 3.0 * y, 2 / 3.0 * z, 1 / 3.0);
+        var corners = new Dive(15, new(Samples.Repeated(null, [.. maps]).Description, CullingViews.Cube));
+        var picker = new Picker();
+        foreach (var dive in (Dive[])[sponge, corners, sponge])
+        {
+            var (expected, actual) = (dive.Pick((160, 100))!, dive.Pick((160, 100), picker)!);
+            Assert.Equal(expected.Point, actual.Point);
+            Assert.Equal(expected.Path.AsEnumerable(), actual.Path);
+        }
+    }
+
+    [Fact]
     public void Text_OfADeepSelection_HasAllLevelsAndTheDistance()
     {
         var selection = new Dive(40).Pick((160, 100))!;
@@ -176,9 +212,9 @@ public class DeepPickerTests
     {
         private readonly Picker _picker = new();
 
-        public Dive(double log10Magnification)
+        public Dive(double log10Magnification, Fractal? fractal = null)
         {
-            var fractal = CullingViews.Menger(null);
+            fractal ??= CullingViews.Menger(null);
             var hierarchy = LodHierarchy.Build(fractal);
             Scene = LoadedScene.Of(new() { Objects = [new SceneObject(fractal)] });
             Camera = new(
@@ -203,7 +239,8 @@ public class DeepPickerTests
         /// <summary>The view about the camera, in the unit of its address.</summary>
         public View View => Camera.WithDeepZoom(new(Camera.Pose.Camera, Projection.Perspective));
 
-        public Selection? Pick((double X, double Y) pixel) => _picker.PickDeep(Scene, View, Camera.Address!, pixel, Size);
+        public Selection? Pick((double X, double Y) pixel, Picker? picker = null) =>
+            (picker ?? _picker).PickDeep(Scene, View, Camera.Address!, pixel, Size);
 
         /// <summary>The selected point about the present camera.</summary>
         public Vector Point(Selection selection) => Camera.ToCameraFrame(selection.Point, selection.Viewpoint)!.Value;
