@@ -16,7 +16,7 @@ public class ShadowFitTests
     [Fact]
     public void Fit_OfMoreLightsThanMaps_LeavesTheOthersAsTheyAreAlone()
     {
-        // Lamps within what they light have six maps each: five lamps have 30, a sixth has no place, and a sun has one: as large as the brightest light is allowed.
+        // Lamps within what they light have six maps each: five have 30, a sixth has no place, and a sun has one, the largest.
         Light[] lamps = [.. Enumerable.Range(-2, 5).Select(static i => new PointLight(new(0, 0.1, 0.2 * i), Colour.White, 0.3, 20))];
         var sun = new DirectionalLight(new(0.2, -1, 0.3), Colour.White, 1);
         var without = Fit([.. lamps, sun]);
