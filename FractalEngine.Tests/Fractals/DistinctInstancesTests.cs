@@ -86,6 +86,7 @@ public class DistinctInstancesTests
     }
 
     [Fact]
+    [Trait("Category", "Soak")]
     public void Count_OfALongStaircase_EndsAtTheLimitOfProducts() =>
         Assert.Null(DistinctInstances.Count(Samples.Repeated(1_000_000, Transformation.Identity, Samples.Move(0.3, 1, 0))));
 

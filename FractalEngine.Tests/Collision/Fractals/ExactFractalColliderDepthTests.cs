@@ -35,7 +35,7 @@ public class ExactFractalColliderDepthTests
 
     [Theory]
     [MemberData(nameof(DeepFractals))]
-    public void TryFindClosest_AtAnyDepth_EqualsBranchAndBoundWithSpheres(string name, int? depth) => Compare(name, depth, queries: 5);
+    public void TryFindClosest_AtAnyDepth_EqualsBranchAndBoundWithSpheres(string name, int? depth) => Compare(name, depth, queries: 3);
 
     [Theory]
     [MemberData(nameof(DeepFractals))]
