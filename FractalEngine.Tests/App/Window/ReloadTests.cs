@@ -168,10 +168,10 @@ public sealed class ReloadTests : IDisposable
     [SkippableFact]
     public void Reload_OfAFallingBody_GoesOnFalling()
     {
-        // Default lights would follow the size of the scene. The body falls for more than a second, as a busy machine may draw late.
-        const string scene = "c (0, 1, -6) (0, 0, 0) 60\ngravity (0, -2, 0)\nlight directional (0.3, -1, 0.5) (1, 1, 1) 1\n"
+        // Default lights would follow the size of the scene. The body falls for three seconds, as a busy machine may draw late.
+        const string scene = "c (0, 1, -6) (0, 0, 0) 60\ngravity (0, -0.3, 0)\nlight directional (0.3, -1, 0.5) (1, 1, 1) 1\n"
             + "o \"cube.obj\" ((0, -1, 0), #, (8, 1, 8))\n"
-            + "p \"cube.obj\" ((0, 3, 0), #, #) 0 colour (1, 0, 0)\n";
+            + "p \"cube.obj\" ((0, 3, 0), #, #) 0 velocity (0, -0.4, 0) colour (1, 0, 0)\n";
         _folder.Write("scene.sdo", scene);
         using var window = Open();
         var start = window.Screenshot();
