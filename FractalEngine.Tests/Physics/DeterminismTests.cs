@@ -41,7 +41,9 @@ public class DeterminismTests
         var expected = HashesWhileRunning(world);
         world.AddSphere(new(0.1, 0.8, 0.1), 0.05, velocity: new(1, 2, 3));
         world.SetForce(world.Bodies[0], new(1, 2, 3));
+        world.ApplyImpulse(world.Bodies[1], 0.01 * Vector.I, world.Bodies[1].Position + (0.05 * Vector.J));
         world.Run(50);
+        Assert.NotEqual(Orientation.Identity, world.Bodies[1].Orientation);
         world.Reset();
         Assert.Equal((start, 0L, 0.0, 6), (world.StateHash, world.StepCount, world.Time, world.Bodies.Count));
         // Drawn between the step before and the next one, bodies stand still.
