@@ -94,8 +94,7 @@ public class ContactEventTests
     public void Trigger_ThatIsInsideOut_HasWithinWhatIsWithin()
     {
         var world = new PhysicsWorld(Reporting);
-        var trigger = world.AddStatic(
-            PhysicsMeshes.Cube, new(new(0, 5, 0), Vector.Zero, new(-20, 20, 20)));
+        var trigger = world.AddStatic(PhysicsMeshes.Cube, new(new(0, 5, 0), Vector.Zero, new(-20, 20, 20)));
         trigger.IsTrigger = true;
         // The mirror turns its faces inwards. The ball is far from all of them.
         world.AddSphere(new(0.5, 5, 0), 0.25);

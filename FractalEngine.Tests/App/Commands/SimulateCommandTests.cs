@@ -134,8 +134,11 @@ public sealed class SimulateCommandTests : IDisposable
     }
 
     [Theory]
+    [InlineData("1", "0.1", 10)]
     [InlineData("1", "0.3", 4)]
     [InlineData("10", "0.0166667", 600)]
+    [InlineData("0.001", "1", 1)]
+    [InlineData("1e-12", "1", 1)]
     [InlineData("1e-300", "0.1", 1)]
     [InlineData("3.0000000001", "1", 3)]
     public void Simulate_OfADuration_MakesAsManyStepsAsReachItsEnd(string seconds, string step, int steps) =>
