@@ -12,7 +12,10 @@ namespace FractalEngine.Core.Collision;
 /// </param>
 /// <param name="Barycentrics">Weights of the vertices of the face.</param>
 /// <param name="Feature">Part of the face that holds the point: a vertex, an edge or the interior.</param>
-/// <param name="FaceIndex">Index of the face in the mesh, from 0.</param>
+/// <param name="FaceIndex">
+/// Index of the face in the mesh, from 0: in the base mesh of a fractal, or in all faces that a collider has expanded it to, those of one
+/// instance after those of another (as <c>FractalGenerator.Expand</c> lists them). There the instance has no path.
+/// </param>
 public readonly record struct ClosestPoint(
     double Distance, Vector Point, Vector Normal, Vector Barycentrics, TriangleFeature Feature, int FaceIndex)
 {

@@ -1,3 +1,4 @@
+using System.Runtime.InteropServices;
 using FractalEngine.Core.Collision.Bvh;
 using FractalEngine.Core.Collision.Fractals;
 using FractalEngine.Core.Collision.Reference;
@@ -82,12 +83,16 @@ public static class ColliderFactory
 
     /// <summary>Expands a fractal into one mesh under a map.</summary>
     /// <exception cref="FractalLimitException">It has more than <see cref="MaxExpandedFaces"/> faces.</exception>
-    internal static Mesh Expand(Fractal fractal, AffineMap map)
+    internal static Mesh Expand(Fractal fractal, AffineMap map) => Expand(fractal, map, out _);
+
+    /// <summary>Expands a fractal into one mesh under a map, with the faces of one instance after those of another.</summary>
+    /// <exception cref="FractalLimitException">It has more than <see cref="MaxExpandedFaces"/> faces.</exception>
+    internal static Mesh Expand(Fractal fractal, AffineMap map, out AffineMap[] instances)
     {
         // A face uses at most three vertices, but the base mesh may have any number of unused ones, which are expanded too.
         var facesPerInstance = Math.Max(1, Math.Max(fractal.BaseMesh.FaceCount, fractal.BaseMesh.VertexCount / 3));
-        var instances = FractalGenerator.Expand(fractal, MaxExpandedFaces / facesPerInstance);
-        return FractalGenerator.Flatten(fractal.BaseMesh, [.. instances.Select(instance => map * instance)]);
+        instances = [.. FractalGenerator.Expand(fractal, MaxExpandedFaces / facesPerInstance).Select(instance => map * instance)];
+        return FractalGenerator.Flatten(fractal.BaseMesh, ImmutableCollectionsMarshal.AsImmutableArray(instances));
     }
 
     internal static Collider Create(Mesh mesh, ColliderKind kind) => kind switch

@@ -50,7 +50,7 @@ public sealed class Fractal : IEquatable<Fractal>
     /// <summary>Number of sets that a chain passes through; null for infinitely many.</summary>
     public long? LevelCount => FractalSteps.LevelCount(Description.Steps);
 
-    /// <summary>A box that holds the fractal, see <see cref="FractalBounds"/> for how tight it is.</summary>
+    /// <summary>A box that holds the fractal to 1e-13 of its largest coordinate, see <see cref="FractalBounds"/>.</summary>
     public BoundingBox Bounds => _bounds.Value;
 
     /// <summary>The sub-fractals with their bounds, for a fractal in affine composition. Made by the first who asks, for all.</summary>

@@ -12,6 +12,8 @@ namespace FractalEngine.Core.Geometry;
 /// </summary>
 public sealed class Mesh : IEquatable<Mesh>
 {
+    private StrongBox<BoundingBox>? _faceBounds;
+
     /// <summary>Makes a mesh of positions and faces.</summary>
     /// <param name="positions">Coordinates, [vertices × 3].</param>
     /// <param name="vertexIndices">Indices of vertices from 0, [faces × 3].</param>
@@ -67,6 +69,9 @@ public sealed class Mesh : IEquatable<Mesh>
 
     /// <summary>The box of all vertices, unused ones included.</summary>
     public BoundingBox Bounds { get; }
+
+    /// <summary>The box of the vertices of faces. Found when it is first asked for.</summary>
+    internal BoundingBox FaceBounds => (_faceBounds ??= new(ComputeFaceBounds())).Value;
 
     /// <summary>Makes the same mesh with colours of its vertices.</summary>
     /// <param name="colours">sRGB, [vertices × 3]. Drawing limits them to the range from 0 to 1.</param>
@@ -180,6 +185,17 @@ public sealed class Mesh : IEquatable<Mesh>
 
     /// <inheritdoc/>
     public override int GetHashCode() => HashCode.Combine(VertexCount, FaceCount, Bounds);
+
+    private BoundingBox ComputeFaceBounds()
+    {
+        var box = BoundingBox.Empty;
+        foreach (var vertex in VertexIndices)
+        {
+            box = box.Including(Vertex(vertex));
+        }
+
+        return box;
+    }
 
     private Mesh(Mesh other)
     {

@@ -1,4 +1,5 @@
 using System.Numerics;
+using FractalEngine.Core.Collision;
 using FractalEngine.Core.Collision.Fractals;
 using FractalEngine.Core.Collision.Reference;
 using FractalEngine.Core.Fractals;
@@ -24,6 +25,19 @@ public class DistinctInstancesTests
 
     [Fact]
     public void Count_BeyondTheBudgetWithoutAProof_IsUnknown() => Assert.Null(DistinctInstances.Count(Samples.AppendixBAt(6)));
+
+    [Theory]
+    [InlineData(1e3)]
+    [InlineData(1e15)]
+    [InlineData(1e100)]
+    public void Instances_OfAMeshWithAFarVertexThatNoFaceUses_AreToldApart(double far)
+    {
+        var mesh = new Mesh([0, 0, 0, 1, 0, 0, 0, 1, 0, far, 0, 0], [0, 1, 2]);
+        var fractal = Fractal.Of(mesh).Apply([Transformation.Identity, Transformation.At(new(0.3, 0, 0))]);
+        Assert.Equal(2, DistinctInstances.Count(fractal));
+        Assert.Equal(2, FractalGenerator.Flatten(fractal, 100).FaceCount);
+        Assert.Equal(2, Collider.For(fractal).FindAllWithin(Vector.Zero, 10, 100).Length);
+    }
 
     [Fact]
     public void Count_OfTheInfinite_IsUnknown() =>

@@ -135,6 +135,13 @@ public class RayCasterDepthTests
             Assert.True(isFound || double.IsPositiveInfinity(expected), $"{ray} hits nothing");
             Assert.True(!isFound || hit.Distance <= expected, $"{ray} hits at {hit.Distance:R}");
             Assert.True(!isFound || surface.FindClosest(hit.Point).Distance <= 1e-12 * oracle.Magnitude);
+            if (isFound && hit.Normal != Vector.Zero)
+            {
+                // The instance of the base's face, and the place on it.
+                var (a, b, c) = fractal.BaseMesh.Face(hit.FaceIndex);
+                var local = (hit.Barycentrics.X * a) + (hit.Barycentrics.Y * b) + (hit.Barycentrics.Z * c);
+                Near.Equal(hit.Point, hit.InstanceMap * local, 1e-9 * oracle.Magnitude);
+            }
         }
     });
 

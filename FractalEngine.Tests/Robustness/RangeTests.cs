@@ -52,6 +52,35 @@ public sealed class RangeTests
         }
     }
 
+    // What is thrown far away makes a fractal's precision that of the result, in whichever unit.
+    [Theory]
+    [InlineData(1e-140)]
+    [InlineData(1e-60)]
+    [InlineData(1e-42)]
+    [InlineData(1e-39)]
+    [InlineData(1)]
+    [InlineData(1e60)]
+    [InlineData(1e130)]
+    public void FindClosest_NearWhatAFractalThrowsFarAway_FindsIt(double size)
+    {
+        var fractal = Fractal.Of(new Mesh([0, 0, 0, size, 0, 0, 0, size, 0], [0, 1, 2]));
+        foreach (var far in new[] { 31, 1e3, 1e6 })
+        {
+            var thrown = fractal.Apply([Transformation.Identity, Transformation.At(new(far * size, 0, 0))]);
+            foreach (var shape in new[] { thrown, thrown.Apply([Transformation.Identity, Transformation.At(Vector.Zero, 1e-8)]) })
+            {
+                var collider = Collider.For(shape);
+                var hit = collider.FindClosest(size * new Vector(far + 2.5, 0, 0));
+                Near.Equal(1.5, hit.Distance / size, 1e-13 * far);
+                Assert.True(hit.ErrorBound <= 1e-12 * far * size, $"{hit.ErrorBound:R}");
+                Assert.True(collider.Overlaps(size * new Vector(far + 2.5, 0, 0), 1.501 * size));
+                // And where another unit begins only behind a map.
+                Transformation toUnit = new(new(1, 2, 3), Vector.Zero, Vector.One / size);
+                Near.Equal(1.5, Collider.For(shape.WithPlacement(toUnit)).FindClosest(new(far + 3.5, 2, 3)).Distance, 1e-13 * far);
+            }
+        }
+    }
+
     [Theory]
     [MemberData(nameof(Shapes))]
     public void TryFindClosest_WithAnyEpsilonAndRadius_FindsAPointOrRefuses(double size, int faces)

@@ -198,22 +198,23 @@ public sealed class ExactFractalCollider : Collider
 
     private void SearchLevels(in Vector position, in AffineMap map, bool isSimilarity, ref FractalSearchState search)
     {
-        // Where most of the fractal is far smaller than all of it, a result is as precise as its own coordinates.
-        var minRadius = RelativePrecision
-            * (_hierarchy.Root.Clusters is null ? _precisionRadius : Math.Max(_precisionRadius, position.MaxAbsComponent()));
+        var minRadius = RelativePrecision * _precisionRadius;
         var minRadiusSquared = minRadius * minRadius;
+        // Where most of the fractal is far smaller than all of it, a result is as precise as its own coordinates.
+        var precision = _hierarchy.Root.Clusters is null ? 0 : RelativePrecision * position.MaxAbsComponent();
         if (isSimilarity)
         {
-            search.MinRadiusSquared = minRadiusSquared;
+            search.MinRadiusSquared = Math.Max(minRadiusSquared, precision * precision);
             _similaritySearch.Run(new(position), ref search);
         }
         else
         {
             var normSquared = new SimdAffineMap(map).FrobeniusNormSquared();
             var mappedRadius = minRadius * map.Linear.MaxAbsEntry();
-            search.MinRadiusSquared = normSquared is > MinNormSquared and < MaxNormSquared
+            var mappedRadiusSquared = normSquared is > MinNormSquared and < MaxNormSquared
                 ? minRadiusSquared * normSquared
                 : mappedRadius * mappedRadius;
+            search.MinRadiusSquared = Math.Max(mappedRadiusSquared, precision * precision);
             _affineSearch.Run(new(position, in map), ref search);
         }
 

@@ -43,6 +43,7 @@ public sealed class RecordedImageTests : IDisposable
         "render row.fdo -o d.png --trace 1 --background \"(1, 0, 0)\"",
         "render row.fdo -o e.png --trace 1 --view top", "render row.fdo -o f.png --trace 1 --view isometric",
         "render row.fdo -o f2.png --trace 1 --view isometric --projection perspective", "render row.fdo -o g.png --trace 1 --zoom 1.5",
+        "render pair.fdo -o e.png --trace 1 --view isometric --composition componentwise",
         "render row.fdo -o g.png --trace 1 --zoom 9", "render scene.sdo -o g.png --trace 1 --zoom 1",
         "render row.fdo -o g.png --trace 1 --zoom 1 --projection orthographic", "render row.fdo -o g.png --trace 1 --zoom 1001",
         "render row.fdo -o h.png --trace 1 --look-from \"(1, 2, -3)\" --look-at \"(0.1, 0, 0)\" --up \"(1, 1, 0)\"",
