@@ -68,7 +68,7 @@ public static class DistinctInstances
         }
 
         var boxes = new LevelBoxes(fractal.BaseMesh, MaxProvedRounds);
-        var thinnest = fractal.BaseMesh.FaceBounds.Size;
+        var thinnest = fractal.BaseMesh.UsedBounds.Size;
         foreach (var set in boxes.Ascend(fractal.Description.Steps))
         {
             if (set.Maps.IsEmpty || !set.Maps.All(map => map.Linear.IsScaledAxisPermutation()))

@@ -12,7 +12,7 @@ namespace FractalEngine.Core.Geometry;
 /// </summary>
 public sealed class Mesh : IEquatable<Mesh>
 {
-    private StrongBox<BoundingBox>? _faceBounds;
+    private StrongBox<BoundingBox>? _usedBounds;
 
     /// <summary>Makes a mesh of positions and faces.</summary>
     /// <param name="positions">Coordinates, [vertices × 3].</param>
@@ -70,8 +70,8 @@ public sealed class Mesh : IEquatable<Mesh>
     /// <summary>The box of all vertices, unused ones included.</summary>
     public BoundingBox Bounds { get; }
 
-    /// <summary>The box of the vertices of faces. Found when it is first asked for.</summary>
-    internal BoundingBox FaceBounds => (_faceBounds ??= new(ComputeFaceBounds())).Value;
+    /// <summary>The box of the vertices that faces use, found when it is first asked for.</summary>
+    internal BoundingBox UsedBounds => (_usedBounds ??= new(ComputeUsedBounds())).Value;
 
     /// <summary>Makes the same mesh with colours of its vertices.</summary>
     /// <param name="colours">sRGB, [vertices × 3]. Drawing limits them to the range from 0 to 1.</param>
@@ -186,7 +186,7 @@ public sealed class Mesh : IEquatable<Mesh>
     /// <inheritdoc/>
     public override int GetHashCode() => HashCode.Combine(VertexCount, FaceCount, Bounds);
 
-    private BoundingBox ComputeFaceBounds()
+    private BoundingBox ComputeUsedBounds()
     {
         var box = BoundingBox.Empty;
         foreach (var vertex in VertexIndices)

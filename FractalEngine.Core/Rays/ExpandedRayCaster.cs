@@ -13,7 +13,7 @@ internal sealed class ExpandedRayCaster : RayCaster
     private readonly AffineMap[] _instances;
     private readonly TriangleBvh _bvh;
 
-    /// <summary>Expands a fractal.</summary>
+    /// <summary>Expands a fractal into one mesh, whose faces know their instances by their order.</summary>
     /// <exception cref="FractalLimitException">It has more than <see cref="ColliderFactory.MaxExpandedFaces"/> faces.</exception>
     public ExpandedRayCaster(Fractal fractal)
     {

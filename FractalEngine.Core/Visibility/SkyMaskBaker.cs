@@ -64,7 +64,7 @@ internal sealed class SkyMaskBaker
     /// <summary>Tells whether masks of a level reach those above through maps that turn directions wrong.</summary>
     private bool HasShearedMasks()
     {
-        var isFlat = IsFlat(_hierarchy.Mesh.FaceBounds);
+        var isFlat = IsFlat(_hierarchy.Mesh.UsedBounds);
         return _occluder.Nodes.Exists(state => state.Node.ChildMaps.Index().Any(child => isFlat
             ? ShearOf(child.Item) > MaxShearOfTiles
             : ShearOf(child.Item) > MaxShear && _occluder.ChildOf(state.Node, state.Levels, child.Index).Node.ChildMaps.Length > 0));

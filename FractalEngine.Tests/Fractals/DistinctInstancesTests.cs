@@ -26,6 +26,14 @@ public class DistinctInstancesTests
     [Fact]
     public void Count_BeyondTheBudgetWithoutAProof_IsUnknown() => Assert.Null(DistinctInstances.Count(Samples.AppendixBAt(6)));
 
+    [Fact]
+    public void Flatten_ToAsManyFacesAsAllowed_WritesThem()
+    {
+        var fractal = Fractal.Of(new Mesh([0, 0, 0, 1, 0, 0, 0, 1, 0], [0, 1, 2])).Apply([Samples.Move(1, 0, 0), Samples.Move(0, 5, 0)]);
+        Assert.Equal(2, FractalGenerator.Flatten(fractal, 2).FaceCount);
+        Assert.Throws<FractalLimitException>(() => FractalGenerator.Flatten(fractal, 1));
+    }
+
     [Theory]
     [InlineData(1e3)]
     [InlineData(1e15)]

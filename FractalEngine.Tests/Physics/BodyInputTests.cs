@@ -85,6 +85,73 @@ public class BodyInputTests
             new() { MaxStepsPerAdvance = 0 }, new() { MaxStepsPerAdvance = -1 },
         ];
         Assert.All(wrong, settings => Assert.Throws<ArgumentException>(() => new PhysicsWorld(settings)));
+        (PhysicsSettings Settings, string Message)[] faults =
+        [
+            (new() { TimeStep = 0 }, "the time step must be positive and finite"),
+            (new() { RestitutionThreshold = -1 }, "the restitution threshold must not be negative"),
+            (new() { SleepSpeed = -1 }, "the sleep speed must not be negative"),
+            (new() { TimeBeforeSleep = -1 }, "the time before sleep must not be negative"),
+            (new() { MaxStepsPerAdvance = 0 }, "the maximum number of steps per advance must be positive"),
+            (new() { MaxThreads = 0 }, "the maximum number of threads must be positive"),
+        ];
+        Assert.All(faults, static fault =>
+            Assert.Equal(fault.Message, Assert.Throws<ArgumentException>(() => new PhysicsWorld(fault.Settings)).Message));
+    }
+
+    /// <summary>What callers hand to a world is refused with words that say what is wrong, and the body that it is for.</summary>
+    [Fact]
+    public void Calls_WithWrongArguments_SayWhatIsWrong()
+    {
+        var world = new PhysicsWorld();
+        var body = world.Add(ValidBody);
+        var other = new PhysicsWorld().Add(ValidBody);
+        var block = world.AddStatic(Shapes.Cube());
+        var wrong = new Vector(0, double.NaN, 0);
+        var flat = Transformation.Identity with { Scale = new(1, 0, 1) };
+        (Action Call, string Message)[] calls =
+        [
+            (() => world.Gravity = wrong, "expected a finite Gravity (Parameter 'Gravity')"),
+            (() => world.ShrinkageOverride = -1, "the shrinkage must not be negative (Parameter 'value')"),
+            (() => world.ShrinkageOverride = double.PositiveInfinity, "the shrinkage must not be negative (Parameter 'value')"),
+            (() => world.SetVelocity(body, wrong), "body seventh: expected a finite velocity (Parameter 'velocity')"),
+            (() => world.SetVelocity(other, Vector.I), "the body is not of this world (Parameter 'body')"),
+            (() => world.SetForce(body, wrong), "body seventh: expected a finite force (Parameter 'force')"),
+            (() => world.SetForce(other, Vector.I), "the body is not of this world (Parameter 'body')"),
+            (() => world.ApplyForce(body, wrong), "body seventh: expected a finite force (Parameter 'force')"),
+            (() => world.ApplyForce(body, Vector.I, wrong), "body seventh: expected a finite point (Parameter 'point')"),
+            (() => world.ApplyForce(other, Vector.I), "the body is not of this world (Parameter 'body')"),
+            (() => world.ApplyImpulse(body, wrong), "body seventh: expected a finite impulse (Parameter 'impulse')"),
+            (() => world.ApplyImpulse(body, Vector.I, wrong), "body seventh: expected a finite point (Parameter 'point')"),
+            (() => world.ApplyImpulse(other, Vector.I), "the body is not of this world (Parameter 'body')"),
+            (() => world.TryCastSphere(wrong, 1, Vector.I, out _), "expected a finite start (Parameter 'start')"),
+            (() => world.TryCastSphere(Vector.Zero, 1, wrong, out _), "expected a finite displacement (Parameter 'displacement')"),
+            (() => world.TryCastSphere(Vector.Zero, 0, Vector.I, out _), "the radius must be positive (Parameter 'radius')"),
+            (() => world.TryCastSphere(Vector.Zero, double.PositiveInfinity, Vector.I, out _),
+                "the radius must be positive (Parameter 'radius')"),
+            (() => block.MoveTo(Transformation.At(wrong)), "expected a placement of finite numbers (Parameter 'placement')"),
+            (() => block.MoveTo(flat), "expected a placement whose scale has an inverse (Parameter 'placement')"),
+            (() => world.AddStatic(Shapes.Cube(), flat), "expected a placement whose scale has an inverse (Parameter 'placement')"),
+            (() => block.SetMotion(wrong), "expected a finite velocity (Parameter 'velocity')"),
+            (() => block.SetMotion(Vector.I, wrong), "expected a finite angularVelocity (Parameter 'angularVelocity')"),
+            (() => block.SetBelt(wrong), "expected a finite velocity (Parameter 'velocity')"),
+            (() => world.Add(ValidBody with { ObjectIndex = 0 }), "body seventh: the object index must be that of an object of the scene"),
+            (() => world.Add(ValidBody with { Name = null, ObjectIndex = -1 }), "the object index must be that of an object of the scene"),
+        ];
+        Assert.All(calls, static call => Assert.Equal(call.Message, Assert.Throws<ArgumentException>(call.Call).Message));
+        (Action Call, string Message)[] ranges =
+        [
+            (() => world.Step(0), "expected a positive and finite time step (Parameter 'seconds')"),
+            (() => world.Step(double.NaN), "expected a positive and finite time step (Parameter 'seconds')"),
+            (() => world.Step(double.PositiveInfinity), "expected a positive and finite time step (Parameter 'seconds')"),
+            (() => world.TryCastRay(new(Vector.Zero, Vector.I), out _, layer: 32), "expected a layer from 0 to 31 (Parameter 'layer')"),
+            (() => world.TryCastSphere(Vector.Zero, 1, Vector.I, out _, layer: -1), "expected a layer from 0 to 31 (Parameter 'layer')"),
+            (() => block.Layer = 32, "expected a layer from 0 to 31 (Parameter 'Layer')"),
+        ];
+        Assert.All(ranges, static call =>
+            Assert.StartsWith(call.Message, Assert.Throws<ArgumentOutOfRangeException>(call.Call).Message, StringComparison.Ordinal));
+        Assert.Equal((Vector.Zero, Vector.Zero, 0L), (body.Velocity, body.Force, world.StepCount));
+        world.ShrinkageOverride = 0;
+        Assert.Equal(31, block.Layer = 31);
     }
 
     [Fact]
@@ -112,6 +179,11 @@ public class BodyInputTests
         var point = new PhysicsObject(Model.Of(new Mesh([0, 0, 0], [0, 0, 0]))) { Name = "dot" };
         var error = Assert.Throws<SceneObjectException>(() => new PhysicsWorld(new Scene { Objects = [valid, point] }));
         Assert.Equal((1, ErrorKind.Input, "body dot: the radius must be positive"), (error.ObjectIndex, error.Kind, error.Message));
+        var needle = Model.Of(Shapes.Box(new(Vector.Zero, new(100, 0.1, 0.1))));
+        var thread = new PhysicsObject(needle) { Name = "thread", Shape = BodyShape.Capsule };
+        error = Assert.Throws<SceneObjectException>(() => new PhysicsWorld(new Scene { Objects = [valid, valid, thread] }));
+        Assert.Equal((2, ErrorKind.Input), (error.ObjectIndex, error.Kind));
+        Assert.Equal("body thread: a capsule may be 31.5 radii longer than its ends", error.Message);
         foreach (var depth in (int?[])[null, 2000])
         {
             var growing = Fractal.Of(Shapes.Cube()).Repeat([Transformation.At(Vector.I, 2), Transformation.At(-Vector.I, 2)], depth);
@@ -128,7 +200,8 @@ public class BodyInputTests
     {
         var world = TestWorlds.Create(TestWorlds.Gravity, 0.01);
         var body = world.Add(ValidBody);
-        Assert.Throws<ArgumentException>(() => world.Advance(seconds));
+        var exception = Assert.Throws<ArgumentException>(() => world.Advance(seconds));
+        Assert.Equal("expected a finite time (Parameter 'seconds')", exception.Message);
         world.Advance(0.011);
         Assert.Equal(1, world.StepCount);
         Assert.True(body.Position.IsFinite() && world.InterpolationAlpha is >= 0 and <= 1);
@@ -140,6 +213,18 @@ public class BodyInputTests
         var world = TestWorlds.Create(TestWorlds.Gravity, 1);
         world.Add(ValidBody with { Velocity = new(1.7e308, 0, 0) });
         Assert.Contains("body seventh", Assert.Throws<InvalidOperationException>(() => world.Run(3)).Message, StringComparison.Ordinal);
+    }
+
+    /// <summary>What is beyond the range of a double is named with the step and where it is.</summary>
+    [Fact]
+    public void Step_BeyondTheRangeOfADouble_TellsOfTheStep()
+    {
+        var world = TestWorlds.Create(Vector.Zero, 1);
+        world.Add(ValidBody with { Velocity = new(1.2e308, 0, 3) });
+        world.Step();
+        Assert.Equal(
+            "body seventh has left the range of a double in step 1: position (Infinity, 0, 6), velocity (1.2E+308, 0, 3)",
+            Assert.Throws<InvalidOperationException>(world.Step).Message);
     }
 
     private static void CheckRefused(BodyDescription[] wrong)

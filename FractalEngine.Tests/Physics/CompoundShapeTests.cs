@@ -57,6 +57,40 @@ public class CompoundShapeTests
         Near.Equal(1.6 * Matrix.Identity, shape.Inertia, 1e-15);
     }
 
+    /// <summary>A cylinder of 3/4 of the matter between two half balls, with m·r²/2 and m·(l²/12 + r²/4), and parallel axes.</summary>
+    [Fact]
+    public void Inertia_OfACapsule_IsItsClosedForm()
+    {
+        var shape = CompoundShape.Capsule(-1 * Vector.J, Vector.J, 0.5);
+        var along = (0.75 * 0.125) + (0.25 * 0.1);
+        // Of a half ball about its own centre 0.4·r² − (3/8·r)², and that is 1 + 3/8·r away.
+        var across = (0.75 * ((4 / 12.0) + 0.0625)) + (0.25 * (0.1 - (0.1875 * 0.1875) + (1.1875 * 1.1875)));
+        Near.Equal(Matrix.Diagonal(new(across, along, across)), shape.Inertia, 1e-15);
+        Assert.Equal((1.5, 9, true), (shape.Radius, shape.Balls.Length, shape.IsCapsule));
+        Assert.All(shape.Balls.Index(), static ball => Near.Equal(((0.25 * ball.Index) - 1) * Vector.J, ball.Item.Offset, 1e-15));
+    }
+
+    [Fact]
+    public void Shapes_AtTheirLimits_AreMadeAndBeyondNamed()
+    {
+        Assert.Equal(64, CompoundShape.Capsule(Vector.Zero, 63 * Vector.I, 2).Balls.Length);
+        Assert.Equal(64, CompoundShape.OfBalls(Enumerable.Repeat(new CompoundBall(Vector.I, 2), 64)).Balls.Length);
+        (Action Call, string Message)[] wrong =
+        [
+            (() => CompoundShape.OfBalls([]), "expected 1 to 64 balls"),
+            (() => CompoundShape.OfBalls(Enumerable.Repeat(new CompoundBall(Vector.I, 2), 65)), "expected 1 to 64 balls"),
+            (() => CompoundShape.OfBalls([new(new(0, double.NaN, 0), 1)]), "the offsets of balls must be finite"),
+            (() => CompoundShape.OfBalls([new(Vector.I, 1), new(Vector.I, 0)]), "the radii of balls must be positive"),
+            (() => CompoundShape.OfBalls([new(Vector.I, double.PositiveInfinity)]), "the radii of balls must be positive"),
+            (() => CompoundShape.Capsule(new(0, double.NaN, 0), Vector.I, 1), "the ends of a capsule must be finite"),
+            (() => CompoundShape.Capsule(Vector.I, new(double.NaN, 0, 0), 1), "the ends of a capsule must be finite"),
+            (() => CompoundShape.Capsule(Vector.I, Vector.J, 0), "the radius of a capsule must be positive"),
+            (() => CompoundShape.Capsule(Vector.I, Vector.J, double.PositiveInfinity), "the radius of a capsule must be positive"),
+            (() => CompoundShape.Capsule(Vector.Zero, 63.01 * Vector.I, 2), "a capsule may be 31.5 radii longer than its ends"),
+        ];
+        Assert.All(wrong, static call => Assert.Equal(call.Message, Assert.Throws<ArgumentException>(call.Call).Message));
+    }
+
     [Fact]
     public void Shapes_OfWrongNumbers_AreRefused()
     {

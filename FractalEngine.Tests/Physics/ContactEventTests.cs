@@ -1,3 +1,4 @@
+using System.Globalization;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
 using FractalEngine.Core.Physics.Events;
@@ -42,6 +43,17 @@ public class ContactEventTests
         Assert.True(body.IsAsleep);
         contact = Assert.Single(world.ContactEvents);
         Assert.Equal((ContactPhase.Stay, 0), (contact.Phase, contact.Impulse));
+    }
+
+    /// <summary>Friction holds it at once, and all of the step is rest.</summary>
+    [Fact]
+    public void Rest_OfABallThatDoesNotTurn_StaysWithTheWeight()
+    {
+        var world = new PhysicsWorld(Reporting);
+        world.AddStatic(PhysicsMeshes.Cube, Floor);
+        world.Add(new(new(0, 0.5, 0), 0.5) { Mass = 2, Friction = 0.5, IsRotationLocked = true });
+        world.Run(2);
+        Near.Equal(2 * 9.8 / 60, Assert.Single(world.ContactEvents).Impulse, 1e-9);
     }
 
     [Fact]
@@ -112,6 +124,56 @@ public class ContactEventTests
         var first = Collect(world, 3).Select(static contact => contact.Phase).ToArray();
         world.Reset();
         Assert.Equal(first, Collect(world, 3).Select(static contact => contact.Phase));
+    }
+
+    /// <summary>A plate goes so fast that, at the end of the step, it is no more where it has carried the ball.</summary>
+    [Fact]
+    public void Plate_ThatIsPulledAwayFromUnderABall_IsTouchedNoMore()
+    {
+        var world = new PhysicsWorld(Reporting);
+        var plate = world.AddStatic(PhysicsMeshes.Cube, new(new(0, -0.5, 0), Vector.Zero, new(2, 1, 2)));
+        var ball = world.AddSphere(new(0.5, 0.5, 0), 0.5);
+        world.Run(3);
+        Assert.Equal((ContactPhase.Stay, ball), (Assert.Single(world.ContactEvents).Phase, world.ContactEvents[0].Body));
+        plate.SetMotion(new(-60, 0, 0));
+        world.Step();
+        Assert.Equal((ContactPhase.End, plate), (Assert.Single(world.ContactEvents).Phase, world.ContactEvents[0].StaticObject));
+        world.Step();
+        Assert.Empty(world.ContactEvents);
+    }
+
+    /// <summary>In the order of the bodies, then of what they touch; what ends stands where it has stood.</summary>
+    [Fact]
+    public void Events_OfManyBodies_AreInTheOrderOfTheirIndices()
+    {
+        var world = new PhysicsWorld(Reporting);
+        world.AddStatic(PhysicsMeshes.Cube, Floor);
+        var trigger = world.AddStatic(PhysicsMeshes.Cube, new(new(0, 0.5, 0), Vector.Zero, new(9, 1, 9)));
+        trigger.IsTrigger = true;
+        // Each lies on the floor and touches the next one.
+        world.AddRange(Enumerable.Range(0, 4).Select(static i => new BodyDescription(new(i, 0.5, 0), 0.5)));
+        string[] expected = ["0+1", "0+f", "0+t", "1+2", "1+f", "1+t", "2+3", "2+f", "2+t", "3+f", "3+t"];
+        world.Step();
+        Assert.Equal(expected.Order(), Texts(ContactPhase.Begin).Order());
+        var order = Texts(ContactPhase.Begin).ToArray();
+        Assert.Equal([0, 0, 0, 1, 1, 1, 2, 2, 2, 3, 3], world.ContactEvents.Select(static one => one.Body.Index));
+        world.Step();
+        Assert.Equal(order, Texts(ContactPhase.Stay));
+        world.SetVelocity(world.Bodies[1], new(0, 90, 0));
+        world.Step();
+        Assert.Equal(order, Texts(null));
+        // In a trigger is what is there at the end of the step; what touched at its beginning has done so in it.
+        Assert.Equal(["1+t"], Texts(ContactPhase.End));
+        Assert.Equal(order.Except(["1+t"]), Texts(ContactPhase.Stay));
+        world.Step();
+        Assert.Equal(["0+1", "1+2", "1+f"], Texts(ContactPhase.End).Order());
+        Assert.Equal(order.Except(["0+1", "1+2", "1+f", "1+t"]), Texts(ContactPhase.Stay));
+
+        IEnumerable<string> Texts(ContactPhase? phase) => world.ContactEvents.Where(one => phase is null || one.Phase == phase).Select(
+            one => string.Create(
+                CultureInfo.InvariantCulture, $"{one.Body.Index}+{one.OtherBody?.Index}{TextOf(one.StaticObject)}"));
+
+        string TextOf(StaticObject? target) => target is null ? "" : target == trigger ? "t" : "f";
     }
 
     [Fact]

@@ -1,3 +1,4 @@
+using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
 using FractalEngine.Tests.Support;
 
@@ -32,6 +33,27 @@ public sealed class LoadTests
         var fallen = 0.5 * 9.8;
         Near.Equal(new(0, 1 - fallen, 0), upper.Position, 9.8 / 60);
         Near.Equal(new(0, -fallen, 0), lower.Position, 9.8 / 60);
+    }
+
+    /// <summary>Of a row of balls on a floor one is pressed down. The floor stops it at once, whatever its impulse is.</summary>
+    [Theory]
+    [InlineData(1, 1)]
+    [InlineData(0.5, 2)]
+    [InlineData(2, 1)]
+    [InlineData(0.3, 1.7)]
+    public void Row_OfWhichOneIsPressedDown_StaysWhereItIs(double speed, double mass)
+    {
+        var world = new PhysicsWorld { Gravity = Vector.Zero };
+        world.AddStatic(PhysicsMeshes.FloorMesh());
+        world.AddRange(Enumerable.Range(0, 12).Select(i =>
+            new BodyDescription(new(i, 0.5, 0), 0.5) { Mass = mass, Velocity = i == 4 ? new(0, -speed, 0) : Vector.Zero }));
+        world.Step();
+        Assert.Equal(1, world.IslandStatistics.Solves);
+        Assert.All(world.Bodies, static body =>
+        {
+            Near.Equal(Vector.Zero, body.Velocity, 1e-12);
+            Near.Equal(body.Description.Position, body.Position, 1e-12);
+        });
     }
 
     [Fact]

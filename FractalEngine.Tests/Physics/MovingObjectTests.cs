@@ -12,6 +12,50 @@ public class MovingObjectTests
     // Of a radius: the moment of an impact is found to 1e-10 of it, and some more is rounding at speed.
     private const double Overlap = 1e-9;
 
+    /// <summary>
+    /// A step has as many parts as a plate needs that goes a quarter of the smallest radius near it in each, 64 at most. In each part the
+    /// island of two balls is solved once.
+    /// </summary>
+    [Theory]
+    [InlineData(7.4, 0.5, 1)]
+    [InlineData(7.6, 0.5, 2)]
+    [InlineData(14.9, 0.5, 2)]
+    [InlineData(22.6, 0.5, 4)]
+    [InlineData(7.4, 0.25, 2)]
+    [InlineData(7.6, 0.25, 3)]
+    [InlineData(1e4, 0.5, 64)]
+    public void Plate_UnderBalls_GoesInAsManyPartsAsItsWayNeeds(double speed, double radius, int parts)
+    {
+        var world = new PhysicsWorld();
+        var plate = world.AddStatic(PhysicsMeshes.Cube, new(new(0, -0.5, 0), Vector.Zero, new(1e6, 1, 9)));
+        world.AddRange([new(new(0, 0.5, 0), 0.5), new(new(0.5 + radius, radius, 0), radius)]);
+        plate.SetMotion(new(speed, 0, 0));
+        world.Step();
+        Assert.Equal(parts, world.IslandStatistics.Solves);
+    }
+
+    /// <summary>A character near the plate counts as a body of its radius; the balls are far from it.</summary>
+    [Theory]
+    [InlineData(4.4, 1, true)]
+    [InlineData(4.6, 2, true)]
+    [InlineData(4.6, 1, false)]
+    public void Plate_BesideACharacter_GoesInAsManyPartsAsItsWayNeeds(double speed, int parts, bool isActive)
+    {
+        var world = new PhysicsWorld();
+        world.AddStatic(PhysicsMeshes.FloorMesh());
+        var plate = world.AddStatic(PhysicsMeshes.Cube, new(new(-2.5, 1.2, 0), Vector.Zero, new(1, 2, 1)));
+        world.AddRange([new(new(20, 0.5, 0), 0.5), new(new(21, 0.5, 0), 0.5)]);
+        world.AddCharacter(new(new(0, 0.9, 0), 0.3, 1.8)).IsActive = isActive;
+        plate.SetMotion(new(0, speed, 0));
+        world.Step();
+        Assert.Equal(1, world.IslandStatistics.Solves);
+        // From 2 units away to a height away from the box of the way.
+        plate.MoveTo(new(new(-2.2, 1.2, 0), Vector.Zero, new(1, 2, 1)));
+        plate.SetMotion(new(0, speed, 0));
+        world.Step();
+        Assert.Equal(1 + parts, world.IslandStatistics.Solves);
+    }
+
     [Theory]
     [InlineData(1, 0)]
     [InlineData(1, 1)]

@@ -195,6 +195,35 @@ public class OverlapResolverTests
         }, minShare: 0.3);
     }
 
+    /// <summary>
+    /// Beside a sharp edge or corner of a convex solid, a centre may lie behind the plane of a face that meets it. It is outside, and moved
+    /// straight away from the closest point.
+    /// </summary>
+    [Fact]
+    public void Start_BesideASharpEdge_IsMovedStraightAway() => Seeded.RunMost(60, random =>
+    {
+        var scale = new Vector(random.Between(0.02, 0.2), 2, random.Between(0.1, 2));
+        var world = TestWorlds.Create(
+            Vector.Zero, 1 / 60.0, TestWorlds.Place(Shapes.Octahedron(), new(Vector.Zero, random.Degrees(), scale)));
+        var hasChecked = false;
+        for (var i = 0; i < 40; i++)
+        {
+            var start = random.Vector(1.5);
+            Assert.True(world.TryFindClosest(start, ColliderKind.Exact, out var closest));
+            var radius = random.Between(1.1, 3) * closest.Distance;
+            if (closest.Feature != TriangleFeature.Interior && closest.Distance > 0.01)
+            {
+                world.Reset();
+                var body = world.AddSphere(start, radius);
+                world.Step();
+                Near.Equal(closest.Point + (radius * (start - closest.Point).UnitVector()), body.Position, 1e-6 * radius);
+                hasChecked = true;
+            }
+        }
+
+        return hasChecked;
+    });
+
     private static Mesh CreateSolid(string name) => name == "cube" ? PhysicsMeshes.Cube : MeshGenerators.Create("icosphere", 1, 80);
 
     private static void CheckFree(PhysicsWorld world, Body body, Func<Vector, double> distance, double radius)

@@ -39,6 +39,58 @@ public class SleepTests
         double Draw() => random.Next(2) == 0 ? random.Between(0.0, 0.09) : random.Between(0.11, 3);
     });
 
+    /// <summary>Sixteen steps of a 64th are a quarter of a second to the last bit.</summary>
+    [Theory]
+    [InlineData(1, false)]
+    [InlineData(2, false)]
+    [InlineData(1, true)]
+    public void Sleep_OfWhatRestsFromTheBeginning_ComesAfterItsTime(int count, bool isCompound)
+    {
+        var world = TestWorlds.Create(
+            TestWorlds.Gravity, new PhysicsSettings { TimeStep = 1 / 64.0, SleepSpeed = 0.1, TimeBeforeSleep = 0.25 },
+            TestWorlds.Place(PhysicsMeshes.FloorMesh()));
+        world.AddRange(Enumerable.Range(0, count).Select(i => isCompound
+            ? new BodyDescription(new(0, 0.5, 0), CompoundShape.Capsule(-1 * Vector.I, Vector.I, 0.5)) : new(new(0, i + 0.5, 0), 0.5)));
+        world.Run(15, () => Assert.All(world.Bodies, static body => Assert.False(body.IsAsleep)));
+        world.Step();
+        Assert.All(world.Bodies, static body => Assert.True(body.IsAsleep));
+        Assert.False(world.IsMoving);
+    }
+
+    /// <summary>A plate that comes wakes a sleeper in the step in which it may reach it, and none before.</summary>
+    [Fact]
+    public void Plate_ThatComes_WakesASleeperInTheStepInWhichItArrives()
+    {
+        var world = TestWorlds.Create(TestWorlds.Gravity, Settings, TestWorlds.Place(PhysicsMeshes.FloorMesh()));
+        var sleeper = world.AddSphere(new(0, 0.5, 0), 0.5);
+        world.Run(60);
+        var plate = world.AddStatic(PhysicsMeshes.Cube, new(new(-2.51, 1.1, 0), Vector.Zero, new(1, 2, 1)));
+        world.Run(60);
+        // The gap of 1.51 closes by 0.02 in each step.
+        plate.SetMotion(new(1.2, 0, 0));
+        sleeper.Sleep();
+        world.Run(75, () => Assert.True(sleeper.IsAsleep, $"awake after {world.StepCount} steps"));
+        world.Step();
+        Assert.False(sleeper.IsAsleep);
+    }
+
+    /// <summary>A plate pushes a ball that then reaches a sleeper in the same step: both give way at once.</summary>
+    [Fact]
+    public void Ball_ThatAPlatePushesToASleeper_WakesItInTheSameStep()
+    {
+        var world = TestWorlds.Create(TestWorlds.Gravity, Settings, TestWorlds.Place(PhysicsMeshes.FloorMesh()));
+        var sleeper = world.AddSphere(new(0, 0.5, 0), 0.5);
+        var pushed = world.AddSphere(new(-1.01, 0.5, 0), 0.5);
+        world.Run(20);
+        world.AddStatic(PhysicsMeshes.Cube, new(new(-2.01, 1.1, 0), Vector.Zero, new(1, 2, 1))).SetMotion(new(1.2, 0, 0));
+        sleeper.Sleep();
+        world.Step();
+        Assert.False(sleeper.IsAsleep);
+        // The plate goes on by 0.02, of which 0.01 are the gap.
+        Near.Equal(new(-0.99, 0.5, 0), pushed.Position, 1e-5);
+        Near.Equal(new(0.01, 0.5, 0), sleeper.Position, 1e-5);
+    }
+
     [Fact]
     public void Ball_ThatFloats_NeverSleeps()
     {

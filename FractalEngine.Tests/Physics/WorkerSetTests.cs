@@ -73,6 +73,28 @@ public class WorkerSetTests
         }
     }
 
+    /// <summary>Threads that an earlier call has made wait while a later one may have fewer.</summary>
+    [Fact]
+    public void Run_OnFewerThreadsThanBefore_HasNoMoreThanThose()
+    {
+        var workers = new WorkerSet();
+        using (var barrier = new Barrier(5))
+        {
+            workers.Run(5, 5, _ => Assert.True(barrier.SignalAndWait(TimeSpan.FromSeconds(30)), "too few threads"));
+        }
+
+        for (var call = 0; call < 20; call++)
+        {
+            var threads = new int[60];
+            workers.Run(threads.Length, 2, i =>
+            {
+                threads[i] = Environment.CurrentManagedThreadId;
+                Thread.Sleep(i < 30 ? 1 : 0);
+            });
+            Assert.InRange(threads.Distinct().Count(), 1, 2);
+        }
+    }
+
     [Fact]
     public void Run_WithinAJob_DoesItsJobsOnTheSameThread()
     {

@@ -3,6 +3,7 @@ using FractalEngine.Core.Collision;
 using FractalEngine.Core.Collision.Bvh;
 using FractalEngine.Core.Collision.Fractals;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Rays;
 using FractalEngine.Tests.Collision;
@@ -144,6 +145,39 @@ public class RayCasterDepthTests
             }
         }
     });
+
+    [Fact]
+    public void TryFindNearest_UpToADistance_GivesTheSameBits() => Seeded.Run(100, random =>
+    {
+        var fractal = Fractal.Of(Shapes.Cube()).Repeat([Transformation.At(Vector.I, 0.5), Transformation.At(-Vector.I, 0.5)], 3);
+        var caster = RayCaster.For(fractal.WithPlacement(new(Vector.Zero, Vector.Zero, 0.1 * Vector.One)));
+        var context = new QueryContext();
+        var direction = random.Direction();
+        Ray ray = new((0.2 * random.Vector()) - (0.4 * direction), direction);
+        var isFound = caster.TryFindNearest(ray, context, out var hit);
+        Assert.Equal(isFound && hit.Distance <= 0.9, caster.TryFindNearest(ray, context, out var nearHit, maxDistance: 0.9));
+        Assert.Equal(isFound && hit.Distance <= 0.9 ? hit : default, nearHit);
+        Assert.Equal(isFound, caster.HitsAny(ray, context, maxDistance: isFound ? 1.0001 * hit.Distance : double.PositiveInfinity));
+        Assert.False(isFound && caster.HitsAny(ray, context, maxDistance: 0.999 * hit.Distance));
+    });
+
+    [Fact]
+    public void FindNearest_WithoutAContext_AllocatesNothing()
+    {
+        var caster = RayCaster.For(
+            Fractal.Of(Shapes.Cube()).Repeat([Transformation.At(Vector.I, 0.5), Transformation.At(-Vector.I, 0.5)], 9));
+        // Through the middle of the outermost cube.
+        Ray ray = new(new(2 - (2.0 / 512), 0, -9), Vector.K);
+        var hits = Enumerable.Range(0, 20).Count(_ => caster.FindNearest(ray) is not null);
+        var before = GC.GetAllocatedBytesForCurrentThread();
+        for (var i = 0; i < 20; i++)
+        {
+            hits += caster.FindNearest(ray) is null ? 0 : 1;
+        }
+
+        Assert.Equal(0, GC.GetAllocatedBytesForCurrentThread() - before);
+        Assert.Equal(40, hits);
+    }
 
     [Fact]
     public void For_OfAnInfiniteFractalThatGrows_IsRefused() => Assert.ThrowsAny<FractalEngineException>(

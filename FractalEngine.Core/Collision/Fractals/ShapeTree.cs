@@ -156,7 +156,7 @@ internal sealed class ShapeTree
 
         foreach (var paths in instancePaths.GroupBy(path => _hierarchy.BaseMeshAt(path.Key)).ToArray())
         {
-            var images = DistinctMaps.Images(paths.Key.FaceBounds, _hierarchy.Levels, paths.Count());
+            var images = DistinctMaps.Images(paths.Key.UsedBounds, _hierarchy.Levels, paths.Count());
             foreach (var (path, _) in paths.OrderBy(
                 static path => path.Value, Comparer<int[]>.Create(static (path1, path2) => path1.AsSpan().SequenceCompareTo(path2))))
             {
@@ -183,5 +183,5 @@ internal sealed class ShapeTree
             : new(subFractal, levels, default, baseIndex: -1, in map, subFractal.Box, reach);
 
     private ShapeNode CreateBase(SubFractal? subFractal, int baseIndex, in AffineMap map, double reach) =>
-        new(subFractal, 0, BvhChild.Root, baseIndex, in map, subFractal?.Box ?? _meshes[baseIndex].FaceBounds, reach);
+        new(subFractal, 0, BvhChild.Root, baseIndex, in map, subFractal?.Box ?? _meshes[baseIndex].UsedBounds, reach);
 }

@@ -20,7 +20,7 @@ internal sealed class OutlierClusters
     public OutlierClusters(HierarchyDescription description)
     {
         _baseDiagonal = description.Recursives.Where(static recursive => recursive.BaseMesh.FaceCount > 0)
-            .Select(static recursive => recursive.BaseMesh.FaceBounds.Diagonal).DefaultIfEmpty().Max();
+            .Select(static recursive => recursive.BaseMesh.UsedBounds.Diagonal).DefaultIfEmpty().Max();
         _hasOutliers = description.Steps.Any(HasOutliers)
             || description.Recursives.Any(recursive => HasOutliers([.. recursive.Calls.Select(static call => call.Map)]));
     }

@@ -84,7 +84,8 @@ public sealed class CompoundShape
         var segment = to - from;
         var length = segment.Length();
         var gaps = Math.Ceiling(length / (CapsuleSpacing * radius));
-        Require(gaps < MaxBalls, $"a capsule may be {(MaxBalls - 1) * CapsuleSpacing} radii longer than its ends");
+        Require(
+            gaps < MaxBalls, FormattableString.Invariant($"a capsule may be {(MaxBalls - 1) * CapsuleSpacing} radii longer than its ends"));
         var balls = Enumerable.Range(0, (int)gaps + 1).Select(i => new CompoundBall(from + (i / Math.Max(1, gaps) * segment), radius));
         return new(balls, 0.5 * (from + to), CapsuleInertia(segment, length, radius)) { IsCapsule = true };
     }

@@ -25,6 +25,9 @@ public sealed class RecordedCommandTests : IDisposable
         folder.Write("warn.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 1 2\nfoo 1\n");
         folder.Write("empty.obj", "# nothing\n");
         folder.Write("blank.sdo", "");
+        folder.Write("short.obj", "v 0 0\nv 1 0 0\nf 1 2 1\n");
+        folder.Write("uncalled.fdo", "v 1 0 0\nt.a. (9, #, #)\nu.a. (8, #, #)\nx. \"cube.obj\"\n<$>. x\n");
+        folder.Write("two-corners.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2\n");
         folder.Write("a.txt", "text\n");
         folder.Write("binary.obj", "v 0 0\0 0\n");
         folder.Write("scene.sdo", """
@@ -42,6 +45,7 @@ public sealed class RecordedCommandTests : IDisposable
             p "cube.obj" ((3, 0.2, 0), #, #) 0.3 name "c"
 
             """);
+        folder.Write("void/a.txt", "text\n");
         folder.Write("inner/out.sdo", "o \"../cube.obj\" #\n");
         folder.Write("points.txt", "# three\n0 0 5\n2, 0.2, 0.1\n\n0.1 -3 0 # below\n");
         folder.Write("ray.txt", "0 0 5 0 0 -1\n");
@@ -66,7 +70,8 @@ public sealed class RecordedCommandTests : IDisposable
         "info cube.obj --composition affine", "info", "info --json", "info \"\"", "info -x", "info --jason cube.obj", "info cube.obj extra",
         "info cube.obj --json --json", "info inner/out.sdo --allow-outside --json=false",
         "info row.fdo --limit depth=2 --limit depth=3 --json", "info missing.obj", "info cub.obj", "info inner", "info a.txt",
-        "info binary.obj", "info faulty.fdo", "info deep.fdo", "info row.fdo --limit depth=2",
+        "info binary.obj", "info short.obj", "info uncalled.fdo", "info two-corners.obj --json",
+        "info faulty.fdo", "info deep.fdo", "info row.fdo --limit depth=2",
         "info row.fdo --limit depth=0", "info row.fdo --limit depth=x",
         "info row.fdo --limit depth=-1", "info row.fdo --limit depth=9999999999", "info row.fdo --limit depths=2",
         "info row.fdo --limit depth", "info row.fdo --limit 5", "info row.fdo --limit", "info inner/out.sdo",
@@ -80,7 +85,8 @@ public sealed class RecordedCommandTests : IDisposable
         "commands-check.txt",
         "check cube.obj row.fdo", "check .", "check inner", "check inner --allow-outside", "check faulty.fdo", "check deep.fdo",
         "check deep.fdo cube.obj", "check cube.obj deep.fdo faulty.fdo", "check missing.obj", "check \"\"", "check -x", "check",
-        "check warn.obj", "check row.fdo --composition affine", "check deep.fdo --limit depth=1000001", "check a.txt", "check nowhere/",
+        "check warn.obj", "check void",
+        "check row.fdo --composition affine", "check deep.fdo --limit depth=1000001", "check a.txt", "check nowhere/",
         "count cube.obj", "count cube.obj", "count row.fdo", "count -", "count", "count missing.obj", "count warn.obj", "count -x",
         "count cube.obj extra", "count m.obj --allow-outside");
 

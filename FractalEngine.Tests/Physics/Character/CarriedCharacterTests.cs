@@ -107,6 +107,77 @@ public class CarriedCharacterTests
         Assert.True(ball.Velocity.X > 0.9 * walker.Description.WalkingSpeed);
     }
 
+    [Fact]
+    public void Turntable_TellsTheAngleBeforeTheStep()
+    {
+        var walker = CreateOn(new(20, 1, 20), out var world, out var turntable);
+        turntable.SetMotion(Vector.Zero, new(0, 0.5, 0));
+        var before = walker.CarriedAngle;
+        world.Run(20, () =>
+        {
+            Assert.Equal(before, walker.PreviousCarriedAngle);
+            before = walker.CarriedAngle;
+        });
+        Assert.True(before > 0.1, $"{before}");
+        turntable.SetMotion(Vector.Zero);
+        world.Run(2);
+        Assert.Equal((walker.CarriedAngle, walker.CarriedAngle), (before, walker.PreviousCarriedAngle));
+    }
+
+    /// <summary>Two steep walls catch a character like ground; the belt that it has left carries it no more.</summary>
+    [Fact]
+    public void Groove_BesideABelt_CarriesNobodyWhoHasFallenIntoIt()
+    {
+        var world = new PhysicsWorld();
+        world.AddStatic(PhysicsMeshes.Cube, new(new(-5, -0.25, 0), Vector.Zero, new(10, 0.5, 60))).SetBelt(new(0, 0, 2));
+        world.AddStatic(PhysicsMeshes.FromTriangles(
+            (new(0.05, -0.6, -50), new(1, -4, 50), new(1, -4, -50)), (new(0.05, -0.6, -50), new(0.05, -0.6, 50), new(1, -4, 50)),
+            (new(2, -0.6, -50), new(1, -4, -50), new(1, -4, 50)), (new(2, -0.6, -50), new(1, -4, 50), new(2, -0.6, 50))));
+        var walker = world.AddCharacter(new(new(-0.5, 0.7, 0), 0.3, 1.4) { StepHeightOverride = 0.05 });
+        walker.IsActive = true;
+        world.Run(30);
+        Assert.True(walker.Position.Z > 0.5, $"{walker.Position}");
+        walker.MoveInput = Vector.I;
+        for (var step = 0; step < 60 && walker.IsGrounded; step++)
+        {
+            world.Step();
+        }
+
+        walker.MoveInput = Vector.Zero;
+        world.Run(120);
+        var caught = walker.Position;
+        Assert.True(walker.IsGrounded && caught.Y < -1, $"{caught}");
+        world.Run(60);
+        Near.Equal(caught, walker.Position, 1e-9);
+    }
+
+    /// <summary>The same where one long step leads from the belt to the bottom.</summary>
+    [Fact]
+    public void Groove_BesideABelt_CarriesNobodyWhoHasJumpedIntoItInOneStep()
+    {
+        var world = new PhysicsWorld(new PhysicsSettings { TimeStep = 1 });
+        world.AddStatic(PhysicsMeshes.Cube, new(new(-5, -0.25, 0), Vector.Zero, new(10, 0.5, 90))).SetBelt(new(0, 0, 2));
+        world.AddStatic(PhysicsMeshes.FromTriangles(
+            (new(0.05, -0.1, -50), new(0.625, -1.6, 50), new(0.625, -1.6, -50)),
+            (new(0.05, -0.1, -50), new(0.05, -0.1, 50), new(0.625, -1.6, 50)),
+            (new(1.2, -0.1, -50), new(0.625, -1.6, -50), new(0.625, -1.6, 50)),
+            (new(1.2, -0.1, -50), new(0.625, -1.6, 50), new(1.2, -0.1, 50))));
+        var walker = world.AddCharacter(new(new(-0.3, 0.3, 0), 0.3, 0.6) { WalkingSpeedOverride = 2, JumpSpeedOverride = 2 });
+        walker.IsActive = true;
+        world.Run(3);
+        Assert.True(walker.IsGrounded && walker.Position.Z > 2, $"{walker.Position}");
+        walker.MoveInput = Vector.I;
+        walker.Jump();
+        world.Step();
+        var caught = walker.Position;
+        // As deep as a ball of its radius goes between the walls.
+        Near.Equal(-1.6 + (0.3 * Math.Sqrt((0.575 * 0.575) + 2.25) / 0.575), caught.Y, 1e-6);
+        Assert.True(walker.IsGrounded);
+        walker.MoveInput = Vector.Zero;
+        world.Run(2);
+        Near.Equal(caught, walker.Position, 1e-9);
+    }
+
     private static CharacterController CreateOn(Vector size, out PhysicsWorld world, out StaticObject floor)
     {
         world = new();

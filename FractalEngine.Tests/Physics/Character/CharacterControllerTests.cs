@@ -133,6 +133,37 @@ public sealed class CharacterControllerTests
         Assert.True(character.IsGrounded);
     }
 
+    /// <summary>A jump in the air waits for a tenth of a second, six steps, for ground.</summary>
+    [Theory]
+    [InlineData(1, true)]
+    [InlineData(5, true)]
+    [InlineData(7, false)]
+    [InlineData(20, false)]
+    public void Jump_ShortlyBeforeLanding_WaitsForTheGround(int stepsBefore, bool jumps)
+    {
+        var (world, character) = CreateStandingCharacter(new(0, HalfHeight, 0), Ground);
+        character.Teleport(new(0, HalfHeight + 1.5, 0));
+        var landing = 0;
+        for (; !character.IsGrounded; landing++)
+        {
+            world.Step();
+        }
+
+        character.Teleport(new(0, HalfHeight + 1.5, 0));
+        world.Run(landing - stepsBefore);
+        character.Jump();
+        world.Run(stepsBefore);
+        Assert.True(character.IsGrounded);
+        world.Step();
+        Assert.Equal(jumps, !character.IsGrounded);
+        Near.Equal(jumps ? Math.Sqrt(2 * 9.8 * 0.6 * 1.8) - (9.8 / 60) : 0, character.Velocity.Y, 1e-9);
+        // A jump is forgotten where the character is put elsewhere.
+        character.Jump();
+        character.Teleport(new(5, HalfHeight, 0));
+        world.Run(3);
+        Near.Equal(HalfHeight, character.Position.Y, TouchTolerance);
+    }
+
     [Fact]
     public void Walk_OverAnEdge_FallsAndLands()
     {

@@ -36,6 +36,19 @@ public class NeighbourGridTests
         Assert.Equal([1], found);
     }
 
+    /// <summary>A row of cells begins where the bodies do, wherever that is.</summary>
+    [Theory]
+    [InlineData(-90)]
+    [InlineData(0)]
+    [InlineData(90)]
+    public void CollectOverlaps_OfARow_FindsThemCellByCell(double start)
+    {
+        GraphBody[] bodies = [.. new[] { 6, 3, 9, 0 }.Select(x => Body(new(start + x, 0, 0), 1))];
+        var found = new List<int>();
+        Build(bodies).CollectOverlaps(new(start, 0, 0), 50, -1, found);
+        Assert.Equal([3, 1, 0, 2], found);
+    }
+
     /// <summary>Cells are a radius long along x and three wide; there may be 4,096, or sixteen for each body.</summary>
     [Theory]
     [InlineData(10, 16 * 3 - 0.5, 16 * 3 - 0.5, 15.5, false)]
