@@ -20,7 +20,7 @@ internal sealed record RenderJob(
     public BackgroundChoice Background { get; init; } = BackgroundChoice.OfScene;
 
     /// <summary>Creates the view of a scene for an aspect ratio, before any zoom.</summary>
-    public Func<LoadedScene, double, View> CreateView { get; init; } = static (scene, aspect) => View.Of(scene, aspect);
+    public required Func<LoadedScene, double, View> CreateView { get; init; }
 
     /// <summary>Number of levels that the camera flies into a fractal.</summary>
     public double ZoomLevels { get; init; }

@@ -139,6 +139,7 @@ public sealed record BodyDescription(Vector Position, double Radius)
         : !(SpinningFriction >= 0 && double.IsFinite(SpinningFriction)) ? "the spinning friction must not be negative"
         : !(Damping >= 0 && double.IsFinite(Damping)) ? "the damping must not be negative"
         : !(Shrinkage >= 0 && double.IsFinite(Shrinkage)) ? "the shrinkage must not be negative"
+        : !Enum.IsDefined(Collider) ? "there is no such kind of collider"
         : !(MinScale is > 0 and <= 1) ? "the minimum scale must lie between 0 and 1"
         : null;
 }

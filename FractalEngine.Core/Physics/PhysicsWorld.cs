@@ -164,11 +164,13 @@ public sealed partial class PhysicsWorld
     public IslandStatistics IslandStatistics => _planner.Statistics;
 
     /// <summary>Collider of all bodies instead of their own; null for their own. Setting another one wakes all bodies.</summary>
+    /// <exception cref="ArgumentOutOfRangeException">There is no such kind.</exception>
     public ColliderKind? ColliderOverride
     {
         get => _colliderOverride;
         set
         {
+            ColliderFactory.ThrowIfUnknown(value ?? default);
             if (_colliderOverride != value)
             {
                 _colliderOverride = value;

@@ -368,6 +368,19 @@ public sealed class CommandLineTests : IDisposable
         Assert.Equal(0, Run("check", "far.sdo").ExitCode);
     }
 
+    [Theory]
+    [InlineData("\"a.obj")]
+    [InlineData("a\".obj")]
+    [InlineData("a\n.obj")]
+    public void Save_OfAFileThatASceneCannotName_SaysSo(string name)
+    {
+        File.Copy(_folder["cube.obj"], _folder[name]);
+        var (exitCode, _, error) = Run("save", name, "--output", "named.sdo");
+        Assert.Equal(
+            (2, "error: a scene can't refer to a file with a quote or a line break in its path"), (exitCode, error.Split('\n')[0]));
+        Assert.False(File.Exists(_folder["named.sdo"]));
+    }
+
     [Fact]
     public void Render_TracingAModelBeyondALimit_ExitsWith3()
     {

@@ -90,6 +90,8 @@ public class SceneColliderTests
         // Skewed anew, so that its collider is made anew.
         var skewed = collider.WithObject(0, new(new("m.obj", placement with { Scale = new(width, 0.3, 2) }), mesh));
         Assert.Equal(0, skewed.FindClosest(new(50, 0, 0)).ObjectIndex);
+        var skewedAgain = moved.WithObject(0, new(new("m.obj", placement with { Scale = new(width, 0.3, 2) }), mesh));
+        Assert.Equal(skewed.FindClosest(new(50, 0, 0)), skewedAgain.FindClosest(new(50, 0, 0)));
     }
 
     private static LoadedScene RandomScene(Random random)

@@ -30,6 +30,19 @@ public class FractalBoundsTests
         Assert.True(bounds.Minimum.Y <= expanded.Minimum.Y && bounds.Maximum.Y >= expanded.Maximum.Y);
     }
 
+    /// <summary>Sets of more maps than one node has, under and above placements that turn.</summary>
+    [Theory]
+    [InlineData(65)]
+    [InlineData(300)]
+    public void Bounds_OfAWideSetBetweenPlacements_AreThoseOfItsFaces(int count) => Seeded.Run(5, random =>
+    {
+        var maps = Enumerable.Range(0, count).Select(_ => random.Transformation()).ToArray();
+        var fractal = Fractal.Of(Samples.Tetrahedron).Apply([random.Transformation()]).Apply(maps).Apply([random.Transformation()]);
+        var expected = FractalGenerator.Flatten(fractal, 10_000).Bounds;
+        Near.Equal(expected.Minimum, fractal.Bounds.Minimum, 1e-12 * expected.Diagonal);
+        Near.Equal(expected.Maximum, fractal.Bounds.Maximum, 1e-12 * expected.Diagonal);
+    });
+
     /// <summary>
     /// 32,768 trees on one plane, turned about its normal. All are candidates for the highest twig, but only 16 of them differ in height.
     /// </summary>

@@ -36,6 +36,16 @@ public class FractalTrailTests
     }
 
     [Fact]
+    public void Update_OfSetsThatDiffer_TakesThatOfEachLevel()
+    {
+        var fractal = Samples.Repeated(5, Samples.MoveAndScale(0, 0, 0, 0.5)).Apply([Samples.Move(3, 0, 0)]);
+        var trail = new FractalTrail(fractal, 1);
+        var expected = new AffineMap(Matrix.Diagonal(Vector.One / 32), new(3, 0, 0));
+        Assert.Equal(expected, trail.Update(AffineMap.Identity, new(3, 0, 0)));
+        Assert.Equal(6, trail.Depth);
+    }
+
+    [Fact]
     public void Update_FarFromEverything_IsTheObjectsOwnMatrix()
     {
         var m = AffineMap.Translate(new(1, 2, 3));

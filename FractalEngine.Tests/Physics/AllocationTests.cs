@@ -25,7 +25,7 @@ public class AllocationTests
             world.Step((1 + (step % 7)) / 240.0))),
         ["skew objects and sleepers"] = (300, CreateSkew),
         ["a character"] = (100, CreateCharacter),
-        ["compounds on a sponge"] = (45, static () => StepsOf(CreateCompounds())),
+        ["compounds on a sponge"] = (15, static () => StepsOf(CreateCompounds())),
         ["a heap that threads share"] = (40, static () => StepsOf(CreateHeap(maxThreads: 1))),
         ["movers"] = (40, static () => StepsOf(CreateMill())),
         ["events"] = (200, static () => StepsOf(CreateReporting())),
@@ -38,6 +38,11 @@ public class AllocationTests
     [MemberData(nameof(Names))]
     public void Steps_OfANewWorld_AllocateNothing(string name) =>
         Assert.Equal(0, Allocation.Measure(Runs[name].Steps, Runs[name].Prepare));
+
+    [Fact]
+    [Trait("Category", "Soak")]
+    public void Steps_OfCompoundsThatComeToRest_AllocateNothing() =>
+        Assert.Equal(0, Allocation.Measure(120, static () => StepsOf(CreateCompounds())));
 
     [Fact]
     public void Steps_OfAHeapOnManyThreads_AllocateNothingOnAny() =>

@@ -217,6 +217,16 @@ public class BodyInputTests
 
     /// <summary>What is beyond the range of a double is named with the step and where it is.</summary>
     [Fact]
+    public void AnUnknownCollider_IsRefusedBeforeAnyStep()
+    {
+        var world = new PhysicsWorld();
+        var error = Assert.Throws<ArgumentException>(() => world.Add(new(Vector.Zero, 1) { Collider = (ColliderKind)99 }));
+        Assert.Contains("there is no such kind of collider", error.Message, StringComparison.Ordinal);
+        Assert.Throws<ArgumentOutOfRangeException>(() => world.ColliderOverride = (ColliderKind)99);
+        Assert.Null(world.ColliderOverride);
+    }
+
+    [Fact]
     public void Step_BeyondTheRangeOfADouble_TellsOfTheStep()
     {
         var world = TestWorlds.Create(Vector.Zero, 1);

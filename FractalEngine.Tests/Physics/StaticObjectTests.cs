@@ -87,7 +87,8 @@ public class StaticObjectTests
     public void MoveObject_OfABody_IsRefused()
     {
         var world = CreateWorldWithCubes();
-        Assert.Throws<ArgumentException>(() => world.MoveObject(1, Transformation.Identity));
+        var error = Assert.Throws<ArgumentException>("objectIndex", () => world.MoveObject(1, Transformation.Identity));
+        Assert.StartsWith("the object is a body, which moves by itself", error.Message, StringComparison.Ordinal);
     }
 
     [Theory]

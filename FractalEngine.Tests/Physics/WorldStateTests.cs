@@ -240,6 +240,16 @@ public class WorldStateTests
 
     /// <summary>What has a mask sees an object that is new, has moved, moves by itself or has become a trigger.</summary>
     [Fact]
+    public void TryCastRay_AsFarAsABodyAndNoFarther_MeetsIt()
+    {
+        var world = new PhysicsWorld();
+        world.Add(new(Vector.Zero, 1));
+        Assert.True(world.TryCastRay(new(new(0, 0, -5), Vector.K), out var hit, 4));
+        Assert.Equal(4, hit.Distance);
+        Assert.False(world.TryCastRay(new(new(0, 0, -5), Vector.K), out _, 4 - 1e-12));
+    }
+
+    [Fact]
     public void CastWithAMask_AfterEachChange_SeesTheObjectsAsTheyAre()
     {
         var world = new PhysicsWorld { Gravity = Vector.Zero };

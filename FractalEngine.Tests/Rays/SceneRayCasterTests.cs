@@ -63,7 +63,8 @@ public class SceneRayCasterTests
         var placed = scene.Objects[0];
         Assert.Throws<ArgumentOutOfRangeException>(() => caster.WithObject(1, placed));
         Assert.Throws<ArgumentOutOfRangeException>(() => caster.WithObject(-1, placed));
-        Assert.Throws<ArgumentException>(() => caster.WithObject(0, new(new SceneObject(Samples.Triangle))));
+        var error = Assert.Throws<ArgumentException>("placed", () => caster.WithObject(0, new(new SceneObject(Samples.Triangle))));
+        Assert.StartsWith("expected the model of an object of the scene", error.Message, StringComparison.Ordinal);
         var flat = new SceneObject(placed.Model) { Placement = Transformation.Identity with { Scale = new(1, 0, 1) } };
         Assert.Throws<SingularMatrixException>(() => caster.WithObject(0, new(flat, placed.Model)));
         Assert.Throws<SingularMatrixException>(() => caster.WithScene(scene with { Objects = [new(flat, placed.Model)] }));

@@ -37,6 +37,61 @@ public class QueryRecordTests
         RecordedText.Check("pairs.txt", all.Select((shape, i) => PairLine(shape, all[((i * 11) + 5) % all.Count], i)));
     }
 
+    /// <summary>Positions at corners, on edges and faces, above them, and far away; radii that just reach a face, or just don't.</summary>
+    [Fact]
+    public void Queries_AtEdgesOfAllShapes_AreAsRecorded() =>
+        RecordedText.Check("edge-queries.txt", RecordedShapes.Faces().Select(EdgeLine));
+
+    private static string EdgeLine((string Name, Model Model, Func<Random, (Vector A, Vector B, Vector C)> Face) shape)
+    {
+        Collider collider;
+        try
+        {
+            collider = Collider.For(shape.Model);
+        }
+        catch (FractalEngineException exception)
+        {
+            return $"{shape.Name}: {exception.Message.Split('\n')[0]}";
+        }
+
+        var context = new QueryContext();
+        var random = new Random(6);
+        double size = shape.Model.Bounds.Diagonal;
+        var (places, bounds, found, overlaps) = (new Digest(), new Digest(), 0, 0);
+        for (int i = 0; i < PositionCount; i++)
+        {
+            var (a, b, c) = shape.Face(random);
+            var middle = (1 / 3.0) * (a + b + c);
+            var normal = Vector.Cross(b - a, c - a);
+            var position = (i % 8) switch
+            {
+                0 => a,
+                1 => 0.5 * (a + b),
+                2 => middle,
+                3 => middle + (0.5 / Math.Sqrt(Math.Max(normal.Length(), 1e-300)) * normal),
+                4 => b + (1e-9 * (b - middle)),
+                5 => middle + (1e6 * size * random.Direction()),
+                6 => a + (1e-13 * size * random.Direction()),
+                _ => middle + (0.1 * size * random.Direction()),
+            };
+            bool isFound = collider.TryFindClosest(position, double.PositiveInfinity, context, out var closest);
+            if (!isFound)
+            {
+                continue;
+            }
+
+            places.Add(closest.Distance).Add(closest.Point);
+            bounds.AddBound(closest.ErrorBound);
+            foreach (double factor in (double[])[1 - 1e-9, 1, 1 + 1e-9])
+            {
+                found += collider.TryFindClosest(position, factor * closest.Distance, context, out _) ? 1 : 0;
+                overlaps += collider.Overlaps(position, factor * closest.Distance, context) ? 1 : 0;
+            }
+        }
+
+        return $"{shape.Name}: {found} found, {overlaps} overlaps {places} bounds {bounds}{Work(context)}";
+    }
+
     private static IEnumerable<(string Name, Collider Collider, BoundingBox Box, Func<Random, Vector> Target)> All() =>
         [
             .. RecordedShapes.Fractals().Where(shape => shape.Fractal.Description.Composition == Composition.Affine)

@@ -3,6 +3,7 @@ using FractalEngine.Core.Collision;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Rays;
+using FractalEngine.Core.Scenes;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Recorded;
@@ -23,6 +24,75 @@ public class RayRecordTests
         "mesh-rays.txt",
         RecordedShapes.Meshes().Select(shape => Line(
             shape.Name, () => RayCaster.For(shape.Mesh), shape.Mesh.Bounds, RecordedShapes.TargetsOf(shape.Mesh))));
+
+    /// <summary>Rays at corners and edges, along edges and faces, from faces and from far away, to a face and from it on.</summary>
+    [Fact]
+    public void Rays_AtEdgesOfAllShapes_AreAsRecorded() => RecordedText.Check("edge-rays.txt", RecordedShapes.Faces().Select(EdgeLine));
+
+    private static string EdgeLine((string Name, Model Model, Func<Random, (Vector A, Vector B, Vector C)> Face) shape)
+    {
+        RayCaster caster;
+        try
+        {
+            caster = RayCaster.For(shape.Model);
+        }
+        catch (FractalEngineException exception)
+        {
+            return $"{shape.Name}: {exception.Message.Split('\n')[0]}";
+        }
+
+        var context = new QueryContext();
+        var random = new Random(5);
+        double size = shape.Model.Bounds.Diagonal;
+        bool isInfinite = shape.Name.StartsWith("infinite", StringComparison.Ordinal);
+        var (places, hits, shadows) = (new Digest(), 0, 0);
+        for (int i = 0; i < RayCount; i++)
+        {
+            var (a, b, c) = shape.Face(random);
+            var middle = (1 / 3.0) * (a + b + c);
+            var outside = middle + (size * random.Direction());
+            var normal = Vector.Cross(b - a, c - a);
+            var axis = (i / 12 % 3) switch { 0 => Vector.I, 1 => Vector.J, _ => Vector.K };
+            var (origin, direction) = (i % 12) switch
+            {
+                0 => (outside, a - outside),
+                1 => (outside, (0.5 * (a + b)) - outside),
+                2 => (a - (2 * (b - a)), b - a),
+                3 => (middle + (3 * (middle - b)), (middle - c) + (middle - a)),
+                4 => (a - (size * axis), axis),
+                5 => (middle, normal),
+                6 => (middle + (1e6 * (outside - middle)), middle - outside),
+                7 or 8 => (outside, middle - outside),
+                9 => (b, c - b),
+                10 => (outside, b + (0.3 * (c - b)) - outside),
+                _ => (middle - (1e-3 * normal), normal + (1e-4 * normal.Length() * random.Direction())),
+            };
+            if (direction == Vector.Zero)
+            {
+                continue;
+            }
+
+            double length = (middle - origin).Length() / direction.Length();
+            var ray = new Ray(origin, i % 3 == 0 ? direction : 1 / direction.Length() * direction);
+            var (least, most) = (i % 12) switch
+            {
+                7 => (0, length * direction.Length()),
+                8 => (length * direction.Length(), double.PositiveInfinity),
+                _ => (0, double.PositiveInfinity),
+            };
+            var footprint = isInfinite || i % 12 == 10 ? new RayFootprint(1e-4 * size, 0.01) : default;
+            if (caster.TryFindNearest(ray, context, out var hit, least, most, footprint))
+            {
+                hits++;
+                places.Add(hit.Distance).Add(hit.Point);
+            }
+
+            shadows += caster.HitsAny(ray, context, least, most, footprint) ? 1 : 0;
+        }
+
+        return $"{shape.Name}: {hits} hits, {shadows} shadows {places}, "
+            + $"{context.Statistics.FaceTests} faces, {context.Statistics.BoundTests} bounds";
+    }
 
     private static string Line(string name, Func<RayCaster> create, BoundingBox box, Func<Random, Vector> targetOf)
     {

@@ -58,29 +58,53 @@ internal static class RecordedShapes
             : box.Centre + ((i % 8 == 1 ? 15 : i % 8 == 3 ? 2 : 0.55) * random.Vector().Stretch(box.Size)))];
     }
 
+    /// <summary>All shapes by their names, with what draws a face of them.</summary>
+    public static IEnumerable<(string Name, Model Model, Func<Random, (Vector A, Vector B, Vector C)> Face)> Faces() =>
+        Fractals().Where(static shape => shape.Fractal.BaseMesh.FaceCount > 0)
+            .Select(static shape => (shape.Name, (Model)new FractalModel(shape.Fractal), FacesOf(shape.Fractal)))
+            .Concat(Meshes().Where(static shape => shape.Mesh.FaceCount > 0)
+                .Select(static shape => (shape.Name, (Model)new MeshModel(shape.Mesh), FacesOf(shape.Mesh))));
+
     /// <summary>Draws a point on a face of a mesh.</summary>
-    public static Func<Random, Vector> TargetsOf(Mesh mesh) => random =>
-    {
-        var (a, b, c) = mesh.Face(random.Next(mesh.FaceCount));
-        var (u, v) = random.Barycentrics();
-        return a + (u * (b - a)) + (v * (c - a));
-    };
+    public static Func<Random, Vector> TargetsOf(Mesh mesh) => random => PointOf(FacesOf(mesh)(random), random);
 
     /// <summary>Draws a point on a face of an instance of a fractal; of one that is composed componentwise, a point nearby.</summary>
     public static Func<Random, Vector> TargetsOf(Fractal fractal)
     {
         var onMesh = TargetsOf(fractal.BaseMesh);
-        long levels = Math.Min(fractal.LevelCount ?? MaxChain, MaxChain);
+        var instance = InstancesOf(fractal);
+        return random => instance(random) * onMesh(random);
+    }
+
+    private static Func<Random, (Vector A, Vector B, Vector C)> FacesOf(Mesh mesh) => random => mesh.Face(random.Next(mesh.FaceCount));
+
+    private static Func<Random, (Vector A, Vector B, Vector C)> FacesOf(Fractal fractal)
+    {
+        var onMesh = FacesOf(fractal.BaseMesh);
+        var instance = InstancesOf(fractal);
         return random =>
         {
-            var map = AffineMap.Identity;
-            for (long level = 0; level < levels; level++)
-            {
-                var maps = fractal.LevelAt(level).Maps;
-                map = map * maps[random.Next(maps.Length)];
-            }
-
-            return map * onMesh(random);
+            var map = instance(random);
+            var (a, b, c) = onMesh(random);
+            return (map * a, map * b, map * c);
         };
     }
+
+    private static Vector PointOf((Vector A, Vector B, Vector C) face, Random random)
+    {
+        var (u, v) = random.Barycentrics();
+        return face.A + (u * (face.B - face.A)) + (v * (face.C - face.A));
+    }
+
+    private static Func<Random, AffineMap> InstancesOf(Fractal fractal) => random =>
+    {
+        var map = AffineMap.Identity;
+        for (long level = 0; level < Math.Min(fractal.LevelCount ?? MaxChain, MaxChain); level++)
+        {
+            var maps = fractal.LevelAt(level).Maps;
+            map = map * maps[random.Next(maps.Length)];
+        }
+
+        return map;
+    };
 }

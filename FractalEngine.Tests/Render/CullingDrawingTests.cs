@@ -85,13 +85,15 @@ public sealed class CullingDrawingTests
     public void Frame_OfManySmallInstances_IsNoFartherFromTheReference(string name, int depth) => CheckSmallInstances(name, depth);
 
     [SkippableFact]
-    public void Frame_FromInside_IsThatOfEveryInstance() => CheckFromInside(Projection.Perspective);
+    public void Frame_FromInside_IsThatOfEveryInstance() => CheckFromInside(Projection.Perspective, step: 3);
 
-    [SkippableFact]
+    [SkippableTheory]
+    [InlineData(Projection.Perspective)]
+    [InlineData(Projection.Orthographic)]
     [Trait("Category", "Soak")]
-    public void OrthographicFrame_FromInside_IsThatOfEveryInstance() => CheckFromInside(Projection.Orthographic);
+    public void FrameOfAnyProjection_FromInside_IsThatOfEveryInstance(Projection projection) => CheckFromInside(projection, step: 1);
 
-    private static void CheckFromInside(Projection projection)
+    private static void CheckFromInside(Projection projection, int step)
     {
         // From a hole of the sponge, from one of its cubes, and with clip planes that cut it.
         var scene = RenderScenes.Scene(new Scene(), (RenderScenes.Menger(3), Transformation.Identity, null));
@@ -102,7 +104,7 @@ public sealed class CullingDrawingTests
             new View(ObliqueCamera, projection) { FixedClipPlanes = (4.5, 6.2), OrthographicHeight = 4 },
             new View(ObliqueCamera, projection) { Aspect = 1, OrthographicHeight = 4 },
         ];
-        AssertSameImages(scene, views);
+        AssertSameImages(scene, [.. views.Where((_, i) => i % step == 0)]);
     }
 
     [SkippableFact]

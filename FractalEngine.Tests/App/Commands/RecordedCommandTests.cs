@@ -140,7 +140,7 @@ public sealed class RecordedCommandTests : IDisposable
     [Fact]
     public void Query_BeyondTheLimitOfWork_SaysHowManyAnswersAreUncertain() => Check(
         "commands-uncertain.txt",
-        "query walk.fdo --points one.txt", "query walk.fdo --points one.txt --error-bound",
+        "query walk.fdo --points one.txt",
         "query walk.fdo --points one.txt --collider simple");
 
     [Fact]

@@ -26,6 +26,22 @@ public class ClosestPairTests
     [Trait("Category", "Soak")]
     public void FindClosestPair_OfManyRandomShapes_EqualsThatOfAllTriangles() => CheckAll(1_000_000, 10_000);
 
+    [Fact]
+    public void Pairs_ThatDifferInOneNumber_AreNotEqual()
+    {
+        var sponge = Collider.For(RegionQueryTests.Sponge(2));
+        var pair = sponge.FindClosestPair(sponge, AffineMap.Translate(9 * Vector.I));
+        Assert.Equal(sponge.FindClosestPair(sponge, AffineMap.Translate(9 * Vector.I)), pair);
+        Assert.All(
+            (ClosestPair[])
+            [
+                pair with { Distance = 1 }, pair with { Point = Vector.Zero }, pair with { OtherPoint = Vector.Zero },
+                pair with { FaceIndex = -1 }, pair with { OtherFaceIndex = -1 }, pair with { ErrorBound = 1 },
+                pair with { InstancePath = [7] }, pair with { OtherInstancePath = [7] },
+            ],
+            other => Assert.NotEqual(pair, other));
+    }
+
     [Theory]
     [InlineData(null)]
     [InlineData(1_000_000)]

@@ -255,7 +255,7 @@ public class FractalWriterTests
 
         AssertReadsBack(new([step]));
         Fails(ErrorKind.Limit, $"it has more than the limit of {FractalLimits.MaxNesting} repetitions inside each other",
-            () => Write(new Repetition([step], 1)));
+            () => Write(Set(Half), new Repetition([step], 1), Set(Half)));
     }
 
     [Fact]

@@ -33,6 +33,10 @@ public sealed class SceneMergeTests : IDisposable
         Assert.Equal(expected, merged.Text);
     }
 
+    [Fact]
+    public void Merge_OfALineWithoutABlankBeforeItsParenthesis_ReplacesIt() => Assert.Equal(
+        "c (1, 0, 0) # 60\n#", SceneMerge.Merge("c(0, 0, 0) # 60\n", "c (1, 0, 0) # 60\n", "c(0, 0, 0) # 60\n#").Text);
+
     [Theory]
     [InlineData("o \"a.obj\" #", "o \"a.obj\" #\nprojection orthographic\n")]
     [InlineData("o \"a.obj\" #\r\n", "o \"a.obj\" #\r\nprojection orthographic\r\n")]

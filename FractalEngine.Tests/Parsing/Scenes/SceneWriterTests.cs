@@ -129,6 +129,7 @@ public class SceneWriterTests
     [InlineData("p \"a.obj\" # 0.5 shrink 0 0.5")]
     [InlineData("p \"a.obj\" # 0.5 shape capsule")]
     [InlineData("p \"a.obj\" # 0.5 friction 0.5 shape balls 3 rotation locked")]
+    [InlineData("p \"a.obj\" # 0.5 shape balls 1")]
     [InlineData("o \"a.obj\" # moving velocity (1, 0, 0)")]
     [InlineData("o \"a.obj\" # moving spin (0, 20, 0)")]
     [InlineData("o \"a.obj\" # moving velocity (0, 0, 0)")]
