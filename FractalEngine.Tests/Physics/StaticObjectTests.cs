@@ -88,7 +88,7 @@ public class StaticObjectTests
     {
         var world = CreateWorldWithCubes();
         var error = Assert.Throws<ArgumentException>("objectIndex", () => world.MoveObject(1, Transformation.Identity));
-        Assert.StartsWith("the object is a body, which moves by itself", error.Message, StringComparison.Ordinal);
+        Assert.Equal("the object is a body, which moves by itself (Parameter 'objectIndex')", error.Message);
     }
 
     [Theory]

@@ -146,7 +146,7 @@ internal static class Program
             var missing = wanted.Except(draw.Drawn.Select(mutation => mutation.Id)).ToList();
             if (missing.Count > 0)
             {
-                throw new InvalidOperationException($"no mutant is called {string.Join(", ", missing)}: its place has changed, or is gone");
+                throw new InvalidDataException($"no mutant is called {string.Join(", ", missing)}: its place has changed, or is gone");
             }
         }
         else
