@@ -17,19 +17,13 @@ namespace FractalEngine.Core.Collision;
 public sealed record ClosestHit(
     double Distance, Vector Point, Vector Normal, int FaceIndex, ImmutableArray<int> InstancePath, int ObjectIndex = 0)
 {
-    /// <inheritdoc cref="ClosestPoint.ErrorBound"/>
-    public double ErrorBound { get; init; }
-
     internal static ClosestHit Of(in ClosestPoint closest, QueryContext context, int objectIndex = 0) => new(
-        closest.Distance, closest.Point, closest.Normal, closest.FaceIndex, [.. context.InstancePath], objectIndex)
-    {
-        ErrorBound = closest.ErrorBound,
-    };
+        closest.Distance, closest.Point, closest.Normal, closest.FaceIndex, [.. context.InstancePath], objectIndex);
 
     /// <summary>Tells whether all numbers of both hits are equal, the paths included.</summary>
     public bool Equals(ClosestHit? other) =>
         other is not null && Distance.Equals(other.Distance) && Point == other.Point && Normal == other.Normal
-        && FaceIndex == other.FaceIndex && ErrorBound.Equals(other.ErrorBound) && ObjectIndex == other.ObjectIndex
+        && FaceIndex == other.FaceIndex && ObjectIndex == other.ObjectIndex
         && InstancePath.AsSpan().SequenceEqual(other.InstancePath.AsSpan());
 
     /// <inheritdoc/>

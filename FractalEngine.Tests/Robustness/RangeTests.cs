@@ -70,10 +70,11 @@ public sealed class RangeTests
             foreach (var shape in new[] { thrown, thrown.Apply([Transformation.Identity, Transformation.At(Vector.Zero, 1e-8)]) })
             {
                 var collider = Collider.For(shape);
-                var hit = collider.FindClosest(size * new Vector(far + 2.5, 0, 0));
+                var position = size * new Vector(far + 2.5, 0, 0);
+                Assert.True(collider.TryFindClosest(position, double.PositiveInfinity, new QueryContext(), out var hit));
                 Near.Equal(1.5, hit.Distance / size, 1e-13 * far);
                 Assert.True(hit.ErrorBound <= 1e-12 * far * size, $"{hit.ErrorBound:R}");
-                Assert.True(collider.Overlaps(size * new Vector(far + 2.5, 0, 0), 1.501 * size));
+                Assert.True(collider.Overlaps(position, 1.501 * size));
                 // And where another unit begins only behind a map.
                 Transformation toUnit = new(new(1, 2, 3), Vector.Zero, Vector.One / size);
                 Near.Equal(1.5, Collider.For(shape.WithPlacement(toUnit)).FindClosest(new(far + 3.5, 2, 3)).Distance, 1e-13 * far);
