@@ -78,12 +78,8 @@ public static class ColliderFactory
                 + "expected exact, hierarchy, bounding-box or simple");
         }
 
-        return Create(Expand(fractal, toWorld), kind);
+        return Create(Expand(fractal, toWorld, out _), kind);
     }
-
-    /// <summary>Expands a fractal into one mesh under a map.</summary>
-    /// <exception cref="FractalLimitException">It has more than <see cref="MaxExpandedFaces"/> faces.</exception>
-    internal static Mesh Expand(Fractal fractal, AffineMap map) => Expand(fractal, map, out _);
 
     /// <summary>Expands a fractal into one mesh under a map, with the faces of one instance after those of another.</summary>
     /// <exception cref="FractalLimitException">It has more than <see cref="MaxExpandedFaces"/> faces.</exception>

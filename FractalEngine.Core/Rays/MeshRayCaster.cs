@@ -1,24 +1,46 @@
+using System.Runtime.CompilerServices;
 using FractalEngine.Core.Collision;
 using FractalEngine.Core.Collision.Bvh;
+using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Fractals.Hierarchy;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Rays;
 
-/// <summary>Casts rays at a mesh.</summary>
-internal sealed class MeshRayCaster(Mesh mesh) : RayCaster
+/// <summary>Casts rays at a mesh, or at all faces of a fractal that has no levels to search.</summary>
+internal sealed class MeshRayCaster : RayCaster
 {
-    private readonly TriangleBvh _bvh = TriangleBvh.For(mesh);
+    // Of an expanded fractal, in the order of their faces; none for a mesh.
+    private readonly AffineMap[] _instances = [];
+    private readonly TriangleBvh _bvh;
+
+    /// <summary>Prepares a mesh for rays.</summary>
+    public MeshRayCaster(Mesh mesh)
+        : this(mesh, mesh)
+    {
+    }
+
+    /// <summary>Expands a fractal, and prepares all its faces for rays.</summary>
+    /// <exception cref="FractalLimitException">It has more than <see cref="ColliderFactory.MaxExpandedFaces"/> faces.</exception>
+    public MeshRayCaster(Fractal fractal)
+        : this(fractal.BaseMesh, ColliderFactory.Expand(fractal, AffineMap.Identity, out var instances)) => _instances = instances;
+
+    private MeshRayCaster(Mesh mesh, Mesh faces)
+    {
+        Mesh = mesh;
+        _bvh = TriangleBvh.For(faces);
+        ShapeMagnitude = BoundingVolume.MaxAbsCoordinate(faces.Bounds);
+    }
 
     /// <inheritdoc/>
-    public override long StorageBytes => _bvh.StorageBytes;
+    public override long StorageBytes => _bvh.StorageBytes + (_instances.Length * (long)Unsafe.SizeOf<AffineMap>());
 
     /// <inheritdoc/>
-    internal override Mesh Mesh => mesh;
+    internal override Mesh Mesh { get; }
 
     /// <inheritdoc/>
-    private protected override double ShapeMagnitude { get; } = BoundingVolume.MaxAbsCoordinate(mesh.Bounds);
+    private protected override double ShapeMagnitude { get; }
 
     /// <inheritdoc/>
     internal override bool TryIntersect(in LocalRay ray, ref RaySearch search, QueryContext context, ref int pathLength)
@@ -29,6 +51,12 @@ internal sealed class MeshRayCaster(Mesh mesh) : RayCaster
         }
 
         pathLength = 0;
+        if (_instances.Length > 0)
+        {
+            pathLength = 1;
+            (context.BestPathBuffer(1)[0], search.Face) = Math.DivRem(search.Face, Mesh.FaceCount);
+        }
+
         return true;
     }
 
@@ -36,6 +64,6 @@ internal sealed class MeshRayCaster(Mesh mesh) : RayCaster
     internal override SimdAffineMap ResolveInstance(in RaySearch search, int pathLength, in AffineMap map, QueryContext context)
     {
         context.ClearPath();
-        return new(map);
+        return new(pathLength == 0 ? map : map * _instances[context.BestPathBuffer(1)[0]]);
     }
 }

@@ -61,7 +61,7 @@ public abstract class RayCaster
         ArgumentNullException.ThrowIfNull(fractal);
         return fractal.Description.Composition == Composition.Affine
             ? new FractalRayCaster(fractal)
-            : new ExpandedRayCaster(fractal);
+            : new MeshRayCaster(fractal);
     }
 
     /// <summary>Makes the caster of a model in its own frame.</summary>
