@@ -131,10 +131,9 @@ build_ready() {
 use_ready_program() {
     local assembly ready="$root/FractalEngine.App/bin/ready" tests="$root/FractalEngine.Tests/bin/$configuration/net10.0"
     build_ready FractalEngine.App
-    for assembly in Core Parsing Render App; do
-        assembly="FractalEngine.$assembly.dll"
-        if [ -e "$ready/$assembly" ] && ! cmp -s "$ready/$assembly" "$tests/$assembly"; then
-            cp "$ready/$assembly" "$tests/$assembly"
+    for assembly in "$ready"/*.dll; do
+        if [ -e "$assembly" ] && ! cmp -s "$assembly" "$tests/${assembly##*/}"; then
+            cp "$assembly" "$tests/"
         fi
     done
 }

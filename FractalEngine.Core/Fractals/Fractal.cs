@@ -20,10 +20,16 @@ public sealed class Fractal : IEquatable<Fractal>
     private readonly Lazy<FractalHierarchy> _hierarchyBySets;
 
     /// <summary>Makes the fractal that a description makes of a base mesh.</summary>
+    /// <exception cref="ArgumentException">The description has no steps, or no kind of composition.</exception>
     public Fractal(FractalDescription description, Mesh baseMesh)
     {
         ArgumentNullException.ThrowIfNull(description);
         ArgumentNullException.ThrowIfNull(baseMesh);
+        if (description.Steps.IsDefault || !Enum.IsDefined(description.Composition))
+        {
+            throw new ArgumentException("expected steps and a kind of composition", nameof(description));
+        }
+
         Description = description;
         BaseMesh = baseMesh;
         _instanceCount = new(() => FractalSteps.InstanceCount(description.Steps));

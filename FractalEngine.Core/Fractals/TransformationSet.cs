@@ -9,10 +9,11 @@ namespace FractalEngine.Core.Fractals;
 public sealed class TransformationSet : FractalStep
 {
     /// <summary>Makes a set in the order of its declaration; a transformation may occur more than once.</summary>
+    /// <exception cref="ArgumentException">A number is not finite.</exception>
     public TransformationSet(ImmutableArray<Transformation> transformations)
     {
-        Transformations = transformations.IsDefault
-            ? throw new ArgumentException("expected transformations", nameof(transformations)) : transformations;
+        Transformations = !transformations.IsDefault && transformations.All(static one => one.IsFinite())
+            ? transformations : throw new ArgumentException("expected transformations of finite numbers", nameof(transformations));
         var maps = new AffineMap[transformations.Length];
         for (var i = 0; i < maps.Length; i++)
         {

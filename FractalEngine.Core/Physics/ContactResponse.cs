@@ -90,7 +90,11 @@ internal sealed class ContactResponse(List<Body> bodies, SleepIslands islands, C
         var excess = (frictionDeceleration * frictionDeceleration) - netAcceleration.LengthSquared();
         var stopTime = excess > 0
             ? (velocityDotAcceleration + Math.Sqrt((velocityDotAcceleration * velocityDotAcceleration) + (excess * speedSquared))) / excess
-            : duration;
+            : velocityDotAcceleration < 0
+                // Uphill, where the friction alone would not hold: the same root, without the division by the excess.
+                ? speedSquared / (Math.Sqrt(Math.Max(0, (velocityDotAcceleration * velocityDotAcceleration) + (excess * speedSquared)))
+                    - velocityDotAcceleration)
+                : duration;
         duration = Math.Min(duration, stopTime);
         netAcceleration = duration > 0 ? -velocity / duration : Vector.Zero;
         return true;

@@ -116,7 +116,7 @@ internal sealed class FractalRayCaster : RayCaster
         }
 
         // Below the rounding of the ray, all that it comes near seems hit.
-        var minRadius = Math.Max(_minRadius, MinRadiusInErrors * search.Error);
+        var minRadius = Math.Max(ray.Scale * _minRadius, MinRadiusInErrors * search.Error);
         if (_rootLevels == 0 || ray.Scale * _root.Radius <= minRadius)
         {
             var isRootHit = TryIntersectBase(in ray, ref search);

@@ -119,7 +119,10 @@ public sealed class MeshGeneratorTests
         {
             var (a, b, c) = mesh.Face(face);
             // Meshes are a few units large, and their smallest details a tenth of a millimetre, 1e-8 in area.
-            Assert.True(Vector.Cross(b - a, c - a).Length() > 1e-11, $"face {face} of {name}: {a} {b} {c}");
+            if (!(Vector.Cross(b - a, c - a).Length() > 1e-11))
+            {
+                Assert.Fail($"face {face} of {name}: {a} {b} {c}");
+            }
         }
     }
 

@@ -5,6 +5,7 @@ using FractalEngine.Core.Maths;
 using FractalEngine.Core.Rays;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Tests.Collision.Queries;
+using FractalEngine.Tests.Physics;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Rays;
@@ -95,6 +96,42 @@ public class SceneRayCasterTests
         var caster = new SceneRayCaster(new Scene { Objects = [.. objects] });
         Assert.True(caster.TryFindNearest(new(new(0.3, 0.1, -9), Vector.K), new(), out var hit, out var index));
         Assert.Equal((6.0, 1), (hit.Distance, index));
+    }
+
+    /// <summary>A scale by a power of two changes no digit of what rays hit, and no cost: levels end in the object's own size.</summary>
+    [Theory]
+    [InlineData(-60)]
+    [InlineData(-40)]
+    [InlineData(-20)]
+    [InlineData(40)]
+    public void TryFindNearest_OfAnObjectOfAnotherSize_IsTheSame(int exponent)
+    {
+        var scale = Math.ScaleB(1, exponent);
+        var fractal = PhysicsMeshes.CreateSponge(12);
+        SceneRayCaster Of(double size) => new(LoadedScene.Of(new()
+        {
+            Objects = [new SceneObject(fractal) { Placement = Transformation.Identity with { Scale = size * Vector.One } }],
+        }));
+        var (plain, scaled) = (Of(1), Of(scale));
+        var (context, scaledContext) = (new QueryContext(), new QueryContext());
+        var hits = 0;
+        var reach = fractal.Bounds.Maximum.MaxAbsComponent();
+        Seeded.Run(200, random =>
+        {
+            var origin = 3 * reach * random.Direction();
+            var direction = (reach * random.Vector()) - origin;
+            var isHit = plain.TryFindNearest(new(origin, direction), context, out var hit, out _);
+            Assert.Equal(isHit, scaled.TryFindNearest(new(scale * origin, direction), scaledContext, out var scaledHit, out _));
+            if (isHit)
+            {
+                hits++;
+                Assert.Equal((scale * hit.Distance, hit.FaceIndex), (scaledHit.Distance, scaledHit.FaceIndex));
+                Assert.Equal(context.InstancePath, scaledContext.InstancePath);
+            }
+        });
+        Assert.InRange(hits, 20, 200);
+        var (costs, scaledCosts) = (context.Statistics, scaledContext.Statistics);
+        Assert.Equal((costs.BoundTests, costs.FaceTests), (scaledCosts.BoundTests, scaledCosts.FaceTests));
     }
 
     [Fact]

@@ -4,6 +4,7 @@ using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Render;
 using FractalEngine.Render.Preparation;
+using FractalEngine.Render.Tracing;
 
 namespace FractalEngine.Tests.Render;
 
@@ -19,19 +20,26 @@ public sealed class ShadowTests
     public static TheoryData<string, double, double> Places => new()
     {
         { "sun", 1, 0 },
-        { "sun", 1e-6, 0 },
-        { "sun", 1e6, 0 },
         { "sun", 1, 1e6 },
         { "spot", 1, 0 },
-        { "spot", 1e-5, 0 },
-        { "point", 1, 0 },
         { "point", 1e5, 0 },
-        { "point", 1, 1e5 },
     };
 
     [SkippableTheory]
     [MemberData(nameof(Places))]
-    public void Cube_OverAFloor_ShadesItsProjection(string kind, double scale, double away)
+    public void Cube_OverAFloor_ShadesItsProjection(string kind, double scale, double away) => CheckProjection(kind, scale, away);
+
+    [SkippableTheory]
+    [InlineData("sun", 1e-6, 0)]
+    [InlineData("sun", 1e6, 0)]
+    [InlineData("spot", 1e-5, 0)]
+    [InlineData("point", 1, 0)]
+    [InlineData("point", 1, 1e5)]
+    [Trait("Category", "Soak")]
+    public void Cube_OfOtherSizesOverAFloor_ShadesItsProjection(string kind, double scale, double away) =>
+        CheckProjection(kind, scale, away);
+
+    private static void CheckProjection(string kind, double scale, double away)
     {
         // A cube from −0.5 to 0.5 at heights from 1 to 2.
         var origin = new Vector(away, 0, away);
@@ -113,6 +121,14 @@ public sealed class ShadowTests
         foreach (var x in (double[])[1.3, 1.4, 1.6, 1.8, 2, 2.2, 2.4])
         {
             var isLit = image[(int)(0.5 * Size * (1 + (x / HalfWidth))), Size / 2].Red > 60;
+            Assert.Equal(hasHole && x < 1.5, isLit);
+        }
+
+        var tracer = new PathTracer(scene, FromAbove(1, Vector.Zero), 64, 64);
+        tracer.AddSample(null);
+        foreach (var x in (double[])[1.3, 1.35, 1.7, 1.9, 2.1, 2.3])
+        {
+            var isLit = tracer.RadianceAt((int)(32 * (1 + (x / HalfWidth))), 32).X > 0.05;
             Assert.Equal(hasHole && x < 1.5, isLit);
         }
     }

@@ -89,14 +89,15 @@ internal static class Trial
         return File.Exists(result) ? File.ReadAllText(result).Trim() : $"crash\t{current}\t";
     }
 
-    // First what is named after the file, then what is near it, each time the fast ones first.
+    // First what is named after the file, then what is near it and what compares with records, each time the fast ones first.
     private static List<Test> Order(Mutation mutation, IReadOnlyList<Test> reaching)
     {
         string name = Path.GetFileNameWithoutExtension(mutation.Site.Path);
         string near = Recording.NamespaceOf(mutation.Site.Path);
-        double Weight(Test test) =>
-            (test.Milliseconds + 20) * (test.Class[(test.Class.LastIndexOf('.') + 1)..].StartsWith(name, StringComparison.Ordinal) ? 0.02
-                : test.Class.StartsWith(near, StringComparison.Ordinal) ? 0.2 : 1);
+        bool IsNear(Test test) =>
+            test.Class.StartsWith(near, StringComparison.Ordinal) || test.Class.Contains("Record", StringComparison.Ordinal);
+        double Weight(Test test) => (test.Milliseconds + 20)
+            * (test.Class[(test.Class.LastIndexOf('.') + 1)..].StartsWith(name, StringComparison.Ordinal) ? 0.02 : IsNear(test) ? 0.2 : 1);
         return [.. reaching.OrderBy(Weight).ThenBy(test => test.Name, StringComparer.Ordinal)];
     }
 }

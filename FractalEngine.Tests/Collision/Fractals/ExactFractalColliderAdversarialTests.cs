@@ -12,13 +12,20 @@ public class ExactFractalColliderAdversarialTests
 
     [Theory]
     [MemberData(nameof(Names))]
-    public void TryFindClosest_OnAnUnusualFractal_EqualsEveryFace(string name)
+    public void TryFindClosest_OnAnUnusualFractal_EqualsEveryFace(string name) => CheckAgainstEveryFace(name, 25);
+
+    [Theory]
+    [MemberData(nameof(Names))]
+    [Trait("Category", "Soak")]
+    public void TryFindClosest_OnAnUnusualFractalForLong_EqualsEveryFace(string name) => CheckAgainstEveryFace(name, 500);
+
+    private static void CheckAgainstEveryFace(string name, int queries)
     {
         var fractal = AdversarialFractals.All[name]();
         var checker = new ExactColliderChecker(name, fractal);
         var oracle = ExactColliderChecker.BruteForce(fractal);
         var context = new QueryContext();
-        Seeded.Run(60, random =>
+        Seeded.Run(queries, random =>
         {
             var position = FractalPositions.RandomPosition(random, fractal);
             Assert.True(oracle.TryFindClosest(position, double.PositiveInfinity, context, out var expected));

@@ -14,7 +14,7 @@ public class ConvexHullTests
 
     [Theory]
     [MemberData(nameof(Names))]
-    public void Build_OfAnyPoints_ContainsThemWithinMaxOutsideDistance(string name) => CheckContained(name, clouds: 20);
+    public void Build_OfAnyPoints_ContainsThemWithinMaxOutsideDistance(string name) => CheckContained(name, clouds: 6);
 
     [Theory]
     [MemberData(nameof(Names))]
@@ -49,7 +49,7 @@ public class ConvexHullTests
 
     [Theory]
     [MemberData(nameof(Names))]
-    public void Build_OfAnyPoints_HasNoVertexAboveAPlane(string name) => Seeded.Run(60, random =>
+    public void Build_OfAnyPoints_HasNoVertexAboveAPlane(string name) => Seeded.Run(20, random =>
     {
         var hull = ConvexHull.Build(PointClouds.Generate(name, random), random.Next(4, 60));
         foreach (var plane in hull.Planes)

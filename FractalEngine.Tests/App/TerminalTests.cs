@@ -1,0 +1,49 @@
+using System.Text;
+using FractalEngine.App;
+using FractalEngine.Tests.Support;
+
+namespace FractalEngine.Tests.App;
+
+/// <summary>Tests what commands show on a terminal while they work, and in the encoding of the console.</summary>
+public sealed class TerminalTests : IDisposable
+{
+    private readonly TemporaryFolder _folder = new();
+
+    public TerminalTests()
+    {
+        _folder.Write("cube.obj", SampleFiles.Cube);
+        _folder.Write("scene.sdo", "o \"cube.obj\" #\nc (0, 0, -3) # 60\n");
+    }
+
+    public void Dispose() => _folder.Dispose();
+
+    /// <summary>A bar that only flickers up would tell less than none.</summary>
+    [SkippableFact]
+    public void Load_OfASmallFile_ShowsNoBar()
+    {
+        string output = Run("info cube.obj");
+        Assert.Contains($"{"faces",-20}12", output, StringComparison.Ordinal);
+        Assert.DoesNotContain("oading", output, StringComparison.Ordinal);
+    }
+
+    /// <summary>The line of progress is overwritten by sixty blanks, which are more than it has.</summary>
+    [SkippableFact]
+    public void Progress_AtTheEnd_IsClearedByOneLineOfBlanks() => Assert.Contains(
+        $"left   \r{new string(' ', 60)}\rwrote a.png: ", Run("render scene.sdo --trace 2 --resolution 4x4 --output a.png"),
+        StringComparison.Ordinal);
+
+    [SkippableFact]
+    public void Messages_OnAConsoleOfLatin1_AreInThatEncoding()
+    {
+        Elsewhere.SkipIf(!OperatingSystem.IsLinux(), "elsewhere no variable of the environment tells the encoding");
+        var environment = new Dictionary<string, string?> { ["LC_ALL"] = "de_DE.ISO-8859-1" };
+        using var process = AppProcess.Start(_folder.Path, environment, "info", "ä.obj");
+        using var error = new MemoryStream();
+        process.StandardError.BaseStream.CopyTo(error);
+        Assert.True(process.WaitForExit(Polling.Deadline), "the process does not end");
+        Assert.Equal(Encoding.Latin1.GetBytes("ä.obj:1:1: error: file not found\n"), error.ToArray());
+    }
+
+    private string Run(string arguments) =>
+        Terminal.Run(_folder.Path, $"dotnet exec '{typeof(BodyCsvWriter).Assembly.Location}' {arguments}");
+}

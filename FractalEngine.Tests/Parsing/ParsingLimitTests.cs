@@ -1,0 +1,69 @@
+using FractalEngine.Core;
+using FractalEngine.Parsing;
+using FractalEngine.Tests.Support;
+
+namespace FractalEngine.Tests.Parsing;
+
+/// <summary>Tests that the limits of the parsers are those of the list, and each value that of its own limit.</summary>
+[Collection(ConsoleTests.Name)]
+public sealed class ParsingLimitTests
+{
+    private const long AnyInteger = int.MaxValue;
+
+    [Fact]
+    public void All_Limits_HaveTheirNamesValuesSubjectsAndReasons()
+    {
+        (string Name, long Default, long Maximum, string Subject, string Reason)[] expected =
+        [
+            ("obj-bytes", 1_073_741_824, 1_099_511_627_776, "bytes of a mesh file", "reading takes up to twice the memory of the mesh"),
+            ("description-bytes", 16_777_216, AnyInteger, "bytes of a scene or fractal file", "far beyond what anyone writes"),
+            ("scene-lines", 100_000, AnyInteger, "lines of a scene file", "about 70 MB where each is an object"),
+            ("points-bytes", 268_435_456, 536_870_912, "bytes of a file of points", "memory: the text is held as a whole"),
+            ("maps", 200_000, AnyInteger, "transformations in all sets of a fractal file", "about 50 MB"),
+            ("names", 150_000, AnyInteger, "named objects and transformations of a fractal file", "about 70 MB"),
+            ("repeated-steps", 1_000_000, AnyInteger, "steps that all recursives of a fractal file repeat", "8 MB"),
+            ("material-bytes", 16_777_216, AnyInteger, "bytes of a material file", "far beyond what anyone writes"),
+            ("image-bytes", 67_108_864, AnyInteger, "bytes of an image file", "memory"),
+            ("image-side", 8_192, 65_536, "pixels along a side of an image", "what every driver of the last fifteen years can hold"),
+            ("image-pixels", 134_217_728, 1_099_511_627_776, "pixels of all images of one file", "512 MiB, decoded"),
+            ("polygon-corners", 20_000, AnyInteger, "corners of a polygon", "cutting it takes a time of their square at worst"),
+        ];
+        Assert.Equal(
+            expected,
+            ParsingLimits.All.Select(static limit => (limit.Name, limit.Default, limit.Maximum, limit.Subject, limit.Reason)));
+    }
+
+    [Fact]
+    public void Values_OfChangedLimits_AreThoseOfTheirOwn()
+    {
+        (Limit Limit, Func<long> Value)[] limits =
+        [
+            (ParsingLimits.ObjBytes, () => ParsingLimits.MaxObjBytes),
+            (ParsingLimits.DescriptionBytes, () => ParsingLimits.MaxDescriptionBytes),
+            (ParsingLimits.SceneLines, () => ParsingLimits.MaxSceneLines),
+            (ParsingLimits.PointsBytes, () => ParsingLimits.MaxPointsBytes),
+            (ParsingLimits.Maps, () => ParsingLimits.MaxMaps),
+            (ParsingLimits.Names, () => ParsingLimits.MaxNames),
+            (ParsingLimits.RepeatedSteps, () => ParsingLimits.MaxRepeatedSteps),
+            (ParsingLimits.MaterialBytes, () => ParsingLimits.MaxMaterialBytes),
+            (ParsingLimits.ImageBytes, () => ParsingLimits.MaxImageBytes),
+            (ParsingLimits.ImageSide, () => ParsingLimits.MaxImageSide),
+            (ParsingLimits.TotalImagePixels, () => ParsingLimits.MaxTotalImagePixels),
+            (ParsingLimits.PolygonCorners, () => ParsingLimits.MaxPolygonCorners),
+        ];
+        Assert.Equal(ParsingLimits.All.AsEnumerable(), limits.Select(static item => item.Limit));
+        foreach (var (limit, value) in limits)
+        {
+            Assert.Equal(limit.Default, value());
+            limit.Value = limit.Default + 7;
+            try
+            {
+                Assert.Equal(limit.Default + 7, value());
+            }
+            finally
+            {
+                limit.Value = limit.Default;
+            }
+        }
+    }
+}

@@ -1,0 +1,210 @@
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics;
+using FractalEngine.Core.Physics.Compounds;
+using FractalEngine.Core.Physics.Islands;
+using FractalEngine.Tests.Support;
+
+namespace FractalEngine.Tests.Physics.Islands;
+
+/// <summary>Which bodies of radius 0.5 are solved together, and the contacts between them.</summary>
+public sealed class ContactGraphTests
+{
+    private const double Step = 0.25;
+
+    [Fact]
+    public void Group_OfTwoThatTouch_IsOneIsland()
+    {
+        var setup = new GraphOfBodies(Ball(1) with { Friction = 0.5 }, Ball(0) with { Friction = 0.25, Restitution = 1 });
+        Assert.True(setup.TryGroup(Step));
+        var graph = setup.Graph;
+        var island = Assert.Single(graph.Islands);
+        Assert.Equal((0, 1, 0, 2), (island.FirstRow, island.RowCount, island.FirstBody, island.BodyCount));
+        Assert.Equal((true, false, false), (island.IsFree, island.IsPushed, island.HasMovingSurface));
+        Assert.Equal((false, 1), (island.HasCompound, island.PartCount));
+        Assert.Equal([0, 1], BodiesOf(setup, 0));
+        Assert.Equal((2, 1, 0, 0), (graph.IslandBodyCount, graph.RowCount, graph.IslandOf(0), graph.IslandOf(1)));
+        ref readonly var row = ref graph.Row(0);
+        Assert.Equal((0, 1, Vector.I, Vector.I, 1.0), (row.First, row.Second, row.Offset, row.Normal, row.MinDistance));
+        Assert.Equal((0.25, 0.0, true, false), (row.Friction, row.Restitution, row.IsBall, row.IsAhead));
+        Assert.Equal(0.5, graph.MinRadiusOf(in island));
+    }
+
+    /// <summary>Bodies are expected to get a tenth of their radius farther than their free path.</summary>
+    [Theory]
+    [InlineData(0.09, true)]
+    [InlineData(0.11, false)]
+    public void Group_OfOneBesideAnIsland_JoinsItIfTheyMayMeet(double gap, bool joins)
+    {
+        var setup = new GraphOfBodies(Ball(0), Ball(1), Ball(2 + gap), Ball(9));
+        Assert.True(setup.TryGroup(Step));
+        var island = Assert.Single(setup.Graph.Islands);
+        int[] expected = joins ? [0, 1, 2] : [0, 1];
+        Assert.Equal(expected, BodiesOf(setup, 0));
+        Assert.Equal(joins ? 2 : 1, island.RowCount);
+        Assert.Equal((0, 0, joins ? 0 : -1, -1),
+            (setup.Graph.IslandOf(0), setup.Graph.IslandOf(1), setup.Graph.IslandOf(2), setup.Graph.IslandOf(3)));
+        Assert.Equal(joins ? 3 : 2, setup.Graph.JoinedCount);
+        if (joins)
+        {
+            Assert.Equal((1, 2, true), (setup.Graph.Row(1).First, setup.Graph.Row(1).Second, setup.Graph.Row(1).IsAhead));
+        }
+    }
+
+    /// <summary>What comes meets in the step, as far as its way leads and the margins reach.</summary>
+    [Theory]
+    [InlineData(3, 0.8, true)]
+    [InlineData(3, 0.9, false)]
+    public void Group_OfOneThatComes_JoinsItIfItArrives(double speed, double gap, bool joins)
+    {
+        var setup = new GraphOfBodies(Ball(0), Ball(1), Ball(2 + gap) with { Velocity = -speed * Vector.I });
+        Assert.True(setup.TryGroup(Step));
+        var island = Assert.Single(setup.Graph.Islands);
+        Assert.Equal(joins ? 3 : 2, island.BodyCount);
+    }
+
+    [Fact]
+    public void Group_OfTwoThatOnlyComeNear_IsNone()
+    {
+        var setup = new GraphOfBodies(Ball(0), Ball(1.01));
+        Assert.True(setup.TryGroup(Step));
+        Assert.Empty(setup.Graph.Islands);
+        Assert.Equal((0, 0, -1), (setup.Graph.RowCount, setup.Graph.IslandBodyCount, setup.Graph.IslandOf(0)));
+    }
+
+    /// <summary>Two that touch and go apart, each on its own way.</summary>
+    [Theory]
+    [InlineData(0, 1, false)]
+    [InlineData(-1, 0, false)]
+    [InlineData(1, 1, true)]
+    [InlineData(1, 0, true)]
+    public void Group_OfTwoThatTouch_LeavesThoseThatSeparate(double speed, double otherSpeed, bool joins)
+    {
+        var setup = new GraphOfBodies(
+            Ball(0) with { Velocity = new(speed, 3, 0) }, Ball(1) with { Velocity = new(otherSpeed, 0, 0) });
+        Assert.True(setup.TryGroup(Step));
+        Assert.Equal(joins ? 1 : 0, setup.Graph.Islands.Count);
+    }
+
+    [Fact]
+    public void Group_OfTwoPairs_OrdersIslandsByTheirFirstBodies()
+    {
+        var setup = new GraphOfBodies(Ball(0), Ball(10), Ball(11), Ball(30), Ball(1));
+        Assert.True(setup.TryGroup(Step));
+        Assert.Equal([0, 4], BodiesOf(setup, 0));
+        Assert.Equal([1, 2], BodiesOf(setup, 1));
+        Assert.Equal([(0, 1), (1, 1)], setup.Graph.Islands.Select(static island => (island.FirstRow, island.RowCount)));
+        Assert.Equal((0, 1, 1, -1, 0), (
+            setup.Graph.IslandOf(0), setup.Graph.IslandOf(1), setup.Graph.IslandOf(2), setup.Graph.IslandOf(3), setup.Graph.IslandOf(4)));
+        Assert.Equal([(0, 4), (1, 2)], setup.Graph.Islands.Select(island => RowOf(setup.Graph, island.FirstRow)));
+    }
+
+    /// <summary>A body that sleeps is as immovable as a surface, and woken by what hits it.</summary>
+    [Fact]
+    public void CollectTouching_OfASleeper_WakesItOnlyWhenItIsHit()
+    {
+        var setup = new GraphOfBodies(Ball(0), Ball(1), Ball(2));
+        setup.Bodies[0].Sleep();
+        setup.Bodies[1].RestitutionThreshold = 0.5;
+        setup.Bodies[1].Velocity = -0.25 * Vector.I;
+        setup.Bodies[2].Velocity = -0.25 * Vector.I;
+        Assert.True(setup.TryGroup(Step));
+        var island = Assert.Single(setup.Graph.Islands);
+        Assert.Equal([1, 2], BodiesOf(setup, 0));
+        Assert.False(island.IsFree);
+        Assert.Equal([(1, -1), (1, 2)], Enumerable.Range(0, 2).Select(row => RowOf(setup.Graph, row)));
+        setup.Bodies[1].Velocity = -0.75 * Vector.I;
+        setup.Bodies[2].Velocity = -0.75 * Vector.I;
+        Assert.False(setup.TryGroup(Step));
+        Assert.False(setup.Bodies[0].IsAsleep);
+        Assert.True(setup.TryGroup(Step));
+        Assert.Equal(3, setup.Graph.IslandBodyCount);
+    }
+
+    [Fact]
+    public void Group_OfSurfacesAndBodies_HasSurfacesFirst()
+    {
+        var setup = new GraphOfBodies(Ball(0) with { Friction = 0.5 }, Ball(1));
+        setup.Bodies[1].Contacts.Add(new Contact(new(1, -0.5, 0), 0.5, Vector.Zero, Contact.NoBody, IsFlat: true), new(1, 0, 0));
+        setup.Bodies[0].Contacts.Add(new Contact(new(1, 0, 0), 1, Vector.Zero, 1, IsFlat: false), Vector.Zero);
+        var near = new Contact(new(0, -0.625, 0), 0.5, Vector.Zero, Contact.NoBody, IsFlat: true);
+        setup.Bodies[0].NearSurfaces.Add(in near, Vector.J, setup.Bodies[0].Contacts, Vector.Zero);
+        Assert.True(setup.TryGroup(Step));
+        var island = Assert.Single(setup.Graph.Islands);
+        Assert.False(island.IsFree);
+        Assert.Equal([(0, -1), (1, -1), (0, 1)], Enumerable.Range(0, 3).Select(row => RowOf(setup.Graph, row)));
+        Assert.Equal((true, false), (setup.Graph.Row(0).IsAhead, setup.Graph.Row(1).IsAhead));
+        Assert.Equal(3, island.RowCount);
+    }
+
+    /// <summary>Of what pushes a body, a neighbour gets what is left after the gap.</summary>
+    [Fact]
+    public void CollectTouching_OfOneThatIsPushed_PassesThePushOn()
+    {
+        var setup = new GraphOfBodies(Ball(0), Ball(1.125), Ball(2.25), Ball(3.5), Ball(-1.5));
+        setup.Bodies[0].KinematicPush = 0.375;
+        Assert.True(setup.TryGroup(Step));
+        Assert.Equal([0.375, 0.25, 0.125, 0, 0], setup.Bodies.Select(static body => body.KinematicPush));
+        var island = Assert.Single(setup.Graph.Islands);
+        Assert.Equal([0, 1, 2], BodiesOf(setup, 0));
+    }
+
+    [Theory]
+    [InlineData(1.25, true)]
+    [InlineData(1.5, false)]
+    public void CollectTouching_OfOneThatIsPushed_WakesWhomItReaches(double place, bool wakes)
+    {
+        var setup = new GraphOfBodies(Ball(0), Ball(place));
+        setup.Bodies[0].KinematicPush = 0.375;
+        setup.Bodies[1].Sleep();
+        Assert.Equal(!wakes, setup.TryGroup(Step));
+        Assert.Equal(!wakes, setup.Bodies[1].IsAsleep);
+    }
+
+    [Fact]
+    public void ReachOf_ABody_IsItsWayAndAMargin()
+    {
+        var setup = new GraphOfBodies(Ball(0) with { Velocity = new(0, 3, 4) }, Ball(20));
+        setup.Bodies[0].FreeAcceleration = new(0, -8, 0);
+        setup.Bodies[0].KinematicPush = 0.5;
+        Assert.True(setup.TryGroup(Step));
+        // v·t + a·t² + r/10 and the push.
+        Near.Equal(1.25 + 0.5 + 0.05 + 0.5, setup.Graph.ReachOf(0), 1e-15);
+        Near.Equal(0.5 + 0.05 + 0.5, setup.Graph.DeviationLimit(0), 1e-15);
+        Near.Equal(0.05, setup.Graph.ReachOf(1), 1e-15);
+        setup.Bodies[1].PlannedStart = setup.Bodies[1].Position;
+        setup.Bodies[1].Position += 0.049 * Vector.J;
+        Assert.False(setup.Graph.IsBeyondReach(setup.Bodies[1]));
+        setup.Bodies[1].Position += 0.002 * Vector.J;
+        Assert.True(setup.Graph.IsBeyondReach(setup.Bodies[1]));
+    }
+
+    [Fact]
+    public void Group_OfACompound_HasAContactForEachPairOfItsBalls()
+    {
+        var shape = CompoundShape.OfBalls([new(-Vector.I, 0.5), new(Vector.I, 0.25), new(Vector.K, 0.5)]);
+        var centre = shape.Balls[0].Offset;
+        var setup = new GraphOfBodies(
+            new BodyDescription(Vector.Zero, shape), new BodyDescription(centre + Vector.J, 0.5), Ball(30) with { Radius = 0.125 });
+        Assert.True(setup.TryGroup(Step));
+        var island = Assert.Single(setup.Graph.Islands);
+        Assert.Equal((true, 2, 1), (island.HasCompound, island.BodyCount, island.RowCount));
+        ref readonly var row = ref setup.Graph.Row(0);
+        Assert.Equal((0, 1, 0, false, true), (row.First, row.Second, row.FeatureId, row.IsAhead, row.HasArms));
+        Near.Equal(-Vector.J, row.Normal, 1e-14);
+        Assert.Equal(0.25, setup.Graph.MinRadiusOf(in island));
+    }
+
+    [Fact]
+    public void MayBounce_OfAnIsland_TellsOfAnyRestitution()
+    {
+        var setup = new GraphOfBodies(Ball(0), Ball(1), Ball(10) with { Restitution = 0.5 }, Ball(11));
+        Assert.True(setup.TryGroup(Step));
+        Assert.Equal([false, true], setup.Graph.Islands.Select(island => setup.Graph.MayBounce(setup.Graph.BodiesOf(in island))));
+    }
+
+    private static List<int> BodiesOf(GraphOfBodies setup, int island) => [.. setup.Graph.BodiesOf(setup.Graph.Islands[island])];
+
+    private static BodyDescription Ball(double x) => new(new(x, 0, 0), 0.5);
+
+    private static (int First, int Second) RowOf(ContactGraph graph, int index) => (graph.Row(index).First, graph.Row(index).Second);
+}

@@ -1,0 +1,53 @@
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics;
+using FractalEngine.Core.Physics.Islands;
+
+namespace FractalEngine.Tests.Physics.Islands;
+
+/// <summary>Bodies outside of a world, and the islands that they form in a step.</summary>
+internal sealed class GraphOfBodies
+{
+    public GraphOfBodies(params BodyDescription[] descriptions)
+    {
+        Bodies = [.. descriptions.Select(static (one, i) => new Body(one, i, Vector.Zero) { IsOverlapResolved = true })];
+        Grid.Build(Bodies);
+        Nearby = new(Grid, Bodies);
+        Sleep = new(Bodies, Nearby);
+        Graph = new(Bodies, Nearby, 1);
+        Graph.Reserve(Bodies.Count, 8 * Bodies.Count);
+        Mover = new(Bodies, Graph, Grid, Nearby, 1);
+        Mover.Reserve(Bodies.Count, 8 * Bodies.Count);
+    }
+
+    public List<Body> Bodies { get; }
+
+    public BodyGrid Grid { get; } = new();
+
+    public NearbyBodies Nearby { get; }
+
+    public SleepIslands Sleep { get; }
+
+    public ContactGraph Graph { get; }
+
+    public IslandMover Mover { get; }
+
+    /// <summary>Finds the islands of a step, whose bodies then know their island.</summary>
+    /// <returns>False where a body had to be woken first.</returns>
+    public bool TryGroup(double stepLength)
+    {
+        if (Graph.CollectTouching(Sleep, stepLength))
+        {
+            return false;
+        }
+
+        Graph.JoinTouching();
+        Graph.JoinForStep();
+        Graph.Group(onlyImpacts: false);
+        foreach (var body in Bodies)
+        {
+            body.IslandIndex = Graph.IslandOf(body.Index);
+        }
+
+        return true;
+    }
+}
