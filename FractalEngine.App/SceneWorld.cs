@@ -1,3 +1,4 @@
+using FractalEngine.App.Animation;
 using FractalEngine.Core;
 using FractalEngine.Core.Physics;
 using FractalEngine.Core.Scenes;
@@ -64,7 +65,7 @@ internal static class SceneWorld
         }
     }
 
-    /// <summary>Returns a scene as it is after some time, to the nearest step.</summary>
+    /// <summary>Returns a scene as it is after some time, as a frame of an animation shows it.</summary>
     /// <param name="path">Path of the scene, for messages.</param>
     /// <param name="file">The file that the scene was loaded from.</param>
     /// <param name="scene">The scene, perhaps with another projection.</param>
@@ -79,12 +80,8 @@ internal static class SceneWorld
         }
 
         RequireMotion(path, scene, "--time has no effect");
-        var world = Create(file, scene, new());
-        while (world.Time + (0.5 * world.Settings.TimeStep) < seconds)
-        {
-            Step(path, world);
-        }
-
-        return world.GetCurrentScene();
+        var bodies = new AnimatedBodies(path, file, scene);
+        bodies.AdvanceTo(seconds, CancellationToken.None);
+        return bodies.GetScene();
     }
 }

@@ -17,6 +17,7 @@ public sealed class SceneRenderer : IDisposable
     private ObjectsPass _objectsPass;
     private readonly EffectiveCulling _effectiveCulling = new();
     private BoundingBox? _bounds;
+    private bool _hasMoved;
     private IReadOnlyList<SphereInstance> _spheres = [];
     private RedundancyCounts _frameUploads;
     private RedundancyCounts _frameStateChanges;
@@ -49,8 +50,8 @@ public sealed class SceneRenderer : IDisposable
     public DrawableScene Scene { get; private set; }
 
     /// <summary>
-    /// Bounds of all objects at their current positions, world space. Dynamic objects and spheres count only while they stay near: one that
-    /// falls out of the scene disappears beyond the far plane instead of moving it.
+    /// Bounds of all objects at their current positions, world space. Dynamic objects and spheres count only while they
+    /// stay near; <see cref="ClipPlanes"/> follows the objects wherever they are in view.
     /// </summary>
     public BoundingBox Bounds => _bounds ??= SceneBounds.Compute(Scene, _transforms.Bounds, _spheres);
 
@@ -150,6 +151,7 @@ public sealed class SceneRenderer : IDisposable
         _transforms = transforms;
         Scene = scene;
         _bounds = null;
+        _hasMoved = false;
         Spheres = [];
         Lines = [];
     }
@@ -168,6 +170,7 @@ public sealed class SceneRenderer : IDisposable
         _transforms.Set(index, map, item.Model.Bounds);
         Culler.Move(index, map);
         _objectsPass.ObjectMoved(index, map);
+        _hasMoved = true;
         if (!item.IsDynamic)
         {
             _bounds = null;
@@ -185,7 +188,7 @@ public sealed class SceneRenderer : IDisposable
     /// </returns>
     public (double Near, double Far) ClipPlanes(View view, int width, int height, RenderSettings settings) => SceneClipPlanes.Of(
         view, view.EffectiveAspect(width, height), LinesPass.BoundsIncludingLines(Bounds, settings), settings.Grid || settings.Axes,
-        _transforms.Bounds, _spheres);
+        _transforms.Bounds, _spheres, _hasMoved ? SceneBounds.GridOf(Scene) : 0);
 
     /// <summary>Culls the instances for a frame without drawing it, on the context's thread.</summary>
     /// <param name="view">Camera and projection.</param>

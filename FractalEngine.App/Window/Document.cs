@@ -203,8 +203,7 @@ internal sealed partial class Document : IDisposable
         var message = Physics.ToggleWalking(camera);
         if (Physics.IsWalking)
         {
-            WalkControls.ReleaseKeys();
-            WalkControls.Direction = camera;
+            WalkControls.Begin(camera, Physics.Character!, Physics.InterpolationAlpha);
         }
         else if (wasWalking)
         {

@@ -237,6 +237,7 @@ internal sealed partial class ScenePhysics : IDisposable
         previous.Dispose();
         _colliders.Retain(_scene);
         IsPaused = previous.IsPaused;
+        Speed = previous.Speed;
         ShowsClosestPoints = previous.ShowsClosestPoints;
         if (previous._isBroken || (previous.World ?? previous._continued) is not { } earlier)
         {

@@ -21,6 +21,17 @@ internal sealed class WalkControls
     /// <summary>The camera that looks in the player's direction; its position is not used.</summary>
     public Camera Direction { get; set; } = Camera.Default;
 
+    /// <summary>Begins a walk that looks where a camera does, however far the ground has turned the player.</summary>
+    /// <param name="direction">The camera; its position is not used.</param>
+    /// <param name="controller">The player.</param>
+    /// <param name="alpha">The fraction of a step since the last one, as <see cref="EyeCamera"/> has it.</param>
+    public void Begin(Camera direction, CharacterController controller, double alpha)
+    {
+        ReleaseKeys();
+        Direction = direction;
+        _carriedAngle = CarriedAngle(controller, alpha);
+    }
+
     /// <summary>Goes on with the gaze and the keys that are held.</summary>
     public void ContinueFrom(WalkControls other)
     {
@@ -71,7 +82,7 @@ internal sealed class WalkControls
     /// <param name="alpha">The fraction of a step since the last one, from 0 to 1; see <see cref="Body.InterpolatedMap"/>.</param>
     public Camera EyeCamera(CharacterController controller, double alpha)
     {
-        var angle = controller.PreviousCarriedAngle + (alpha * (controller.CarriedAngle - controller.PreviousCarriedAngle));
+        var angle = CarriedAngle(controller, alpha);
         if (angle != _carriedAngle)
         {
             var turn = Direction.Handedness == Handedness.Right ? _carriedAngle - angle : angle - _carriedAngle;
@@ -83,6 +94,9 @@ internal sealed class WalkControls
         var centre = controller.PreviousPosition + (alpha * (controller.Position - controller.PreviousPosition));
         return Direction with { Position = centre + ((0.5 - EyeDepthFraction) * controller.Description.Height * controller.Up) };
     }
+
+    private static double CarriedAngle(CharacterController controller, double alpha) =>
+        controller.PreviousCarriedAngle + (alpha * (controller.CarriedAngle - controller.PreviousCarriedAngle));
 
     private Vector ComputeMoveInput(Vector up)
     {

@@ -29,8 +29,8 @@ internal static class QueryScale
     /// <param name="magnitude">Largest coordinate of all shapes and positions; 1 serves where that is NaN.</param>
     public static double Of(double magnitude) => !double.IsNaN(magnitude) && IsNeeded(magnitude) ? Math.ScaleB(1, -Exponent(magnitude)) : 1;
 
-    /// <summary>The largest coordinate of a mesh, 0 for one without vertices.</summary>
-    public static double Magnitude(Mesh mesh) => mesh.Bounds.IsEmpty ? 0 : BoundingVolume.MaxAbsCoordinate(mesh.Bounds);
+    /// <summary>The largest coordinate of a mesh's faces, 0 for one without any.</summary>
+    public static double Magnitude(Mesh mesh) => mesh.UsedBounds.IsEmpty ? 0 : BoundingVolume.MaxAbsCoordinate(mesh.UsedBounds);
 
     /// <summary>Computes an upper bound of the coordinates of a query, at most a few times too large.</summary>
     /// <param name="position">In the frame of the image.</param>

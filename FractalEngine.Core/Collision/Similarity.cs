@@ -14,6 +14,10 @@ internal sealed class Similarity(AffineMap map, double scale)
     private const double MinScaleSquared = 1e-180;
     private const double MaxScaleSquared = 1e180;
 
+    // A child instance stands for up to 16 maps.
+    private const double MinChainedScaleSquared = 1e-18;
+    private const double MaxChainedScaleSquared = 1e18;
+
     private static readonly Similarity Unmoved = new(AffineMap.Identity, 1);
 
     // Found at the first use, since they cost as much as a short search: twice at worst, with the same result. Most objects of large
@@ -30,6 +34,12 @@ internal sealed class Similarity(AffineMap map, double scale)
     public double Scale { get; } = scale;
 
     private QueryTerms Terms => _terms ??= new(Map.Inverse(), Map.Linear.Cofactors());
+
+    /// <summary>
+    /// Tells whether a matrix is the linear part of a similarity of which some in a chain, and their squares, stay in a double's range.
+    /// </summary>
+    public static bool IsChainable(Matrix m) => m.V1.LengthSquared() is > MinChainedScaleSquared and < MaxChainedScaleSquared
+        && IsSimilarity(m);
 
     /// <summary>Tells whether a matrix is the linear part of a similarity.</summary>
     public static bool IsSimilarity(Matrix m)

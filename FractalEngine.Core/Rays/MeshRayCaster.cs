@@ -30,7 +30,7 @@ internal sealed class MeshRayCaster : RayCaster
     {
         Mesh = mesh;
         _bvh = TriangleBvh.For(faces);
-        ShapeMagnitude = BoundingVolume.MaxAbsCoordinate(faces.Bounds);
+        ShapeMagnitude = QueryScale.Magnitude(faces);
     }
 
     /// <inheritdoc/>

@@ -21,12 +21,13 @@ internal sealed class LightBlock : IDisposable
     private const int HeaderFloats = 24;
     private const int FloatsPerLight = 16;
 
+    private readonly Scene _scene;
     private readonly ImmutableArray<Light> _lights;
     private readonly double _fogDensity;
     private readonly RedundancyFilter _uploadFilter;
     private readonly GlBuffer _buffer;
     private readonly float[] _data = new float[HeaderFloats + (MaxLights * FloatsPerLight)];
-    private (Vector, double)? _lastKey;
+    private (Vector, double, Colour)? _lastKey;
 
     /// <summary>Creates the buffer for the lights of a scene, or for the default ones where it declares none.</summary>
     /// <param name="resources">Resources of the current context.</param>
@@ -34,13 +35,13 @@ internal sealed class LightBlock : IDisposable
     public LightBlock(GlResources resources, LoadedScene scene)
     {
         _uploadFilter = resources.UploadFilter;
+        _scene = scene.Scene;
         _lights = LightsOf(scene);
         _buffer = new(resources, "lights", BufferTarget.UniformBuffer);
         _fogDensity = scene.Scene.Fog?.Density ?? 0;
         var display = DisplayTransform.Of(scene.Scene);
         WriteAmbient(SceneAmbient.Of(scene.Scene));
         WriteVector(new(display.Exposure, display.Tone == Tone.Filmic ? 1 : 0, _fogDensity), 0, _data.AsSpan(16));
-        WriteVector(FogColour(scene.Scene), 0, _data.AsSpan(20));
         HasAtmosphere = !display.IsIdentity || _fogDensity > 0;
         MemoryMarshal.Cast<float, int>(_data.AsSpan(8))[0] = _lights.Length;
     }
@@ -80,14 +81,16 @@ internal sealed class LightBlock : IDisposable
     }
 
     /// <summary>Returns the linear light that haze shines with: its own colour, or what stands at the horizon.</summary>
-    public static Vector FogColour(Scene scene)
+    /// <param name="scene">A scene.</param>
+    /// <param name="background">Colour of the background where it declares none.</param>
+    public static Vector FogColour(Scene scene, Colour background)
     {
         if (scene is { Fog.Colour: null, Sky: { } sky })
         {
             return sky.HorizonRadiance;
         }
 
-        var (red, green, blue) = (scene.Fog?.Colour ?? scene.Background ?? RenderSettings.DefaultBackground).ToLinear();
+        var (red, green, blue) = (scene.Fog?.Colour ?? scene.Background ?? background).ToLinear();
         var colour = new Vector(red, green, blue);
         return scene.Fog?.Colour is null ? DisplayTransform.Of(scene).Invert(colour) : colour;
     }
@@ -110,14 +113,18 @@ internal sealed class LightBlock : IDisposable
         ];
     }
 
-    /// <summary>Binds the block, uploading it at first and, where a light has a position, when the camera has moved.</summary>
+    /// <summary>
+    /// Binds the block, uploading it at first and, with haze or a light that has a position, when one of these has changed.
+    /// </summary>
     /// <param name="bindingPoint">Binding point of the program's block.</param>
     /// <param name="cameraPosition">Position of the camera in world space. Light positions are written relative to it.</param>
     /// <param name="unitsPerSceneUnit">1, or more where the frame is drawn in a smaller unit.</param>
-    public void Bind(int bindingPoint, Vector cameraPosition, double unitsPerSceneUnit)
+    /// <param name="background">Colour of the background where the scene declares none.</param>
+    public void Bind(int bindingPoint, Vector cameraPosition, double unitsPerSceneUnit, Colour background)
     {
+        var key = (cameraPosition, unitsPerSceneUnit, background);
         var isRedundant = _lastKey is { } last
-            && (last == (cameraPosition, unitsPerSceneUnit) || !(_fogDensity > 0 || _lights.Any(static light => light is PointLight)));
+            && (last == key || !(_fogDensity > 0 || _lights.Any(static light => light is PointLight)));
         if (_uploadFilter.ShouldPerform(isRedundant))
         {
             for (var i = 0; i < _lights.Length; i++)
@@ -127,8 +134,9 @@ internal sealed class LightBlock : IDisposable
             }
 
             _data[18] = (float)(_fogDensity / unitsPerSceneUnit);
+            WriteVector(FogColour(_scene, background), 0, _data.AsSpan(20));
             _buffer.Upload<float>(_data, BufferUsageHint.DynamicDraw);
-            _lastKey = (cameraPosition, unitsPerSceneUnit);
+            _lastKey = key;
         }
 
         _buffer.BindTo(bindingPoint);

@@ -6,16 +6,17 @@ namespace FractalEngine.Render.Passes;
 
 /// <summary>
 /// Computes the bounds that clip planes are derived from. Moving bodies change them only in coarse steps, since other planes discard the
-/// culled instances, and a body that falls out of the scene does not move the far plane with it.
+/// culled instances. A body that falls out of the scene does not change them: <see cref="SceneClipPlanes"/> follow it
+/// while it is in view.
 /// </summary>
 internal static class SceneBounds
 {
     // All three are fractions of the scene's size. Dynamic objects within this distance are always between the planes.
     private const double DynamicMargin = 0.5;
 
-    // Spheres farther out are ignored. Corners of the others' boxes are rounded to the grid.
+    // Spheres farther out are ignored. Corners of what moves are rounded to the grid.
     private const double SphereLimit = 2;
-    private const double SphereGrid = 0.25;
+    private const double Grid = 0.25;
 
     /// <summary>Computes the bounds in world space.</summary>
     /// <param name="scene">Scene as it was loaded.</param>
@@ -46,18 +47,24 @@ internal static class SceneBounds
         // Of the diagonal: flat scenes have no height, but balls above them.
         var margin = SphereLimit * sceneBounds.Diagonal * Vector.One;
         var sphereLimits = new BoundingBox(sceneBounds.Minimum - margin, sceneBounds.Maximum + margin);
-        var grid = SphereGrid * sceneBounds.Diagonal;
-        foreach (var (centre, radius) in spheres)
+        var grid = GridOf(scene);
+        foreach (var sphere in spheres)
         {
-            if (grid > 0 && !(sphereLimits.DistanceSquared(centre) > 0))
+            if (grid > 0 && !(sphereLimits.DistanceSquared(sphere.Centre) > 0))
             {
-                var extent = radius * Vector.One;
-                bounds = BoundingBox.Union(bounds, new(RoundDown(centre - extent, grid), -RoundDown(-centre - extent, grid)));
+                bounds = BoundingBox.Union(bounds, RoundOut(sphere.Bounds, grid));
             }
         }
 
         return bounds;
     }
+
+    /// <summary>Returns the width of the steps in which what moves changes bounds, scene units.</summary>
+    public static double GridOf(DrawableScene scene) => Grid * scene.Source.Bounds.Diagonal;
+
+    /// <summary>Returns the smallest box around another one whose corners lie on a grid.</summary>
+    public static BoundingBox RoundOut(BoundingBox box, double grid) =>
+        new(RoundDown(box.Minimum, grid), -RoundDown(-box.Maximum, grid));
 
     private static BoundingBox Enlarge(BoundingBox box) =>
         new(box.Minimum - (DynamicMargin * box.Size), box.Maximum + (DynamicMargin * box.Size));

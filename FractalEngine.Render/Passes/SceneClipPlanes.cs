@@ -4,8 +4,8 @@ using FractalEngine.Core.Scenes;
 namespace FractalEngine.Render.Passes;
 
 /// <summary>
-/// The clip planes of a frame: those of the scene's bounds, unless these would cut away an object in view that is near the camera, as
-/// happens where another one is very far away.
+/// The clip planes of a frame: those of the scene's bounds, unless these would cut away an object in view. It may be near
+/// the camera while another one is very far away, or it may have left the bounds.
 /// </summary>
 internal static class SceneClipPlanes
 {
@@ -31,14 +31,24 @@ internal static class SceneClipPlanes
     /// <param name="hasLines">True where the bounds hold grid or axes, which reach beyond the objects.</param>
     /// <param name="objects">Boxes of the objects, world space.</param>
     /// <param name="spheres">Spheres beside the objects.</param>
+    /// <param name="grid">Objects in view beyond the bounds widen them to its multiples; 0 where none has moved.</param>
     /// <remarks>
-    /// Cost O(n) for n objects where the camera is within the bounds or near them, else O(1). Planes that follow objects lie at powers of
-    /// two, so that they stay while objects move a little.
+    /// Cost O(n) for n objects where one has moved, or the camera is within the bounds or near them, else O(1). Planes
+    /// that follow objects lie on a grid or at powers of two, so that they stay while objects move a little.
     /// </remarks>
     public static (double Near, double Far) Of(
         View view, double aspect, BoundingBox bounds, bool hasLines, ReadOnlySpan<BoundingBox> objects,
-        IReadOnlyList<SphereInstance> spheres)
+        IReadOnlyList<SphereInstance> spheres, double grid = 0)
     {
+        foreach (var box in grid > 0 ? objects : [])
+        {
+            // What stands is within. What falls for ever counts until it is out of view, or too small to be seen.
+            if (BoundingBox.Union(bounds, box) != bounds && IsVisible(view, aspect, box))
+            {
+                bounds = BoundingBox.Union(bounds, SceneBounds.RoundOut(box, grid));
+            }
+        }
+
         var planes = view.ClipPlanes(bounds);
         if (view.FixedClipPlanes is not null || view.Projection != Projection.Perspective || !(view.DepthsOf(bounds).Nearest < planes.Near))
         {
@@ -78,6 +88,9 @@ internal static class SceneClipPlanes
     /// <summary>The largest power of two up to a positive number.</summary>
     private static double PowerOfTwo(double number) => Math.ScaleB(1, Math.ILogB(number));
 
+    private static bool IsVisible(View view, double aspect, BoundingBox box) => box.Size.IsFinite() && view.MayIntersectFrustum(box, aspect)
+        && box.Diagonal > MinVisibleSize * view.HalfHeight * (view.Projection == Projection.Perspective ? view.DepthsOf(box).Nearest : 1);
+
     /// <summary>The nearest and the farthest depth of what is in view.</summary>
     /// <param name="view">Camera and projection.</param>
     /// <param name="aspect">Width divided by height of the frame.</param>
@@ -99,7 +112,7 @@ internal static class SceneClipPlanes
             // Most boxes are too far away.
             var reach = Near / _cornerCosine;
             var distanceSquared = box.DistanceSquared(view.Camera.Position);
-            if (distanceSquared < reach * reach && IsVisible(box))
+            if (distanceSquared < reach * reach && IsVisible(view, aspect, box))
             {
                 // How near the surface is that the camera is within the box of, is not known: it has the plane that it has alone.
                 var (nearest, farthest) = view.DepthsOf(box);
@@ -112,13 +125,10 @@ internal static class SceneClipPlanes
         /// <summary>Takes in the farthest depth of a box, if it is in view and appears large enough.</summary>
         public void AddFar(BoundingBox box)
         {
-            if (IsVisible(box))
+            if (IsVisible(view, aspect, box))
             {
                 Far = Math.Max(Far, (1 + DepthMargin) * view.DepthsOf(box).Farthest);
             }
         }
-
-        private readonly bool IsVisible(BoundingBox box) => box.Size.IsFinite() && view.MayIntersectFrustum(box, aspect)
-            && box.Diagonal > MinVisibleSize * view.HalfHeight * view.DepthsOf(box).Nearest;
     }
 }

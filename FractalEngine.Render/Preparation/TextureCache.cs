@@ -63,9 +63,10 @@ internal sealed class TextureCache(ImmutableArray<string>.Builder notices, bool 
         if (material.OpacityTexture is { } opacity)
         {
             var combined = LoadWithOpacity(material.Texture?.Path, opacity.Path);
-            return _materials[material] = combined is null
-                ? GetMaterial(material with { OpacityTexture = null })
-                : new(material with { Texture = material.Texture ?? opacity }, combined);
+            // Grey where the colours can't be decoded still has its holes.
+            return _materials[material] = combined is not null ? new(material with { Texture = material.Texture ?? opacity }, combined)
+                : material.Texture is { } colours && _undecodable.Contains(colours.Path) ? GetMaterial(material.WithoutTexture())
+                : GetMaterial(material with { OpacityTexture = null });
         }
 
         var texture = material.Texture is { Path: var path } ? Load(path, "drawn grey") : null;

@@ -128,7 +128,8 @@ internal sealed class ShadowMaps(GlResources resources) : IDisposable
         var toView = view.Axes.Transpose();
         var centre = toView * (box.Centre - view.Position);
         var halfSize = toView.Absolute() * (0.5 * box.Size);
-        if (!(centre.Z + halfSize.Z > view.CasterNear && centre.Z - halfSize.Z < view.Far))
+        // Parallel light comes from beyond all bodies, also those that have left the scene's bounds.
+        if (!((!view.IsPerspective || centre.Z + halfSize.Z > view.CasterNear) && centre.Z - halfSize.Z < view.Far))
         {
             return false;
         }

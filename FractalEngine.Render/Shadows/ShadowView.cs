@@ -12,7 +12,7 @@ namespace FractalEngine.Render.Shadows;
 /// <param name="HalfHeight">Half the height, likewise.</param>
 /// <param name="Near">Depth of the near plane. Casters before it count as if they were on it where the light is parallel.</param>
 /// <param name="Far">Depth of the far plane.</param>
-/// <param name="CasterNear">Smallest depth of anything that casts; at most the near plane's.</param>
+/// <param name="CasterNear">Smallest depth of what casts within the scene's bounds; at most the near plane's.</param>
 /// <param name="Size">Texels a side.</param>
 internal readonly record struct ShadowView(
     Vector Position, Matrix Axes, bool IsPerspective, double HalfWidth, double HalfHeight, double Near, double Far, double CasterNear,

@@ -92,7 +92,7 @@ public sealed class PathTracer
         _display = DisplayTransform.Of(declared);
         _background = new(declared, _display);
         _fogDensity = _unit * (declared.Fog?.Density ?? 0);
-        _fogColour = LightBlock.FogColour(declared);
+        _fogColour = LightBlock.FogColour(declared, background);
         _seed = seed;
         Width = width;
         Height = height;

@@ -1,3 +1,4 @@
+using FractalEngine.App;
 using FractalEngine.App.Animation;
 using FractalEngine.Core.Images;
 using FractalEngine.Parsing.Assets;
@@ -88,12 +89,31 @@ public sealed class TracedAnimationTests : IDisposable
             var height = bodies.GetScene().Objects[0].ObjectToWorld.Translation.Y;
             // The map of a drawn frame is computed by another formula, so that it may differ by rounding.
             Assert.Equal(height, bodies.Maps[0].Map.Translation.Y, 1e-12);
+            // A still image shows the same, to the bit.
+            var still = SceneWorld.After("drop.sdo", file, file.Scene, steps / 60);
+            Assert.Equal(height, still.Objects[0].ObjectToWorld.Translation.Y);
             return height;
         }
 
+        // The nearest step of the first is the beginning.
+        Assert.InRange(HeightAt(0.4), 1.49, 1.4999);
         var (height2, height225, height3) = (HeightAt(2), HeightAt(2.25), HeightAt(3));
         Assert.True(height2 > height3);
         Assert.Equal((0.75 * height2) + (0.25 * height3), height225, 1e-12);
+    }
+
+    [Fact]
+    public void Bodies_AtTheEndOfAStep_HaveTheBitsOfThatStep()
+    {
+        var file = AssetLoader.Load(_folder["drop.sdo"]);
+        var bodies = new AnimatedBodies("drop.sdo", file, file.Scene);
+        var world = SceneWorld.Create(file, file.Scene, new());
+        for (var step = 1; step <= 600; step++)
+        {
+            world.Step();
+            bodies.AdvanceTo(step / 60.0, CancellationToken.None);
+            Assert.Equal(world.GetCurrentScene().Objects[0].ObjectToWorld, bodies.GetScene().Objects[0].ObjectToWorld);
+        }
     }
 
     [SkippableTheory]

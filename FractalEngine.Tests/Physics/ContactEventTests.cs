@@ -115,6 +115,30 @@ public class ContactEventTests
         Assert.Equal(ContactPhase.Stay, Assert.Single(Collect(world, 1)).Phase);
     }
 
+    /// <summary>A trigger wakes nobody: it comes to a body that sleeps, and goes on.</summary>
+    [Fact]
+    public void Trigger_ThatPassesASleepingBody_IsEnteredAndLeft()
+    {
+        var world = new PhysicsWorld(Reporting);
+        var floor = world.AddStatic(PhysicsMeshes.Cube, Floor);
+        var trigger = world.AddStatic(PhysicsMeshes.Cube, Samples.Move(-4, 0.5, 0));
+        trigger.IsTrigger = true;
+        var ball = world.AddSphere(new(0, 0.5, 0), 0.5);
+        trigger.SetMotion(new(1.5, 0, 0));
+        var events = new List<ContactEvent>();
+        for (var step = 0; step < 400; step++)
+        {
+            world.Step();
+            events.AddRange(world.ContactEvents.Where(one => one.StaticObject == trigger));
+        }
+
+        Assert.True(ball.IsAsleep);
+        Assert.Equal((ContactPhase.Begin, ContactPhase.End), (events[0].Phase, events[^1].Phase));
+        // Their surfaces meet from -1 to 1.
+        Near.Equal(2 / 1.5 * 60, events.Count - 1, 1.01);
+        Assert.Equal((ContactPhase.Stay, floor), (Assert.Single(world.ContactEvents).Phase, world.ContactEvents[0].StaticObject));
+    }
+
     [Fact]
     public void Reset_WhileBodiesTouch_LetsTheirContactsBeginAgain()
     {

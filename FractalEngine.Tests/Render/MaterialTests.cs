@@ -6,6 +6,7 @@ using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Render;
 using FractalEngine.Render.Preparation;
+using FractalEngine.Render.Tracing;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Render;
@@ -414,6 +415,25 @@ public sealed class MaterialTests : IDisposable
             $"{broken.Path}:1:1: warning: the texture can't be decoded, drawn opaque: ",
             Assert.Single(DrawableScene.Prepare(scene, new()).Notices), StringComparison.Ordinal);
         AssertNear((255, 255, 255, 255), RenderScenes.Draw(scene, Square, 200, 200)[100, 100]);
+    }
+
+    [SkippableFact]
+    public void OpacityTexture_BesideAnUndecodableTexture_CutsOutOfGrey()
+    {
+        var opacity = _scenes.CreateTexture("mask.png", 16, 16, (x, _) => (255, 255, 255, (byte)(x < 8 ? 0 : 255)));
+        var broken = _scenes.CreateBrokenTexture("leaf.png");
+        var leaf = TexturedScenes.CreateSquare(1, new("leaf") { Texture = broken, OpacityTexture = opacity });
+        var scene = RenderScenes.Scene(FullLightOnBlack, (leaf, Transformation.Identity, null));
+        Assert.StartsWith(
+            $"{broken.Path}:1:1: warning: the texture can't be decoded, drawn grey: ",
+            Assert.Single(DrawableScene.Prepare(scene, new()).Notices), StringComparison.Ordinal);
+        var image = RenderScenes.Draw(scene, Square, 200, 200);
+        AssertNear((0, 0, 0, 255), image[50, 100]);
+        AssertNear((153, 153, 153, 255), image[150, 100]);
+        var tracer = new PathTracer(scene, Square, 20, 20);
+        tracer.AddSample();
+        Assert.Equal(0, tracer.RadianceAt(5, 10).X);
+        Assert.Equal(Linear(0.6), tracer.RadianceAt(15, 10).X, 1e-3);
     }
 
     [SkippableTheory]

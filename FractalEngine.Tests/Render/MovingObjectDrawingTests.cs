@@ -53,6 +53,43 @@ public sealed class MovingObjectDrawingTests
         Assert.Equal(before.Pixels, Draw(frame, renderer).Pixels);
     }
 
+    /// <summary>The bounds of the scene, of which bodies count half the size around, end at z = ±1.</summary>
+    [SkippableTheory]
+    [InlineData(Projection.Perspective, 20)]
+    [InlineData(Projection.Perspective, -3.5)]
+    [InlineData(Projection.Orthographic, 20)]
+    [InlineData(Projection.Orthographic, -3.5)]
+    public void Frame_OfABodyFarOutOfTheScene_ShowsItWhileItIsInView(Projection projection, double z)
+    {
+        using var context = GlTests.OpenContext();
+        using var frame = new FrameRenderer(context);
+        var cube = RenderScenes.Model(RenderScenes.Cube(0.5), "cube.obj");
+        var scene = new LoadedScene(
+            new Scene { Background = Colour.Black, Lights = [RenderScenes.FullLight] },
+            [
+                new(new SceneObject("cube.obj", RenderScenes.TranslatedTo(-1.5, 0, 0)), cube),
+                new(new PhysicsObject("cube.obj", RenderScenes.TranslatedTo(1.5, 0, 0), 0) { Colour = new Colour(1, 0, 0) }, cube),
+            ]);
+        using var renderer = new SceneRenderer(context, DrawableScene.Prepare(scene, Settings));
+        var view = RenderScenes.FrontView with { Projection = projection, OrthographicHeight = 6 };
+        PixelImage DrawAt(double x, double y, double depth)
+        {
+            renderer.Move(1, AffineMap.Translate(new(x, y, depth)));
+            frame.Draw(renderer, view, Width, Height, Settings);
+            return frame.Capture();
+        }
+
+        var before = DrawAt(1.5, 0, 0);
+        var planes = renderer.ClipPlanes(view, Width, Height, Settings);
+        Assert.Equal((0, 0, 0, 255), before[Width / 2, Height / 2]);
+        Assert.Equal((255, 0, 0, 255), DrawAt(0, 0, z)[Width / 2, Height / 2]);
+
+        // Out of view it moves nothing, and back where it began all is as it was.
+        DrawAt(0, -1000, z);
+        Assert.Equal(planes, renderer.ClipPlanes(view, Width, Height, Settings));
+        Assert.Equal(before.Pixels, DrawAt(1.5, 0, 0).Pixels);
+    }
+
     [SkippableFact]
     public void Spheres_AreRoundAndAtTheirPositions()
     {

@@ -110,6 +110,27 @@ public sealed class SceneClipPlanesTests
         Assert.True(near < 4.5 && far is > 5.5 and < 1000, $"{near} to {far}");
     }
 
+    [Theory]
+    [InlineData(Projection.Perspective)]
+    [InlineData(Projection.Orthographic)]
+    public void Of_ABodyThatHasLeftTheBounds_FollowItInStepsWhileItIsSeen(Projection projection)
+    {
+        var view = RenderScenes.FrontView with { Projection = projection, OrthographicHeight = 5 };
+        BoundingBox bounds = new(-Vector.One, Vector.One);
+        (double Near, double Far) PlanesWith(Vector centre, double half) => SceneClipPlanes.Of(
+            view, Aspect, bounds, false, [bounds, new(centre - (half * Vector.One), centre + (half * Vector.One))], [], grid: 2);
+
+        // The farther side moves from z = 22.1 to 23.9, within a step that ends at 24: 29 from the camera.
+        var planes = Enumerable.Range(0, 10).Select(i => PlanesWith((20.6 + (0.2 * i)) * Vector.K, 1.5)).Distinct();
+        Assert.InRange(Assert.Single(planes).Far, 29, 30);
+        Assert.InRange(PlanesWith(-3.5 * Vector.K, 0.5).Near, 0, 1);
+
+        var alone = view.ClipPlanes(bounds);
+        Assert.Equal(alone, PlanesWith(new(0, -1000, 20), 1));
+        Assert.Equal(alone, PlanesWith(20 * Vector.K, 1e-6));
+        Assert.Equal(alone, PlanesWith(0.5 * Vector.K, 0.5));
+    }
+
     private static (double Near, double Far) Planes(View view, params BoundingBox[] boxes) =>
         SceneClipPlanes.Of(view, Aspect, boxes.Aggregate(BoundingBox.Union), false, boxes, []);
 

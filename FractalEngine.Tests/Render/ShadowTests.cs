@@ -155,8 +155,11 @@ public sealed class ShadowTests
         Assert.Equal(1, Drawn(view));
     }
 
-    [SkippableFact]
-    public void Body_ThatMoves_TakesItsShadowWithIt()
+    /// <summary>Also high above the bounds of the scene, on its way towards the light.</summary>
+    [SkippableTheory]
+    [InlineData(0)]
+    [InlineData(30)]
+    public void Body_ThatMoves_TakesItsShadowWithIt(double towardsLight)
     {
         var light = LightOf("sun", 1, Vector.Zero);
         var body = new PlacedModel(new PhysicsObject("cube.obj", RenderScenes.TranslatedTo(-2, 1.5, 0), 1) { Colour = Colour.White },
@@ -168,7 +171,7 @@ public sealed class ShadowTests
         using var frame = new FrameRenderer(context);
         foreach (var x in (double[])[-2, 1, 0.5, 0])
         {
-            renderer.Move(1, AffineMap.Translate(new(x, 1.5, 0)));
+            renderer.Move(1, AffineMap.Translate(new(x - towardsLight, 1.5 + towardsLight, 0)));
             frame.Draw(renderer, FromAbove(1, Vector.Zero), Size, Size, new());
         }
 

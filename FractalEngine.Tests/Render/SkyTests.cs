@@ -2,8 +2,10 @@ using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Images;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Render;
 using FractalEngine.Render.Images;
 using FractalEngine.Render.Passes;
+using FractalEngine.Render.Preparation;
 using FractalEngine.Render.Tracing;
 using FractalEngine.Tests.Render.Tracing;
 
@@ -77,6 +79,27 @@ public sealed class SkyTests
         var image = RenderScenes.Draw(scene, new(new(Vector.Zero, Vector.Zero, 1), Projection.Perspective), 8, 8);
         // Both layers are rounded to values of 256.
         Assert.Equal(255 * Srgb(PathTracerTests.LightOfFogBehindGlass), image[4, 4].Green, 1.5);
+    }
+
+    [SkippableFact]
+    public void Fog_WithoutAColour_FadesToTheBackgroundOfTheSettings()
+    {
+        var scene = RenderScenes.Scene(
+            new Scene { Fog = new(100), Lights = [RenderScenes.FullLight] },
+            (RenderScenes.Model(RenderScenes.Cube(1)), Transformation.Identity, new Colour(1, 0, 0)));
+        using var context = GlTests.OpenContext();
+        using var renderer = new SceneRenderer(context, DrawableScene.Prepare(scene, new()));
+        using var frame = new FrameRenderer(context);
+        foreach (var background in (Colour[])[new(0, 1, 0), new(0, 0, 1)])
+        {
+            var settings = new RenderSettings { Background = background };
+            frame.Draw(renderer, RenderScenes.FrontView, 20, 20, settings);
+            var tracer = new PathTracer(scene, RenderScenes.FrontView, 20, 20, settings);
+            tracer.AddSample();
+            var expected = (0, (int)(255 * background.Green), (int)(255 * background.Blue), 255);
+            Assert.Equal(expected, frame.Capture()[10, 10]);
+            Assert.Equal(expected, tracer.ToImage()[10, 10]);
+        }
     }
 
     [SkippableTheory]

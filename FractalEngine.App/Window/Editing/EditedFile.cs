@@ -32,9 +32,11 @@ internal sealed record EditedFile(string SavedText, string Text)
                 continue;
             }
 
-            // The line may have moved, if there is only one like it: among those on the disk, not those that were changed already.
-            var place = i < lines.Length && lines[i] == before[i] ? i : Array.IndexOf(lines, before[i]);
-            if (place < 0 || (place != i && Array.LastIndexOf(lines, before[i]) != place))
+            // The line may have moved. Of several alike it is known by its number, if there are as many as before, and else by its place.
+            var (earlier, now) = (PlacesOf(before[i], before), PlacesOf(before[i], lines));
+            var isInPlace = lines.Length == before.Length ? lines[i] == before[i] : lines.Take(i + 1).SequenceEqual(before.Take(i + 1));
+            var place = now.Length == earlier.Length ? now[Array.IndexOf(earlier, i)] : isInPlace ? i : -1;
+            if (place < 0)
             {
                 return null;
             }
@@ -44,4 +46,6 @@ internal sealed record EditedFile(string SavedText, string Text)
 
         return new(present, string.Join('\n', rebased));
     }
+
+    private static int[] PlacesOf(string line, string[] lines) => [.. Enumerable.Range(0, lines.Length).Where(i => lines[i] == line)];
 }

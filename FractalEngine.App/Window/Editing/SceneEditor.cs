@@ -68,8 +68,14 @@ internal static class SceneEditor
     /// <param name="line">The object's line, as <see cref="FindHidden"/> has it.</param>
     public static string ShowObject(string text, string line)
     {
-        var place = text.IndexOf(HiddenMark + line, StringComparison.Ordinal);
-        return place < 0 ? text : text.Remove(place, HiddenMark.Length);
+        var lines = text.Split('\n');
+        var place = Array.FindIndex(lines, hidden => hidden.TrimEnd('\r') == HiddenMark + line);
+        if (place >= 0)
+        {
+            lines[place] = lines[place][HiddenMark.Length..];
+        }
+
+        return string.Join('\n', lines);
     }
 
     private static string RemoveLine(string text, SceneDeclarationKind kind, int index)

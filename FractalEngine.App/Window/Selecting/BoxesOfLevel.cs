@@ -23,7 +23,7 @@ internal sealed class BoxesOfLevel
     public int Level { get; set; } = -1;
 
     /// <summary>Adds the lines of the boxes in world space.</summary>
-    /// <param name="scene">The scene as it was loaded.</param>
+    /// <param name="scene">The scene with its bodies where they are.</param>
     /// <param name="lines">The list that is added to.</param>
     public void AddTo(LoadedScene scene, List<LineSegment> lines)
     {

@@ -26,7 +26,7 @@ internal sealed class NormalLines
     public bool IsOn { get; set; }
 
     /// <summary>Adds the lines, in world space.</summary>
-    /// <param name="scene">The scene as it was loaded.</param>
+    /// <param name="scene">The scene with its bodies where they are.</param>
     /// <param name="selected">What is selected; null for nothing.</param>
     /// <param name="lines">The list that is added to.</param>
     public void AddTo(LoadedScene scene, Selection? selected, List<LineSegment> lines)

@@ -20,7 +20,7 @@ internal sealed class Picker
     private SceneRayCaster? _caster;
     private DeepZoomRayCaster? _deepCaster;
 
-    /// <summary>Finds the face under a pixel: in a section through a solid, that which is seen behind the plane.</summary>
+    /// <summary>Finds the face under a pixel, behind the planes that cut the view open.</summary>
     /// <param name="scene">The scene with its bodies where they are.</param>
     /// <param name="view">View of the frame in world space, without a deep zoom.</param>
     /// <param name="pixel">Framebuffer pixels from the upper left corner.</param>
@@ -32,7 +32,9 @@ internal sealed class Picker
         TakeScene(scene);
         _caster ??= new(scene);
         var ray = view.RayThrough(pixel.X, pixel.Y, size.Width, size.Height);
-        var (minDistance, maxDistance) = (0.0, double.PositiveInfinity);
+        // The direction's part along the axis is 1, so that its length is the distance at a depth of 1.
+        var (near, far) = view.FixedClipPlanes ?? (0, double.PositiveInfinity);
+        var (minDistance, maxDistance) = (near * ray.Direction.Length(), far * ray.Direction.Length());
         if ((view.Section is { } section && !section.TryClip(in ray, ref minDistance, ref maxDistance))
             || !_caster!.TryFindNearest(ray, _context, out var hit, out var objectIndex, minDistance, maxDistance))
         {

@@ -114,10 +114,11 @@ internal sealed class SelectionTool(Document document)
     public List<LineSegment> WorldLines()
     {
         var lines = new List<LineSegment>();
-        Boxes.AddTo(document.File.Scene, lines);
+        var scene = document.Physics.CurrentScene;
+        Boxes.AddTo(scene, lines);
         if (Selected is not { Viewpoint: not null })
         {
-            Normals.AddTo(document.File.Scene, Selected, lines);
+            Normals.AddTo(scene, Selected, lines);
         }
 
         return lines;
@@ -181,6 +182,8 @@ internal sealed class SelectionTool(Document document)
         {
             Section = document.Section.Shown,
             HorizontalShift = document.Area.HorizontalShift,
+            // Within a fractal, the frame has clip planes by what is around the camera.
+            FixedClipPlanes = document.VisibleDepth > 0 ? null : document.File.Scene.Scene.Clip,
         };
         var camera = document.FlyingCamera;
         return document.VisibleDepth > 0 && !Picker.IsExactAt(camera.Log10Magnification)

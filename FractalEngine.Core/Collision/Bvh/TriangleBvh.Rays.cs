@@ -147,7 +147,7 @@ internal sealed partial class TriangleBvh
     /// <summary>Moves the origin of a ray from afar to where it may enter the box of the mesh; false where it misses that.</summary>
     private bool TryApproach(ref LocalRay ray, in RaySearch search)
     {
-        _rayBox ??= new(_mesh.Bounds);
+        _rayBox ??= new(_mesh.UsedBounds);
         return _rayBox.TryApproach(ref ray, in search);
     }
 

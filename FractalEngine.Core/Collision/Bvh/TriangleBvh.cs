@@ -66,11 +66,12 @@ internal sealed partial class TriangleBvh
             return;
         }
 
-        _origin = mesh.Bounds.Centre;
-        _scale = PowerOfTwoScale(0.5 * mesh.Bounds.Size.MaxAbsComponent());
-        var maxCoordinate = Vector.Max(mesh.Bounds.Minimum.Absolute(), mesh.Bounds.Maximum.Absolute()).MaxAbsComponent();
+        var box = mesh.UsedBounds;
+        _origin = box.Centre;
+        _scale = PowerOfTwoScale(0.5 * box.Size.MaxAbsComponent());
+        var maxCoordinate = QueryScale.Magnitude(mesh);
         _magnitude = (2 * maxCoordinate * _scale) + FarThreshold;
-        _isInSafeRange = maxCoordinate < MaxSafeLength && IsSafeSize(mesh.Bounds.Size.MaxAbsComponent());
+        _isInSafeRange = maxCoordinate < MaxSafeLength && IsSafeSize(box.Size.MaxAbsComponent());
         if (mesh.FaceCount <= MaxBruteForceTriangles || !_isInSafeRange)
         {
             _faces = [.. Enumerable.Range(0, mesh.FaceCount)];

@@ -193,28 +193,23 @@ public sealed class ExactFractalCollider : Collider
         ClosestPointFactory.OnInstance(mesh, search.ClosestFace, in instance, in position, out closest);
         reach = Math.Max(reach, closest.Point.MaxAbsComponent());
         ClosestPoint.SetErrorBound(ref closest, search.ErrorBound(closest.Distance, reach));
-        return closest.Distance <= maxDistance;
+        return closest.Distance <= maxDistance || (NeedsExactRetry(maxDistance, epsilon)
+            && FindClosestInImage(in position, in map, isSimilarity, maxDistance, 0, context, out closest));
     }
 
     private void SearchLevels(in Vector position, in AffineMap map, bool isSimilarity, ref FractalSearchState search)
     {
         var minRadius = RelativePrecision * _precisionRadius;
-        var minRadiusSquared = minRadius * minRadius;
         // Where most of the fractal is far smaller than all of it, a result is as precise as its own coordinates.
         var precision = _hierarchy.Root.Clusters is null ? 0 : RelativePrecision * position.MaxAbsComponent();
         if (isSimilarity)
         {
-            search.MinRadiusSquared = Math.Max(minRadiusSquared, precision * precision);
+            search.MinRadiusSquared = Math.Max(minRadius * minRadius, precision * precision);
             _similaritySearch.Run(new(position), ref search);
         }
         else
         {
-            var normSquared = new SimdAffineMap(map).FrobeniusNormSquared();
-            var mappedRadius = minRadius * map.Linear.MaxAbsEntry();
-            var mappedRadiusSquared = normSquared is > MinNormSquared and < MaxNormSquared
-                ? minRadiusSquared * normSquared
-                : mappedRadius * mappedRadius;
-            search.MinRadiusSquared = Math.Max(mappedRadiusSquared, precision * precision);
+            search.MinRadiusSquared = Math.Max(MappedRadiusSquared(minRadius, in map), precision * precision);
             _affineSearch.Run(new(position, in map), ref search);
         }
 
@@ -227,6 +222,14 @@ public sealed class ExactFractalCollider : Collider
 
     /// <summary>Computes the radius below which no further level of a fractal is visited.</summary>
     internal static double MinRadius(SubFractal root) => RelativePrecision * PrecisionRadius(root);
+
+    /// <summary>Squares a radius under a map: about right, and a number at any size.</summary>
+    internal static double MappedRadiusSquared(double radius, in AffineMap map)
+    {
+        var normSquared = new SimdAffineMap(map).FrobeniusNormSquared();
+        var mappedRadius = radius * map.Linear.MaxAbsEntry();
+        return normSquared is > MinNormSquared and < MaxNormSquared ? radius * radius * normSquared : mappedRadius * mappedRadius;
+    }
 
     /// <summary>Computes the radius that <see cref="RelativePrecision"/> is a part of.</summary>
     private static double PrecisionRadius(SubFractal root)

@@ -48,7 +48,7 @@ internal sealed class ShapeTree
     public bool IsFractal => _hierarchy is not null;
 
     /// <summary>A box around the shape in its own frame.</summary>
-    public BoundingBox Box => _hierarchy?.Root.Box ?? _meshes[0].Bounds;
+    public BoundingBox Box => _hierarchy?.Root.Box ?? _meshes[0].UsedBounds;
 
     /// <summary>Returns the shape with a hierarchy of its base mesh, which the first who asks for one makes.</summary>
     public ShapeTree WithHierarchy() => _bvhs is not null ? this : new(_meshes[0], TriangleBvh.For(_meshes[0]));
@@ -78,7 +78,7 @@ internal sealed class ShapeTree
 
     /// <summary>Square of the radius in the frame of the query at which a sub-fractal is replaced by a base mesh; 0 for a mesh.</summary>
     /// <param name="map">From the shape's frame to that of the query.</param>
-    public double MinRadiusSquared(in AffineMap map) => _minRadius * _minRadius * FrobeniusNormSquared(in map);
+    public double MinRadiusSquared(in AffineMap map) => ExactFractalCollider.MappedRadiusSquared(_minRadius, in map);
 
     /// <summary>Number of places for children; 0 for a leaf.</summary>
     public int ChildCount(in ShapeNode node) => !node.IsBase ? node.SubFractal!.Children.Length

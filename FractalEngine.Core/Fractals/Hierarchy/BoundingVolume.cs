@@ -32,7 +32,7 @@ internal sealed record BoundingVolume(BoundingBox Box, ConvexHull? Hull, double 
         }
 
         var vertices = UsedVertices(mesh);
-        return FromVertices(mesh.Bounds, vertices, vertices.Length, 0);
+        return FromVertices(mesh.UsedBounds, vertices, vertices.Length, 0);
     }
 
     /// <summary>Tells whether a volume of this box is small enough for a hull.</summary>

@@ -71,7 +71,7 @@ internal sealed partial class FractalHierarchyBuilder
     {
         foreach (ref readonly var map in maps)
         {
-            if (!Similarity.IsSimilarity(map.Linear))
+            if (!Similarity.IsChainable(map.Linear))
             {
                 return false;
             }

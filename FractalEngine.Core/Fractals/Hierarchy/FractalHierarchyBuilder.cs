@@ -1,3 +1,5 @@
+using FractalEngine.Core.Collision;
+
 namespace FractalEngine.Core.Fractals.Hierarchy;
 
 /// <summary>Builds the sub-fractals of a <see cref="FractalHierarchy"/>, from the base mesh upwards.</summary>
@@ -38,7 +40,9 @@ internal sealed partial class FractalHierarchyBuilder
         _isEmpty = FractalSteps.CountUpTo(description.Steps, 1).IsZero;
         _recursives = new(description.Recursives);
         _childBuilder = new(_recursives.Period);
-        HasOnlySimilarities = description.Steps.All(HasOnlySimilarMaps) && _recursives.HaveOnlySimilarities;
+        // A search by similarities computes in the units of base meshes.
+        HasOnlySimilarities = description.Steps.All(HasOnlySimilarMaps) && _recursives.HaveOnlySimilarities
+            && !description.Recursives.Any(static recursive => QueryScale.IsNeeded(QueryScale.Magnitude(recursive.BaseMesh)));
         _union = new(Built, new(description));
         _subFractalFactory = new([.. description.Recursives.Select(static recursive => recursive.BaseMesh)], HasOnlySimilarities);
         for (var i = 0; i < _recursives.Period; i++)

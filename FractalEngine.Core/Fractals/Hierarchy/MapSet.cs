@@ -35,7 +35,7 @@ internal sealed class MapSet
             map.Inverse();
             ScalesSquared[i] = map.Linear.V1.LengthSquared();
             OperatorNormBounds[i] = BoundingSphere.OperatorNormBound(map.Linear) * (1 + RoundingErrors.Norm);
-            AreSimilarities &= Similarity.IsSimilarity(map.Linear);
+            AreSimilarities &= Similarity.IsChainable(map.Linear);
             IdentityIndex = IdentityIndex < 0 && map == AffineMap.Identity ? i : IdentityIndex;
         }
     }

@@ -140,13 +140,14 @@ internal sealed class ContactLog(List<Body> bodies, StaticObjectSet statics)
         _records.Clear();
     }
 
-    /// <summary>Bodies that sleep touch what they touched before.</summary>
+    /// <summary>Bodies that sleep touch what they touched before. Which triggers they are in is found anew in each step.</summary>
     private void KeepSleepers()
     {
         foreach (var record in _previous)
         {
             if (record.First < bodies.Count && bodies[record.First].IsAsleep
-                && (record.Second < 0 || (record.Second < bodies.Count && bodies[record.Second].IsAsleep)))
+                && (record.Second < 0 ? !statics.Objects[ContactRecord.OfObject(record.Second)].IsTrigger
+                    : record.Second < bodies.Count && bodies[record.Second].IsAsleep))
             {
                 _records.Add(record with { Impulse = 0 });
             }

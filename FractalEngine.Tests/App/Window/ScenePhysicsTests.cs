@@ -95,6 +95,15 @@ public sealed class ScenePhysicsTests
     }
 
     [Fact]
+    public void Speed_OfTheSimulation_OutlivesAnEdit()
+    {
+        using var physics = Create(SceneWith(4));
+        physics.Speed = 0.25;
+        using var edited = Create(SceneWith(5), physics);
+        Assert.Equal(0.25, edited.Speed);
+    }
+
+    [Fact]
     public void ClosestPointLines_OfBodiesWithoutADistance_AreNone()
     {
         var distant = new SceneObject(Shapes.Cube()) { Placement = Samples.Move(1e308, 0, 0) };

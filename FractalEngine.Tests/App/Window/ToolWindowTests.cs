@@ -233,6 +233,27 @@ public sealed class ToolWindowTests : IDisposable
     }
 
     [SkippableFact]
+    public void Normals_OfABodyThatFliesAway_FollowIt()
+    {
+        _folder.Write(
+            "flight.sdo", "gravity (0, 0, 0)\nc (0, 0, -8) (0, 0, 0) 60\np \"cube.obj\" ((-2, 0, 0), #, #) 0 velocity (30, 0, 0)\n");
+        using var window = OpenLarge("flight.sdo");
+        Polling.WaitUntil(() => IsEmpty(window.Screenshot()), "a body out of sight");
+        // Paused there.
+        window.Send("key n key F3");
+        Click(window, "Normals");
+        Assert.True(IsEmpty(window.Screenshot()), "normals stay where the body began");
+        // The first gives the keyboard back, which the check box has.
+        window.Send("key Escape key r");
+        var withNormals = window.Screenshot();
+        Click(window, "Normals");
+        Polling.WaitUntil(() => DrivenWindow.DifferingFraction(withNormals, window.Screenshot()) > 0.0001, "no normals");
+        Assert.Equal(0, window.CloseWith("key Escape key Escape"));
+
+        static bool IsEmpty(PixelImage image) => image.Pixels.AsSpan(4).SequenceEqual(image.Pixels.AsSpan(0, image.Pixels.Length - 4));
+    }
+
+    [SkippableFact]
     [Trait("Category", "Soak")]
     public void FractalPanel_ArgumentOfACall_TakesAnotherVector()
     {

@@ -44,4 +44,26 @@ public class WalkControlsTests
         next.ContinueFrom(controls);
         Assert.Equal(eye, next.EyeCamera(walker, alpha));
     }
+
+    [Fact]
+    public void Begin_OfAnotherWalk_LooksWhereTheCameraDoes()
+    {
+        var world = new PhysicsWorld();
+        world.AddStatic(Shapes.Cube(), new(new(0, -0.5, 0), Vector.Zero, new(20, 1, 20))).SetMotion(Vector.Zero, new(0, 0.5, 0));
+        var camera = Camera.Default with { Rotation = new(0.1, 0.4, 0) };
+        var controls = new WalkControls();
+        for (var walk = 0; walk < 2; walk++)
+        {
+            // A new player, as where the scene has none.
+            var walker = world.AddCharacter(new(new(3, 0.9, 0), 0.3, 1.8));
+            walker.IsActive = true;
+            controls.Begin(camera, walker, 0.25);
+            Assert.Equal(camera.Rotation, controls.EyeCamera(walker, 0.25).Rotation);
+            world.Run(90);
+            Assert.NotEqual(camera.Rotation, controls.EyeCamera(walker, 0.25).Rotation);
+            // The same one again, as where the scene has it.
+            controls.Begin(camera, walker, 0.25);
+            Assert.Equal(camera.Rotation, controls.EyeCamera(walker, 0.25).Rotation);
+        }
+    }
 }

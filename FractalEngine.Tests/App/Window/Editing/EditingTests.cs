@@ -115,6 +115,17 @@ public sealed class EditingTests : IDisposable
         Assert.Equal("X\nB\nC", new EditedFile("A\nB", "B\nC").Rebase("X\nA\nB")?.Text);
     }
 
+    [Theory]
+    [InlineData("# note\nv\nv\nx", "# note\nv\nV\nx")]
+    [InlineData("# note\nv\nv", "# note\nv\nV")]
+    [InlineData("v\n# note\nv\nx", "v\n# note\nV\nx")]
+    [InlineData("v\nv\nx\nv", "v\nV\nx\nv")]
+    [InlineData("w\nv\nx", "w\nV\nx")]
+    [InlineData("# note\nv\nv\nx\nv", null)]
+    [InlineData("v\nx", null)]
+    public void Rebase_OfTheSecondOfTwoLinesAlike_ChangesNoOther(string present, string? expected) =>
+        Assert.Equal(expected, new EditedFile("v\nv\nx", "v\nV\nx").Rebase(present)?.Text);
+
     [Fact]
     public void FileEdits_OfTheTextOnTheDisk_AreNone()
     {
@@ -239,6 +250,15 @@ public sealed class EditingTests : IDisposable
         Assert.Equal("o \"cube.obj\" # name \"b\"", line);
         Assert.Equal(Text, SceneEditor.ShowObject(hidden, line));
         Assert.Empty(SceneEditor.FindHidden(Text));
+    }
+
+    [Fact]
+    public void SceneEditor_HiddenObjectWhoseLineBeginsOthers_IsTheOneShown()
+    {
+        const string Others = "#hidden o \"a.obj\" # name \"x\"\r\n# #hidden o \"a.obj\" #\r\n";
+        const string Text = Others + "#hidden o \"a.obj\" #\r\n#hidden o \"a.obj\" #";
+        Assert.Equal(Others + "o \"a.obj\" #\r\n#hidden o \"a.obj\" #", SceneEditor.ShowObject(Text, SceneEditor.FindHidden(Text)[1]));
+        Assert.Equal(Text, SceneEditor.ShowObject(Text, "o \"b.obj\" #"));
     }
 
     [Fact]

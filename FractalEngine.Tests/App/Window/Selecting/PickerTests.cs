@@ -76,6 +76,29 @@ public class PickerTests
         Assert.Null(new Picker().Pick(scene, View.Of(scene, 1.6), (1, 1), Size));
     }
 
+    [Theory]
+    [InlineData(Projection.Perspective)]
+    [InlineData(Projection.Orthographic)]
+    public void Pick_WithClipPlanes_FindsWhatIsBetweenTheirDepths(Projection projection)
+    {
+        // A wall at depths 4 to 4.5, and a cube behind it from 9.5 to 10.5.
+        var scene = LoadedScene.Of(new()
+        {
+            Camera = new(new(0, 0, -10), Vector.Zero, 60),
+            Projection = projection,
+            Clip = (5, 100),
+            Objects = [new(Shapes.Box(new(new(-20, -20, -6), new(20, 20, -5.5)))), new(Shapes.Cube())],
+        });
+        var view = View.Of(scene, 1.6);
+        var picker = new Picker();
+        Assert.Equal(1, picker.Pick(scene, view, (160, 100), Size)!.ObjectIndex);
+        // Along the ray, the wall is farther there than the plane's depth.
+        Assert.Null(picker.Pick(scene, view, (1, 1), Size));
+        Assert.Null(picker.Pick(scene, view with { FixedClipPlanes = (5, 9.4) }, (160, 100), Size));
+        // And farther than this far plane, which is behind it.
+        Assert.Equal(0, picker.Pick(scene, view with { FixedClipPlanes = (1, 4.2) }, (1, 1), Size)!.ObjectIndex);
+    }
+
     [Fact]
     public void SubFractals_WithoutLevels_AreWhatRemains() => Seeded.Run(50, random =>
     {
