@@ -2,7 +2,6 @@ using System.Runtime.CompilerServices;
 using FractalEngine.Core.Collision;
 using FractalEngine.Core.Collision.Bvh;
 using FractalEngine.Core.Fractals;
-using FractalEngine.Core.Fractals.Hierarchy;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 

@@ -39,8 +39,7 @@ public sealed class FractalWriter
     /// <param name="description">Steps and composition of the fractal.</param>
     /// <param name="baseFile">Name of the base mesh's file, relative to the fractal file; that of a mesh.</param>
     /// <exception cref="FractalEngineException">
-    /// The language can't express the fractal: a number is not finite, a scale is singular, steps follow an infinite repetition, or a
-    /// limit is exceeded.
+    /// The language can't express the fractal: a scale is singular, steps follow an infinite repetition, or a limit is exceeded.
     /// </exception>
     /// <remarks>Time and memory are proportional to the text, which has at most 16 MiB.</remarks>
     public static string Write(FractalDescription description, string baseFile)
@@ -126,11 +125,6 @@ public sealed class FractalWriter
             {
                 case TransformationSet set:
                     var form = new FractalSetForm(set);
-                    if (!set.Transformations.All(transformation => transformation.IsFinite()))
-                    {
-                        throw Fault(ErrorKind.Input, "a transformation has a component that is not finite");
-                    }
-
                     _forms.Add(set, form);
                     _orderedForms.Add(form);
                     break;

@@ -122,7 +122,7 @@ internal sealed class LightBlock : IDisposable
     /// <param name="background">Colour of the background where the scene declares none.</param>
     public void Bind(int bindingPoint, Vector cameraPosition, double unitsPerSceneUnit, Colour background)
     {
-        var key = (cameraPosition, unitsPerSceneUnit, background);
+        var key = (cameraPosition, unitsPerSceneUnit, _fogDensity > 0 ? background : default);
         var isRedundant = _lastKey is { } last
             && (last == key || !(_fogDensity > 0 || _lights.Any(static light => light is PointLight)));
         if (_uploadFilter.ShouldPerform(isRedundant))

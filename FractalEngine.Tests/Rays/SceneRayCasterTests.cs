@@ -1,6 +1,7 @@
 using FractalEngine.Core;
 using FractalEngine.Core.Collision;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Rays;
 using FractalEngine.Core.Scenes;
@@ -132,6 +133,50 @@ public class SceneRayCasterTests
         Assert.InRange(hits, 20, 200);
         var (costs, scaledCosts) = (context.Statistics, scaledContext.Statistics);
         Assert.Equal((costs.BoundTests, costs.FaceTests), (scaledCosts.BoundTests, scaledCosts.FaceTests));
+    }
+
+    /// <summary>A search that has stopped early leaves nothing to the next one with its context.</summary>
+    [Fact]
+    public void TryFindNearest_AfterASearchThatStopped_FindsWhatANewContextFinds()
+    {
+        SceneObject At(double x, double y, double z) => new(Shapes.Cube()) { Placement = Samples.MoveAndScale(x, y, z, 0.8) };
+        var random = new Random(4);
+        var many = new SceneRayCaster(LoadedScene.Of(new()
+        {
+            Objects = [.. Enumerable.Range(0, 60).Select(_ => At(random.Next(-5, 6), random.Next(-5, 6), random.Next(-5, 6)))],
+        }));
+        var one = new SceneRayCaster(LoadedScene.Of(new() { Objects = [At(0, 0, 40), At(0, 40, 0), At(40, 0, 0)] }));
+        var context = new QueryContext();
+        Seeded.Run(300, turn =>
+        {
+            var origin = 12 * turn.Direction();
+            var ray = new Ray(origin, turn.Vector(3) - origin);
+            many.HitsAny(ray, context);
+            foreach (var caster in (SceneRayCaster[])[one, many])
+            {
+                var isFound = caster.TryFindNearest(ray, context, out var hit, out var index);
+                Assert.Equal(isFound, caster.TryFindNearest(ray, new(), out var expected, out var expectedIndex));
+                Assert.Equal((expected.Distance, expectedIndex), (hit.Distance, index));
+            }
+        });
+    }
+
+    /// <summary>Each instance of the sums has its own map, under that of the object.</summary>
+    [Fact]
+    public void TryFindNearest_OfAComponentwiseFractalThatIsPlaced_TellsTheMapOfItsInstance()
+    {
+        var fractal = Fractal.Of(Shapes.Cube()).Apply([Samples.MoveAndScale(0, 0, 0, 0.5), Samples.MoveAndScale(3, 0, 0, 0.25)])
+            .WithComposition(Composition.Componentwise);
+        var placement = new Transformation(new(10, 20, 30), new(0, 90, 0), 2 * Vector.One);
+        var map = placement.ToAffineMap();
+        var caster = new SceneRayCaster(LoadedScene.Of(new() { Objects = [new(fractal) { Placement = placement }] }));
+        foreach (var (centre, scale) in new[] { (Vector.Zero, 0.5), (new Vector(3, 0, 0), 0.25) })
+        {
+            var target = map * centre;
+            Assert.True(caster.TryFindNearest(new(target + (9 * Vector.J), -Vector.J), new(), out var hit, out _));
+            Near.Equal(map * new AffineMap(scale * Matrix.Identity, centre), hit.InstanceMap, 1e-13);
+            Near.Equal(9 - scale, hit.Distance, 1e-12);
+        }
     }
 
     [Fact]

@@ -47,6 +47,21 @@ public sealed class SceneClipPlanesTests
         Assert.Equal((0, 0, 0, 255), image[5, 5]);
     }
 
+    /// <summary>Lines reach as far as the scene's bounds, though no object in view does.</summary>
+    [Fact]
+    public void Of_WithLines_HasTheFarPlaneOfTheBounds()
+    {
+        var view = RenderScenes.FrontView;
+        BoundingBox near = new(new(-0.5, -0.5, -4.5), new(0.5, 0.5, -4.4)), far = new(new(-1, 1e5, -1), new(1, 1e5 + 1, 1e5));
+        var bounds = BoundingBox.Union(near, far);
+        var (_, farOfBounds) = view.ClipPlanes(bounds);
+        var lines = SceneClipPlanes.Of(view, Aspect, bounds, true, [near, far], []);
+        var none = SceneClipPlanes.Of(view, Aspect, bounds, false, [near, far], []);
+        Assert.Equal(farOfBounds, lines.Far);
+        Assert.InRange(none.Far, 0.6, 4);
+        Assert.InRange(lines.Near, 0.1, 0.5);
+    }
+
     /// <summary>The depths of a light's map are told apart as well as without the distant object.</summary>
     [SkippableFact]
     public void Draw_WithShadowsAndAnotherObjectFarAway_ShowsTheSameShadows()

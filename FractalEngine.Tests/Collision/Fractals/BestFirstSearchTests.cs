@@ -25,9 +25,10 @@ public sealed class BestFirstSearchTests
         for (var i = 0; i < 12; i++)
         {
             var position = random.Vector(4);
-            var state = new FractalSearchState(double.PositiveInfinity, 0, position.MaxAbsComponent(), 10, context);
             // Children that no search has recorded have no place in a path.
             context.PathBuffer(FractalSearchState.MaxStackDepth).Fill(int.MaxValue);
+            context.BestPathBuffer(FractalSearchState.MaxStackDepth).Fill(int.MaxValue);
+            var state = new FractalSearchState(double.PositiveInfinity, 0, position.MaxAbsComponent(), 10, context);
             if (i % 2 == 0)
             {
                 state.UpdateClosest(1e20, 0, 0);

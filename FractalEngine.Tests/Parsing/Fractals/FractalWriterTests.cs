@@ -199,19 +199,6 @@ public class FractalWriterTests
         ErrorKind.Input, "expected the name of a mesh (.obj, .obj.gz, .ply, .stl): that is the base of a fractal",
         () => FractalWriter.Write(new([]), "a.fdo"));
 
-    [Theory]
-    [InlineData(double.NaN)]
-    [InlineData(double.PositiveInfinity)]
-    [InlineData(double.NegativeInfinity)]
-    public void Write_OfNumbersThatAreNotFinite_IsRefused(double number)
-    {
-        Fails(ErrorKind.Input, "a transformation has a component that is not finite", () => Write(Set(Samples.Move(0, number, 0))));
-        Fails(ErrorKind.Input, "a transformation has a component that is not finite",
-            () => Write(new Repetition([Set(Half with { Rotation = new(number, 0, 0) })], 0)));
-        Fails(ErrorKind.Input, "a transformation has a component that is not finite",
-            () => Write(Set(Half with { Scale = new(1, 1, number) })));
-    }
-
     [Fact]
     public void Write_OfASingularScale_IsRefused() => Fails(
         ErrorKind.Input, "the scale (1, 0, 1) is singular: each factor must lie between 1e-100 and 1e100 in size",

@@ -124,6 +124,24 @@ public class CarriedCharacterTests
         Assert.Equal((walker.CarriedAngle, walker.CarriedAngle), (before, walker.PreviousCarriedAngle));
     }
 
+    /// <summary>Gravity leads aside, and a ball leans on the character until it walks away.</summary>
+    [Fact]
+    public void Ball_ThatLeansOnACharacter_RollsWhenItWalksAway()
+    {
+        var world = new PhysicsWorld { Gravity = new(3, -9, 0) };
+        world.AddStatic(PhysicsMeshes.Cube, new(new(0, -0.5, 0), Vector.Zero, new(200, 1, 200)));
+        var walker = world.AddCharacter(new(new(0, 0.88, 0), 0.3, 1.8));
+        walker.IsActive = true;
+        var ball = world.AddSphere(new(-0.6, 0.3, 0), 0.3);
+        world.Run(240);
+        Assert.True(ball.IsAsleep, $"{ball.Position} {ball.Velocity}");
+        var start = ball.Position;
+        walker.MoveInput = new(0, 0, 1);
+        world.Run(90);
+        Assert.False(ball.IsAsleep);
+        Assert.True(ball.Position.X > start.X + 1, $"from {start} to {ball.Position}");
+    }
+
     /// <summary>Two steep walls catch a character like ground; the belt that it has left carries it no more.</summary>
     [Fact]
     public void Groove_BesideABelt_CarriesNobodyWhoHasFallenIntoIt()
