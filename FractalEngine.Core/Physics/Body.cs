@@ -138,6 +138,7 @@ public sealed partial class Body
         IsOverlapResolved = false;
         MayTouchBodies = true;
         HasHeapMargin = false;
+        JammedSteps = 0;
         NetAcceleration = acceleration;
         DiscardSurfaces();
         UpdateBalls();

@@ -96,7 +96,7 @@ public class MovingObjectTests
     [Theory]
     [InlineData(20, 0.3)]
     public void Blade_ThatTurns_CutsThroughNothing(double angularSpeed, double friction) =>
-        CheckBlade(angularSpeed, friction, worlds: 1, steps: 30);
+        CheckBlade(angularSpeed, friction, worlds: 1, steps: 20);
 
     [Theory]
     [InlineData(2, 0.3)]

@@ -44,8 +44,11 @@ internal sealed class LightList(WindowActions actions)
         ui.Row(1, 1);
         if (ui.Button("Add a sun"))
         {
-            var sun = new DirectionalLight(new(1, -2, 1), Colour.White, 0.7);
-            actions.ChangeScene(ui, present => present with { Lights = present.Lights.Add(sun) });
+            // From behind the default camera.
+            actions.ChangeScene(ui, static present => present with
+            {
+                Lights = present.Lights.Add(new DirectionalLight(present.Handedness.Mirror(new(1, -2, 1)), Colour.White, 0.7)),
+            });
         }
 
         if (ui.Button("Add a lamp"))

@@ -18,7 +18,7 @@ public class RandomAdversarialFractalTests
     private const long MaxBoundTests = 1_000_100;
 
     [Fact]
-    public void TryFindClosest_OfAdversarialFractals_EqualsTheExactExpansion() => CheckAll(500);
+    public void TryFindClosest_OfAdversarialFractals_EqualsTheExactExpansion() => CheckAll(250);
 
     [Fact]
     [Trait("Category", "Soak")]

@@ -36,7 +36,6 @@ public sealed class GlStateTests
 
     [SkippableTheory]
     [InlineData(true)]
-    [InlineData(false)]
     public void Scenes_OneAfterTheOtherInOneContext_LookAsInTheirOwn(bool isFiltering)
     {
         using var textures = new TexturedScenes();
@@ -74,4 +73,10 @@ public sealed class GlStateTests
             }
         }
     }
+
+    [SkippableTheory]
+    [InlineData(false)]
+    [Trait("Category", "Soak")]
+    public void Scenes_OneAfterTheOtherInOneContextInOtherCases_LookAsInTheirOwn(bool isFiltering) =>
+        Scenes_OneAfterTheOtherInOneContext_LookAsInTheirOwn(isFiltering);
 }

@@ -23,7 +23,7 @@ internal static partial class InteractionTable
     /// <summary>The rows whose tests run by default; the others run in the soak.</summary>
     public static readonly string[] Default =
     [
-        "rename an object", "save a number and the view together", "save first, then close",
+        "rename an object", "save a number and the view together",
     ];
 
     /// <summary>The interactions of all panels and of the window, in this order.</summary>
