@@ -28,6 +28,7 @@ public sealed class AdaptiveQualityTests
     }
 
     [SkippableFact]
+    [Trait("Category", "Soak")]
     public void Mountain_InSlowFrames_HasHardlyADotOfShadow()
     {
         // As in the playground, from where the dots were seen.

@@ -314,6 +314,7 @@ public sealed class CullingDrawingTests
     }
 
     [SkippableFact]
+    [Trait("Category", "Soak")]
     public void Frame_OfAnInfiniteFractal_IsThatOfADeepOne()
     {
         const int Width = 200;

@@ -126,6 +126,7 @@ public class LodHierarchyTests
     }
 
     [Fact]
+    [Trait("Category", "Soak")]
     public void Build_OfAFractalThatGrowsWithoutEnd_IsRefused()
     {
         Assert.Throws<FractalLimitException>(

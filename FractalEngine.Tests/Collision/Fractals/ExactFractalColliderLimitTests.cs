@@ -236,6 +236,7 @@ public class ExactFractalColliderLimitTests
 
     /// <summary>Levels as wide as this one are recognised as equal too, so that those above are not built.</summary>
     [Fact]
+    [Trait("Category", "Soak")]
     public void Create_OfAnInfiniteFractalOfTwoThousandMaps_BuildsFewLevels()
     {
         const int MapCount = 2000;

@@ -99,6 +99,7 @@ public sealed class GlObjectTests
     }
 
     [SkippableFact]
+    [Trait("Category", "Soak")]
     public void Contexts_TwentyInARow_AllDraw()
     {
         var scene = DrawableScene.Prepare(RenderScenes.WhiteOnBlack(RenderScenes.Cube(1), Transformation.Identity), new());
