@@ -1,4 +1,3 @@
-using FractalEngine.App.Animation;
 using FractalEngine.Core;
 using FractalEngine.Core.Physics;
 using FractalEngine.Core.Scenes;
@@ -63,25 +62,5 @@ internal static class SceneWorld
         {
             throw new UsageException($"{path} has no physics objects, so {consequence}");
         }
-    }
-
-    /// <summary>Returns a scene as it is after some time, as a frame of an animation shows it.</summary>
-    /// <param name="path">Path of the scene, for messages.</param>
-    /// <param name="file">The file that the scene was loaded from.</param>
-    /// <param name="scene">The scene, perhaps with another projection.</param>
-    /// <param name="seconds">Time since the beginning; at 0 the scene stays as it is.</param>
-    /// <exception cref="SourceException">A body is invalid, or leaves the range of a double.</exception>
-    /// <exception cref="UsageException">Nothing in the scene moves.</exception>
-    public static LoadedScene After(string path, LoadedFile file, LoadedScene scene, double seconds)
-    {
-        if (!(seconds > 0))
-        {
-            return scene;
-        }
-
-        RequireMotion(path, scene, "--time has no effect");
-        var bodies = new AnimatedBodies(path, file, scene);
-        bodies.AdvanceTo(seconds, CancellationToken.None);
-        return bodies.GetScene();
     }
 }

@@ -2,6 +2,7 @@ using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Assets;
+using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.App.Animation;
 
@@ -26,6 +27,26 @@ internal sealed class AnimatedBodies
         _path = path;
         _world = SceneWorld.Create(file, scene, new());
         Maps = CurrentMaps();
+    }
+
+    /// <summary>Returns a scene as it is after some time, as a frame of an animation shows it.</summary>
+    /// <param name="path">Path of the scene, for messages.</param>
+    /// <param name="file">The file that the scene was loaded from.</param>
+    /// <param name="scene">The scene, perhaps with another projection.</param>
+    /// <param name="seconds">Time since the beginning; at 0 the scene stays as it is.</param>
+    /// <exception cref="SourceException">A body is invalid, or leaves the range of a double.</exception>
+    /// <exception cref="UsageException">Nothing in the scene moves.</exception>
+    public static LoadedScene SceneAfter(string path, LoadedFile file, LoadedScene scene, double seconds)
+    {
+        if (!(seconds > 0))
+        {
+            return scene;
+        }
+
+        SceneWorld.RequireMotion(path, scene, "--time has no effect");
+        var bodies = new AnimatedBodies(path, file, scene);
+        bodies.AdvanceTo(seconds, CancellationToken.None);
+        return bodies.GetScene();
     }
 
     /// <summary>Index of each body's object in the scene, and the map from its frame to world space.</summary>

@@ -105,7 +105,7 @@ internal static class AnimateCommand
         // A default camera frames the scene as it is at time 0, as in a still image.
         var view = job.CreateView(scene, (double)job.Size.Width / job.Size.Height);
         var bodies = animation.IsSimulated ? new AnimatedBodies(job.Path, file, scene) : null;
-        scene = bodies is null ? SceneWorld.After(job.Path, file, scene, job.Time) : scene;
+        scene = bodies is null ? AnimatedBodies.SceneAfter(job.Path, file, scene, job.Time) : scene;
         using var frames = CreateFrames(animation, scene, view, report, out var motion);
         return Write(animation, frames, motion, bodies, output, report);
     }

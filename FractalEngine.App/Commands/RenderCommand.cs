@@ -1,4 +1,5 @@
 using System.CommandLine;
+using FractalEngine.App.Animation;
 using FractalEngine.Core.Images;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Render;
@@ -72,7 +73,7 @@ internal static class RenderCommand
         var scene = job.WithProjection(file.Scene);
         // A default camera frames the scene as it is at time 0, so that images of several times show the same view.
         var view = job.CreateView(scene, (double)job.Size.Width / job.Size.Height);
-        scene = SceneWorld.After(job.Path, file, scene, job.Time);
+        scene = AnimatedBodies.SceneAfter(job.Path, file, scene, job.Time);
         if (trace is not null)
         {
             return Trace(scene, view, job, trace, output, report);

@@ -90,7 +90,7 @@ public sealed class TracedAnimationTests : IDisposable
             // The map of a drawn frame is computed by another formula, so that it may differ by rounding.
             Assert.Equal(height, bodies.Maps[0].Map.Translation.Y, 1e-12);
             // A still image shows the same, to the bit.
-            var still = SceneWorld.After("drop.sdo", file, file.Scene, steps / 60);
+            var still = AnimatedBodies.SceneAfter("drop.sdo", file, file.Scene, steps / 60);
             Assert.Equal(height, still.Objects[0].ObjectToWorld.Translation.Y);
             return height;
         }
