@@ -232,7 +232,7 @@ public class ShotTests
     /// <returns>The number of shots that hit.</returns>
     private static int ShootAtFractal(Random random, int shots)
     {
-        var fractal = RandomFractals.Create(random);
+        var fractal = RandomFractals.CreateAny(random);
         if (fractal.InstanceCount > 2000)
         {
             return 0;
@@ -243,7 +243,8 @@ public class ShotTests
         var faces = NaiveFractal.Corners(fractal.Description, fractal.BaseMesh, NaiveFractal.MapOf(Transformation.Identity)).Chunk(3)
             .Select(corners => (corners[0], corners[1], corners[2])).ToArray();
         var oracle = new SphereTriangleOracle(faces);
-        var world = TestWorlds.Create(random.Vector(10), Math.Pow(10, random.Between(-4, -1)), TestWorlds.Place(fractal));
+        var world = TestWorlds.Create(
+            random.Vector(10 * fractal.Bounds.Diagonal), Math.Pow(10, random.Between(-4, -1)), TestWorlds.Place(fractal));
         var hits = 0;
         for (var shot = 0; shot < shots; shot++)
         {

@@ -12,6 +12,9 @@ internal sealed class SphereTriangleOracle((Vector A, Vector B, Vector C)[] face
     {
     }
 
+    // A face whose height is a smaller part of its longest edge is as far away as its edges are: what is missed is the square of that.
+    private const double SliverHeight = 1e-7;
+
     /// <summary>Finds the distance of a position from the closest face.</summary>
     public double Distance(Vector position)
     {
@@ -54,16 +57,18 @@ internal sealed class SphereTriangleOracle((Vector A, Vector B, Vector C)[] face
 
     private static double DistanceToTriangle(Vector position, Vector a, Vector b, Vector c)
     {
-        var normal = Vector.Cross(b - a, c - a).UnitVector();
-        var height = Vector.Dot(position - a, normal);
-        return IsInside(position, a, b, c, normal)
-            ? Math.Abs(height)
+        var cross = Vector.Cross(b - a, c - a);
+        var longest = Math.Max((b - a).LengthSquared(), Math.Max((c - b).LengthSquared(), (a - c).LengthSquared()));
+        var isSliver = cross.Length() <= SliverHeight * longest;
+        var normal = isSliver ? Vector.Zero : cross.UnitVector();
+        return !isSliver && IsInside(position, a, b, c, normal)
+            ? Math.Abs(Vector.Dot(position - a, normal))
             : Math.Min(DistanceToEdge(position, a, b), Math.Min(DistanceToEdge(position, b, c), DistanceToEdge(position, c, a)));
     }
 
     private static double DistanceToEdge(Vector position, Vector a, Vector b)
     {
-        var along = Vector.Dot(position - a, b - a) / (b - a).LengthSquared();
+        var along = a == b ? 0 : Vector.Dot(position - a, b - a) / (b - a).LengthSquared();
         return (position - a - (Math.Clamp(along, 0, 1) * (b - a))).Length();
     }
 

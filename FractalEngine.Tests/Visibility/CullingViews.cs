@@ -158,6 +158,42 @@ internal static class CullingViews
         return counts;
     }
 
+    /// <summary>
+    /// Counts for each expected map the visible ones that take all vertices to the same places as it does, though they may be other maps.
+    /// </summary>
+    /// <param name="mesh">The base mesh.</param>
+    /// <param name="expected">Maps of all instances.</param>
+    /// <param name="visible">Maps of the visible instances, each of which must take the vertices to where an expected one does.</param>
+    public static int[] CountSameImages(Mesh mesh, AffineMap[] expected, IReadOnlyList<AffineMap> visible)
+    {
+        var vertices = mesh.VertexIndices.Distinct().Select(mesh.Vertex).ToArray();
+        Vector[][] Images(IEnumerable<AffineMap> maps) => [.. maps.Select(map => vertices.Select(vertex => map * vertex).ToArray())];
+        var (expectedImages, visibleImages) = (Images(expected), Images(visible));
+        // A map's entries are rounded to singles, and its place is that of the middle of the mesh.
+        var place = expectedImages.Max(image => image.Max(vertex => vertex.MaxAbsComponent()));
+        var tolerance = 3e-6 * Math.Max(place, expected.Max(map => map.Linear.MaxAbsEntry()) * mesh.Bounds.Diagonal);
+        var counts = new int[expected.Length];
+        for (var i = 0; i < visibleImages.Length; i++)
+        {
+            var isExpected = false;
+            for (var j = 0; j < expectedImages.Length; j++)
+            {
+                var isSame = true;
+                for (var k = 0; isSame && k < vertices.Length; k++)
+                {
+                    isSame = Near.Difference(visibleImages[i][k], expectedImages[j][k]) <= tolerance;
+                }
+
+                counts[j] += isSame ? 1 : 0;
+                isExpected |= isSame;
+            }
+
+            Assert.True(isExpected, $"{visible[i]} is visible, and is no instance");
+        }
+
+        return counts;
+    }
+
     /// <summary>Fails unless each expected map is visible exactly once.</summary>
     public static void AssertEachVisibleOnce(AffineMap[] expected, IReadOnlyList<AffineMap> visible)
     {

@@ -34,12 +34,15 @@ public class VisibleSetTests
         var set = new VisibleSet();
         set.Cull(in view, [item], CullingViews.NoCulling with { FrustumCulling = true });
         var expected = CullingViews.ExpectedMaps(fractal, map, in view);
-        var counts = CullingViews.CountMatches(expected, CullingViews.VisibleMaps(set, item));
+        var visible = CullingViews.VisibleMaps(set, item);
+        var counts = MayHoldEqualInstances(fractal)
+            ? CullingViews.CountSameImages(fractal.BaseMesh, expected, visible)
+            : CullingViews.CountMatches(expected, visible);
         for (var i = 0; i < expected.Length; i++)
         {
-            Assert.True(counts[i] <= 1, $"instance {i} of {expected.Length} is visible {counts[i]} times");
+            Assert.True(counts[i] <= 1 || MayHoldEqualInstances(fractal), $"instance {i} of {expected.Length} is visible {counts[i]} times");
             Assert.True(
-                counts[i] == 1 || IsOutsideFrustum(in view, fractal.BaseMesh, expected[i]),
+                counts[i] > 0 || IsOutsideFrustum(in view, fractal.BaseMesh, expected[i]),
                 $"instance {i} of {expected.Length} was culled, and is not outside");
         }
     });
@@ -57,7 +60,7 @@ public class VisibleSetTests
         };
         var mesh = fractal.BaseMesh;
         var map = random.Transformation(0.5, 2).ToAffineMap();
-        var isSolid = ReferenceEquals(mesh, CullingViews.Cube) || ReferenceEquals(mesh, Samples.Tetrahedron);
+        var isSolid = IsPlain(mesh);
         var item = CullingViews.CreateObject(fractal, map, isSolid ? random.Next(2) : 0);
         var view = CullingViews.RandomView(random, fractal.Bounds.Transform(map), random.Next(8, 200), random.Next(1, 160));
         var settings = CullingViews.NoCulling with
@@ -342,7 +345,7 @@ public class VisibleSetTests
     {
         for (; ; )
         {
-            var fractal = RandomFractals.Create(random, random.Next(4) == 0 ? Composition.Componentwise : Composition.Affine);
+            var fractal = RandomFractals.CreateAny(random, random.Next(4) == 0 ? Composition.Componentwise : Composition.Affine);
             if (fractal.InstanceCount is { } count && count > 0 && count < 3000)
             {
                 return fractal;
@@ -361,10 +364,9 @@ public class VisibleSetTests
             var visible = CullingViews.VisibleMaps(set, item);
             Assert.Equal((set.InstanceCount, set.InstanceCountOf(0)), (visible.Count, visible.Count));
             var expected = CullingViews.ExpectedMaps(fractal, map, in view);
-            if (fractal.Description.Steps.Any(step => step.NestingDepth > 1))
+            if (MayHoldEqualInstances(fractal))
             {
-                // The hierarchy holds some of them more than once, see LodHierarchyTests.
-                Assert.All(CullingViews.CountMatches(expected, visible), count => Assert.True(count > 0));
+                Assert.All(CullingViews.CountSameImages(fractal.BaseMesh, expected, visible), count => Assert.True(count > 0));
             }
             else
             {
@@ -372,6 +374,16 @@ public class VisibleSetTests
             }
         }
     }
+
+    /// <summary>
+    /// Tells whether the hierarchy may hold an instance more than once, see <see cref="LodHierarchyTests"/>, or instances that single
+    /// precision can't tell apart.
+    /// </summary>
+    private static bool MayHoldEqualInstances(Fractal fractal) =>
+        fractal.Description.Steps.Any(step => step.NestingDepth > 1) || !IsPlain(fractal.BaseMesh);
+
+    /// <summary>True for a base mesh of the tests' own, false for one of <see cref="RandomShapes"/>.</summary>
+    private static bool IsPlain(Mesh mesh) => mesh == Samples.Tetrahedron || mesh == CullingViews.Cube;
 
     /// <summary>Tells whether all vertices lie outside one plane of the frustum, to a hundredth of a pixel.</summary>
     private static bool IsOutsideFrustum(in CullingView view, Mesh mesh, AffineMap map)
@@ -404,7 +416,7 @@ public class VisibleSetTests
         }
 
         var visible = CullingViews.VisibleMaps(set, item);
-        CullingViews.CountMatches(expected, visible);
+        CullingViews.CountSameImages(mesh, expected, visible);
         for (var i = 0; i < visible.Count; i++)
         {
             image.Draw(mesh, visible[i], i);
