@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Measures, and draws what was measured: docs/benchmarks/*.csv and *.svg. `./bench.sh quick` takes smaller shapes, and some
-# minutes; its tables go to out/benchmarks, and no plots are drawn. Names of commands after that measure those only.
+# minutes; its tables go to out/benchmarks, and no plots are drawn. With `--runs 5` each command runs five times, and its tables
+# have medians, and how far the runs lie apart. Names of commands after that measure those only.
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/eng/setup.sh"
 
@@ -27,6 +28,12 @@ if [ "${1:-}" = quick ]; then
     quick=yes
     folder=out/benchmarks
     shift
+fi
+runs=1
+if [ "${1:-}" = --runs ]; then
+    [[ "${2:-}" =~ ^[1-9][0-9]?$ ]] || fail "'--runs' expects a number from 1 to 99" 2
+    runs="$2"
+    shift 2
 fi
 mkdir -p "$root/$folder"
 
@@ -92,7 +99,18 @@ for command in "${commands[@]}"; do
 
     words="$(words "$command")" || exit 2
     read -ra line <<<"$words"
-    "${benchmarks[@]}" "${line[@]}" --output "$folder" </dev/null || fail "the command '$command' failed"
+    # Classes of BenchmarkDotNet know their spread.
+    if [ "$runs" = 1 ] || [ "$command" = classes ]; then
+        "${benchmarks[@]}" "${line[@]}" --output "$folder" </dev/null || fail "the command '$command' failed"
+        continue
+    fi
+
+    folders=()
+    for run in $(seq "$runs"); do
+        folders+=("$results/$command/$run")
+        "${benchmarks[@]}" "${line[@]}" --output "$results/$command/$run" </dev/null || fail "the command '$command' failed"
+    done
+    "${benchmarks[@]}" merge --output "$folder" "${folders[@]}" </dev/null || fail "the runs of '$command' can't be merged"
 done
 set +f
 

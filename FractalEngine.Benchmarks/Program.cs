@@ -28,6 +28,7 @@ var commands = new Dictionary<string, Func<string[], int>>
     ["physics"] = arguments => PhysicsCommand.Run(arguments),
     ["precision"] = arguments => PrecisionCommand.Run(arguments),
     ["paper"] = arguments => PaperCommand.Run(arguments),
+    ["merge"] = arguments => MergeCommand.Run(arguments),
 };
 
 if (args is not [[not '-', ..] name, .. var rest])

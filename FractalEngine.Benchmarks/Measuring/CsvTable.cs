@@ -58,6 +58,7 @@ internal sealed class CsvTable(string path, string command, params string[] colu
         _ => Quote(value.ToString()!),
     };
 
-    private static string Quote(string text) =>
+    /// <summary>Returns a field for a text: in quotes where it would end one.</summary>
+    internal static string Quote(string text) =>
         text.AsSpan().IndexOfAny(",\"\r\n") < 0 ? text : $"\"{text.Replace("\"", "\"\"", StringComparison.Ordinal)}\"";
 }

@@ -9,7 +9,7 @@ public sealed class BenchmarkCommandTests : IDisposable
     private readonly TemporaryFolder _folder = new();
 
     private static readonly string[] Names =
-        ["front", "growth", "loading", "frames", "skips", "window", "rays", "trace", "light", "physics", "precision", "paper"];
+        ["front", "growth", "loading", "frames", "skips", "window", "rays", "trace", "light", "physics", "precision", "paper", "merge"];
 
     public static TheoryData<string> Commands => [.. Names];
 

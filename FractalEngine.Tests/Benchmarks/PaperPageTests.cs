@@ -1,4 +1,5 @@
 using System.Globalization;
+using FractalEngine.Benchmarks.Measuring;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Benchmarks;

@@ -1,6 +1,6 @@
 using System.Globalization;
 using System.Text.RegularExpressions;
-using FractalEngine.Tests.Benchmarks;
+using FractalEngine.Benchmarks.Measuring;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Documentation;

@@ -16,6 +16,9 @@ namespace FractalEngine.Tests.Physics;
 /// <summary>A mesh or fractal to shoot at, with an independent way to find its distance.</summary>
 internal sealed class ShotTarget
 {
+    // A body's position is rounded, and so are the corners of faces: a part of their coordinates that tells for tiny spheres far away.
+    private const double Rounding = 2e-15;
+
     private readonly PlacedModel _placed;
     private readonly Mesh _mesh;
     private readonly Func<Vector, double> _distance;
@@ -91,7 +94,7 @@ internal sealed class ShotTarget
         {
             world.Step();
             var gap = distance(body.Position);
-            if (!(gap >= radius * (1 - ShotTests.MaxOverlap)) || isInside?.Invoke(body.Position) == true || body.IsStuck)
+            if (!(gap >= (radius * (1 - ShotTests.MaxOverlap)) - (Rounding * body.Position.MaxAbsComponent())) || isInside?.Invoke(body.Position) == true || body.IsStuck)
             {
                 var settings = $"step {world.Settings.TimeStep:R}, gravity {world.Gravity}, after {world.StepCount}";
                 var state = $"{gap:R} from the surface, inside: {isInside?.Invoke(body.Position)}, stuck: {body.IsStuck}";

@@ -1,7 +1,7 @@
 using System.Globalization;
 using System.Text;
 
-namespace FractalEngine.Tests.Benchmarks;
+namespace FractalEngine.Benchmarks.Measuring;
 
 /// <summary>A table parsed by the rules of RFC 4180, below its comments.</summary>
 /// <param name="Comments">Lines at the start that begin with <c>#</c>.</param>
