@@ -6,14 +6,12 @@ namespace FractalEngine.Benchmarks.Measuring;
 
 /// <summary>
 /// Runs the command <c>merge</c>: makes one table of those that several runs of a command have written. Each number is the median of the
-/// runs, and one more column says how far they lie apart.
+/// runs, and a column behind all others says how far they lie apart, for each column in which runs differ.
 /// </summary>
 internal static class MergeCommand
 {
-    /// <summary>
-    /// Name of the last column: the largest of (largest − least) / median of the runs, over the numbers of a row, in percent.
-    /// </summary>
-    public const string SpreadColumn = "spread_percent";
+    /// <summary>End of the names of columns with (largest − least) / median of another column's numbers in all runs, in percent.</summary>
+    public const string SpreadColumnEnd = "_spread_percent";
 
     private const string Usage = """
         merge [--output FOLDER] RUN ...
@@ -60,32 +58,40 @@ internal static class MergeCommand
             throw new InvalidDataException($"{file}: the runs have other columns or rows");
         }
 
-        var text = new StringBuilder($"{first.Comments[0]}, medians of {runs.Length} runs\n");
+        var text = new StringBuilder($"{first.Comments[0]} (medians of {runs.Length} runs)\n");
         text.AppendJoin("", first.Comments.Skip(1).Select(comment => comment + "\n"));
-        text.AppendJoin(',', first.Header.Append(SpreadColumn).Select(CsvTable.Quote)).Append('\n');
+        int[] columns = [.. Enumerable.Range(0, first.Header.Length)
+            .Where(column => runs.Any(run => !run.Rows.Select(row => row[column]).SequenceEqual(first.Rows.Select(row => row[column]))))];
+        AppendLine(text, first.Header.Concat(columns.Select(column => first.Header[column] + SpreadColumnEnd)));
         for (var row = 0; row < first.Rows.Length; row++)
         {
-            var spread = 0.0;
-            for (var column = 0; column < first.Header.Length; column++)
+            var fields = (string[])first.Rows[row].Clone();
+            var spreads = new List<string>();
+            foreach (var column in columns)
             {
-                string[] fields = [.. runs.Select(run => run.Rows[row][column])];
-                if (fields.Any(field => field != fields[0]))
+                string[] all = [.. runs.Select(run => run.Rows[row][column])];
+                if (all.All(field => field == ""))
                 {
-                    var numbers = fields.Select(field => Parse(field, $"{file}, row {row + 1}, {first.Header[column]}")).ToArray();
-                    Array.Sort(numbers, fields);
-                    var median = (runs.Length - 1) / 2;
-                    fields[0] = fields[median];
-                    spread = Math.Max(spread, (numbers[^1] - numbers[0]) / Math.Abs(numbers[median]));
+                    spreads.Add("");
+                    continue;
                 }
 
-                text.Append(CsvTable.Quote(fields[0])).Append(',');
+                var numbers = all.Select(field => Parse(field, $"{file}, row {row + 1}, {first.Header[column]}")).ToArray();
+                Array.Sort(numbers, all);
+                var median = (runs.Length - 1) / 2;
+                fields[column] = all[median];
+                var spread = numbers[^1] == numbers[0] ? 0 : 100 * (numbers[^1] - numbers[0]) / Math.Abs(numbers[median]);
+                spreads.Add(spread.ToString("F1", CultureInfo.InvariantCulture));
             }
 
-            text.AppendLine(CultureInfo.InvariantCulture, $"{100 * spread:F1}");
+            AppendLine(text, fields.Concat(spreads));
         }
 
         return text.ToString();
     }
+
+    private static void AppendLine(StringBuilder text, IEnumerable<string> fields) =>
+        text.AppendJoin(',', fields.Select(CsvTable.Quote)).Append('\n');
 
     private static double Parse(string field, string place) =>
         double.TryParse(field, NumberStyles.Float, CultureInfo.InvariantCulture, out var number)

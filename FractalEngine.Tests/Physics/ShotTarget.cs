@@ -94,7 +94,8 @@ internal sealed class ShotTarget
         {
             world.Step();
             var gap = distance(body.Position);
-            if (!(gap >= (radius * (1 - ShotTests.MaxOverlap)) - (Rounding * body.Position.MaxAbsComponent())) || isInside?.Invoke(body.Position) == true || body.IsStuck)
+            var minGap = (radius * (1 - ShotTests.MaxOverlap)) - (Rounding * body.Position.MaxAbsComponent());
+            if (!(gap >= minGap) || isInside?.Invoke(body.Position) == true || body.IsStuck)
             {
                 var settings = $"step {world.Settings.TimeStep:R}, gravity {world.Gravity}, after {world.StepCount}";
                 var state = $"{gap:R} from the surface, inside: {isInside?.Invoke(body.Position)}, stuck: {body.IsStuck}";

@@ -40,7 +40,8 @@ public class VisibleSetTests
             : CullingViews.CountMatches(expected, visible);
         for (var i = 0; i < expected.Length; i++)
         {
-            Assert.True(counts[i] <= 1 || MayHoldEqualInstances(fractal), $"instance {i} of {expected.Length} is visible {counts[i]} times");
+            Assert.True(
+                counts[i] <= 1 || MayHoldEqualInstances(fractal), $"instance {i} of {expected.Length} is visible {counts[i]} times");
             Assert.True(
                 counts[i] > 0 || IsOutsideFrustum(in view, fractal.BaseMesh, expected[i]),
                 $"instance {i} of {expected.Length} was culled, and is not outside");
