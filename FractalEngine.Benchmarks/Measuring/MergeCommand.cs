@@ -16,7 +16,7 @@ internal static class MergeCommand
     private const string Usage = """
         merge [--output FOLDER] RUN ...
           Merges the tables of folders, one for each run of the same command, into one of medians and spreads,
-          into docs/benchmarks unless stated.
+          into docs/benchmarks unless stated. Writes the median and the largest spread of each column to stdout.
         """;
 
     /// <summary>Runs the command and returns the exit code.</summary>
@@ -41,6 +41,7 @@ internal static class MergeCommand
         {
             var merged = Merge([.. runs.Select(run => ParsedCsv.Read(Path.Combine(run, file!)))], file!);
             AtomicFile.Write(Path.Combine(output, file!), stream => stream.Write(Encoding.UTF8.GetBytes(merged)));
+            PrintSpreads(ParsedCsv.Parse(merged), file!);
         }
 
         return 0;
@@ -80,7 +81,9 @@ internal static class MergeCommand
                 Array.Sort(numbers, all);
                 var median = (runs.Length - 1) / 2;
                 fields[column] = all[median];
-                var spread = numbers[^1] == numbers[0] ? 0 : 100 * (numbers[^1] - numbers[0]) / Math.Abs(numbers[median]);
+                // Where the median is rounded to zero, as times of a sleeping heap are, the largest stands for it.
+                var size = Math.Abs(numbers[median] == 0 ? numbers[^1] : numbers[median]);
+                var spread = numbers[^1] == numbers[0] ? 0 : 100 * (numbers[^1] - numbers[0]) / size;
                 spreads.Add(spread.ToString("F1", CultureInfo.InvariantCulture));
             }
 
@@ -88,6 +91,15 @@ internal static class MergeCommand
         }
 
         return text.ToString();
+    }
+
+    private static void PrintSpreads(ParsedCsv table, string file)
+    {
+        foreach (var column in table.Header.Where(column => column.EndsWith(SpreadColumnEnd, StringComparison.Ordinal)))
+        {
+            var spreads = table.Column(column).Where(field => field != "").Select(ParsedCsv.ParseNumber).Order().ToArray();
+            Console.WriteLine(FormattableString.Invariant($"{file},{column},{spreads[spreads.Length / 2]},{spreads[^1]}"));
+        }
     }
 
     private static void AppendLine(StringBuilder text, IEnumerable<string> fields) =>

@@ -22,6 +22,10 @@ public sealed class MergeCommandTests : IDisposable
     public void Merge_OfFourRuns_TakesTheSecondOfTheMiddle() =>
         Assert.EndsWith("\na,1,2,0,150.0\n", Merge("a,1,4,0\n", "a,1,2,0\n", "a,1,3,0\n", "a,1,1,0\n"), StringComparison.Ordinal);
 
+    [Fact]
+    public void Merge_WhereTheMedianIsZero_TakesThePartOfTheLargest() => Assert.EndsWith(
+        "\na,1,0,0,100.0\n", Merge("a,1,0,0\n", "a,1,0,0\n", "a,1,5,0\n"), StringComparison.Ordinal);
+
     [Theory]
     [InlineData("b,1,2,3\n")]
     [InlineData("a,,2,3\n")]
