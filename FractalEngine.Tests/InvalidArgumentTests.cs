@@ -153,7 +153,6 @@ public sealed class InvalidArgumentTests
     {
         Assert.Throws<ArgumentNullException>("fractal", () => Collider.For((Fractal)null!));
         Assert.Throws<ArgumentNullException>("mesh", () => Collider.For((Mesh)null!));
-        Assert.Throws<ArgumentNullException>("model", () => Collider.For((Model)null!));
         Assert.Throws<ArgumentNullException>("mesh", () => Model.Of((Mesh)null!));
         Assert.Throws<ArgumentNullException>("fractal", () => Model.Of((Fractal)null!));
         Assert.Throws<ArgumentNullException>("baseMesh", () => Fractal.Of(null!));

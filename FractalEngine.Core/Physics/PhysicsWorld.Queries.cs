@@ -55,7 +55,7 @@ public sealed partial class PhysicsWorld
     /// <exception cref="ArgumentException">
     /// The ray is not finite, its direction is 0, the distance is negative or NaN, or there is no such layer.
     /// </exception>
-    /// <exception cref="FractalLimitException">A model can't be prepared, see <see cref="RayCaster.For(Model)"/>.</exception>
+    /// <exception cref="FractalLimitException">A model can't be prepared, see <see cref="RayCaster.For(Fractal)"/>.</exception>
     /// <remarks>Cost O(n) for n bodies and objects. For many rays through objects alone see <see cref="SceneRayCaster"/>.</remarks>
     public bool TryCastRay(
         Ray ray, out CastHit hit, double maxDistance = double.PositiveInfinity, int layer = 0, uint mask = Layers.All)
