@@ -114,6 +114,18 @@ public sealed partial class Body
         return new(linear, Description.ObjectOffset == Vector.Zero ? translation : translation + origin);
     }
 
+    /// <summary>Throws for a vector with a coordinate that is NaN or infinite; the message names the body.</summary>
+    /// <param name="vector">What must be finite.</param>
+    /// <param name="parameterName">Name of the caller's parameter.</param>
+    /// <exception cref="ArgumentException">A coordinate is not finite.</exception>
+    internal void RequireFinite(Vector vector, string parameterName)
+    {
+        if (!vector.IsFinite())
+        {
+            throw new ArgumentException($"body {Name}: expected a finite {parameterName}", parameterName);
+        }
+    }
+
     /// <summary>Returns the body to its initial state.</summary>
     /// <param name="acceleration">Acceleration of free fall.</param>
     internal void Reset(Vector acceleration)

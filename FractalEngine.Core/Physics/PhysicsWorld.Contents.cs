@@ -181,7 +181,7 @@ public sealed partial class PhysicsWorld
     public void SetVelocity(Body body, Vector velocity)
     {
         RequireOwn(body);
-        ArgumentCheck.RequireFinite(velocity, nameof(velocity), body);
+        body.RequireFinite(velocity, nameof(velocity));
         _islands.Wake(body);
         body.Velocity = velocity;
     }
@@ -193,7 +193,7 @@ public sealed partial class PhysicsWorld
     public void SetForce(Body body, Vector force)
     {
         RequireOwn(body);
-        ArgumentCheck.RequireFinite(force, nameof(force), body);
+        body.RequireFinite(force, nameof(force));
         _islands.Wake(body);
         body.Force = force;
     }

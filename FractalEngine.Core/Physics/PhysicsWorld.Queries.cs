@@ -72,8 +72,8 @@ public sealed partial class PhysicsWorld
     public void ApplyImpulse(Body body, Vector impulse, Vector? point = null)
     {
         RequireOwn(body);
-        ArgumentCheck.RequireFinite(impulse, nameof(impulse), body);
-        ArgumentCheck.RequireFinite(point ?? Vector.Zero, nameof(point), body);
+        body.RequireFinite(impulse, nameof(impulse));
+        body.RequireFinite(point ?? Vector.Zero, nameof(point));
         _islands.Wake(body);
         var arm = (point ?? body.Position) - body.Position;
         if (body.IsCompound)
@@ -97,8 +97,8 @@ public sealed partial class PhysicsWorld
     public void ApplyForce(Body body, Vector force, Vector? point = null)
     {
         RequireOwn(body);
-        ArgumentCheck.RequireFinite(force, nameof(force), body);
-        ArgumentCheck.RequireFinite(point ?? Vector.Zero, nameof(point), body);
+        body.RequireFinite(force, nameof(force));
+        body.RequireFinite(point ?? Vector.Zero, nameof(point));
         _islands.Wake(body);
         _hasStepForces = true;
         body.StepForce += force;
