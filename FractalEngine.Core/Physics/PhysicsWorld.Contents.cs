@@ -209,22 +209,12 @@ public sealed partial class PhysicsWorld
         ArgumentOutOfRangeException.ThrowIfGreaterThanOrEqual(objectIndex, _staticOfObject.Length);
         var target = _staticOfObject[objectIndex];
         ArgumentCheck.Require(target is not null, "the object is a body, which moves by itself", null, nameof(objectIndex));
-        MoveStatic(target, placement);
-    }
-
-    /// <summary>Moves a static object and its colliders, and wakes all bodies.</summary>
-    internal void MoveStatic(StaticObject target, Transformation placement)
-    {
-        ArgumentCheck.RequirePlacement(placement, nameof(placement));
-        target.SetPlacement(placement);
-        target.Kinematic?.Place(target.Reference, _clock.Time);
-        _statics.Refresh(target);
-        InvalidateSurroundings(mayOverlap: true);
+        target.MoveTo(placement);
     }
 
     private StaticObject AppendStatic(PlacedModel placed, int? objectIndex)
     {
-        var added = new StaticObject(this, placed, _statics.Objects.Count, objectIndex);
+        var added = new StaticObject(_statics, placed, _statics.Objects.Count, objectIndex);
         if (placed.Declaration.Motion?.FindFault(placed.ObjectToWorld.Translation) is { } fault)
         {
             throw new SceneObjectException(objectIndex ?? 0, ErrorKind.Input, $"object {placed.Declaration.DisplayName}: {fault}");
@@ -233,7 +223,7 @@ public sealed partial class PhysicsWorld
         _statics.Add(added);
         if (placed.Declaration.Motion is not null || placed.Declaration.Belt != Vector.Zero)
         {
-            RequireKinematic(added);
+            added.Kinematic = _statics.AddKinematic(added);
         }
 
         return added;

@@ -160,12 +160,4 @@ public sealed partial class PhysicsWorld
             }
         }
     }
-
-    /// <summary>Tells the colliders that an object has another layer, mask or trigger.</summary>
-    internal void ChangeFilter()
-    {
-        _statics.ChangeFilters();
-        InvalidateSurroundings(mayOverlap: true);
-    }
-
 }

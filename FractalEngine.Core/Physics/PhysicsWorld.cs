@@ -71,7 +71,7 @@ public sealed partial class PhysicsWorld
     {
         ArgumentNullException.ThrowIfNull(scene);
         _scene = scene;
-        _statics = new(colliders);
+        _statics = new(_kinematics, _clock, InvalidateSurroundings, colliders);
         _gravity = scene.Scene.Gravity;
         Settings = settings ?? new();
         Settings.Validate();
