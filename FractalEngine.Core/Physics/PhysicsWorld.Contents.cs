@@ -106,7 +106,7 @@ public sealed partial class PhysicsWorld
             previous.IsActive = false;
         }
 
-        return Character = new(this, _obstacles, player);
+        return Character = new(_bodies, _islands, _obstacles, player, _gravity);
     }
 
     /// <summary>Builds all colliders that bodies, triggers and character use, instead of at their first queries.</summary>
@@ -181,9 +181,7 @@ public sealed partial class PhysicsWorld
     public void SetVelocity(Body body, Vector velocity)
     {
         RequireOwn(body);
-        body.RequireFinite(velocity, nameof(velocity));
-        _islands.Wake(body);
-        body.Velocity = velocity;
+        _islands.SetVelocity(body, velocity);
     }
 
     /// <summary>Lets a constant force act on a body, in place of the previous one, and wakes it with all that touch it.</summary>
