@@ -50,7 +50,7 @@ public sealed class SkyMaskBaker
     /// </summary>
     /// <param name="hierarchy">Receives the result.</param>
     /// <param name="windingSign">
-    /// 1 where the base mesh is a closed solid wound outwards, −1 inwards; 0 where that is unknown. As of the objects that are culled.
+    /// 1 where the base mesh is a closed solid wound outwards, −1 inwards, so that nothing is seen from inside; 0 where that is unknown.
     /// </param>
     /// <param name="cancellation">Ends the work early.</param>
     /// <exception cref="OperationCanceledException">The work was cancelled.</exception>
