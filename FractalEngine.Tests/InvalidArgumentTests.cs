@@ -169,6 +169,8 @@ public sealed class InvalidArgumentTests
         const ColliderKind none = (ColliderKind)99;
         Assert.Throws<ArgumentOutOfRangeException>(() => Collider.For(Shapes.Cube(), none));
         Assert.Throws<ArgumentOutOfRangeException>(() => Collider.For(Fractal.Of(Shapes.Cube()), none));
+        Assert.Throws<ArgumentOutOfRangeException>("kind", () => Model.Of(Shapes.Cube()).CreateCollider(none));
+        Assert.Throws<ArgumentOutOfRangeException>("kind", () => new PlacedModel(new SceneObject(Shapes.Cube())).CreateCollider(none));
         Assert.Throws<ArgumentOutOfRangeException>(() => new SceneCollider(new Scene(), none));
     }
 

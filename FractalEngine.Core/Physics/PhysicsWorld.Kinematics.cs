@@ -1,6 +1,3 @@
-using FractalEngine.Core.Maths;
-using FractalEngine.Core.Physics.Kinematics;
-
 namespace FractalEngine.Core.Physics;
 
 /// <content>Objects that move by themselves.</content>

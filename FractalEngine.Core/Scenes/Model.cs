@@ -3,6 +3,7 @@ using System.Numerics;
 using FractalEngine.Core.Collision;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
 using FractalEngine.Core.Rays;
 
 namespace FractalEngine.Core.Scenes;

@@ -1,5 +1,4 @@
 using System.Collections.Immutable;
-using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 

@@ -1,5 +1,3 @@
-using FractalEngine.Core.Maths;
-
 namespace FractalEngine.Core.Visibility;
 
 /// <summary>The children that lead to the current node, and what they leave of the sky.</summary>
