@@ -15,7 +15,7 @@ namespace FractalEngine.Render;
 /// <example>
 /// <code>
 /// using var renderer = Renderer.Offscreen(1280, 720);
-/// renderer.Draw(scene, Camera.Framing(scene)).SavePng("sponge.png");
+/// renderer.Draw(scene, CameraFraming.Default(scene)).SavePng("sponge.png");
 /// </code>
 /// </example>
 public sealed class Renderer : IDisposable

@@ -153,7 +153,6 @@ public sealed class InvalidArgumentTests
     {
         Assert.Throws<ArgumentNullException>("fractal", () => Collider.For((Fractal)null!));
         Assert.Throws<ArgumentNullException>("mesh", () => Collider.For((Mesh)null!));
-        Assert.Throws<ArgumentNullException>("model", () => Collider.For((Model)null!));
         Assert.Throws<ArgumentNullException>("mesh", () => Model.Of((Mesh)null!));
         Assert.Throws<ArgumentNullException>("fractal", () => Model.Of((Fractal)null!));
         Assert.Throws<ArgumentNullException>("baseMesh", () => Fractal.Of(null!));
@@ -170,6 +169,8 @@ public sealed class InvalidArgumentTests
         const ColliderKind none = (ColliderKind)99;
         Assert.Throws<ArgumentOutOfRangeException>(() => Collider.For(Shapes.Cube(), none));
         Assert.Throws<ArgumentOutOfRangeException>(() => Collider.For(Fractal.Of(Shapes.Cube()), none));
+        Assert.Throws<ArgumentOutOfRangeException>("kind", () => Model.Of(Shapes.Cube()).CreateCollider(none));
+        Assert.Throws<ArgumentOutOfRangeException>("kind", () => new PlacedModel(new SceneObject(Shapes.Cube())).CreateCollider(none));
         Assert.Throws<ArgumentOutOfRangeException>(() => new SceneCollider(new Scene(), none));
     }
 

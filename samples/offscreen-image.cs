@@ -27,7 +27,7 @@ var scene = new Scene
 
 Directory.CreateDirectory("out");
 using var renderer = Renderer.Offscreen(800, 600, new() { Shading = Shading.PerPixel });
-var image = renderer.Draw(scene, Camera.Framing(scene, aspect: 800.0 / 600));
+var image = renderer.Draw(scene, CameraFraming.Default(scene, aspect: 800.0 / 600));
 image.SavePng("out/scene.png");
 Console.WriteLine($"{image.Width} x {image.Height} pixels of {tree.InstanceCount} instances and a sphere");
 

@@ -17,8 +17,8 @@ var maps = from x in Enumerable.Range(-1, 3) from y in Enumerable.Range(-1, 3) f
            select Transformation.At(new Vector(x, y, z) / 3, scale: 1 / 3.0);
 var position = new Vector(0, 2, 0);
 
-var sponge = Fractal.Of(Shapes.Cube()).Repeat(maps, depth: 40);         // 10^53 faces
-var nearest = Collider.For(sponge).FindClosest(new(1, 2, 3));           // distance, point, normal, path
+var sponge = Fractal.Of(Shapes.Cube()).Repeat(maps, depth: 40);             // 10^53 faces
+var nearest = Collider.For(sponge).FindClosest(new(1, 2, 3));               // distance, point, normal, path
 
 var world = new PhysicsWorld();
 world.AddStatic(sponge);
@@ -27,9 +27,9 @@ world.Step(1 / 60.0);
 
 var scene = new Scene { Objects = [new(sponge)] };
 using var renderer = Renderer.Offscreen(1280, 720);
-renderer.Draw(scene, Camera.Framing(scene)).SavePng("sponge.png");      // a managed writer, no native library
+renderer.Draw(scene, CameraFraming.Default(scene)).SavePng("sponge.png");   // a managed writer, no native library
 
-FractalFile.Write("sponge.fdo", sponge);                                // and sponge-base.obj, for the cube has no file
+FractalFile.Write("sponge.fdo", sponge);                                    // and sponge-base.obj: the cube has no file
 Console.WriteLine(
     FormattableString.Invariant($"{nearest.Distance:F9} {ball.Velocity.Y:F9} {FractalFile.Read("sponge.fdo").Equals(sponge)}"));
 

@@ -13,7 +13,7 @@ foreach (var placed in file.Scene.Objects)
     Console.WriteLine($"{placed.Declaration.DisplayName}: {faces} faces from {placed.Model.FileBytes} bytes");
 }
 
-var camera = file.Scene.Scene.Camera ?? Camera.Framing(file.Scene.Scene);
+var camera = file.Scene.Scene.Camera ?? CameraFraming.Default(file.Scene.Scene);
 var hit = new SceneCollider(file.Scene).FindClosest(camera.Position);
 var closest = file.Scene.Objects[hit.ObjectIndex].Declaration;
 Console.WriteLine(FormattableString.Invariant($"closest to the camera: {closest.DisplayName}, {hit.Distance:F9} away"));

@@ -95,7 +95,7 @@ internal static class OcclusionTable
     {
         var hierarchy = LodHierarchy.Build(model.Fractal);
         var start = Environment.CpuUsage.TotalTime;
-        hierarchy.BakeSkyMasks(ClosedSurface.IsSolid(model.Mesh) ? 1 : 0);
+        SkyMaskBaker.Bake(hierarchy, ClosedSurface.IsSolid(model.Mesh) ? 1 : 0);
         return (hierarchy.HasSkyMasks, (Environment.CpuUsage.TotalTime - start).TotalMilliseconds, hierarchy.SkyMaskBytes);
     }
 }

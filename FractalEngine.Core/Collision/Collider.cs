@@ -47,18 +47,6 @@ public abstract partial class Collider
         return ColliderFactory.Create(mesh, kind);
     }
 
-    /// <summary>Builds the collider of a model in its own frame.</summary>
-    /// <param name="model">A mesh or a fractal.</param>
-    /// <param name="kind">How to search; exact unless stated.</param>
-    /// <exception cref="ArgumentOutOfRangeException">There is no such kind.</exception>
-    /// <exception cref="ColliderMismatchException">The kind does not fit; the message says which kinds do.</exception>
-    /// <exception cref="FractalLimitException">The fractal is too large for this kind, or grows beyond a double.</exception>
-    public static Collider For(Model model, ColliderKind kind = ColliderKind.Exact)
-    {
-        ArgumentNullException.ThrowIfNull(model);
-        return ColliderFactory.Create(model, kind);
-    }
-
     /// <summary>Finds the point of the shape closest to a position.</summary>
     /// <param name="position">In the shape's frame, scene units, finite.</param>
     /// <returns>The closest point with its normal, face and instance.</returns>

@@ -9,7 +9,7 @@ using FractalEngine.Core.Scenes;
 
 namespace FractalEngine.Core.Collision;
 
-/// <summary>Makes the collider of a kind for a model, where the kind fits it.</summary>
+/// <summary>Makes the collider of a kind for a mesh or a fractal, where the kind fits it.</summary>
 public static class ColliderFactory
 {
     /// <summary>
@@ -21,33 +21,6 @@ public static class ColliderFactory
     /// <summary>True for kinds whose colliders serve objects with any matrix, see <see cref="Collider.FindClosestTransformed"/>.</summary>
     internal static bool SupportsTransformedQueries(ColliderKind kind) =>
         kind is ColliderKind.Exact or ColliderKind.Hierarchy or ColliderKind.Simple;
-
-    /// <summary>Builds the collider of a model in its own frame.</summary>
-    /// <exception cref="ColliderMismatchException">The kind does not fit the model; the message says which kinds do.</exception>
-    /// <exception cref="FractalLimitException">The fractal is too large for this kind.</exception>
-    /// <exception cref="ArgumentOutOfRangeException">There is no such kind.</exception>
-    public static Collider Create(Model model, ColliderKind kind)
-    {
-        ArgumentNullException.ThrowIfNull(model);
-        return model is FractalModel { Fractal: var fractal } ? Create(fractal, kind) : Create(model.Mesh, kind);
-    }
-
-    /// <summary>Builds the collider of an object in world space, whatever its matrix.</summary>
-    /// <exception cref="ColliderMismatchException">The kind does not fit the model.</exception>
-    /// <exception cref="FractalLimitException">The fractal is too large for this kind.</exception>
-    /// <exception cref="ArgumentOutOfRangeException">There is no such kind.</exception>
-    public static Collider Create(PlacedModel placed, ColliderKind kind)
-    {
-        ArgumentNullException.ThrowIfNull(placed);
-        ThrowIfUnknown(kind);
-        return placed.Model switch
-        {
-            FractalModel { Fractal: { Description.Composition: Composition.Affine } fractal } =>
-                Create(fractal.WithPlacement(placed.Declaration.Placement), kind),
-            FractalModel { Fractal: var fractal } => CreateExpanded(fractal, placed.ObjectToWorld, kind),
-            _ => Create(FractalGenerator.Flatten(placed.Model.Mesh, [placed.ObjectToWorld]), kind),
-        };
-    }
 
     /// <summary>Throws for a number that stands for no kind.</summary>
     internal static void ThrowIfUnknown(ColliderKind kind)
@@ -69,7 +42,8 @@ public static class ColliderFactory
         };
     }
 
-    private static Collider CreateExpanded(Fractal fractal, AffineMap toWorld, ColliderKind kind)
+    /// <summary>Builds the collider of the mesh that a fractal is under a map.</summary>
+    internal static Collider CreateExpanded(Fractal fractal, AffineMap toWorld, ColliderKind kind)
     {
         if (kind == ColliderKind.Fractal)
         {

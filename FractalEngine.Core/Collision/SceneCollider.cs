@@ -149,10 +149,10 @@ public sealed partial class SceneCollider
 
     private ColliderKind KindFor(Model model) => model is FractalModel ? _kind : _kindOfMeshes;
 
-    private Collider CreateCollider(Model model) => NameMismatch(model, () => ColliderFactory.Create(model, KindFor(model)));
+    private Collider CreateCollider(Model model) => NameMismatch(model, () => model.CreateCollider(KindFor(model)));
 
     private Collider CreateCollider(PlacedModel placed) =>
-        NameMismatch(placed.Model, () => ColliderFactory.Create(placed, KindFor(placed.Model)));
+        NameMismatch(placed.Model, () => placed.CreateCollider(KindFor(placed.Model)));
 
     /// <summary>Says which model a collider does not fit.</summary>
     private static Collider NameMismatch(Model model, Func<Collider> create)

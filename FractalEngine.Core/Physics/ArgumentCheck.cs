@@ -24,13 +24,12 @@ internal static class ArgumentCheck
     /// <summary>Throws for a vector with a coordinate that is NaN or infinite.</summary>
     /// <param name="vector">What must be finite.</param>
     /// <param name="parameterName">Name of the caller's parameter.</param>
-    /// <param name="body">The body that it is about, which the message names; null for none.</param>
     /// <exception cref="ArgumentException">A coordinate is not finite.</exception>
-    public static void RequireFinite(Vector vector, string parameterName, Body? body = null)
+    public static void RequireFinite(Vector vector, string parameterName)
     {
         if (!vector.IsFinite())
         {
-            throw new ArgumentException($"{(body is null ? "" : $"body {body.Name}: ")}expected a finite {parameterName}", parameterName);
+            throw new ArgumentException($"expected a finite {parameterName}", parameterName);
         }
     }
 

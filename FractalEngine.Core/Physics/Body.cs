@@ -6,7 +6,7 @@ namespace FractalEngine.Core.Physics;
 
 /// <summary>
 /// What falls, bounces and rests: the bounding sphere of a physics object (paper §4.3.3, §4.4.1), a sphere of its own, or several that are
-/// rigidly joined. Owned by a <see cref="PhysicsWorld"/>.
+/// rigidly joined. Owned by a <c>PhysicsWorld</c>.
 /// </summary>
 public sealed partial class Body
 {
@@ -39,7 +39,7 @@ public sealed partial class Body
     /// <summary>Position of the centre before the last step, for interpolation between steps.</summary>
     public Vector PreviousPosition { get; internal set; }
 
-    /// <summary>Current velocity in units per second, see <see cref="PhysicsWorld.SetVelocity"/>.</summary>
+    /// <summary>Current velocity in units per second, see <c>PhysicsWorld.SetVelocity</c>.</summary>
     public Vector Velocity { get; internal set; }
 
     /// <summary>Current angular velocity in radians per second, about the world's axes.</summary>
@@ -53,7 +53,7 @@ public sealed partial class Body
     public Orientation PreviousOrientation { get; internal set; } = Orientation.Identity;
 
     /// <summary>
-    /// Constant force besides gravity, in kilograms times units per second², see <see cref="PhysicsWorld.SetForce"/>.
+    /// Constant force besides gravity, in kilograms times units per second², see <c>PhysicsWorld.SetForce</c>.
     /// </summary>
     public Vector Force { get; internal set; }
 
@@ -74,7 +74,7 @@ public sealed partial class Body
     }
 
     /// <summary>
-    /// Fraction of its initial size that the body loses per second: its own, or <see cref="PhysicsWorld.ShrinkageOverride"/>.
+    /// Fraction of its initial size that the body loses per second: its own, or <c>PhysicsWorld.ShrinkageOverride</c>.
     /// </summary>
     public double Shrinkage { get; internal set; }
 
@@ -112,6 +112,18 @@ public sealed partial class Body
 
         var translation = PreviousPosition + (alpha * (Position - PreviousPosition));
         return new(linear, Description.ObjectOffset == Vector.Zero ? translation : translation + origin);
+    }
+
+    /// <summary>Throws for a vector with a coordinate that is NaN or infinite; the message names the body.</summary>
+    /// <param name="vector">What must be finite.</param>
+    /// <param name="parameterName">Name of the caller's parameter.</param>
+    /// <exception cref="ArgumentException">A coordinate is not finite.</exception>
+    internal void RequireFinite(Vector vector, string parameterName)
+    {
+        if (!vector.IsFinite())
+        {
+            throw new ArgumentException($"body {Name}: expected a finite {parameterName}", parameterName);
+        }
     }
 
     /// <summary>Returns the body to its initial state.</summary>

@@ -137,7 +137,7 @@ internal sealed partial class BodyMover
     {
         if (body.Position != body.PlannedStart || body.Contacts.HasMovingSurface)
         {
-            body.Contacts.UpdateAfterMove(body.Position, _obstacles.ContactSlop(body.Position), _obstacles);
+            _obstacles.UpdateAfterMove(body.Contacts, body.Position);
         }
     }
 }

@@ -203,7 +203,7 @@ internal sealed partial class BodyMover
             body.Velocity = stoppedVelocity;
         }
 
-        contacts.UpdateAfterMove(position, _obstacles.ContactSlop(position), _obstacles);
+        _obstacles.UpdateAfterMove(contacts, position);
         return isHit || elapsed >= duration ? elapsed : double.PositiveInfinity;
     }
 

@@ -5,9 +5,6 @@ namespace FractalEngine.Core.Physics;
 /// <summary>The contacts of one body, kept from step to step so that they need not be found again.</summary>
 internal sealed partial class ContactSet
 {
-    // Of the combined radius: a gap within it needs no other closest point.
-    private const double GapTolerance = 1e-13;
-
     // Squared difference of unit normals below which two contacts are the same.
     private const double SameNormalToleranceSquared = 1e-12;
 
@@ -17,7 +14,7 @@ internal sealed partial class ContactSet
     public int Count { get; private set; }
 
     /// <summary>The contact at an index from 0 to <see cref="Count"/> − 1.</summary>
-    public Contact this[int index] => _contacts[index];
+    public ref readonly Contact this[int index] => ref _contacts[index];
 
     /// <summary>Removes all contacts of the body.</summary>
     public void Clear() => Count = 0;
@@ -140,30 +137,8 @@ internal sealed partial class ContactSet
         }
     }
 
-    /// <summary>Finds the new closest points of surfaces after a move, and removes contacts that are not touched any more.</summary>
-    /// <param name="position">New position of the body, world space.</param>
-    /// <param name="contactSlop">See <see cref="ContactTolerances.Slop"/>.</param>
-    /// <param name="obstacles">Set up for the body.</param>
-    public void UpdateAfterMove(Vector position, double contactSlop, Obstacles obstacles)
-    {
-        for (var i = Count - 1; i >= 0; i--)
-        {
-            if (!_contacts[i].IsBody)
-            {
-                var gap = _contacts[i].Gap(position);
-                if (Math.Abs(gap) > GapTolerance * _contacts[i].CombinedRadius
-                    && obstacles.TryUpdateContact(position, in _contacts[i], out var updated))
-                {
-                    _contacts[i] = updated;
-                }
-            }
-
-            if (_contacts[i].Gap(position) > contactSlop)
-            {
-                RemoveAt(i);
-            }
-        }
-    }
+    /// <summary>Replaces a contact by what has become of it.</summary>
+    public void Replace(int index, in Contact contact) => _contacts[index] = contact;
 
     /// <summary>Removes contacts that have become the same one.</summary>
     public void RemoveDuplicates(Vector position)
@@ -184,7 +159,8 @@ internal sealed partial class ContactSet
         }
     }
 
-    private void RemoveAt(int index)
+    /// <summary>Removes the contact at an index.</summary>
+    public void RemoveAt(int index)
     {
         for (var i = index + 1; i < Count; i++)
         {

@@ -11,6 +11,9 @@ internal sealed partial class Obstacles
     private const double UpdateDepth = 0.5;
     private const double UpdateSearchRadius = 0.6;
 
+    // Of the combined radius: a gap within it needs no other closest point.
+    private const double GapTolerance = 1e-13;
+
     /// <summary>Finds the closest surface.</summary>
     /// <param name="position">Position of the mover, world space.</param>
     /// <param name="maxDistance">Largest free distance of interest.</param>
@@ -59,6 +62,31 @@ internal sealed partial class Obstacles
         }
 
         return maxDistance;
+    }
+
+    /// <summary>Finds the new closest points of surfaces after a move, and removes contacts that are not touched any more.</summary>
+    /// <param name="contacts">Contacts of the mover.</param>
+    /// <param name="position">New position of the mover, world space.</param>
+    public void UpdateAfterMove(ContactSet contacts, Vector position)
+    {
+        var contactSlop = ContactSlop(position);
+        for (var i = contacts.Count - 1; i >= 0; i--)
+        {
+            ref readonly var contact = ref contacts[i];
+            if (!contact.IsBody)
+            {
+                var gap = contact.Gap(position);
+                if (Math.Abs(gap) > GapTolerance * contact.CombinedRadius && TryUpdateContact(position, in contact, out var updated))
+                {
+                    contacts.Replace(i, in updated);
+                }
+            }
+
+            if (contact.Gap(position) > contactSlop)
+            {
+                contacts.RemoveAt(i);
+            }
+        }
     }
 
     /// <summary>

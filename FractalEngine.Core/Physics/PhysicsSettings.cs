@@ -1,10 +1,10 @@
 namespace FractalEngine.Core.Physics;
 
-/// <summary>The step length of a <see cref="PhysicsWorld"/>, and the speeds below which bodies no longer bounce or stay awake.</summary>
+/// <summary>The step length of a <c>PhysicsWorld</c>, and the speeds below which bodies no longer bounce or stay awake.</summary>
 public sealed record PhysicsSettings
 {
     /// <summary>
-    /// Length in seconds of the steps that <see cref="PhysicsWorld.Step()"/> and <see cref="PhysicsWorld.Advance"/> make, however fast
+    /// Length in seconds of the steps that <c>PhysicsWorld.Step</c> and <c>PhysicsWorld.Advance</c> make, however fast
     /// frames are drawn.
     /// </summary>
     public double TimeStep { get; init; } = 1 / 60.0;
@@ -25,11 +25,11 @@ public sealed record PhysicsSettings
     public double TimeBeforeSleep { get; init; } = 0.5;
 
     /// <summary>
-    /// Maximum number of steps in one <see cref="PhysicsWorld.Advance"/>, where frames take longer than steps. The remaining time is lost.
+    /// Maximum number of steps in one <c>PhysicsWorld.Advance</c>, where frames take longer than steps. The remaining time is lost.
     /// </summary>
     public int MaxStepsPerAdvance { get; init; } = 6;
 
-    /// <summary>Whether <see cref="PhysicsWorld.ContactEvents"/> tells of contacts and triggers, which costs time.</summary>
+    /// <summary>Whether <c>PhysicsWorld.ContactEvents</c> tells of contacts and triggers, which costs time.</summary>
     public bool ReportsContacts { get; init; }
 
     /// <summary>

@@ -106,7 +106,7 @@ public sealed partial class PhysicsWorld
             previous.IsActive = false;
         }
 
-        return Character = new(this, _obstacles, player);
+        return Character = new(_bodies, _islands, _obstacles, player, _gravity);
     }
 
     /// <summary>Builds all colliders that bodies, triggers and character use, instead of at their first queries.</summary>
@@ -181,9 +181,7 @@ public sealed partial class PhysicsWorld
     public void SetVelocity(Body body, Vector velocity)
     {
         RequireOwn(body);
-        ArgumentCheck.RequireFinite(velocity, nameof(velocity), body);
-        _islands.Wake(body);
-        body.Velocity = velocity;
+        _islands.SetVelocity(body, velocity);
     }
 
     /// <summary>Lets a constant force act on a body, in place of the previous one, and wakes it with all that touch it.</summary>
@@ -193,7 +191,7 @@ public sealed partial class PhysicsWorld
     public void SetForce(Body body, Vector force)
     {
         RequireOwn(body);
-        ArgumentCheck.RequireFinite(force, nameof(force), body);
+        body.RequireFinite(force, nameof(force));
         _islands.Wake(body);
         body.Force = force;
     }
@@ -209,22 +207,12 @@ public sealed partial class PhysicsWorld
         ArgumentOutOfRangeException.ThrowIfGreaterThanOrEqual(objectIndex, _staticOfObject.Length);
         var target = _staticOfObject[objectIndex];
         ArgumentCheck.Require(target is not null, "the object is a body, which moves by itself", null, nameof(objectIndex));
-        MoveStatic(target, placement);
-    }
-
-    /// <summary>Moves a static object and its colliders, and wakes all bodies.</summary>
-    internal void MoveStatic(StaticObject target, Transformation placement)
-    {
-        ArgumentCheck.RequirePlacement(placement, nameof(placement));
-        target.SetPlacement(placement);
-        target.Kinematic?.Place(target.Reference, _clock.Time);
-        _statics.Refresh(target);
-        InvalidateSurroundings(mayOverlap: true);
+        target.MoveTo(placement);
     }
 
     private StaticObject AppendStatic(PlacedModel placed, int? objectIndex)
     {
-        var added = new StaticObject(this, placed, _statics.Objects.Count, objectIndex);
+        var added = new StaticObject(_statics, placed, _statics.Objects.Count, objectIndex);
         if (placed.Declaration.Motion?.FindFault(placed.ObjectToWorld.Translation) is { } fault)
         {
             throw new SceneObjectException(objectIndex ?? 0, ErrorKind.Input, $"object {placed.Declaration.DisplayName}: {fault}");
@@ -233,7 +221,7 @@ public sealed partial class PhysicsWorld
         _statics.Add(added);
         if (placed.Declaration.Motion is not null || placed.Declaration.Belt != Vector.Zero)
         {
-            RequireKinematic(added);
+            added.Kinematic = _statics.AddKinematic(added);
         }
 
         return added;

@@ -1,6 +1,3 @@
-using FractalEngine.Core.Maths;
-using FractalEngine.Core.Physics.Kinematics;
-
 namespace FractalEngine.Core.Physics;
 
 /// <content>Objects that move by themselves.</content>
@@ -20,35 +17,6 @@ public sealed partial class PhysicsWorld
     /// <summary>The static objects that have begun to move by themselves, in the order in which they began.</summary>
     public IEnumerable<StaticObject> MovingObjects => _kinematics.Objects.Select(static moved => moved.Target);
 
-    /// <summary>Lets an object move by itself.</summary>
-    internal void SetMotion(StaticObject target, Vector velocity, Vector angularVelocity)
-    {
-        ArgumentCheck.RequireFinite(velocity, nameof(velocity));
-        ArgumentCheck.RequireFinite(angularVelocity, nameof(angularVelocity));
-        RequireKinematic(target).SetMotion(velocity, angularVelocity, _clock.Time);
-        InvalidateSurroundings(mayOverlap: false);
-    }
-
-    /// <summary>Lets an object's surface move along itself.</summary>
-    internal void SetBelt(StaticObject target, Vector velocity)
-    {
-        ArgumentCheck.RequireFinite(velocity, nameof(velocity));
-        RequireKinematic(target).Belt = velocity;
-        InvalidateSurroundings(mayOverlap: false);
-    }
-
-    private KinematicObject RequireKinematic(StaticObject target)
-    {
-        if (target.Kinematic is null)
-        {
-            target.Kinematic = new(_kinematics, target);
-            _kinematics.Objects.Add(target.Kinematic);
-            _statics.AddKinematic(target.Kinematic);
-        }
-
-        return target.Kinematic;
-    }
-
     /// <summary>Lets all objects move as the scene declares it, from where that has led at the world's time.</summary>
     private void ResetKinematics()
     {
@@ -57,9 +25,6 @@ public sealed partial class PhysicsWorld
             moved.Reset(_clock.Time);
         }
     }
-
-    /// <summary>Lets the character see the objects that move where they are at a time of the step.</summary>
-    internal void SetKinematicTime(double time) => _kinematics.Time = time;
 
     /// <summary>
     /// Number of equal parts that a step is made in: several where an object goes far, compared with the bodies before it. In each of them

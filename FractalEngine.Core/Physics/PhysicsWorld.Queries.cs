@@ -55,7 +55,7 @@ public sealed partial class PhysicsWorld
     /// <exception cref="ArgumentException">
     /// The ray is not finite, its direction is 0, the distance is negative or NaN, or there is no such layer.
     /// </exception>
-    /// <exception cref="FractalLimitException">A model can't be prepared, see <see cref="RayCaster.For(Model)"/>.</exception>
+    /// <exception cref="FractalLimitException">A model can't be prepared, see <see cref="RayCaster.For(Fractal)"/>.</exception>
     /// <remarks>Cost O(n) for n bodies and objects. For many rays through objects alone see <see cref="SceneRayCaster"/>.</remarks>
     public bool TryCastRay(
         Ray ray, out CastHit hit, double maxDistance = double.PositiveInfinity, int layer = 0, uint mask = Layers.All)
@@ -72,8 +72,8 @@ public sealed partial class PhysicsWorld
     public void ApplyImpulse(Body body, Vector impulse, Vector? point = null)
     {
         RequireOwn(body);
-        ArgumentCheck.RequireFinite(impulse, nameof(impulse), body);
-        ArgumentCheck.RequireFinite(point ?? Vector.Zero, nameof(point), body);
+        body.RequireFinite(impulse, nameof(impulse));
+        body.RequireFinite(point ?? Vector.Zero, nameof(point));
         _islands.Wake(body);
         var arm = (point ?? body.Position) - body.Position;
         if (body.IsCompound)
@@ -97,8 +97,8 @@ public sealed partial class PhysicsWorld
     public void ApplyForce(Body body, Vector force, Vector? point = null)
     {
         RequireOwn(body);
-        ArgumentCheck.RequireFinite(force, nameof(force), body);
-        ArgumentCheck.RequireFinite(point ?? Vector.Zero, nameof(point), body);
+        body.RequireFinite(force, nameof(force));
+        body.RequireFinite(point ?? Vector.Zero, nameof(point));
         _islands.Wake(body);
         _hasStepForces = true;
         body.StepForce += force;
@@ -160,12 +160,4 @@ public sealed partial class PhysicsWorld
             }
         }
     }
-
-    /// <summary>Tells the colliders that an object has another layer, mask or trigger.</summary>
-    internal void ChangeFilter()
-    {
-        _statics.ChangeFilters();
-        InvalidateSurroundings(mayOverlap: true);
-    }
-
 }

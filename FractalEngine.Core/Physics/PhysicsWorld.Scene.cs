@@ -52,6 +52,8 @@ public sealed partial class PhysicsWorld
         return new(scene, objects.ToImmutable());
     }
 
+    /// <summary>Describes the body of a physics object.</summary>
+    /// <exception cref="SceneObjectException">No body can be made of it.</exception>
     private static BodyDescription DescribeBody(PlacedModel placed, PhysicsObject declared, int index)
     {
         BodyDescription description;

@@ -96,7 +96,7 @@ public sealed partial class PhysicsWorld
             }
         }
 
-        _islands.PutToSleep(_planner.Graph, Settings.TimeBeforeSleep);
+        _planner.Graph.PutToSleep(Settings.TimeBeforeSleep);
 
         StepCharacter(character, seconds);
         _kinematics.EndPart();
@@ -196,7 +196,7 @@ public sealed partial class PhysicsWorld
                 character.Carry(seconds);
                 _kinematics.Time = seconds;
                 _kinematics.IsFrozen = true;
-                character.Step(seconds);
+                character.Step(_statics.CollidersOf(CharacterColliderKind), _gravity, seconds);
             }
         }
         catch (ArgumentOutOfRangeException exception) when (exception.ActualValue is Vector)

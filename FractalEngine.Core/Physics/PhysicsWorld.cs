@@ -71,7 +71,7 @@ public sealed partial class PhysicsWorld
     {
         ArgumentNullException.ThrowIfNull(scene);
         _scene = scene;
-        _statics = new(colliders);
+        _statics = new(_kinematics, _clock, InvalidateSurroundings, colliders);
         _gravity = scene.Scene.Gravity;
         Settings = settings ?? new();
         Settings.Validate();
@@ -108,7 +108,7 @@ public sealed partial class PhysicsWorld
         _sceneBodyCount = _bodies.Count;
         Character = scene.Scene.Player is not { } player ? null
             : player.FindFault() is { } fault ? throw new FractalEngineException($"player: {fault}")
-            : new(this, _obstacles, player);
+            : new(_bodies, _islands, _obstacles, player, _gravity);
         PlaceBodies();
     }
 
@@ -126,7 +126,7 @@ public sealed partial class PhysicsWorld
             if (_gravity != value)
             {
                 _gravity = value;
-                Character?.AlignWithGravity();
+                Character?.AlignWithGravity(_gravity);
                 InvalidateSurroundings(mayOverlap: false);
             }
         }
@@ -248,15 +248,6 @@ public sealed partial class PhysicsWorld
         return _obstacles.TryFindClosestPoint(position, double.PositiveInfinity, out closest);
     }
 
-    /// <summary>Prepares the obstacles for the character, see <see cref="Obstacles.SetMover"/>.</summary>
-    internal void PrepareObstacles(Vector[] sphereOffsets, double radius, SafeDistance safeDistance, double searchMargin) =>
-        _obstacles.SetMover(_statics.CollidersOf(CharacterColliderKind), sphereOffsets, radius, safeDistance, searchMargin);
-
-    /// <summary>Wakes the islands of all bodies that touch a sphere of the character.</summary>
-    internal void WakeOverlapping(Vector centre, double radius) => _islands.WakeOverlapping(centre, radius);
-
-    /// <summary>Describes the body of a physics object.</summary>
-    /// <exception cref="SceneObjectException">No body can be made of it.</exception>
     private ColliderKind ColliderKindOf(Body body) => _colliderOverride ?? body.Description.Collider;
 
     private void InvalidateSurroundings(bool mayOverlap)

@@ -1,5 +1,4 @@
 using FractalEngine.Core.Maths;
-using FractalEngine.Core.Physics.Islands;
 
 namespace FractalEngine.Core.Physics;
 
@@ -51,26 +50,6 @@ internal sealed class SleepIslands(List<Body> bodies, NearbyBodies nearbyBodies)
         }
     }
 
-    /// <summary>Puts islands to sleep whose bodies have all rested for some time.</summary>
-    /// <param name="graph">The islands of this step.</param>
-    /// <param name="timeBeforeSleep">Seconds for which they must rest.</param>
-    public void PutToSleep(ContactGraph graph, double timeBeforeSleep)
-    {
-        foreach (var island in graph.Islands)
-        {
-            var isResting = true;
-            foreach (var index in graph.BodiesOf(in island))
-            {
-                isResting &= bodies[index].SleepTimer > 0 && bodies[index].SleepTimer >= timeBeforeSleep;
-            }
-
-            foreach (var index in isResting ? graph.BodiesOf(in island) : [])
-            {
-                bodies[index].Sleep();
-            }
-        }
-    }
-
     /// <summary>Wakes a body and its whole island.</summary>
     public void Wake(Body body)
     {
@@ -90,6 +69,15 @@ internal sealed class SleepIslands(List<Body> bodies, NearbyBodies nearbyBodies)
                 }
             }
         }
+    }
+
+    /// <summary>Gives a body another velocity, and wakes it and its whole island.</summary>
+    /// <exception cref="ArgumentException">The velocity is not finite.</exception>
+    public void SetVelocity(Body body, Vector velocity)
+    {
+        body.RequireFinite(velocity, nameof(velocity));
+        Wake(body);
+        body.Velocity = velocity;
     }
 
     /// <summary>Wakes the islands of all bodies that touch a sphere.</summary>

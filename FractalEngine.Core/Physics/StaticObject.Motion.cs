@@ -23,10 +23,17 @@ public sealed partial class StaticObject
     /// <param name="angularVelocity">Radians per second about the world's axes.</param>
     /// <exception cref="ArgumentException">A coordinate is not finite.</exception>
     /// <remarks>
-    /// It replaces the motion that the scene declares, until <see cref="PhysicsWorld.Reset"/>. Bodies that the object meets are pushed, and
+    /// It replaces the motion that the scene declares, until <c>PhysicsWorld.Reset</c>. Bodies that the object meets are pushed, and
     /// those that lie on it are carried along by friction. Wakes all bodies.
     /// </remarks>
-    public void SetMotion(Vector velocity, Vector angularVelocity = default) => _world.SetMotion(this, velocity, angularVelocity);
+    public void SetMotion(Vector velocity, Vector angularVelocity = default)
+    {
+        ArgumentCheck.RequireFinite(velocity, nameof(velocity));
+        ArgumentCheck.RequireFinite(angularVelocity, nameof(angularVelocity));
+        Kinematic ??= _set.AddKinematic(this);
+        Kinematic.SetMotion(velocity, angularVelocity, _set.Time);
+        _set.InvalidateSurroundings(mayOverlap: false);
+    }
 
     /// <summary>Lets the object's surface move along itself, as that of a belt, and carry what lies on it by friction.</summary>
     /// <param name="velocity">
@@ -34,9 +41,15 @@ public sealed partial class StaticObject
     /// </param>
     /// <exception cref="ArgumentException">A coordinate is not finite.</exception>
     /// <remarks>Wakes all bodies.</remarks>
-    public void SetBelt(Vector velocity) => _world.SetBelt(this, velocity);
+    public void SetBelt(Vector velocity)
+    {
+        ArgumentCheck.RequireFinite(velocity, nameof(velocity));
+        Kinematic ??= _set.AddKinematic(this);
+        Kinematic.Belt = velocity;
+        _set.InvalidateSurroundings(mayOverlap: false);
+    }
 
-    /// <summary>Map that draws the object between its last two states, as <see cref="Body.InterpolatedMap"/> does for bodies.</summary>
+    /// <summary>Map that draws the object between its last two states, as <c>Body.InterpolatedMap</c> does for bodies.</summary>
     /// <param name="alpha">Fraction of the last step that has passed, from 0 to 1.</param>
     public AffineMap InterpolatedMap(double alpha)
     {

@@ -5,23 +5,23 @@ using FractalEngine.Core.Scenes;
 namespace FractalEngine.Core.Physics;
 
 /// <summary>
-/// A mesh or fractal that bodies collide with and that no force moves. Owned by a <see cref="PhysicsWorld"/>: its scene declares the
-/// object, or <see cref="PhysicsWorld.AddStatic(Model, Transformation?)"/> adds it.
+/// A mesh or fractal that bodies collide with and that no force moves. Owned by a world: its scene declares the object, or
+/// <c>PhysicsWorld.AddStatic</c> adds it.
 /// </summary>
 public sealed partial class StaticObject
 {
-    private readonly PhysicsWorld _world;
+    private readonly StaticObjectSet _set;
     private readonly PlacedModel _initial;
     private PlacedModel _placed;
 
     /// <summary>Creates the handle of an object at its initial placement.</summary>
-    /// <param name="world">The world that owns the object.</param>
+    /// <param name="set">The world's static objects.</param>
     /// <param name="placed">The object's model and initial placement.</param>
-    /// <param name="index">Index among the world's static objects.</param>
+    /// <param name="index">Index among them.</param>
     /// <param name="objectIndex">Index in the scene; null for an object that was added.</param>
-    internal StaticObject(PhysicsWorld world, PlacedModel placed, int index, int? objectIndex)
+    internal StaticObject(StaticObjectSet set, PlacedModel placed, int index, int? objectIndex)
     {
-        _world = world;
+        _set = set;
         _initial = placed;
         _placed = placed;
         Reference = placed;
@@ -54,7 +54,7 @@ public sealed partial class StaticObject
         {
             ArgumentCheck.RequireLayer(value, nameof(Layer));
             field = value;
-            _world.ChangeFilter();
+            _set.ChangeFilters();
         }
     }
 
@@ -65,7 +65,7 @@ public sealed partial class StaticObject
         set
         {
             field = value;
-            _world.ChangeFilter();
+            _set.ChangeFilters();
         }
     }
 
@@ -73,7 +73,7 @@ public sealed partial class StaticObject
 
     /// <summary>
     /// True for an object that stops nothing, and only reports the bodies that reach into it, see
-    /// <see cref="PhysicsWorld.ContactEvents"/>. Setting it wakes all bodies.
+    /// <c>PhysicsWorld.ContactEvents</c>. Setting it wakes all bodies.
     /// </summary>
     public bool IsTrigger
     {
@@ -81,7 +81,7 @@ public sealed partial class StaticObject
         set
         {
             field = value;
-            _world.ChangeFilter();
+            _set.ChangeFilters();
         }
     }
 
@@ -115,11 +115,14 @@ public sealed partial class StaticObject
     /// (<see cref="ColliderKind.Fractal"/>, <see cref="ColliderKind.BoundingBox"/>) of objects with a skewed matrix are built again
     /// at the next query.
     /// </remarks>
-    public void MoveTo(Transformation placement) => _world.MoveStatic(this, placement);
-
-    /// <summary>Replaces the placement, of which the caller tells the colliders.</summary>
-    internal void SetPlacement(Transformation placement) =>
+    public void MoveTo(Transformation placement)
+    {
+        ArgumentCheck.RequirePlacement(placement, nameof(placement));
         Reference = _placed = new(_initial.Declaration with { Placement = placement }, Model);
+        Kinematic?.Place(Reference, _set.Time);
+        _set.Refresh(this);
+        _set.InvalidateSurroundings(mayOverlap: true);
+    }
 
     /// <summary>Returns to the initial placement, of which the caller tells the colliders.</summary>
     internal void ResetPlacement() => Reference = _placed = _initial;

@@ -8,8 +8,11 @@ using FractalEngine.Core.Scenes;
 namespace FractalEngine.Core.Physics;
 
 /// <summary>The static objects of a world with their colliders, which are built when they are first queried.</summary>
+/// <param name="kinematics">Receives the objects that begin to move by themselves.</param>
+/// <param name="clock">Has the world's time.</param>
+/// <param name="invalidateSurroundings">Is called when surfaces have changed, with whether bodies may overlap them now.</param>
 /// <param name="cache">Colliders of other worlds; null for none.</param>
-internal sealed class StaticObjectSet(ColliderCache? cache)
+internal sealed class StaticObjectSet(KinematicSet kinematics, StepClock clock, Action<bool> invalidateSurroundings, ColliderCache? cache)
 {
     private readonly List<StaticObject> _objects = [];
     private readonly Dictionary<ColliderKind, StaticColliders> _colliders = [];
@@ -20,6 +23,9 @@ internal sealed class StaticObjectSet(ColliderCache? cache)
 
     /// <summary>All static objects, in the order in which they were added.</summary>
     public IReadOnlyList<StaticObject> Objects => _objects;
+
+    /// <summary>The world's time, seconds.</summary>
+    public double Time => clock.Time;
 
     /// <summary>The model of a fractal: the same one for equal fractals, so that they share a collider.</summary>
     public Model ModelOf(Fractal fractal) =>
@@ -53,15 +59,18 @@ internal sealed class StaticObjectSet(ColliderCache? cache)
         _filtered.Clear();
     }
 
-    /// <summary>Tells the colliders that an object moves by itself from now on.</summary>
-    public void AddKinematic(KinematicObject kinematic)
+    /// <summary>Lets an object move by itself from now on.</summary>
+    public KinematicObject AddKinematic(StaticObject target)
     {
+        var kinematic = new KinematicObject(kinematics, target);
+        kinematics.Objects.Add(kinematic);
         foreach (var colliders in _colliders.Values)
         {
             colliders.AddKinematic(kinematic);
         }
 
         _filtered.Clear();
+        return kinematic;
     }
 
     /// <summary>Returns all objects to their initial placements.</summary>
@@ -78,11 +87,16 @@ internal sealed class StaticObjectSet(ColliderCache? cache)
     public static bool CanMeet(StaticObject target, int layer, uint mask) =>
         !target.IsTrigger && Layers.CanMeet(target.Layer, target.Mask, layer, mask);
 
+    /// <summary>Tells bodies that surfaces have changed.</summary>
+    /// <param name="mayOverlap">True where bodies may overlap them now.</param>
+    public void InvalidateSurroundings(bool mayOverlap) => invalidateSurroundings(mayOverlap);
+
     /// <summary>Tells that an object has another layer, mask or trigger.</summary>
     public void ChangeFilters()
     {
         _filtered.Clear();
         _hasFilters = _objects.Exists(static candidate => candidate.IsTrigger || candidate.Layer != 0 || candidate.Mask != Layers.All);
+        InvalidateSurroundings(mayOverlap: true);
     }
 
     /// <summary>Tells whether a ball reaches into an object: touches its surface, or is inside where that is closed.</summary>

@@ -17,7 +17,7 @@ public static class RayBatch
     /// <param name="threads">The most threads to use; null for one a core.</param>
     /// <returns>One result for each ray, in the same order and the same on any number of threads.</returns>
     /// <exception cref="ArgumentException">A ray is not finite, its direction is 0, or there are no threads.</exception>
-    /// <exception cref="FractalLimitException">A model can't be prepared, see <see cref="RayCaster.For(Scenes.Model)"/>.</exception>
+    /// <exception cref="FractalLimitException">A model can't be prepared, see <see cref="RayCaster.For(Fractal)"/>.</exception>
     public static ImmutableArray<RayResult> FindNearest(
         SceneRayCaster scene, ReadOnlyMemory<Ray> rays, QueryContext? context = null, int? threads = null)
     {

@@ -3,7 +3,6 @@ using FractalEngine.Core.Collision;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
-using FractalEngine.Core.Scenes;
 
 namespace FractalEngine.Core.Rays;
 
@@ -62,14 +61,6 @@ public abstract class RayCaster
         return fractal.Description.Composition == Composition.Affine
             ? new FractalRayCaster(fractal)
             : new MeshRayCaster(fractal);
-    }
-
-    /// <summary>Makes the caster of a model in its own frame.</summary>
-    /// <exception cref="FractalLimitException">As for a fractal.</exception>
-    public static RayCaster For(Model model)
-    {
-        ArgumentNullException.ThrowIfNull(model);
-        return model is FractalModel { Fractal: var fractal } ? For(fractal) : For(model.Mesh);
     }
 
     /// <summary>Finds the nearest face that a ray hits.</summary>

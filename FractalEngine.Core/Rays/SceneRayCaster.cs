@@ -29,7 +29,7 @@ public sealed class SceneRayCaster : InstanceRayCaster
     public SceneRayCaster(LoadedScene scene)
         : this(
             (scene ?? throw new ArgumentNullException(nameof(scene))).Objects,
-            scene.Models.ToDictionary(model => model, model => new Lazy<RayCaster>(() => RayCaster.For(model))), scene.Bounds)
+            scene.Models.ToDictionary(model => model, model => new Lazy<RayCaster>(model.CreateRayCaster)), scene.Bounds)
     {
     }
 
@@ -87,7 +87,7 @@ public sealed class SceneRayCaster : InstanceRayCaster
         return new(
             scene.Objects,
             scene.Models.ToDictionary(
-                model => model, model => _casters.GetValueOrDefault(model) ?? new Lazy<RayCaster>(() => RayCaster.For(model))),
+                model => model, model => _casters.GetValueOrDefault(model) ?? new Lazy<RayCaster>(model.CreateRayCaster)),
             scene.Bounds);
     }
 

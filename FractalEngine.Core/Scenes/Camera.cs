@@ -26,13 +26,6 @@ public sealed record Camera
     /// <summary>A camera of a left-handed scene, five units before the origin and looking along the z axis.</summary>
     public static Camera Default { get; } = new(new(0, 0, -5), Vector.Zero, 60);
 
-    /// <summary>Makes the camera that shows all of a scene, from the right, above and before it.</summary>
-    /// <param name="scene">With its models loaded; a camera of its own is ignored.</param>
-    /// <param name="aspect">Width divided by height of the image.</param>
-    /// <exception cref="FractalEngineException">An object names a file that is not loaded.</exception>
-    public static Camera Framing(Scene scene, double aspect = 16 / 9.0) =>
-        CameraFraming.Default(LoadedScene.Of(scene), aspect);
-
     /// <summary>Position in world space, scene units.</summary>
     /// <exception cref="ArgumentException">A coordinate is NaN or infinite.</exception>
     public Vector Position

@@ -193,6 +193,12 @@ public static class CameraFraming
     public static Camera Default(BoundingBox box, double aspect, Handedness handedness = Handedness.Left) =>
         Frame(Camera.Default with { Rotation = DefaultRotation, Handedness = handedness }, box, aspect);
 
+    /// <summary>Makes the camera that shows all of a scene, from the right, above and before it.</summary>
+    /// <param name="scene">With its models loaded; a camera of its own is ignored.</param>
+    /// <param name="aspect">Width divided by height of the image.</param>
+    /// <exception cref="FractalEngineException">An object names a file that is not loaded.</exception>
+    public static Camera Default(Scene scene, double aspect = 16 / 9.0) => Default(LoadedScene.Of(scene), aspect);
+
     /// <summary>Makes the camera of a scene that names none, by what is visible of it.</summary>
     /// <param name="scene">The scene with its models.</param>
     /// <param name="aspect">Width divided by height of the image.</param>

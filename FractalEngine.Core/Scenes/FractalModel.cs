@@ -1,6 +1,8 @@
 using System.Numerics;
+using FractalEngine.Core.Collision;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Rays;
 
 namespace FractalEngine.Core.Scenes;
 
@@ -19,6 +21,12 @@ public sealed class FractalModel(Fractal fractal) : Model
 
     /// <inheritdoc/>
     public override BoundingBox Bounds => Fractal.Bounds;
+
+    /// <inheritdoc/>
+    public override Collider CreateCollider(ColliderKind kind = ColliderKind.Exact) => Collider.For(Fractal, kind);
+
+    /// <inheritdoc/>
+    public override RayCaster CreateRayCaster() => RayCaster.For(Fractal);
 
     private protected override string KindName => "fractal";
 }

@@ -1,5 +1,7 @@
 using System.Numerics;
+using FractalEngine.Core.Collision;
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Rays;
 
 namespace FractalEngine.Core.Scenes;
 
@@ -15,6 +17,12 @@ public sealed class MeshModel(Mesh mesh) : Model
 
     /// <inheritdoc/>
     public override BoundingBox Bounds => Mesh.Bounds;
+
+    /// <inheritdoc/>
+    public override Collider CreateCollider(ColliderKind kind = ColliderKind.Exact) => Collider.For(Mesh, kind);
+
+    /// <inheritdoc/>
+    public override RayCaster CreateRayCaster() => RayCaster.For(Mesh);
 
     private protected override string KindName => "mesh";
 }

@@ -1,7 +1,10 @@
 using System.Collections.Immutable;
 using System.Numerics;
+using FractalEngine.Core.Collision;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Rays;
 
 namespace FractalEngine.Core.Scenes;
 
@@ -51,4 +54,16 @@ public abstract class Model
     /// <summary>Makes the model that shows a fractal.</summary>
     /// <param name="fractal">In its own frame, scene units.</param>
     public static Model Of(Fractal fractal) => new FractalModel(fractal);
+
+    /// <summary>Builds the collider of the model in its own frame.</summary>
+    /// <param name="kind">How to search; exact unless stated.</param>
+    /// <exception cref="ArgumentOutOfRangeException">There is no such kind.</exception>
+    /// <exception cref="ColliderMismatchException">The kind does not fit; the message says which kinds do.</exception>
+    /// <exception cref="FractalLimitException">The fractal is too large for this kind, or grows beyond a double.</exception>
+    public abstract Collider CreateCollider(ColliderKind kind = ColliderKind.Exact);
+
+    /// <summary>Makes the caster of rays at the model in its own frame.</summary>
+    /// <exception cref="FractalLimitException">A fractal can't be prepared, see <see cref="RayCaster.For(Fractal)"/>.</exception>
+    /// <exception cref="SingularMatrixException">A map of the fractal has no inverse.</exception>
+    public abstract RayCaster CreateRayCaster();
 }

@@ -1,4 +1,5 @@
 using System.Runtime.CompilerServices;
+using FractalEngine.Core.Collision;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
@@ -41,6 +42,23 @@ public sealed class PlacedModel
 
     /// <summary>A box that holds the object in world space; as tight as the model's own.</summary>
     public BoundingBox Bounds => (_bounds ??= new(ComputeWorldBounds(Declaration, ObjectToWorld, Model))).Value;
+
+    /// <summary>Builds the collider of the object in world space, whatever its matrix.</summary>
+    /// <param name="kind">How to search; exact unless stated.</param>
+    /// <exception cref="ArgumentOutOfRangeException">There is no such kind.</exception>
+    /// <exception cref="ColliderMismatchException">The kind does not fit the model; the message says which kinds do.</exception>
+    /// <exception cref="FractalLimitException">The fractal is too large for this kind, or grows beyond a double.</exception>
+    public Collider CreateCollider(ColliderKind kind = ColliderKind.Exact)
+    {
+        ColliderFactory.ThrowIfUnknown(kind);
+        return Model switch
+        {
+            FractalModel { Fractal: { Description.Composition: Composition.Affine } fractal } =>
+                Collider.For(fractal.WithPlacement(Declaration.Placement), kind),
+            FractalModel { Fractal: var fractal } => ColliderFactory.CreateExpanded(fractal, ObjectToWorld, kind),
+            _ => Collider.For(FractalGenerator.Flatten(Model.Mesh, [ObjectToWorld]), kind),
+        };
+    }
 
     private static BoundingBox ComputeWorldBounds(SceneObject declaration, AffineMap objectToWorld, Model model) => model switch
     {

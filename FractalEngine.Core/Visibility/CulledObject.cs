@@ -1,5 +1,4 @@
 using System.Collections.Immutable;
-using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 
@@ -18,7 +17,7 @@ public sealed record CulledObject(LodHierarchy Hierarchy, AffineMap ObjectToWorl
 {
     /// <summary>The sub-fractals to draw instead of the whole fractal under <see cref="ObjectToWorld"/>.</summary>
     /// <remarks>
-    /// For a camera whose position is given relative to a sub-fractal (<see cref="FractalAddress"/>). The camera position of the view is
+    /// For a camera whose position is given relative to a sub-fractal (<c>FractalAddress</c>). The camera position of the view is
     /// then not used.
     /// </remarks>
     public ImmutableArray<LodRoot>? Roots { get; init; }

@@ -16,7 +16,7 @@ public sealed record CullingSettings
     /// <summary>Whether pixels have several samples; occlusion is then tracked for quarters of pixels.</summary>
     public bool IsMultisampled { get; init; }
 
-    /// <summary>Whether instances come with the part of the sky that they see, where <see cref="LodHierarchy.BakeSkyMasks"/> ran.</summary>
+    /// <summary>Whether instances come with the part of the sky that they see, where <c>SkyMaskBaker.Bake</c> ran.</summary>
     public bool SkyVisibility { get; init; }
 
     /// <summary>Maximum number of instances of a frame, kept by raising <see cref="MinProjectedSize"/>.</summary>

@@ -13,7 +13,6 @@ public sealed class LodHierarchy
 {
     private readonly LodNode[] _nodes;
     private readonly LevelRegion[] _regions;
-    private readonly Lock _bakeLock = new();
     private SkySides? _sides;
     private VisibleSides? _visibleSides;
     private SkyMasks?[] _lastSkyMasks = [];
@@ -65,22 +64,25 @@ public sealed class LodHierarchy
             IsSkyBaked = true,
         };
 
-    /// <summary>Whether it is known what the parts of the fractal leave of each other's sky: see <see cref="BakeSkyMasks"/>.</summary>
+    /// <summary>Whether it is known what the parts of the fractal leave of each other's sky: see <c>SkyMaskBaker.Bake</c>.</summary>
     public bool HasSkyMasks
     {
         get => _hasSkyMasks;
-        private set => _hasSkyMasks = value;
+        internal set => _hasSkyMasks = value;
     }
 
-    /// <summary>Whether <see cref="BakeSkyMasks"/> has nothing more to do.</summary>
+    /// <summary>Whether <c>SkyMaskBaker.Bake</c> has nothing more to do.</summary>
     public bool IsSkyBaked
     {
         get => _isSkyBaked;
-        private set => _isSkyBaked = value;
+        internal set => _isSkyBaked = value;
     }
 
+    /// <summary>Is held while masks are computed: two preparations of a scene may share the hierarchy.</summary>
+    internal Lock BakeLock { get; } = new();
+
     /// <summary>
-    /// Whether no part of the fractal can hide another one's sky, so that <see cref="BakeSkyMasks"/> would find nothing: it is one part, or
+    /// Whether no part of the fractal can hide another one's sky, so that <c>SkyMaskBaker.Bake</c> would find nothing: it is one part, or
     /// lies in a plane. Costs a pass over the base mesh and the nodes; false proves nothing.
     /// </summary>
     public bool HasOpenSky() => OpenSky.IsSinglePath(_nodes) || IsFlat();
@@ -88,31 +90,11 @@ public sealed class LodHierarchy
     /// <summary>Whether all instances of the base mesh certainly lie in one plane.</summary>
     public bool IsFlat() => OpenSky.IsFlat(Mesh, _nodes);
 
-    /// <summary>Bytes of the tables that <see cref="BakeSkyMasks"/> has made.</summary>
+    /// <summary>Bytes of the tables that <c>SkyMaskBaker.Bake</c> has made.</summary>
     public int SkyMaskBytes => HasSkyMasks
         ? _nodes.Select(static node => node.SkyMasks).Concat(_lastSkyMasks).OfType<SkyMasks>().Distinct()
             .Sum(static masks => masks.ByteCount)
         : 0;
-
-    /// <summary>
-    /// Computes what the parts of the fractal leave of each other's sky, unless that is known, or no use. Takes up to two seconds, on any
-    /// one thread; culling may go on meanwhile.
-    /// </summary>
-    /// <param name="windingSign">As in <see cref="CulledObject.WindingSign"/>.</param>
-    /// <param name="cancellation">Ends the work early.</param>
-    /// <exception cref="OperationCanceledException">The work was cancelled.</exception>
-    public void BakeSkyMasks(int windingSign, CancellationToken cancellation = default)
-    {
-        // Two preparations of a scene may share the hierarchy.
-        lock (_bakeLock)
-        {
-            if (!IsSkyBaked)
-            {
-                HasSkyMasks = SkyMaskBaker.TryBake(this, windingSign, cancellation: cancellation);
-                IsSkyBaked = true;
-            }
-        }
-    }
 
     /// <summary>Sets the masks of the last levels: they end in the base mesh, unlike others with the same node.</summary>
     internal void SetLastSkyMasks(SkyMasks?[] masks) => _lastSkyMasks = masks;

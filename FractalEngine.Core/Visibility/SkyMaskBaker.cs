@@ -4,8 +4,8 @@ using BitOperations = System.Numerics.BitOperations;
 
 namespace FractalEngine.Core.Visibility;
 
-/// <summary>Computes the <see cref="SkyMasks"/> of a hierarchy by casting rays from the surface of each child at its siblings.</summary>
-internal sealed class SkyMaskBaker
+/// <summary>Computes what the parts of a fractal leave of each other's sky: rays are cast from each part at its siblings.</summary>
+public sealed class SkyMaskBaker
 {
     // From so many remaining levels on, levels with the same maps look alike.
     private const long SettledLevels = 4;
@@ -44,13 +44,36 @@ internal sealed class SkyMaskBaker
         _hierarchy = hierarchy;
     }
 
-    /// <summary>Gives the nodes of a hierarchy their masks, where these come close to the truth.</summary>
+    /// <summary>
+    /// Computes what the parts of a fractal leave of each other's sky, unless that is known, or no use. Takes up to two seconds, on any one
+    /// thread; culling may go on meanwhile.
+    /// </summary>
+    /// <param name="hierarchy">Receives the result.</param>
+    /// <param name="windingSign">
+    /// 1 where the base mesh is a closed solid wound outwards, −1 inwards, so that nothing is seen from inside; 0 where that is unknown.
+    /// </param>
+    /// <param name="cancellation">Ends the work early.</param>
+    /// <exception cref="OperationCanceledException">The work was cancelled.</exception>
+    public static void Bake(LodHierarchy hierarchy, int windingSign, CancellationToken cancellation = default)
+    {
+        ArgumentNullException.ThrowIfNull(hierarchy);
+        lock (hierarchy.BakeLock)
+        {
+            if (!hierarchy.IsSkyBaked)
+            {
+                hierarchy.HasSkyMasks = TryBake(hierarchy, windingSign, cancellation: cancellation);
+                hierarchy.IsSkyBaked = true;
+            }
+        }
+    }
+
+    /// <summary>Gives the nodes of a hierarchy their <see cref="SkyMasks"/>, where these come close to the truth.</summary>
     /// <param name="hierarchy">Hierarchy of a fractal; that of a mesh needs none.</param>
-    /// <param name="windingSign">As in <see cref="CulledObject.WindingSign"/>.</param>
+    /// <param name="windingSign">As for <see cref="Bake(LodHierarchy, int, CancellationToken)"/>.</param>
     /// <param name="keepsAll">Whether masks stay that do not pay.</param>
     /// <param name="cancellation">Ends the work early.</param>
     /// <returns>False where the hierarchy has no masks.</returns>
-    public static bool TryBake(LodHierarchy hierarchy, int windingSign, bool keepsAll = false, CancellationToken cancellation = default)
+    internal static bool TryBake(LodHierarchy hierarchy, int windingSign, bool keepsAll = false, CancellationToken cancellation = default)
     {
         if (hierarchy.Mesh.FaceCount is 0 or > OccluderMesh.MaxFaceCount)
         {

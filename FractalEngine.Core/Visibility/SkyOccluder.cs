@@ -30,7 +30,9 @@ internal sealed class SkyOccluder
 
     /// <summary>Collects the nodes that are reached from the whole.</summary>
     /// <param name="hierarchy">Hierarchy of a fractal whose base mesh has few triangles.</param>
-    /// <param name="windingSign">As in <see cref="CulledObject.WindingSign"/>.</param>
+    /// <param name="windingSign">
+    /// 1 where the base mesh is a closed solid wound outwards, −1 inwards, so that nothing is seen from inside; 0 where that is unknown.
+    /// </param>
     public SkyOccluder(LodHierarchy hierarchy, int windingSign)
     {
         _hierarchy = hierarchy;

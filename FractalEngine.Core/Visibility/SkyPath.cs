@@ -1,15 +1,8 @@
-using FractalEngine.Core.Maths;
-using BitOperations = System.Numerics.BitOperations;
-
 namespace FractalEngine.Core.Visibility;
 
 /// <summary>The children that lead to the current node, and what they leave of the sky.</summary>
 internal sealed class SkyPath
 {
-    // Up to so many times the size of a proxy, in pixels, what an instance shows is mainly of the three sides that face the eye.
-    private const double MaxSmallSize = 6;
-    private const int FacingCount = 3;
-
     private SkyStep[] _steps = new SkyStep[16];
 
     /// <summary>Stores the step from a node to its child at a depth; deeper ones no longer count.</summary>
@@ -29,47 +22,6 @@ internal sealed class SkyPath
         for (var i = 0; i < steps.Count; i++)
         {
             Set(i, steps[i]);
-        }
-    }
-
-    /// <summary>Computes the parts of an instance that is drawn at the end of the path, for the sides that matter there.</summary>
-    /// <param name="context">The strip.</param>
-    /// <param name="instance">The instance.</param>
-    /// <param name="meshToView">Map of its base mesh to view space.</param>
-    /// <param name="footprint">What it covers.</param>
-    /// <param name="parts">As for <see cref="ComputeParts"/>.</param>
-    public void AddParts(
-        in StripContext context, in LodInstance instance, in SimdAffineMap meshToView, in Footprint footprint, Span<float> parts)
-    {
-        ref readonly var frame = ref context.Frame;
-        var visibleSides = context.Hierarchy.VisibleSides;
-        // Of what is transparent or cut, inner sides are seen as well.
-        var showsOuterSides = context.CanOcclude && footprint is { IsBeyondNearPlane: true, IsSectioned: false };
-        var visible = visibleSides.FindVisible(
-            in meshToView, frame.IsPerspective, frame.IsMirrored, showsOuterSides ? context.WindingSign : 0);
-        var isSmall = footprint.IsBeyondNearPlane && footprint.ProjectedSize <= MaxSmallSize * frame.MinProjectedSize;
-        var sides = isSmall && BitOperations.PopCount((uint)visible) > FacingCount
-            ? visible & visibleSides.FindFacing(in meshToView, frame.IsPerspective)
-            : visible;
-        ComputeParts(context.Hierarchy, instance.Node, instance.Depth, sides, parts);
-        if (sides != visible)
-        {
-            FillRest(sides, parts);
-        }
-    }
-
-    /// <summary>Gives sides that don't count the mean of those that do.</summary>
-    private static void FillRest(int sides, Span<float> parts)
-    {
-        var sum = 0f;
-        for (var side = 0; side < SkySides.Count; side++)
-        {
-            sum += (sides & (1 << side)) != 0 ? parts[side] : 0;
-        }
-
-        for (var side = 0; side < SkySides.Count; side++)
-        {
-            parts[side] = (sides & (1 << side)) != 0 ? parts[side] : sum / BitOperations.PopCount((uint)sides);
         }
     }
 

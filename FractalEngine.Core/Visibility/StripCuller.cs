@@ -307,7 +307,7 @@ internal sealed class StripCuller
 
         if (context.HasSkyParts)
         {
-            _skyPath.AddParts(in context, in instance, in instanceToView, in footprint, instances.LastSkyParts());
+            InstanceSky.ComputeParts(_skyPath, in context, in instance, in instanceToView, in footprint, instances.LastSkyParts());
         }
     }
 }

@@ -9,8 +9,8 @@ namespace FractalEngine.Core.Visibility;
 /// </summary>
 /// <remarks>
 /// This is where frustum culling of fractals and static meshes happens: a box outside the frustum has the footprint
-/// <see cref="Footprint.Outside"/>, which <see cref="StripCuller"/> skips. Meshes that physics moves are tested by the renderer, one box
-/// for each object.
+/// <see cref="Footprint.Outside"/>, which culling skips. Meshes that physics moves are tested by the renderer, one box for each
+/// object.
 /// Pixels are those of the occlusion buffer: two by two for each pixel of the frame where pixels have several samples. Columns and rows
 /// are counted from the upper left corner of the frame.
 /// </remarks>

@@ -55,7 +55,7 @@ internal sealed class VisibleSides
     /// <param name="isPerspective">False where all rays are parallel to z.</param>
     /// <param name="isMirroredView">Whether the map from view space to world space changes the handedness.</param>
     /// <param name="windingSign">
-    /// As in <see cref="CulledObject.WindingSign"/>: 1 or −1 where only the outer sides of faces are seen, otherwise 0.
+    /// 1 where the mesh is a closed solid wound outwards, −1 inwards, so that only the outer sides of its faces are seen; otherwise 0.
     /// </param>
     public int FindVisible(in SimdAffineMap meshToView, bool isPerspective, bool isMirroredView, int windingSign)
     {

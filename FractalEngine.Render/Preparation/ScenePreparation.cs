@@ -1,5 +1,6 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Visibility;
 using FractalEngine.Render.Passes;
 
 namespace FractalEngine.Render.Preparation;
@@ -92,7 +93,7 @@ public sealed class ScenePreparation
         {
             if (NeedsBaking(model))
             {
-                model!.LodHierarchy!.BakeSkyMasks(model.MeshWindingSign, cancellation);
+                SkyMaskBaker.Bake(model!.LodHierarchy!, model.MeshWindingSign, cancellation);
             }
         }
     }

@@ -159,7 +159,7 @@ public sealed class PathTracer
     /// <param name="cancellation">Cancels between two rows; rows then differ by a sample.</param>
     /// <exception cref="OperationCanceledException">The samples were cancelled.</exception>
     /// <exception cref="FractalLimitException">
-    /// A model can't be prepared, see <see cref="RayCaster.For(Model)"/>; or paths take more than
+    /// A model can't be prepared, see <see cref="RayCaster.For(Fractal)"/>; or paths take more than
     /// <see cref="FractalLimits.MaxTracedTests"/>.
     /// </exception>
     public void AddSample(int? threads = null, TaskScheduler? scheduler = null, CancellationToken cancellation = default)

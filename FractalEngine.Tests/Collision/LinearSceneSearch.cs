@@ -8,7 +8,7 @@ namespace FractalEngine.Tests.Collision;
 internal sealed class LinearSceneSearch(IReadOnlyList<PlacedModel> objects, ColliderKind kind)
 {
     private readonly Dictionary<Model, Collider> _colliders =
-        objects.Select(placed => placed.Model).Distinct().ToDictionary(model => model, model => Collider.For(model, kind));
+        objects.Select(placed => placed.Model).Distinct().ToDictionary(model => model, model => model.CreateCollider(kind));
 
     public bool TryFindClosest(
         Vector position, double maxDistance, QueryContext context, out ClosestPoint closest, out int objectIndex, int excludedObject = -1,

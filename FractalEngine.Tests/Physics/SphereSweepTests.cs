@@ -173,7 +173,7 @@ public sealed class SphereSweepTests
             var grid = new BodyGrid();
             grid.Build(bodies);
             Obstacles = new(bodies, new NearbyBodies(grid, bodies), new QueryContext(), new KinematicSet());
-            var statics = new StaticObjectSet(null);
+            var statics = new StaticObjectSet(new(), new(), static _ => { }, null);
             if (mesh is not null)
             {
                 statics.Add(new PhysicsWorld().AddStatic(mesh));

@@ -208,7 +208,6 @@ public class RayCasterLimitTests
     {
         Assert.Throws<ArgumentNullException>(() => RayCaster.For((Mesh)null!));
         Assert.Throws<ArgumentNullException>(() => RayCaster.For((Fractal)null!));
-        Assert.Throws<ArgumentNullException>(() => RayCaster.For((Model)null!));
     }
 
     [Fact]
@@ -289,7 +288,7 @@ public class RayCasterLimitTests
         {
             "mesh" => RayCaster.For(mesh),
             "fractal" => RayCaster.For(fractal),
-            _ => RayCaster.For(Model.Of(fractal)),
+            _ => Model.Of(fractal).CreateRayCaster(),
         };
     }
 }

@@ -47,7 +47,7 @@ public class QueryRecordTests
         Collider collider;
         try
         {
-            collider = Collider.For(shape.Model);
+            collider = shape.Model.CreateCollider();
         }
         catch (FractalEngineException exception)
         {

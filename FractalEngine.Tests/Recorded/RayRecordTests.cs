@@ -34,7 +34,7 @@ public class RayRecordTests
         RayCaster caster;
         try
         {
-            caster = RayCaster.For(shape.Model);
+            caster = shape.Model.CreateRayCaster();
         }
         catch (FractalEngineException exception)
         {

@@ -26,7 +26,7 @@ public sealed class RendererTests
     public void Draw_SceneMadeInCode_IsThatOfTheRenderersBehindIt()
     {
         using var renderer = Open();
-        var camera = Camera.Framing(Sponge);
+        var camera = CameraFraming.Default(Sponge);
         var view = View.Of(LoadedScene.Of(Sponge), (double)Width / Height, camera);
         var image = renderer.Draw(Sponge, camera);
         Assert.Equal((Width, Height), (image.Width, image.Height));
@@ -38,7 +38,7 @@ public sealed class RendererTests
     public void Draw_WithoutACamera_FramesTheScene()
     {
         using var renderer = Open();
-        var expected = renderer.Draw(Sponge, Camera.Framing(Sponge, (double)Width / Height));
+        var expected = renderer.Draw(Sponge, CameraFraming.Default(Sponge, (double)Width / Height));
         Assert.Equal(expected.Pixels, renderer.Draw(Sponge).Pixels);
         Assert.Equal(expected.Pixels, renderer.Draw(LoadedScene.Of(Sponge)).Pixels);
     }
@@ -50,7 +50,7 @@ public sealed class RendererTests
         var camera = new Camera(new(0, 0, -6), Vector.Zero, 40);
         var scene = Sponge with { Camera = camera };
         Assert.Equal(renderer.Draw(Sponge, camera).Pixels, renderer.Draw(scene).Pixels);
-        Assert.NotEqual(renderer.Draw(scene).Pixels, renderer.Draw(scene, Camera.Framing(scene)).Pixels);
+        Assert.NotEqual(renderer.Draw(scene).Pixels, renderer.Draw(scene, CameraFraming.Default(scene)).Pixels);
     }
 
     [SkippableFact]
@@ -98,7 +98,7 @@ public sealed class RendererTests
     {
         using var folder = new TemporaryFolder();
         using var renderer = Open();
-        var image = renderer.Draw(Sponge, Camera.Framing(Sponge));
+        var image = renderer.Draw(Sponge, CameraFraming.Default(Sponge));
         image.SavePng(folder["sponge.png"]);
         Assert.Equal(image.Pixels, ImageFile.Load(folder["sponge.png"]).Pixels);
     }

@@ -27,7 +27,7 @@ public class SkyVisibilityTests
         var fractal = Fractal.Of(Shapes.Cube())
             .Repeat([Map(0.3, 0, 0), Map(0, 0, 0.3), Map(0, 0.3, 0), Map(0.3, 0.3, 0)], 60);
         var hierarchy = LodHierarchy.Build(fractal);
-        ProcessorTime.RunWithin(10, () => hierarchy.BakeSkyMasks(1));
+        ProcessorTime.RunWithin(10, () => SkyMaskBaker.Bake(hierarchy, 1));
         Assert.False(hierarchy.HasSkyMasks);
     }
 
@@ -42,7 +42,7 @@ public class SkyVisibilityTests
         var pair = new Repetition([new TransformationSet([Move(-2, 0, 0), new(new(2, 0, 0), new(0, 30, 0), Vector.One)])], 1);
         var chain = new Repetition([new TransformationSet([new(Vector.Zero, new(0, 180, 0), scale * Vector.One)])], depth);
         var hierarchy = LodHierarchy.Build(new Fractal(new FractalDescription([pair, chain], Composition.Affine), RenderScenes.Cube(1)));
-        ProcessorTime.RunWithin(10, () => hierarchy.BakeSkyMasks(1));
+        ProcessorTime.RunWithin(10, () => SkyMaskBaker.Bake(hierarchy, 1));
         Assert.True(hierarchy.IsSkyBaked);
     }
 
@@ -154,7 +154,7 @@ public class SkyVisibilityTests
         var fractal = Fractal.Of(Shapes.Cube())
             .Repeat([Pillar(-0.5, -0.5, s1), Pillar(0.5, -0.5, s2), Pillar(-0.5, 0.5, s3), Pillar(0.5, 0.5, s4)], 5);
         var hierarchy = LodHierarchy.Build(fractal);
-        hierarchy.BakeSkyMasks(1);
+        SkyMaskBaker.Bake(hierarchy, 1);
         var occluder = new SkyOccluder(hierarchy, 1);
         var (node, levels) = occluder.Nodes[0];
         var (random, sample, path, parts) = (new Random(1), new SkySample(), new SkyPath(), new float[SkySides.Count]);
@@ -186,7 +186,7 @@ public class SkyVisibilityTests
     public void Masks_OfADeepFractal_AreShared()
     {
         var hierarchy = LodHierarchy.Build(AssetFractals.Load("menger", 12));
-        hierarchy.BakeSkyMasks(1);
+        SkyMaskBaker.Bake(hierarchy, 1);
         Assert.True(hierarchy.HasSkyMasks);
         Assert.Same(hierarchy.NodeAt(12).SkyMasks, hierarchy.NodeAt(5).SkyMasks);
         Assert.InRange(hierarchy.SkyMaskBytes, 1, 500_000);
@@ -197,8 +197,8 @@ public class SkyVisibilityTests
     {
         var fractal = AssetFractals.Load("romanesco", 2);
         var (first, second) = (LodHierarchy.Build(fractal), LodHierarchy.Build(fractal));
-        first.BakeSkyMasks(1);
-        second.BakeSkyMasks(1);
+        SkyMaskBaker.Bake(first, 1);
+        SkyMaskBaker.Bake(second, 1);
         var root = first.NodeAt(first.LevelCount);
         var (parts1, parts2) = (new float[SkySides.Count], new float[SkySides.Count]);
         var path = new SkyPath();
@@ -218,7 +218,7 @@ public class SkyVisibilityTests
         // Two small cubes far apart: masks would tell nothing.
         var fractal = CubesAt([Move(0, 0, 0), Move(500, 0, 0)]);
         var hierarchy = LodHierarchy.Build(fractal);
-        hierarchy.BakeSkyMasks(1);
+        SkyMaskBaker.Bake(hierarchy, 1);
         Assert.Equal((true, false, 0), (hierarchy.IsSkyBaked, hierarchy.HasSkyMasks, hierarchy.SkyMaskBytes));
     }
 
@@ -230,7 +230,7 @@ public class SkyVisibilityTests
         Assert.False(SquaresAt(Move(0, 0, 0), new(new(3, 0, 0), new(0, 1, 0), Vector.One)).HasOpenSky());
         Assert.False(SquaresAt(Move(0, 0, 0), Move(3, 0, 1e-3)).HasOpenSky());
         var flat = SquaresAt(Move(0, 0, 0), Move(3, 0, 0));
-        flat.BakeSkyMasks(0);
+        SkyMaskBaker.Bake(flat, 0);
         Assert.False(flat.HasSkyMasks);
         // A single cube, however often its only map is applied.
         Assert.True(LodHierarchy.Build(CubesAt([Move(0, 1, 0)])).HasOpenSky());
@@ -241,9 +241,9 @@ public class SkyVisibilityTests
     public void Bake_Cancelled_LeavesNothingAndCanBeRepeated()
     {
         var hierarchy = LodHierarchy.Build(AssetFractals.Load("menger", 3));
-        Assert.ThrowsAny<OperationCanceledException>(() => hierarchy.BakeSkyMasks(1, new(canceled: true)));
+        Assert.ThrowsAny<OperationCanceledException>(() => SkyMaskBaker.Bake(hierarchy, 1, new(canceled: true)));
         Assert.Equal((false, false), (hierarchy.IsSkyBaked, hierarchy.HasSkyMasks));
-        hierarchy.BakeSkyMasks(1);
+        SkyMaskBaker.Bake(hierarchy, 1);
         Assert.True(hierarchy.HasSkyMasks);
     }
 

@@ -25,7 +25,8 @@ internal sealed class CharacterCapsule
     // Of the radius: a shorter move counts as none, so that a standing character stands.
     private const double MinMoveFraction = 1e-7;
 
-    private readonly PhysicsWorld _world;
+    private readonly List<Body> _bodies;
+    private readonly SleepIslands _islands;
     private readonly Obstacles _obstacles;
     private readonly Player _player;
     private readonly SphereSweep _sweep;
@@ -35,15 +36,16 @@ internal sealed class CharacterCapsule
     private Vector[] _sphereOffsets = [];
     private bool _isOverlapResolved;
 
-    public CharacterCapsule(PhysicsWorld world, Obstacles obstacles, Player player)
+    public CharacterCapsule(List<Body> bodies, SleepIslands islands, Obstacles obstacles, Player player, Vector gravity)
     {
-        _world = world;
+        _bodies = bodies;
+        _islands = islands;
         _obstacles = obstacles;
         _player = player;
         _sweep = new(obstacles);
         _overlapResolver = new(obstacles);
         MinGroundCosine = Math.Cos(player.MaxSlopeAngle * Math.PI / 180);
-        AlignWithGravity();
+        AlignWithGravity(gravity);
     }
 
     /// <summary>Position of the capsule's centre, world space.</summary>
@@ -67,10 +69,10 @@ internal sealed class CharacterCapsule
     /// <summary>Number of planes that velocities are projected onto, see <see cref="ProjectVelocity"/>.</summary>
     public int PlaneCount => _planes.Count;
 
-    /// <summary>Turns the capsule's axis against the world's gravity; without gravity it is the y-axis.</summary>
-    public void AlignWithGravity()
+    /// <summary>Turns the capsule's axis against gravity; without gravity it is the y-axis.</summary>
+    public void AlignWithGravity(Vector gravity)
     {
-        Up = _world.Gravity == Vector.Zero ? Vector.J : -_world.Gravity.UnitVector();
+        Up = gravity == Vector.Zero ? Vector.J : -gravity.UnitVector();
         var halfSegment = (0.5 * _player.Height) - _player.Radius;
         var intervalCount = (int)Math.Ceiling(2 * halfSegment / (SphereSpacing * _player.Radius));
         _sphereOffsets = new Vector[intervalCount + 1];
@@ -90,11 +92,12 @@ internal sealed class CharacterCapsule
     }
 
     /// <summary>Prepares a step: sets up the obstacles, and resolves an overlap.</summary>
+    /// <param name="colliders">What stands in the way; null for nothing.</param>
     /// <param name="searchMargin">How much farther queries search than asked, so that the next steps need none.</param>
     /// <returns>False where the capsule is closed in.</returns>
-    public bool TryBeginStep(double searchMargin)
+    public bool TryBeginStep(StaticColliders? colliders, double searchMargin)
     {
-        _world.PrepareObstacles(_sphereOffsets, _player.Radius, _safeDistance, searchMargin);
+        _obstacles.SetMover(colliders, _sphereOffsets, _player.Radius, _safeDistance, searchMargin);
         _sweep.ResetStepBudget();
         // What moves may have come to overlap the capsule.
         if (!_isOverlapResolved || _obstacles.TryFindNearKinematic(Position, -MaxKinematicOverlap * _player.Radius, out _))
@@ -186,7 +189,7 @@ internal sealed class CharacterCapsule
 
         var belt = contact.SurfaceVelocity(Position) - ground.VelocityAt(contact.Point);
         var reference = ground.ToReference(Position);
-        _world.SetKinematicTime(stepLength);
+        _obstacles.Time = stepLength;
         Position = ground.ToWorld(reference) + (stepLength * belt);
         _safeDistance.Invalidate();
         return stepLength * Vector.Dot(ground.AngularVelocity, Up);
@@ -216,11 +219,11 @@ internal sealed class CharacterCapsule
             return;
         }
 
-        var body = _world.Bodies[contact.BodyIndex];
+        var body = _bodies[contact.BodyIndex];
         var approachSpeed = Vector.Dot(velocity - body.Velocity, normal);
         if (approachSpeed < 0)
         {
-            _world.SetVelocity(body, body.Velocity + (approachSpeed * normal));
+            _islands.SetVelocity(body, body.Velocity + (approachSpeed * normal));
         }
     }
 
@@ -229,7 +232,7 @@ internal sealed class CharacterCapsule
     {
         foreach (var sphereOffset in _sphereOffsets)
         {
-            _world.WakeOverlapping(position + sphereOffset, _player.Radius);
+            _islands.WakeOverlapping(position + sphereOffset, _player.Radius);
         }
     }
 }

@@ -5,8 +5,8 @@ using FractalEngine.Core.Scenes;
 namespace FractalEngine.Core.Physics.Character;
 
 /// <summary>
-/// A character that walks: a capsule that slides along walls, climbs slopes and steps, and jumps. Owned by a <see cref="PhysicsWorld"/>,
-/// which moves it in each step while it <see cref="IsActive"/>.
+/// A character that walks: a capsule that slides along walls, climbs slopes and steps, and jumps. Owned by a world, which moves it in each
+/// step while it <see cref="IsActive"/>.
 /// </summary>
 /// <remarks>The capsule is a row of spheres half a radius apart: between them it is 3 % of the radius thinner.</remarks>
 public sealed class CharacterController
@@ -14,7 +14,6 @@ public sealed class CharacterController
     // Seconds for which a jump waits for ground.
     private const double JumpBufferTime = 0.1;
 
-    private readonly PhysicsWorld _world;
     private readonly CharacterCapsule _capsule;
     private readonly GroundMovement _groundMovement;
     private readonly AirMovement _airMovement;
@@ -23,14 +22,15 @@ public sealed class CharacterController
     private bool _isActive;
 
     /// <summary>Creates a character at the position of its description, not active.</summary>
-    /// <param name="world">The world that it walks in.</param>
+    /// <param name="bodies">The world's bodies.</param>
+    /// <param name="islands">Wakes those that the character touches.</param>
     /// <param name="obstacles">The world's obstacles, which are set up anew in each step.</param>
     /// <param name="player">Already validated.</param>
-    internal CharacterController(PhysicsWorld world, Obstacles obstacles, Player player)
+    /// <param name="gravity">Units per second².</param>
+    internal CharacterController(List<Body> bodies, SleepIslands islands, Obstacles obstacles, Player player, Vector gravity)
     {
-        _world = world;
         Description = player;
-        _capsule = new(world, obstacles, player);
+        _capsule = new(bodies, islands, obstacles, player, gravity);
         _groundMovement = new(_capsule, player.StepHeight);
         _airMovement = new(_capsule);
         Reset();
@@ -125,8 +125,8 @@ public sealed class CharacterController
         IsActive = other.IsActive;
     }
 
-    /// <summary>Turns the capsule against the world's gravity.</summary>
-    internal void AlignWithGravity() => _capsule.AlignWithGravity();
+    /// <summary>Turns the capsule against gravity.</summary>
+    internal void AlignWithGravity(Vector gravity) => _capsule.AlignWithGravity(gravity);
 
     /// <summary>Discards what is known of surfaces, and lets the next step check for overlaps.</summary>
     internal void InvalidateSurroundings() => _capsule.InvalidateSurroundings();
@@ -150,12 +150,14 @@ public sealed class CharacterController
     }
 
     /// <summary>Moves the character through one step, or a part of one.</summary>
+    /// <param name="colliders">What stands in the way; null for nothing.</param>
+    /// <param name="gravity">Units per second².</param>
     /// <param name="stepLength">Seconds, positive.</param>
-    internal void Step(double stepLength)
+    internal void Step(StaticColliders? colliders, Vector gravity, double stepLength)
     {
         var speed = Math.Max(Description.WalkingSpeed, Velocity.Length());
         var previousPosition = _positionBeforeCarry;
-        if (!_capsule.TryBeginStep((2 * stepLength * speed) + Description.StepHeight))
+        if (!_capsule.TryBeginStep(colliders, (2 * stepLength * speed) + Description.StepHeight))
         {
             Velocity = Vector.Zero;
             return;
@@ -175,9 +177,9 @@ public sealed class CharacterController
         {
             // A jump from a lift begins with its speed; below a walker, ground that falls away takes none along.
             var liftSpeed = isJumping ? Math.Max(0, Vector.Dot(Position - previousPosition, Up) / stepLength) : 0;
-            var speedUpwards = isJumping ? Description.JumpSpeed(_world.Gravity.Length()) + liftSpeed : Vector.Dot(Velocity, Up);
+            var speedUpwards = isJumping ? Description.JumpSpeed(gravity.Length()) + liftSpeed : Vector.Dot(Velocity, Up);
             _capsule.ForgetGround();
-            Velocity = _airMovement.Fly(desiredVelocity + (speedUpwards * Up), _world.Gravity, stepLength, out isGrounded);
+            Velocity = _airMovement.Fly(desiredVelocity + (speedUpwards * Up), gravity, stepLength, out isGrounded);
         }
 
         IsGrounded = isGrounded;

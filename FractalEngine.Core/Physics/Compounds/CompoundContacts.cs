@@ -113,7 +113,7 @@ internal sealed class CompoundContacts(Obstacles obstacles)
         for (var i = 0; i < body.Balls.Length; i++)
         {
             var centre = Select(body, i);
-            body.Balls[i].Contacts.UpdateAfterMove(centre, obstacles.ContactSlop(centre), obstacles);
+            obstacles.UpdateAfterMove(body.Balls[i].Contacts, centre);
             body.Balls[i].Contacts.RemoveDuplicates(centre);
         }
     }

@@ -2,7 +2,7 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Physics.Events;
 
-/// <summary>A contact of a body in the last step, or its end; see <see cref="PhysicsWorld.ContactEvents"/>.</summary>
+/// <summary>A contact of a body in the last step, or its end; see <c>PhysicsWorld.ContactEvents</c>.</summary>
 /// <param name="Phase">Whether the contact begins, stays or ends.</param>
 /// <param name="Body">The body that touches; of two bodies the one with the lower index.</param>
 /// <param name="OtherBody">The other body; null for a surface.</param>

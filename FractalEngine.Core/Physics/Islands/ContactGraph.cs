@@ -184,6 +184,25 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
         _fillPart ??= FillPart;
     }
 
+    /// <summary>Puts islands to sleep whose bodies have all rested for some time.</summary>
+    /// <param name="timeBeforeSleep">Seconds for which they must rest.</param>
+    public void PutToSleep(double timeBeforeSleep)
+    {
+        foreach (var island in Islands)
+        {
+            var isResting = true;
+            foreach (var index in BodiesOf(in island))
+            {
+                isResting &= bodies[index].SleepTimer > 0 && bodies[index].SleepTimer >= timeBeforeSleep;
+            }
+
+            foreach (var index in isResting ? BodiesOf(in island) : [])
+            {
+                bodies[index].Sleep();
+            }
+        }
+    }
+
     /// <summary>Makes room for the bodies of a world and their contacts, and makes what threads run.</summary>
     public void Reserve(int bodyCount, int contactCount)
     {

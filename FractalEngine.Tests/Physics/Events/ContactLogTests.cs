@@ -10,7 +10,7 @@ public sealed class ContactLogTests
 {
     private readonly List<Body> _bodies = [.. Enumerable.Range(0, 4).Select(static i => new Body(new(new(i, 0, 0), 0.5), i, Vector.Zero))];
     private readonly PhysicsWorld _world = new();
-    private readonly StaticObjectSet _statics = new(null);
+    private readonly StaticObjectSet _statics = new(new(), new(), static _ => { }, null);
     private readonly ContactLog _log;
 
     public ContactLogTests()

@@ -1,4 +1,0 @@
-using System.Runtime.CompilerServices;
-
-[assembly: InternalsVisibleTo("FractalEngine.Tests")]
-[assembly: InternalsVisibleTo("FractalEngine.Benchmarks")]
