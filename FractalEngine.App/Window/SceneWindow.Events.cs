@@ -1,3 +1,4 @@
+using FractalEngine.App.Window.Actions;
 using FractalEngine.Render.Windowing;
 
 namespace FractalEngine.App.Window;
@@ -108,7 +109,8 @@ internal sealed partial class SceneWindow
                 break;
         }
 
-        if (Document?.Handle(windowEvent, Math.Max(1, _window.Width), Math.Max(1, _window.Height)) == true)
+        var move = windowEvent is KeyPressed key ? ActionTable.Find(key)?.MoveCamera : null;
+        if (Document?.Handle(windowEvent, Math.Max(1, _window.Width), Math.Max(1, _window.Height), move) == true)
         {
             _redraw |= Redraw.Scene;
         }
