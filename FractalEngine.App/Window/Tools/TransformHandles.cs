@@ -71,7 +71,7 @@ internal sealed class TransformHandles(WindowActions actions)
             isHeld |= handle.IsHeld;
             if (handle.IsHeld && _drag is { } drag && Moved(drag, handle, pointer) is { } placement && placement != declared.Placement)
             {
-                actions.ChangeObject(ui, index, present => present.MovedTo(placement));
+                actions.ChangeObject(index, present => present.MovedTo(placement));
             }
 
             if (handle.IsHeld && _drag is not null)
