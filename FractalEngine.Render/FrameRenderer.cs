@@ -16,9 +16,6 @@ namespace FractalEngine.Render;
 /// <remarks>The last frame is kept: presenting or reading it again draws nothing.</remarks>
 public sealed class FrameRenderer : IDisposable
 {
-    // Brightness of the bars beside the viewport, as a fraction of the background's.
-    private const double LetterboxShade = 0.45;
-
     private readonly RenderContext _context;
     private readonly LinesPass _linesPass;
     private readonly OverlayPass _overlayPass;
@@ -53,7 +50,7 @@ public sealed class FrameRenderer : IDisposable
         _context.MakeCurrent();
         _context.ApplySettings(settings);
         var target = EnsureTarget(width, height, Math.Clamp(settings.Samples, 0, _context.MaxSampleCount));
-        var frame = FrameView.Create(view, width, height, scene, settings);
+        var frame = FrameView.Create(view, width, height, scene?.ClipPlanes(view, width, height, settings));
         scene?.UpdateShadows(in frame, settings);
         target.Bind();
         Clear(view.Background ?? scene?.Scene.Source.Scene.Background ?? settings.Background, in frame, width, height);
@@ -66,7 +63,10 @@ public sealed class FrameRenderer : IDisposable
         GL.Enable(EnableCap.DepthTest);
         GL.DepthFunc(_context.HasReversedDepth ? DepthFunction.Greater : DepthFunction.Less);
         GL.FrontFace(view.Camera.Handedness == Handedness.Left ? FrontFaceDirection.Cw : FrontFaceDirection.Ccw);
-        scene.Draw(in frame, nextView is null ? null : FrameView.Create(nextView, width, height, scene, settings), settings);
+        FrameView? nextFrame = nextView is null
+            ? null
+            : FrameView.Create(nextView, width, height, scene.ClipPlanes(nextView, width, height, settings));
+        scene.Draw(in frame, nextFrame, settings);
         if (view.DeepZoom is null)
         {
             _linesPass.DrawGridAndAxes(in frame, scene.Bounds, settings);
@@ -166,7 +166,7 @@ public sealed class FrameRenderer : IDisposable
         GL.ClearDepth(_context.HasReversedDepth ? 0.0 : 1.0);
         if ((frame.Width, frame.Height) != (width, height))
         {
-            SetClearColour(LetterboxColour(background));
+            SetClearColour(RenderSettings.LetterboxColour(background));
             GL.Clear(ClearBufferMask.ColorBufferBit);
         }
 
@@ -182,9 +182,6 @@ public sealed class FrameRenderer : IDisposable
 
     private static void SetClearColour(Colour colour) =>
         GL.ClearColor((float)colour.Red, (float)colour.Green, (float)colour.Blue, 1);
-
-    internal static Colour LetterboxColour(Colour colour) =>
-        new(LetterboxShade * colour.Red, LetterboxShade * colour.Green, LetterboxShade * colour.Blue);
 
     /// <summary>Returns a framebuffer of the requested size, replacing the last one where that differs.</summary>
     private Framebuffer EnsureTarget(int width, int height, int sampleCount)

@@ -8,6 +8,9 @@ namespace FractalEngine.Render;
 /// <summary>Settings for preparing and drawing a scene, apart from what the scene itself declares.</summary>
 public sealed record RenderSettings
 {
+    // Brightness of the bars beside the viewport, as a fraction of the background's.
+    private const double LetterboxShade = 0.45;
+
     /// <summary>Settings for culling instances per frame; null to draw every instance of every fractal in every frame.</summary>
     public CullingSettings? Culling { get; init; } = new();
 
@@ -114,6 +117,10 @@ public sealed record RenderSettings
 
     /// <summary>A dark blue grey, against which both light and saturated surfaces stand out.</summary>
     public static Colour DefaultBackground => new(0.118, 0.133, 0.161);
+
+    /// <summary>Returns the colour of the bars beside the viewport.</summary>
+    internal static Colour LetterboxColour(Colour background) =>
+        new(LetterboxShade * background.Red, LetterboxShade * background.Green, LetterboxShade * background.Blue);
 
     private static T RequireNotNegative<T>(T value, string name)
         where T : INumber<T> =>

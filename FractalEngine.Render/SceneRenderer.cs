@@ -199,7 +199,7 @@ public sealed class SceneRenderer : IDisposable
     {
         Context.MakeCurrent();
         Context.ApplySettings(settings);
-        CullFrame(FrameView.Create(view, width, height, this, settings), settings);
+        CullFrame(FrameView.Create(view, width, height, ClipPlanes(view, width, height, settings)), settings);
     }
 
     /// <summary>Deletes the scene's buffers and shaders. Harmless when repeated.</summary>

@@ -65,7 +65,7 @@ is_up_to_date() {
     [ -e "$1" ] && [ -z "$(find "$root" \
         \( -name bin -o -name obj -o -name .git -o -name out -o -name assets -o -name docs \) -prune -o \
         \( -name '*.cs' -o -name '*.csproj' -o -name '*.props' -o -name '*.json' -o -name '.editorconfig' \
-        -o -name '*.vert' -o -name '*.frag' -o -name '*.glsl' -o -name '*.atlas' \) -newer "$1" -print -quit)" ]
+        -o -name '*.vert' -o -name '*.frag' -o -name '*.glsl' -o -name '*.atlas' -o -path '*/Templates/*' \) -newer "$1" -print -quit)" ]
 }
 
 # Runs a command of dotnet on a project, with further options.

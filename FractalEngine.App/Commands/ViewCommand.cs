@@ -32,9 +32,9 @@ internal static class ViewCommand
             "--trail", "N", 1, MaxTrailLength, $"Length of the trail of the paper's zoom, key T (default: {DefaultTrailLength}).");
         var noWatch = new Option<bool>("--no-watch") { Description = "Don't load files again when they change." };
         var trace = NumberOption.OptionalInteger(
-            "--trace", "SAMPLES", 1, TraceOptions.MaxSamples, ProgressiveTrace.DefaultSampleCount,
+            "--trace", "SAMPLES", 1, TraceOptions.MaxSamples, WindowOptions.DefaultTraceSampleCount,
             "Samples of each pixel of the image that is traced while the view stands still"
-            + $" (default: {ProgressiveTrace.DefaultSampleCount}).");
+            + $" (default: {WindowOptions.DefaultTraceSampleCount}).");
         var noTrace = new Option<bool>("--no-trace") { Description = "Don't trace the view while it stands still. Key Y switches." };
         command.Validators.Add(result =>
         {
@@ -60,7 +60,7 @@ internal static class ViewCommand
                 Section = draw.Section(result),
                 TrailLength = result.GetValue(trailLength) ?? DefaultTrailLength,
                 IsTraced = result.GetValue(noTrace) ? false : result.GetValue(trace) is null ? null : true,
-                TraceSampleCount = result.GetValue(trace) ?? ProgressiveTrace.DefaultSampleCount,
+                TraceSampleCount = result.GetValue(trace) ?? WindowOptions.DefaultTraceSampleCount,
                 Size = draw.Resolution(result),
                 WatchesFiles = !result.GetValue(noWatch),
                 SettingsPath = WindowSettings.DefaultPath,

@@ -1,4 +1,3 @@
-using FractalEngine.App.Window.Actions;
 using FractalEngine.Core.Maths;
 using FractalEngine.Render.Windowing;
 
@@ -38,8 +37,9 @@ internal sealed class CameraControls(FlyingCamera camera)
     /// <summary>Processes an event; events without a meaning for the camera are ignored.</summary>
     /// <param name="windowEvent">Any event of the window.</param>
     /// <param name="aspect">Width divided by height of the frame.</param>
+    /// <param name="move">Moves the camera where the event is a key of such an action; null for other events.</param>
     /// <returns>True when the view has changed.</returns>
-    public bool Handle(WindowEvent windowEvent, double aspect)
+    public bool Handle(WindowEvent windowEvent, double aspect, Action<FlyingCamera, double>? move = null)
     {
         var poseBefore = camera.Pose;
         // A letter of a command such as Ctrl+S does not move the camera, even if Ctrl is released before it.
@@ -57,7 +57,7 @@ internal sealed class CameraControls(FlyingCamera camera)
         {
             case KeyPressed pressed:
                 _modifiers = pressed.Modifiers;
-                HandleKey(pressed, aspect);
+                move?.Invoke(camera, aspect);
                 if (!pressed.IsRepeat)
                 {
                     Advance(TapDuration);
@@ -115,16 +115,6 @@ internal sealed class CameraControls(FlyingCamera camera)
             / (_modifiers.HasFlag(KeyModifiers.Alt) ? SpeedModifierFactor : 1);
         camera.Move(time.TotalSeconds * distancePerSecond * Direction.UnitVector());
         return true;
-    }
-
-    private void HandleKey(KeyPressed pressed, double aspect)
-    {
-        if (pressed.Modifiers.HasFlag(KeyModifiers.Control))
-        {
-            return;
-        }
-
-        ActionTable.Find(pressed)?.MoveCamera?.Invoke(camera, aspect);
     }
 
     /// <summary>Zooms to what is under the pointer, or to the middle of the frame where the pointer is unknown.</summary>

@@ -48,7 +48,7 @@ internal sealed partial class Document
     {
         var lines = Tool.WorldLines();
         Section.AddLines(File.Scene.Bounds, lines);
-        TransformHandles.AddLines(this, view, lines);
+        HandleLines.AddLines(this, view, lines);
         lines.AddRange(Renderer.Lines);
         if (VisibleDepth > 0 && MapToDrawnFrame(null) is { } map)
         {

@@ -134,8 +134,9 @@ internal sealed partial class Document : IDisposable
     /// <param name="windowEvent">Any event of the window.</param>
     /// <param name="width">Width of the frame in pixels.</param>
     /// <param name="height">Height of the frame in pixels.</param>
+    /// <param name="move">Moves the flying camera where the event is a key of such an action; null for other events.</param>
     /// <returns>True when the view has changed.</returns>
-    public bool Handle(WindowEvent windowEvent, int width, int height)
+    public bool Handle(WindowEvent windowEvent, int width, int height, Action<FlyingCamera, double>? move)
     {
         CameraControls.Viewport = LatestView?.Viewport(width, height);
         if (windowEvent is KeyPressed { IsRepeat: false } or MousePressed or WheelTurned)
@@ -146,7 +147,7 @@ internal sealed partial class Document : IDisposable
 
         return Physics.IsWalking
             ? WalkControls.Handle(windowEvent, Physics.Character!)
-            : CameraControls.Handle(windowEvent, Area.Aspect);
+            : CameraControls.Handle(windowEvent, Area.Aspect, move);
     }
 
     /// <summary>Moves the flying camera by one command. Nothing happens while a player walks.</summary>

@@ -15,9 +15,6 @@ namespace FractalEngine.App.Window;
 /// <param name="published">Called on another thread when there is something new to show.</param>
 internal sealed class ProgressiveTrace(int sampleCount, RenderSettings settings, Action published) : IDisposable
 {
-    /// <summary>The samples of a trace unless something else is asked for.</summary>
-    public const int DefaultSampleCount = 256;
-
     // The image is faded in over the frame between these numbers of samples, or earlier where fewer are asked for.
     private const int FirstShownSample = 4;
     private const int FullyShownSample = 16;

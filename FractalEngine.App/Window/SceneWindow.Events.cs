@@ -1,3 +1,4 @@
+using FractalEngine.App.Window.Actions;
 using FractalEngine.Render.Windowing;
 
 namespace FractalEngine.App.Window;
@@ -14,7 +15,7 @@ internal sealed partial class SceneWindow
             return;
         }
 
-        var windowEvent = _interface.Bindings.Translate(physicalEvent);
+        var windowEvent = _panels.Bindings.Translate(physicalEvent);
         var promptBefore = _prompts.Current;
         if (promptBefore is not null && windowEvent is MousePressed pressed)
         {
@@ -44,7 +45,7 @@ internal sealed partial class SceneWindow
         {
             // Keys that are held now are released while the question is open, or were pressed for it.
             Document?.ReleaseKeys();
-            _interface.ReleasePointer();
+            _panels.ReleasePointer();
             _redraw |= Redraw.Overlay;
         }
     }
@@ -53,15 +54,15 @@ internal sealed partial class SceneWindow
     /// <returns>True when the scene must not see the event.</returns>
     private bool HandleByInterface(WindowEvent windowEvent)
     {
-        var version = _interface.Ui.Version;
-        var isTaken = _interface.Handle(windowEvent);
+        var version = _panels.Ui.Version;
+        var isTaken = _panels.Ui.Handle(windowEvent);
         while (_interface.TakeChosen() is { } action)
         {
             _redraw |= _actions.Run(action) | Redraw.Overlay;
         }
 
         _redraw |= _actions.TakeRequested();
-        if (_interface.Ui.Version != version)
+        if (_panels.Ui.Version != version)
         {
             _redraw |= Redraw.Overlay;
         }
@@ -69,7 +70,7 @@ internal sealed partial class SceneWindow
         // A drag of a panel is saved when it ends.
         if (isTaken && windowEvent is not MouseMoved)
         {
-            _interface.SaveSettings();
+            _panels.SaveSettings();
         }
 
         return isTaken;
@@ -104,11 +105,12 @@ internal sealed partial class SceneWindow
                 break;
             case KeyPressed { IsRepeat: false } pressed:
                 _redraw |= _actions.Handle(pressed);
-                _interface.SaveSettings();
+                _panels.SaveSettings();
                 break;
         }
 
-        if (Document?.Handle(windowEvent, Math.Max(1, _window.Width), Math.Max(1, _window.Height)) == true)
+        var move = windowEvent is KeyPressed key ? ActionTable.Find(key)?.MoveCamera : null;
+        if (Document?.Handle(windowEvent, Math.Max(1, _window.Width), Math.Max(1, _window.Height), move) == true)
         {
             _redraw |= Redraw.Scene;
         }

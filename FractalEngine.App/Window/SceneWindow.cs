@@ -30,6 +30,7 @@ internal sealed partial class SceneWindow : IDisposable
     private readonly WindowTracing _tracing;
     private readonly ViewArea _area;
     private readonly DocumentLoader _loader;
+    private readonly PanelLayout _panels;
     private readonly WindowActions _actions;
     private readonly WindowInterface _interface;
     private readonly PromptHost _prompts;
@@ -58,10 +59,10 @@ internal sealed partial class SceneWindow : IDisposable
         _loader = new(_window, _area, _overlay, options, recent.Add, Report);
         _tracing = new(options, _window.Wake);
         _files = new(_loader, _prompts, recent, Report, () => _actions!.Settings, () => _isClosing = true);
-        _actions = new(_window, _windowRenderer, _overlay, _tracing, options.Settings, () => _clock.Elapsed) { Files = _files };
-        _interface = new(_actions, _window, options.SettingsPath, Report);
-        _actions.Interface = _interface;
-        _tracing.IsEnabled = options.IsTraced ?? _interface.IsTraced;
+        _panels = new(_window, options.SettingsPath, Report, ui => _interface!.Build(ui));
+        _actions = new(_window, _windowRenderer, _overlay, _tracing, _panels, options.Settings, () => _clock.Elapsed) { Files = _files };
+        _interface = new(_actions);
+        _tracing.IsEnabled = options.IsTraced ?? _panels.IsTraced;
         _loader.Open(path, options.Settings);
     }
 
@@ -219,7 +220,7 @@ internal sealed partial class SceneWindow : IDisposable
     {
         var start = _clock.Elapsed;
         _lastRefresh = start;
-        var needsDraw = _redraw.HasFlag(Redraw.Scene) | _area.Update(_interface.Ui);
+        var needsDraw = _redraw.HasFlag(Redraw.Scene) | _area.Update(_panels.Ui);
         _redraw = Redraw.None;
         if (needsDraw)
         {
@@ -236,17 +237,17 @@ internal sealed partial class SceneWindow : IDisposable
         _overlay.TraceText = _tracing.StatusText;
         _loader.TitleNote = _overlay.TraceText;
         _actions.Document = Document;
-        _interface.Update(_window.Width, _window.Height);
+        _panels.Update(_window.Width, _window.Height);
         // By the panels as they are now.
-        _overlay.HidesPhysics = _interface.IsShown && !_interface.HasRoomForPhysics;
-        _overlay.MessageReplacesStatus = _interface.IsShown && !_interface.HasRoomForTexts;
+        _overlay.HidesPhysics = _panels.IsShown && !_panels.HasRoomForPhysics;
+        _overlay.MessageReplacesStatus = _panels.IsShown && !_panels.HasRoomForTexts;
         _redraw |= _actions.TakeRequested();
-        if (_area.Update(_interface.Ui) && Document is not null)
+        if (_area.Update(_panels.Ui) && Document is not null)
         {
             _redraw |= Redraw.Scene;
         }
 
-        _frameRenderer.Present(_window, _tracing.Layer, _interface.Ui, _overlay.Panels);
+        _frameRenderer.Present(_window, _tracing.Layer, _panels.Ui, _overlay.Panels);
         if (needsDraw)
         {
             _windowRenderer.RecordFrameTime(_clock.Elapsed - start);

@@ -9,6 +9,9 @@ namespace FractalEngine.App.Window;
 /// <summary>The options of a window, which hold for every file that it shows.</summary>
 internal sealed record WindowOptions
 {
+    /// <summary>Number of samples of each pixel of a traced image, unless stated otherwise.</summary>
+    public const int DefaultTraceSampleCount = 256;
+
     /// <summary>The load options of all files.</summary>
     public LoadOptions Load { get; init; } = new();
 
@@ -28,7 +31,7 @@ internal sealed record WindowOptions
     public bool? IsTraced { get; init; }
 
     /// <summary>Number of samples of each pixel of a traced image.</summary>
-    public int TraceSampleCount { get; init; } = ProgressiveTrace.DefaultSampleCount;
+    public int TraceSampleCount { get; init; } = DefaultTraceSampleCount;
 
     /// <summary>Width and height of the window's contents in pixels.</summary>
     public (int Width, int Height) Size { get; init; } = SharedOptions.DefaultResolution;

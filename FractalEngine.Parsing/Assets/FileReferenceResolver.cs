@@ -24,7 +24,7 @@ internal sealed class FileReferenceResolver(AssetFolder folder, bool allowOutsid
             throw source.Error(
                 offset,
                 $"\"{file}\" lies outside the folder of the file that was opened: allow that with --allow-outside "
-                + $"({nameof(LoadOptions)}.{nameof(LoadOptions.AllowOutsideFiles)})");
+                + "(LoadOptions.AllowOutsideFiles)");
         }
 
         record.Add(fullPath);

@@ -66,7 +66,7 @@ public sealed partial class FractalParser
     private bool ParseReference(Cursor cursor, out DeclaredObject value, out Cursor rest)
     {
         value = EmptyObject;
-        if (!ParseName(cursor, ObjectName, out var name, out rest))
+        if (!ParseName(cursor, FractalMistakes.ObjectName, out var name, out rest))
         {
             return false;
         }

@@ -1,7 +1,6 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Maths;
-using FractalEngine.Parsing.Fractals.Mistakes;
 using FractalEngine.Parsing.Text;
 using FractalEngine.Parsing.Text.Mistakes;
 
@@ -74,7 +73,7 @@ public sealed partial class FractalParser
         rest = cursor;
         if (char.IsAsciiDigit(cursor.Current) && !IsDecimal(cursor))
         {
-            if (!ParseInteger(cursor, ValueAsVectorNumber.VectorNumber, out var number, out rest))
+            if (!ParseInteger(cursor, FractalMistakes.VectorNumber, out var number, out rest))
             {
                 return false;
             }
@@ -106,7 +105,7 @@ public sealed partial class FractalParser
             return true;
         }
 
-        Fail(cursor, ValueAsVectorNumber.VectorNumber);
+        Fail(cursor, FractalMistakes.VectorNumber);
         Fail(cursor, "a parameter");
         return Fail(cursor, "'#'");
     }
@@ -119,7 +118,7 @@ public sealed partial class FractalParser
     private bool ParseVectorNumber(Cursor cursor, out int number, out Vector vector, out Cursor rest)
     {
         vector = default;
-        if (!ParseInteger(cursor, ValueAsVectorNumber.VectorNumber, out number, out rest))
+        if (!ParseInteger(cursor, FractalMistakes.VectorNumber, out number, out rest))
         {
             return false;
         }
@@ -136,7 +135,7 @@ public sealed partial class FractalParser
     /// <summary>Creates the error of a number that is that of no vector.</summary>
     private SourceException VectorError(Cursor start, string place)
     {
-        ParseInteger(start, ValueAsVectorNumber.VectorNumber, out var number, out var end);
+        ParseInteger(start, FractalMistakes.VectorNumber, out var number, out var end);
         var fault = number == 0 ? "vectors are numbered from 1"
             : $"it is not declared{place}, and values stand in vectors of their own";
         return Error(start, $"vector {TextBetween(start, end)} of {_vectors.Count}: {fault}");
@@ -202,7 +201,7 @@ public sealed partial class FractalParser
         }
 
         Fail(cursor, "'#'");
-        if (!ParseName(cursor, TransformationName, out var name, out rest))
+        if (!ParseName(cursor, FractalMistakes.TransformationName, out var name, out rest))
         {
             return false;
         }

@@ -1,7 +1,5 @@
-using System.Collections.Immutable;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Maths;
-using FractalEngine.Parsing.Fractals.Mistakes;
 using FractalEngine.Parsing.Text;
 using FractalEngine.Parsing.Text.Mistakes;
 
@@ -13,20 +11,7 @@ namespace FractalEngine.Parsing.Fractals;
 /// </summary>
 public sealed partial class FractalParser : Parser
 {
-    /// <summary>The expectation of the name of a declared object.</summary>
-    internal const string ObjectName = "the name of an object";
-
-    /// <summary>The expectation of the name of a declared transformation.</summary>
-    internal const string TransformationName = "the name of a transformation";
-
     private static readonly DeclaredObject EmptyObject = new("", 0, DeclaredSteps.None);
-
-    private static readonly ImmutableArray<TypicalMistake> FractalMistakes =
-    [
-        new CommentBehindDeclaration(), new CommaAsDecimalPoint(), new MissingNumber(), new ValueAsVectorNumber(), new NumberOutsideCall(),
-        new DepthWithoutRecursive(), new FractionalDepth(), new VectorInParentheses(), new FileNameWithoutQuotes(),
-        new MisspelledDeclaration(), new MissingDot(), new MisspelledKeyword(),
-    ];
 
     private readonly List<Vector> _vectors = [];
     private readonly Dictionary<string, TransformationFunction> _functions = [];
@@ -40,7 +25,7 @@ public sealed partial class FractalParser : Parser
     private long _mapCount;
     private long _repeatedStepCount;
 
-    private protected override ImmutableArray<TypicalMistake> TypicalMistakes => FractalMistakes;
+    private protected override string? Explain(SyntaxFailure failure) => FractalMistakes.Explain(failure);
 
     private FractalParser(SourceText source)
         : base(source)

@@ -1,7 +1,6 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
-using FractalEngine.Parsing.Scenes.Mistakes;
 using FractalEngine.Parsing.Text;
 using FractalEngine.Parsing.Text.Mistakes;
 
@@ -20,12 +19,6 @@ public sealed partial class SceneParser : SceneValueParser
     // Faulty lines that are told together, see Parse.
     private const int MaxFaults = 100;
 
-    private static readonly ImmutableArray<TypicalMistake> SceneMistakes =
-    [
-        new CommentBehindDeclaration(), new CommaAsDecimalPoint(), new MissingNumber(), new IncompletePlacement(),
-        new MissingValue(), new DeclarationSpelledOut(), new MisspelledKeyword(),
-    ];
-
     private readonly Dictionary<SceneDeclarationKind, int> _declarationOffsets = [];
     private readonly List<Light> _lights = [];
     private readonly List<SceneObject> _objects = [];
@@ -36,7 +29,7 @@ public sealed partial class SceneParser : SceneValueParser
     private (Vector Target, Vector Up)? _cameraTarget;
     private int _fileNameOffset;
 
-    private protected override ImmutableArray<TypicalMistake> TypicalMistakes => SceneMistakes;
+    private protected override string? Explain(SyntaxFailure failure) => SceneMistakes.Explain(failure);
 
     private SceneParser(SourceText source)
         : base(source)

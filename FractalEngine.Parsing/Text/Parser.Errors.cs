@@ -6,9 +6,6 @@ namespace FractalEngine.Parsing.Text;
 /// <content>Keeps the furthest failure and the hints, and makes messages of them.</content>
 public abstract partial class Parser
 {
-    private static readonly ImmutableArray<TypicalMistake> CommonMistakes =
-        [new CommentBehindDeclaration(), new CommaAsDecimalPoint(), new MissingNumber(), new MisspelledKeyword()];
-
     private readonly List<string> _expected = [];
     private readonly ImmutableArray<Diagnostic>.Builder _hints = ImmutableArray.CreateBuilder<Diagnostic>();
     private int _furthestFailure = -1;
@@ -16,8 +13,8 @@ public abstract partial class Parser
     /// <summary>Hints about text that is valid but hardly meant so, in the order in which they were found.</summary>
     private protected ImmutableArray<Diagnostic> Hints => _hints.ToImmutable();
 
-    /// <summary>The mistakes that messages name, in the order in which they are looked for.</summary>
-    private protected virtual ImmutableArray<TypicalMistake> TypicalMistakes => CommonMistakes;
+    /// <inheritdoc cref="CommonMistakes.Explain"/>
+    private protected virtual string? Explain(SyntaxFailure failure) => CommonMistakes.Explain(failure);
 
     /// <summary>Creates an exception for text that is well-formed but has no valid meaning.</summary>
     /// <param name="cursor">Position of the faulty text.</param>
@@ -32,13 +29,9 @@ public abstract partial class Parser
     protected SourceException SyntaxError()
     {
         var failure = new Cursor(Source.Text, Math.Max(_furthestFailure, 0));
-        var syntaxFailure = new SyntaxFailure(failure, _expected);
-        foreach (var mistake in TypicalMistakes)
+        if (Explain(new SyntaxFailure(failure, _expected)) is { } explanation)
         {
-            if (mistake.Explain(syntaxFailure) is { } explanation)
-            {
-                return Source.Error(failure.Offset, $"unexpected {Describe(failure)}: {explanation}");
-            }
+            return Source.Error(failure.Offset, $"unexpected {Describe(failure)}: {explanation}");
         }
 
         var expected = _expected.Count switch

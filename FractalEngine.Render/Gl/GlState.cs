@@ -11,6 +11,18 @@ internal sealed class GlState
     /// <summary>Number of binding points for uniform buffers.</summary>
     public const int UniformBindingCount = 3;
 
+    /// <summary>Binding point of the uniform block <c>ObjectBlock</c>.</summary>
+    public const int ObjectBinding = 0;
+
+    /// <summary>Binding point of the uniform block <c>LightBlock</c>.</summary>
+    public const int LightBinding = 1;
+
+    /// <summary>Binding point of the uniform block <c>ShadowBlock</c>.</summary>
+    public const int ShadowBinding = 2;
+
+    /// <summary>Texture unit of the depth maps.</summary>
+    public const int ShadowTextureUnit = 1;
+
     // No GL object has this name, and no face this value, so that the next call always takes effect.
     private const int Unknown = -1;
 

@@ -19,12 +19,11 @@ internal readonly record struct FrameView(View View, int X, int Y, int Width, in
     /// <param name="view">Camera and projection.</param>
     /// <param name="width">Width of the frame in pixels.</param>
     /// <param name="height">Height of the frame in pixels.</param>
-    /// <param name="scene">What is drawn; null for nothing.</param>
-    /// <param name="settings">Whether grid and axes are drawn.</param>
-    public static FrameView Create(View view, int width, int height, SceneRenderer? scene, RenderSettings settings)
+    /// <param name="planes">Depths of the clip planes, scene units; null where nothing is drawn.</param>
+    public static FrameView Create(View view, int width, int height, (double Near, double Far)? planes)
     {
         var viewport = view.Viewport(width, height);
-        var (near, far) = scene?.ClipPlanes(view, width, height, settings) ?? view.ClipPlanes(BoundingBox.Empty);
+        var (near, far) = planes ?? view.ClipPlanes(BoundingBox.Empty);
         return new(view, viewport.X, viewport.Y, viewport.Width, viewport.Height, view.EffectiveAspect(width, height), near, far);
     }
 

@@ -4,7 +4,6 @@ using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Render.Gl;
-using FractalEngine.Render.Shadows;
 using OpenTK.Graphics.OpenGL4;
 
 namespace FractalEngine.Render.Passes;
@@ -17,6 +16,9 @@ internal sealed class LightBlock : IDisposable
 
     // Programs grow with the number of lights that have constant indices.
     private const int MaxUnrolledLights = 4;
+
+    // The widest cone whose shadows have one depth map, degrees. Wider ones have sides of a cube.
+    private const double MaxSpotAngle = 110;
 
     private const int HeaderFloats = 24;
     private const int FloatsPerLight = 16;
@@ -61,6 +63,9 @@ internal sealed class LightBlock : IDisposable
         return [.. lights.Where(static light => light is not AmbientLight).Take(MaxLights)];
     }
 
+    /// <summary>Whether shadows of a light have the sides of a cube, unless it is so far away that it is parallel.</summary>
+    public static bool HasCube(Light light) => light is PointLight and not SpotLight { Angle: < MaxSpotAngle };
+
     /// <summary>
     /// Returns a loop over the lights, and the kinds of their shadows, as symbols of a shader. The loop over few lights has constant
     /// indices: without a GPU, reading a block at others takes a tenth to a fifth of a frame.
@@ -77,7 +82,7 @@ internal sealed class LightBlock : IDisposable
         return [$"EACH_LIGHT(DO){loop}", $"LIGHT_KINDS int[]({kinds})"];
 
         char KindOfShadow(Light light, int index) =>
-            light is not PointLight || (distantLights & (1 << index)) != 0 ? '0' : ShadowFit.HasCube(light) ? '1' : '2';
+            light is not PointLight || (distantLights & (1 << index)) != 0 ? '0' : HasCube(light) ? '1' : '2';
     }
 
     /// <summary>Returns the linear light that haze shines with: its own colour, or what stands at the horizon.</summary>

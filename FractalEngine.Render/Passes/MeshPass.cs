@@ -13,18 +13,6 @@ namespace FractalEngine.Render.Passes;
 /// <param name="lights">Lights of the scene.</param>
 internal sealed class MeshPass(RenderContext context, ImmutableArray<Light> lights) : IDisposable
 {
-    /// <summary>Binding point of the uniform block <c>ObjectBlock</c>.</summary>
-    public const int ObjectBinding = 0;
-
-    /// <summary>Binding point of the uniform block <c>LightBlock</c>.</summary>
-    public const int LightBinding = 1;
-
-    /// <summary>Binding point of the uniform block <c>ShadowBlock</c>.</summary>
-    public const int ShadowBinding = 2;
-
-    /// <summary>Texture unit of the depth maps.</summary>
-    public const int ShadowTextureUnit = 1;
-
     private const int FeatureCombinations = 16384;
     private static readonly Colour WireframeColour = new(0.80, 0.83, 0.87);
 

@@ -48,11 +48,11 @@ internal sealed class MeshProgram : IDisposable
         _filter = context.Resources.State.Filter;
         string[] symbols = [.. Symbols.Where(entry => features.HasFlag(entry.Feature)).Select(entry => entry.Symbol), .. lightSymbols];
         _program = ShaderProgram.Load(context.Resources, "mesh", symbols);
-        _program.BindBlock("ObjectBlock", MeshPass.ObjectBinding);
-        _program.BindBlock("LightBlock", MeshPass.LightBinding);
+        _program.BindBlock("ObjectBlock", GlState.ObjectBinding);
+        _program.BindBlock("LightBlock", GlState.LightBinding);
         if (features.HasFlag(MeshFeatures.Shadows))
         {
-            _program.BindBlock("ShadowBlock", MeshPass.ShadowBinding);
+            _program.BindBlock("ShadowBlock", GlState.ShadowBinding);
         }
 
         View = new(_program, _filter, context.HasReversedDepth);
@@ -61,7 +61,7 @@ internal sealed class MeshProgram : IDisposable
         _innerFaceLocation = _program.UniformLocation("innerFace");
         _program.Use();
         GL.Uniform1(_program.UniformLocation("surfaceTexture"), 0);
-        GL.Uniform1(_program.UniformLocation("shadowMap"), MeshPass.ShadowTextureUnit);
+        GL.Uniform1(_program.UniformLocation("shadowMap"), GlState.ShadowTextureUnit);
         _materialUniforms = new(_program, _filter);
     }
 
@@ -86,7 +86,7 @@ internal sealed class MeshProgram : IDisposable
     {
         if (_filter.Update(ref _lastSection, section))
         {
-            SetSection(_sectionLocation, section);
+            ViewUniforms.SetSection(_sectionLocation, section);
         }
     }
 
@@ -98,10 +98,6 @@ internal sealed class MeshProgram : IDisposable
             GL.Uniform1(_innerFaceLocation, face == CullFace.None ? 0f : face == CullFace.Back ? -1f : 1f);
         }
     }
-
-    /// <summary>Sets a uniform to a plane, so that the shader's distances are positive on the side that is kept.</summary>
-    internal static void SetSection(int location, SectionPlane section) => GL.Uniform4(
-        location, -(float)section.Normal.X, -(float)section.Normal.Y, -(float)section.Normal.Z, (float)section.Distance);
 
     /// <summary>Sets the material of the next draw calls. The program must be in use.</summary>
     /// <param name="material">Null for the object's own colour.</param>

@@ -24,7 +24,7 @@ internal sealed class ObjectBlocks(GlResources resources, int objectCount) : IDi
             _sharedBlocks.Add(key, block);
         }
 
-        block.Bind(MeshPass.ObjectBinding, AffineMap.Identity, key.Colour, key.Item2, Vector.Zero);
+        block.Bind(GlState.ObjectBinding, AffineMap.Identity, key.Colour, key.Item2, Vector.Zero);
     }
 
     /// <summary>Binds the block of an object that is drawn whole.</summary>
@@ -36,7 +36,7 @@ internal sealed class ObjectBlocks(GlResources resources, int objectCount) : IDi
     {
         var block = _ownBlocks[index] ??= new(resources, $"matrix of {item.Name}");
         var modelToWorld = new AffineMap(objectToWorld.Linear, objectToWorld * item.Model.Origin);
-        block.Bind(MeshPass.ObjectBinding, modelToWorld, item.Colour, GradientEndOf(item), cameraPosition);
+        block.Bind(GlState.ObjectBinding, modelToWorld, item.Colour, GradientEndOf(item), cameraPosition);
     }
 
     /// <summary>Forgets the colours of a scene that is no longer drawn.</summary>

@@ -21,7 +21,7 @@ internal sealed class SkyPass : IDisposable
     {
         _resources = resources;
         _program = ShaderProgram.Load(resources, "sky");
-        _program.BindBlock("LightBlock", MeshPass.LightBinding);
+        _program.BindBlock("LightBlock", GlState.LightBinding);
         _axesLocation = _program.UniformLocation("cameraAxes");
         _halfSizeLocation = _program.UniformLocation("halfSize");
         _program.Use();

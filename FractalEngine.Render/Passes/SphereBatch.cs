@@ -33,7 +33,7 @@ internal sealed class SphereBatch : IDisposable
         _objectBlock = new(resources, "spheres");
     }
 
-    /// <summary>Draws spheres with the program in use, which must be <see cref="MeshFeatures.CameraRelative"/>.</summary>
+    /// <summary>Draws spheres with the program in use, whose instances must be relative to the camera.</summary>
     /// <param name="spheres">Spheres to draw.</param>
     /// <param name="cameraPosition">Position of the camera in world space.</param>
     /// <param name="colour">Colour of all spheres, sRGB.</param>
@@ -50,7 +50,7 @@ internal sealed class SphereBatch : IDisposable
 
         _instances.Discard(rows.Length * sizeof(float));
         _instances.Write(rows, 0);
-        _objectBlock.Bind(MeshPass.ObjectBinding, AffineMap.Translate(cameraPosition), colour, colour, cameraPosition);
+        _objectBlock.Bind(GlState.ObjectBinding, AffineMap.Translate(cameraPosition), colour, colour, cameraPosition);
         _vertexArray.DrawTriangles(0, _modelBuffers.WholeMesh.IndexCount, spheres.Count);
     }
 

@@ -1,3 +1,4 @@
+using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Render.Gl;
@@ -61,6 +62,10 @@ internal sealed class ViewUniforms(ShaderProgram program, RedundancyFilter filte
         WriteRows(axes, _rows);
         GL.Uniform3(_cameraAxesLocation, 3, _rows);
     }
+
+    /// <summary>Sets a uniform to a plane, so that the shader's distances are positive on the side that is kept.</summary>
+    internal static void SetSection(int location, SectionPlane section) => GL.Uniform4(
+        location, -(float)section.Normal.X, -(float)section.Normal.Y, -(float)section.Normal.Z, (float)section.Distance);
 
     /// <summary>Writes a matrix row by row.</summary>
     internal static void WriteRows(Matrix axes, Span<float> rows)

@@ -27,7 +27,7 @@ internal sealed class CasterProgram : IDisposable
         _program = ShaderProgram.Load(resources, "shadow", symbols);
         if (!isRelative)
         {
-            _program.BindBlock("ObjectBlock", MeshPass.ObjectBinding);
+            _program.BindBlock("ObjectBlock", GlState.ObjectBinding);
         }
 
         _axesLocation = _program.UniformLocation("lightAxes");
@@ -53,7 +53,7 @@ internal sealed class CasterProgram : IDisposable
         GL.Uniform4(_depthScaleLocation, (float)zByDepth, (float)z, (float)wByDepth, (float)w);
         if (view.Section is { } section)
         {
-            MeshProgram.SetSection(_sectionLocation, section);
+            ViewUniforms.SetSection(_sectionLocation, section);
         }
     }
 

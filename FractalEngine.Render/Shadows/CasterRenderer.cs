@@ -103,7 +103,7 @@ internal sealed class CasterRenderer : IDisposable
         var objectToWorld = _transforms.ObjectToWorld[index];
         var block = _objectBlocks[index] ??= new(_resources, $"shadow of {item.Name}");
         var modelToWorld = new AffineMap(objectToWorld.Linear, objectToWorld * item.Model.Origin);
-        block.Bind(MeshPass.ObjectBinding, modelToWorld, Colour.White, Colour.White, _view.Position);
+        block.Bind(GlState.ObjectBinding, modelToWorld, Colour.White, Colour.White, _view.Position);
         // A light with a position may stand within a solid.
         Draw(index, isRelative: false, CullFace.None);
     }

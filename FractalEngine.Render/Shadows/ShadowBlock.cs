@@ -69,7 +69,7 @@ internal sealed class ShadowBlock(GlResources resources, bool hasReversedDepth) 
     }
 
     /// <summary>Binds the block to its binding point.</summary>
-    public void Bind() => _buffer.BindTo(MeshPass.ShadowBinding);
+    public void Bind() => _buffer.BindTo(GlState.ShadowBinding);
 
     /// <inheritdoc/>
     public void Dispose() => _buffer.Dispose();

@@ -16,9 +16,6 @@ internal sealed class ShadowFit
     /// <summary>Maximum number of maps of all lights together.</summary>
     public const int MaxViews = 32;
 
-    // The widest cone that has one map, degrees. Wider ones have sides of a cube.
-    private const double MaxSpotAngle = 110;
-
     // Near planes of lights with a position, as a fraction of their range.
     private const double NearByRange = 1e-4;
 
@@ -52,9 +49,6 @@ internal sealed class ShadowFit
 
     /// <summary>Number of maps that are not needed: their light is dark, or lights nothing visible.</summary>
     public int SkippedCount { get; private set; }
-
-    /// <summary>Whether a light has views of the sides of a cube, unless it is so far away that it is parallel.</summary>
-    public static bool HasCube(Light light) => light is PointLight and not SpotLight { Angle: < MaxSpotAngle };
 
     /// <summary>Computes the views for a frame.</summary>
     /// <param name="lights">Lights in the order of the light block.</param>
@@ -173,7 +167,7 @@ internal sealed class ShadowFit
 
         SetRegion(in frame, origin, frame.Near, frame.Far, receivers, fitsToView);
         var near = NearByRange * Math.Min(range, receivers.Diagonal);
-        if (!HasCube(light) && light is SpotLight spot)
+        if (!LightBlock.HasCube(light) && light is SpotLight spot)
         {
             var direction = spot.Direction.UnitVector();
             var halfSize = Math.Tan(0.5 * spot.Angle * Math.PI / 180) * 1.01;

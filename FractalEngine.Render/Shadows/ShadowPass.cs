@@ -182,7 +182,7 @@ internal sealed class ShadowPass : IDisposable
 
         if (MapCount > 0)
         {
-            _maps.BindTexture(MeshPass.ShadowTextureUnit, _hasMoving);
+            _maps.BindTexture(GlState.ShadowTextureUnit, _hasMoving);
         }
     }
 

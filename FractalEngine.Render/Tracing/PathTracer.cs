@@ -208,7 +208,7 @@ public sealed class PathTracer
 
     /// <summary>Converts the present image to sRGB.</summary>
     public PixelImage ToImage() => _image.ToImage(
-        _display, _camera.Viewport, FrameRenderer.LetterboxColour(_declared.Background ?? _defaultBackground),
+        _display, _camera.Viewport, RenderSettings.LetterboxColour(_declared.Background ?? _defaultBackground),
         _background.IsSky);
 
     /// <summary>The mean radiance of a pixel so far, linear light: red, green, blue.</summary>

@@ -6,6 +6,6 @@ namespace FractalEngine.Render.Ui;
 /// <param name="Tone">Tone of the line. In a table it applies to the second column, and the first is accented.</param>
 public readonly record struct OverlayLine(string Text, string? SecondColumn = null, OverlayTone Tone = OverlayTone.Normal)
 {
-    /// <summary>What a click on the line answers, see <see cref="FrameRenderer.AnswerAt"/>; null for a line that is only read.</summary>
+    /// <summary>What a click on the line answers; null for a line that is only read.</summary>
     public int? Answer { get; init; }
 }

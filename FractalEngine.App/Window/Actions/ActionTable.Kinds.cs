@@ -40,8 +40,8 @@ internal static partial class ActionTable
         new(panel == "statistics" ? panel : $"panel-{panel}", "Window", name, $"show or hide the panel: {contents}")
         {
             Keys = [key],
-            Run = OverlayOf(a => a.Interface.Toggle(panel)),
-            IsOn = a => a.Interface.IsOpen(panel),
+            Run = OverlayOf(a => a.Panels.Toggle(panel)),
+            IsOn = a => a.Panels.IsOpen(panel),
         };
 
     private static WindowAction Gesture(string id, string gesture, string help) => new(id, "Go", "", help) { Gesture = gesture };

@@ -1,5 +1,4 @@
 using System.Collections.Immutable;
-using FractalEngine.App.Window.Panels;
 using FractalEngine.App.Window.Tools;
 using FractalEngine.Core.Maths;
 using FractalEngine.Render;
@@ -18,7 +17,7 @@ internal static partial class ActionTable
     [
         new("new-fractal", "File", "New fractal…", "begin a fractal from a tree, a triangle or cubes, whose numbers are then turned")
         {
-            Keys = [KeyChord.Control(Key.N)], Run = OverlayOf(static a => a.Files.NewFractal(() => a.Interface.Open("fractal"))),
+            Keys = [KeyChord.Control(Key.N)], Run = OverlayOf(static a => a.Files.NewFractal(() => a.Panels.Open("fractal"))),
         },
         new("open", "File", "Open…", "open a file") { Keys = [KeyChord.Control(Key.O)], Run = OverlayOf(static a => a.Files.AskForFile()) },
         new("save", "File", "Save", "save the changed numbers into their files, and the view into the scene's file")
@@ -121,7 +120,7 @@ internal static partial class ActionTable
         new("filmic-tone", "View", "Filmic tone", "show the scene in the tone of film, or its colours as they are computed")
         {
             IsAvailable = HasScene,
-            Run = OverlayOf(static a => a.ChangeScene(a.Interface.Ui, static scene => scene with
+            Run = OverlayOf(static a => a.ChangeScene(static scene => scene with
             {
                 Tone = scene.Tone == Core.Scenes.Tone.Filmic ? Core.Scenes.Tone.None : Core.Scenes.Tone.Filmic,
             })),
@@ -209,11 +208,11 @@ internal static partial class ActionTable
         Panel("statistics", "Statistics", "cost of the last frame, and savings of each optimisation", new(Key.I)),
         new("keys", "Window", "Keys…", "list all actions with their keys; words search in it")
         {
-            Keys = [new(Key.H)], Run = OverlayOf(static a => a.Interface.OpenKeys()),
+            Keys = [new(Key.H)], Run = OverlayOf(static a => a.Panels.OpenKeys()),
         },
         new("menu-bar", "Window", "Hide menu and panels", "hide the menu and all panels, or show them again")
         {
-            Keys = [new(Key.U)], Run = OverlayOf(static a => a.Interface.ToggleAll()), IsOn = static a => !a.Interface.IsShown,
+            Keys = [new(Key.U)], Run = OverlayOf(static a => a.Panels.ToggleAll()), IsOn = static a => !a.Panels.IsShown,
         },
         new("full-screen", "Window", "Full screen", "fill the screen, or return to a window")
         {
@@ -221,16 +220,16 @@ internal static partial class ActionTable
         },
         new("larger-text", "Window", "Larger text", "larger menus and panels")
         {
-            Keys = [KeyChord.Control(Key.Plus)], Run = static a => a.Show(a.Interface.ChangeScale(1)),
+            Keys = [KeyChord.Control(Key.Plus)], Run = static a => a.Show(a.Panels.ChangeScale(1)),
         },
         new("smaller-text", "Window", "Smaller text", "smaller menus and panels")
         {
-            Keys = [KeyChord.Control(Key.Minus)], Run = static a => a.Show(a.Interface.ChangeScale(-1)),
+            Keys = [KeyChord.Control(Key.Minus)], Run = static a => a.Show(a.Panels.ChangeScale(-1)),
         },
         new("light-colours", "Window", "Light colours", "dark text on light panels, or light on dark")
         {
-            Keys = [KeyChord.Control(Key.L)], Run = OverlayOf(static a => a.Interface.ToggleTheme()),
-            IsOn = static a => a.Interface.IsLight,
+            Keys = [KeyChord.Control(Key.L)], Run = OverlayOf(static a => a.Panels.ToggleTheme()),
+            IsOn = static a => a.Panels.IsLight,
         },
     ];
 

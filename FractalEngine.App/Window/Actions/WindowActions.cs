@@ -1,4 +1,3 @@
-using FractalEngine.App.Window.Panels;
 using FractalEngine.Core;
 using FractalEngine.Core.Images;
 using FractalEngine.Render;
@@ -11,11 +10,12 @@ namespace FractalEngine.App.Window.Actions;
 /// <param name="renderer">The renderer of the window, for screenshots.</param>
 /// <param name="overlay">The overlay of the window, which shows messages.</param>
 /// <param name="tracing">Traces the view of the window.</param>
+/// <param name="panels">The panels of the window.</param>
 /// <param name="settings">The initial render settings.</param>
 /// <param name="clock">Tells the present time.</param>
 internal sealed class WindowActions(
-    RenderWindow window, WindowRenderer renderer, WindowOverlay overlay, WindowTracing tracing, RenderSettings settings,
-    Func<TimeSpan> clock)
+    RenderWindow window, WindowRenderer renderer, WindowOverlay overlay, WindowTracing tracing, PanelLayout panels,
+    RenderSettings settings, Func<TimeSpan> clock)
 {
     private Redraw _requested;
 
@@ -28,8 +28,8 @@ internal sealed class WindowActions(
     /// <summary>Opens, edits and saves files, and asks before changes are lost.</summary>
     public required FileCommands Files { get; set; }
 
-    /// <summary>Menus and panels of the window.</summary>
-    public WindowInterface Interface { get; set; } = null!;
+    /// <summary>The panels of the window.</summary>
+    public PanelLayout Panels => panels;
 
     /// <summary>The overlay of the window.</summary>
     public WindowOverlay Overlay => overlay;
@@ -142,7 +142,7 @@ internal sealed class WindowActions(
     /// <summary>Saves what is shown, with menus and panels, as an image.</summary>
     public Redraw SaveWindowScreenshot()
     {
-        Save(() => renderer.CaptureWindow(tracing.Layer, Interface.Ui, overlay.Panels));
+        Save(() => renderer.CaptureWindow(tracing.Layer, panels.Ui, overlay.Panels));
         return Redraw.Overlay;
     }
 
@@ -166,7 +166,7 @@ internal sealed class WindowActions(
     public Redraw ToggleTracing()
     {
         var message = tracing.Toggle();
-        Interface.IsTraced = tracing.IsEnabled;
+        panels.IsTraced = tracing.IsEnabled;
         return Show(message) | Redraw.Scene;
     }
 

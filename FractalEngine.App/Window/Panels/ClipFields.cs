@@ -24,7 +24,8 @@ internal sealed class ClipFields(WindowActions actions)
             var planes = document.LatestView is { } view
                 ? document.Renderer.ClipPlanes(view, ui.Width, ui.Height, actions.Settings)
                 : (0.1, 1000);
-            Set(ui, isFixed ? (Math.Round(planes.Near, 6), Math.Round(planes.Far, 6)) : null);
+            (double Near, double Far)? rounded = isFixed ? (Math.Round(planes.Near, 6), Math.Round(planes.Far, 6)) : null;
+            actions.ChangeScene(scene => scene with { Clip = rounded });
         }
 
         ui.Tooltip("depths between which the scene is drawn; otherwise they follow the size of the scene");
@@ -41,14 +42,11 @@ internal sealed class ClipFields(WindowActions actions)
         {
             var (shownNear, shownFar) = clip.Value;
             // The other one may have changed too, and not be loaded yet.
-            actions.ChangeScene(ui, scene => scene with
+            actions.ChangeScene(scene => scene with
             {
                 Clip = (near.Equals(shownNear) && scene.Clip is { } before ? before.Near : near,
                     far.Equals(shownFar) && scene.Clip is { } other ? other.Far : far),
             });
         }
     }
-
-    private void Set(UserInterface ui, (double Near, double Far)? planes) =>
-        actions.ChangeScene(ui, scene => scene with { Clip = planes });
 }

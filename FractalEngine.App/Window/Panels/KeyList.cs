@@ -6,38 +6,32 @@ namespace FractalEngine.App.Window.Panels;
 /// <summary>The list of all actions with their keys, which can be searched.</summary>
 internal sealed class KeyList
 {
-    /// <summary>Names the dialog at its head, and in <see cref="UserInterface.OpenDialog"/>.</summary>
-    public const string Title = "Keys";
-
-    private readonly KeyBindings _bindings;
+    private readonly PanelLayout _layout;
     private readonly Action<WindowAction> _choose;
     private readonly UiPanel _panel;
     private string _search = "";
-    private bool _isFirst;
 
     /// <summary>Makes the list of a window.</summary>
-    /// <param name="bindings">The keys as they are bound now.</param>
+    /// <param name="layout">Opens the list, and has the keys as they are bound now.</param>
     /// <param name="choose">Runs an action that was clicked.</param>
-    public KeyList(KeyBindings bindings, Action<WindowAction> choose)
+    public KeyList(PanelLayout layout, Action<WindowAction> choose)
     {
-        _bindings = bindings;
+        _layout = layout;
         _choose = choose;
-        _panel = new(Title, BuildRows);
+        _panel = new(PanelLayout.KeysTitle, BuildRows);
     }
 
-    /// <summary>Begins with an empty search.</summary>
-    public void Clear()
-    {
-        _search = "";
-        _isFirst = true;
-        _panel.ScrolledRows = 0;
-    }
-
-    /// <summary>Adds the dialog while it is open.</summary>
+    /// <summary>Adds the dialog while it is open. Each time it begins with an empty search.</summary>
     public void Build(UserInterface ui)
     {
-        ui.Dialog(Title, () => ui.TextField("search", ref _search, takesKeyboard: _isFirst), _panel);
-        _isFirst = false;
+        if (_layout.IsKeyListNew)
+        {
+            _search = "";
+            _panel.ScrolledRows = 0;
+        }
+
+        ui.Dialog(PanelLayout.KeysTitle, () => ui.TextField("search", ref _search, takesKeyboard: _layout.IsKeyListNew), _panel);
+        _layout.IsKeyListNew = false;
     }
 
     private void BuildRows(UserInterface ui)
@@ -46,7 +40,7 @@ internal sealed class KeyList
         ui.Row(18, 1);
         foreach (var action in actions)
         {
-            var keys = _bindings.TextOf(action);
+            var keys = _layout.Bindings.TextOf(action);
             var label = keys.Length > 0 ? keys : $"{action.Menu} menu";
             if (action.IsCommand)
             {
@@ -72,7 +66,7 @@ internal sealed class KeyList
 
     private bool Matches(WindowAction action)
     {
-        var text = $"{action.Menu} {action.Name} {action.Help} {_bindings.TextOf(action)}";
+        var text = $"{action.Menu} {action.Name} {action.Help} {_layout.Bindings.TextOf(action)}";
         return Array.TrueForAll(_search.Split(' '), word => text.Contains(word, StringComparison.OrdinalIgnoreCase));
     }
 }

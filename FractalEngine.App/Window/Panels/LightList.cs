@@ -45,7 +45,7 @@ internal sealed class LightList(WindowActions actions)
         if (ui.Button("Add a sun"))
         {
             // From behind the default camera.
-            actions.ChangeScene(ui, static present => present with
+            actions.ChangeScene(static present => present with
             {
                 Lights = present.Lights.Add(new DirectionalLight(present.Handedness.Mirror(new(1, -2, 1)), Colour.White, 0.7)),
             });
@@ -55,7 +55,7 @@ internal sealed class LightList(WindowActions actions)
         {
             var document = actions.Document!;
             var lamp = new PointLight(document.Camera.Position, Colour.White, 0.7, document.File.Scene.Bounds.Diagonal);
-            actions.ChangeScene(ui, present => present with { Lights = present.Lights.Add(lamp) });
+            actions.ChangeScene(present => present with { Lights = present.Lights.Add(lamp) });
         }
     }
 
@@ -65,18 +65,18 @@ internal sealed class LightList(WindowActions actions)
         var intensity = light.Intensity;
         if (ui.Slider("intensity", ref intensity, 0, 2, 0.01, isBounded: false) && intensity is >= 0 and <= 1e9)
         {
-            actions.ChangeLight(ui, index, present => present with { Intensity = intensity });
+            actions.ChangeLight(index, present => present with { Intensity = intensity });
         }
 
         if (ui.Colour(light.Colour) is { } colour)
         {
-            actions.ChangeLight(ui, index, present => present with { Colour = PanelWidgets.Merge(present.Colour, light.Colour, colour) });
+            actions.ChangeLight(index, present => present with { Colour = PanelWidgets.Merge(present.Colour, light.Colour, colour) });
         }
 
         ui.Row(1);
         if (ui.Button("Remove the light"))
         {
-            actions.EditLine(ui, index, SceneEditor.RemoveLight);
+            actions.EditLine(index, SceneEditor.RemoveLight);
             _light = -1;
         }
     }

@@ -1,11 +1,7 @@
 using System.Globalization;
 using FractalEngine.App.Window.Actions;
-using FractalEngine.App.Window.Editing;
-using FractalEngine.Core;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
-using FractalEngine.Core.Scenes;
-using FractalEngine.Parsing.Text;
 using FractalEngine.Render.Ui;
 
 namespace FractalEngine.App.Window.Panels;
@@ -119,78 +115,6 @@ internal static class PanelWidgets
         after.Red.Equals(before.Red) ? present.Red : after.Red,
         after.Green.Equals(before.Green) ? present.Green : after.Green,
         after.Blue.Equals(before.Blue) ? present.Blue : after.Blue);
-
-    /// <summary>Changes the scene of the document, as a step that can be undone.</summary>
-    /// <inheritdoc cref="EditScene"/>
-    public static bool ChangeScene(this WindowActions actions, UserInterface ui, Func<Scene, Scene> change) =>
-        actions.EditScene(ui, text => SceneEditor.Change(text, change));
-
-    /// <summary>Changes an object of the document's scene. Refused while the scene has other objects than were loaded.</summary>
-    /// <param name="actions">The window with the document.</param>
-    /// <param name="ui">The interface that is built.</param>
-    /// <param name="index">Index of the object in the loaded scene.</param>
-    /// <param name="change">Returns the changed object.</param>
-    public static void ChangeObject(this WindowActions actions, UserInterface ui, int index, Func<SceneObject, SceneObject> change) =>
-        actions.ChangeScene(ui, scene =>
-        {
-            RequireLoaded(actions, scene);
-            return scene with { Objects = scene.Objects.SetItem(index, change(scene.Objects[index])) };
-        });
-
-    /// <summary>Changes a light of the document's scene. Refused while the scene has other lights than were loaded.</summary>
-    /// <param name="actions">The window with the document.</param>
-    /// <param name="ui">The interface that is built.</param>
-    /// <param name="index">Index of the light in the loaded scene.</param>
-    /// <param name="change">Returns the changed light.</param>
-    public static void ChangeLight(this WindowActions actions, UserInterface ui, int index, Func<Light, Light> change) =>
-        actions.ChangeScene(ui, scene =>
-        {
-            RequireLoaded(actions, scene);
-            return scene with { Lights = scene.Lights.SetItem(index, change(scene.Lights[index])) };
-        });
-
-    /// <summary>Changes the line of an object or a light. Refused while the scene has others than were loaded.</summary>
-    public static void EditLine(this WindowActions actions, UserInterface ui, int index, Func<string, int, string> edit) =>
-        actions.EditScene(ui, text =>
-        {
-            RequireLoaded(actions, SceneEditor.Parse(text));
-            return edit(text, index);
-        });
-
-    /// <summary>Throws where an edit has added or removed objects or lights, and was not loaded: indices mean others there.</summary>
-    private static void RequireLoaded(WindowActions actions, Scene present)
-    {
-        var loaded = actions.Document!.File.Scene.Scene;
-        if ((present.Objects.Length, present.Lights.Length) != (loaded.Objects.Length, loaded.Lights.Length))
-        {
-            throw new ArgumentException("the last change is not loaded yet: wait, or take it back with Ctrl+Z");
-        }
-    }
-
-    /// <summary>Changes the text of the document's scene, as a step that can be undone.</summary>
-    /// <returns>False where the change is refused, since it would leave no scene. The user is told why.</returns>
-    public static bool EditScene(this WindowActions actions, UserInterface ui, Func<string, string> edit)
-    {
-        var document = actions.Document!;
-        var path = document.File.Path;
-        try
-        {
-            var text = edit(document.Edits.TextOf(path));
-            SceneEditor.Parse(text);
-            actions.Files.Edit(path, text, ui.Interaction);
-            return true;
-        }
-        catch (SourceException exception)
-        {
-            actions.ShowProblem((exception.Diagnostic with { File = Path.GetFileName(path) }).ToString());
-        }
-        catch (Exception exception) when (exception is FractalEngineException or ArgumentException)
-        {
-            actions.Show(exception.Message);
-        }
-
-        return false;
-    }
 
     /// <summary>Formats a number for people, with at most six digits.</summary>
     public static string Number(double value) => value.ToString("G6", CultureInfo.InvariantCulture);

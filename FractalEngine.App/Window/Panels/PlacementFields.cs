@@ -37,7 +37,7 @@ internal sealed class PlacementFields(WindowActions actions)
         }
 
         // Only what was changed here: an earlier change of the rest may still be loading.
-        actions.ChangeObject(ui, index, present => present.MovedTo(new(
+        actions.ChangeObject(index, present => present.MovedTo(new(
             PanelWidgets.Merge(present.Placement.Position, placement.Position, position),
             PanelWidgets.Merge(present.Placement.Rotation, placement.Rotation, rotation),
             PanelWidgets.Merge(present.Placement.Scale, placement.Scale, scale))));

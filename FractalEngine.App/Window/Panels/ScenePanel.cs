@@ -64,7 +64,7 @@ internal sealed class ScenePanel(WindowActions actions)
         var shown = scene.Background ?? RenderSettings.DefaultBackground;
         if (ui.Colour(shown) is { } background)
         {
-            actions.ChangeScene(ui, present => present with
+            actions.ChangeScene(present => present with
             {
                 Background = PanelWidgets.Merge(present.Background ?? shown, shown, background),
             });
@@ -107,7 +107,7 @@ internal sealed class ScenePanel(WindowActions actions)
             {
                 if (ui.Selectable(hidden[i], isSelected: false))
                 {
-                    actions.EditScene(ui, text => SceneEditor.ShowObject(text, hidden[i]));
+                    actions.EditScene(text => SceneEditor.ShowObject(text, hidden[i]));
                 }
             });
         }
@@ -118,7 +118,7 @@ internal sealed class ScenePanel(WindowActions actions)
         if ((ui.Button("Add") || isCommitted) && _addedFile.Trim() is { Length: > 0 } file)
         {
             var added = new SceneObject(file, Transformation.Identity);
-            if (actions.ChangeScene(ui, present => present with { Objects = present.Objects.Add(added) }))
+            if (actions.ChangeScene(present => present with { Objects = present.Objects.Add(added) }))
             {
                 _objectToSelect = count;
                 _addedFile = "";
@@ -134,7 +134,7 @@ internal sealed class ScenePanel(WindowActions actions)
         ui.Label("name", isDim: true);
         if (ui.TextField("no name", ref name))
         {
-            actions.ChangeObject(ui, index, present => present with { Name = name.Length > 0 ? name : null });
+            actions.ChangeObject(index, present => present with { Name = name.Length > 0 ? name : null });
         }
 
         _placement.Build(ui, declared, index);
@@ -144,13 +144,13 @@ internal sealed class ScenePanel(WindowActions actions)
         if (ui.Colour(shown) is { } colour)
         {
             actions.ChangeObject(
-                ui, index, present => present with { Colour = PanelWidgets.Merge(present.Colour ?? shown, shown, colour) });
+                index, present => present with { Colour = PanelWidgets.Merge(present.Colour ?? shown, shown, colour) });
         }
 
         ui.Row(1, 1, 1);
         if (ui.Button("Hide"))
         {
-            actions.EditLine(ui, index, SceneEditor.HideObject);
+            actions.EditLine(index, SceneEditor.HideObject);
             _object = -1;
             actions.Document!.Tool.Selected = null;
         }
@@ -159,13 +159,13 @@ internal sealed class ScenePanel(WindowActions actions)
         {
             var offset = 0.25 * actions.Document!.File.Scene.Objects[index].Bounds.Size.X * Vector.I;
             var placement = declared.Placement with { Position = declared.Placement.Position + offset };
-            actions.ChangeScene(ui, present => present with { Objects = present.Objects.Add(declared.MovedTo(placement)) });
+            actions.ChangeScene(present => present with { Objects = present.Objects.Add(declared.MovedTo(placement)) });
             _objectToSelect = actions.Document.File.Scene.Scene.Objects.Length;
         }
 
         if (ui.Button("Remove"))
         {
-            actions.EditLine(ui, index, SceneEditor.RemoveObject);
+            actions.EditLine(index, SceneEditor.RemoveObject);
             _object = -1;
             actions.Document!.Tool.Selected = null;
         }

@@ -39,7 +39,7 @@ internal sealed class SelectionPanel(WindowActions actions, Action<WindowAction>
                 ui.Row(1);
                 if (ui.Button("Its numbers"))
                 {
-                    actions.Interface.Open("fractal");
+                    actions.Panels.Open("fractal");
                 }
 
                 ui.Tooltip("shows the panel of the fractal, where the vectors that place this part are marked");

@@ -32,7 +32,7 @@ internal sealed class SkyFields(WindowActions actions)
             var path = actions.Document!.File.Path;
             var added = _removed is var (owner, removed) && owner == path ? removed : new(DefaultZenith, DefaultHorizon);
             _removed = scene.Sky is { } present ? (path, present) : _removed;
-            Change(ui, present => present with { Sky = hasSky ? added : null });
+            actions.ChangeScene(present => present with { Sky = hasSky ? added : null });
         }
 
         ui.Tooltip("light from all around; a background hides the sky itself");
@@ -46,14 +46,14 @@ internal sealed class SkyFields(WindowActions actions)
         var exposure = scene.Exposure;
         if (ui.Slider("exposure", ref exposure, 0.1, 4, 0.05, isBounded: false) && exposure is >= 1e-9 and <= 1e9)
         {
-            Change(ui, present => present with { Exposure = exposure });
+            actions.ChangeScene(present => present with { Exposure = exposure });
         }
 
         ui.Tooltip("multiplies all light before it is shown");
         var isFilmic = scene.Tone == Tone.Filmic;
         if (ui.CheckBox("filmic tone", ref isFilmic))
         {
-            Change(ui, present => present with { Tone = isFilmic ? Tone.Filmic : Tone.None });
+            actions.ChangeScene(present => present with { Tone = isFilmic ? Tone.Filmic : Tone.None });
         }
 
         BuildFog(ui, scene);
@@ -66,7 +66,7 @@ internal sealed class SkyFields(WindowActions actions)
         ui.Row(1);
         if (ui.Slider("haze", ref density, 0, 3 / size, 0, isBounded: false) && density is >= 0 and < 1e6)
         {
-            Change(ui, present => present with { Fog = density > 0 ? new(density, present.Fog?.Colour) : null });
+            actions.ChangeScene(present => present with { Fog = density > 0 ? new(density, present.Fog?.Colour) : null });
         }
 
         ui.Tooltip("density of the haze: after d units, exp(-density * d) of the light is left");
@@ -79,12 +79,10 @@ internal sealed class SkyFields(WindowActions actions)
         ui.Label(name, isDim: true);
         if (ui.Colour(colour) is { } changed)
         {
-            Change(ui, present => present.Sky is { } sky ? present with
+            actions.ChangeScene(present => present.Sky is { } sky ? present with
             {
                 Sky = change(sky, PanelWidgets.Merge(read(sky), colour, changed)),
             } : present);
         }
     });
-
-    private void Change(UserInterface ui, Func<Scene, Scene> change) => actions.ChangeScene(ui, change);
 }

@@ -1,10 +1,6 @@
 using FractalEngine.App.Window.Actions;
 using FractalEngine.App.Window.Panels;
-using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
-using FractalEngine.Core.Scenes;
-using FractalEngine.Parsing.Assets;
-using FractalEngine.Render;
 using FractalEngine.Render.Ui;
 
 namespace FractalEngine.App.Window.Tools;
@@ -25,9 +21,6 @@ internal sealed class TransformHandles(WindowActions actions)
     // Of the length of an axis: what a drag without Ctrl is rounded to, so that files have few digits.
     private const double FineGrid = 1e-3;
 
-    private static readonly (string Label, Colour Colour)[] Looks =
-        [("x", new(0.62, 0.16, 0.16)), ("y", new(0.16, 0.42, 0.12)), ("z", new(0.16, 0.30, 0.66)), ("o", new(0.36, 0.33, 0.10))];
-
     private PlacementDrag? _drag;
     private Vector _startPoint;
     private double _start;
@@ -37,7 +30,8 @@ internal sealed class TransformHandles(WindowActions actions)
     public void Build(UserInterface ui)
     {
         if (actions.Document is not { VisibleDepth: 0, Physics.IsWalking: false, LatestView: { } view } document
-            || document.Tool is not { Handles: not HandleKind.None and var kind } || SelectedObject(document) is not { } selected)
+            || document.Tool is not { Handles: not HandleKind.None and var kind }
+            || HandleLines.SelectedObject(document) is not { } selected)
         {
             _drag = null;
             return;
@@ -61,13 +55,13 @@ internal sealed class TransformHandles(WindowActions actions)
         var isHeld = false;
         for (var axis = kind == HandleKind.Turn ? 2 : 3; axis >= 0; axis--)
         {
-            var end = axis == 3 ? middle : middle + (length * DirectionOf(kind, axis, declared.Placement));
+            var end = axis == 3 ? middle : middle + (length * HandleLines.DirectionOf(kind, axis, declared.Placement));
             if (pointer.Project(end) is not var (x, y) || (axis < 3 && IsTooShort(x - middleX, y - middleY, ui.Scale)))
             {
                 continue;
             }
 
-            var handle = ui.Handle(Looks[axis].Label, $"handle {axis}", x, y, Looks[axis].Colour);
+            var handle = ui.Handle(HandleLines.Looks[axis].Label, $"handle {axis}", x, y, HandleLines.Looks[axis].Colour);
             ui.Tooltip(HelpOf(kind, axis));
             if (handle.Begins)
             {
@@ -77,7 +71,7 @@ internal sealed class TransformHandles(WindowActions actions)
             isHeld |= handle.IsHeld;
             if (handle.IsHeld && _drag is { } drag && Moved(drag, handle, pointer) is { } placement && placement != declared.Placement)
             {
-                actions.ChangeObject(ui, index, present => present.MovedTo(placement));
+                actions.ChangeObject(index, present => present.MovedTo(placement));
             }
 
             if (handle.IsHeld && _drag is not null)
@@ -88,73 +82,6 @@ internal sealed class TransformHandles(WindowActions actions)
 
         _drag = isHeld ? _drag : null;
     }
-
-    /// <summary>Adds the lines from the middle of the selected object to its handles, or the rings that they turn on.</summary>
-    /// <param name="document">The document shown.</param>
-    /// <param name="view">Its view, world space.</param>
-    /// <param name="lines">The list that is added to, world space.</param>
-    public static void AddLines(Document document, View view, List<LineSegment> lines)
-    {
-        if (document.Tool.Handles == HandleKind.None || SelectedObject(document) is not var (_, declared, middle))
-        {
-            return;
-        }
-
-        const int RingSegments = 48;
-        var depth = view.Camera.ToCameraSpace(middle).Z;
-        if (view.Projection == Projection.Perspective && !(depth > 0))
-        {
-            return;
-        }
-
-        var frameHeight = 2 * (view.Projection == Projection.Perspective
-            ? depth * view.Camera.HalfHeightAtUnitDepth : 0.5 * view.OrthographicHeight);
-        for (var axis = 0; axis < 3; axis++)
-        {
-            var colour = LineColour(Looks[axis].Colour);
-            var length = frameHeight * document.Tool.HandleReach;
-            if (document.Tool.Handles != HandleKind.Turn)
-            {
-                lines.Add(new(middle, middle + (length * DirectionOf(document.Tool.Handles, axis, declared.Placement)), colour));
-                continue;
-            }
-
-            var first = PlacementDrag.UnitAxis((axis + 1) % 3);
-            var second = PlacementDrag.UnitAxis((axis + 2) % 3);
-            for (var i = 0; i < RingSegments; i++)
-            {
-                lines.Add(new(OnRing(i), OnRing(i + 1), colour));
-            }
-
-            Vector OnRing(int i)
-            {
-                var (sine, cosine) = Math.SinCos(2 * Math.PI * i / RingSegments);
-                return middle + (length * ((cosine * first) + (sine * second)));
-            }
-        }
-    }
-
-    /// <summary>Returns the selected object of a scene, and its middle; null where none can be placed.</summary>
-    private static (int Index, SceneObject Declared, Vector Middle)? SelectedObject(Document document)
-    {
-        var objects = document.File.Scene.Objects;
-        if (document.File.Kind != FileKind.Scene || document.Tool.Selected is not { ObjectIndex: var index } || index >= objects.Length)
-        {
-            return null;
-        }
-
-        var placed = objects[index];
-        var bounds = placed.Model.Bounds;
-        var middle = bounds.IsEmpty || !bounds.Size.IsFinite() ? placed.ObjectToWorld.Translation : placed.ObjectToWorld * bounds.Centre;
-        return (index, document.File.Scene.Scene.Objects[index], middle);
-    }
-
-    private static Vector DirectionOf(HandleKind kind, int axis, Transformation placement) => kind switch
-    {
-        HandleKind.Move => PlacementDrag.UnitAxis(axis),
-        HandleKind.Turn => PlacementDrag.UnitAxis((axis + 1) % 3),
-        _ => placement.Rotation.LocalAxesFromDegrees() * PlacementDrag.UnitAxis(axis),
-    };
 
     private static bool IsTooShort(double x, double y, double scale) =>
         Math.Sqrt((x * x) + (y * y)) < MinReachRatio * Reach * scale;
@@ -204,7 +131,7 @@ internal sealed class TransformHandles(WindowActions actions)
 
         if (drag.Kind != HandleKind.Turn)
         {
-            return pointer.AlongAxis(handle.X, handle.Y, drag.Middle, DirectionOf(drag.Kind, drag.Axis, drag.Placement));
+            return pointer.AlongAxis(handle.X, handle.Y, drag.Middle, HandleLines.DirectionOf(drag.Kind, drag.Axis, drag.Placement));
         }
 
         if (pointer.OnPlane(handle.X, handle.Y, drag.Middle, PlacementDrag.UnitAxis(drag.Axis)) is not { } point)
@@ -231,13 +158,9 @@ internal sealed class TransformHandles(WindowActions actions)
     private static string HelpOf(HandleKind kind, int axis) => (kind, axis) switch
     {
         (HandleKind.Move, 3) => "move in the plane of the frame; Ctrl snaps to a grid",
-        (HandleKind.Move, _) => $"move along {Looks[axis].Label}; Ctrl snaps to a grid",
-        (HandleKind.Turn, _) => $"turn about {Looks[axis].Label}; Ctrl snaps to 15 degrees",
+        (HandleKind.Move, _) => $"move along {HandleLines.Looks[axis].Label}; Ctrl snaps to a grid",
+        (HandleKind.Turn, _) => $"turn about {HandleLines.Looks[axis].Label}; Ctrl snaps to 15 degrees",
         (_, 3) => "scale, to the right and up for larger; Ctrl snaps to tenths",
-        _ => $"scale along the object's {Looks[axis].Label}; Ctrl snaps to tenths",
+        _ => $"scale along the object's {HandleLines.Looks[axis].Label}; Ctrl snaps to tenths",
     };
-
-    /// <summary>Lightens the colour of a knob, since lines are thin.</summary>
-    private static Colour LineColour(Colour colour) =>
-        new(Math.Min(1, 0.25 + (1.3 * colour.Red)), Math.Min(1, 0.25 + (1.3 * colour.Green)), Math.Min(1, 0.25 + (1.3 * colour.Blue)));
 }

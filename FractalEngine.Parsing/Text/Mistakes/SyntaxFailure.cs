@@ -1,3 +1,5 @@
+using System.Text.RegularExpressions;
+
 namespace FractalEngine.Parsing.Text.Mistakes;
 
 /// <summary>The furthest position that a parser reached in a faulty text, and what it expected there.</summary>
@@ -36,9 +38,25 @@ internal sealed record SyntaxFailure(Cursor Position, IReadOnlyList<string> Expe
         }
     }
 
-    /// <summary>True where the line or the text ends at the position.</summary>
-    public bool IsAtEndOfLine => Position.IsAtEnd || Position.Current is '\n' or '\r';
+    /// <summary>Both, with a line feed between them.</summary>
+    public string Line => $"{Before}\n{After}";
 
     /// <summary>Returns whether something was expected at the position.</summary>
     public bool Expects(string expected) => Expected.Contains(expected);
+
+    /// <summary>Explains the failure by a mistake, if that is the one.</summary>
+    /// <param name="pattern">Regular expression of <see cref="Line"/> with this mistake: <c>\n</c> is the position.</param>
+    /// <param name="message">What to write instead, with groups of the pattern as <c>${name}</c>.</param>
+    /// <param name="expected">What was expected at the position.</param>
+    /// <returns>The message; null for any other failure.</returns>
+    public string? Explain(string pattern, string message, params string[] expected)
+    {
+        if (!Array.TrueForAll(expected, Expects))
+        {
+            return null;
+        }
+
+        var match = Regex.Match(Line, pattern, RegexOptions.CultureInvariant);
+        return match.Success ? match.Result(message) : null;
+    }
 }

@@ -1,5 +1,6 @@
 using System.Globalization;
 using FractalEngine.App.Window;
+using FractalEngine.App.Window.Actions;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Visibility;
@@ -27,7 +28,12 @@ public class CameraControlsTests
     private static Flight CreateFlight(Camera? camera = null, AffineMap? placement = null) =>
         Flight.Create(Menger, camera ?? Start, placement ?? AffineMap.Identity);
 
-    private static KeyPressed KeyPress(Key key) => new(key, KeyModifiers.None, false);
+    /// <summary>Presses a key as the window does, which knows what actions it has.</summary>
+    private static bool Press(CameraControls controls, Key key, KeyModifiers modifiers = KeyModifiers.None, bool isRepeat = false)
+    {
+        var pressed = new KeyPressed(key, modifiers, isRepeat);
+        return controls.Handle(pressed, Aspect, ActionTable.Find(pressed)?.MoveCamera);
+    }
 
     [Fact]
     public void Start_Outside_IsAtDepthZero()
@@ -82,7 +88,7 @@ public class CameraControlsTests
     public void KeyW_Held_GoesDeeperAndSlowsDown()
     {
         var flight = CreateFlight();
-        flight.Controls.Handle(KeyPress(Key.W), Aspect);
+        Press(flight.Controls, Key.W);
         var (last, far) = (flight.Camera.Camera.Position, 0.0);
         for (var i = 0; i < 60 * 30; i++)
         {
@@ -106,7 +112,7 @@ public class CameraControlsTests
     public void KeyS_AfterW_ComesOutAgain()
     {
         var flight = CreateFlight();
-        flight.Controls.Handle(KeyPress(Key.W), Aspect);
+        Press(flight.Controls, Key.W);
         for (var i = 0; i < 60 * 20; i++)
         {
             flight.Controls.Advance(Frame);
@@ -114,7 +120,7 @@ public class CameraControlsTests
 
         Assert.True(flight.Camera.Depth > 2);
         flight.Controls.Handle(new KeyReleased(Key.W, KeyModifiers.None), Aspect);
-        flight.Controls.Handle(KeyPress(Key.S), Aspect);
+        Press(flight.Controls, Key.S);
         for (var i = 0; i < 60 * 30; i++)
         {
             flight.Controls.Advance(Frame);
@@ -132,7 +138,7 @@ public class CameraControlsTests
     {
         var flight = CreateDeepFlight(150);
         Assert.True(flight.Camera.Depth > 5);
-        Assert.True(flight.Controls.Handle(KeyPress(key), Aspect));
+        Assert.True(Press(flight.Controls, key));
         Assert.Equal((0, 0.0), (flight.Camera.Depth, flight.Camera.Log10Magnification));
         Near.Equal(Start.Position, flight.Camera.Camera.Position, 1e-12);
         Assert.Equal(Start.Rotation, flight.Camera.Camera.Rotation);
@@ -155,7 +161,7 @@ public class CameraControlsTests
     public void Framing_FromDeep_ShowsEverything(Key key)
     {
         var flight = CreateDeepFlight(150);
-        Assert.True(flight.Controls.Handle(KeyPress(key), Aspect));
+        Assert.True(Press(flight.Controls, key));
         Assert.Equal((0, 0.0), (flight.Camera.Depth, flight.Camera.Log10Magnification));
         var view = new View(flight.Camera.Camera, flight.Camera.Projection);
         for (var corner = 0; corner < 8; corner++)
@@ -172,13 +178,13 @@ public class CameraControlsTests
     {
         var flight = CreateDeepFlight(150);
         var (depth, position) = (flight.Camera.Depth, flight.Camera.Camera.Position);
-        Assert.True(flight.Controls.Handle(KeyPress(Key.Digit5), Aspect));
+        Assert.True(Press(flight.Controls, Key.Digit5));
         Assert.Equal(Projection.Orthographic, flight.Camera.Projection);
         var view = new View(flight.Camera.Camera, flight.Camera.Projection);
         Assert.Same(view, flight.Camera.WithDeepZoom(view));
         Near.Equal(position, flight.Camera.Camera.Position, 1e-12);
         AssertFiniteAndNear(flight);
-        flight.Controls.Handle(KeyPress(Key.Digit5), Aspect);
+        Press(flight.Controls, Key.Digit5);
         Assert.Equal(depth, flight.Camera.Depth);
         Assert.NotNull(flight.Camera.WithDeepZoom(new View(flight.Camera.Camera, flight.Camera.Projection)).DeepZoom);
     }
@@ -224,7 +230,7 @@ public class CameraControlsTests
             {
                 case 0:
                     var key = keys[random.Next(random.Next(5) == 0 ? keys.Length : MovingKeyCount)];
-                    flight.Controls.Handle(new KeyPressed(key, (KeyModifiers)random.Next(8), random.Next(3) == 0), Aspect);
+                    Press(flight.Controls, key, (KeyModifiers)random.Next(8), random.Next(3) == 0);
                     break;
                 case 1:
                     flight.Controls.Handle(new KeyReleased(keys[random.Next(MovingKeyCount)], KeyModifiers.None), Aspect);
@@ -280,17 +286,17 @@ public class CameraControlsTests
         var before = camera.Camera;
         var focus = before.Position + (camera.FocusDistance * before.LocalAxes.V3) + (0.3 * before.LocalAxes.V1);
         var size = new View(before, Projection.Perspective).Project(focus, 400, 300)!.Value.X;
-        controls.Handle(KeyPress(Key.Digit5), Aspect);
+        Press(controls, Key.Digit5);
         var view = new View(camera.Camera, Projection.Orthographic) { OrthographicHeight = camera.OrthographicHeight!.Value };
         Near.Equal(size, view.Project(focus, 400, 300)!.Value.X, 1e-9);
-        controls.Handle(KeyPress(Key.Digit5), Aspect);
+        Press(controls, Key.Digit5);
         Assert.Equal(before, camera.Camera);
         // The size stays also after zooming in between.
-        controls.Handle(KeyPress(Key.Digit5), Aspect);
+        Press(controls, Key.Digit5);
         controls.Handle(new WheelTurned(2, KeyModifiers.None), Aspect);
         view = new View(camera.Camera, Projection.Orthographic) { OrthographicHeight = camera.OrthographicHeight!.Value };
         size = view.Project(focus, 400, 300)!.Value.X;
-        controls.Handle(KeyPress(Key.Digit5), Aspect);
+        Press(controls, Key.Digit5);
         Near.Equal(size, new View(camera.Camera, Projection.Perspective).Project(focus, 400, 300)!.Value.X, 1e-9);
     }
 
@@ -300,7 +306,7 @@ public class CameraControlsTests
         var flight = CreateDeepFlight(150);
         var state = flight.Camera.State;
         var (depth, magnification) = (flight.Camera.Depth, flight.Camera.Log10Magnification);
-        flight.Controls.Handle(KeyPress(Key.Enter), Aspect);
+        Press(flight.Controls, Key.Enter);
         flight.Camera.Restore(state);
         Assert.Equal((depth, magnification), (flight.Camera.Depth, flight.Camera.Log10Magnification));
         Assert.Equal(state, flight.Camera.State);
@@ -316,7 +322,7 @@ public class CameraControlsTests
         var hierarchy = LodHierarchy.Build(FractalAddressTests.CreateInfinite("sierpinski"));
         var camera = new Camera(new(-1, -1, -1), CameraFraming.LookRotation(Vector.One), 50);
         var flight = Flight.Create(hierarchy, camera, AffineMap.Identity);
-        flight.Controls.Handle(KeyPress(Key.W), Aspect);
+        Press(flight.Controls, Key.W);
         var left = flight.Camera.Camera.Position.Length();
         for (var i = 0; i < 600; i++)
         {

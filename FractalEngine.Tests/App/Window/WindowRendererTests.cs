@@ -116,8 +116,7 @@ public sealed class WindowRendererTests : IDisposable
         Assert.Equal(1, document.Renderer.Scene.Models.Count(model => model.IsPlaceholder));
         document.FirstSightLoader.Start(document.UpdateView(window.Aspect), window.Aspect, Settings);
         Assert.False(document.FirstSightLoader.IsRunning);
-        // F frames the whole scene.
-        document.CameraControls.Handle(new KeyPressed(Key.F, KeyModifiers.None, false), window.Aspect);
+        document.FlyingCamera.FrameScene(window.Aspect);
         document.FirstSightLoader.Start(document.UpdateView(window.Aspect), window.Aspect, Settings);
         Assert.True(document.FirstSightLoader.IsRunning);
         var scene = Polling.WaitFor(document.FirstSightLoader.TakeScene, "scene with the models that became visible");

@@ -84,7 +84,8 @@ public class ActionTableTests
             var bounds = new BoundingBox(-Vector.One, Vector.One);
             var camera = new FlyingCamera(bounds, new(new(2, 3, -9), new(0.3, 0.2, 0), 60), Projection.Perspective, null);
             var controls = new CameraControls(camera);
-            Assert.True(controls.Handle(new KeyPressed(chord.Key, chord.Modifiers, IsRepeat: false), 1.5), $"{action.Id}: {chord}");
+            var pressed = new KeyPressed(chord.Key, chord.Modifiers, IsRepeat: false);
+            Assert.True(controls.Handle(pressed, 1.5, ActionTable.Find(pressed)?.MoveCamera), $"{action.Id}: {chord}");
         }));
     }
 
