@@ -20,17 +20,6 @@ public class FractalEngineException : Exception
     {
     }
 
-    /// <summary>Makes an input error with a message and a cause.</summary>
-    public FractalEngineException(string message, Exception innerException)
-        : this(ErrorKind.Input, message, innerException)
-    {
-    }
-
-    /// <summary>Makes an input error without details.</summary>
-    public FractalEngineException()
-    {
-    }
-
     /// <summary>Whether the input, a limit or the surroundings are at fault.</summary>
     public ErrorKind Kind { get; }
 }
