@@ -119,33 +119,6 @@ public sealed class Mesh : IEquatable<Mesh>
         (Vertex(VertexIndices[3 * face]), Vertex(VertexIndices[(3 * face) + 1]), Vertex(VertexIndices[(3 * face) + 2]));
 
     /// <summary>
-    /// Applies a function to every vertex: the paper's T(t) (§4.2.3). Normals are dropped, since a general function
-    /// does not say what becomes of them.
-    /// </summary>
-    /// <param name="function">Maps a vertex to its new position, which is finite.</param>
-    /// <exception cref="ArgumentException">The function makes a coordinate that is NaN or infinite.</exception>
-    public Mesh Transform(Func<Vector, Vector> function)
-    {
-        var positions = ImmutableArray.CreateBuilder<double>(Positions.Length);
-        for (var vertex = 0; vertex < VertexCount; vertex++)
-        {
-            var (x, y, z) = function(Vertex(vertex));
-            positions.Add(x);
-            positions.Add(y);
-            positions.Add(z);
-        }
-
-        return new(positions.MoveToImmutable(), VertexIndices)
-        {
-            Colours = Colours,
-            TextureCoordinates = TextureCoordinates,
-            TextureIndices = TextureIndices,
-            Groups = Groups,
-            MaterialLibraries = MaterialLibraries,
-        };
-    }
-
-    /// <summary>
     /// Finds the distance of the farthest vertex from the image of the origin under a map (paper §4.3.3):
     /// max |m·v − m.position|; 0 for an empty mesh. Cost O(vertices).
     /// </summary>
