@@ -111,10 +111,7 @@ internal sealed class FramingPoints
     {
         for (var corner = 0; corner < 8; corner++)
         {
-            Add(map * new Vector(
-                (corner & 1) == 0 ? box.Minimum.X : box.Maximum.X,
-                (corner & 2) == 0 ? box.Minimum.Y : box.Maximum.Y,
-                (corner & 4) == 0 ? box.Minimum.Z : box.Maximum.Z));
+            Add(map * box.Corner(corner));
         }
     }
 
