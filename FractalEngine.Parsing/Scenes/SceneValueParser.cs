@@ -93,6 +93,15 @@ public abstract class SceneValueParser : Parser
         return rest.Current != ',' || ParseBlanks(rest.Advance(1), out rest);
     }
 
+    /// <summary>Parses a number that must meet a condition.</summary>
+    /// <exception cref="SourceException">The number does not meet it: <paramref name="fault"/> is the message.</exception>
+    private protected bool ParseNumber(Cursor cursor, Func<double, bool> isValid, string fault, out double number, out Cursor rest)
+    {
+        var success = ParseNumber(cursor, out number, out rest);
+        Require(!success || isValid(number), cursor, fault);
+        return success;
+    }
+
     /// <summary>Throws an exception for a value that has no valid meaning, unless the condition holds.</summary>
     protected void Require(bool condition, Cursor cursor, string message)
     {
