@@ -5,7 +5,7 @@ using BitOperations = System.Numerics.BitOperations;
 namespace FractalEngine.Core.Visibility;
 
 /// <summary>Computes the <see cref="SkyMasks"/> of a hierarchy by casting rays from the surface of each child at its siblings.</summary>
-internal sealed class SkyMaskBaker
+internal sealed class SkyMaskBaker(SkyOccluder occluder, LodHierarchy hierarchy)
 {
     // From so many remaining levels on, levels with the same maps look alike.
     private const long SettledLevels = 4;
@@ -34,15 +34,7 @@ internal sealed class SkyMaskBaker
     // The longest chain of only children that is followed to the next masks: an infinite one has none.
     private const int MaxOnlyChildren = 1000;
 
-    private readonly SkyOccluder _occluder;
-
-    private readonly LodHierarchy _hierarchy;
-
-    private SkyMaskBaker(SkyOccluder occluder, LodHierarchy hierarchy)
-    {
-        _occluder = occluder;
-        _hierarchy = hierarchy;
-    }
+    private readonly LodHierarchy _hierarchy = hierarchy;
 
     /// <summary>Gives the nodes of a hierarchy their masks, where these come close to the truth.</summary>
     /// <param name="hierarchy">Hierarchy of a fractal; that of a mesh needs none.</param>
@@ -65,9 +57,9 @@ internal sealed class SkyMaskBaker
     private bool HasShearedMasks()
     {
         var isFlat = IsFlat(_hierarchy.Mesh.UsedBounds);
-        return _occluder.Nodes.Exists(state => state.Node.ChildMaps.Index().Any(child => isFlat
+        return occluder.Nodes.Exists(state => state.Node.ChildMaps.Index().Any(child => isFlat
             ? ShearOf(child.Item) > MaxShearOfTiles
-            : ShearOf(child.Item) > MaxShear && _occluder.ChildOf(state.Node, state.Levels, child.Index).Node.ChildMaps.Length > 0));
+            : ShearOf(child.Item) > MaxShear && occluder.ChildOf(state.Node, state.Levels, child.Index).Node.ChildMaps.Length > 0));
     }
 
     /// <summary>
@@ -76,7 +68,7 @@ internal sealed class SkyMaskBaker
     /// </summary>
     private bool IsAffordable()
     {
-        if (_occluder.Nodes is not [var (whole, levels), ..])
+        if (occluder.Nodes is not [var (whole, levels), ..])
         {
             return true;
         }
@@ -87,13 +79,13 @@ internal sealed class SkyMaskBaker
         var rayCount = 0;
         for (var i = 0; i < ProbedLines && visitCount <= MaxMeanVisits * ProbedLines; i++)
         {
-            var isFound = _occluder.TrySample(whole, levels, random, sample);
+            var isFound = occluder.TrySample(whole, levels, random, sample);
             visitCount += sample.VisitCount;
             rayCount++;
             if (isFound)
             {
                 var above = SkyDirections.Above(sample.Normal);
-                _occluder.FreeDirections(whole, levels, -1, sample.Point, above, ref visitCount);
+                occluder.FreeDirections(whole, levels, -1, sample.Point, above, ref visitCount);
                 rayCount += BitOperations.PopCount(above);
             }
         }
@@ -116,25 +108,25 @@ internal sealed class SkyMaskBaker
     private bool Bake(bool keepsAll, CancellationToken cancellation)
     {
         var sources = FindSources();
-        var children = sources.Where(static pair => pair.Source < 0).Sum(pair => _occluder.Nodes[pair.Index].Node.ChildMaps.Length);
-        if (children > MaxTotalChildren || _occluder.Nodes.Exists(static state => state.Node.ChildMaps.Length > MaxChildren))
+        var children = sources.Where(static pair => pair.Source < 0).Sum(pair => occluder.Nodes[pair.Index].Node.ChildMaps.Length);
+        if (children > MaxTotalChildren || occluder.Nodes.Exists(static state => state.Node.ChildMaps.Length > MaxChildren))
         {
             return false;
         }
 
         // The masks of a node are compared with rays together with those below it, which are there first.
-        var lastMasks = new SkyMasks?[_occluder.LastLevels + 1];
+        var lastMasks = new SkyMasks?[occluder.LastLevels + 1];
         _hierarchy.SetLastSkyMasks(lastMasks);
         var hidesAnything = false;
-        var fromTheLast = sources.OrderBy(pair => _occluder.Nodes[pair.Index].Levels).ThenByDescending(static pair => pair.Index);
+        var fromTheLast = sources.OrderBy(pair => occluder.Nodes[pair.Index].Levels).ThenByDescending(static pair => pair.Index);
         foreach (var (index, source) in fromTheLast)
         {
-            var (node, levels) = _occluder.Nodes[index];
+            var (node, levels) = occluder.Nodes[index];
             if (source < 0)
             {
                 var masks = Compute(node, levels, cancellation);
                 SetMasks(node, levels, masks);
-                var isUseful = masks.HideAnything && (keepsAll || SkyMaskTest.IsUseful(_occluder, _hierarchy, node, levels));
+                var isUseful = masks.HideAnything && (keepsAll || SkyMaskTest.IsUseful(occluder, _hierarchy, node, levels));
                 masks = isUseful ? masks : masks.WithoutMasks();
                 SetMasks(node, levels, masks);
                 hidesAnything |= masks.HideAnything;
@@ -143,7 +135,7 @@ internal sealed class SkyMaskBaker
 
         foreach (var (index, source) in sources.Where(static pair => pair.Source >= 0))
         {
-            _occluder.Nodes[index].Node.SkyMasks = _occluder.Nodes[source].Node.SkyMasks;
+            occluder.Nodes[index].Node.SkyMasks = occluder.Nodes[source].Node.SkyMasks;
         }
 
         return hidesAnything;
@@ -165,12 +157,12 @@ internal sealed class SkyMaskBaker
     private List<(int Index, int Source)> FindSources()
     {
         var sources = new List<(int Index, int Source)>();
-        for (var i = 0; i < _occluder.Nodes.Count; i++)
+        for (var i = 0; i < occluder.Nodes.Count; i++)
         {
-            var (node, levels) = _occluder.Nodes[i];
+            var (node, levels) = occluder.Nodes[i];
             if (node.ChildMaps.Length > 0)
             {
-                var isSettled = levels > _occluder.LastLevels && levels >= SettledLevels;
+                var isSettled = levels > occluder.LastLevels && levels >= SettledLevels;
                 sources.Add((i, isSettled ? sources.FindIndex(pair => pair.Source < 0 && HasSameChildren(pair.Index, node)) : -1));
                 var (index, source) = sources[^1];
                 sources[^1] = (index, source < 0 ? -1 : sources[source].Index);
@@ -180,7 +172,7 @@ internal sealed class SkyMaskBaker
         return sources;
 
         bool HasSameChildren(int index, LodNode node) =>
-            _occluder.Nodes[index].Levels > _occluder.LastLevels && SkyMaskBaker.HasSameChildren(node, _occluder.Nodes[index].Node);
+            occluder.Nodes[index].Levels > occluder.LastLevels && SkyMaskBaker.HasSameChildren(node, occluder.Nodes[index].Node);
     }
 
     private static bool HasSameChildren(LodNode node1, LodNode node2)
@@ -208,7 +200,7 @@ internal sealed class SkyMaskBaker
         for (var i = 0; i < data.Length; i++)
         {
             var turns = data.Length > 1 ? TurnsOf(ToNextMasks(node, levels, i)) : null;
-            data[i] = new(_occluder.ChildOf(node, levels, i).Node.Box, node.ChildMaps[i].ToAffineMap().Linear, turns);
+            data[i] = new(occluder.ChildOf(node, levels, i).Node.Box, node.ChildMaps[i].ToAffineMap().Linear, turns);
         }
 
         if (data.Length == 1)
@@ -232,7 +224,7 @@ internal sealed class SkyMaskBaker
         var hasVoted = new HashSet<(int Child, int Place)>();
         for (var draw = 0; draw < DrawsPerChild * data.Length; draw++)
         {
-            if (!_occluder.TrySample(node, levels, random, sample))
+            if (!occluder.TrySample(node, levels, random, sample))
             {
                 continue;
             }
@@ -248,7 +240,7 @@ internal sealed class SkyMaskBaker
             }
 
             var above = SkyDirections.Above(sample.Normal);
-            var free = _occluder.FreeDirections(node, levels, child, sample.Point, above);
+            var free = occluder.FreeDirections(node, levels, child, sample.Point, above);
             votes[child].Add(place, above, free);
         }
     }
@@ -257,13 +249,13 @@ internal sealed class SkyMaskBaker
     private Matrix ToNextMasks(LodNode node, long levels, int child)
     {
         var linear = node.ChildMaps[child].ToAffineMap().Linear;
-        var (below, belowLevels) = _occluder.ChildOf(node, levels, child);
+        var (below, belowLevels) = occluder.ChildOf(node, levels, child);
         for (var i = 0; i < MaxOnlyChildren && below.ChildMaps.Length == 1; i++)
         {
             // Only directions matter: the product of many small maps would underflow.
             linear /= linear.MaxAbsEntry();
             linear *= below.ChildMaps[0].ToAffineMap().Linear;
-            (below, belowLevels) = _occluder.ChildOf(below, belowLevels, 0);
+            (below, belowLevels) = occluder.ChildOf(below, belowLevels, 0);
         }
 
         return (linear / linear.MaxAbsEntry()).Inverse();

@@ -191,8 +191,8 @@ public sealed partial class SceneParser
         if (ParseKeyword(start, "inertia", out rest))
         {
             const string fault = "the inertia must be positive and at most 2/3";
-            return ParseNumber(rest, static factor => factor is > 0 and <= PhysicsObject.ShellInertiaFactor, fault, out var inertia, out rest)
-                && Set(ref body, body with { InertiaFactor = inertia });
+            return ParseNumber(rest, static value => value is > 0 and <= PhysicsObject.ShellInertiaFactor, fault, out var factor, out rest)
+                && Set(ref body, body with { InertiaFactor = factor });
         }
 
         if (ParseKeyword(start, "shape", out rest))

@@ -6,14 +6,9 @@ using FractalEngine.Parsing.Text.Mistakes;
 namespace FractalEngine.Parsing.Scenes;
 
 /// <summary>Parses the values in scene files: vectors, matrices and colours, with '#' for "no transformation".</summary>
-public abstract class SceneValueParser : Parser
+/// <param name="source">Text that is parsed.</param>
+public abstract class SceneValueParser(SourceText source) : Parser(source)
 {
-    /// <summary>Creates a parser for one text.</summary>
-    protected SceneValueParser(SourceText source)
-        : base(source)
-    {
-    }
-
     /// <summary>Parses <c>(position, rotation, scale)</c>, each a vector or '#', or a single '#' for the identity.</summary>
     protected bool ParseMatrix(Cursor cursor, out Transformation placement, out Cursor rest)
     {

@@ -12,16 +12,14 @@ namespace FractalEngine.Parsing.Text;
 /// Every <c>Parse…</c> method takes a cursor and returns whether the text there matches. On success it yields the value and the
 /// cursor behind it; on failure the caller's cursor remains valid for another attempt.
 /// </remarks>
-public abstract partial class Parser
+/// <param name="source">Text that is parsed.</param>
+public abstract partial class Parser(SourceText source)
 {
     /// <summary>Parses one item of a list.</summary>
     private protected delegate bool ItemParser<T>(Cursor cursor, out T item, out Cursor rest);
 
-    /// <summary>Creates a parser for one text.</summary>
-    protected Parser(SourceText source) => Source = source;
-
     /// <summary>Text that is being parsed.</summary>
-    protected SourceText Source { get; }
+    protected SourceText Source { get; } = source;
 
     /// <summary>Skips blanks and tabs, of which there may be none. Always returns true.</summary>
     protected virtual bool ParseBlanks(Cursor cursor, out Cursor rest)
