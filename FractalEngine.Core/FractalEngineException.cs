@@ -5,32 +5,17 @@ namespace FractalEngine.Core;
 /// Wrong arguments of a caller stay <see cref="ArgumentException"/>, and files that can't be written stay <see cref="IOException"/>. The
 /// message is one line for the user, without a full stop; an error in a file adds the line at fault below it.
 /// </remarks>
-public class FractalEngineException : Exception
+/// <param name="kind">Decides the exit code of the program.</param>
+/// <param name="message">One line, without a full stop.</param>
+/// <param name="innerException">The cause, if another error was.</param>
+public class FractalEngineException(ErrorKind kind, string message, Exception? innerException = null) : Exception(message, innerException)
 {
-    /// <summary>Makes an error of a kind.</summary>
-    /// <param name="kind">Decides the exit code of the program.</param>
-    /// <param name="message">One line, without a full stop.</param>
-    /// <param name="innerException">The cause, if another error was.</param>
-    public FractalEngineException(ErrorKind kind, string message, Exception? innerException = null)
-        : base(message, innerException) => Kind = kind;
-
     /// <summary>Makes an input error with a message.</summary>
     public FractalEngineException(string message)
         : this(ErrorKind.Input, message)
     {
     }
 
-    /// <summary>Makes an input error with a message and a cause.</summary>
-    public FractalEngineException(string message, Exception innerException)
-        : this(ErrorKind.Input, message, innerException)
-    {
-    }
-
-    /// <summary>Makes an input error without details.</summary>
-    public FractalEngineException()
-    {
-    }
-
     /// <summary>Whether the input, a limit or the surroundings are at fault.</summary>
-    public ErrorKind Kind { get; }
+    public ErrorKind Kind { get; } = kind;
 }

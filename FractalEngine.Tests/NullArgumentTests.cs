@@ -30,7 +30,7 @@ public sealed class NullArgumentTests : IDisposable
         "AdaptiveQuality", "AtomicFile", "BodyDescription", "CameraFraming", "CameraNavigation", "ClosedSurface",
         "DeepZoomRayCaster", "DistinctInstances", "ExactFractalCollider", "FractalAddress", "FractalBounds", "FractalGenerator",
         "FractalNumber", "FractalParser", "FractalSteps", "FractalWriter", "FrameRenderer", "HierarchyCollider", "ImageHeader",
-        "LoadedScene", "LodHierarchy", "Mesh", "MtlParser", "NormalGenerator", "ObjMeshWriter", "ObjSceneWriter", "PhysicsWorld",
+        "LoadedScene", "LodHierarchy", "MtlParser", "NormalGenerator", "ObjMeshWriter", "ObjSceneWriter", "PhysicsWorld",
         "PlacedModel", "PointsParser", "QueryStatistics", "RaysParser", "SceneFileMerge", "SceneMaterials", "SceneMerge", "SceneParser",
         "SceneWriter", "SimpleCollider", "UnshadedSurface", "UserInterface", "View",
         "VisibleSet",

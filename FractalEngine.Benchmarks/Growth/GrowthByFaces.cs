@@ -91,6 +91,7 @@ internal static class GrowthByFaces
     {
         var mesh = faces == 1 ? new Mesh([-1, 0, -1, 1, 0, -1, 0, 0, 1], [0, 2, 1]) : MeshGenerators.Create(name, 1, faces);
         var (centre, scale) = (mesh.Bounds.Centre, 2 / mesh.Bounds.Size.MaxAbsComponent());
-        return mesh.Transform(vertex => scale * (vertex - centre));
+        var positions = Enumerable.Range(0, mesh.VertexCount).Select(mesh.Vertex).Select(vertex => scale * (vertex - centre));
+        return new([.. positions.SelectMany(static vertex => (double[])[vertex.X, vertex.Y, vertex.Z])], mesh.VertexIndices);
     }
 }

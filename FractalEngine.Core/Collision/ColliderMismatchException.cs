@@ -1,23 +1,7 @@
 namespace FractalEngine.Core.Collision;
 
 /// <summary>Thrown where a kind of collider can't serve a model; the message lists the kinds that can.</summary>
-public sealed class ColliderMismatchException : FractalEngineException
-{
-    /// <summary>Makes an error with a message of one line.</summary>
-    public ColliderMismatchException(string message)
-        : base(ErrorKind.Input, message)
-    {
-    }
-
-    /// <summary>Makes an error with a message of one line and a cause.</summary>
-    public ColliderMismatchException(string message, Exception innerException)
-        : base(ErrorKind.Input, message, innerException)
-    {
-    }
-
-    /// <summary>Makes an error without details.</summary>
-    public ColliderMismatchException()
-        : this("the collider does not fit the model")
-    {
-    }
-}
+/// <param name="message">One line, without a full stop.</param>
+/// <param name="innerException">The cause, if another error was.</param>
+public sealed class ColliderMismatchException(string message, Exception? innerException = null)
+    : FractalEngineException(ErrorKind.Input, message, innerException);

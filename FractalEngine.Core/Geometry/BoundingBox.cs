@@ -32,6 +32,11 @@ public readonly record struct BoundingBox(Vector Minimum, Vector Maximum)
         }
     }
 
+    /// <summary>Returns a corner of the box.</summary>
+    /// <param name="index">From 0 to 7: its bits choose the largest instead of the smallest coordinate, that of x is the lowest.</param>
+    public Vector Corner(int index) => new(
+        (index & 1) == 0 ? Minimum.X : Maximum.X, (index & 2) == 0 ? Minimum.Y : Maximum.Y, (index & 4) == 0 ? Minimum.Z : Maximum.Z);
+
     /// <summary>Computes the smallest box that holds two boxes.</summary>
     public static BoundingBox Union(BoundingBox box1, BoundingBox box2) =>
         new(Vector.Min(box1.Minimum, box2.Minimum), Vector.Max(box1.Maximum, box2.Maximum));

@@ -10,7 +10,7 @@ namespace FractalEngine.Core.Geometry;
 /// A triangle mesh as plain data: flat arrays, immutable, not tied to any file, collider or graphics API.
 /// Front faces are wound so that <c>Cross(b − a, c − a)</c> points outwards.
 /// </summary>
-public sealed class Mesh : IEquatable<Mesh>
+public sealed record Mesh
 {
     private StrongBox<BoundingBox>? _usedBounds;
 
@@ -79,7 +79,7 @@ public sealed class Mesh : IEquatable<Mesh>
     public Mesh WithColours(ImmutableArray<double> colours)
     {
         Require(!colours.IsDefault && colours.Length == Positions.Length, nameof(colours), "three components a vertex");
-        return new(this) { Colours = colours };
+        return this with { Colours = colours };
     }
 
     /// <summary>Makes the same mesh with texture coordinates.</summary>
@@ -89,7 +89,7 @@ public sealed class Mesh : IEquatable<Mesh>
     {
         Require(!coordinates.IsDefault && coordinates.Length % 2 == 0, nameof(coordinates), "two coordinates each");
         RequireIndices(indices, VertexIndices.Length, coordinates.Length / 2, -1, nameof(indices));
-        return new(this) { TextureCoordinates = coordinates, TextureIndices = indices };
+        return this with { TextureCoordinates = coordinates, TextureIndices = indices };
     }
 
     /// <summary>Makes the same mesh with normals.</summary>
@@ -99,12 +99,12 @@ public sealed class Mesh : IEquatable<Mesh>
     {
         Require(!normals.IsDefault && normals.Length % 3 == 0, nameof(normals), "three components each");
         RequireIndices(indices, VertexIndices.Length, normals.Length / 3, -1, nameof(indices));
-        return new(this) { Normals = normals, NormalIndices = indices };
+        return this with { Normals = normals, NormalIndices = indices };
     }
 
     /// <summary>Makes the same mesh with named runs of faces.</summary>
     public Mesh WithGroups(ImmutableArray<MeshGroup> groups, ImmutableArray<string> materialLibraries) =>
-        new(this) { Groups = groups, MaterialLibraries = materialLibraries };
+        this with { Groups = groups, MaterialLibraries = materialLibraries };
 
     /// <summary>The position of a vertex.</summary>
     /// <param name="vertex">From 0.</param>
@@ -117,33 +117,6 @@ public sealed class Mesh : IEquatable<Mesh>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public (Vector A, Vector B, Vector C) Face(int face) =>
         (Vertex(VertexIndices[3 * face]), Vertex(VertexIndices[(3 * face) + 1]), Vertex(VertexIndices[(3 * face) + 2]));
-
-    /// <summary>
-    /// Applies a function to every vertex: the paper's T(t) (§4.2.3). Normals are dropped, since a general function
-    /// does not say what becomes of them.
-    /// </summary>
-    /// <param name="function">Maps a vertex to its new position, which is finite.</param>
-    /// <exception cref="ArgumentException">The function makes a coordinate that is NaN or infinite.</exception>
-    public Mesh Transform(Func<Vector, Vector> function)
-    {
-        var positions = ImmutableArray.CreateBuilder<double>(Positions.Length);
-        for (var vertex = 0; vertex < VertexCount; vertex++)
-        {
-            var (x, y, z) = function(Vertex(vertex));
-            positions.Add(x);
-            positions.Add(y);
-            positions.Add(z);
-        }
-
-        return new(positions.MoveToImmutable(), VertexIndices)
-        {
-            Colours = Colours,
-            TextureCoordinates = TextureCoordinates,
-            TextureIndices = TextureIndices,
-            Groups = Groups,
-            MaterialLibraries = MaterialLibraries,
-        };
-    }
 
     /// <summary>
     /// Finds the distance of the farthest vertex from the image of the origin under a map (paper §4.3.3):
@@ -181,9 +154,6 @@ public sealed class Mesh : IEquatable<Mesh>
         && Groups.AsSpan().SequenceEqual(other.Groups.AsSpan()) && MaterialLibraries.SequenceEqual(other.MaterialLibraries));
 
     /// <inheritdoc/>
-    public override bool Equals(object? obj) => Equals(obj as Mesh);
-
-    /// <inheritdoc/>
     public override int GetHashCode() => HashCode.Combine(VertexCount, FaceCount, Bounds);
 
     private BoundingBox ComputeUsedBounds()
@@ -195,20 +165,6 @@ public sealed class Mesh : IEquatable<Mesh>
         }
 
         return box;
-    }
-
-    private Mesh(Mesh other)
-    {
-        Positions = other.Positions;
-        VertexIndices = other.VertexIndices;
-        Bounds = other.Bounds;
-        Colours = other.Colours;
-        TextureCoordinates = other.TextureCoordinates;
-        TextureIndices = other.TextureIndices;
-        Normals = other.Normals;
-        NormalIndices = other.NormalIndices;
-        Groups = other.Groups;
-        MaterialLibraries = other.MaterialLibraries;
     }
 
     private static bool HaveSameBits(ImmutableArray<double> numbers1, ImmutableArray<double> numbers2) =>

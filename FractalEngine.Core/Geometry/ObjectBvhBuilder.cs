@@ -4,7 +4,7 @@ namespace FractalEngine.Core.Geometry;
 /// Builds an <see cref="ObjectBvh"/> from the root down with the surface area heuristic of a <see cref="BoxPartition"/>.
 /// </summary>
 /// <remarks>Unbounded and empty objects get subtrees of their own, so that they enlarge no box of the others.</remarks>
-internal sealed class ObjectBvhBuilder
+internal sealed class ObjectBvhBuilder(ObjectBvhLeaf[] leaves)
 {
     // Below this depth nodes are halved, which ends within 16 levels: a path has room for 32.
     private const int MaxHeuristicDepth = 14;
@@ -12,14 +12,8 @@ internal sealed class ObjectBvhBuilder
     // A node of nodes with leaves only: here full nodes are worth more than the best split.
     private const int MaxFilledCount = ObjectBvhNode.Width * ObjectBvhNode.Width;
 
-    private readonly ObjectBvhLeaf[] _leaves;
-    private readonly BoxPartition _partition;
-
-    private ObjectBvhBuilder(ObjectBvhLeaf[] leaves)
-    {
-        _leaves = leaves;
-        _partition = new(Array.ConvertAll(leaves, static leaf => leaf.Bounds));
-    }
+    private readonly ObjectBvhLeaf[] _leaves = leaves;
+    private readonly BoxPartition _partition = new(Array.ConvertAll(leaves, static leaf => leaf.Bounds));
 
     /// <summary>Builds the tree over some objects.</summary>
     /// <param name="leaves">At least one.</param>

@@ -14,13 +14,13 @@ internal sealed class ObjectBvhNode
     /// <summary>The largest number of children.</summary>
     public const int Width = 4;
 
-    private readonly Vector128<float> _minX = Vector128.Create(float.PositiveInfinity);
-    private readonly Vector128<float> _minY = Vector128.Create(float.PositiveInfinity);
-    private readonly Vector128<float> _minZ = Vector128.Create(float.PositiveInfinity);
-    private readonly Vector128<float> _maxX = Vector128.Create(float.NegativeInfinity);
-    private readonly Vector128<float> _maxY = Vector128.Create(float.NegativeInfinity);
-    private readonly Vector128<float> _maxZ = Vector128.Create(float.NegativeInfinity);
-    private readonly Children _children;
+    private Vector128<float> _minX = Vector128.Create(float.PositiveInfinity);
+    private Vector128<float> _minY = Vector128.Create(float.PositiveInfinity);
+    private Vector128<float> _minZ = Vector128.Create(float.PositiveInfinity);
+    private Vector128<float> _maxX = Vector128.Create(float.NegativeInfinity);
+    private Vector128<float> _maxY = Vector128.Create(float.NegativeInfinity);
+    private Vector128<float> _maxZ = Vector128.Create(float.NegativeInfinity);
+    private Children _children;
 
     /// <summary>Creates a node over other nodes and leaves.</summary>
     /// <param name="children">Nodes or leaves, from one to four.</param>
@@ -29,22 +29,8 @@ internal sealed class ObjectBvhNode
         ChildCount = children.Length;
         for (var slot = 0; slot < children.Length; slot++)
         {
-            SetChild(
-                ref _children, slot, children[slot], ref _minX, ref _minY, ref _minZ, ref _maxX, ref _maxY, ref _maxZ);
+            SetChild(slot, children[slot]);
         }
-    }
-
-    private ObjectBvhNode(ObjectBvhNode source, int slot, object child)
-    {
-        ChildCount = source.ChildCount;
-        _minX = source._minX;
-        _minY = source._minY;
-        _minZ = source._minZ;
-        _maxX = source._maxX;
-        _maxY = source._maxY;
-        _maxZ = source._maxZ;
-        _children = source._children;
-        SetChild(ref _children, slot, child, ref _minX, ref _minY, ref _minZ, ref _maxX, ref _maxY, ref _maxZ);
     }
 
     /// <summary>Number of children. They have the slots from 0.</summary>
@@ -72,7 +58,12 @@ internal sealed class ObjectBvhNode
     public BoundingBox BoxOf(int slot) => new(new(_minX[slot], _minY[slot], _minZ[slot]), new(_maxX[slot], _maxY[slot], _maxZ[slot]));
 
     /// <summary>Creates the same node with another child in one slot.</summary>
-    public ObjectBvhNode With(int slot, object child) => new(this, slot, child);
+    public ObjectBvhNode With(int slot, object child)
+    {
+        var copy = (ObjectBvhNode)MemberwiseClone();
+        copy.SetChild(slot, child);
+        return copy;
+    }
 
     /// <summary>Computes lower bounds on the distances of a position from the boxes of all children: infinite for missing ones.</summary>
     /// <remarks>
@@ -113,18 +104,16 @@ internal sealed class ObjectBvhNode
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     private static Vector256<double> Widen(Vector128<float> values) => Vector256.WidenLower(values.ToVector256Unsafe());
 
-    private static void SetChild(
-        ref Children children, int slot, object child, ref Vector128<float> minX, ref Vector128<float> minY, ref Vector128<float> minZ,
-        ref Vector128<float> maxX, ref Vector128<float> maxY, ref Vector128<float> maxZ)
+    private void SetChild(int slot, object child)
     {
-        children[slot] = child;
+        _children[slot] = child;
         var box = child is ObjectBvhNode node ? node.Box : ((ObjectBvhLeaf)child).Bounds;
-        minX = minX.WithElement(slot, RoundDown(box.Minimum.X));
-        minY = minY.WithElement(slot, RoundDown(box.Minimum.Y));
-        minZ = minZ.WithElement(slot, RoundDown(box.Minimum.Z));
-        maxX = maxX.WithElement(slot, -RoundDown(-box.Maximum.X));
-        maxY = maxY.WithElement(slot, -RoundDown(-box.Maximum.Y));
-        maxZ = maxZ.WithElement(slot, -RoundDown(-box.Maximum.Z));
+        _minX = _minX.WithElement(slot, RoundDown(box.Minimum.X));
+        _minY = _minY.WithElement(slot, RoundDown(box.Minimum.Y));
+        _minZ = _minZ.WithElement(slot, RoundDown(box.Minimum.Z));
+        _maxX = _maxX.WithElement(slot, -RoundDown(-box.Maximum.X));
+        _maxY = _maxY.WithElement(slot, -RoundDown(-box.Maximum.Y));
+        _maxZ = _maxZ.WithElement(slot, -RoundDown(-box.Maximum.Z));
     }
 
     /// <summary>The largest single-precision number that is not above a number.</summary>

@@ -6,6 +6,8 @@ namespace FractalEngine.Core.Images;
 /// <summary>Writes PNG images (W3C, "Portable Network Graphics (PNG) Specification", third edition).</summary>
 public static class PngWriter
 {
+    private const int DataChunkBytes = 1 << 16;
+
     /// <summary>Writes an image as RGBA of 8 bits, not interlaced, without any chunk that is not needed.</summary>
     /// <param name="image">At least one pixel.</param>
     /// <param name="stream">Where to; left open. Need not seek.</param>
@@ -13,7 +15,7 @@ public static class PngWriter
     /// <exception cref="IOException">The stream can't be written.</exception>
     /// <remarks>
     /// Equal images give equal bytes on one version of .NET: another one may bring another version of its compressor. Holds 6 rows and
-    /// 64 KiB beside the image. Costs 20 to 150 ns a pixel, nearly all of it compression.
+    /// the compressed image beside the image. Costs 20 to 150 ns a pixel, nearly all of it compression.
     /// </remarks>
     public static void Write(PixelImage image, Stream stream)
     {
@@ -29,9 +31,13 @@ public static class PngWriter
         var chunks = new PngChunkWriter(stream);
         chunks.WriteSignature();
         WriteHeader(image, chunks);
-        using var data = new PngDataWriter(chunks);
+        using var data = new MemoryStream();
         Compress(image, data);
-        data.WriteRest();
+        foreach (var chunk in data.ToArray().Chunk(DataChunkBytes))
+        {
+            chunks.Write(PngChunk.Data, chunk);
+        }
+
         chunks.Write(PngChunk.End, []);
     }
 

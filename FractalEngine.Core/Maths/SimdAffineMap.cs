@@ -4,7 +4,7 @@ using System.Runtime.Intrinsics;
 namespace FractalEngine.Core.Maths;
 
 /// <summary>An <see cref="AffineMap"/> for kernels: each column is a SIMD vector x, y, z, 0.</summary>
-internal readonly struct SimdAffineMap
+internal readonly struct SimdAffineMap(Vector256<double> v1, Vector256<double> v2, Vector256<double> v3, Vector256<double> translation)
 {
     /// <summary>Converts a map without rounding.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -13,28 +13,20 @@ internal readonly struct SimdAffineMap
     {
     }
 
-    private SimdAffineMap(Vector256<double> v1, Vector256<double> v2, Vector256<double> v3, Vector256<double> translation)
-    {
-        V1 = v1;
-        V2 = v2;
-        V3 = v3;
-        Translation = translation;
-    }
-
     /// <summary>The map that changes nothing.</summary>
     public static readonly SimdAffineMap Identity = new(AffineMap.Identity);
 
     /// <summary>First column of the linear part.</summary>
-    public Vector256<double> V1 { get; }
+    public Vector256<double> V1 { get; } = v1;
 
     /// <summary>Second column of the linear part.</summary>
-    public Vector256<double> V2 { get; }
+    public Vector256<double> V2 { get; } = v2;
 
     /// <summary>Third column of the linear part.</summary>
-    public Vector256<double> V3 { get; }
+    public Vector256<double> V3 { get; } = v3;
 
     /// <summary>The image of the origin.</summary>
-    public Vector256<double> Translation { get; }
+    public Vector256<double> Translation { get; } = translation;
 
     /// <summary>Converts a vector to x, y, z, 0.</summary>
     public static Vector256<double> ToVector256(Vector v) => Vector256.Create(v.X, v.Y, v.Z, 0);

@@ -11,25 +11,8 @@ public sealed class SingularMatrixException : FractalEngineException
     internal SingularMatrixException(Matrix matrix, string fault)
         : base($"the inverse of the matrix {matrix} {fault}") => Matrix = matrix;
 
-    /// <summary>Makes an error with a message.</summary>
-    public SingularMatrixException(string message)
-        : base(message)
-    {
-    }
-
-    /// <summary>Makes an error with a message and a cause.</summary>
-    public SingularMatrixException(string message, Exception innerException)
-        : base(message, innerException)
-    {
-    }
-
-    /// <summary>Makes an error without details.</summary>
-    public SingularMatrixException()
-    {
-    }
-
-    /// <summary>The matrix that has no inverse; null where the error was made without one.</summary>
-    public Matrix? Matrix { get; }
+    /// <summary>The matrix that has no inverse.</summary>
+    public Matrix Matrix { get; }
 
     private static string FormatDeterminant(Matrix matrix) =>
         matrix.Determinant().ToString("R", System.Globalization.CultureInfo.InvariantCulture);

@@ -8,11 +8,11 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Rays;
 
 /// <summary>Casts rays at a mesh, or at all faces of a fractal that has no levels to search.</summary>
-internal sealed class MeshRayCaster : RayCaster
+internal sealed class MeshRayCaster(Mesh mesh, Mesh faces) : RayCaster
 {
     // Of an expanded fractal, in the order of their faces; none for a mesh.
     private readonly AffineMap[] _instances = [];
-    private readonly TriangleBvh _bvh;
+    private readonly TriangleBvh _bvh = TriangleBvh.For(faces);
 
     /// <summary>Prepares a mesh for rays.</summary>
     public MeshRayCaster(Mesh mesh)
@@ -25,21 +25,14 @@ internal sealed class MeshRayCaster : RayCaster
     public MeshRayCaster(Fractal fractal)
         : this(fractal.BaseMesh, ColliderFactory.Expand(fractal, AffineMap.Identity, out var instances)) => _instances = instances;
 
-    private MeshRayCaster(Mesh mesh, Mesh faces)
-    {
-        Mesh = mesh;
-        _bvh = TriangleBvh.For(faces);
-        ShapeMagnitude = QueryScale.Magnitude(faces);
-    }
-
     /// <inheritdoc/>
     public override long StorageBytes => _bvh.StorageBytes + (_instances.Length * (long)Unsafe.SizeOf<AffineMap>());
 
     /// <inheritdoc/>
-    internal override Mesh Mesh { get; }
+    internal override Mesh Mesh { get; } = mesh;
 
     /// <inheritdoc/>
-    private protected override double ShapeMagnitude { get; }
+    private protected override double ShapeMagnitude { get; } = QueryScale.Magnitude(faces);
 
     /// <inheritdoc/>
     internal override bool TryIntersect(in LocalRay ray, ref RaySearch search, QueryContext context, ref int pathLength)

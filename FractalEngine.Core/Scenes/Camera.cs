@@ -8,11 +8,6 @@ namespace FractalEngine.Core.Scenes;
 /// </summary>
 public sealed record Camera
 {
-    private readonly Vector _position;
-    private readonly Vector _rotation;
-    private readonly double _fieldOfView;
-    private readonly Handedness _handedness;
-
     /// <summary>Makes a camera from its position, rotation and angle of view.</summary>
     /// <param name="position">World space, scene units.</param>
     /// <param name="rotation">Euler angles in radians, see <see cref="Vector.LocalAxes"/>.</param>
@@ -30,19 +25,19 @@ public sealed record Camera
     /// <exception cref="ArgumentException">A coordinate is NaN or infinite.</exception>
     public Vector Position
     {
-        get => _position;
-        init => _position = value.IsFinite() ? value : throw new ArgumentException("expected a finite position", nameof(Position));
+        get;
+        init => field = value.IsFinite() ? value : throw new ArgumentException("expected a finite position", nameof(Position));
     }
 
     /// <summary>Euler angles in radians, see <see cref="Vector.LocalAxes"/>.</summary>
     /// <exception cref="ArgumentException">An angle is NaN or infinite.</exception>
     public Vector Rotation
     {
-        get => _rotation;
+        get;
         init
         {
-            _rotation = value.IsFinite() ? value : throw new ArgumentException("expected a finite rotation", nameof(Rotation));
-            (LocalAxes, LocalAxesInverse) = ComputeAxes(value, _handedness);
+            field = value.IsFinite() ? value : throw new ArgumentException("expected a finite rotation", nameof(Rotation));
+            (LocalAxes, LocalAxesInverse) = ComputeAxes(value, Handedness);
         }
     }
 
@@ -53,11 +48,11 @@ public sealed record Camera
     /// </remarks>
     public Handedness Handedness
     {
-        get => _handedness;
+        get;
         init
         {
-            _handedness = value;
-            (LocalAxes, LocalAxesInverse) = ComputeAxes(_rotation, value);
+            field = value;
+            (LocalAxes, LocalAxesInverse) = ComputeAxes(Rotation, value);
         }
     }
 
@@ -65,8 +60,8 @@ public sealed record Camera
     /// <exception cref="ArgumentException">The angle is not more than 0 and less than 180 degrees.</exception>
     public double FieldOfView
     {
-        get => _fieldOfView;
-        init => _fieldOfView = value is > 0 and < 180
+        get;
+        init => field = value is > 0 and < 180
             ? value
             : throw new ArgumentException("expected an angle of view between 0 and 180 degrees", nameof(FieldOfView));
     }
@@ -85,14 +80,6 @@ public sealed record Camera
     /// the camera.
     /// </summary>
     public Vector ToCameraSpace(Vector point) => LocalAxesInverse * (point - Position);
-
-    /// <inheritdoc/>
-    public bool Equals(Camera? other) =>
-        other is not null && Position == other.Position && Rotation == other.Rotation
-        && FieldOfView.Equals(other.FieldOfView) && Handedness == other.Handedness;
-
-    /// <inheritdoc/>
-    public override int GetHashCode() => HashCode.Combine(Position, Rotation, FieldOfView, Handedness);
 
     private static (Matrix Axes, Matrix Inverse) ComputeAxes(Vector rotation, Handedness handedness)
     {

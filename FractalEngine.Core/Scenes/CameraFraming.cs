@@ -71,7 +71,7 @@ public static class CameraFraming
             box = new(-Vector.One, Vector.One);
         }
 
-        return Frame(camera, [.. Corners(box)], box, aspect);
+        return Frame(camera, [.. Enumerable.Range(0, 8).Select(box.Corner)], box, aspect);
     }
 
     /// <summary>
@@ -179,12 +179,6 @@ public static class CameraFraming
 
         return low + (0.5 * (high - low));
     }
-
-    private static IEnumerable<Vector> Corners(BoundingBox box) =>
-        from x in (double[])[box.Minimum.X, box.Maximum.X]
-        from y in (double[])[box.Minimum.Y, box.Maximum.Y]
-        from z in (double[])[box.Minimum.Z, box.Maximum.Z]
-        select new Vector(x, y, z);
 
     /// <summary>Makes the camera of a scene that names none.</summary>
     /// <param name="box">World space.</param>

@@ -10,7 +10,7 @@ namespace FractalEngine.Core.Scenes;
 /// Finds points on the outside of a scene, which a camera frames. They are vertices of meshes, and corners of small boxes around the parts
 /// of fractals. Of the points in about the same direction from the scene's centre, only the farthest one is kept.
 /// </summary>
-internal sealed class FramingPoints
+internal sealed class FramingPoints(Vector centre)
 {
     // Directions are told apart by their cell on a cube with so many cells along an edge: less than 4° each.
     private const int CellsPerEdge = 24;
@@ -21,10 +21,7 @@ internal sealed class FramingPoints
     // More vertices would take longer than a frame. The boxes of objects must do then.
     private const long MaxVertices = 3_000_000;
 
-    private readonly Vector _centre;
     private readonly (double DistanceSquared, Vector Point)[] _farthest = new (double, Vector)[6 * CellsPerEdge * CellsPerEdge];
-
-    private FramingPoints(Vector centre) => _centre = centre;
 
     /// <summary>Collects the points of a scene.</summary>
     /// <returns>World space; none for a scene without faces, or with infinite bounds.</returns>
@@ -111,16 +108,13 @@ internal sealed class FramingPoints
     {
         for (var corner = 0; corner < 8; corner++)
         {
-            Add(map * new Vector(
-                (corner & 1) == 0 ? box.Minimum.X : box.Maximum.X,
-                (corner & 2) == 0 ? box.Minimum.Y : box.Maximum.Y,
-                (corner & 4) == 0 ? box.Minimum.Z : box.Maximum.Z));
+            Add(map * box.Corner(corner));
         }
     }
 
     private void Add(Vector point)
     {
-        var offset = point - _centre;
+        var offset = point - centre;
         var extent = offset.MaxAbsComponent();
         var distanceSquared = Vector.Dot(offset, offset);
         if (!(extent > 0) || !double.IsFinite(distanceSquared))

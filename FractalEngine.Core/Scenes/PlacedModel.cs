@@ -7,7 +7,9 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Scenes;
 
 /// <summary>An object of a scene together with its model and its place in the world.</summary>
-public sealed class PlacedModel
+/// <param name="declaration">What the scene says of the object.</param>
+/// <param name="model">Shared by all objects of the same file.</param>
+public sealed class PlacedModel(SceneObject declaration, Model model)
 {
     // Of a class, so that it is set in one write. Computed twice at worst, with the same result.
     private StrongBox<BoundingBox>? _bounds;
@@ -21,24 +23,14 @@ public sealed class PlacedModel
     {
     }
 
-    /// <summary>Places a model as an object says.</summary>
-    /// <param name="declaration">What the scene says of the object.</param>
-    /// <param name="model">Shared by all objects of the same file.</param>
-    public PlacedModel(SceneObject declaration, Model model)
-    {
-        Declaration = declaration;
-        Model = model;
-        ObjectToWorld = declaration.Placement.ToAffineMap();
-    }
-
     /// <summary>The object as the scene declares it.</summary>
-    public SceneObject Declaration { get; }
+    public SceneObject Declaration { get; } = declaration;
 
     /// <summary>Mesh or fractal that the object shows, in its own coordinate frame.</summary>
-    public Model Model { get; }
+    public Model Model { get; } = model;
 
     /// <summary>Maps the model's frame to world space: the paper's global matrix m.</summary>
-    public AffineMap ObjectToWorld { get; }
+    public AffineMap ObjectToWorld { get; } = declaration.Placement.ToAffineMap();
 
     /// <summary>A box that holds the object in world space; as tight as the model's own.</summary>
     public BoundingBox Bounds => (_bounds ??= new(ComputeWorldBounds(Declaration, ObjectToWorld, Model))).Value;

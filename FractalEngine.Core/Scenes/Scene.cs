@@ -13,24 +13,21 @@ public sealed record Scene
     /// <summary>The acceleration of free fall near the ground, units a second².</summary>
     public static readonly Vector DefaultGravity = new(0, -9.8, 0);
 
-    private readonly Camera? _camera;
-    private readonly Handedness _handedness;
-
     /// <summary>The camera that shows the scene, with the scene's handedness; null for one that frames it.</summary>
     public Camera? Camera
     {
-        get => _camera;
-        init => _camera = WithHandedness(value, _handedness);
+        get;
+        init => field = WithHandedness(value, Handedness);
     }
 
     /// <summary>How the scene's coordinates are shown; left unless stated otherwise. The camera takes it over.</summary>
     public Handedness Handedness
     {
-        get => _handedness;
+        get;
         init
         {
-            _handedness = value;
-            _camera = WithHandedness(_camera, value);
+            field = value;
+            Camera = WithHandedness(Camera, value);
         }
     }
 

@@ -18,6 +18,7 @@ internal sealed class InstanceBvh
     private readonly BoundingBox _baseBox;
     private readonly AffineMap[] _maps;
     private readonly BoundingBox[] _boxes;
+    private readonly BoxPartition _partition;
     private readonly List<LodNode> _nodes = [];
 
     /// <summary>Builds the hierarchy over instances of a base mesh.</summary>
@@ -28,8 +29,9 @@ internal sealed class InstanceBvh
         _baseBox = baseBox;
         _maps = maps;
         _boxes = [.. maps.Select(baseBox.Transform)];
+        _partition = new(_boxes);
         _nodes.Add(new(maps.Length == 0 ? BoundingBox.Empty : baseBox, AffineMap.Identity, []));
-        RootIndex = maps.Length == 0 ? 0 : BuildNode([.. Enumerable.Range(0, maps.Length)]);
+        RootIndex = maps.Length == 0 ? 0 : BuildNode(new(0, maps.Length));
         Nodes = [.. _nodes];
     }
 
@@ -41,25 +43,20 @@ internal sealed class InstanceBvh
 
     /// <summary>Builds the node of some instances, after those of its children.</summary>
     /// <returns>Index of the node.</returns>
-    private int BuildNode(Span<int> instances)
+    private int BuildNode(Range range)
     {
-        var box = BoundingBox.Empty;
-        foreach (var instance in instances)
-        {
-            box = BoundingBox.Union(box, _boxes[instance]);
-        }
-
+        var box = _partition.BoundsOf(range);
         var children = new List<LodChild>();
-        if (instances.Length <= MaxLeafSize)
+        if (BoxPartition.CountOf(range) <= MaxLeafSize)
         {
-            foreach (var instance in instances)
+            foreach (var instance in _partition.Order[range])
             {
                 children.Add(new(_maps[instance], _boxes[instance], LevelStep.To(0), instance));
             }
         }
         else
         {
-            SplitAtMedian(instances, SplitsPerNode, children);
+            SplitAtMedian(range, SplitsPerNode, children);
         }
 
         _nodes.Add(new(box, BoundingBox.MapBoxToBox(_baseBox, box), [.. children]));
@@ -67,26 +64,18 @@ internal sealed class InstanceBvh
     }
 
     /// <summary>Splits instances at the median of their centres along the longest side, and the halves in turn.</summary>
-    private void SplitAtMedian(Span<int> instances, int remainingSplits, List<LodChild> children)
+    private void SplitAtMedian(Range range, int remainingSplits, List<LodChild> children)
     {
-        if (remainingSplits == 0 || instances.Length <= MaxLeafSize)
+        var count = BoxPartition.CountOf(range);
+        if (remainingSplits == 0 || count <= MaxLeafSize)
         {
-            var node = BuildNode(instances);
+            var node = BuildNode(range);
             children.Add(new(AffineMap.Identity, _nodes[node].Box, LevelStep.To(node), -1));
             return;
         }
 
-        var box = BoundingBox.Empty;
-        foreach (var instance in instances)
-        {
-            box = box.Including(_boxes[instance].Centre);
-        }
-
-        var (x, y, z) = box.Size;
-        var axis = x >= y && x >= z ? Vector.I : y >= z ? Vector.J : Vector.K;
-        instances.Sort((instance1, instance2) =>
-            (Vector.Dot(axis, _boxes[instance1].Centre), instance1).CompareTo((Vector.Dot(axis, _boxes[instance2].Centre), instance2)));
-        SplitAtMedian(instances[..(instances.Length / 2)], remainingSplits - 1, children);
-        SplitAtMedian(instances[(instances.Length / 2)..], remainingSplits - 1, children);
+        var (left, right) = _partition.SplitInOrder(range, count / 2);
+        SplitAtMedian(left, remainingSplits - 1, children);
+        SplitAtMedian(right, remainingSplits - 1, children);
     }
 }

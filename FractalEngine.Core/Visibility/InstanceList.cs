@@ -6,7 +6,8 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Visibility;
 
 /// <summary>A growing list of instances in the form that the GPU takes: rows of 3×4 maps in single precision.</summary>
-internal sealed class InstanceList
+/// <param name="hasPathHashes">Whether the list keeps hashes that tell the instances of one object apart.</param>
+internal sealed class InstanceList(bool hasPathHashes)
 {
     /// <summary>Number of floats that one instance takes.</summary>
     public const int FloatsPerInstance = 12;
@@ -14,15 +15,10 @@ internal sealed class InstanceList
     // The list grows by a quarter, so that most of the memory is used.
     private const int GrowthDivisor = 4;
 
-    private readonly bool _hasPathHashes;
     private float[] _rows = new float[64 * FloatsPerInstance];
     private float[] _gradientFactors = [];
     private float[] _skyParts = [];
     private ulong[] _pathHashes = [];
-
-    /// <summary>Creates an empty list.</summary>
-    /// <param name="hasPathHashes">Whether the list keeps hashes that tell the instances of one object apart.</param>
-    public InstanceList(bool hasPathHashes) => _hasPathHashes = hasPathHashes;
 
     /// <summary>Number of instances in the list.</summary>
     public int Count { get; private set; }
@@ -60,7 +56,7 @@ internal sealed class InstanceList
         Vector128.Create(v1[0], v2[0], v3[0], translation[0]).StoreUnsafe(ref target);
         Vector128.Create(v1[1], v2[1], v3[1], translation[1]).StoreUnsafe(ref target, 4);
         Vector128.Create(v1[2], v2[2], v3[2], translation[2]).StoreUnsafe(ref target, 8);
-        if (_hasPathHashes)
+        if (hasPathHashes)
         {
             _pathHashes[Count] = pathHash;
         }
@@ -75,7 +71,7 @@ internal sealed class InstanceList
     {
         EnsureCapacity();
         other._rows.AsSpan(index * FloatsPerInstance, FloatsPerInstance).CopyTo(_rows.AsSpan(Count * FloatsPerInstance));
-        if (_hasPathHashes)
+        if (hasPathHashes)
         {
             _pathHashes[Count] = other._pathHashes[index];
         }
@@ -121,7 +117,7 @@ internal sealed class InstanceList
             Array.Resize(ref _rows, (Count + (Count / GrowthDivisor) + 16) * FloatsPerInstance);
         }
 
-        if (_hasPathHashes && _pathHashes.Length < _rows.Length / FloatsPerInstance)
+        if (hasPathHashes && _pathHashes.Length < _rows.Length / FloatsPerInstance)
         {
             Array.Resize(ref _pathHashes, _rows.Length / FloatsPerInstance);
         }

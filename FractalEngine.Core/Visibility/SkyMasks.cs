@@ -13,7 +13,9 @@ namespace FractalEngine.Core.Visibility;
 /// A ray leaves a leaf freely exactly when it misses the siblings at every level. So the mask of a leaf is the product, bit by bit, of one
 /// mask for each level above it.
 /// </remarks>
-internal sealed class SkyMasks
+/// <param name="masks">Masks by child, cell and side, in directions of the node's frame; null where siblings hide nothing.</param>
+/// <param name="children">The other data of each child.</param>
+internal sealed class SkyMasks(ulong[][]? masks, SkyMasks.Child[] children)
 {
     /// <summary>Cells of a grid along each axis: thin ones at both ends, for surfaces in a side of the box, and thirds.</summary>
     public const int GridSize = 5;
@@ -27,39 +29,28 @@ internal sealed class SkyMasks
     // Thickness of the outermost cells, by the size of the box.
     private const double ThinCell = 0.01;
 
-
     private static readonly Vector256<double> LastThird = Vector256.Create(GridSize - 3.0);
     private static readonly Vector256<double> FirstThinEnd = Vector256.Create(ThinCell);
     private static readonly Vector256<double> LastThinStart = Vector256.Create(1 - ThinCell);
 
-    private readonly ulong[][]? _masks;
-    private readonly Child[] _children;
-
-    /// <summary>Stores the masks of a node.</summary>
-    /// <param name="masks">Masks by child, cell and side, in directions of the node's frame; null where siblings hide nothing.</param>
-    /// <param name="children">The other data of each child.</param>
-    public SkyMasks(ulong[][]? masks, Child[] children)
-    {
-        _masks = masks;
-        _children = children;
-    }
+    private readonly ulong[][]? _masks = masks;
 
     /// <summary>Whether siblings hide anything.</summary>
     public bool HideAnything => _masks is not null;
 
     /// <summary>Size of the tables in bytes.</summary>
     public int ByteCount =>
-        (_masks?.Sum(static masks => sizeof(ulong) * masks.Length) ?? 0) + _children.Sum(static child => child.Turns?.ByteCount ?? 0);
+        (_masks?.Sum(static masks => sizeof(ulong) * masks.Length) ?? 0) + children.Sum(static child => child.Turns?.ByteCount ?? 0);
 
     /// <summary>Returns what is left when siblings are taken to hide nothing: how frames are turned.</summary>
-    public SkyMasks WithoutMasks() => new(null, _children);
+    public SkyMasks WithoutMasks() => new(null, children);
 
     /// <summary>Maps what sides see from a child's frame to the node's; their points stay in the child's.</summary>
     /// <param name="child">Index of the child that the sides are part of.</param>
     /// <param name="sights">What they see.</param>
     public void Apply(int child, Span<SkySight> sights)
     {
-        ref readonly var data = ref _children[child];
+        ref readonly var data = ref children[child];
         var masks = _masks?[child];
         var turns = data.Turns;
         foreach (ref var sight in sights)

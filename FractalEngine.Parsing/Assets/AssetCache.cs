@@ -1,8 +1,6 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Files;
 using FractalEngine.Core.Scenes;
-using FractalEngine.Parsing.Fractals;
-using FractalEngine.Parsing.Meshes;
 using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.Parsing.Assets;
@@ -14,9 +12,8 @@ namespace FractalEngine.Parsing.Assets;
 /// </summary>
 public sealed class AssetCache
 {
-    private readonly Dictionary<string, (FileStamp Stamp, ParsedObj Contents)> _meshes = [];
-    private readonly Dictionary<string, (FileStamp Stamp, ParsedMtl Contents)> _materials = [];
-    private readonly Dictionary<string, (FileStamp Stamp, ParsedFractal Contents)> _fractals = [];
+    // By the type of the contents as well: a mesh may name itself as its material file.
+    private readonly Dictionary<(string Path, Type Type), (FileStamp Stamp, object Contents)> _contents = [];
     private readonly Dictionary<string, CachedModel> _models = [];
 
     /// <summary>
@@ -28,25 +25,24 @@ public sealed class AssetCache
     /// <summary>Number of files that the last load has read, and not taken from here.</summary>
     public int ReadCount { get; internal set; }
 
-    /// <summary>Returns the contents of an unchanged mesh file; null for one that must be read.</summary>
-    internal ParsedObj? FindMesh(string path, FileStamp stamp) => Find(_meshes, path, stamp);
+    /// <summary>Returns the contents of a file, which is read where there is no cache, or where it has changed.</summary>
+    internal static T ReadOrFind<T>(AssetCache? cache, string path, FileStamp stamp, Func<T> read)
+        where T : class
+    {
+        if (cache is not null && cache._contents.TryGetValue((path, typeof(T)), out var known) && known.Stamp == stamp)
+        {
+            return (T)known.Contents;
+        }
 
-    /// <summary>Returns the contents of an unchanged material file; null for one that must be read.</summary>
-    internal ParsedMtl? FindMaterials(string path, FileStamp stamp) => Find(_materials, path, stamp);
-
-    /// <summary>Returns the contents of an unchanged fractal file; null for one that must be read.</summary>
-    internal ParsedFractal? FindFractal(string path, FileStamp stamp) => Find(_fractals, path, stamp);
+        var contents = read();
+        cache?._contents[(path, typeof(T))] = (stamp, contents);
+        return contents;
+    }
 
     /// <summary>Returns a model of which no file and no edited text has changed; null for one that must be made again.</summary>
     internal CachedModel? FindModel(string path, string? editedText) =>
         _models.TryGetValue(path, out var cached) && ReferenceEquals(cached.EditedText, editedText)
         && cached.Files.All(static file => FileStamp.Of(file.Key) == file.Value) ? cached : null;
-
-    internal void Store(string path, FileStamp stamp, ParsedObj contents) => _meshes[path] = (stamp, contents);
-
-    internal void Store(string path, FileStamp stamp, ParsedMtl contents) => _materials[path] = (stamp, contents);
-
-    internal void Store(string path, FileStamp stamp, ParsedFractal contents) => _fractals[path] = (stamp, contents);
 
     internal void Store(string path, CachedModel model) => _models[path] = model;
 
@@ -56,21 +52,17 @@ public sealed class AssetCache
         Files = files;
         if (isSuccessful)
         {
-            Drop(_meshes, files);
-            Drop(_materials, files);
-            Drop(_fractals, files);
-            Drop(_models, files);
+            Drop(_contents, key => files.ContainsKey(key.Path));
+            Drop(_models, files.ContainsKey);
         }
     }
 
-    private static T? Find<T>(Dictionary<string, (FileStamp Stamp, T Contents)> entries, string path, FileStamp stamp)
-        where T : class => entries.TryGetValue(path, out var entry) && entry.Stamp == stamp ? entry.Contents : null;
-
-    private static void Drop<T>(Dictionary<string, T> entries, ImmutableDictionary<string, FileStamp> files)
+    private static void Drop<TKey, TValue>(Dictionary<TKey, TValue> entries, Func<TKey, bool> isNeeded)
+        where TKey : notnull
     {
-        foreach (var path in entries.Keys.Where(path => !files.ContainsKey(path)).ToArray())
+        foreach (var key in entries.Keys.Where(key => !isNeeded(key)).ToArray())
         {
-            entries.Remove(path);
+            entries.Remove(key);
         }
     }
 

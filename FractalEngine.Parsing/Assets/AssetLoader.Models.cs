@@ -120,39 +120,21 @@ public sealed partial class AssetLoader
     private ParsedFractal ReadOrFindFractal(string fullPath, string displayName)
     {
         var stamp = _record.Add(fullPath);
-        if (EditedText(fullPath) is not null)
-        {
-            return FractalParser.Parse(ReadText(fullPath, displayName, ParsingLimits.MaxDescriptionBytes));
-        }
-
-        if (_cache?.FindFractal(fullPath, stamp) is { } known)
-        {
-            _textBytes += known.Source.ByteCount;
-            return known;
-        }
-
-        var parsed = FractalParser.Parse(ReadText(fullPath, displayName, ParsingLimits.MaxDescriptionBytes));
-        _cache?.Store(fullPath, stamp, parsed);
+        var bytesBefore = _textBytes;
+        var parsed = EditedText(fullPath) is null ? AssetCache.ReadOrFind(_cache, fullPath, stamp, Read) : Read();
+        _textBytes = bytesBefore + parsed.Source.ByteCount;
         return parsed;
+
+        ParsedFractal Read() => FractalParser.Parse(ReadText(fullPath, displayName, ParsingLimits.MaxDescriptionBytes));
     }
 
-    private ParsedObj ReadOrFindMesh(string fullPath, string displayName)
-    {
-        var stamp = _record.Add(fullPath);
-        if (_cache?.FindMesh(fullPath, stamp) is { } known)
+    private ParsedObj ReadOrFindMesh(string fullPath, string displayName) =>
+        AssetCache.ReadOrFind(_cache, fullPath, _record.Add(fullPath), () =>
         {
-            return known;
-        }
-
-        var parsed = MeshReader.Read(fullPath, displayName, _progress is null ? null : new FileProgress(displayName, _progress));
-        if (_cache is not null)
-        {
-            _cache.ReadCount++;
-            _cache.Store(fullPath, stamp, parsed);
-        }
-
-        return parsed;
-    }
+            var parsed = MeshReader.Read(fullPath, displayName, _progress is null ? null : new FileProgress(displayName, _progress));
+            _cache?.ReadCount += 1;
+            return parsed;
+        });
 
     private SourceText ReadText(string fullPath, string displayName, long maxBytes)
     {
@@ -161,11 +143,7 @@ public sealed partial class AssetLoader
             : EditedText(fullPath) is { } edited ? new(displayName, edited)
             : SourceText.Read(fullPath, displayName, maxBytes);
         _textBytes += source.ByteCount;
-        if (_cache is not null)
-        {
-            _cache.ReadCount++;
-        }
-
+        _cache?.ReadCount += 1;
         return source;
     }
 }

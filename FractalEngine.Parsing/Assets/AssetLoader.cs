@@ -68,11 +68,7 @@ public sealed partial class AssetLoader
     {
         var loader = new AssetLoader(path, options, progress, cache);
         var isSuccessful = false;
-        if (cache is not null)
-        {
-            cache.ReadCount = 0;
-        }
-
+        cache?.ReadCount = 0;
         try
         {
             var file = loader.LoadFile();

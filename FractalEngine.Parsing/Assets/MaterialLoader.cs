@@ -158,23 +158,13 @@ internal sealed partial class MaterialLoader(
         }
     }
 
-    private ParsedMtl ReadOrFind(string fullPath, string displayName)
-    {
-        var stamp = record.Add(fullPath);
-        if (cache?.FindMaterials(fullPath, stamp) is { } known)
+    private ParsedMtl ReadOrFind(string fullPath, string displayName) =>
+        AssetCache.ReadOrFind(cache, fullPath, record.Add(fullPath), () =>
         {
-            return known;
-        }
-
-        var file = MtlParser.Parse(SourceText.Read(fullPath, displayName, ParsingLimits.MaxMaterialBytes, acceptLatin1: true));
-        if (cache is not null)
-        {
-            cache.ReadCount++;
-            cache.Store(fullPath, stamp, file);
-        }
-
-        return file;
-    }
+            var file = MtlParser.Parse(SourceText.Read(fullPath, displayName, ParsingLimits.MaxMaterialBytes, acceptLatin1: true));
+            cache?.ReadCount += 1;
+            return file;
+        });
 
     /// <summary>Returns a material with the full path of its texture, or without a texture that can't be used.</summary>
     private Material ResolveMaterial(ParsedMtl file, string fullPath, string name)
@@ -189,22 +179,22 @@ internal sealed partial class MaterialLoader(
         var material = file.Materials[name];
         if (material.Texture is { } texture)
         {
-            material = FindTextureFile(file.Source, file.TextureNameOffsets[name], fullPath, texture.Path, "drawn grey") is { } path
+            material = FindTextureFile(file.Source, file.TextureNameOffsets[texture], fullPath, texture.Path, "drawn grey") is { } path
                 ? material with { Texture = texture with { Path = path } }
                 : material.WithoutTexture();
         }
 
-        MaterialTexture? Find(MaterialTexture? named, IReadOnlyDictionary<string, int> offsets, string consequence) =>
-            named is not null && FindTextureFile(file.Source, offsets[name], fullPath, named.Path, consequence) is { } path
+        MaterialTexture? Find(MaterialTexture? named, string consequence) =>
+            named is not null && FindTextureFile(file.Source, file.TextureNameOffsets[named], fullPath, named.Path, consequence) is { } path
                 ? named with { Path = path }
                 : null;
 
         material = material with
         {
-            OpacityTexture = Find(material.OpacityTexture, file.OpacityTextureNameOffsets, "drawn opaque"),
+            OpacityTexture = Find(material.OpacityTexture, "drawn opaque"),
             EmissionTexture = FindUnshownTexture(material.EmissionTexture, fullPath),
-            BumpTexture = Find(material.BumpTexture, file.BumpTextureNameOffsets, "traced without it"),
-            NormalTexture = Find(material.NormalTexture, file.NormalTextureNameOffsets, "traced without it"),
+            BumpTexture = Find(material.BumpTexture, "traced without it"),
+            NormalTexture = Find(material.NormalTexture, "traced without it"),
         };
         _materials[(file, name)] = new(material, record.Since(filesBefore));
         return material;

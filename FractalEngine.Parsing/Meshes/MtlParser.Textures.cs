@@ -7,25 +7,13 @@ namespace FractalEngine.Parsing.Meshes;
 /// <content>Parses the statements of textures: options, each with its arguments, then the name of an image file.</content>
 public sealed partial class MtlParser
 {
-    /// <summary>Parses a texture that is drawn, and records where its name is.</summary>
-    private bool ParseCheckedTexture(
-        Cursor statement, Cursor cursor, Dictionary<string, int> nameOffsets,
-        Func<Material, MaterialTexture, Material> update) =>
-        ParseTexture(cursor, out var texture, out var nameOffset) && UpdateMaterial(statement, material =>
-        {
-            // The first of several materials with the same name wins, see CommitMaterial.
-            if (!_materials.ContainsKey(material.Name))
-            {
-                nameOffsets[material.Name] = nameOffset;
-            }
+    private bool ParseTexture(Cursor statement, Cursor cursor, Func<Material, MaterialTexture, Material> update) =>
+        ParseTexture(cursor, out var texture) && UpdateMaterial(statement, material => update(material, texture));
 
-            return update(material, texture);
-        });
-
-    private bool ParseTexture(Cursor cursor, out MaterialTexture texture, out int nameOffset)
+    /// <summary>Parses a texture, and records where its name is.</summary>
+    private bool ParseTexture(Cursor cursor, out MaterialTexture texture)
     {
         texture = new("");
-        nameOffset = 0;
         var rest = cursor;
         while (rest.Current == '-')
         {
@@ -45,7 +33,7 @@ public sealed partial class MtlParser
         }
 
         texture = texture with { Path = file };
-        nameOffset = rest.Offset;
+        _textureNameOffsets[texture] = rest.Offset;
         return true;
     }
 

@@ -18,10 +18,7 @@ public sealed partial class MtlParser : Parser
 
     // Immutable dictionaries took half of the time of large files.
     private readonly Dictionary<string, Material> _materials = [];
-    private readonly Dictionary<string, int> _textureNameOffsets = [];
-    private readonly Dictionary<string, int> _opacityNameOffsets = [];
-    private readonly Dictionary<string, int> _bumpNameOffsets = [];
-    private readonly Dictionary<string, int> _normalNameOffsets = [];
+    private readonly Dictionary<MaterialTexture, int> _textureNameOffsets = new(ReferenceEqualityComparer.Instance);
     private Material? _current;
     private bool _hasOpacity;
     private Diagnostic? _firstFault;
@@ -55,12 +52,7 @@ public sealed partial class MtlParser : Parser
         }
 
         CommitMaterial();
-        return new(Source, _materials, _textureNameOffsets, [.. CreateWarnings()])
-        {
-            OpacityTextureNameOffsets = _opacityNameOffsets,
-            BumpTextureNameOffsets = _bumpNameOffsets,
-            NormalTextureNameOffsets = _normalNameOffsets,
-        };
+        return new(Source, _materials, _textureNameOffsets, [.. CreateWarnings()]);
     }
 
     private IEnumerable<Diagnostic> CreateWarnings()
@@ -134,18 +126,14 @@ public sealed partial class MtlParser : Parser
             "Ns" => ParseScalar(start, rest, static (material, number) => material with { SpecularExponent = number }),
             "d" => ParseOpacity(start, rest),
             "Tr" => ParseTransparency(start, rest),
-            "map_Kd" => ParseCheckedTexture(
-                start, rest, _textureNameOffsets, static (material, texture) => material with { Texture = texture }),
-            "map_d" => ParseCheckedTexture(
-                start, rest, _opacityNameOffsets, static (material, texture) => material with { OpacityTexture = texture }),
-            "map_Ke" => ParseTexture(rest, out var emission, out _)
+            "map_Kd" => ParseTexture(start, rest, static (material, texture) => material with { Texture = texture }),
+            "map_d" => ParseTexture(start, rest, static (material, texture) => material with { OpacityTexture = texture }),
+            "map_Ke" => ParseTexture(rest, out var emission)
                 && Keep(ref _unshown, start, keyword, material => material with { EmissionTexture = emission }),
-            "map_Bump" or "map_bump" or "bump" => ParseCheckedTexture(
-                start, rest, _bumpNameOffsets, static (material, texture) => material with { BumpTexture = texture })
-                && Count(ref _tracedOnly, start, keyword),
-            "norm" => ParseCheckedTexture(
-                start, rest, _normalNameOffsets, static (material, texture) => material with { NormalTexture = texture })
-                && Count(ref _tracedOnly, start, keyword),
+            "map_Bump" or "map_bump" or "bump" => ParseTexture(rest, out var bumps)
+                && Keep(ref _tracedOnly, start, keyword, material => material with { BumpTexture = bumps }),
+            "norm" => ParseTexture(rest, out var normals)
+                && Keep(ref _tracedOnly, start, keyword, material => material with { NormalTexture = normals }),
             "Pr" => ParseScalar(rest, out var roughness)
                 && Keep(ref _tracedOnly, start, keyword, material => material with { Roughness = roughness }),
             "Pm" => ParseScalar(rest, out var metalness)
@@ -202,11 +190,6 @@ public sealed partial class MtlParser : Parser
     private bool Keep(ref UnshownStatements statements, Cursor statement, string keyword, Func<Material, Material> update)
     {
         UpdateMaterial(statement, update);
-        return Count(ref statements, statement, keyword);
-    }
-
-    private static bool Count(ref UnshownStatements statements, Cursor statement, string keyword)
-    {
         statements = statements.Count == 0 ? new(statement, keyword, 1) : statements with { Count = statements.Count + 1 };
         return true;
     }

@@ -5,48 +5,37 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Parsing.Meshes;
 
-/// <summary>Writes the polygons of one block as triangles into the arrays of a mesh.</summary>
-internal sealed class ObjBlockTriangulator
+/// <summary>Writes the polygons of one block as triangles into a block that holds all of a mesh.</summary>
+/// <param name="block">Polygons to write.</param>
+/// <param name="all">
+/// Has the positions of all blocks. Receives indices [faces × 3] of positions, and of texture coordinates and normals unless those arrays
+/// are empty.
+/// </param>
+internal sealed class ObjBlockTriangulator(ObjBlock block, ObjBlock all)
 {
-    private readonly ObjBlock _block;
-    private readonly double[] _positions;
-    private readonly int[] _positionIndices;
-    private readonly int[] _textureIndices;
-    private readonly int[] _normalIndices;
+    private readonly double[] _positions = all.Positions;
+    private readonly int[] _positionIndices = all.PositionIndices;
+    private readonly int[] _textureIndices = all.TextureIndices;
+    private readonly int[] _normalIndices = all.NormalIndices;
     private readonly PolygonTriangulator _triangulator = new();
     private readonly List<Vector> _polygon = [];
     private readonly List<int> _triangleCorners = [];
 
-    /// <summary>Prepares the writing of a block.</summary>
-    /// <param name="block">Polygons to write.</param>
-    /// <param name="positions">Positions of all blocks, [vertices × 3].</param>
-    /// <param name="positionIndices">Receives indices of positions, [faces × 3].</param>
-    /// <param name="textureIndices">Receives indices of texture coordinates, [faces × 3], or empty.</param>
-    /// <param name="normalIndices">Receives indices of normals, [faces × 3], or empty.</param>
-    public ObjBlockTriangulator(ObjBlock block, double[] positions, int[] positionIndices, int[] textureIndices, int[] normalIndices)
-    {
-        _block = block;
-        _positions = positions;
-        _positionIndices = positionIndices;
-        _textureIndices = textureIndices;
-        _normalIndices = normalIndices;
-    }
-
     /// <summary>Writes all triangles of the block.</summary>
     public void Write()
     {
-        if (_block.HasRelativeIndices)
+        if (block.HasRelativeIndices)
         {
-            Resolve(_block.PositionIndices, _block.Before.Positions);
-            Resolve(_block.TextureIndices, _block.Before.TextureCoordinates);
-            Resolve(_block.NormalIndices, _block.Before.Normals);
+            Resolve(block.PositionIndices, block.Before.Positions);
+            Resolve(block.TextureIndices, block.Before.TextureCoordinates);
+            Resolve(block.NormalIndices, block.Before.Normals);
         }
 
-        if (_block.PolygonSizes.Length == 0)
+        if (block.PolygonSizes.Length == 0)
         {
-            CopyTriangles(_block.PositionIndices, _positionIndices);
-            CopyTriangles(_block.TextureIndices, _textureIndices);
-            CopyTriangles(_block.NormalIndices, _normalIndices);
+            CopyTriangles(block.PositionIndices, _positionIndices);
+            CopyTriangles(block.TextureIndices, _textureIndices);
+            CopyTriangles(block.NormalIndices, _normalIndices);
         }
         else
         {
@@ -67,11 +56,11 @@ internal sealed class ObjBlockTriangulator
     {
         if (from.Length > 0)
         {
-            from.CopyTo(to, 3 * _block.Before.Faces);
+            from.CopyTo(to, 3 * block.Before.Faces);
         }
         else if (to.Length > 0)
         {
-            Array.Fill(to, ObjCorner.None, 3 * _block.Before.Faces, 3 * _block.Counts.Faces);
+            Array.Fill(to, ObjCorner.None, 3 * block.Before.Faces, 3 * block.Counts.Faces);
         }
     }
 
@@ -79,8 +68,8 @@ internal sealed class ObjBlockTriangulator
     private void WritePolygons()
     {
         var corner = 0;
-        var target = 3 * _block.Before.Faces;
-        foreach (int size in _block.PolygonSizes)
+        var target = 3 * block.Before.Faces;
+        foreach (int size in block.PolygonSizes)
         {
             if (size == 3)
             {
@@ -105,15 +94,15 @@ internal sealed class ObjBlockTriangulator
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     private void WriteTriangle(int target, int corner1, int corner2, int corner3)
     {
-        WriteIndices(_block.PositionIndices, _positionIndices, target, corner1, corner2, corner3);
+        WriteIndices(block.PositionIndices, _positionIndices, target, corner1, corner2, corner3);
         if (_textureIndices.Length > 0)
         {
-            WriteIndices(_block.TextureIndices, _textureIndices, target, corner1, corner2, corner3);
+            WriteIndices(block.TextureIndices, _textureIndices, target, corner1, corner2, corner3);
         }
 
         if (_normalIndices.Length > 0)
         {
-            WriteIndices(_block.NormalIndices, _normalIndices, target, corner1, corner2, corner3);
+            WriteIndices(block.NormalIndices, _normalIndices, target, corner1, corner2, corner3);
         }
     }
 
@@ -150,7 +139,7 @@ internal sealed class ObjBlockTriangulator
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     private Vector PositionOf(int corner)
     {
-        var i = 3 * _block.PositionIndices[corner];
+        var i = 3 * block.PositionIndices[corner];
         return new(_positions[i], _positions[i + 1], _positions[i + 2]);
     }
 }

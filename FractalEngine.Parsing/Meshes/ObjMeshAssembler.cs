@@ -1,43 +1,12 @@
+using System.Collections.Immutable;
 using System.Runtime.InteropServices;
 using FractalEngine.Core.Geometry;
 
 namespace FractalEngine.Parsing.Meshes;
 
 /// <summary>Merges the blocks of an OBJ file into one mesh: each block knows where its elements go.</summary>
-internal sealed class ObjMeshAssembler
+internal static class ObjMeshAssembler
 {
-    private readonly List<ObjBlock> _blocks;
-    private readonly int _threadCount;
-    private readonly double[] _positions;
-    private readonly double[] _colours;
-    private readonly double[] _textureCoordinates;
-    private readonly double[] _normals;
-    private readonly int[] _positionIndices;
-    private readonly int[] _textureIndices;
-    private readonly int[] _normalIndices;
-
-    private ObjMeshAssembler(List<ObjBlock> blocks, ObjCounts counts, int threadCount)
-    {
-        _blocks = blocks;
-        _threadCount = Math.Min(threadCount, blocks.Count);
-        // Elements that no face refers to are no part of a mesh, except for its vertices.
-        var (hasColours, hasTextures, hasNormals) = (false, false, false);
-        foreach (var block in blocks)
-        {
-            hasColours |= block.Colours.Length > 0;
-            hasTextures |= block.TextureIndices.Length > 0;
-            hasNormals |= block.NormalIndices.Length > 0;
-        }
-
-        _positions = Allocate<double>(3 * counts.Positions);
-        _colours = Allocate<double>(hasColours ? _positions.Length : 0);
-        _textureCoordinates = Allocate<double>(hasTextures ? 2 * counts.TextureCoordinates : 0);
-        _normals = Allocate<double>(hasNormals ? 3 * counts.Normals : 0);
-        _positionIndices = Allocate<int>(3 * counts.Faces);
-        _textureIndices = Allocate<int>(hasTextures ? _positionIndices.Length : 0);
-        _normalIndices = Allocate<int>(hasNormals ? _positionIndices.Length : 0);
-    }
-
     /// <summary>Creates the mesh of all blocks, without names.</summary>
     /// <param name="blocks">Blocks in the order of the file.</param>
     /// <param name="counts">Numbers of elements in all of them.</param>
@@ -46,70 +15,81 @@ internal sealed class ObjMeshAssembler
     {
         if (blocks is [{ IsResolved: true } single])
         {
-            return WithColours(single.Colours, CreateMesh(single.Positions, single.PositionIndices, single.TextureCoordinates,
-                single.TextureIndices, single.Normals, single.NormalIndices));
+            return CreateMesh(single);
         }
 
-        var assembler = new ObjMeshAssembler(blocks, counts, threadCount);
-        assembler.ForEachBlock(assembler.CopyElements);
+        var all = Allocate(blocks, counts);
+        ForEachBlock(blocks, threadCount, block => CopyElements(block, all));
         // Cutting a polygon needs the positions of all blocks.
-        assembler.ForEachBlock(block => new ObjBlockTriangulator(
-            block, assembler._positions, assembler._positionIndices, assembler._textureIndices, assembler._normalIndices).Write());
-        return WithColours(assembler._colours, CreateMesh(assembler._positions, assembler._positionIndices, assembler._textureCoordinates,
-            assembler._textureIndices, assembler._normals, assembler._normalIndices));
+        ForEachBlock(blocks, threadCount, block => new ObjBlockTriangulator(block, all).Write());
+        return CreateMesh(all);
     }
 
-    private static T[] Allocate<T>(int length)
-        where T : unmanaged => LargePages.Allocate<T>(length);
-
-    private static Mesh WithColours(double[] colours, Mesh mesh) =>
-        colours.Length == 0 ? mesh : mesh.WithColours(ImmutableCollectionsMarshal.AsImmutableArray(colours));
-
-    private static Mesh CreateMesh(
-        double[] positions, int[] positionIndices, double[] textureCoordinates, int[] textureIndices, double[] normals, int[] normalIndices)
+    /// <summary>Makes a block of triangles with room for all elements.</summary>
+    private static ObjBlock Allocate(List<ObjBlock> blocks, ObjCounts counts)
     {
-        var mesh = new Mesh(ImmutableCollectionsMarshal.AsImmutableArray(positions),
-            ImmutableCollectionsMarshal.AsImmutableArray(positionIndices));
-        if (textureIndices.Length > 0)
+        // Elements that no face refers to are no part of a mesh, except for its vertices.
+        var hasColours = blocks.Exists(static block => block.Colours.Length > 0);
+        var hasTextures = blocks.Exists(static block => block.TextureIndices.Length > 0);
+        var hasNormals = blocks.Exists(static block => block.NormalIndices.Length > 0);
+        return new()
         {
-            mesh = mesh.WithTextureCoordinates(ImmutableCollectionsMarshal.AsImmutableArray(textureCoordinates),
-                ImmutableCollectionsMarshal.AsImmutableArray(textureIndices));
+            Counts = counts,
+            Positions = LargePages.Allocate<double>(3 * counts.Positions),
+            Colours = LargePages.Allocate<double>(hasColours ? 3 * counts.Positions : 0),
+            TextureCoordinates = LargePages.Allocate<double>(hasTextures ? 2 * counts.TextureCoordinates : 0),
+            Normals = LargePages.Allocate<double>(hasNormals ? 3 * counts.Normals : 0),
+            PositionIndices = LargePages.Allocate<int>(3 * counts.Faces),
+            TextureIndices = LargePages.Allocate<int>(hasTextures ? 3 * counts.Faces : 0),
+            NormalIndices = LargePages.Allocate<int>(hasNormals ? 3 * counts.Faces : 0),
+            PolygonSizes = [],
+        };
+    }
+
+    private static Mesh CreateMesh(ObjBlock block)
+    {
+        var mesh = new Mesh(Immutable(block.Positions), Immutable(block.PositionIndices));
+        if (block.TextureIndices.Length > 0)
+        {
+            mesh = mesh.WithTextureCoordinates(Immutable(block.TextureCoordinates), Immutable(block.TextureIndices));
         }
 
-        return normalIndices.Length == 0 ? mesh : mesh.WithNormals(ImmutableCollectionsMarshal.AsImmutableArray(normals),
-            ImmutableCollectionsMarshal.AsImmutableArray(normalIndices));
+        mesh = block.NormalIndices.Length == 0 ? mesh : mesh.WithNormals(Immutable(block.Normals), Immutable(block.NormalIndices));
+        return block.Colours.Length == 0 ? mesh : mesh.WithColours(Immutable(block.Colours));
     }
 
-    private void ForEachBlock(Action<ObjBlock> write)
+    private static ImmutableArray<T> Immutable<T>(T[] array) => ImmutableCollectionsMarshal.AsImmutableArray(array);
+
+    private static void ForEachBlock(List<ObjBlock> blocks, int threadCount, Action<ObjBlock> write)
     {
         var next = -1;
-        Workers.Run(_threadCount, _ =>
+        Workers.Run(Math.Min(threadCount, blocks.Count), _ =>
         {
-            for (var i = Interlocked.Increment(ref next); i < _blocks.Count; i = Interlocked.Increment(ref next))
+            for (var i = Interlocked.Increment(ref next); i < blocks.Count; i = Interlocked.Increment(ref next))
             {
-                write(_blocks[i]);
+                write(blocks[i]);
             }
         });
     }
 
-    private void CopyElements(ObjBlock block)
+    private static void CopyElements(ObjBlock block, ObjBlock all)
     {
-        block.Positions.CopyTo(_positions, 3 * block.Before.Positions);
-        if (_colours.Length > 0)
+        block.Positions.CopyTo(all.Positions, 3 * block.Before.Positions);
+        if (all.Colours.Length > 0)
         {
-            var colours = _colours.AsSpan(3 * block.Before.Positions, block.Positions.Length);
+            var colours = all.Colours.AsSpan(3 * block.Before.Positions, block.Positions.Length);
             colours.Fill(ObjColour.Default);
             block.Colours.CopyTo(colours);
         }
 
-        if (_textureIndices.Length > 0)
+        if (all.TextureIndices.Length > 0)
         {
-            block.TextureCoordinates.CopyTo(_textureCoordinates, 2 * block.Before.TextureCoordinates);
+            block.TextureCoordinates.CopyTo(all.TextureCoordinates, 2 * block.Before.TextureCoordinates);
         }
 
-        if (_normalIndices.Length > 0)
+        if (all.NormalIndices.Length > 0)
         {
-            block.Normals.CopyTo(_normals, 3 * block.Before.Normals);
+            block.Normals.CopyTo(all.Normals, 3 * block.Before.Normals);
         }
     }
 }

@@ -53,7 +53,7 @@ public static class ObjMeshWriter
     {
         if (mesh.Groups.IsEmpty)
         {
-            WriteFaces(mesh, 0, mesh.FaceCount, text);
+            text.WriteFaces(mesh, 0, mesh.FaceCount);
             return;
         }
 
@@ -62,7 +62,7 @@ public static class ObjMeshWriter
         {
             var next = group.ObjectName.Length > 0 ? group : group with { ObjectName = objectName };
             WriteGroupChange(current, next, text);
-            WriteFaces(mesh, group.FirstFace, group.FaceCount, text);
+            text.WriteFaces(mesh, group.FirstFace, group.FaceCount);
             current = next;
         }
     }
@@ -73,18 +73,6 @@ public static class ObjMeshWriter
         text.WriteText(next.GroupName == current.GroupName ? "" : $"g {next.GroupName}\n");
         text.WriteText(next.Material == current.Material ? "" : $"usemtl {next.Material}\n");
         text.WriteText(next.SmoothingGroup == current.SmoothingGroup ? "" : FormattableString.Invariant($"s {next.SmoothingGroup}\n"));
-    }
-
-    private static void WriteFaces(Mesh mesh, int firstFace, int faceCount, ObjTextWriter text)
-    {
-        for (var corner = 3 * firstFace; corner < 3 * (firstFace + faceCount); corner++)
-        {
-            text.WriteText(corner % 3 == 0 ? "f" : "");
-            var textureIndex = mesh.TextureIndices.IsEmpty ? ObjCorner.None : mesh.TextureIndices[corner];
-            var normalIndex = mesh.NormalIndices.IsEmpty ? ObjCorner.None : mesh.NormalIndices[corner];
-            text.WriteCorner(mesh.VertexIndices[corner] + 1L, textureIndex + 1L, normalIndex + 1L);
-            text.WriteText(corner % 3 == 2 ? "\n" : "");
-        }
     }
 
     private static void RequireNumbers(Mesh mesh)

@@ -116,10 +116,10 @@ public sealed partial class ObjParser : Parser
 
         return keyword switch
         {
-            "o" => ParseObjectName(rest, out rest) && MarkDeclared(),
-            "g" => ParseGroupName(rest, out rest) && MarkDeclared(),
-            "usemtl" => ParseMaterial(rest, out rest) && MarkDeclared(),
-            "mtllib" => ParseMaterialLibrary(rest, out rest) && MarkDeclared(),
+            "o" => ParseDeclaredName(rest, (name, _) => _contents.Groups.ChangeObject(name, _elements.FaceCount), out rest),
+            "g" => ParseDeclaredName(rest, (name, _) => _contents.Groups.ChangeGroup(name, _elements.FaceCount), out rest),
+            "usemtl" => ParseDeclaredName(rest, UseMaterial, out rest),
+            "mtllib" => ParseDeclaredName(rest, (file, start) => _contents.AddMaterialLibrary(file, PositionOf(start)), out rest),
             "s" => ParseSmoothingGroup(rest, out rest) && MarkDeclared(),
             "l" or "p" => ParseRestOfLine(rest, out _, out rest) && MarkDeclared(),
             // These keywords come here only without a blank behind them, since ParseLine handles all others.
@@ -129,29 +129,8 @@ public sealed partial class ObjParser : Parser
         };
     }
 
-    private bool ParseObjectName(Cursor cursor, out Cursor rest)
-    {
-        if (!ParseRestOfLine(cursor, out var name, out rest))
-        {
-            return false;
-        }
-
-        _contents.Groups.ChangeObject(name, _elements.FaceCount);
-        return true;
-    }
-
-    private bool ParseGroupName(Cursor cursor, out Cursor rest)
-    {
-        if (!ParseRestOfLine(cursor, out var name, out rest))
-        {
-            return false;
-        }
-
-        _contents.Groups.ChangeGroup(name, _elements.FaceCount);
-        return true;
-    }
-
-    private bool ParseMaterial(Cursor cursor, out Cursor rest)
+    /// <summary>Parses a name up to the end of the line, and uses it together with the place where it stands.</summary>
+    private bool ParseDeclaredName(Cursor cursor, Action<string, Cursor> use, out Cursor rest)
     {
         ParseBlanks(cursor, out var start);
         if (!ParseRestOfLine(start, out var name, out rest))
@@ -159,21 +138,14 @@ public sealed partial class ObjParser : Parser
             return false;
         }
 
-        _contents.AddMaterial(name, PositionOf(start));
-        _contents.Groups.ChangeMaterial(name, _elements.FaceCount);
-        return true;
+        use(name, start);
+        return MarkDeclared();
     }
 
-    private bool ParseMaterialLibrary(Cursor cursor, out Cursor rest)
+    private void UseMaterial(string name, Cursor start)
     {
-        ParseBlanks(cursor, out var start);
-        if (!ParseRestOfLine(start, out var file, out rest))
-        {
-            return false;
-        }
-
-        _contents.AddMaterialLibrary(file, PositionOf(start));
-        return true;
+        _contents.AddMaterial(name, PositionOf(start));
+        _contents.Groups.ChangeMaterial(name, _elements.FaceCount);
     }
 
     private bool MarkDeclared() => _contents.HasDeclaration = true;

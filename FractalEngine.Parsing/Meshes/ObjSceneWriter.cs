@@ -119,19 +119,20 @@ public sealed class ObjSceneWriter
         }
 
         var isMirrored = map.Linear.Determinant() < 0;
+        var before = (_positionCount, firstTextureCoordinate, _normalCount);
         WriteNormals(map.Linear, isMirrored, mesh);
         // Groups that were made in code may leave faces out.
         if (_materials is null || mesh.Groups.Sum(static group => group.FaceCount) != mesh.FaceCount)
         {
             ChangeMaterial(placed, "");
-            WriteFaces(mesh, 0, mesh.FaceCount, isMirrored, firstTextureCoordinate);
+            _text.WriteFaces(mesh, 0, mesh.FaceCount, before, isMirrored);
         }
         else
         {
             foreach (var group in mesh.Groups)
             {
                 ChangeMaterial(placed, group.Material);
-                WriteFaces(mesh, group.FirstFace, group.FaceCount, isMirrored, firstTextureCoordinate);
+                _text.WriteFaces(mesh, group.FirstFace, group.FaceCount, before, isMirrored);
             }
         }
 
@@ -149,19 +150,6 @@ public sealed class ObjSceneWriter
         }
     }
 
-    private void WriteFaces(Mesh mesh, int firstFace, int faceCount, bool isMirrored, long firstTextureCoordinate)
-    {
-        for (var face = firstFace; face < firstFace + faceCount; face++)
-        {
-            _text.WriteText("f");
-            WriteCorner(mesh, 3 * face, firstTextureCoordinate);
-            // A mirror turns faces inside out; exchanging two corners turns them back.
-            WriteCorner(mesh, (3 * face) + (isMirrored ? 2 : 1), firstTextureCoordinate);
-            WriteCorner(mesh, (3 * face) + (isMirrored ? 1 : 2), firstTextureCoordinate);
-            _text.WriteText("\n");
-        }
-    }
-
     private void WriteNormals(Matrix linear, bool isMirrored, Mesh mesh)
     {
         // Normals are mapped by the inverse transpose. The cofactors are a multiple of it, with the sign of the determinant.
@@ -171,15 +159,5 @@ public sealed class ObjSceneWriter
             var normal = cofactors * new Vector(mesh.Normals[i], mesh.Normals[i + 1], mesh.Normals[i + 2]);
             _text.WriteVector("vn", normal.MaxAbsComponent() is > 0 and < double.PositiveInfinity ? normal.UnitVector() : Vector.Zero);
         }
-    }
-
-    private void WriteCorner(Mesh mesh, int corner, long firstTextureCoordinate)
-    {
-        var textureIndex = mesh.TextureIndices.Length > 0 ? mesh.TextureIndices[corner] : ObjCorner.None;
-        var normalIndex = mesh.NormalIndices.Length > 0 ? mesh.NormalIndices[corner] : ObjCorner.None;
-        _text.WriteCorner(
-            _positionCount + mesh.VertexIndices[corner] + 1,
-            textureIndex == ObjCorner.None ? 0 : firstTextureCoordinate + textureIndex + 1,
-            normalIndex == ObjCorner.None ? 0 : _normalCount + normalIndex + 1);
     }
 }

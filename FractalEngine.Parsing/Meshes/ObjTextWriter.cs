@@ -69,22 +69,24 @@ internal sealed class ObjTextWriter(Stream stream)
         }
     }
 
-    /// <summary>Writes one corner of a face: <c>v</c>, <c>v/vt</c>, <c>v//vn</c> or <c>v/vt/vn</c>.</summary>
-    /// <param name="position">Number of the position, from 1.</param>
-    /// <param name="textureCoordinate">Number of the texture coordinate, from 1, or 0 for none.</param>
-    /// <param name="normal">Number of the normal, from 1, or 0 for none.</param>
-    public void WriteCorner(long position, long textureCoordinate, long normal)
+    /// <summary>Writes faces on a line each.</summary>
+    /// <param name="mesh">The mesh that has them.</param>
+    /// <param name="firstFace">Index of the first one.</param>
+    /// <param name="faceCount">Number of faces.</param>
+    /// <param name="before">Numbers of elements in the file before those of the mesh.</param>
+    /// <param name="isMirrored">Whether the positions are mirrored ones of the mesh.</param>
+    public void WriteFaces(
+        Mesh mesh, int firstFace, int faceCount, (long Positions, long TextureCoordinates, long Normals) before = default,
+        bool isMirrored = false)
     {
-        WriteInteger(' ', position);
-        if (textureCoordinate > 0)
+        for (var face = firstFace; face < firstFace + faceCount; face++)
         {
-            WriteInteger('/', textureCoordinate);
-        }
-
-        if (normal > 0)
-        {
-            WriteText(textureCoordinate > 0 ? "" : "/");
-            WriteInteger('/', normal);
+            WriteText("f");
+            WriteCorner(mesh, 3 * face, before);
+            // A mirror turns faces inside out; exchanging two corners turns them back.
+            WriteCorner(mesh, (3 * face) + (isMirrored ? 2 : 1), before);
+            WriteCorner(mesh, (3 * face) + (isMirrored ? 1 : 2), before);
+            WriteText("\n");
         }
     }
 
@@ -93,6 +95,24 @@ internal sealed class ObjTextWriter(Stream stream)
     {
         stream.Write(_buffer.AsSpan(0, _bufferedBytes));
         _bufferedBytes = 0;
+    }
+
+    /// <summary>Writes one corner of a face: <c>v</c>, <c>v/vt</c>, <c>v//vn</c> or <c>v/vt/vn</c>.</summary>
+    private void WriteCorner(Mesh mesh, int corner, (long Positions, long TextureCoordinates, long Normals) before)
+    {
+        var textureIndex = mesh.TextureIndices.IsEmpty ? ObjCorner.None : mesh.TextureIndices[corner];
+        var normalIndex = mesh.NormalIndices.IsEmpty ? ObjCorner.None : mesh.NormalIndices[corner];
+        WriteInteger(' ', before.Positions + mesh.VertexIndices[corner] + 1);
+        if (textureIndex != ObjCorner.None)
+        {
+            WriteInteger('/', before.TextureCoordinates + textureIndex + 1);
+        }
+
+        if (normalIndex != ObjCorner.None)
+        {
+            WriteText(textureIndex != ObjCorner.None ? "" : "/");
+            WriteInteger('/', before.Normals + normalIndex + 1);
+        }
     }
 
     private void WriteNumber(double number)

@@ -5,15 +5,13 @@ using FractalEngine.Parsing.Text;
 namespace FractalEngine.Parsing.Meshes;
 
 /// <summary>Parses the header of a PLY file: its format, and its elements with their properties.</summary>
-internal sealed class PlyHeaderParser
+internal sealed class PlyHeaderParser(MeshBytes bytes)
 {
-    private readonly MeshTextReader _text;
+    private readonly MeshTextReader _text = new(bytes);
     private readonly List<PlyElement> _elements = [];
     private readonly HashSet<string> _names = [];
     private readonly ImmutableArray<PlyProperty>.Builder _properties = ImmutableArray.CreateBuilder<PlyProperty>();
     private PlyFormat? _format;
-
-    private PlyHeaderParser(MeshBytes bytes) => _text = new(bytes);
 
     /// <summary>Parses the header at the beginning of a file.</summary>
     /// <exception cref="SourceException">The file does not begin with a header of PLY.</exception>

@@ -16,41 +16,21 @@ public sealed class PointsParser : Parser
     /// <summary>Parses a whole file of points.</summary>
     /// <returns>Points in the order of the file; there may be none.</returns>
     /// <exception cref="SourceException">A line holds something else, or a number out of the range of a double.</exception>
-    public static ImmutableArray<Vector> Parse(SourceText source) => new PointsParser(source).ParseFile();
-
-    private ImmutableArray<Vector> ParseFile()
+    public static ImmutableArray<Vector> Parse(SourceText source)
     {
-        var points = ImmutableArray.CreateBuilder<Vector>();
-        for (var cursor = Source.Start; !cursor.IsAtEnd;)
-        {
-            if (!ParseLine(cursor, points, out cursor))
-            {
-                throw SyntaxError();
-            }
-        }
-
-        return points.ToImmutable();
+        var parser = new PointsParser(source);
+        return parser.ParseLines<Vector>(parser.ParsePoint);
     }
 
-    private bool ParseLine(Cursor cursor, ImmutableArray<Vector>.Builder points, out Cursor rest)
+    private bool ParsePoint(Cursor start, out Vector point, out Cursor rest)
     {
-        ParseBlanks(cursor, out rest);
-        if (!IsAtEndOfLine(rest) && rest.Current != '#')
+        if (!ParseComponents(start, out point, out rest))
         {
-            var start = rest;
-            if (!ParseComponents(rest, out var point, out rest))
-            {
-                return false;
-            }
-
-            if (point.MaxAbsComponent() > Collider.MaxCoordinate)
-            {
-                throw Error(start, $"a coordinate is beyond the limit of {Collider.MaxCoordinate:R} for distances", isLimitExceeded: true);
-            }
-
-            points.Add(point);
+            return false;
         }
 
-        return ParseCommentAndEndOfLine(rest, out rest);
+        return point.MaxAbsComponent() <= Collider.MaxCoordinate
+            ? true
+            : throw Error(start, $"a coordinate is beyond the limit of {Collider.MaxCoordinate:R} for distances", isLimitExceeded: true);
     }
 }

@@ -19,61 +19,45 @@ public sealed class RaysParser : Parser
     /// <summary>Parses a whole file of rays.</summary>
     /// <returns>Rays in the order of the file; there may be none. Directions have any length but 0.</returns>
     /// <exception cref="SourceException">A line holds something else, a direction of length 0, or a number out of range.</exception>
-    public static ImmutableArray<Ray> Parse(SourceText source) => new RaysParser(source).ParseFile();
-
-    private ImmutableArray<Ray> ParseFile()
+    public static ImmutableArray<Ray> Parse(SourceText source)
     {
-        var rays = ImmutableArray.CreateBuilder<Ray>();
-        for (var cursor = Source.Start; !cursor.IsAtEnd;)
-        {
-            if (!ParseLine(cursor, rays, out cursor))
-            {
-                throw SyntaxError();
-            }
-        }
-
-        return rays.ToImmutable();
+        var parser = new RaysParser(source);
+        return parser.ParseLines<Ray>(parser.ParseRay);
     }
 
-    private bool ParseLine(Cursor cursor, ImmutableArray<Ray>.Builder rays, out Cursor rest)
+    private bool ParseRay(Cursor start, out Ray ray, out Cursor rest)
     {
-        ParseBlanks(cursor, out rest);
-        if (!IsAtEndOfLine(rest) && rest.Current != '#')
+        ray = default;
+        if (!ParseComponents(start, out var origin, out rest))
         {
-            var start = rest;
-            if (!ParseComponents(rest, out var origin, out rest))
-            {
-                return false;
-            }
-
-            ParseBlanks(rest, out var directionStart);
-            if (!ParseNextNumber(rest, out var x, out rest) || !ParseNextNumber(rest, out var y, out rest)
-                || !ParseNextNumber(rest, out var z, out rest))
-            {
-                return false;
-            }
-
-            var direction = new Vector(x, y, z);
-
-            if (origin.MaxAbsComponent() > RayCaster.MaxCoordinate)
-            {
-                throw Error(start, $"a coordinate is beyond the limit of {RayCaster.MaxCoordinate:R} for rays", isLimitExceeded: true);
-            }
-
-            if (direction.MaxAbsComponent() > Collider.MaxCoordinate)
-            {
-                throw Error(
-                    directionStart, $"a direction is beyond the limit of {Collider.MaxCoordinate:R} for lengths", isLimitExceeded: true);
-            }
-
-            if (direction == Vector.Zero)
-            {
-                throw Error(directionStart, "a direction of length 0");
-            }
-
-            rays.Add(new(origin, direction));
+            return false;
         }
 
-        return ParseCommentAndEndOfLine(rest, out rest);
+        ParseBlanks(rest, out var directionStart);
+        if (!ParseNextNumber(rest, out var x, out rest) || !ParseNextNumber(rest, out var y, out rest)
+            || !ParseNextNumber(rest, out var z, out rest))
+        {
+            return false;
+        }
+
+        var direction = new Vector(x, y, z);
+        if (origin.MaxAbsComponent() > RayCaster.MaxCoordinate)
+        {
+            throw Error(start, $"a coordinate is beyond the limit of {RayCaster.MaxCoordinate:R} for rays", isLimitExceeded: true);
+        }
+
+        if (direction.MaxAbsComponent() > Collider.MaxCoordinate)
+        {
+            throw Error(
+                directionStart, $"a direction is beyond the limit of {Collider.MaxCoordinate:R} for lengths", isLimitExceeded: true);
+        }
+
+        if (direction == Vector.Zero)
+        {
+            throw Error(directionStart, "a direction of length 0");
+        }
+
+        ray = new(origin, direction);
+        return true;
     }
 }

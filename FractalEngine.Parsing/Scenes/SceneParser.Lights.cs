@@ -53,24 +53,16 @@ public sealed partial class SceneParser
 
     private bool ParseDirection(Cursor cursor, out Vector direction, out Cursor rest)
     {
-        if (!ParseVectorAndSeparator(cursor, out direction, out rest))
-        {
-            return false;
-        }
-
-        Require(direction != Vector.Zero, cursor, "a direction must not be (0, 0, 0)");
-        return true;
+        var success = ParseVectorAndSeparator(cursor, out direction, out rest);
+        Require(!success || direction != Vector.Zero, cursor, "a direction must not be (0, 0, 0)");
+        return success;
     }
 
     private bool ParseAngle(Cursor cursor, out double angle, out Cursor rest)
     {
-        if (!ParseNumber(cursor, out angle, out rest) || !ParseOptionalSeparator(rest, out rest))
-        {
-            return false;
-        }
-
-        Require(angle is > 0 and < 180, cursor, "the angle of the cone must lie between 0 and 180 degrees");
-        return true;
+        const string fault = "the angle of the cone must lie between 0 and 180 degrees";
+        return ParseNumber(cursor, static number => number is > 0 and < 180, fault, out angle, out rest)
+            && ParseOptionalSeparator(rest, out rest);
     }
 
     /// <summary>Parses a colour and an optional intensity, 1 by default.</summary>
@@ -91,26 +83,15 @@ public sealed partial class SceneParser
     {
         intensity = 0;
         range = 0;
-        if (!ParseColour(cursor, out colour, out rest) || !ParseOptionalSeparator(rest, out rest)
-            || !ParseIntensity(rest, out intensity, out rest) || !ParseSeparator(rest, out var rangeStart)
-            || !ParseNumber(rangeStart, out range, out rest))
-        {
-            return false;
-        }
-
-        Require(range > 0, rangeStart, "the range of a light must be positive");
-        return true;
+        return ParseColour(cursor, out colour, out rest) && ParseOptionalSeparator(rest, out rest)
+            && ParseIntensity(rest, out intensity, out rest) && ParseSeparator(rest, out rest)
+            && ParseNumber(rest, static number => number > 0, "the range of a light must be positive", out range, out rest);
     }
 
     private bool ParseIntensity(Cursor cursor, out double intensity, out Cursor rest)
     {
-        if (!ParseNumber(cursor, out intensity, out rest))
-        {
-            return false;
-        }
-
-        Require(intensity >= 0, cursor, "the intensity of a light must not be negative");
-        Require(intensity <= MaxFactor, cursor, "the intensity of a light must not exceed 1e9");
-        return true;
+        var success = ParseNonNegative(cursor, "the intensity of a light", out intensity, out rest);
+        Require(!success || intensity <= MaxFactor, cursor, "the intensity of a light must not exceed 1e9");
+        return success;
     }
 }

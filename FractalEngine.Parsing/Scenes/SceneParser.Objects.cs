@@ -39,12 +39,12 @@ public sealed partial class SceneParser
     private bool ParsePhysicsObject(Cursor cursor, out Cursor rest)
     {
         if (!ParseFileName(cursor, out var file, out rest) || !ParseMatrix(rest, out var placement, out rest)
-            || !ParseOptionalSeparator(rest, out var restitutionStart) || !ParseNumber(restitutionStart, out var restitution, out rest))
+            || !ParseOptionalSeparator(rest, out rest) || !ParseNumber(rest, static number => number is >= 0 and <= 1,
+                "the coefficient of restitution must lie between 0 and 1", out var restitution, out rest))
         {
             return false;
         }
 
-        Require(restitution is >= 0 and <= 1, restitutionStart, "the coefficient of restitution must lie between 0 and 1");
         _objects.Add(ParseOptions<SceneObject>(rest, new PhysicsObject(file, placement, restitution), ParseObjectOption, out rest));
         return true;
     }
@@ -96,50 +96,44 @@ public sealed partial class SceneParser
     {
         if (ParseKeyword(cursor, "name", out rest))
         {
-            var success = ParseString(rest, "a name in quotes", out var name, out rest);
-            declared = declared with { Name = name };
-            return success;
+            return ParseString(rest, "a name in quotes", out var name, out rest) && Set(ref declared, declared with { Name = name });
         }
 
         if (ParseKeyword(cursor, "colour", out rest) || ParseKeyword(cursor, "color", out rest))
         {
-            var success = ParseColour(rest, out var colour, out rest);
-            declared = declared with { Colour = colour };
-            return success;
+            return ParseColour(rest, out var colour, out rest) && Set(ref declared, declared with { Colour = colour });
         }
 
         if (ParseKeyword(cursor, "gradient", out rest))
         {
-            var success = ParseGradient(rest, out var gradient, out rest);
-            declared = declared with { Gradient = gradient };
-            return success;
+            return ParseGradient(rest, out var gradient, out rest) && Set(ref declared, declared with { Gradient = gradient });
         }
 
         if (declared is PhysicsObject body)
         {
             RequireNone(ObjectOptions, cursor, "objects that no force moves, which an 'o' line declares");
-
-            var success = ParseBodyOption(cursor, ref body, out rest);
-            declared = body;
-            return success;
+            return ParseBodyOption(cursor, ref body, out rest) && Set(ref declared, body);
         }
 
         if (ParseKeyword(cursor, "moving", out rest))
         {
-            var success = ParseMotion(rest, declared.Placement.Position, out var motion, out rest);
-            declared = declared with { Motion = motion };
-            return success;
+            return ParseMotion(rest, declared.Placement.Position, out var motion, out rest)
+                && Set(ref declared, declared with { Motion = motion });
         }
 
         if (ParseKeyword(cursor, "belt", out rest))
         {
-            var success = ParseVector(rest, out var belt, out rest);
-            declared = declared with { Belt = belt };
-            return success;
+            return ParseVector(rest, out var belt, out rest) && Set(ref declared, declared with { Belt = belt });
         }
 
         RequireNone(BodyOptions, cursor, "physics objects, which a 'p' line declares");
         return false;
+    }
+
+    private static bool Set<T>(ref T declared, T changed)
+    {
+        declared = changed;
+        return true;
     }
 
     /// <summary>Rejects options of other objects.</summary>
@@ -170,60 +164,45 @@ public sealed partial class SceneParser
             return false;
         }
 
-        var success = ParseColour(rest, out var colour, out rest);
-        gradient = gradient with { EndColour = colour };
-        return success;
+        return ParseColour(rest, out var colour, out rest) && Set(ref gradient, new(kind, colour));
     }
 
     private bool ParseBodyOption(Cursor start, ref PhysicsObject body, out Cursor rest)
     {
         if (ParseKeyword(start, "velocity", out rest))
         {
-            var success = ParseVector(rest, out var velocity, out rest);
-            body = body with { Velocity = velocity };
-            return success;
+            return ParseVector(rest, out var velocity, out rest) && Set(ref body, body with { Velocity = velocity });
         }
 
         if (ParseKeyword(start, "mass", out rest))
         {
-            var valueStart = rest;
-            var success = ParseNumber(valueStart, out var mass, out rest);
-            Require(!success || mass > 0, valueStart, "the mass must be positive");
-            body = body with { Mass = mass };
-            return success;
+            return ParseNumber(rest, static mass => mass > 0, "the mass must be positive", out var mass, out rest)
+                && Set(ref body, body with { Mass = mass });
         }
 
         foreach (var (keyword, quantity, withNumber) in NonNegativeBodyNumbers)
         {
             if (ParseKeyword(start, keyword, out rest))
             {
-                var success = ParseNonNegative(rest, quantity, out var number, out rest);
-                body = withNumber(body, number);
-                return success;
+                return ParseNonNegative(rest, quantity, out var number, out rest) && Set(ref body, withNumber(body, number));
             }
         }
 
         if (ParseKeyword(start, "inertia", out rest))
         {
-            var valueStart = rest;
-            var success = ParseNumber(valueStart, out var inertia, out rest);
-            var isInRange = inertia is > 0 and <= PhysicsObject.ShellInertiaFactor;
-            Require(!success || isInRange, valueStart, "the inertia must be positive and at most 2/3");
-            body = body with { InertiaFactor = inertia };
-            return success;
+            const string fault = "the inertia must be positive and at most 2/3";
+            return ParseNumber(rest, static value => value is > 0 and <= PhysicsObject.ShellInertiaFactor, fault, out var factor, out rest)
+                && Set(ref body, body with { InertiaFactor = factor });
         }
 
         if (ParseKeyword(start, "shape", out rest))
         {
-            var success = ParseShape(rest, out var shape, out rest);
-            body = body with { Shape = shape };
-            return success;
+            return ParseShape(rest, out var shape, out rest) && Set(ref body, body with { Shape = shape });
         }
 
         if (ParseKeyword(start, "rotation", out rest))
         {
-            body = body with { IsRotationLocked = true };
-            return ParseWord(rest, "locked", out rest);
+            return ParseWord(rest, "locked", out rest) && Set(ref body, body with { IsRotationLocked = true });
         }
 
         if (ParseKeyword(start, "shrink", out rest))
@@ -240,8 +219,7 @@ public sealed partial class SceneParser
         {
             if (ParseWord(cursor, name, out rest))
             {
-                body = body with { Collider = kind };
-                return true;
+                return Set(ref body, body with { Collider = kind });
             }
         }
 
@@ -255,13 +233,10 @@ public sealed partial class SceneParser
         shape = BodyShape.Ball;
         if (ParseKeyword(cursor, "balls", out rest))
         {
-            var countStart = rest;
-            var success = ParseNumber(countStart, out var count, out rest);
-            Require(
-                !success || (count is >= 1 and <= BodyShape.MaxBallCount && count == Math.Floor(count)), countStart,
-                $"a body has 1 to {BodyShape.MaxBallCount} balls");
-            shape = success ? BodyShape.Balls((int)count) : shape;
-            return success;
+            return ParseNumber(
+                    rest, static number => number is >= 1 and <= BodyShape.MaxBallCount && number == Math.Floor(number),
+                    $"a body has 1 to {BodyShape.MaxBallCount} balls", out var count, out rest)
+                && Set(ref shape, BodyShape.Balls((int)count));
         }
 
         shape = BodyShape.Capsule;
@@ -285,10 +260,6 @@ public sealed partial class SceneParser
         return success;
     }
 
-    private bool ParseNonNegative(Cursor cursor, string quantity, out double number, out Cursor rest)
-    {
-        var success = ParseNumber(cursor, out number, out rest);
-        Require(!success || number >= 0, cursor, $"{quantity} must not be negative");
-        return success;
-    }
+    private bool ParseNonNegative(Cursor cursor, string quantity, out double number, out Cursor rest) =>
+        ParseNumber(cursor, static number => number >= 0, $"{quantity} must not be negative", out number, out rest);
 }

@@ -26,36 +26,27 @@ public sealed partial class SceneParser
     {
         if (ParseKeyword(cursor, "speed", out rest))
         {
-            var success = ParseNonNegative(rest, "the player's speed", out var speed, out rest);
-            player = player with { WalkingSpeedOverride = speed };
-            return success;
+            return ParseNonNegative(rest, "the player's speed", out var speed, out rest)
+                && Set(ref player, player with { WalkingSpeedOverride = speed });
         }
 
         if (ParseKeyword(cursor, "jump", out rest))
         {
-            var success = ParseNonNegative(rest, "the speed of a jump", out var jump, out rest);
-            player = player with { JumpSpeedOverride = jump };
-            return success;
+            return ParseNonNegative(rest, "the speed of a jump", out var jump, out rest)
+                && Set(ref player, player with { JumpSpeedOverride = jump });
         }
 
-        if (ParseKeyword(cursor, "slope", out var valueStart))
+        if (ParseKeyword(cursor, "slope", out rest))
         {
-            var success = ParseNumber(valueStart, out var slope, out rest);
-            Require(!success || slope is >= 0 and <= Player.MaxSlopeAngleLimit, valueStart,
-                "the player's slope must lie between 0 and 89 degrees");
-            player = player with { MaxSlopeAngle = slope };
-            return success;
+            const string fault = "the player's slope must lie between 0 and 89 degrees";
+            return ParseNumber(rest, static angle => angle is >= 0 and <= Player.MaxSlopeAngleLimit, fault, out var slope, out rest)
+                && Set(ref player, player with { MaxSlopeAngle = slope });
         }
 
-        if (ParseKeyword(cursor, "step", out valueStart))
-        {
-            var success = ParseNumber(valueStart, out var step, out rest);
-            Require(!success || (step >= 0 && step < player.Height), valueStart,
-                "the player's step must not be negative, and less than the height");
-            player = player with { StepHeightOverride = step };
-            return success;
-        }
-
-        return false;
+        var height = player.Height;
+        const string stepFault = "the player's step must not be negative, and less than the height";
+        return ParseKeyword(cursor, "step", out rest)
+            && ParseNumber(rest, number => number >= 0 && number < height, stepFault, out var step, out rest)
+            && Set(ref player, player with { StepHeightOverride = step });
     }
 }

@@ -10,13 +10,9 @@ public sealed partial class SceneParser
 {
     private bool ParseSky(Cursor cursor, out Cursor rest)
     {
-        if (!ParseColour(cursor, out var zenith, out rest) || !ParseOptionalSeparator(rest, out rest)
-            || !ParseColour(rest, out var horizon, out rest) || !ParseOptionalColour(rest, out var ground, out rest))
-        {
-            return false;
-        }
-
-        return UpdateScene(_scene with { Sky = new(zenith, horizon, ground) });
+        return ParseColour(cursor, out var zenith, out rest) && ParseOptionalSeparator(rest, out rest)
+            && ParseColour(rest, out var horizon, out rest) && ParseOptionalColour(rest, out var ground, out rest)
+            && UpdateScene(_scene with { Sky = new(zenith, horizon, ground) });
     }
 
     private bool ParseSun(Cursor cursor, out Cursor rest)
@@ -29,14 +25,11 @@ public sealed partial class SceneParser
 
         var diameter = SunLight.DefaultDiameter;
         ParseOptionalSeparator(rest, out var diameterStart);
-        if (!IsAtEndOfLine(diameterStart) && !Fail(diameterStart, SyntaxFailure.EndOfLine))
+        if (!IsAtEndOfLine(diameterStart) && !Fail(diameterStart, SyntaxFailure.EndOfLine)
+            && !ParseNumber(diameterStart, static number => number is >= 0 and < 90,
+                "the diameter of the sun must be at least 0 and less than 90 degrees", out diameter, out rest))
         {
-            if (!ParseNumber(diameterStart, out diameter, out rest))
-            {
-                return false;
-            }
-
-            Require(diameter is >= 0 and < 90, diameterStart, "the diameter of the sun must be at least 0 and less than 90 degrees");
+            return false;
         }
 
         return AddLight(new SunLight(direction, colour, intensity, diameter));
@@ -44,35 +37,25 @@ public sealed partial class SceneParser
 
     private bool ParseExposure(Cursor cursor, out Cursor rest)
     {
-        if (!ParseNumber(cursor, out var exposure, out rest))
+        if (!ParseNumber(cursor, static number => number > 0, "the exposure must be positive", out var exposure, out rest))
         {
             return false;
         }
 
-        Require(exposure > 0, cursor, "the exposure must be positive");
         Require(exposure is >= 1e-9 and <= MaxFactor, cursor, "the exposure must lie between 1e-9 and 1e9");
         return UpdateScene(_scene with { Exposure = exposure });
     }
 
     private bool ParseTone(Cursor cursor, out Cursor rest)
     {
-        if (ParseWord(cursor, "none", out rest))
-        {
-            return UpdateScene(_scene with { Tone = Tone.None });
-        }
-
-        return ParseWord(cursor, "filmic", out rest) && UpdateScene(_scene with { Tone = Tone.Filmic });
+        return (ParseWord(cursor, "none", out rest) && UpdateScene(_scene with { Tone = Tone.None }))
+            || (ParseWord(cursor, "filmic", out rest) && UpdateScene(_scene with { Tone = Tone.Filmic }));
     }
 
     private bool ParseFog(Cursor cursor, out Cursor rest)
     {
-        if (!ParseNumber(cursor, out var density, out rest))
-        {
-            return false;
-        }
-
-        Require(density >= 0, cursor, "the density of fog must not be negative");
-        return ParseOptionalColour(rest, out var colour, out rest) && UpdateScene(_scene with { Fog = new(density, colour) });
+        return ParseNonNegative(cursor, "the density of fog", out var density, out rest)
+            && ParseOptionalColour(rest, out var colour, out rest) && UpdateScene(_scene with { Fog = new(density, colour) });
     }
 
     /// <summary>Parses a colour at the end of a line, if there is one.</summary>

@@ -165,16 +165,11 @@ public sealed partial class SceneParser : SceneValueParser
 
     private bool ParseCamera(Cursor cursor, out Cursor rest)
     {
-        if (!ParseVectorOrDefault(cursor, Vector.Zero, out var position, out rest) || !ParseOptionalSeparator(rest, out rest)
-            || !ParseOrientation(rest, position, out var rotation, out rest)
-            || !ParseOptionalSeparator(rest, out var fieldOfViewStart)
-            || !ParseNumber(fieldOfViewStart, out var fieldOfView, out rest))
-        {
-            return false;
-        }
-
-        Require(fieldOfView is > 0 and < 180, fieldOfViewStart, "the angle of view must lie between 0 and 180 degrees");
-        return UpdateScene(_scene with { Camera = new(position, rotation, fieldOfView) });
+        return ParseVectorOrDefault(cursor, Vector.Zero, out var position, out rest) && ParseOptionalSeparator(rest, out rest)
+            && ParseOrientation(rest, position, out var rotation, out rest) && ParseOptionalSeparator(rest, out rest)
+            && ParseNumber(rest, static number => number is > 0 and < 180, "the angle of view must lie between 0 and 180 degrees",
+                out var fieldOfView, out rest)
+            && UpdateScene(_scene with { Camera = new(position, rotation, fieldOfView) });
     }
 
     /// <summary>Parses angles in radians, or <c>look-at point [up direction]</c>.</summary>
@@ -213,12 +208,8 @@ public sealed partial class SceneParser : SceneValueParser
 
     private bool ParseHandedness(Cursor cursor, out Cursor rest)
     {
-        if (ParseWord(cursor, "left", out rest))
-        {
-            return UpdateScene(_scene with { Handedness = Handedness.Left });
-        }
-
-        return ParseWord(cursor, "right", out rest) && UpdateScene(_scene with { Handedness = Handedness.Right });
+        return (ParseWord(cursor, "left", out rest) && UpdateScene(_scene with { Handedness = Handedness.Left }))
+            || (ParseWord(cursor, "right", out rest) && UpdateScene(_scene with { Handedness = Handedness.Right }));
     }
 
     private bool ParseProjection(Cursor cursor, out Cursor rest)
@@ -237,12 +228,11 @@ public sealed partial class SceneParser : SceneValueParser
         double? height = null;
         if (!IsAtEndOfLine(heightStart) && !Fail(heightStart, SyntaxFailure.EndOfLine))
         {
-            if (!ParseNumber(heightStart, out var number, out rest))
+            if (!ParseNumber(heightStart, static height => height > 0, "the visible height must be positive", out var number, out rest))
             {
                 return false;
             }
 
-            Require(number > 0, heightStart, "the visible height must be positive");
             height = number;
         }
 

@@ -6,14 +6,9 @@ using FractalEngine.Parsing.Text.Mistakes;
 namespace FractalEngine.Parsing.Scenes;
 
 /// <summary>Parses the values in scene files: vectors, matrices and colours, with '#' for "no transformation".</summary>
-public abstract class SceneValueParser : Parser
+/// <param name="source">Text that is parsed.</param>
+public abstract class SceneValueParser(SourceText source) : Parser(source)
 {
-    /// <summary>Creates a parser for one text.</summary>
-    protected SceneValueParser(SourceText source)
-        : base(source)
-    {
-    }
-
     /// <summary>Parses <c>(position, rotation, scale)</c>, each a vector or '#', or a single '#' for the identity.</summary>
     protected bool ParseMatrix(Cursor cursor, out Transformation placement, out Cursor rest)
     {
@@ -91,6 +86,15 @@ public abstract class SceneValueParser : Parser
     {
         ParseBlanks(cursor, out rest);
         return rest.Current != ',' || ParseBlanks(rest.Advance(1), out rest);
+    }
+
+    /// <summary>Parses a number that must meet a condition.</summary>
+    /// <exception cref="SourceException">The number does not meet it: <paramref name="fault"/> is the message.</exception>
+    private protected bool ParseNumber(Cursor cursor, Func<double, bool> isValid, string fault, out double number, out Cursor rest)
+    {
+        var success = ParseNumber(cursor, out number, out rest);
+        Require(!success || isValid(number), cursor, fault);
+        return success;
     }
 
     /// <summary>Throws an exception for a value that has no valid meaning, unless the condition holds.</summary>

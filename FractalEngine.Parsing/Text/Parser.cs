@@ -1,3 +1,4 @@
+using System.Collections.Immutable;
 using FractalEngine.Core.Maths;
 using FractalEngine.Parsing.Text.Mistakes;
 
@@ -11,13 +12,14 @@ namespace FractalEngine.Parsing.Text;
 /// Every <c>Parse…</c> method takes a cursor and returns whether the text there matches. On success it yields the value and the
 /// cursor behind it; on failure the caller's cursor remains valid for another attempt.
 /// </remarks>
-public abstract partial class Parser
+/// <param name="source">Text that is parsed.</param>
+public abstract partial class Parser(SourceText source)
 {
-    /// <summary>Creates a parser for one text.</summary>
-    protected Parser(SourceText source) => Source = source;
+    /// <summary>Parses one item of a list.</summary>
+    private protected delegate bool ItemParser<T>(Cursor cursor, out T item, out Cursor rest);
 
     /// <summary>Text that is being parsed.</summary>
-    protected SourceText Source { get; }
+    protected SourceText Source { get; } = source;
 
     /// <summary>Skips blanks and tabs, of which there may be none. Always returns true.</summary>
     protected virtual bool ParseBlanks(Cursor cursor, out Cursor rest)
@@ -236,6 +238,25 @@ public abstract partial class Parser
         }
 
         return start.Rest[..(rest.Offset - start.Offset)].Trim().ToString();
+    }
+
+    /// <summary>Parses a text of lines with one item each, between empty ones and comments.</summary>
+    /// <exception cref="SourceException">A line holds something else.</exception>
+    private protected ImmutableArray<T> ParseLines<T>(ItemParser<T> parseItem)
+    {
+        var items = ImmutableArray.CreateBuilder<T>();
+        for (var cursor = Source.Start; !cursor.IsAtEnd;)
+        {
+            ParseBlanks(cursor, out cursor);
+            if (!IsAtEndOfLine(cursor) && cursor.Current != '#')
+            {
+                items.Add(parseItem(cursor, out var item, out cursor) ? item : throw SyntaxError());
+            }
+
+            cursor = ParseCommentAndEndOfLine(cursor, out cursor) ? cursor : throw SyntaxError();
+        }
+
+        return items.ToImmutable();
     }
 
     /// <summary>Skips one line break of any system, if there is one.</summary>

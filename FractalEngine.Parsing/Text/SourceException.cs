@@ -3,12 +3,10 @@ using FractalEngine.Core;
 namespace FractalEngine.Parsing.Text;
 
 /// <summary>A file can't be loaded; the diagnostic says why and where, for syntax and meaning alike.</summary>
-public sealed class SourceException : FractalEngineException
+/// <param name="diagnostic">What is wrong, and where.</param>
+public sealed class SourceException(Diagnostic diagnostic)
+    : FractalEngineException(diagnostic.IsLimitExceeded ? ErrorKind.Limit : ErrorKind.Input, diagnostic.ToString())
 {
-    /// <summary>Makes the error of a diagnostic.</summary>
-    public SourceException(Diagnostic diagnostic)
-        : base(diagnostic.IsLimitExceeded ? ErrorKind.Limit : ErrorKind.Input, diagnostic.ToString()) => Diagnostic = diagnostic;
-
     /// <summary>Makes an error about a file as a whole.</summary>
     public SourceException(string file, string message, bool isLimitExceeded = false)
         : this(new(file, 1, 1, DiagnosticSeverity.Error, message) { IsLimitExceeded = isLimitExceeded })
@@ -16,5 +14,5 @@ public sealed class SourceException : FractalEngineException
     }
 
     /// <summary>What is wrong, and where in which file.</summary>
-    public Diagnostic Diagnostic { get; }
+    public Diagnostic Diagnostic { get; } = diagnostic;
 }

@@ -4,27 +4,20 @@ using FractalEngine.Core.Files;
 namespace FractalEngine.Parsing.Text;
 
 /// <summary>Text of a file, or some lines of it, together with the name that messages use for it.</summary>
-public sealed class SourceText
+/// <param name="fileName">Name of the file in messages.</param>
+/// <param name="text">Characters without a byte order mark.</param>
+public sealed class SourceText(string fileName, string text)
 {
     private static readonly UTF8Encoding StrictUtf8 = new(encoderShouldEmitUTF8Identifier: false, throwOnInvalidBytes: true);
 
     // Many errors of one text come in order: each search goes on where the last one ended.
     private LineStartPosition? _lastLine;
 
-    /// <summary>Wraps a text that need not come from a file.</summary>
-    /// <param name="fileName">Name of the file in messages.</param>
-    /// <param name="text">Characters without a byte order mark.</param>
-    public SourceText(string fileName, string text)
-    {
-        FileName = fileName;
-        Text = text;
-    }
-
     /// <summary>Name of the file in messages.</summary>
-    public string FileName { get; }
+    public string FileName { get; } = fileName;
 
     /// <summary>Characters of the text, without a byte order mark.</summary>
-    public string Text { get; }
+    public string Text { get; } = text;
 
     /// <summary>Number in the file, from 1, of the line that the text begins with: more than 1 for an excerpt.</summary>
     internal int FirstLine { get; init; } = 1;

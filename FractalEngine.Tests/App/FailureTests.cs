@@ -30,7 +30,10 @@ public sealed class FailureTests : IDisposable
         { new FractalLimitException("too many"), 3, "error: too many" },
         { new GlException("no memory"), 3, "error: no memory" },
         { new GraphicsUnavailableException("no display"), 4, "error: no display" },
-        { new SingularMatrixException("no inverse"), 1, "error: no inverse" },
+        {
+            new SingularMatrixException(default(Matrix)), 1,
+            $"error: the matrix {default(Matrix)} has no inverse: its determinant is 0"
+        },
         { new UsageException("nothing to do"), 2, "error: nothing to do" },
         { new IOException("disk full"), 2, "error: disk full" },
         { new UnauthorizedAccessException("not yours"), 2, "error: not yours" },

@@ -1,6 +1,7 @@
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Tests.Render;
+using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Geometry;
 

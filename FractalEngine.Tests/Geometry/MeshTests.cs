@@ -104,12 +104,4 @@ public class MeshTests
     [Fact]
     public void Radius_OfAMovedMesh_IsThatOfTheUnmoved() =>
         Assert.Equal(3, Samples.Tetrahedron.Radius(AffineMap.Translate(new(1e9, -1e9, 1e9))));
-
-    [Fact]
-    public void Transform_AppliesTheFunctionToEveryVertexAndKeepsTheFaces()
-    {
-        var moved = Samples.Tetrahedron.Transform(v => v + new Vector(1, 2, 3));
-        Assert.Equal(NaiveFractal.Vertices(Samples.Tetrahedron).Select(v => v + new Vector(1, 2, 3)), NaiveFractal.Vertices(moved));
-        Assert.Equal(Samples.Tetrahedron.VertexIndices, moved.VertexIndices);
-    }
 }

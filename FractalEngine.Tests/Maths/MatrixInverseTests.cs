@@ -69,7 +69,6 @@ public class MatrixInverseTests
     {
         var matrix = Matrix.Diagonal(new(1e-310, 1, 1));
         Assert.Equal(matrix, Assert.Throws<SingularMatrixException>(() => matrix.Inverse()).Matrix);
-        Assert.Null(new SingularMatrixException("without a matrix").Matrix);
     }
 
     [Fact]

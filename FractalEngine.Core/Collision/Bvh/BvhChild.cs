@@ -40,13 +40,6 @@ internal readonly record struct BvhChild
         get => (int)((uint)~_code % BvhLayout.MaxLeafTriangles) + 1;
     }
 
-    /// <summary>The reference as 32 bits, for entries of a traversal stack.</summary>
-    public uint Bits
-    {
-        [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        get => (uint)_code;
-    }
-
     /// <summary>Creates a reference to a node.</summary>
     public static BvhChild ForNode(int nodeIndex) => new(nodeIndex);
 
@@ -56,7 +49,7 @@ internal readonly record struct BvhChild
     public static BvhChild ForLeaf(int firstTriangle, int triangleCount) =>
         new(~((firstTriangle * BvhLayout.MaxLeafTriangles) + triangleCount - 1));
 
-    /// <summary>Restores a reference from its <see cref="Bits"/>.</summary>
+    /// <summary>Restores a reference from its 32 bits, as entries of a traversal stack hold them.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static BvhChild FromBits(uint bits) => new((int)bits);
 

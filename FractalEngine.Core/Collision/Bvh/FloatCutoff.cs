@@ -10,7 +10,7 @@ namespace FractalEngine.Core.Collision.Bvh;
 /// All lengths are in the boxes' units. The bound of the error of a distance is proved in docs/colliders.md. It counts twice: once for the
 /// triangle that seems closest, and once for the one that is.
 /// </remarks>
-internal readonly struct FloatCutoff
+internal readonly struct FloatCutoff(float factor, float summand)
 {
     /// <summary>Half the relative distance of two floats.</summary>
     public const double UnitRoundoff = 1.0 / (1 << 24);
@@ -25,14 +25,8 @@ internal readonly struct FloatCutoff
     // The rounding of the limit itself.
     private const double LimitError = 8;
 
-    private readonly float _factor;
-    private readonly float _summand;
-
-    private FloatCutoff(float factor, float summand)
-    {
-        _factor = factor;
-        _summand = summand;
-    }
+    private readonly float _factor = factor;
+    private readonly float _summand = summand;
 
     /// <summary>Computes the coefficients of the limit for a position.</summary>
     /// <param name="maxCoordinate">Largest coordinate of the position.</param>

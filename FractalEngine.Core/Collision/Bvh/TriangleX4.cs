@@ -10,24 +10,15 @@ namespace FractalEngine.Core.Collision.Bvh;
 /// reference's order, so the results are the same to the last bit. Thin triangles, which need iteration, are left to the reference.
 /// </summary>
 /// <remarks>The struct keeps what does not depend on a position, for triangles that are tested very often.</remarks>
-internal readonly struct TriangleX4
+/// <param name="a">The first vertex of each triangle.</param>
+/// <param name="b">The second vertex of each triangle.</param>
+/// <param name="c">The third vertex of each triangle.</param>
+internal readonly struct TriangleX4(VectorX4 a, VectorX4 b, VectorX4 c)
 {
-    private readonly VectorX4 _a;
-    private readonly VectorX4 _b;
-    private readonly VectorX4 _c;
-    private readonly PrecomputedTerms _terms;
-
-    /// <summary>Precomputes the terms of four triangles.</summary>
-    /// <param name="a">The first vertex of each triangle.</param>
-    /// <param name="b">The second vertex of each triangle.</param>
-    /// <param name="c">The third vertex of each triangle.</param>
-    public TriangleX4(VectorX4 a, VectorX4 b, VectorX4 c)
-    {
-        _a = a;
-        _b = b;
-        _c = c;
-        _terms = PrecomputedTerms.Create(a, b, c);
-    }
+    private readonly VectorX4 _a = a;
+    private readonly VectorX4 _b = b;
+    private readonly VectorX4 _c = c;
+    private readonly PrecomputedTerms _terms = PrecomputedTerms.Create(a, b, c);
 
     /// <summary>Computes the squared distances of a position from four precomputed triangles.</summary>
     /// <param name="triangles">The four triangles.</param>

@@ -11,27 +11,21 @@ namespace FractalEngine.Core.Collision.Fractals;
 /// The frame of a sub-fractal where all maps are similarities: the position is taken into the sub-fractal's frame, and distances there are
 /// multiplied by the scale.
 /// </summary>
-internal readonly struct SimilarityFrame : ISearchFrame<SimilarityFrame>
+[method: MethodImpl(MethodImplOptions.AggressiveInlining)]
+internal readonly struct SimilarityFrame(
+    Vector256<double> position, double scaleSquared, double inverseScaleSquared, double inverseScale)
+    : ISearchFrame<SimilarityFrame>
 {
-    private readonly Vector256<double> _position;
-    private readonly double _scaleSquared;
-    private readonly double _inverseScaleSquared;
-    private readonly double _inverseScale;
+    private readonly Vector256<double> _position = position;
+    private readonly double _scaleSquared = scaleSquared;
+    private readonly double _inverseScaleSquared = inverseScaleSquared;
+    private readonly double _inverseScale = inverseScale;
 
     /// <summary>Creates the frame of the whole fractal.</summary>
     /// <param name="position">Position of the query in the fractal's frame.</param>
     public SimilarityFrame(Vector position)
         : this(SimdAffineMap.ToVector256(position), 1, 1, 1)
     {
-    }
-
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private SimilarityFrame(Vector256<double> position, double scaleSquared, double inverseScaleSquared, double inverseScale)
-    {
-        _position = position;
-        _scaleSquared = scaleSquared;
-        _inverseScaleSquared = inverseScaleSquared;
-        _inverseScale = inverseScale;
     }
 
     /// <inheritdoc/>

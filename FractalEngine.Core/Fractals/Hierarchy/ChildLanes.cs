@@ -12,7 +12,7 @@ namespace FractalEngine.Core.Fractals.Hierarchy;
 /// and the planes of the solid. Others are bounded by boxes in the frame of the parent. For similarities only, and for positions no farther
 /// away than <see cref="MaxDistanceFactor"/>. Why the bounds hold in spite of rounding is proved in docs/colliders.md.
 /// </remarks>
-internal sealed class ChildLanes
+internal sealed class ChildLanes(float[] rows, int groupCount, int rowCount, double reach, LevelStep levelStep)
 {
     /// <summary>Positions so many radii of the parent away are left to double precision, where bounds tell small children apart.</summary>
     public const double MaxDistanceFactor = 24;
@@ -40,20 +40,10 @@ internal sealed class ChildLanes
     // Far away, for lanes without a child.
     private const float FarAway = 1e18f;
 
-    private readonly float[] _rows;
-    private readonly int _groupCount;
-    private readonly int _rowCount;
-    private readonly float _reach;
-    private readonly LevelStep _levelStep;
-
-    private ChildLanes(float[] rows, int groupCount, int rowCount, double reach, LevelStep levelStep)
-    {
-        _rows = rows;
-        _groupCount = groupCount;
-        _rowCount = rowCount;
-        _reach = (float)reach;
-        _levelStep = levelStep;
-    }
+    private readonly float[] _rows = rows;
+    private readonly int _groupCount = groupCount;
+    private readonly int _rowCount = rowCount;
+    private readonly float _reach = (float)reach;
 
     /// <summary>Number of bytes of the arrays.</summary>
     public long StorageBytes => (sizeof(float) * (long)_rows.Length) + 64;
@@ -134,7 +124,7 @@ internal sealed class ChildLanes
         var pz = Vector256.Create(point[2]);
         if (IsComplete)
         {
-            FillByFrames(hierarchy.At(_levelStep.RemainingLevels(remainingLevels)).Floats!, px, py, pz, (float)cutoffSquared, in queue);
+            FillByFrames(hierarchy.At(levelStep.RemainingLevels(remainingLevels)).Floats!, px, py, pz, (float)cutoffSquared, in queue);
         }
         else
         {

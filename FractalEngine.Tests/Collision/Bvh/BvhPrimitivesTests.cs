@@ -1,3 +1,4 @@
+using System.Runtime.CompilerServices;
 using System.Runtime.Intrinsics;
 using FractalEngine.Core.Collision;
 using FractalEngine.Core.Collision.Bvh;
@@ -47,7 +48,7 @@ public sealed class BvhPrimitivesTests
             {
                 var leaf = BvhChild.ForLeaf(first, count);
                 Assert.Equal((false, first, count), (leaf.IsNode, leaf.FirstTriangle, leaf.TriangleCount));
-                Assert.Equal(leaf, BvhChild.FromBits(leaf.Bits));
+                Assert.Equal(leaf, BvhChild.FromBits(Unsafe.BitCast<BvhChild, uint>(leaf)));
                 Assert.Equal(leaf, leaf.Rebase(5));
                 Assert.NotEqual(BvhChild.None, leaf);
             }

@@ -1,3 +1,4 @@
+using System.Runtime.CompilerServices;
 using FractalEngine.Core.Collision.Bvh;
 using FractalEngine.Core.Generation;
 using FractalEngine.Core.Maths;
@@ -58,7 +59,7 @@ public class TriangleBvhBuilderTests
     {
         var child = BvhChild.ForLeaf(firstTriangle, triangleCount);
         Assert.Equal((false, firstTriangle, triangleCount), (child.IsNode, child.FirstTriangle, child.TriangleCount));
-        Assert.Equal(child, BvhChild.FromBits(child.Bits));
+        Assert.Equal(child, BvhChild.FromBits(Unsafe.BitCast<BvhChild, uint>(child)));
         Assert.NotEqual(BvhChild.None, child);
     }
 
@@ -68,7 +69,7 @@ public class TriangleBvhBuilderTests
         Assert.Equal(BvhChild.ForNode(17), BvhChild.ForNode(12).Rebase(firstNode: 5));
         Assert.Equal(BvhChild.ForLeaf(3, 2), BvhChild.ForLeaf(3, 2).Rebase(firstNode: 5));
         Assert.Equal(BvhChild.None, BvhChild.None.Rebase(firstNode: 5));
-        Assert.True(BvhChild.FromBits(BvhChild.ForNode(12).Bits).IsNode);
+        Assert.True(BvhChild.FromBits(Unsafe.BitCast<BvhChild, uint>(BvhChild.ForNode(12))).IsNode);
     }
 
     [Theory]

@@ -65,7 +65,9 @@ public class MtlParserTests
             file.Warnings[0].ToString(), StringComparison.Ordinal);
         Assert.StartsWith("test.mtl:4:1: warning: map_Ke is kept but not shown\n", file.Warnings[1].ToString(), StringComparison.Ordinal);
         Assert.Equal([true, false], file.Warnings.Select(static warning => warning.ConcernsDrawnFrames));
-        Assert.Empty(file.TextureNameOffsets);
+        Assert.Equal(
+            file.Source.Text.IndexOf("normals.png", StringComparison.Ordinal),
+            file.TextureNameOffsets[file.Materials["a"].NormalTexture!]);
     }
 
     [Fact]
@@ -80,7 +82,7 @@ public class MtlParserTests
         var file = Parse("newmtl a\nKd 1 0 0\nmap_Kd a.png\nnewmtl b\nKd 0 1 0\r\nnewmtl a\rKd 0 0 1\nmap_Kd second.png\n");
         Assert.Equal(["a", "b"], file.Materials.Keys.Order());
         Assert.Equal((new Colour(1, 0, 0), "a.png"), (file.Materials["a"].Diffuse, file.Materials["a"].Texture!.Path));
-        Assert.Equal("a.png", file.Source.Text.Substring(file.TextureNameOffsets["a"], 5));
+        Assert.Equal("a.png", file.Source.Text.Substring(file.TextureNameOffsets[file.Materials["a"].Texture!], 5));
     }
 
     [Fact]
@@ -223,9 +225,9 @@ public class MtlParserTests
         var file = Parse(text.ToString());
         Assert.All(file.Warnings, warning => Assert.Matches(@"^test\.mtl:[1-9]\d*:[1-9]\d*: warning: \S", warning.ToString()));
         Assert.All(file.Materials.Values,
-            material => Assert.True(material.OpacityTexture is null || file.OpacityTextureNameOffsets.ContainsKey(material.Name)));
+            material => Assert.True(material.OpacityTexture is null || file.TextureNameOffsets.ContainsKey(material.OpacityTexture)));
         Assert.All(file.Materials.Values,
-            material => Assert.True(material.Texture is null || file.TextureNameOffsets.ContainsKey(material.Name)));
+            material => Assert.True(material.Texture is null || file.TextureNameOffsets.ContainsKey(material.Texture)));
         Assert.All(file.Materials.Values, material => Assert.InRange(material.Opacity, 0, 1));
     });
 

@@ -1,6 +1,7 @@
 using System.Buffers.Binary;
 using System.IO.Compression;
 using System.Text;
+using FractalEngine.Core.Geometry;
 using FractalEngine.Parsing;
 using FractalEngine.Parsing.Meshes;
 using FractalEngine.Parsing.Text;
@@ -80,8 +81,13 @@ public sealed class RecordedMeshTests : IDisposable
             sweep.Run(text, static variant =>
             {
                 var parsed = MtlParser.Parse(new("t.mtl", variant));
-                return ((parsed.Materials, parsed.TextureNameOffsets, parsed.OpacityTextureNameOffsets, parsed.BumpTextureNameOffsets,
-                    parsed.NormalTextureNameOffsets), parsed.Warnings);
+                return ((parsed.Materials, Offsets(static material => material.Texture),
+                    Offsets(static material => material.OpacityTexture), Offsets(static material => material.BumpTexture),
+                    Offsets(static material => material.NormalTexture)), parsed.Warnings);
+
+                Dictionary<string, int> Offsets(Func<Material, MaterialTexture?> textureOf) => parsed.Materials.Values
+                    .Where(material => textureOf(material) is not null)
+                    .ToDictionary(static material => material.Name, material => parsed.TextureNameOffsets[textureOf(material)!]);
             });
         }
 
