@@ -44,9 +44,7 @@ internal sealed class ImagePass : IDisposable
         _texture!.Bind(isClamped: true);
         _resources.State.Cull(CullFace.None);
         GL.Enable(EnableCap.FramebufferSrgb);
-        GL.Enable(EnableCap.Blend);
-        GL.BlendFuncSeparate(
-            BlendingFactorSrc.SrcAlpha, BlendingFactorDest.OneMinusSrcAlpha, BlendingFactorSrc.Zero, BlendingFactorDest.One);
+        GlState.BeginBlending(BlendingFactorSrc.SrcAlpha);
         _vertexArray.Bind();
         GL.DrawArrays(PrimitiveType.Triangles, 0, 3);
         GL.Disable(EnableCap.Blend);

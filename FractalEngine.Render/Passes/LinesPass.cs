@@ -113,9 +113,7 @@ internal sealed class LinesPass : IDisposable
         _program.Use();
         _viewUniforms.Set(in frame);
         GL.Uniform3(_offsetLocation, (float)offset.X, (float)offset.Y, (float)offset.Z);
-        GL.Enable(EnableCap.Blend);
-        GL.BlendFuncSeparate(
-            BlendingFactorSrc.SrcAlpha, BlendingFactorDest.OneMinusSrcAlpha, BlendingFactorSrc.Zero, BlendingFactorDest.One);
+        GlState.BeginBlending(BlendingFactorSrc.SrcAlpha);
         GL.DepthMask(false);
         _vertexArray.Bind();
         GL.DrawArrays(PrimitiveType.Lines, 0, _data.Count / FloatsPerVertex);

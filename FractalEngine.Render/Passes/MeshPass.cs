@@ -100,8 +100,7 @@ internal sealed class MeshPass(RenderContext context, ImmutableArray<Light> ligh
     /// <summary>Blends what follows with the frame, without writing depth. Colours must be multiplied by their opacity.</summary>
     public static void BeginTransparent()
     {
-        GL.Enable(EnableCap.Blend);
-        GL.BlendFuncSeparate(BlendingFactorSrc.One, BlendingFactorDest.OneMinusSrcAlpha, BlendingFactorSrc.Zero, BlendingFactorDest.One);
+        GlState.BeginBlending(BlendingFactorSrc.One);
         GL.DepthMask(false);
     }
 

@@ -28,8 +28,8 @@ internal sealed class ObjectsPass : IDisposable
     private readonly ObjectBlocks _objectBlocks;
     private readonly SkyPass? _skyPass;
     private DrawableScene _scene;
-    private TransparentOrder _transparentOrder;
-    private readonly OpaqueOrder _opaqueOrder = new();
+    private DepthOrder _transparentOrder;
+    private readonly DepthOrder _opaqueOrder;
     private readonly ShadowPass _shadowPass;
     private SphereBatch? _sphereBatch;
     private bool _hasSkyParts;
@@ -48,7 +48,8 @@ internal sealed class ObjectsPass : IDisposable
         _meshPass = new(context, LightBlock.LightsOf(scene.Source));
         _lightBlock = new(_resources, scene.Source);
         _objectBlocks = new(_resources, scene.Objects.Length);
-        _transparentOrder = TransparentOrder.Create(scene);
+        _opaqueOrder = DepthOrder.Of(scene, static _ => true);
+        _transparentOrder = DepthOrder.Of(scene, static model => model.HasTransparentBatches);
         _shadowPass = new(context, scene, buffers, transforms);
         _skyPass = scene.Source.Scene is { Sky: { } sky, Background: null } ? new(_resources, sky) : null;
     }
@@ -67,7 +68,7 @@ internal sealed class ObjectsPass : IDisposable
     {
         _scene = scene;
         _objectBlocks.ForgetColours();
-        _transparentOrder = TransparentOrder.Create(scene);
+        _transparentOrder = DepthOrder.Of(scene, static model => model.HasTransparentBatches);
         _shadowPass.SetScene(scene);
     }
 
@@ -245,6 +246,7 @@ internal sealed class ObjectsPass : IDisposable
     private CullFace InnerFaceOf(int index) =>
         FaceOf(Math.Sign(_transforms.ObjectToWorld[index].Linear.Determinant()) * _scene.Objects[index].Model.SolidSign.Value);
 
-    private static CullFace FaceOf(int windingSign) =>
+    /// <summary>Returns the back faces of a solid, by the sign of its triangles' winding; none for 0.</summary>
+    internal static CullFace FaceOf(int windingSign) =>
         windingSign == 0 ? CullFace.None : windingSign < 0 ? CullFace.Front : CullFace.Back;
 }

@@ -66,9 +66,7 @@ internal sealed class QuadBatch : IDisposable
         _glyphTexture!.Bind();
         // Blended in sRGB as the eye compares: text that is blended in linear light looks too thin on a dark ground.
         GL.Disable(EnableCap.FramebufferSrgb);
-        GL.Enable(EnableCap.Blend);
-        GL.BlendFuncSeparate(
-            BlendingFactorSrc.SrcAlpha, BlendingFactorDest.OneMinusSrcAlpha, BlendingFactorSrc.Zero, BlendingFactorDest.One);
+        GlState.BeginBlending(BlendingFactorSrc.SrcAlpha);
         _vertexArray.Bind();
         GL.DrawArraysInstanced(PrimitiveType.TriangleStrip, 0, 4, _quadCount);
         GL.Disable(EnableCap.Blend);

@@ -178,9 +178,6 @@ internal sealed class CasterRenderer : IDisposable
     }
 
     /// <summary>Returns the faces of a closed solid that point away from the light; none where that is not known.</summary>
-    private CullFace FaceToCull(int index, int windingSign)
-    {
-        var sign = windingSign * Math.Sign(_transforms.ObjectToWorld[index].Linear.Determinant());
-        return sign == 0 ? CullFace.None : sign < 0 ? CullFace.Front : CullFace.Back;
-    }
+    private CullFace FaceToCull(int index, int windingSign) =>
+        ObjectsPass.FaceOf(windingSign * Math.Sign(_transforms.ObjectToWorld[index].Linear.Determinant()));
 }

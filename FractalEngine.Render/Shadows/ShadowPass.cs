@@ -283,8 +283,7 @@ internal sealed class ShadowPass : IDisposable
             var hasSpheres = false;
             for (var j = 0; j < spheres.Count; j++)
             {
-                var (centre, radius) = spheres[j];
-                hasSpheres |= _maps.TryMark(i, in view, new(centre - (radius * Vector.One), centre + (radius * Vector.One)));
+                hasSpheres |= _maps.TryMark(i, in view, spheres[j].Bounds);
             }
 
             if (hasSpheres)
