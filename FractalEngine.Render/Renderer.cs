@@ -137,9 +137,7 @@ public sealed class Renderer : IDisposable
         _context.MakeCurrent();
         _isDisposed = true;
         _source = null;
-        _sceneRenderer?.Dispose();
-        _frameRenderer.Dispose();
-        _context.Dispose();
+        GlObject.DisposeAll(_sceneRenderer, _frameRenderer, _context);
     }
 
     private View DefaultView(LoadedScene scene, Camera? camera) => View.Of(scene, (double)Width / Height, camera);

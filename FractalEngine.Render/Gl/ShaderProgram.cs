@@ -16,15 +16,7 @@ internal sealed class ShaderProgram : GlObject
         : base(resources, $"{vertex.File} + {fragment.File}")
     {
         _name = GL.CreateProgram();
-        try
-        {
-            Build(vertex, fragment);
-        }
-        catch
-        {
-            Dispose();
-            throw;
-        }
+        DisposeOnFailure(this, () => Build(vertex, fragment));
     }
 
     /// <summary>Builds the embedded files <c>Shaders/name.vert</c> and <c>Shaders/name.frag</c>.</summary>

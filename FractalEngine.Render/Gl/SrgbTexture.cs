@@ -15,15 +15,7 @@ internal sealed class SrgbTexture : Texture
     public SrgbTexture(GlResources resources, string label, PixelImage image)
         : base(resources, label)
     {
-        try
-        {
-            Upload(image);
-        }
-        catch
-        {
-            Dispose();
-            throw;
-        }
+        DisposeOnFailure(this, () => Upload(image));
     }
 
     /// <summary>Binds the texture to the first texture unit.</summary>

@@ -51,10 +51,5 @@ internal sealed class ImagePass : IDisposable
     }
 
     /// <inheritdoc/>
-    public void Dispose()
-    {
-        _texture?.Dispose();
-        _vertexArray.Dispose();
-        _program.Dispose();
-    }
+    public void Dispose() => GlObject.DisposeAll(_texture, _vertexArray, _program);
 }

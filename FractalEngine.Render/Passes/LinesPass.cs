@@ -101,12 +101,7 @@ internal sealed class LinesPass : IDisposable
     }
 
     /// <inheritdoc/>
-    public void Dispose()
-    {
-        _vertexArray.Dispose();
-        _vertices.Dispose();
-        _program.Dispose();
-    }
+    public void Dispose() => GlObject.DisposeAll(_vertexArray, _vertices, _program);
 
     private void DrawVertices(in FrameView frame, Vector offset)
     {

@@ -120,13 +120,7 @@ internal sealed class MeshPass(RenderContext context, ImmutableArray<Light> ligh
     }
 
     /// <inheritdoc/>
-    public void Dispose()
-    {
-        foreach (var program in _programs)
-        {
-            program?.Dispose();
-        }
-    }
+    public void Dispose() => GlObject.DisposeAll(_programs);
 
     /// <summary>Programs know the kinds of shadows. These change when a view zooms away from a light, and hardly ever else.</summary>
     private void SetDistantLights(int distantLights)

@@ -115,15 +115,7 @@ internal sealed class ObjectsPass : IDisposable
     }
 
     /// <inheritdoc/>
-    public void Dispose()
-    {
-        _objectBlocks.Dispose();
-        _skyPass?.Dispose();
-        _shadowPass.Dispose();
-        _sphereBatch?.Dispose();
-        _lightBlock.Dispose();
-        _meshPass.Dispose();
-    }
+    public void Dispose() => GlObject.DisposeAll(_objectBlocks, _skyPass, _shadowPass, _sphereBatch, _lightBlock, _meshPass);
 
     private MeshFeatures FrameFeatures(RenderSettings settings) =>
         (settings.Shading == Shading.PerPixel ? MeshFeatures.PerPixel : 0) | (_lightBlock.HasAtmosphere ? MeshFeatures.Atmosphere : 0)

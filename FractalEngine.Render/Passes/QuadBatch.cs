@@ -73,13 +73,7 @@ internal sealed class QuadBatch : IDisposable
     }
 
     /// <inheritdoc/>
-    public void Dispose()
-    {
-        _glyphTexture?.Dispose();
-        _vertexArray.Dispose();
-        _quadBuffer.Dispose();
-        _program.Dispose();
-    }
+    public void Dispose() => GlObject.DisposeAll(_glyphTexture, _vertexArray, _quadBuffer, _program);
 
     private void UseSheet(GlyphSheet sheet)
     {

@@ -48,11 +48,7 @@ internal sealed class SkyPass : IDisposable
     }
 
     /// <inheritdoc/>
-    public void Dispose()
-    {
-        _vertexArray.Dispose();
-        _program.Dispose();
-    }
+    public void Dispose() => GlObject.DisposeAll(_vertexArray, _program);
 
     private void SetColour(string name, Vector colour) =>
         GL.Uniform3(_program.UniformLocation(name), (float)colour.X, (float)colour.Y, (float)colour.Z);

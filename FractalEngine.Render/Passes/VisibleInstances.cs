@@ -109,16 +109,7 @@ internal sealed class VisibleInstances : IDisposable
     }
 
     /// <inheritdoc/>
-    public void Dispose()
-    {
-        if (_instances is not null)
-        {
-            _vertexArray.Dispose();
-            _tints?.Dispose();
-            _skyParts?.Dispose();
-            _instances.Dispose();
-        }
-    }
+    public void Dispose() => GlObject.DisposeAll(_instances is null ? null : _vertexArray, _tints, _skyParts, _instances);
 
     private void CopyMap(VisibleSet visible, int objectIndex)
     {

@@ -118,20 +118,7 @@ internal sealed class CasterRenderer : IDisposable
     }
 
     /// <inheritdoc/>
-    public void Dispose()
-    {
-        foreach (var block in _objectBlocks)
-        {
-            block?.Dispose();
-        }
-
-        foreach (var program in _programs)
-        {
-            program?.Dispose();
-        }
-
-        _sphereBatch?.Dispose();
-    }
+    public void Dispose() => GlObject.DisposeAll([.. _objectBlocks, .. _programs, _sphereBatch]);
 
     private void Draw(int index, bool isRelative, CullFace culledFace)
     {

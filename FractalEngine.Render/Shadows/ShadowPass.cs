@@ -187,13 +187,7 @@ internal sealed class ShadowPass : IDisposable
     }
 
     /// <inheritdoc/>
-    public void Dispose()
-    {
-        _fittedMaps.Dispose();
-        _wholeMaps.Dispose();
-        _block.Dispose();
-        _casters.Dispose();
-    }
+    public void Dispose() => GlObject.DisposeAll(_fittedMaps, _wholeMaps, _block, _casters);
 
     private void DrawMaps(in FrameView frame, IReadOnlyList<SphereInstance> spheres, RenderSettings settings)
     {
