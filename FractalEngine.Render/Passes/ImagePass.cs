@@ -9,7 +9,6 @@ internal sealed class ImagePass : IDisposable
 {
     private readonly GlResources _resources;
     private readonly ShaderProgram _program;
-    private readonly int _opacityLocation;
     private readonly VertexArray _vertexArray;
     private SrgbTexture? _texture;
     private PixelImage? _image;
@@ -19,9 +18,8 @@ internal sealed class ImagePass : IDisposable
     {
         _resources = resources;
         _program = ShaderProgram.Load(resources, "image");
-        _opacityLocation = _program.UniformLocation("opacity");
         _program.Use();
-        GL.Uniform1(_program.UniformLocation("image"), 0);
+        _program.Set("image", 0);
         // The vertices have no attributes, but OpenGL requires an array.
         _vertexArray = new(resources, "image");
     }
@@ -40,7 +38,7 @@ internal sealed class ImagePass : IDisposable
         }
 
         _program.Use();
-        GL.Uniform1(_opacityLocation, (float)layer.Opacity);
+        _program.Set("opacity", layer.Opacity);
         _texture!.Bind(isClamped: true);
         _resources.State.Cull(CullFace.None);
         GL.Enable(EnableCap.FramebufferSrgb);

@@ -18,7 +18,6 @@ internal sealed class LinesPass : IDisposable
     private readonly RedundancyFilter _uploadFilter;
     private readonly ShaderProgram _program;
     private readonly ViewUniforms _viewUniforms;
-    private readonly int _offsetLocation;
     private readonly GlBuffer _vertices;
     private readonly VertexArray _vertexArray;
     private readonly List<float> _data = [];
@@ -30,7 +29,6 @@ internal sealed class LinesPass : IDisposable
         _uploadFilter = context.Resources.UploadFilter;
         _program = ShaderProgram.Load(context.Resources, "lines");
         _viewUniforms = new(_program, context.Resources.State.Filter, context.HasReversedDepth);
-        _offsetLocation = _program.UniformLocation("offset");
         _vertices = new(context.Resources, "grid and axes", BufferTarget.ArrayBuffer);
         _vertexArray = new(context.Resources, "grid and axes");
         _vertexArray.Attribute(_vertices, 0, 3, FloatsPerVertex, 0);
@@ -107,7 +105,7 @@ internal sealed class LinesPass : IDisposable
     {
         _program.Use();
         _viewUniforms.Set(in frame);
-        GL.Uniform3(_offsetLocation, (float)offset.X, (float)offset.Y, (float)offset.Z);
+        _program.Set("offset", offset);
         GlState.BeginBlending(BlendingFactorSrc.SrcAlpha);
         GL.DepthMask(false);
         _vertexArray.Bind();

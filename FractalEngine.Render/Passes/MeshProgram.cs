@@ -30,10 +30,8 @@ internal sealed class MeshProgram : IDisposable
 
     private readonly RedundancyFilter _filter;
     private readonly ShaderProgram _program;
-    private readonly int _flatColourLocation;
     private readonly MaterialUniforms _materialUniforms;
     private readonly int _sectionLocation;
-    private readonly int _innerFaceLocation;
     private bool? _lastWireframe;
     private SectionPlane? _lastSection;
     private CullFace? _lastInnerFace;
@@ -56,12 +54,10 @@ internal sealed class MeshProgram : IDisposable
         }
 
         View = new(_program, _filter, context.HasReversedDepth);
-        _flatColourLocation = _program.UniformLocation("flatColour");
         _sectionLocation = _program.UniformLocation("section");
-        _innerFaceLocation = _program.UniformLocation("innerFace");
         _program.Use();
-        GL.Uniform1(_program.UniformLocation("surfaceTexture"), 0);
-        GL.Uniform1(_program.UniformLocation("shadowMap"), MeshPass.ShadowTextureUnit);
+        _program.Set("surfaceTexture", 0);
+        _program.Set("shadowMap", MeshPass.ShadowTextureUnit);
         _materialUniforms = new(_program, _filter);
     }
 
@@ -77,7 +73,7 @@ internal sealed class MeshProgram : IDisposable
         if (_filter.Update(ref _lastWireframe, wireframe))
         {
             var (red, green, blue) = colour.ToLinear();
-            GL.Uniform4(_flatColourLocation, (float)red, (float)green, (float)blue, wireframe ? 1 : 0);
+            _program.Set("flatColour", red, green, blue, wireframe ? 1 : 0);
         }
     }
 
@@ -95,7 +91,7 @@ internal sealed class MeshProgram : IDisposable
     {
         if (_filter.Update(ref _lastInnerFace, face))
         {
-            GL.Uniform1(_innerFaceLocation, face == CullFace.None ? 0f : face == CullFace.Back ? -1f : 1f);
+            _program.Set("innerFace", face == CullFace.None ? 0.0 : face == CullFace.Back ? -1.0 : 1.0);
         }
     }
 
