@@ -1,3 +1,4 @@
+using System.Text.Json;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Render.Gl;
 using FractalEngine.Render.Preparation;
@@ -9,25 +10,6 @@ namespace FractalEngine.Render.Passes;
 /// <summary>The program for one combination of <see cref="MeshFeatures"/>, with its uniforms.</summary>
 internal sealed class MeshProgram : IDisposable
 {
-    // Each feature with the symbol that switches it on in mesh.vert and mesh.frag.
-    private static readonly (MeshFeatures Feature, string Symbol)[] Symbols =
-    [
-        (MeshFeatures.PerPixel, "PER_PIXEL"),
-        (MeshFeatures.Textured, "TEXTURED"),
-        (MeshFeatures.Glossy, "GLOSSY"),
-        (MeshFeatures.CameraRelative, "CAMERA_RELATIVE"),
-        (MeshFeatures.FrontFacesOnly, "FRONT_FACES_ONLY"),
-        (MeshFeatures.VertexColours, "VERTEX_COLOURS"),
-        (MeshFeatures.CutOut, "CUT_OUT"),
-        (MeshFeatures.Emissive, "EMISSIVE"),
-        (MeshFeatures.Atmosphere, "ATMOSPHERE"),
-        (MeshFeatures.Shadows, "SHADOWS"),
-        (MeshFeatures.PointShadows, "POINT_SHADOWS"),
-        (MeshFeatures.Section, "SECTION"),
-        (MeshFeatures.SkyParts, "SKY_PARTS"),
-        (MeshFeatures.ShadowSlices, "SHADOW_SLICES"),
-    ];
-
     private readonly RedundancyFilter _filter;
     private readonly ShaderProgram _program;
     private readonly MaterialUniforms _materialUniforms;
@@ -44,8 +26,7 @@ internal sealed class MeshProgram : IDisposable
     public MeshProgram(RenderContext context, MeshFeatures features, IReadOnlyList<string> lightSymbols)
     {
         _filter = context.Resources.State.Filter;
-        string[] symbols = [.. Symbols.Where(entry => features.HasFlag(entry.Feature)).Select(entry => entry.Symbol), .. lightSymbols];
-        _program = ShaderProgram.Load(context.Resources, "mesh", symbols);
+        _program = ShaderProgram.Load(context.Resources, "mesh", [.. SymbolsOf(features), .. lightSymbols]);
         _program.BindBlock("ObjectBlock", MeshPass.ObjectBinding);
         _program.BindBlock("LightBlock", MeshPass.LightBinding);
         if (features.HasFlag(MeshFeatures.Shadows))
@@ -63,6 +44,11 @@ internal sealed class MeshProgram : IDisposable
 
     /// <summary>The camera uniforms of this program.</summary>
     public ViewUniforms View { get; }
+
+    /// <summary>Returns the symbols that switch features on in mesh.vert and mesh.frag: their names, as in <c>PER_PIXEL</c>.</summary>
+    public static IEnumerable<string> SymbolsOf(MeshFeatures features) => Enum.GetValues<MeshFeatures>()
+        .Where(feature => feature != MeshFeatures.None && features.HasFlag(feature))
+        .Select(static feature => JsonNamingPolicy.SnakeCaseUpper.ConvertName(feature.ToString()));
 
     /// <summary>Makes this the current program.</summary>
     public void Use() => _program.Use();
