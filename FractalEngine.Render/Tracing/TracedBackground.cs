@@ -16,7 +16,7 @@ internal readonly struct TracedBackground
     {
         _sky = scene.Background is null ? scene.Sky?.ToRadiance() : null;
         // A background is shown as it is declared, whatever is done with light.
-        _radiance = display.Invert(TracedMaterial.ToLinear(scene.Background ?? RenderSettings.DefaultBackground));
+        _radiance = display.Invert((scene.Background ?? RenderSettings.DefaultBackground).ToLinearVector());
     }
 
     /// <summary>Whether rays that leave the scene see its sky, and not one colour.</summary>

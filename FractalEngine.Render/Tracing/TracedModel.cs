@@ -113,7 +113,7 @@ internal sealed class TracedModel
     private Vector ColourAt(int corner)
     {
         var colours = _mesh.Colours.AsSpan(3 * _mesh.VertexIndices[corner], 3);
-        return TracedMaterial.ToLinear(new(Math.Clamp(colours[0], 0, 1), Math.Clamp(colours[1], 0, 1), Math.Clamp(colours[2], 0, 1)));
+        return new Colour(Math.Clamp(colours[0], 0, 1), Math.Clamp(colours[1], 0, 1), Math.Clamp(colours[2], 0, 1)).ToLinearVector();
     }
 
     /// <summary>The normal of a corner, of length 1 to a millionth, on the side that the winding says, as it is drawn.</summary>
