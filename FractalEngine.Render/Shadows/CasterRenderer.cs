@@ -14,7 +14,7 @@ internal sealed class CasterRenderer : IDisposable
     private readonly GlResources _resources;
     private readonly SceneBuffers _buffers;
     private readonly ObjectTransforms _transforms;
-    private readonly ObjectBlock?[] _objectBlocks;
+    private readonly ObjectBlocks _objectBlocks;
 
     // By whether instances are relative to the eye, then by whether a texture cuts holes.
     private readonly CasterProgram?[] _programs = new CasterProgram?[4];
@@ -29,7 +29,7 @@ internal sealed class CasterRenderer : IDisposable
         Scene = scene;
         _buffers = buffers;
         _transforms = transforms;
-        _objectBlocks = new ObjectBlock?[scene.Objects.Length];
+        _objectBlocks = new(resources, scene.Objects.Length);
     }
 
     /// <summary>Scene whose objects are drawn.</summary>
@@ -99,11 +99,8 @@ internal sealed class CasterRenderer : IDisposable
     /// <summary>Draws one object with all of its instances, where it is now.</summary>
     public void DrawWhole(int index)
     {
-        var item = Scene.Objects[index];
-        var objectToWorld = _transforms.ObjectToWorld[index];
-        var block = _objectBlocks[index] ??= new(_resources, $"shadow of {item.Name}");
-        var modelToWorld = new AffineMap(objectToWorld.Linear, objectToWorld * item.Model.Origin);
-        block.Bind(MeshPass.ObjectBinding, modelToWorld, Colour.White, Colour.White, _view.Position);
+        // Depths have no colour; that of the object stays the same, so that it causes no upload.
+        _objectBlocks.Bind(index, Scene.Objects[index], _transforms.ObjectToWorld[index], _view.Position);
         // A light with a position may stand within a solid.
         Draw(index, isRelative: false, CullFace.None);
     }
@@ -118,7 +115,7 @@ internal sealed class CasterRenderer : IDisposable
     }
 
     /// <inheritdoc/>
-    public void Dispose() => GlObject.DisposeAll([.. _objectBlocks, .. _programs, _sphereBatch]);
+    public void Dispose() => GlObject.DisposeAll([_objectBlocks, .. _programs, _sphereBatch]);
 
     private void Draw(int index, bool isRelative, CullFace culledFace)
     {

@@ -1,6 +1,7 @@
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Render;
 using FractalEngine.Render.Tracing;
 
 namespace FractalEngine.Tests.Render.Tracing;
