@@ -84,7 +84,7 @@ internal static class RenderCommand
 
         using var notice = new SlowWorkNotice("drawing", report.IsQuiet);
         view = Zoom(drawable, view, job);
-        using var renderer = new ImageRenderer(drawable, job.Size, job.Settings, job.Background);
+        using var renderer = new ImageRenderer(drawable, job);
         var image = report.Measure("draw", () => renderer.Draw(view));
         Write(image, output, report);
         return image;
