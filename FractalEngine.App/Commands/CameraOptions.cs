@@ -36,13 +36,7 @@ internal sealed class CameraOptions
         "--zoom", "LEVELS", 0, CameraZoom.MaxLevels, "Fly so many levels into a fractal, towards the surface ahead.");
 
     /// <summary>Adds the options to a command.</summary>
-    public void AddTo(Command command)
-    {
-        foreach (var option in (Option[])[_camera, _lookFrom, _lookAt, _up, _view, _zoom])
-        {
-            command.Add(option);
-        }
-    }
+    public void AddTo(Command command) => SharedOptions.AddAll(command, _camera, _lookFrom, _lookAt, _up, _view, _zoom);
 
     /// <summary>Returns the number of levels that the camera flies into a fractal.</summary>
     public double Zoom(ParseResult result) => result.GetValue(_zoom) ?? 0;

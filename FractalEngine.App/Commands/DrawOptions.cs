@@ -83,18 +83,9 @@ internal sealed class DrawOptions
     private readonly Option<(int Width, int Height)?> _resolution = SharedOptions.ResolutionOption();
 
     /// <summary>Adds the options to a command.</summary>
-    public void AddTo(Command command)
-    {
-        Option[] options =
-        [
-            _resolution, _projection, _shading, _noShadows, _noAmbientOcclusion, _wireframe, _grid, _section, _minProjectedSize,
-            _maxInstances, _sampleCount, _disabled,
-        ];
-        foreach (var option in options)
-        {
-            command.Add(option);
-        }
-    }
+    public void AddTo(Command command) => SharedOptions.AddAll(
+        command, _resolution, _projection, _shading, _noShadows, _noAmbientOcclusion, _wireframe, _grid, _section, _minProjectedSize,
+        _maxInstances, _sampleCount, _disabled);
 
     /// <summary>Returns width and height of the frame in pixels.</summary>
     public (int Width, int Height) Resolution(ParseResult result) => result.GetValue(_resolution) ?? SharedOptions.DefaultResolution;

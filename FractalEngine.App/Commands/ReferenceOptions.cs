@@ -22,11 +22,7 @@ internal sealed class ReferenceOptions
         string.Create(CultureInfo.InvariantCulture, $"Smallest peak signal-to-noise ratio of equal images (default: {DefaultThreshold})."));
 
     /// <summary>Adds the options to a command.</summary>
-    public void AddTo(Command command)
-    {
-        command.Add(_reference);
-        command.Add(_threshold);
-    }
+    public void AddTo(Command command) => SharedOptions.AddAll(command, _reference, _threshold);
 
     /// <summary>Loads the reference, before anything is drawn.</summary>
     /// <returns>The comparison; null where none is asked for.</returns>

@@ -46,6 +46,15 @@ internal sealed class SharedOptions
         }
     }
 
+    /// <summary>Adds options to a command, in the order of the help text.</summary>
+    public static void AddAll(Command command, params ReadOnlySpan<Option> options)
+    {
+        foreach (var option in options)
+        {
+            command.Add(option);
+        }
+    }
+
     /// <summary>Returns the load options that the command line asks for.</summary>
     public LoadOptions LoadOptions(ParseResult result) => new()
     {
