@@ -32,11 +32,8 @@ internal static class AnimateCommand
         var rate = NumberOption.Decimal("--fps", "F", 0.01, MaxFramesPerSecond, $"Frames a second (default: {DefaultFramesPerSecond}).");
         var turntable = new Option<bool>("--turntable") { Description = "Turn the camera once around the middle of the scene." };
         var simulate = new Option<bool>("--simulate") { Description = "Let the physics objects of the scene move." };
-        var path = new Option<string?>("--path")
-        {
-            Description = "Fly through the cameras of a list, one a line as --camera takes it; '-' is the standard input.",
-            HelpName = "CAMERAS.txt",
-        };
+        var path = SharedOptions.TextOption(
+            "--path", "CAMERAS.txt", "Fly through the cameras of a list, one a line as --camera takes it; '-' is the standard input.");
         var command = new DocumentedCommand(
             "animate", "Draw FILE into the frames of an animation: --turntable, --zoom, --path and --simulate say what moves.",
             "animate assets/fractals/tree.fdo --turntable --output out/tree.apng --resolution 480x270",

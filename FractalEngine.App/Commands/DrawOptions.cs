@@ -62,11 +62,9 @@ internal sealed class DrawOptions
 
     private readonly Option<bool> _noShadows = new("--no-shadows") { Description = "Draw no shadows." };
 
-    private readonly Option<string?> _section = new("--section")
-    {
-        Description = "Cut away what lies beyond the plane x*NX + y*NY + z*NZ = D, and show solids filled where it cuts them.",
-        HelpName = "NX,NY,NZ,D",
-    };
+    private readonly Option<string?> _section = SharedOptions.TextOption(
+        "--section", "NX,NY,NZ,D",
+        "Cut away what lies beyond the plane x*NX + y*NY + z*NZ = D, and show solids filled where it cuts them.");
 
     private readonly Option<bool> _noAmbientOcclusion = new("--no-ambient-occlusion")
     {

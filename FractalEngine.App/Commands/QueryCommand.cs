@@ -26,17 +26,11 @@ internal static class QueryCommand
     public static Command Create()
     {
         var shared = new SharedOptions();
-        var points = new Option<string>("--points")
-        {
-            Description = "Positions to query: three numbers per line, separated by blanks or commas; '#' starts a comment. "
-                + "'-' is the standard input.",
-            HelpName = "POINTS.txt",
-        };
-        var rays = new Option<string>("--rays")
-        {
-            Description = "Rays to cast instead: origin and direction, six numbers per line. '-' is the standard input.",
-            HelpName = "RAYS.txt",
-        };
+        var points = SharedOptions.TextOption(
+            "--points", "POINTS.txt",
+            "Positions to query: three numbers per line, separated by blanks or commas; '#' starts a comment. '-' is the standard input.");
+        var rays = SharedOptions.TextOption(
+            "--rays", "RAYS.txt", "Rays to cast instead: origin and direction, six numbers per line. '-' is the standard input.");
         var collider = SharedOptions.ColliderOption("Collider that finds the points (default: exact).");
         var maxDistance = NumberOption.NonNegative("--within", "R", "Search radius in scene units (default: unlimited).");
         var epsilon = NumberOption.NonNegative(

@@ -11,11 +11,8 @@ internal sealed class ReferenceOptions
 {
     private const double DefaultThreshold = 35;
 
-    private readonly Option<string?> _reference = new("--reference")
-    {
-        Description = "Compare with an image; where they differ, end with 5 and write the difference beside the output.",
-        HelpName = "IMAGE",
-    };
+    private readonly Option<string?> _reference = SharedOptions.TextOption(
+        "--reference", "IMAGE", "Compare with an image; where they differ, end with 5 and write the difference beside the output.");
 
     private readonly Option<double?> _threshold = NumberOption.NonNegative(
         "--threshold", "DB",
