@@ -1,8 +1,8 @@
 using System.CommandLine;
-using System.Globalization;
 using FractalEngine.Core.Images;
 using FractalEngine.Parsing.Text;
 using FractalEngine.Render.Images;
+using static System.FormattableString;
 
 namespace FractalEngine.App.Commands;
 
@@ -15,8 +15,7 @@ internal sealed class ReferenceOptions
         "--reference", "IMAGE", "Compare with an image; where they differ, end with 5 and write the difference beside the output.");
 
     private readonly Option<double?> _threshold = NumberOption.NonNegative(
-        "--threshold", "DB",
-        string.Create(CultureInfo.InvariantCulture, $"Smallest peak signal-to-noise ratio of equal images (default: {DefaultThreshold})."));
+        "--threshold", "DB", Invariant($"Smallest peak signal-to-noise ratio of equal images (default: {DefaultThreshold})."));
 
     /// <summary>Adds the options to a command.</summary>
     public void AddTo(Command command) => SharedOptions.AddAll(command, _reference, _threshold);
@@ -57,7 +56,7 @@ internal sealed class ReferenceOptions
         var difference = ImageDifference.Between(image, reference);
         var ratio = double.IsInfinity(difference.PeakSignalToNoise)
             ? "equal"
-            : string.Create(CultureInfo.InvariantCulture, $"{difference.PeakSignalToNoise:F2} dB");
+            : Invariant($"{difference.PeakSignalToNoise:F2} dB");
         if (difference.PeakSignalToNoise >= threshold)
         {
             Console.Error.WriteLine($"reference: {ratio}");
@@ -67,8 +66,7 @@ internal sealed class ReferenceOptions
         var path = Path.ChangeExtension(output, null) + "-difference.png";
         InputFiles.Protect(path);
         OutputFile.Write(path, stream => PngWriter.Write(difference.Image, stream));
-        Console.Error.WriteLine(string.Create(
-            CultureInfo.InvariantCulture, $"reference: {ratio}, less than {threshold:R} dB; {path} shows the difference"));
+        Console.Error.WriteLine(Invariant($"reference: {ratio}, less than {threshold:R} dB; {path} shows the difference"));
         return ExitCode.Different;
     }
 }

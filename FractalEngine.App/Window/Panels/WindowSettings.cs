@@ -4,6 +4,7 @@ using System.Text;
 using FractalEngine.App.Window.Actions;
 using FractalEngine.Core.Files;
 using FractalEngine.Render.Ui;
+using static System.FormattableString;
 
 namespace FractalEngine.App.Window.Panels;
 
@@ -175,8 +176,7 @@ internal sealed record WindowSettings
         }
 
         /// <inheritdoc/>
-        public override string ToString() => string.Create(
-            CultureInfo.InvariantCulture,
+        public override string ToString() => Invariant(
             $"{(IsOpen ? "open" : "closed")} {(IsFolded ? "folded" : "unfolded")} {Dock.ToString().ToLowerInvariant()} {X} {Y}");
     }
 }
