@@ -6,6 +6,7 @@ using FractalEngine.Core.Files;
 using FractalEngine.Core.Physics;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Assets;
+using static FractalEngine.App.StandardStreams;
 using static System.FormattableString;
 
 namespace FractalEngine.App.Commands;
@@ -132,6 +133,4 @@ internal static class SimulateCommand
         WriteReportLine($"stuck {world.Bodies.Count(static body => body.IsStuck)}");
         WriteReportLine($"state {world.StateHash}");
     }
-
-    private static void WriteReportLine(FormattableString line) => Console.Error.WriteLine(Invariant(line));
 }
