@@ -3,7 +3,7 @@ using OpenTK.Graphics.OpenGL4;
 namespace FractalEngine.Render.Gl;
 
 /// <summary>A texture of one 8-bit component, read texel by texel without filtering.</summary>
-internal sealed class AlphaTexture : Texture
+internal sealed class AlphaTexture : Texture2D
 {
     /// <summary>Uploads the texels of a texture.</summary>
     /// <param name="resources">Resources of the current context.</param>

@@ -6,7 +6,7 @@ namespace FractalEngine.Render.Gl;
 /// <summary>
 /// A texture for surfaces in sRGB, which GL decodes before it filters, with mipmaps so that distant surfaces do not flicker.
 /// </summary>
-internal sealed class SrgbTexture : Texture
+internal sealed class SrgbTexture : Texture2D
 {
     private bool? _isClamped;
 

@@ -3,14 +3,14 @@ using OpenTK.Graphics.OpenGL4;
 namespace FractalEngine.Render.Gl;
 
 /// <summary>A two-dimensional texture of 8-bit components.</summary>
-internal abstract class Texture : GlObject
+internal abstract class Texture2D : GlObject
 {
     private readonly int _name;
 
     /// <summary>Creates an empty texture.</summary>
     /// <param name="resources">Resources of the current context.</param>
     /// <param name="label">Name of the texture, for messages.</param>
-    protected Texture(GlResources resources, string label)
+    protected Texture2D(GlResources resources, string label)
         : base(resources, label) => _name = GL.GenTexture();
 
     /// <summary>Binds the texture to the first texture unit.</summary>
