@@ -1,16 +1,20 @@
 using System.Globalization;
 using System.Runtime.InteropServices;
+using FractalEngine.Core.Files;
 
 namespace FractalEngine.App;
 
 /// <summary>
 /// Receives SIGINT, SIGTERM and SIGHUP, so that unfinished work can be undone before the program ends. A second signal ends the program
-/// at once.
+/// at once, as does SIGINT or SIGTERM while there is no such work.
 /// </summary>
 internal sealed class InterruptSignal : IDisposable
 {
     // Work between two polls takes milliseconds. Where it takes longer something is wrong, and the user is not made to wait.
     private static readonly TimeSpan AcknowledgeTimeout = TimeSpan.FromSeconds(3);
+
+    private static PosixSignalRegistration[] _processRegistrations = [];
+    private static int _liveCount;
 
     private readonly PosixSignalRegistration[] _registrations;
     private readonly ManualResetEventSlim _acknowledged = new();
@@ -20,14 +24,16 @@ internal sealed class InterruptSignal : IDisposable
     /// <summary>Registers the signal handlers until the object is disposed.</summary>
     public InterruptSignal()
     {
-        TerminationSignal.Suspend();
+        Interlocked.Increment(ref _liveCount);
         _registrations =
         [
-            PosixSignalRegistration.Create(PosixSignal.SIGINT, OnSignal),
-            PosixSignalRegistration.Create(PosixSignal.SIGTERM, OnSignal),
+            .. Register(OnSignal),
             .. IgnoresHangup() ? [] : (PosixSignalRegistration[])[PosixSignalRegistration.Create(PosixSignal.SIGHUP, OnSignal)],
         ];
     }
+
+    /// <summary>Lets SIGINT and SIGTERM end the process at once, without unfinished files, while no object takes care of them.</summary>
+    public static void EndProcessOtherwise() => _processRegistrations = [.. _processRegistrations, .. Register(EndProcess)];
 
     /// <summary>Cancelled when a signal arrives, which the work then acknowledges.</summary>
     public CancellationToken Token => _cancellation.Token;
@@ -51,8 +57,11 @@ internal sealed class InterruptSignal : IDisposable
     {
         Array.ForEach(_registrations, static registration => registration.Dispose());
         _cancellation.Dispose();
-        TerminationSignal.Resume();
+        Interlocked.Decrement(ref _liveCount);
     }
+
+    private static PosixSignalRegistration[] Register(Action<PosixSignalContext> handler) =>
+        [PosixSignalRegistration.Create(PosixSignal.SIGINT, handler), PosixSignalRegistration.Create(PosixSignal.SIGTERM, handler)];
 
     // Runs on a thread of the runtime. Cancelling the signal keeps the process alive for the work to be undone.
     private void OnSignal(PosixSignalContext context)
@@ -64,9 +73,36 @@ internal sealed class InterruptSignal : IDisposable
         context.Cancel = isFirst && _acknowledged.Wait(AcknowledgeTimeout);
         if (!context.Cancel)
         {
-            TerminationSignal.EndProcess();
+            EndProcess();
         }
     }
+
+    private static void EndProcess(PosixSignalContext context)
+    {
+        // What took the signal already may be disposed by now, and ends the program in its own way.
+        context.Cancel |= Volatile.Read(ref _liveCount) > 0;
+        if (!context.Cancel)
+        {
+            EndProcess();
+        }
+    }
+
+    /// <summary>Deletes unfinished files and ends the process.</summary>
+    private static void EndProcess()
+    {
+        AtomicFile.DeleteUnfinished();
+        if (OperatingSystem.IsLinux() || OperatingSystem.IsMacOS())
+        {
+            // Without the handlers that libraries have registered for the exit: those of OpenGL free what the window's thread still uses.
+            ExitWithoutHandlers(ExitCode.Interrupted);
+        }
+
+        Environment.Exit(ExitCode.Interrupted);
+    }
+
+    [DllImport("libc", EntryPoint = "_exit")]
+    [DefaultDllImportSearchPaths(DllImportSearchPath.SafeDirectories)]
+    private static extern void ExitWithoutHandlers(int exitCode);
 
     /// <summary>True where the program was started to outlive its terminal, as <c>nohup</c> does. Known on Linux only.</summary>
     private static bool IgnoresHangup()

@@ -5,5 +5,5 @@ using FractalEngine.App;
 CultureInfo.DefaultThreadCurrentCulture = CultureInfo.CurrentCulture = CultureInfo.InvariantCulture;
 CultureInfo.DefaultThreadCurrentUICulture = CultureInfo.CurrentUICulture = CultureInfo.InvariantCulture;
 StandardStreams.Install();
-TerminationSignal.Install();
+InterruptSignal.EndProcessOtherwise();
 return CommandLine.Run(args);

@@ -48,6 +48,14 @@ internal static class StandardInput
         return SourceText.Decode(bytes.GetBuffer().AsSpan(0, (int)bytes.Length), name);
     }
 
+    /// <summary>Reads all text of a file, or of the standard input where that is named.</summary>
+    /// <param name="path">Path of the file, which is its name in messages.</param>
+    /// <param name="maxBytes">Size limit; more is refused.</param>
+    /// <exception cref="SourceException">The text can't be read.</exception>
+    /// <exception cref="UsageException">It is the standard input, and was read before.</exception>
+    public static SourceText ReadOrFile(string path, long maxBytes) =>
+        IsNamedBy(path) ? Read(path, maxBytes) : SourceText.Read(path, path, maxBytes);
+
     /// <summary>Refuses two names of the standard input before either is read.</summary>
     /// <exception cref="UsageException">Both are the standard input.</exception>
     public static void RequireOnce(string path1, string path2)

@@ -15,6 +15,9 @@ internal static class StandardStreams
         Console.SetError(CreateWriter(new StandardStream(Console.OpenStandardError, static _ => { })));
     }
 
+    /// <summary>Writes a line with numbers to the standard error, in the invariant culture.</summary>
+    public static void WriteReportLine(FormattableString line) => Console.Error.WriteLine(FormattableString.Invariant(line));
+
     /// <summary>Opens the standard output.</summary>
     /// <returns>A stream whose errors are an <see cref="IOException"/> that names the standard output.</returns>
     public static Stream OpenOutput() => new StandardStream(Console.OpenStandardOutput, static exception =>

@@ -149,14 +149,7 @@ public sealed class FrameRenderer : IDisposable
     }
 
     /// <summary>Deletes the framebuffers and shaders. Harmless when repeated.</summary>
-    public void Dispose()
-    {
-        _sceneTarget?.Dispose();
-        _resolvedTarget?.Dispose();
-        _linesPass.Dispose();
-        _overlayPass.Dispose();
-        _imagePass?.Dispose();
-    }
+    public void Dispose() => GlObject.DisposeAll(_sceneTarget, _resolvedTarget, _linesPass, _overlayPass, _imagePass);
 
     /// <summary>Fills the frame with the background. Its sRGB values are written unchanged, so that the background is exact.</summary>
     private void Clear(Colour background, in FrameView frame, int width, int height)

@@ -1,5 +1,6 @@
 using FractalEngine.Core;
 using FractalEngine.Core.Images;
+using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Render.Gl;
 using FractalEngine.Render.Preparation;
@@ -125,6 +126,19 @@ public sealed class Renderer : IDisposable
         return DrawFrame(Load(scene, () => scene), view);
     }
 
+    /// <summary>Moves an object of a prepared scene for the images that follow, until another scene is drawn.</summary>
+    /// <param name="scene">Scene that was prepared before, on any thread.</param>
+    /// <param name="objectIndex">Index of the object in the scene, from 0.</param>
+    /// <param name="map">Map from the model's frame to world space.</param>
+    /// <exception cref="GlException">The scene is too large for the driver.</exception>
+    /// <exception cref="ObjectDisposedException">The renderer was disposed.</exception>
+    /// <exception cref="InvalidOperationException">This is not the thread that created the renderer.</exception>
+    public void Move(DrawableScene scene, int objectIndex, AffineMap map)
+    {
+        ArgumentNullException.ThrowIfNull(scene);
+        Load(scene, () => scene).Move(objectIndex, map);
+    }
+
     /// <summary>Deletes the scene on the GPU and ends the context. Harmless when repeated.</summary>
     /// <exception cref="InvalidOperationException">This is not the thread that created the renderer.</exception>
     public void Dispose()
@@ -137,9 +151,7 @@ public sealed class Renderer : IDisposable
         _context.MakeCurrent();
         _isDisposed = true;
         _source = null;
-        _sceneRenderer?.Dispose();
-        _frameRenderer.Dispose();
-        _context.Dispose();
+        GlObject.DisposeAll(_sceneRenderer, _frameRenderer, _context);
     }
 
     private View DefaultView(LoadedScene scene, Camera? camera) => View.Of(scene, (double)Width / Height, camera);

@@ -35,15 +35,7 @@ public sealed class SceneRenderer : IDisposable
         _transforms = new(scene);
         _buffers = new(context.Resources);
         _objectsPass = new(context, scene, _buffers, _transforms);
-        try
-        {
-            _buffers.Upload(scene);
-        }
-        catch
-        {
-            Dispose();
-            throw;
-        }
+        Gl.GlObject.DisposeOnFailure(this, () => _buffers.Upload(scene));
     }
 
     /// <summary>Scene that is drawn, as far as it is prepared.</summary>
@@ -203,11 +195,7 @@ public sealed class SceneRenderer : IDisposable
     }
 
     /// <summary>Deletes the scene's buffers and shaders. Harmless when repeated.</summary>
-    public void Dispose()
-    {
-        _buffers.Dispose();
-        _objectsPass.Dispose();
-    }
+    public void Dispose() => Gl.GlObject.DisposeAll(_buffers, _objectsPass);
 
     /// <summary>Draws the depth maps of the lights, where they are not up to date. Binds a framebuffer of its own.</summary>
     /// <param name="frame">View of the frame.</param>

@@ -44,12 +44,18 @@ internal sealed record AnimationJob(
     /// <param name="scene">The scene as it is at first.</param>
     /// <param name="prepare">Prepares the scene for drawing, which only a zoom needs.</param>
     /// <param name="view">The view of a still image.</param>
+    /// <param name="isQuiet">Whether nothing is told while that takes long.</param>
     /// <exception cref="UsageException">The scene or a list does not fit the motion.</exception>
-    public Func<int, View> CreateMotion(LoadedScene scene, Func<DrawableScene> prepare, View view) => this switch
+    public Func<int, View> CreateMotion(LoadedScene scene, Func<DrawableScene> prepare, View view, bool isQuiet)
     {
-        { IsTurntable: true } => CameraMotion.Turntable(view, scene.Bounds.Centre, FrameCount),
-        { CameraList: { } list } => CameraMotion.Along(CameraPath.Read(list, scene.Scene.Handedness), view, FrameCount),
-        { Images.ZoomLevels: > 0 and var levels } => CameraMotion.Zoom(prepare(), view, levels, FrameCount),
-        _ => CameraMotion.Still(view),
-    };
+        // The way into a fractal is measured first, which takes long for hundreds of levels.
+        using var notice = new SlowWorkNotice("finding the camera's way", isQuiet);
+        return this switch
+        {
+            { IsTurntable: true } => CameraMotion.Turntable(view, scene.Bounds.Centre, FrameCount),
+            { CameraList: { } list } => CameraMotion.Along(CameraPath.Read(list, scene.Scene.Handedness), view, FrameCount),
+            { Images.ZoomLevels: > 0 and var levels } => CameraMotion.Zoom(prepare(), view, levels, FrameCount),
+            _ => CameraMotion.Still(view),
+        };
+    }
 }

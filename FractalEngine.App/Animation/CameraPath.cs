@@ -28,9 +28,7 @@ internal sealed class CameraPath
     /// <exception cref="UsageException">There are fewer than two cameras.</exception>
     public static CameraPath Read(string path, Handedness handedness)
     {
-        var source = StandardInput.IsNamedBy(path)
-            ? StandardInput.Read(path, ParsingLimits.MaxDescriptionBytes)
-            : SourceText.Read(path, path, ParsingLimits.MaxDescriptionBytes);
+        var source = StandardInput.ReadOrFile(path, ParsingLimits.MaxDescriptionBytes);
         Camera[] cameras =
         [
             .. source.Text.ReplaceLineEndings("\n").Split('\n')

@@ -9,7 +9,7 @@ namespace FractalEngine.App.Animation;
 /// <param name="job">Size, background and settings of the frames.</param>
 internal sealed class DrawnFrames(DrawableScene drawable, RenderJob job) : FrameSource
 {
-    private readonly ImageRenderer _renderer = new(drawable, job.Size, job.Settings, job.Background);
+    private readonly ImageRenderer _renderer = new(drawable, job);
 
     /// <inheritdoc/>
     public override PixelImage CreateFrame(View view, CancellationToken cancellation)

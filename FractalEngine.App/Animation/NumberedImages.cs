@@ -38,7 +38,6 @@ internal sealed class NumberedImages(string path, int frameCount) : AnimationOut
     {
     }
 
-    private string PathOf(int number) => string.Create(
-        CultureInfo.InvariantCulture,
-        $"{Path.ChangeExtension(path, null)}-{number.ToString($"D{_digits}", CultureInfo.InvariantCulture)}{Path.GetExtension(path)}");
+    private string PathOf(int number) =>
+        $"{Path.ChangeExtension(path, null)}-{number.ToString($"D{_digits}", CultureInfo.InvariantCulture)}{Path.GetExtension(path)}";
 }

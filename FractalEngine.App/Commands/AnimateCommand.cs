@@ -20,11 +20,7 @@ internal static class AnimateCommand
     /// <summary>Creates the command with its arguments and options.</summary>
     public static Command Create()
     {
-        var shared = new SharedOptions();
-        var draw = new DrawOptions();
-        var camera = new CameraOptions();
-        var trace = new TraceOptions(canKeepPartial: false);
-        var time = SharedOptions.TimeOption();
+        var images = new ImageOptions(canKeepPartial: false);
         var report = new ReportOptions();
         var output = new Option<string>("--output", "-o")
         {
@@ -36,12 +32,8 @@ internal static class AnimateCommand
         var rate = NumberOption.Decimal("--fps", "F", 0.01, MaxFramesPerSecond, $"Frames a second (default: {DefaultFramesPerSecond}).");
         var turntable = new Option<bool>("--turntable") { Description = "Turn the camera once around the middle of the scene." };
         var simulate = new Option<bool>("--simulate") { Description = "Let the physics objects of the scene move." };
-        var path = new Option<string?>("--path")
-        {
-            Description = "Fly through the cameras of a list, one a line as --camera takes it; '-' is the standard input.",
-            HelpName = "CAMERAS.txt",
-        };
-        var background = SharedOptions.BackgroundOption();
+        var path = SharedOptions.TextOption(
+            "--path", "CAMERAS.txt", "Fly through the cameras of a list, one a line as --camera takes it; '-' is the standard input.");
         var command = new DocumentedCommand(
             "animate", "Draw FILE into the frames of an animation: --turntable, --zoom, --path and --simulate say what moves.",
             "animate assets/fractals/tree.fdo --turntable --output out/tree.apng --resolution 480x270",
@@ -49,28 +41,12 @@ internal static class AnimateCommand
         {
             output, frames, rate, turntable, simulate, path,
         };
-        shared.AddTo(command);
-        draw.AddTo(command);
-        camera.AddTo(command);
-        command.Add(background);
-        command.Add(time);
-        trace.AddTo(command);
+        images.AddTo(command);
         report.AddTo(command);
         command.SetAction(result =>
         {
-            var job = new RenderJob(
-                result.GetRequiredValue(shared.File), draw.WithLoadOptions(result, shared.LoadOptions(result)), draw.Resolution(result),
-                draw.Projection(result), draw.Settings(result))
-            {
-                Time = result.GetValue(time) ?? 0,
-                Background = BackgroundChoice.Parse(result.GetValue(background)),
-                CreateView = (scene, aspect) =>
-                    camera.View(result, scene, draw.Projection(result) is not null, aspect) with { Section = draw.Section(result) },
-                ZoomLevels = camera.Zoom(result),
-            };
-            var traced = trace.Choice(result);
-            draw.RequireEffect(result, traced);
-            if (result.GetValue(path) is not null && camera.IsGiven(result))
+            var (job, trace) = images.Read(result);
+            if (result.GetValue(path) is not null && images.Camera.IsGiven(result))
             {
                 throw new UsageException("--camera, --view, --look-from and --look-at have no effect with --path, which names the cameras");
             }
@@ -86,7 +62,7 @@ internal static class AnimateCommand
                 result.GetValue(rate) ?? DefaultFramesPerSecond, result.GetValue(turntable), result.GetValue(path),
                 result.GetValue(simulate))
             {
-                Trace = traced,
+                Trace = trace,
             };
             return Run(animation, report.Begin(result));
         });
@@ -117,23 +93,15 @@ internal static class AnimateCommand
         var job = animation.Images;
         if (animation.Trace is { } trace)
         {
-            motion = CreateMotion(animation, scene, () => DrawableScene.Prepare(scene, job.Settings), view, report);
+            motion = animation.CreateMotion(scene, () => DrawableScene.Prepare(scene, job.Settings), view, report.IsQuiet);
             return new TracedFrames(trace.Prepare(scene, view, job, report), job, trace);
         }
 
         var drawable = report.Measure("prepare", () => DrawableScene.Prepare(job.Background.ApplyTo(scene), job.Settings));
         Notices.Write(drawable.Notices);
 
-        motion = CreateMotion(animation, scene, () => drawable, view, report);
+        motion = animation.CreateMotion(scene, () => drawable, view, report.IsQuiet);
         return new DrawnFrames(drawable, job);
-    }
-
-    private static Func<int, View> CreateMotion(
-        AnimationJob animation, LoadedScene scene, Func<DrawableScene> prepare, View view, WrittenReport report)
-    {
-        // The way into a fractal is measured first, which takes long for hundreds of levels.
-        using var notice = new SlowWorkNotice("finding the camera's way", report.IsQuiet);
-        return animation.CreateMotion(scene, prepare, view);
     }
 
     private static int Write(

@@ -17,11 +17,9 @@ internal sealed class CameraOptions
 
     private const string Isometric = "isometric";
 
-    private readonly Option<string?> _camera = new("--camera")
-    {
-        Description = "Camera as a scene declares it: position, rotation in radians, angle of view in degrees.",
-        HelpName = "\"(x,y,z) (p,y,r) fov\"",
-    };
+    private readonly Option<string?> _camera = SharedOptions.TextOption(
+        "--camera", "\"(x,y,z) (p,y,r) fov\"",
+        "Camera as a scene declares it: position, rotation in radians, angle of view in degrees.");
 
     private readonly Option<string?> _lookFrom = VectorOption(
         "--look-from", "Position of the camera, which looks at the middle of the scene unless --look-at names another point.");
@@ -36,13 +34,7 @@ internal sealed class CameraOptions
         "--zoom", "LEVELS", 0, CameraZoom.MaxLevels, "Fly so many levels into a fractal, towards the surface ahead.");
 
     /// <summary>Adds the options to a command.</summary>
-    public void AddTo(Command command)
-    {
-        foreach (var option in (Option[])[_camera, _lookFrom, _lookAt, _up, _view, _zoom])
-        {
-            command.Add(option);
-        }
-    }
+    public void AddTo(Command command) => SharedOptions.AddAll(command, _camera, _lookFrom, _lookAt, _up, _view, _zoom);
 
     /// <summary>Returns the number of levels that the camera flies into a fractal.</summary>
     public double Zoom(ParseResult result) => result.GetValue(_zoom) ?? 0;
@@ -123,9 +115,6 @@ internal sealed class CameraOptions
         return CameraFraming.LookAt(position, target, up, camera.FieldOfView, scene.Scene.Handedness);
     }
 
-    private static Option<string?> VectorOption(string name, string description) => new(name)
-    {
-        Description = description,
-        HelpName = "\"(x, y, z)\"",
-    };
+    private static Option<string?> VectorOption(string name, string description) =>
+        SharedOptions.TextOption(name, "\"(x, y, z)\"", description);
 }

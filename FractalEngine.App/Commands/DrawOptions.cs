@@ -62,11 +62,9 @@ internal sealed class DrawOptions
 
     private readonly Option<bool> _noShadows = new("--no-shadows") { Description = "Draw no shadows." };
 
-    private readonly Option<string?> _section = new("--section")
-    {
-        Description = "Cut away what lies beyond the plane x*NX + y*NY + z*NZ = D, and show solids filled where it cuts them.",
-        HelpName = "NX,NY,NZ,D",
-    };
+    private readonly Option<string?> _section = SharedOptions.TextOption(
+        "--section", "NX,NY,NZ,D",
+        "Cut away what lies beyond the plane x*NX + y*NY + z*NZ = D, and show solids filled where it cuts them.");
 
     private readonly Option<bool> _noAmbientOcclusion = new("--no-ambient-occlusion")
     {
@@ -83,18 +81,9 @@ internal sealed class DrawOptions
     private readonly Option<(int Width, int Height)?> _resolution = SharedOptions.ResolutionOption();
 
     /// <summary>Adds the options to a command.</summary>
-    public void AddTo(Command command)
-    {
-        Option[] options =
-        [
-            _resolution, _projection, _shading, _noShadows, _noAmbientOcclusion, _wireframe, _grid, _section, _minProjectedSize,
-            _maxInstances, _sampleCount, _disabled,
-        ];
-        foreach (var option in options)
-        {
-            command.Add(option);
-        }
-    }
+    public void AddTo(Command command) => SharedOptions.AddAll(
+        command, _resolution, _projection, _shading, _noShadows, _noAmbientOcclusion, _wireframe, _grid, _section, _minProjectedSize,
+        _maxInstances, _sampleCount, _disabled);
 
     /// <summary>Returns width and height of the frame in pixels.</summary>
     public (int Width, int Height) Resolution(ParseResult result) => result.GetValue(_resolution) ?? SharedOptions.DefaultResolution;

@@ -1,10 +1,10 @@
 using System.CommandLine;
-using System.Globalization;
 using FractalEngine.Core;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Generation;
 using FractalEngine.Core.Physics;
 using FractalEngine.Parsing;
+using static System.FormattableString;
 
 namespace FractalEngine.App.Commands;
 
@@ -46,14 +46,13 @@ internal static class LimitsCommand
     {
         foreach (var limit in All)
         {
-            Console.WriteLine(string.Create(
-                CultureInfo.InvariantCulture, $"{limit.Name,-22}{limit.Value,13}  {limit.Subject}: {limit.Reason}"));
+            Console.WriteLine(Invariant($"{limit.Name,-22}{limit.Value,13}  {limit.Subject}: {limit.Reason}"));
         }
 
         Console.WriteLine("Of options, not changed by --limit:");
         foreach (var (option, value, reason) in OfOptions)
         {
-            Console.WriteLine(string.Create(CultureInfo.InvariantCulture, $"{option,-22}{value,13}  {reason}"));
+            Console.WriteLine(Invariant($"{option,-22}{value,13}  {reason}"));
         }
 
         return ExitCode.Done;

@@ -9,7 +9,7 @@ using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Parsing.Points;
-using FractalEngine.Parsing.Text;
+using static FractalEngine.App.StandardStreams;
 
 namespace FractalEngine.App.Commands;
 
@@ -26,17 +26,11 @@ internal static class QueryCommand
     public static Command Create()
     {
         var shared = new SharedOptions();
-        var points = new Option<string>("--points")
-        {
-            Description = "Positions to query: three numbers per line, separated by blanks or commas; '#' starts a comment. "
-                + "'-' is the standard input.",
-            HelpName = "POINTS.txt",
-        };
-        var rays = new Option<string>("--rays")
-        {
-            Description = "Rays to cast instead: origin and direction, six numbers per line. '-' is the standard input.",
-            HelpName = "RAYS.txt",
-        };
+        var points = SharedOptions.TextOption(
+            "--points", "POINTS.txt",
+            "Positions to query: three numbers per line, separated by blanks or commas; '#' starts a comment. '-' is the standard input.");
+        var rays = SharedOptions.TextOption(
+            "--rays", "RAYS.txt", "Rays to cast instead: origin and direction, six numbers per line. '-' is the standard input.");
         var collider = SharedOptions.ColliderOption("Collider that finds the points (default: exact).");
         var maxDistance = NumberOption.NonNegative("--within", "R", "Search radius in scene units (default: unlimited).");
         var epsilon = NumberOption.NonNegative(
@@ -88,9 +82,7 @@ internal static class QueryCommand
     {
         StandardInput.RequireOnce(path, pointsPath);
         var file = ConsoleLoader.Load(path, options);
-        var points = PointsParser.Parse(StandardInput.IsNamedBy(pointsPath)
-            ? StandardInput.Read(pointsPath, ParsingLimits.MaxPointsBytes)
-            : SourceText.Read(pointsPath, pointsPath, ParsingLimits.MaxPointsBytes));
+        var points = PointsParser.Parse(StandardInput.ReadOrFile(pointsPath, ParsingLimits.MaxPointsBytes));
         var clock = Stopwatch.StartNew();
         var collider = BuildCollider(file, kind);
         var buildTime = clock.Elapsed;
@@ -104,7 +96,11 @@ internal static class QueryCommand
             WriteReportLine($"uncertain {count}: the search met its limit of work, and --error-bound prints how far it may be wrong");
         }
 
-        Console.Out.Write(FormatResults(results, format));
+        var header = $"distance x y z nx ny nz faceTests{(format.ErrorBound ? " errorBound" : "")}\n";
+        Console.Out.Write(FormatResults(
+            results, format.Json, format.Header ? header : "",
+            result => result.IsFound ? FormatLine(result.Closest, result.FaceTests, format.ErrorBound) : "none",
+            result => result.IsFound ? FormatJson(result.Closest, result.FaceTests, result.ObjectIndex, format.ErrorBound) : "null"));
         return ExitCode.Done;
     }
 
@@ -130,28 +126,23 @@ internal static class QueryCommand
         return collider;
     }
 
-    private static StringBuilder FormatResults(BatchResult[] results, ResultFormat format)
+    /// <summary>Formats the results of a list.</summary>
+    /// <param name="results">One for each line of the list.</param>
+    /// <param name="isJson">True for a JSON array, false for lines.</param>
+    /// <param name="header">First line, with its line break, where there are lines; empty for none.</param>
+    /// <param name="formatLine">Formats a result as a line, without line break.</param>
+    /// <param name="formatJson">Formats a result as JSON.</param>
+    internal static StringBuilder FormatResults<T>(
+        IReadOnlyList<T> results, bool isJson, string header, Func<T, string> formatLine, Func<T, string> formatJson)
     {
-        var text = new StringBuilder(format.Json ? "[" : "");
-        if (format.Header && !format.Json)
+        var text = new StringBuilder(isJson ? "[" : header);
+        for (var i = 0; i < results.Count; i++)
         {
-            text.Append("distance x y z nx ny nz faceTests").Append(format.ErrorBound ? " errorBound\n" : "\n");
+            text.Append(isJson && i > 0 ? ",\n" : "").Append(isJson ? formatJson(results[i]) : formatLine(results[i]))
+                .Append(isJson ? "" : "\n");
         }
 
-        for (var i = 0; i < results.Length; i++)
-        {
-            var (isFound, closest, faceTests, _, objectIndex) = results[i];
-            if (format.Json)
-            {
-                text.Append(i > 0 ? ",\n" : "").Append(isFound ? FormatJson(closest, faceTests, objectIndex, format.ErrorBound) : "null");
-            }
-            else
-            {
-                text.Append(isFound ? FormatLine(closest, faceTests, format.ErrorBound) : "none").Append('\n');
-            }
-        }
-
-        return text.Append(format.Json ? "]\n" : "");
+        return text.Append(isJson ? "]\n" : "");
     }
 
     private static string FormatJson(ClosestPoint closest, long faceTests, int objectIndex, bool hasErrorBound)
@@ -173,7 +164,8 @@ internal static class QueryCommand
             $"{closest.Distance:R} {FormatVector(closest.Point, " ")} {FormatVector(closest.Normal, " ")} {faceTests}{errorBound}");
     }
 
-    private static string FormatVector(Vector vector, string separator) =>
+    /// <summary>Formats the components of a vector.</summary>
+    internal static string FormatVector(Vector vector, string separator) =>
         string.Create(CultureInfo.InvariantCulture, $"{vector.X:R}{separator}{vector.Y:R}{separator}{vector.Z:R}");
 
     private static void WriteReport(
@@ -190,8 +182,6 @@ internal static class QueryCommand
             WriteReportLine($"bound tests {(double)context.Statistics.BoundTests / queryCount:F2} a query");
         }
     }
-
-    private static void WriteReportLine(FormattableString line) => Console.Error.WriteLine(FormattableString.Invariant(line));
 
     /// <summary>How results are printed.</summary>
     /// <param name="Json">True for a JSON array, false for lines.</param>

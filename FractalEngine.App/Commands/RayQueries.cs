@@ -1,14 +1,12 @@
-using System.Collections.Immutable;
 using System.Diagnostics;
 using System.Globalization;
-using System.Text;
 using FractalEngine.Core.Collision;
-using FractalEngine.Core.Maths;
 using FractalEngine.Core.Rays;
 using FractalEngine.Parsing;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Parsing.Points;
-using FractalEngine.Parsing.Text;
+using static FractalEngine.App.Commands.QueryCommand;
+using static FractalEngine.App.StandardStreams;
 
 namespace FractalEngine.App.Commands;
 
@@ -25,10 +23,8 @@ internal static class RayQueries
     {
         StandardInput.RequireOnce(path, raysPath);
         var file = ConsoleLoader.Load(path, options);
-        var rays = RaysParser.Parse(StandardInput.IsNamedBy(raysPath)
-            ? StandardInput.Read(raysPath, ParsingLimits.MaxPointsBytes)
-            : SourceText.Read(raysPath, raysPath, ParsingLimits.MaxPointsBytes));
-        QueryCommand.RequireReach(file, RayCaster.MaxCoordinate, "rays");
+        var rays = RaysParser.Parse(StandardInput.ReadOrFile(raysPath, ParsingLimits.MaxPointsBytes));
+        RequireReach(file, RayCaster.MaxCoordinate, "rays");
         var clock = Stopwatch.StartNew();
         var caster = new SceneRayCaster(file.Scene);
         var context = new QueryContext();
@@ -40,46 +36,23 @@ internal static class RayQueries
             WriteReportLine($"bound tests {(double)context.Statistics.BoundTests / rays.Length:F2} a ray");
         }
 
-        Console.Out.Write(json ? FormatJson(results) : FormatLines(results, header));
+        Console.Out.Write(FormatResults(
+            results, json, header ? "distance x y z nx ny nz face\n" : "", static result => result.IsHit ? FormatLine(result.Hit) : "none",
+            static result => result.IsHit ? FormatJson(result) : "null"));
         return ExitCode.Done;
     }
 
-    private static StringBuilder FormatLines(ImmutableArray<RayResult> results, bool header)
+    private static string FormatLine(RayHit hit) => string.Create(
+        CultureInfo.InvariantCulture, $"{hit.Distance:R} {FormatVector(hit.Point, " ")} {FormatVector(hit.Normal, " ")} {hit.FaceIndex}");
+
+    private static string FormatJson(RayResult result)
     {
-        var text = new StringBuilder(header ? "distance x y z nx ny nz face\n" : "");
-        foreach (var result in results)
-        {
-            text.Append(result.IsHit
-                ? string.Create(
-                    CultureInfo.InvariantCulture,
-                    $"{result.Hit.Distance:R} {Format(result.Hit.Point, " ")} {Format(result.Hit.Normal, " ")} {result.Hit.FaceIndex}\n")
-                : "none\n");
-        }
-
-        return text;
+        var (objectIndex, hit, path) = result;
+        return string.Create(
+            CultureInfo.InvariantCulture,
+            $"{{\"distance\": {hit.Distance:R}, \"point\": [{FormatVector(hit.Point, ", ")}], "
+            + $"\"normal\": [{FormatVector(hit.Normal, ", ")}], \"front\": {(hit.IsFrontFace ? "true" : "false")}, "
+            + $"\"face\": {hit.FaceIndex}, \"barycentrics\": [{FormatVector(hit.Barycentrics, ", ")}], \"object\": {objectIndex}, "
+            + $"\"instance\": [{string.Join(", ", path)}]}}");
     }
-
-    private static StringBuilder FormatJson(ImmutableArray<RayResult> results)
-    {
-        var text = new StringBuilder("[");
-        for (var i = 0; i < results.Length; i++)
-        {
-            var (objectIndex, hit, path) = results[i];
-            text.Append(i > 0 ? ",\n" : "").Append(results[i].IsHit
-                ? string.Create(
-                    CultureInfo.InvariantCulture,
-                    $"{{\"distance\": {hit.Distance:R}, \"point\": [{Format(hit.Point, ", ")}], \"normal\": [{Format(hit.Normal, ", ")}], "
-                    + $"\"front\": {(hit.IsFrontFace ? "true" : "false")}, \"face\": {hit.FaceIndex}, "
-                    + $"\"barycentrics\": [{Format(hit.Barycentrics, ", ")}], \"object\": {objectIndex}, "
-                    + $"\"instance\": [{string.Join(", ", path)}]}}")
-                : "null");
-        }
-
-        return text.Append("]\n");
-    }
-
-    private static string Format(Vector vector, string separator) =>
-        string.Create(CultureInfo.InvariantCulture, $"{vector.X:R}{separator}{vector.Y:R}{separator}{vector.Z:R}");
-
-    private static void WriteReportLine(FormattableString line) => Console.Error.WriteLine(FormattableString.Invariant(line));
 }

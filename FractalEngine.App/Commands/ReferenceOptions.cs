@@ -1,8 +1,8 @@
 using System.CommandLine;
-using System.Globalization;
 using FractalEngine.Core.Images;
 using FractalEngine.Parsing.Text;
 using FractalEngine.Render.Images;
+using static System.FormattableString;
 
 namespace FractalEngine.App.Commands;
 
@@ -11,22 +11,14 @@ internal sealed class ReferenceOptions
 {
     private const double DefaultThreshold = 35;
 
-    private readonly Option<string?> _reference = new("--reference")
-    {
-        Description = "Compare with an image; where they differ, end with 5 and write the difference beside the output.",
-        HelpName = "IMAGE",
-    };
+    private readonly Option<string?> _reference = SharedOptions.TextOption(
+        "--reference", "IMAGE", "Compare with an image; where they differ, end with 5 and write the difference beside the output.");
 
     private readonly Option<double?> _threshold = NumberOption.NonNegative(
-        "--threshold", "DB",
-        string.Create(CultureInfo.InvariantCulture, $"Smallest peak signal-to-noise ratio of equal images (default: {DefaultThreshold})."));
+        "--threshold", "DB", Invariant($"Smallest peak signal-to-noise ratio of equal images (default: {DefaultThreshold})."));
 
     /// <summary>Adds the options to a command.</summary>
-    public void AddTo(Command command)
-    {
-        command.Add(_reference);
-        command.Add(_threshold);
-    }
+    public void AddTo(Command command) => SharedOptions.AddAll(command, _reference, _threshold);
 
     /// <summary>Loads the reference, before anything is drawn.</summary>
     /// <returns>The comparison; null where none is asked for.</returns>
@@ -64,7 +56,7 @@ internal sealed class ReferenceOptions
         var difference = ImageDifference.Between(image, reference);
         var ratio = double.IsInfinity(difference.PeakSignalToNoise)
             ? "equal"
-            : string.Create(CultureInfo.InvariantCulture, $"{difference.PeakSignalToNoise:F2} dB");
+            : Invariant($"{difference.PeakSignalToNoise:F2} dB");
         if (difference.PeakSignalToNoise >= threshold)
         {
             Console.Error.WriteLine($"reference: {ratio}");
@@ -74,8 +66,7 @@ internal sealed class ReferenceOptions
         var path = Path.ChangeExtension(output, null) + "-difference.png";
         InputFiles.Protect(path);
         OutputFile.Write(path, stream => PngWriter.Write(difference.Image, stream));
-        Console.Error.WriteLine(string.Create(
-            CultureInfo.InvariantCulture, $"reference: {ratio}, less than {threshold:R} dB; {path} shows the difference"));
+        Console.Error.WriteLine(Invariant($"reference: {ratio}, less than {threshold:R} dB; {path} shows the difference"));
         return ExitCode.Different;
     }
 }

@@ -13,15 +13,10 @@ internal static class RenderCommand
     /// <summary>Creates the command with its arguments and options.</summary>
     public static Command Create()
     {
-        var shared = new SharedOptions();
-        var draw = new DrawOptions();
-        var camera = new CameraOptions();
+        var images = new ImageOptions(canKeepPartial: true);
         var reference = new ReferenceOptions();
-        var trace = new TraceOptions();
         var report = new ReportOptions();
         var output = SharedOptions.OutputOption(".png", "Image to write.", isText: false);
-        var time = SharedOptions.TimeOption();
-        var background = SharedOptions.BackgroundOption();
         var command = new DocumentedCommand(
             "render", "Draw FILE into a PNG image, without a window.",
             "render assets/scenes/gallery.sdo --output out/gallery.png --resolution 1920x1080",
@@ -29,31 +24,15 @@ internal static class RenderCommand
         {
             output,
         };
-        shared.AddTo(command);
-        draw.AddTo(command);
-        camera.AddTo(command);
-        command.Add(background);
-        command.Add(time);
-        trace.AddTo(command);
+        images.AddTo(command);
         reference.AddTo(command);
         report.AddTo(command);
         command.SetAction(result =>
         {
             var compare = reference.Load(result);
             var path = result.GetRequiredValue(output);
-            var job = new RenderJob(
-                result.GetRequiredValue(shared.File), draw.WithLoadOptions(result, shared.LoadOptions(result)), draw.Resolution(result),
-                draw.Projection(result), draw.Settings(result))
-            {
-                Time = result.GetValue(time) ?? 0,
-                Background = BackgroundChoice.Parse(result.GetValue(background)),
-                CreateView = (scene, aspect) =>
-                    camera.View(result, scene, draw.Projection(result) is not null, aspect) with { Section = draw.Section(result) },
-                ZoomLevels = camera.Zoom(result),
-            };
-            var traced = trace.Choice(result);
-            draw.RequireEffect(result, traced);
-            var image = Run(job, traced, path, report.Begin(result));
+            var (job, trace) = images.Read(result);
+            var image = Run(job, trace, path, report.Begin(result));
             return compare?.Invoke(image, path) ?? ExitCode.Done;
         });
         return command;
@@ -84,7 +63,7 @@ internal static class RenderCommand
 
         using var notice = new SlowWorkNotice("drawing", report.IsQuiet);
         view = Zoom(drawable, view, job);
-        using var renderer = new ImageRenderer(drawable, job.Size, job.Settings, job.Background);
+        using var renderer = new ImageRenderer(drawable, job);
         var image = report.Measure("draw", () => renderer.Draw(view));
         Write(image, output, report);
         return image;

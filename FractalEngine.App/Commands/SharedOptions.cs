@@ -46,6 +46,15 @@ internal sealed class SharedOptions
         }
     }
 
+    /// <summary>Adds options to a command, in the order of the help text.</summary>
+    public static void AddAll(Command command, params ReadOnlySpan<Option> options)
+    {
+        foreach (var option in options)
+        {
+            command.Add(option);
+        }
+    }
+
     /// <summary>Returns the load options that the command line asks for.</summary>
     public LoadOptions LoadOptions(ParseResult result) => new()
     {
@@ -68,6 +77,13 @@ internal sealed class SharedOptions
             },
         },
     };
+
+    /// <summary>Creates an option for a text, which the command parses.</summary>
+    /// <param name="name">The name with its dashes.</param>
+    /// <param name="helpName">The placeholder of the value in the help text.</param>
+    /// <param name="description">The sentence in the help text.</param>
+    public static Option<string?> TextOption(string name, string helpName, string description) =>
+        new(name) { Description = description, HelpName = helpName };
 
     /// <summary>Creates the required option for an output file.</summary>
     /// <param name="extension">The extension that the file name must have, with its dot.</param>
@@ -101,11 +117,9 @@ internal sealed class SharedOptions
         ("perspective", Projection.Perspective), ("orthographic", Projection.Orthographic));
 
     /// <summary>Creates the option for what is behind the scene.</summary>
-    public static Option<string?> BackgroundOption() => new("--background")
-    {
-        Description = "Colour behind the scene, sRGB from 0 to 1, overriding the scene's; or transparent.",
-        HelpName = "transparent|\"(r, g, b)\"",
-    };
+    public static Option<string?> BackgroundOption() => TextOption(
+        "--background", "transparent|\"(r, g, b)\"",
+        "Colour behind the scene, sRGB from 0 to 1, overriding the scene's; or transparent.");
 
     /// <summary>Creates the option for the physics time at which a scene is shown, in seconds.</summary>
     public static Option<double?> TimeOption() => NumberOption.Decimal(

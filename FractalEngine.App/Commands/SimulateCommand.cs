@@ -1,12 +1,13 @@
 using System.CommandLine;
 using System.Diagnostics;
-using System.Globalization;
 using System.Text;
 using FractalEngine.Core;
 using FractalEngine.Core.Files;
 using FractalEngine.Core.Physics;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Assets;
+using static FractalEngine.App.StandardStreams;
+using static System.FormattableString;
 
 namespace FractalEngine.App.Commands;
 
@@ -28,8 +29,7 @@ internal static class SimulateCommand
     {
         var shared = new SharedOptions();
         var seconds = NumberOption.Positive(
-            "--seconds", "SECONDS",
-            string.Create(CultureInfo.InvariantCulture, $"Duration to simulate (default: {DefaultSeconds})."));
+            "--seconds", "SECONDS", Invariant($"Duration to simulate (default: {DefaultSeconds})."));
         var step = NumberOption.Positive("--step", "SECONDS", "Duration of one step (default: a sixtieth of a second).");
         var every = NumberOption.Integer("--every", "N", 1, MaxSteps, "Write the states after every Nth step only (default: 1).");
         var collider = SharedOptions.ColliderOption("Collider of all bodies, overriding the scene.");
@@ -56,14 +56,13 @@ internal static class SimulateCommand
         var steps = Math.Max(1, Math.Ceiling((seconds / step) - StepTolerance));
         if (steps > MaxSteps)
         {
-            throw new FractalEngineException(ErrorKind.Limit, FormattableString.Invariant(
+            throw new FractalEngineException(ErrorKind.Limit, Invariant(
                 $"{seconds:R} s take {steps:G4} steps of {step:R} s, which exceeds the limit of {MaxSteps} steps"));
         }
 
         if (every > steps)
         {
-            throw new UsageException(FormattableString.Invariant(
-                $"--every {every} is beyond the {steps} steps, so nothing would be written"));
+            throw new UsageException(Invariant($"--every {every} is beyond the {steps} steps, so nothing would be written"));
         }
 
         var file = ConsoleLoader.Load(path, options);
@@ -134,6 +133,4 @@ internal static class SimulateCommand
         WriteReportLine($"stuck {world.Bodies.Count(static body => body.IsStuck)}");
         WriteReportLine($"state {world.StateHash}");
     }
-
-    private static void WriteReportLine(FormattableString line) => Console.Error.WriteLine(FormattableString.Invariant(line));
 }

@@ -4,7 +4,7 @@ namespace FractalEngine.App.Commands;
 
 /// <summary>The options of images that are traced instead of drawn.</summary>
 /// <param name="canKeepPartial">Whether the command can write an image that is interrupted.</param>
-internal sealed class TraceOptions(bool canKeepPartial = true)
+internal sealed class TraceOptions(bool canKeepPartial)
 {
     /// <summary>Largest number of samples of each pixel.</summary>
     public const int MaxSamples = 1_000_000;
@@ -21,15 +21,8 @@ internal sealed class TraceOptions(bool canKeepPartial = true)
     };
 
     /// <summary>Adds the options to a command.</summary>
-    public void AddTo(Command command)
-    {
-        command.Add(_samples);
-        command.Add(_seed);
-        if (canKeepPartial)
-        {
-            command.Add(_keepsPartial);
-        }
-    }
+    public void AddTo(Command command) =>
+        SharedOptions.AddAll(command, canKeepPartial ? [_samples, _seed, _keepsPartial] : [_samples, _seed]);
 
     /// <summary>How the image is traced; null where it is drawn.</summary>
     /// <exception cref="UsageException">An option has a meaning for traced images only.</exception>

@@ -45,10 +45,7 @@ internal static class ViewCommand
         });
         shared.AddTo(command);
         draw.AddTo(command);
-        command.Add(noWatch);
-        command.Add(trailLength);
-        command.Add(trace);
-        command.Add(noTrace);
+        SharedOptions.AddAll(command, noWatch, trailLength, trace, noTrace);
         command.SetAction(result =>
         {
             draw.RequireEffect(result, hasWindow: true);

@@ -1,5 +1,3 @@
-using System.Text;
-using FractalEngine.Core.Files;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Parsing.Scenes;
@@ -13,13 +11,8 @@ internal static class NewSceneFile
 
     /// <summary>Returns a name for the scene beside a file that no other file has.</summary>
     /// <param name="file">Full path of a scene, mesh or fractal.</param>
-    public static string Propose(string file)
-    {
-        var stem = Path.Combine(Path.GetDirectoryName(file)!, Path.GetFileName(file).Split('.')[0]);
-        return Enumerable.Range(1, int.MaxValue)
-            .Select(number => number == 1 ? $"{stem}{Extension}" : FormattableString.Invariant($"{stem}-{number}{Extension}"))
-            .First(static candidate => !Path.Exists(candidate));
-    }
+    public static string Propose(string file) => NewFile.Propose(
+        Path.Combine(Path.GetDirectoryName(file)!, Path.GetFileName(file).Split('.')[0]), Extension, static path => !Path.Exists(path));
 
     /// <summary>Writes a scene. File names in it become relative to the new place.</summary>
     /// <param name="file">The file that the scene was loaded from.</param>
@@ -31,21 +24,9 @@ internal static class NewSceneFile
     /// </exception>
     public static void Write(LoadedFile file, Scene scene, string path, bool allowsOutsideFiles)
     {
-        if (!path.EndsWith(Extension, StringComparison.OrdinalIgnoreCase))
-        {
-            throw new IOException($"the name of a scene ends in {Extension}");
-        }
-
-        if (Path.Exists(path))
-        {
-            throw new IOException($"{Path.GetFileName(path)} exists already, and is not replaced");
-        }
-
-        if (!Directory.Exists(Path.GetDirectoryName(path)))
-        {
-            throw new IOException($"the folder {Path.GetDirectoryName(path)} does not exist");
-        }
-
+        NewFile.RequireEnding(path, "scene", Extension);
+        NewFile.RequireFree(path);
+        NewFile.RequireFolder(path);
         var relocated = SceneRelocation.Relocate(scene, file.Path, path);
         if (relocated.Objects.Any(static declared => declared.File!.IndexOfAny(['"', '\n', '\r']) >= 0))
         {
@@ -60,18 +41,7 @@ internal static class NewSceneFile
                 + "or allow that with --allow-outside");
         }
 
-        var text = Encoding.UTF8.GetBytes(SceneWriter.Write(relocated, file.ParsedScene));
-        var written = AtomicFile.WriteWithoutReplacing(path, stream => stream.Write(text), out var isCreated);
-        if (!isCreated || written != path)
-        {
-            // Another program has taken the name just now.
-            if (isCreated)
-            {
-                File.Delete(written);
-            }
-
-            throw new IOException($"{Path.GetFileName(path)} exists already, and is not replaced");
-        }
+        NewFile.Write(path, SceneWriter.Write(relocated, file.ParsedScene));
     }
 
     private static string FullPath(string scene, SceneObject declared) =>

@@ -4,32 +4,23 @@ using FractalEngine.Parsing.Scenes;
 namespace FractalEngine.App.Window;
 
 /// <summary>What the window has changed of a scene since it was loaded or saved, as the text that would be saved.</summary>
-internal sealed class SceneDraft
+/// <param name="file">The loaded file.</param>
+/// <param name="view">The view that the window shows of it, which need not be that of the file.</param>
+internal sealed class SceneDraft(LoadedFile file, SceneView view)
 {
-    private readonly ParsedScene? _layout;
-
-    /// <summary>Begins with what a file says.</summary>
-    /// <param name="file">The loaded file.</param>
-    /// <param name="view">The view that the window shows of it, which need not be that of the file.</param>
-    public SceneDraft(LoadedFile file, SceneView view)
-    {
-        _layout = file.ParsedScene;
-        LayoutView = view;
-        SavedView = view;
-        SavedText = file.ParsedScene?.Source.Text ?? "";
-    }
+    private readonly ParsedScene? _layout = file.ParsedScene;
 
     /// <summary>The view that the lines of the loaded text stand for.</summary>
-    public SceneView LayoutView { get; }
+    public SceneView LayoutView { get; } = view;
 
     /// <summary>The view that was loaded or saved last. What differs from it is a change.</summary>
-    public SceneView SavedView { get; private set; }
+    public SceneView SavedView { get; private set; } = view;
 
     /// <summary>
     /// The text of the file, with what is edited in it, when the lines of the view in the window and the file last agreed: what a merge of
     /// these lines begins with.
     /// </summary>
-    public string SavedText { get; private set; }
+    public string SavedText { get; private set; } = file.ParsedScene?.Source.Text ?? "";
 
     /// <summary>Tells whether a view differs from the one that was loaded or saved. A model that is no scene has nothing to save.</summary>
     public bool IsChanged(SceneView view) => _layout is not null && view != SavedView;

@@ -6,6 +6,7 @@ using FractalEngine.Core.Physics;
 using FractalEngine.Core.Physics.Character;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Render;
+using static System.FormattableString;
 
 namespace FractalEngine.App.Window;
 
@@ -115,11 +116,9 @@ internal sealed partial class ScenePhysics : IDisposable
             var collider = world.ColliderOverride is { } kind ? ColliderNames.Of(kind) : "each body's own";
             var (faceTests, boundTests) = world.LastStepCost;
             var paused = IsPaused ? " · paused" : "";
-            var bodies = FormattableString.Invariant(
-                $"{Count(world.Bodies.Count, "body", "bodies")}, {awakeCount:N0} awake · collider: {collider}{paused}");
+            var bodies = Invariant($"{Count(world.Bodies.Count, "body", "bodies")}, {awakeCount:N0} awake · collider: {collider}{paused}");
             var tests = $"last step: {Count(faceTests, "face test", "face tests")}";
-            var cost = FormattableString.Invariant(
-                $"{tests}, {Count(boundTests, "bound test", "bound tests")}, {_stepTime.TotalMilliseconds:F2} ms");
+            var cost = Invariant($"{tests}, {Count(boundTests, "bound test", "bound tests")}, {_stepTime.TotalMilliseconds:F2} ms");
             return $"{bodies}\n{cost}";
         }
     }
@@ -214,7 +213,7 @@ internal sealed partial class ScenePhysics : IDisposable
     }
 
     private static string Count(long number, string one, string many) =>
-        FormattableString.Invariant($"{number:N0} {(number == 1 ? one : many)}");
+        Invariant($"{number:N0} {(number == 1 ? one : many)}");
 
     private static void BuildColliders(PhysicsWorld world, CancellationToken cancellation)
     {

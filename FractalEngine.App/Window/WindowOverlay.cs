@@ -1,7 +1,7 @@
-using System.Globalization;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Render.Preparation;
 using FractalEngine.Render.Ui;
+using static System.FormattableString;
 
 namespace FractalEngine.App.Window;
 
@@ -111,8 +111,7 @@ internal sealed class WindowOverlay
                 return null;
             }
 
-            var text = string.Create(
-                CultureInfo.InvariantCulture,
+            var text = Invariant(
                 $"more than {culling.InstanceBudget:N0} instances: sub-fractals below {minProjectedSize:F1} pixels are drawn as proxies");
             return new(text, null, OverlayTone.Accent);
         }

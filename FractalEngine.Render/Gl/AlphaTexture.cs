@@ -3,10 +3,8 @@ using OpenTK.Graphics.OpenGL4;
 namespace FractalEngine.Render.Gl;
 
 /// <summary>A texture of one 8-bit component, read texel by texel without filtering.</summary>
-internal sealed class AlphaTexture : GlObject
+internal sealed class AlphaTexture : Texture2D
 {
-    private readonly int _name;
-
     /// <summary>Uploads the texels of a texture.</summary>
     /// <param name="resources">Resources of the current context.</param>
     /// <param name="label">Name of the texture, for messages.</param>
@@ -14,17 +12,6 @@ internal sealed class AlphaTexture : GlObject
     /// <param name="height">Height in texels.</param>
     /// <param name="texels">One byte a texel, [height × width].</param>
     public AlphaTexture(GlResources resources, string label, int width, int height, ReadOnlySpan<byte> texels)
-        : base(resources, label)
-    {
-        _name = GL.GenTexture();
-        Resources.State.BindTexture(_name);
-        TextureUpload.Upload(
+        : base(resources, label) => Upload(
             PixelInternalFormat.R8, PixelFormat.Red, width, height, texels, TextureMinFilter.Nearest, TextureMagFilter.Nearest);
-    }
-
-    /// <summary>Binds the texture to the first texture unit.</summary>
-    public void Bind() => Resources.State.BindTexture(_name);
-
-    /// <inheritdoc/>
-    protected override void Delete() => Resources.State.DeleteTexture(_name);
 }

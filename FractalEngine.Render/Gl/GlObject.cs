@@ -40,6 +40,31 @@ internal abstract class GlObject : IDisposable
     /// <summary>Returns the kind and the label of the object.</summary>
     public sealed override string ToString() => $"{GetType().Name} '{Label}'";
 
+    /// <summary>Disposes GL objects and their owners in the given order; those that were never made are null.</summary>
+    public static void DisposeAll(params ReadOnlySpan<IDisposable?> items)
+    {
+        foreach (var item in items)
+        {
+            item?.Dispose();
+        }
+    }
+
+    /// <summary>Runs the second part of a constructor, and disposes what the first part has made where the second fails.</summary>
+    /// <param name="owner">The object under construction.</param>
+    /// <param name="initialise">Allocates or builds what may not fit or be refused.</param>
+    public static void DisposeOnFailure(IDisposable owner, Action initialise)
+    {
+        try
+        {
+            initialise();
+        }
+        catch
+        {
+            owner.Dispose();
+            throw;
+        }
+    }
+
     internal void DeleteNow() => Delete();
 
     /// <summary>Calls the matching glDelete function. Runs once, on the context's thread.</summary>

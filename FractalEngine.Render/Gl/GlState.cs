@@ -96,6 +96,14 @@ internal sealed class GlState
         }
     }
 
+    /// <summary>Blends what follows over the frame, whose opacity stays, until blending is disabled.</summary>
+    /// <param name="factor">What colours are multiplied by: their opacity, or one where that has happened already.</param>
+    public static void BeginBlending(BlendingFactorSrc factor)
+    {
+        GL.Enable(EnableCap.Blend);
+        GL.BlendFuncSeparate(factor, BlendingFactorDest.OneMinusSrcAlpha, BlendingFactorSrc.Zero, BlendingFactorDest.One);
+    }
+
     /// <summary>Deletes a program. GL may give its name to a new program.</summary>
     public void DeleteProgram(int name)
     {

@@ -1,3 +1,4 @@
+using FractalEngine.Core.Maths;
 using OpenTK.Graphics.OpenGL4;
 
 namespace FractalEngine.Render.Gl;
@@ -6,6 +7,7 @@ namespace FractalEngine.Render.Gl;
 internal sealed class ShaderProgram : GlObject
 {
     private readonly int _name;
+    private readonly Dictionary<string, int> _locations = [];
 
     /// <summary>Compiles and links sources.</summary>
     /// <param name="resources">Resources of the current context.</param>
@@ -16,15 +18,7 @@ internal sealed class ShaderProgram : GlObject
         : base(resources, $"{vertex.File} + {fragment.File}")
     {
         _name = GL.CreateProgram();
-        try
-        {
-            Build(vertex, fragment);
-        }
-        catch
-        {
-            Dispose();
-            throw;
-        }
+        DisposeOnFailure(this, () => Build(vertex, fragment));
     }
 
     /// <summary>Builds the embedded files <c>Shaders/name.vert</c> and <c>Shaders/name.frag</c>.</summary>
@@ -38,8 +32,34 @@ internal sealed class ShaderProgram : GlObject
     /// <summary>Makes this the current program.</summary>
     public void Use() => Resources.State.UseProgram(_name);
 
+    /// <summary>Sets a uniform of type int, or the texture unit of a sampler. This program must be in use, as for all uniforms.</summary>
+    public void Set(string uniform, int value) => GL.Uniform1(UniformLocation(uniform), value);
+
+    /// <summary>Sets a uniform of type float.</summary>
+    public void Set(string uniform, double value) => GL.Uniform1(UniformLocation(uniform), (float)value);
+
+    /// <summary>Sets a uniform of type vec2.</summary>
+    public void Set(string uniform, double x, double y) => GL.Uniform2(UniformLocation(uniform), (float)x, (float)y);
+
+    /// <summary>Sets a uniform of type vec3.</summary>
+    public void Set(string uniform, Vector value) =>
+        GL.Uniform3(UniformLocation(uniform), (float)value.X, (float)value.Y, (float)value.Z);
+
+    /// <summary>Sets a uniform of type vec4.</summary>
+    public void Set(string uniform, double x, double y, double z, double w) =>
+        GL.Uniform4(UniformLocation(uniform), (float)x, (float)y, (float)z, (float)w);
+
     /// <summary>Returns the location of a uniform; −1 where the compiler removed it, which GL ignores.</summary>
-    public int UniformLocation(string name) => GL.GetUniformLocation(_name, name);
+    public int UniformLocation(string name)
+    {
+        if (!_locations.TryGetValue(name, out var location))
+        {
+            location = GL.GetUniformLocation(_name, name);
+            _locations.Add(name, location);
+        }
+
+        return location;
+    }
 
     /// <summary>Connects a uniform block to a binding point.</summary>
     /// <exception cref="GlException">The program has no such block.</exception>

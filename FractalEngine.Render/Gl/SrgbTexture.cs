@@ -6,9 +6,8 @@ namespace FractalEngine.Render.Gl;
 /// <summary>
 /// A texture for surfaces in sRGB, which GL decodes before it filters, with mipmaps so that distant surfaces do not flicker.
 /// </summary>
-internal sealed class SrgbTexture : GlObject
+internal sealed class SrgbTexture : Texture2D
 {
-    private readonly int _name;
     private bool? _isClamped;
 
     /// <summary>Uploads an image. Its top row becomes the texture's first, so that texture coordinates run downwards.</summary>
@@ -16,23 +15,14 @@ internal sealed class SrgbTexture : GlObject
     public SrgbTexture(GlResources resources, string label, PixelImage image)
         : base(resources, label)
     {
-        _name = GL.GenTexture();
-        try
-        {
-            Upload(image);
-        }
-        catch
-        {
-            Dispose();
-            throw;
-        }
+        DisposeOnFailure(this, () => Upload(image));
     }
 
     /// <summary>Binds the texture to the first texture unit.</summary>
     /// <param name="isClamped">True to continue the colours of its edges beyond them, false to repeat the texture.</param>
     public void Bind(bool isClamped)
     {
-        Resources.State.BindTexture(_name);
+        Bind();
         if (Resources.State.Filter.Update(ref _isClamped, isClamped))
         {
             var mode = (int)(isClamped ? TextureWrapMode.ClampToEdge : TextureWrapMode.Repeat);
@@ -40,9 +30,6 @@ internal sealed class SrgbTexture : GlObject
             GL.TexParameter(TextureTarget.Texture2D, TextureParameterName.TextureWrapT, mode);
         }
     }
-
-    /// <inheritdoc/>
-    protected override void Delete() => Resources.State.DeleteTexture(_name);
 
     private void Upload(PixelImage image)
     {
@@ -52,8 +39,7 @@ internal sealed class SrgbTexture : GlObject
             throw new GlException($"{this} has {image.Width}×{image.Height} pixels: this driver allows {maxSize} pixels a side");
         }
 
-        Resources.State.BindTexture(_name);
-        TextureUpload.Upload(
+        Upload(
             PixelInternalFormat.Srgb8Alpha8, PixelFormat.Rgba, image.Width, image.Height, image.Pixels,
             TextureMinFilter.LinearMipmapLinear, TextureMagFilter.Linear);
         GL.GenerateMipmap(GenerateMipmapTarget.Texture2D);

@@ -9,7 +9,6 @@ internal sealed class ImagePass : IDisposable
 {
     private readonly GlResources _resources;
     private readonly ShaderProgram _program;
-    private readonly int _opacityLocation;
     private readonly VertexArray _vertexArray;
     private SrgbTexture? _texture;
     private PixelImage? _image;
@@ -19,9 +18,8 @@ internal sealed class ImagePass : IDisposable
     {
         _resources = resources;
         _program = ShaderProgram.Load(resources, "image");
-        _opacityLocation = _program.UniformLocation("opacity");
         _program.Use();
-        GL.Uniform1(_program.UniformLocation("image"), 0);
+        _program.Set("image", 0);
         // The vertices have no attributes, but OpenGL requires an array.
         _vertexArray = new(resources, "image");
     }
@@ -40,23 +38,16 @@ internal sealed class ImagePass : IDisposable
         }
 
         _program.Use();
-        GL.Uniform1(_opacityLocation, (float)layer.Opacity);
+        _program.Set("opacity", layer.Opacity);
         _texture!.Bind(isClamped: true);
         _resources.State.Cull(CullFace.None);
         GL.Enable(EnableCap.FramebufferSrgb);
-        GL.Enable(EnableCap.Blend);
-        GL.BlendFuncSeparate(
-            BlendingFactorSrc.SrcAlpha, BlendingFactorDest.OneMinusSrcAlpha, BlendingFactorSrc.Zero, BlendingFactorDest.One);
+        GlState.BeginBlending(BlendingFactorSrc.SrcAlpha);
         _vertexArray.Bind();
         GL.DrawArrays(PrimitiveType.Triangles, 0, 3);
         GL.Disable(EnableCap.Blend);
     }
 
     /// <inheritdoc/>
-    public void Dispose()
-    {
-        _texture?.Dispose();
-        _vertexArray.Dispose();
-        _program.Dispose();
-    }
+    public void Dispose() => GlObject.DisposeAll(_texture, _vertexArray, _program);
 }

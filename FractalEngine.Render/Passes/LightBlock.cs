@@ -179,7 +179,8 @@ internal sealed class LightBlock : IDisposable
         _ => throw new ArgumentException($"a light of an unknown kind: {light}", nameof(light)),
     };
 
-    private static void WriteVector(Vector v, double w, Span<float> target) =>
+    /// <summary>Writes a vector and a fourth number into the data of a uniform block.</summary>
+    internal static void WriteVector(Vector v, double w, Span<float> target) =>
         (target[0], target[1], target[2], target[3]) = ((float)v.X, (float)v.Y, (float)v.Z, (float)w);
 
     private void WriteAmbient(SceneAmbient ambient)

@@ -18,7 +18,6 @@ internal sealed class LinesPass : IDisposable
     private readonly RedundancyFilter _uploadFilter;
     private readonly ShaderProgram _program;
     private readonly ViewUniforms _viewUniforms;
-    private readonly int _offsetLocation;
     private readonly GlBuffer _vertices;
     private readonly VertexArray _vertexArray;
     private readonly List<float> _data = [];
@@ -30,7 +29,6 @@ internal sealed class LinesPass : IDisposable
         _uploadFilter = context.Resources.UploadFilter;
         _program = ShaderProgram.Load(context.Resources, "lines");
         _viewUniforms = new(_program, context.Resources.State.Filter, context.HasReversedDepth);
-        _offsetLocation = _program.UniformLocation("offset");
         _vertices = new(context.Resources, "grid and axes", BufferTarget.ArrayBuffer);
         _vertexArray = new(context.Resources, "grid and axes");
         _vertexArray.Attribute(_vertices, 0, 3, FloatsPerVertex, 0);
@@ -101,21 +99,14 @@ internal sealed class LinesPass : IDisposable
     }
 
     /// <inheritdoc/>
-    public void Dispose()
-    {
-        _vertexArray.Dispose();
-        _vertices.Dispose();
-        _program.Dispose();
-    }
+    public void Dispose() => GlObject.DisposeAll(_vertexArray, _vertices, _program);
 
     private void DrawVertices(in FrameView frame, Vector offset)
     {
         _program.Use();
         _viewUniforms.Set(in frame);
-        GL.Uniform3(_offsetLocation, (float)offset.X, (float)offset.Y, (float)offset.Z);
-        GL.Enable(EnableCap.Blend);
-        GL.BlendFuncSeparate(
-            BlendingFactorSrc.SrcAlpha, BlendingFactorDest.OneMinusSrcAlpha, BlendingFactorSrc.Zero, BlendingFactorDest.One);
+        _program.Set("offset", offset);
+        GlState.BeginBlending(BlendingFactorSrc.SrcAlpha);
         GL.DepthMask(false);
         _vertexArray.Bind();
         GL.DrawArrays(PrimitiveType.Lines, 0, _data.Count / FloatsPerVertex);

@@ -15,7 +15,6 @@ internal sealed class MaterialUniforms(ShaderProgram program, RedundancyFilter f
     private const double MinSpecularExponent = 1;
     private const double MaxSpecularExponent = 10_000;
 
-    private readonly int _location = program.UniformLocation("material");
     private readonly float[] _data = new float[4 * VectorCount];
     private (Material? Material, Colour Tint)? _lastKey;
 
@@ -46,7 +45,7 @@ internal sealed class MaterialUniforms(ShaderProgram program, RedundancyFilter f
         }
 
         WriteVector(16, ClampNegative(material?.Emission ?? Colour.Black), 0);
-        GL.Uniform4(_location, VectorCount, _data);
+        GL.Uniform4(program.UniformLocation("material"), VectorCount, _data);
     }
 
     private static Colour ClampNegative(Colour colour) => new(Math.Max(colour.Red, 0), Math.Max(colour.Green, 0), Math.Max(colour.Blue, 0));

@@ -88,8 +88,7 @@ internal sealed class MeshPass(RenderContext context, ImmutableArray<Light> ligh
     /// <summary>Blends what follows with the frame, without writing depth. Colours must be multiplied by their opacity.</summary>
     public static void BeginTransparent()
     {
-        GL.Enable(EnableCap.Blend);
-        GL.BlendFuncSeparate(BlendingFactorSrc.One, BlendingFactorDest.OneMinusSrcAlpha, BlendingFactorSrc.Zero, BlendingFactorDest.One);
+        GlState.BeginBlending(BlendingFactorSrc.One);
         GL.DepthMask(false);
     }
 
@@ -109,13 +108,7 @@ internal sealed class MeshPass(RenderContext context, ImmutableArray<Light> ligh
     }
 
     /// <inheritdoc/>
-    public void Dispose()
-    {
-        foreach (var program in _programs)
-        {
-            program?.Dispose();
-        }
-    }
+    public void Dispose() => GlObject.DisposeAll(_programs);
 
     /// <summary>Programs know the kinds of shadows. These change when a view zooms away from a light, and hardly ever else.</summary>
     private void SetDistantLights(int distantLights)

@@ -1,3 +1,4 @@
+using System.Text.Json;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Render.Gl;
 using FractalEngine.Render.Preparation;
@@ -9,31 +10,10 @@ namespace FractalEngine.Render.Passes;
 /// <summary>The program for one combination of <see cref="MeshFeatures"/>, with its uniforms.</summary>
 internal sealed class MeshProgram : IDisposable
 {
-    // Each feature with the symbol that switches it on in mesh.vert and mesh.frag.
-    private static readonly (MeshFeatures Feature, string Symbol)[] Symbols =
-    [
-        (MeshFeatures.PerPixel, "PER_PIXEL"),
-        (MeshFeatures.Textured, "TEXTURED"),
-        (MeshFeatures.Glossy, "GLOSSY"),
-        (MeshFeatures.CameraRelative, "CAMERA_RELATIVE"),
-        (MeshFeatures.FrontFacesOnly, "FRONT_FACES_ONLY"),
-        (MeshFeatures.VertexColours, "VERTEX_COLOURS"),
-        (MeshFeatures.CutOut, "CUT_OUT"),
-        (MeshFeatures.Emissive, "EMISSIVE"),
-        (MeshFeatures.Atmosphere, "ATMOSPHERE"),
-        (MeshFeatures.Shadows, "SHADOWS"),
-        (MeshFeatures.PointShadows, "POINT_SHADOWS"),
-        (MeshFeatures.Section, "SECTION"),
-        (MeshFeatures.SkyParts, "SKY_PARTS"),
-        (MeshFeatures.ShadowSlices, "SHADOW_SLICES"),
-    ];
-
     private readonly RedundancyFilter _filter;
     private readonly ShaderProgram _program;
-    private readonly int _flatColourLocation;
     private readonly MaterialUniforms _materialUniforms;
     private readonly int _sectionLocation;
-    private readonly int _innerFaceLocation;
     private bool? _lastWireframe;
     private SectionPlane? _lastSection;
     private CullFace? _lastInnerFace;
@@ -46,8 +26,7 @@ internal sealed class MeshProgram : IDisposable
     public MeshProgram(RenderContext context, MeshFeatures features, IReadOnlyList<string> lightSymbols)
     {
         _filter = context.Resources.State.Filter;
-        string[] symbols = [.. Symbols.Where(entry => features.HasFlag(entry.Feature)).Select(entry => entry.Symbol), .. lightSymbols];
-        _program = ShaderProgram.Load(context.Resources, "mesh", symbols);
+        _program = ShaderProgram.Load(context.Resources, "mesh", [.. SymbolsOf(features), .. lightSymbols]);
         _program.BindBlock("ObjectBlock", GlState.ObjectBinding);
         _program.BindBlock("LightBlock", GlState.LightBinding);
         if (features.HasFlag(MeshFeatures.Shadows))
@@ -56,17 +35,20 @@ internal sealed class MeshProgram : IDisposable
         }
 
         View = new(_program, _filter, context.HasReversedDepth);
-        _flatColourLocation = _program.UniformLocation("flatColour");
         _sectionLocation = _program.UniformLocation("section");
-        _innerFaceLocation = _program.UniformLocation("innerFace");
         _program.Use();
-        GL.Uniform1(_program.UniformLocation("surfaceTexture"), 0);
-        GL.Uniform1(_program.UniformLocation("shadowMap"), GlState.ShadowTextureUnit);
+        _program.Set("surfaceTexture", 0);
+        _program.Set("shadowMap", GlState.ShadowTextureUnit);
         _materialUniforms = new(_program, _filter);
     }
 
     /// <summary>The camera uniforms of this program.</summary>
     public ViewUniforms View { get; }
+
+    /// <summary>Returns the symbols that switch features on in mesh.vert and mesh.frag: their names, as in <c>PER_PIXEL</c>.</summary>
+    public static IEnumerable<string> SymbolsOf(MeshFeatures features) => Enum.GetValues<MeshFeatures>()
+        .Where(feature => feature != MeshFeatures.None && features.HasFlag(feature))
+        .Select(static feature => JsonNamingPolicy.SnakeCaseUpper.ConvertName(feature.ToString()));
 
     /// <summary>Makes this the current program.</summary>
     public void Use() => _program.Use();
@@ -77,7 +59,7 @@ internal sealed class MeshProgram : IDisposable
         if (_filter.Update(ref _lastWireframe, wireframe))
         {
             var (red, green, blue) = colour.ToLinear();
-            GL.Uniform4(_flatColourLocation, (float)red, (float)green, (float)blue, wireframe ? 1 : 0);
+            _program.Set("flatColour", red, green, blue, wireframe ? 1 : 0);
         }
     }
 
@@ -95,7 +77,7 @@ internal sealed class MeshProgram : IDisposable
     {
         if (_filter.Update(ref _lastInnerFace, face))
         {
-            GL.Uniform1(_innerFaceLocation, face == CullFace.None ? 0f : face == CullFace.Back ? -1f : 1f);
+            _program.Set("innerFace", face == CullFace.None ? 0.0 : face == CullFace.Back ? -1.0 : 1.0);
         }
     }
 

@@ -49,15 +49,7 @@ internal sealed class ModelBuffers : IDisposable
             _colours = new(resources, $"colours of {model.Name}", BufferTarget.ArrayBuffer);
         }
 
-        try
-        {
-            Upload(model);
-        }
-        catch
-        {
-            Dispose();
-            throw;
-        }
+        GlObject.DisposeOnFailure(this, () => Upload(model));
     }
 
     /// <summary>A batch of all triangles, without a material.</summary>
@@ -67,16 +59,7 @@ internal sealed class ModelBuffers : IDisposable
     public void Draw(DrawableBatch batch) => _vertexArray.DrawTriangles(batch.FirstIndex, batch.IndexCount, _instanceCount);
 
     /// <inheritdoc/>
-    public void Dispose()
-    {
-        _meshAlone?.Dispose();
-        _vertexArray.Dispose();
-        _vertices.Dispose();
-        _indices.Dispose();
-        _instances.Dispose();
-        _textureCoordinates?.Dispose();
-        _colours?.Dispose();
-    }
+    public void Dispose() => GlObject.DisposeAll(_meshAlone, _vertexArray, _vertices, _indices, _instances, _textureCoordinates, _colours);
 
     /// <summary>The mesh without instances: the map of one is set before each draw. Shared by all objects of the model.</summary>
     public VertexArray MeshAlone

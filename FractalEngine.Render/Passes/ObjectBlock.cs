@@ -27,9 +27,9 @@ internal sealed class ObjectBlock(GlResources resources, string name) : IDisposa
         {
             WriteMatrix(objectToWorld.Linear, 0);
             WriteMatrix(NormalisedCofactors(objectToWorld.Linear), 12);
-            WriteVector(objectToWorld.Translation - cameraPosition, 24);
-            WriteColour(colour, 28);
-            WriteColour(gradientEnd, 32);
+            LightBlock.WriteVector(objectToWorld.Translation - cameraPosition, 0, _data.AsSpan(24));
+            LightBlock.WriteVector(colour.ToLinearVector(), 0, _data.AsSpan(28));
+            LightBlock.WriteVector(gradientEnd.ToLinearVector(), 0, _data.AsSpan(32));
             _buffer.Upload<float>(_data, BufferUsageHint.DynamicDraw);
         }
 
@@ -52,17 +52,8 @@ internal sealed class ObjectBlock(GlResources resources, string name) : IDisposa
 
     private void WriteMatrix(Matrix matrix, int start)
     {
-        WriteVector(matrix.V1, start);
-        WriteVector(matrix.V2, start + 4);
-        WriteVector(matrix.V3, start + 8);
+        LightBlock.WriteVector(matrix.V1, 0, _data.AsSpan(start));
+        LightBlock.WriteVector(matrix.V2, 0, _data.AsSpan(start + 4));
+        LightBlock.WriteVector(matrix.V3, 0, _data.AsSpan(start + 8));
     }
-
-    private void WriteColour(Colour colour, int start)
-    {
-        var (red, green, blue) = colour.ToLinear();
-        WriteVector(new(red, green, blue), start);
-    }
-
-    private void WriteVector(Vector v, int start) =>
-        (_data[start], _data[start + 1], _data[start + 2]) = ((float)v.X, (float)v.Y, (float)v.Z);
 }

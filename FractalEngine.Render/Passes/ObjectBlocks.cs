@@ -42,11 +42,7 @@ internal sealed class ObjectBlocks(GlResources resources, int objectCount) : IDi
     /// <summary>Forgets the colours of a scene that is no longer drawn.</summary>
     public void ForgetColours()
     {
-        foreach (var block in _sharedBlocks.Values)
-        {
-            block.Dispose();
-        }
-
+        GlObject.DisposeAll([.. _sharedBlocks.Values]);
         _sharedBlocks.Clear();
     }
 
@@ -54,10 +50,7 @@ internal sealed class ObjectBlocks(GlResources resources, int objectCount) : IDi
     public void Dispose()
     {
         ForgetColours();
-        foreach (var block in _ownBlocks)
-        {
-            block?.Dispose();
-        }
+        GlObject.DisposeAll(_ownBlocks);
     }
 
     private static Colour GradientEndOf(DrawableObject item) => item.Gradient?.EndColour ?? item.Colour;

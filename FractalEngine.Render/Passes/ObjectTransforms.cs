@@ -5,17 +5,11 @@ using FractalEngine.Render.Preparation;
 namespace FractalEngine.Render.Passes;
 
 /// <summary>The current transforms and bounds of a scene's objects, in the order of the scene.</summary>
-internal sealed class ObjectTransforms
+/// <param name="scene">Declares the transforms at first.</param>
+internal sealed class ObjectTransforms(DrawableScene scene)
 {
-    private readonly AffineMap[] _objectToWorld;
-    private readonly BoundingBox[] _bounds;
-
-    /// <summary>Takes the transforms that a scene declares.</summary>
-    public ObjectTransforms(DrawableScene scene)
-    {
-        _objectToWorld = [.. scene.Objects.Select(item => item.Map)];
-        _bounds = [.. scene.Source.Objects.Select(placed => placed.Bounds)];
-    }
+    private readonly AffineMap[] _objectToWorld = [.. scene.Objects.Select(item => item.Map)];
+    private readonly BoundingBox[] _bounds = [.. scene.Source.Objects.Select(placed => placed.Bounds)];
 
     /// <summary>Maps from each object's model frame to world space.</summary>
     public ReadOnlySpan<AffineMap> ObjectToWorld => _objectToWorld;

@@ -15,43 +15,28 @@ namespace FractalEngine.Render.Passes;
 /// Frustum culling happens in two places. Fractals and static meshes come here as the instances that <see cref="SceneCuller"/> kept.
 /// Meshes that physics moves are tested here, each box by <see cref="View.MayIntersectFrustum"/>.
 /// </remarks>
-internal sealed class ObjectsPass : IDisposable
+/// <param name="context">Current context.</param>
+/// <param name="scene">Scene to draw.</param>
+/// <param name="buffers">Buffers of the same scene, filled before the first frame.</param>
+/// <param name="transforms">Current transforms of its objects; read for each frame.</param>
+internal sealed class ObjectsPass(
+    RenderContext context, DrawableScene scene, SceneBuffers buffers, ObjectTransforms transforms) : IDisposable
 {
     // Natural logarithm. In smaller units than this, point lights look the same.
     private const double MaxLogLightScale = 14;
 
-    private readonly GlResources _resources;
-    private readonly SceneBuffers _buffers;
-    private readonly ObjectTransforms _transforms;
-    private readonly MeshPass _meshPass;
-    private readonly LightBlock _lightBlock;
-    private readonly ObjectBlocks _objectBlocks;
-    private readonly SkyPass? _skyPass;
-    private DrawableScene _scene;
-    private TransparentOrder _transparentOrder;
-    private readonly OpaqueOrder _opaqueOrder = new();
-    private readonly ShadowPass _shadowPass;
+    private readonly MeshPass _meshPass = new(context, LightBlock.LightsOf(scene.Source));
+    private readonly LightBlock _lightBlock = new(context.Resources, scene.Source);
+    private readonly ObjectBlocks _objectBlocks = new(context.Resources, scene.Objects.Length);
+    private readonly DepthOrder _opaqueOrder = DepthOrder.Of(scene, static _ => true);
+    private readonly ShadowPass _shadowPass = new(context, scene, buffers, transforms);
+    private readonly SkyPass? _skyPass =
+        scene.Source.Scene is { Sky: { } sky, Background: null } ? new(context.Resources, sky) : null;
+
+    private DrawableScene _scene = scene;
+    private DepthOrder _transparentOrder = DepthOrder.Of(scene, static model => model.HasTransparentBatches);
     private SphereBatch? _sphereBatch;
     private bool _hasSkyParts;
-
-    /// <summary>Creates the uniform buffers of a scene's lights and objects.</summary>
-    /// <param name="context">Current context.</param>
-    /// <param name="scene">Scene to draw.</param>
-    /// <param name="buffers">Buffers of the same scene, filled before the first frame.</param>
-    /// <param name="transforms">Current transforms of its objects; read for each frame.</param>
-    public ObjectsPass(RenderContext context, DrawableScene scene, SceneBuffers buffers, ObjectTransforms transforms)
-    {
-        _resources = context.Resources;
-        _scene = scene;
-        _buffers = buffers;
-        _transforms = transforms;
-        _meshPass = new(context, LightBlock.LightsOf(scene.Source));
-        _lightBlock = new(_resources, scene.Source);
-        _objectBlocks = new(_resources, scene.Objects.Length);
-        _transparentOrder = TransparentOrder.Create(scene);
-        _shadowPass = new(context, scene, buffers, transforms);
-        _skyPass = scene.Source.Scene is { Sky: { } sky, Background: null } ? new(_resources, sky) : null;
-    }
 
     /// <summary>Number of objects that the last frame drew with one face of their triangles culled.</summary>
     public int BackFaceCulledCount { get; private set; }
@@ -63,12 +48,12 @@ internal sealed class ObjectsPass : IDisposable
     public (int Maps, int Casters) SkippedShadows => (_shadowPass.SkippedMapCount, _shadowPass.SkippedCasterCount);
 
     /// <summary>Draws another preparation of the same scene from now on.</summary>
-    public void SetScene(DrawableScene scene)
+    public void SetScene(DrawableScene prepared)
     {
-        _scene = scene;
+        _scene = prepared;
         _objectBlocks.ForgetColours();
-        _transparentOrder = TransparentOrder.Create(scene);
-        _shadowPass.SetScene(scene);
+        _transparentOrder = DepthOrder.Of(prepared, static model => model.HasTransparentBatches);
+        _shadowPass.SetScene(prepared);
     }
 
     /// <summary>Notes that an object stands elsewhere now.</summary>
@@ -101,7 +86,7 @@ internal sealed class ObjectsPass : IDisposable
             _meshPass.Cull(CullFace.None);
             _meshPass.InnerFace = frame.Section is { HasCap: true } ? CullFace.Back : CullFace.None;
             _meshPass.UseMaterial(null, Colour.White, MeshFeatures.CameraRelative);
-            _sphereBatch ??= new(_resources);
+            _sphereBatch ??= new(context.Resources);
             _sphereBatch.Draw(spheres, view.Camera.Position, SphereInstance.Colour);
         }
 
@@ -114,15 +99,7 @@ internal sealed class ObjectsPass : IDisposable
     }
 
     /// <inheritdoc/>
-    public void Dispose()
-    {
-        _objectBlocks.Dispose();
-        _skyPass?.Dispose();
-        _shadowPass.Dispose();
-        _sphereBatch?.Dispose();
-        _lightBlock.Dispose();
-        _meshPass.Dispose();
-    }
+    public void Dispose() => GlObject.DisposeAll(_objectBlocks, _skyPass, _shadowPass, _sphereBatch, _lightBlock, _meshPass);
 
     private MeshFeatures FrameFeatures(RenderSettings settings) =>
         (settings.Shading == Shading.PerPixel ? MeshFeatures.PerPixel : 0) | (_lightBlock.HasAtmosphere ? MeshFeatures.Atmosphere : 0)
@@ -136,11 +113,11 @@ internal sealed class ObjectsPass : IDisposable
     private void DrawOpaque(in FrameView frame, RenderSettings settings)
     {
         BackFaceCulledCount = 0;
-        foreach (var i in _opaqueOrder.SortFrontToBack(frame.View.Camera, _transforms.Bounds))
+        foreach (var i in _opaqueOrder.SortFrontToBack(frame.View.Camera, transforms.Bounds))
         {
             var item = _scene.Objects[i];
             if (item.IsDynamic && settings.Culling is { FrustumCulling: true }
-                && !frame.View.MayIntersectFrustum(_transforms.Bounds[i], frame.Aspect))
+                && !frame.View.MayIntersectFrustum(transforms.Bounds[i], frame.Aspect))
             {
                 continue;
             }
@@ -153,7 +130,7 @@ internal sealed class ObjectsPass : IDisposable
             if (settings.Wireframe)
             {
                 _meshPass.UseMaterial(null, Colour.White, FeaturesOf(i, CullFace.None));
-                DrawInstances(i, _buffers.BuffersOf(item.Model).WholeMesh);
+                DrawInstances(i, buffers.BuffersOf(item.Model).WholeMesh);
             }
             else
             {
@@ -170,10 +147,10 @@ internal sealed class ObjectsPass : IDisposable
     {
         MeshPass.BeginTransparent();
         _meshPass.InnerFace = CullFace.None;
-        foreach (var index in _transparentOrder.SortBackToFront(view.Camera, _transforms.Bounds))
+        foreach (var index in _transparentOrder.SortBackToFront(view.Camera, transforms.Bounds))
         {
             BindObjectBlock(index, view);
-            var isMirrored = _transforms.ObjectToWorld[index].Linear.Determinant() < 0;
+            var isMirrored = transforms.ObjectToWorld[index].Linear.Determinant() < 0;
             _meshPass.Cull(isMirrored ? CullFace.Back : CullFace.Front);
             DrawBatches(index, drawsTransparent: true, FeaturesOf(index, CullFace.None));
             _meshPass.Cull(isMirrored ? CullFace.Front : CullFace.Back);
@@ -191,7 +168,7 @@ internal sealed class ObjectsPass : IDisposable
         {
             if (batch.IsTransparent == drawsTransparent)
             {
-                _buffers.BindTexture(batch.Material);
+                buffers.BindTexture(batch.Material);
                 _meshPass.UseMaterial(batch.Material, item.Tint, instanceFeatures);
                 DrawInstances(index, batch);
             }
@@ -200,51 +177,52 @@ internal sealed class ObjectsPass : IDisposable
 
     private void DrawInstances(int index, DrawableBatch batch)
     {
-        if (_buffers.Culler.SelectsInstances(index))
+        if (buffers.Culler.SelectsInstances(index))
         {
-            _buffers.Culler.Draw(index, batch);
+            buffers.Culler.Draw(index, batch);
         }
         else
         {
-            _buffers.BuffersOf(_scene.Objects[index].Model).Draw(batch);
+            buffers.BuffersOf(_scene.Objects[index].Model).Draw(batch);
         }
     }
 
     private void BindObjectBlock(int index, View view)
     {
-        if (_buffers.Culler.SelectsInstances(index))
+        if (buffers.Culler.SelectsInstances(index))
         {
             _objectBlocks.BindRelative(_scene.Objects[index]);
         }
         else
         {
-            _objectBlocks.Bind(index, _scene.Objects[index], _transforms.ObjectToWorld[index], view.Camera.Position);
+            _objectBlocks.Bind(index, _scene.Objects[index], transforms.ObjectToWorld[index], view.Camera.Position);
         }
     }
 
     private MeshFeatures FeaturesOf(int index, CullFace culledFace) =>
-        (_buffers.Culler.SelectsInstances(index) ? MeshFeatures.CameraRelative : MeshFeatures.None)
-        | (_hasSkyParts && _buffers.Culler.HasSkyParts(index) ? MeshFeatures.SkyParts : MeshFeatures.None)
+        (buffers.Culler.SelectsInstances(index) ? MeshFeatures.CameraRelative : MeshFeatures.None)
+        | (_hasSkyParts && buffers.Culler.HasSkyParts(index) ? MeshFeatures.SkyParts : MeshFeatures.None)
         | (culledFace == CullFace.Back ? MeshFeatures.FrontFacesOnly : MeshFeatures.None)
         | (_scene.Objects[index].Model.Colours.IsEmpty ? MeshFeatures.None : MeshFeatures.VertexColours);
 
     /// <summary>Returns the face of an object's triangles that is certainly invisible; none where both may be seen.</summary>
     private CullFace FaceToCull(int index, in FrameView frame)
     {
-        var orientation = Math.Sign(_transforms.ObjectToWorld[index].Linear.Determinant());
-        var isCulled = _buffers.Culler.SelectsInstances(index);
+        var orientation = Math.Sign(transforms.ObjectToWorld[index].Linear.Determinant());
+        var isCulled = buffers.Culler.SelectsInstances(index);
         var windingSign = orientation
-            * (isCulled ? _buffers.Culler.WindingSign(index) : _scene.Objects[index].Model.WindingSign);
+            * (isCulled ? buffers.Culler.WindingSign(index) : _scene.Objects[index].Model.WindingSign);
         // A solid that the near plane or a section cuts shows its inner side. Culling has tested its instances one by one.
-        return isCulled || (frame.Section is null && frame.View.IsBeyondDepth(_transforms.Bounds[index], frame.Near))
+        return isCulled || (frame.Section is null && frame.View.IsBeyondDepth(transforms.Bounds[index], frame.Near))
             ? FaceOf(windingSign)
             : CullFace.None;
     }
 
     /// <summary>Returns the face of an object's triangles that lies inside; none for open surfaces.</summary>
     private CullFace InnerFaceOf(int index) =>
-        FaceOf(Math.Sign(_transforms.ObjectToWorld[index].Linear.Determinant()) * _scene.Objects[index].Model.SolidSign.Value);
+        FaceOf(Math.Sign(transforms.ObjectToWorld[index].Linear.Determinant()) * _scene.Objects[index].Model.SolidSign.Value);
 
-    private static CullFace FaceOf(int windingSign) =>
+    /// <summary>Returns the back faces of a solid, by the sign of its triangles' winding; none for 0.</summary>
+    internal static CullFace FaceOf(int windingSign) =>
         windingSign == 0 ? CullFace.None : windingSign < 0 ? CullFace.Front : CullFace.Back;
 }

@@ -41,10 +41,5 @@ internal sealed class OverlayPass(GlResources resources) : IDisposable
     }
 
     /// <inheritdoc/>
-    public void Dispose()
-    {
-        _texts.Dispose();
-        _questions.Dispose();
-        _interfaceBatch?.Dispose();
-    }
+    public void Dispose() => GlObject.DisposeAll(_texts, _questions, _interfaceBatch);
 }

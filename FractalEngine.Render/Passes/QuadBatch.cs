@@ -10,8 +10,6 @@ internal sealed class QuadBatch : IDisposable
 {
     private readonly GlResources _resources;
     private readonly ShaderProgram _program;
-    private readonly int _frameSizeLocation;
-    private readonly int _cellSizeLocation;
     private readonly GlBuffer _quadBuffer;
     private readonly VertexArray _vertexArray;
     private AlphaTexture? _glyphTexture;
@@ -23,11 +21,9 @@ internal sealed class QuadBatch : IDisposable
     {
         _resources = resources;
         _program = ShaderProgram.Load(resources, "overlay");
-        _frameSizeLocation = _program.UniformLocation("frameSize");
-        _cellSizeLocation = _program.UniformLocation("cellSize");
         _program.Use();
-        GL.Uniform1(_program.UniformLocation("glyphs"), 0);
-        GL.Uniform1(_program.UniformLocation("columns"), GlyphSheet.Columns);
+        _program.Set("glyphs", 0);
+        _program.Set("columns", GlyphSheet.Columns);
         _quadBuffer = new(resources, "overlay", BufferTarget.ArrayBuffer);
         _vertexArray = new(resources, "overlay");
         _vertexArray.Attribute(_quadBuffer, 0, 4, OverlayQuad.FloatsPerQuad, 0, divisor: 1);
@@ -44,7 +40,7 @@ internal sealed class QuadBatch : IDisposable
     public void Upload(List<OverlayQuad> quads, GlyphSheet sheet, int width, int height)
     {
         _program.Use();
-        GL.Uniform2(_frameSizeLocation, (float)width, height);
+        _program.Set("frameSize", width, height);
         if (_sheet != sheet)
         {
             UseSheet(sheet);
@@ -66,22 +62,14 @@ internal sealed class QuadBatch : IDisposable
         _glyphTexture!.Bind();
         // Blended in sRGB as the eye compares: text that is blended in linear light looks too thin on a dark ground.
         GL.Disable(EnableCap.FramebufferSrgb);
-        GL.Enable(EnableCap.Blend);
-        GL.BlendFuncSeparate(
-            BlendingFactorSrc.SrcAlpha, BlendingFactorDest.OneMinusSrcAlpha, BlendingFactorSrc.Zero, BlendingFactorDest.One);
+        GlState.BeginBlending(BlendingFactorSrc.SrcAlpha);
         _vertexArray.Bind();
         GL.DrawArraysInstanced(PrimitiveType.TriangleStrip, 0, 4, _quadCount);
         GL.Disable(EnableCap.Blend);
     }
 
     /// <inheritdoc/>
-    public void Dispose()
-    {
-        _glyphTexture?.Dispose();
-        _vertexArray.Dispose();
-        _quadBuffer.Dispose();
-        _program.Dispose();
-    }
+    public void Dispose() => GlObject.DisposeAll(_glyphTexture, _vertexArray, _quadBuffer, _program);
 
     private void UseSheet(GlyphSheet sheet)
     {
@@ -89,6 +77,6 @@ internal sealed class QuadBatch : IDisposable
         _glyphTexture = new(
             _resources, "glyphs", GlyphSheet.Columns * sheet.CellWidth, sheet.Rows * sheet.CellHeight, sheet.ToTexels());
         _sheet = sheet;
-        GL.Uniform2(_cellSizeLocation, sheet.CellWidth, sheet.CellHeight);
+        GL.Uniform2(_program.UniformLocation("cellSize"), sheet.CellWidth, sheet.CellHeight);
     }
 }

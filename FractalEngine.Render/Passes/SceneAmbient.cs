@@ -37,8 +37,7 @@ internal readonly record struct SceneAmbient(Vector Above, Vector Below, Vector 
         var sum = Vector.Zero;
         foreach (var light in scene.Lights.OfType<AmbientLight>())
         {
-            var (red, green, blue) = light.Colour.ToLinear();
-            sum += light.Intensity * new Vector(red, green, blue);
+            sum += light.Intensity * light.Colour.ToLinearVector();
         }
 
         return new(sum, sum, Vector.Zero);

@@ -67,15 +67,5 @@ internal sealed class SceneBuffers(GlResources resources) : IDisposable
     }
 
     /// <inheritdoc/>
-    public void Dispose()
-    {
-        _culler?.Dispose();
-        _shadowCuller?.Dispose();
-        foreach (var buffers in _models.Values)
-        {
-            buffers.Dispose();
-        }
-
-        _textures.Dispose();
-    }
+    public void Dispose() => GlObject.DisposeAll([_culler, _shadowCuller, .. _models.Values, _textures]);
 }

@@ -197,10 +197,7 @@ internal sealed class SceneCuller : IDisposable
     public void Dispose()
     {
         DiscardSpeculativeCull();
-        foreach (var instances in _visibleInstances)
-        {
-            instances?.Dispose();
-        }
+        GlObject.DisposeAll(_visibleInstances);
     }
 
     /// <summary>Returns the objects to cull. In a deep zoom, only the object that the camera is inside has anything to draw.</summary>

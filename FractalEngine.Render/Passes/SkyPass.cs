@@ -1,4 +1,3 @@
-using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Render.Gl;
 using OpenTK.Graphics.OpenGL4;
@@ -10,8 +9,6 @@ internal sealed class SkyPass : IDisposable
 {
     private readonly GlResources _resources;
     private readonly ShaderProgram _program;
-    private readonly int _axesLocation;
-    private readonly int _halfSizeLocation;
     private readonly VertexArray _vertexArray;
     private readonly float[] _axes = new float[9];
 
@@ -22,12 +19,10 @@ internal sealed class SkyPass : IDisposable
         _resources = resources;
         _program = ShaderProgram.Load(resources, "sky");
         _program.BindBlock("LightBlock", GlState.LightBinding);
-        _axesLocation = _program.UniformLocation("cameraAxes");
-        _halfSizeLocation = _program.UniformLocation("halfSize");
         _program.Use();
-        SetColour("zenith", sky.ZenithRadiance);
-        SetColour("horizon", sky.HorizonRadiance);
-        SetColour("ground", sky.GroundRadiance);
+        _program.Set("zenith", sky.ZenithRadiance);
+        _program.Set("horizon", sky.HorizonRadiance);
+        _program.Set("ground", sky.GroundRadiance);
         // The vertices have no attributes, but OpenGL requires an array.
         _vertexArray = new(resources, "sky");
     }
@@ -37,9 +32,9 @@ internal sealed class SkyPass : IDisposable
     {
         _program.Use();
         ViewUniforms.WriteRows(frame.View.Camera.LocalAxesInverse, _axes);
-        GL.Uniform3(_axesLocation, 3, _axes);
+        GL.Uniform3(_program.UniformLocation("cameraAxes"), 3, _axes);
         var halfHeight = frame.View.Projection == Projection.Perspective ? frame.View.HalfHeight : 0;
-        GL.Uniform2(_halfSizeLocation, (float)(halfHeight * frame.Aspect), (float)halfHeight);
+        _program.Set("halfSize", halfHeight * frame.Aspect, halfHeight);
         _resources.State.Cull(CullFace.None);
         GL.Disable(EnableCap.DepthTest);
         _vertexArray.Bind();
@@ -48,12 +43,5 @@ internal sealed class SkyPass : IDisposable
     }
 
     /// <inheritdoc/>
-    public void Dispose()
-    {
-        _vertexArray.Dispose();
-        _program.Dispose();
-    }
-
-    private void SetColour(string name, Vector colour) =>
-        GL.Uniform3(_program.UniformLocation(name), (float)colour.X, (float)colour.Y, (float)colour.Z);
+    public void Dispose() => GlObject.DisposeAll(_vertexArray, _program);
 }

@@ -55,11 +55,5 @@ internal sealed class SphereBatch : IDisposable
     }
 
     /// <inheritdoc/>
-    public void Dispose()
-    {
-        _vertexArray.Dispose();
-        _instances.Dispose();
-        _objectBlock.Dispose();
-        _modelBuffers.Dispose();
-    }
+    public void Dispose() => GlObject.DisposeAll(_vertexArray, _instances, _objectBlock, _modelBuffers);
 }

@@ -40,11 +40,5 @@ internal sealed class TextureSet : IDisposable
     }
 
     /// <inheritdoc/>
-    public void Dispose()
-    {
-        foreach (var texture in _textures.Values)
-        {
-            texture.Dispose();
-        }
-    }
+    public void Dispose() => GlObject.DisposeAll([.. _textures.Values]);
 }

@@ -9,9 +9,6 @@ namespace FractalEngine.Render.Passes;
 /// <summary>Sets the camera uniforms of a program, each only when it has changed.</summary>
 internal sealed class ViewUniforms(ShaderProgram program, RedundancyFilter filter, bool hasReversedDepth)
 {
-    private readonly int _cameraAxesLocation = program.UniformLocation("cameraAxes");
-    private readonly int _viewScaleLocation = program.UniformLocation("viewScale");
-    private readonly int _depthScaleLocation = program.UniformLocation("depthScale");
     private readonly float[] _rows = new float[9];
     private Matrix? _lastAxes;
     private (double X, double Y) _lastScale;
@@ -23,19 +20,19 @@ internal sealed class ViewUniforms(ShaderProgram program, RedundancyFilter filte
         var view = frame.View;
         if (filter.Update(ref _lastAxes, view.Camera.LocalAxesInverse))
         {
-            SetAxes(view.Camera.LocalAxesInverse);
+            WriteRows(view.Camera.LocalAxesInverse, _rows);
+            GL.Uniform3(program.UniformLocation("cameraAxes"), 3, _rows);
         }
 
         var halfHeight = view.HalfHeight;
         if (filter.Update(ref _lastScale, (1 / (halfHeight * frame.Aspect), 1 / halfHeight)))
         {
-            GL.Uniform2(_viewScaleLocation, (float)_lastScale.X, (float)_lastScale.Y);
+            program.Set("viewScale", _lastScale.X, _lastScale.Y);
         }
 
         if (filter.Update(ref _lastDepth, DepthScale(frame.Near, frame.Far, view.Projection == Projection.Perspective)))
         {
-            GL.Uniform4(
-                _depthScaleLocation, (float)_lastDepth.ZByDepth, (float)_lastDepth.Z, (float)_lastDepth.WByDepth, (float)_lastDepth.W);
+            program.Set("depthScale", _lastDepth.ZByDepth, _lastDepth.Z, _lastDepth.WByDepth, _lastDepth.W);
         }
     }
 
@@ -55,12 +52,6 @@ internal sealed class ViewUniforms(ShaderProgram program, RedundancyFilter filte
         return hasReversedDepth
             ? (-1 / (far - near), far / (far - near), 0, 1)
             : (2 / (far - near), -(far + near) / (far - near), 0, 1);
-    }
-
-    private void SetAxes(Matrix axes)
-    {
-        WriteRows(axes, _rows);
-        GL.Uniform3(_cameraAxesLocation, 3, _rows);
     }
 
     /// <summary>Sets a uniform to a plane, so that the shader's distances are positive on the side that is kept.</summary>

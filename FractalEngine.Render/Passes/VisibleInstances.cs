@@ -73,33 +73,24 @@ internal sealed class VisibleInstances : IDisposable
             return;
         }
 
-        _instances.Discard((long)_instanceCount * VisibleSet.FloatsPerInstance * sizeof(float));
-        var offset = 0L;
-        for (var chunk = 0; chunk < VisibleSet.ChunkCount; chunk++)
-        {
-            offset += _instances.Write(visible.Instances(objectIndex, chunk), offset);
-        }
-
-        UploadedBytes += offset;
+        Upload(_instances, VisibleSet.FloatsPerInstance, static (set, index, chunk) => set.Instances(index, chunk));
         if (_tints is not null)
         {
-            _tints.Discard((long)_instanceCount * sizeof(float));
-            offset = 0;
-            for (var chunk = 0; chunk < VisibleSet.ChunkCount; chunk++)
-            {
-                offset += _tints.Write(visible.GradientFactors(objectIndex, chunk), offset);
-            }
-
-            UploadedBytes += offset;
+            Upload(_tints, 1, static (set, index, chunk) => set.GradientFactors(index, chunk));
         }
 
         if (_skyParts is not null && hasSkyParts)
         {
-            _skyParts.Discard((long)_instanceCount * 6 * sizeof(float));
-            offset = 0;
+            Upload(_skyParts, 6, static (set, index, chunk) => set.SkyParts(index, chunk));
+        }
+
+        void Upload(GlBuffer buffer, int floatsPerInstance, Func<VisibleSet, int, int, ReadOnlySpan<float>> chunkOf)
+        {
+            buffer.Discard((long)_instanceCount * floatsPerInstance * sizeof(float));
+            var offset = 0L;
             for (var chunk = 0; chunk < VisibleSet.ChunkCount; chunk++)
             {
-                offset += _skyParts.Write(visible.SkyParts(objectIndex, chunk), offset);
+                offset += buffer.Write(chunkOf(visible, objectIndex, chunk), offset);
             }
 
             UploadedBytes += offset;
@@ -118,16 +109,7 @@ internal sealed class VisibleInstances : IDisposable
     }
 
     /// <inheritdoc/>
-    public void Dispose()
-    {
-        if (_instances is not null)
-        {
-            _vertexArray.Dispose();
-            _tints?.Dispose();
-            _skyParts?.Dispose();
-            _instances.Dispose();
-        }
-    }
+    public void Dispose() => GlObject.DisposeAll(_instances is null ? null : _vertexArray, _tints, _skyParts, _instances);
 
     private void CopyMap(VisibleSet visible, int objectIndex)
     {

@@ -59,6 +59,13 @@ internal sealed class DrawableMeshBuilder
         return ([.. builder._vertices], [.. builder._textureCoordinates], [.. builder._colours], indices);
     }
 
+    /// <summary>Returns the colour of a position of a mesh that has colours, in linear light.</summary>
+    public static Vector LinearColour(Mesh mesh, int position)
+    {
+        var colours = mesh.Colours.AsSpan(3 * position, 3);
+        return new Colour(Math.Clamp(colours[0], 0, 1), Math.Clamp(colours[1], 0, 1), Math.Clamp(colours[2], 0, 1)).ToLinearVector();
+    }
+
     private void AddFace(int face, Span<uint> indices)
     {
         var (a, b, c) = _mesh.Face(face);
@@ -84,8 +91,8 @@ internal sealed class DrawableMeshBuilder
 
         _builtVertices.Add((key, first));
         first = _builtVertices.Count - 1;
-        Write(_mesh.Vertex(position) - _origin);
-        Write(key.Normal);
+        Write(_mesh.Vertex(position) - _origin, _vertices);
+        Write(key.Normal, _vertices);
         if (_hasTextures)
         {
             _textureCoordinates.Add((float)key.TextureCoordinates.U);
@@ -94,7 +101,7 @@ internal sealed class DrawableMeshBuilder
 
         if (!_mesh.Colours.IsEmpty)
         {
-            WriteColour(position);
+            Write(LinearColour(_mesh, position), _colours);
         }
 
         return first;
@@ -131,22 +138,11 @@ internal sealed class DrawableMeshBuilder
         return normal.IsFinite() && normal != Vector.Zero ? normal.UnitVector() : Vector.Zero;
     }
 
-    private void WriteColour(int position)
+    private static void Write(Vector v, List<float> target)
     {
-        var colours = _mesh.Colours.AsSpan(3 * position, 3);
-        var (red, green, blue) = new Colour(Limit(colours[0]), Limit(colours[1]), Limit(colours[2])).ToLinear();
-        _colours.Add((float)red);
-        _colours.Add((float)green);
-        _colours.Add((float)blue);
-    }
-
-    private static double Limit(double component) => Math.Clamp(component, 0, 1);
-
-    private void Write(Vector v)
-    {
-        _vertices.Add((float)v.X);
-        _vertices.Add((float)v.Y);
-        _vertices.Add((float)v.Z);
+        target.Add((float)v.X);
+        target.Add((float)v.Y);
+        target.Add((float)v.Z);
     }
 
     /// <summary>Attributes by which vertices of one position differ.</summary>

@@ -5,33 +5,26 @@ using FractalEngine.Core.Scenes;
 namespace FractalEngine.Render.Preparation;
 
 /// <summary>The faces of a model sorted into one batch for each material, in the order in which the materials first occur.</summary>
-internal sealed class FaceBatches
+/// <param name="batches">One batch for each material that occurs; none is empty.</param>
+/// <param name="faceOrder">Indices in the mesh by positions in drawing order; null where the order is that of the mesh.</param>
+/// <param name="degenerateTriangleCount">Number of faces that are not drawn since they have no area.</param>
+internal sealed class FaceBatches(ImmutableArray<DrawableBatch> batches, int[]? faceOrder, int degenerateTriangleCount)
 {
-    // Null where the order is that of the mesh.
-    private readonly int[]? _faceOrder;
-
-    private FaceBatches(ImmutableArray<DrawableBatch> batches, int[]? faceOrder, int degenerateTriangleCount)
-    {
-        Batches = batches;
-        _faceOrder = faceOrder;
-        DegenerateTriangleCount = degenerateTriangleCount;
-    }
-
     /// <summary>Number of faces that are drawn.</summary>
     public int FaceCount => Batches.Sum(static batch => batch.IndexCount) / 3;
 
     /// <summary>Number of faces that are not drawn since they have no area.</summary>
-    public int DegenerateTriangleCount { get; }
+    public int DegenerateTriangleCount { get; } = degenerateTriangleCount;
 
     /// <summary>One batch for each material that occurs; none is empty.</summary>
-    public ImmutableArray<DrawableBatch> Batches { get; }
+    public ImmutableArray<DrawableBatch> Batches { get; } = batches;
 
     /// <summary>True where any face has a texture.</summary>
     public bool HasTextures => Batches.Any(static batch => batch.Material is { Texture: not null });
 
     /// <summary>Returns the index in the mesh of the face at a position in drawing order.</summary>
     /// <param name="drawIndex">Position in drawing order, from 0.</param>
-    public int FaceAt(int drawIndex) => _faceOrder is null ? drawIndex : _faceOrder[drawIndex];
+    public int FaceAt(int drawIndex) => faceOrder is null ? drawIndex : faceOrder[drawIndex];
 
     /// <summary>Creates one batch of all faces, without a material.</summary>
     public static FaceBatches SingleBatch(Mesh mesh) => new([new(0, mesh.VertexIndices.Length, null)], null, 0);

@@ -9,10 +9,6 @@ namespace FractalEngine.Render.Shadows;
 internal sealed class CasterProgram : IDisposable
 {
     private readonly ShaderProgram _program;
-    private readonly int _axesLocation;
-    private readonly int _viewScaleLocation;
-    private readonly int _depthScaleLocation;
-    private readonly int _textureTransformLocation;
     private readonly int _sectionLocation;
     private readonly float[] _rows = new float[9];
 
@@ -30,13 +26,9 @@ internal sealed class CasterProgram : IDisposable
             _program.BindBlock("ObjectBlock", GlState.ObjectBinding);
         }
 
-        _axesLocation = _program.UniformLocation("lightAxes");
-        _viewScaleLocation = _program.UniformLocation("viewScale");
-        _depthScaleLocation = _program.UniformLocation("depthScale");
-        _textureTransformLocation = _program.UniformLocation("textureTransform");
         _sectionLocation = _program.UniformLocation("section");
         _program.Use();
-        GL.Uniform1(_program.UniformLocation("surfaceTexture"), 0);
+        _program.Set("surfaceTexture", 0);
     }
 
     /// <summary>Makes the program current.</summary>
@@ -47,10 +39,10 @@ internal sealed class CasterProgram : IDisposable
     {
         _program.Use();
         ViewUniforms.WriteRows(view.Axes.Transpose(), _rows);
-        GL.Uniform3(_axesLocation, 3, _rows);
-        GL.Uniform2(_viewScaleLocation, (float)(1 / view.HalfWidth), (float)(1 / view.HalfHeight));
+        GL.Uniform3(_program.UniformLocation("lightAxes"), 3, _rows);
+        _program.Set("viewScale", 1 / view.HalfWidth, 1 / view.HalfHeight);
         var (zByDepth, z, wByDepth, w) = view.DepthScale;
-        GL.Uniform4(_depthScaleLocation, (float)zByDepth, (float)z, (float)wByDepth, (float)w);
+        _program.Set("depthScale", zByDepth, z, wByDepth, w);
         if (view.Section is { } section)
         {
             ViewUniforms.SetSection(_sectionLocation, section);
@@ -58,8 +50,8 @@ internal sealed class CasterProgram : IDisposable
     }
 
     /// <summary>Sets how texture coordinates are moved. The program must be in use.</summary>
-    public void SetTexture(MaterialTexture texture) => GL.Uniform4(
-        _textureTransformLocation, (float)texture.Scale.U, (float)texture.Scale.V, (float)texture.Offset.U, (float)texture.Offset.V);
+    public void SetTexture(MaterialTexture texture) =>
+        _program.Set("textureTransform", texture.Scale.U, texture.Scale.V, texture.Offset.U, texture.Offset.V);
 
     /// <inheritdoc/>
     public void Dispose() => _program.Dispose();

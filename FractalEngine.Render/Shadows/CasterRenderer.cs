@@ -1,5 +1,4 @@
 using FractalEngine.Core.Geometry;
-using FractalEngine.Core.Maths;
 using FractalEngine.Core.Visibility;
 using FractalEngine.Render.Gl;
 using FractalEngine.Render.Passes;
@@ -9,12 +8,10 @@ using OpenTK.Graphics.OpenGL4;
 namespace FractalEngine.Render.Shadows;
 
 /// <summary>Draws the depths of a scene's objects as a light sees them. Transparent surfaces cast no shadow.</summary>
-internal sealed class CasterRenderer : IDisposable
+internal sealed class CasterRenderer(
+    GlResources resources, DrawableScene scene, SceneBuffers buffers, ObjectTransforms transforms) : IDisposable
 {
-    private readonly GlResources _resources;
-    private readonly SceneBuffers _buffers;
-    private readonly ObjectTransforms _transforms;
-    private readonly ObjectBlock?[] _objectBlocks;
+    private readonly ObjectBlocks _objectBlocks = new(resources, scene.Objects.Length);
 
     // By whether instances are relative to the eye, then by whether a texture cuts holes.
     private readonly CasterProgram?[] _programs = new CasterProgram?[4];
@@ -22,18 +19,8 @@ internal sealed class CasterRenderer : IDisposable
     private ShadowView _view;
     private int _programsWithView;
 
-    /// <summary>Prepares to draw the objects of a scene.</summary>
-    public CasterRenderer(GlResources resources, DrawableScene scene, SceneBuffers buffers, ObjectTransforms transforms)
-    {
-        _resources = resources;
-        Scene = scene;
-        _buffers = buffers;
-        _transforms = transforms;
-        _objectBlocks = new ObjectBlock?[scene.Objects.Length];
-    }
-
     /// <summary>Scene whose objects are drawn.</summary>
-    public DrawableScene Scene { get; set; }
+    public DrawableScene Scene { get; set; } = scene;
 
     /// <summary>Sets the state in which maps are drawn.</summary>
     /// <param name="isCut">Whether a section plane cuts the scene.</param>
@@ -71,7 +58,7 @@ internal sealed class CasterRenderer : IDisposable
     /// <param name="selection">The objects to draw.</param>
     public void DrawStatic(CullingSettings? culling, DeepZoom? zoom, CasterSelection selection)
     {
-        var culler = _buffers.ShadowCuller;
+        var culler = buffers.ShadowCuller;
         if (culling is not null)
         {
             culler.Cull(_view.ToCullingView(), culling, zoom);
@@ -99,11 +86,8 @@ internal sealed class CasterRenderer : IDisposable
     /// <summary>Draws one object with all of its instances, where it is now.</summary>
     public void DrawWhole(int index)
     {
-        var item = Scene.Objects[index];
-        var objectToWorld = _transforms.ObjectToWorld[index];
-        var block = _objectBlocks[index] ??= new(_resources, $"shadow of {item.Name}");
-        var modelToWorld = new AffineMap(objectToWorld.Linear, objectToWorld * item.Model.Origin);
-        block.Bind(GlState.ObjectBinding, modelToWorld, Colour.White, Colour.White, _view.Position);
+        // Depths have no colour; that of the object stays the same, so that it causes no upload.
+        _objectBlocks.Bind(index, Scene.Objects[index], transforms.ObjectToWorld[index], _view.Position);
         // A light with a position may stand within a solid.
         Draw(index, isRelative: false, CullFace.None);
     }
@@ -111,27 +95,14 @@ internal sealed class CasterRenderer : IDisposable
     /// <summary>Draws the spheres beside the objects.</summary>
     public void DrawSpheres(IReadOnlyList<SphereInstance> spheres)
     {
-        _sphereBatch ??= new(_resources);
-        _resources.State.Cull(CullFace.None);
+        _sphereBatch ??= new(resources);
+        resources.State.Cull(CullFace.None);
         UseProgram(isRelative: true, isCutOut: false);
         _sphereBatch.Draw(spheres, _view.Position, Colour.White);
     }
 
     /// <inheritdoc/>
-    public void Dispose()
-    {
-        foreach (var block in _objectBlocks)
-        {
-            block?.Dispose();
-        }
-
-        foreach (var program in _programs)
-        {
-            program?.Dispose();
-        }
-
-        _sphereBatch?.Dispose();
-    }
+    public void Dispose() => GlObject.DisposeAll([_objectBlocks, .. _programs, _sphereBatch]);
 
     private void Draw(int index, bool isRelative, CullFace culledFace)
     {
@@ -144,21 +115,21 @@ internal sealed class CasterRenderer : IDisposable
             }
 
             var isCutOut = batch.Material is { IsCutOut: true };
-            _resources.State.Cull(culledFace);
+            resources.State.Cull(culledFace);
             var program = UseProgram(isRelative, isCutOut);
             if (isCutOut)
             {
-                _buffers.BindTexture(batch.Material);
+                buffers.BindTexture(batch.Material);
                 program.SetTexture(batch.Material!.Material.Texture!);
             }
 
             if (isRelative)
             {
-                _buffers.ShadowCuller.Draw(index, batch);
+                buffers.ShadowCuller.Draw(index, batch);
             }
             else
             {
-                _buffers.BuffersOf(model).Draw(batch);
+                buffers.BuffersOf(model).Draw(batch);
             }
         }
     }
@@ -166,7 +137,7 @@ internal sealed class CasterRenderer : IDisposable
     private CasterProgram UseProgram(bool isRelative, bool isCutOut)
     {
         var index = (isRelative ? 2 : 0) + (isCutOut ? 1 : 0);
-        var program = _programs[index] ??= new(_resources, isRelative, isCutOut);
+        var program = _programs[index] ??= new(resources, isRelative, isCutOut);
         program.Use();
         if ((_programsWithView & (1 << index)) == 0)
         {
@@ -178,9 +149,6 @@ internal sealed class CasterRenderer : IDisposable
     }
 
     /// <summary>Returns the faces of a closed solid that point away from the light; none where that is not known.</summary>
-    private CullFace FaceToCull(int index, int windingSign)
-    {
-        var sign = windingSign * Math.Sign(_transforms.ObjectToWorld[index].Linear.Determinant());
-        return sign == 0 ? CullFace.None : sign < 0 ? CullFace.Front : CullFace.Back;
-    }
+    private CullFace FaceToCull(int index, int windingSign) =>
+        ObjectsPass.FaceOf(windingSign * Math.Sign(transforms.ObjectToWorld[index].Linear.Determinant()));
 }

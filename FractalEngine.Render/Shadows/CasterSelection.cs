@@ -153,8 +153,7 @@ internal sealed class CasterSelection
         var bounds = BoundingBox.Empty;
         for (var i = 0; i < spheres.Count; i++)
         {
-            var (centre, radius) = spheres[i];
-            bounds = BoundingBox.Union(bounds, new(centre - (radius * Vector.One), centre + (radius * Vector.One)));
+            bounds = BoundingBox.Union(bounds, spheres[i].Bounds);
         }
 
         return bounds;

@@ -81,7 +81,7 @@ internal sealed class ShadowBlock(GlResources resources, bool hasReversedDepth) 
     private static void WriteSide(in ShadowView view, (int X, int Y) corner, Span<float> target)
     {
         var half = 0.5 * view.Size;
-        WriteVector(target, new(corner.X + half, corner.Y + half, half / view.HalfWidth), OffsetTexels * view.TexelSize);
+        LightBlock.WriteVector(new(corner.X + half, corner.Y + half, half / view.HalfWidth), OffsetTexels * view.TexelSize, target);
     }
 
     private void Write(in ShadowView view, (int X, int Y) corner, Vector origin, Span<float> target)
@@ -94,17 +94,17 @@ internal sealed class ShadowBlock(GlResources resources, bool hasReversedDepth) 
         if (view.IsPerspective)
         {
             WriteRows(in view, origin, new(scaleX, scaleY, 1), Vector.Zero, target);
-            WriteVector(target[20..], new(depthScale, depthShift, 1 / (scaleX * scaleX)), 1 / (scaleY * scaleY));
+            LightBlock.WriteVector(new(depthScale, depthShift, 1 / (scaleX * scaleX)), 1 / (scaleY * scaleY), target[20..]);
         }
         else
         {
             WriteRows(in view, origin, new(scaleX, scaleY, depthScale), new(middle.X, middle.Y, depthShift), target);
             var (ratioX, ratioY) = (depthScale / scaleX, depthScale / scaleY);
-            WriteVector(target[20..], new(0, 0, -ratioX * ratioX), -ratioY * ratioY);
+            LightBlock.WriteVector(new(0, 0, -ratioX * ratioX), -ratioY * ratioY, target[20..]);
         }
 
-        WriteVector(target[12..], new(corner.X + 1, corner.Y + 1, corner.X + view.Size - 1), corner.Y + view.Size - 1);
-        WriteVector(target[16..], middle, OffsetTexels * view.TexelSize);
+        LightBlock.WriteVector(new(corner.X + 1, corner.Y + 1, corner.X + view.Size - 1), corner.Y + view.Size - 1, target[12..]);
+        LightBlock.WriteVector(middle, OffsetTexels * view.TexelSize, target[16..]);
     }
 
     /// <summary>Writes the map from points relative to the camera to the axes of a view.</summary>
@@ -112,9 +112,9 @@ internal sealed class ShadowBlock(GlResources resources, bool hasReversedDepth) 
     {
         var (right, up, forward) = view.Axes;
         var toCamera = origin - view.Position;
-        WriteVector(target, scale.X * right, (scale.X * Vector.Dot(right, toCamera)) + shift.X);
-        WriteVector(target[4..], scale.Y * up, (scale.Y * Vector.Dot(up, toCamera)) + shift.Y);
-        WriteVector(target[8..], scale.Z * forward, (scale.Z * Vector.Dot(forward, toCamera)) + shift.Z);
+        LightBlock.WriteVector(scale.X * right, (scale.X * Vector.Dot(right, toCamera)) + shift.X, target);
+        LightBlock.WriteVector(scale.Y * up, (scale.Y * Vector.Dot(up, toCamera)) + shift.Y, target[4..]);
+        LightBlock.WriteVector(scale.Z * forward, (scale.Z * Vector.Dot(forward, toCamera)) + shift.Z, target[8..]);
     }
 
     /// <summary>
@@ -129,7 +129,4 @@ internal sealed class ShadowBlock(GlResources resources, bool hasReversedDepth) 
             : view.IsPerspective ? (0.5 * (zByDepth + 1), 0.5 * z)
             : (0.5 * zByDepth, 0.5 * (z + 1));
     }
-
-    private static void WriteVector(Span<float> target, Vector vector, double w) =>
-        (target[0], target[1], target[2], target[3]) = ((float)vector.X, (float)vector.Y, (float)vector.Z, (float)w);
 }

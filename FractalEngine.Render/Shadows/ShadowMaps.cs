@@ -165,11 +165,7 @@ internal sealed class ShadowMaps(GlResources resources) : IDisposable
     public void BindTexture(int unit, bool withMoving) => (withMoving ? _complete : _standing)!.BindTexture(unit);
 
     /// <inheritdoc/>
-    public void Dispose()
-    {
-        _standing?.Dispose();
-        _complete?.Dispose();
-    }
+    public void Dispose() => GlObject.DisposeAll(_standing, _complete);
 
     /// <summary>Tells whether 16 bits are too few for the depths of any view: parallel ones have even steps.</summary>
     private static bool NeedsFineDepths(IReadOnlyList<ShadowView> views)

@@ -187,13 +187,7 @@ internal sealed class ShadowPass : IDisposable
     }
 
     /// <inheritdoc/>
-    public void Dispose()
-    {
-        _fittedMaps.Dispose();
-        _wholeMaps.Dispose();
-        _block.Dispose();
-        _casters.Dispose();
-    }
+    public void Dispose() => GlObject.DisposeAll(_fittedMaps, _wholeMaps, _block, _casters);
 
     private void DrawMaps(in FrameView frame, IReadOnlyList<SphereInstance> spheres, RenderSettings settings)
     {
@@ -283,8 +277,7 @@ internal sealed class ShadowPass : IDisposable
             var hasSpheres = false;
             for (var j = 0; j < spheres.Count; j++)
             {
-                var (centre, radius) = spheres[j];
-                hasSpheres |= _maps.TryMark(i, in view, new(centre - (radius * Vector.One), centre + (radius * Vector.One)));
+                hasSpheres |= _maps.TryMark(i, in view, spheres[j].Bounds);
             }
 
             if (hasSpheres)

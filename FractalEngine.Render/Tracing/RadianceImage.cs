@@ -7,30 +7,20 @@ using FractalEngine.Render.Passes;
 namespace FractalEngine.Render.Tracing;
 
 /// <summary>The light of an image's pixels as samples are added, and its conversion to what a screen shows.</summary>
-internal sealed class RadianceImage
+/// <param name="width">Pixels.</param>
+/// <param name="height">Pixels.</param>
+internal sealed class RadianceImage(int width, int height)
 {
-    private readonly int _width;
-
     // In single precision, a million samples would add to a bright pixel no more.
-    private readonly double[] _sums;
-
-    /// <summary>Creates an image without samples.</summary>
-    /// <param name="width">Pixels.</param>
-    /// <param name="height">Pixels.</param>
-    public RadianceImage(int width, int height)
-    {
-        _width = width;
-        _sums = new double[3 * width * height];
-        RowSamples = new int[height];
-    }
+    private readonly double[] _sums = new double[3 * width * height];
 
     /// <summary>Number of samples that the pixels of each row have.</summary>
-    public int[] RowSamples { get; }
+    public int[] RowSamples { get; } = new int[height];
 
     /// <summary>Adds the radiance of a sample to a pixel. Threads may do so at once in different rows.</summary>
     public void Add(int x, int y, Vector radiance)
     {
-        var sum = _sums.AsSpan(3 * ((y * _width) + x), 3);
+        var sum = _sums.AsSpan(3 * ((y * width) + x), 3);
         sum[0] += radiance.X;
         sum[1] += radiance.Y;
         sum[2] += radiance.Z;
@@ -39,7 +29,7 @@ internal sealed class RadianceImage
     /// <summary>The mean radiance of a pixel so far.</summary>
     public Vector At(int x, int y)
     {
-        var sum = _sums.AsSpan(3 * ((y * _width) + x), 3);
+        var sum = _sums.AsSpan(3 * ((y * width) + x), 3);
         return new Vector(sum[0], sum[1], sum[2]) / Math.Max(1, RowSamples[y]);
     }
 
@@ -52,12 +42,12 @@ internal sealed class RadianceImage
         DisplayTransform display, (int X, int Y, int Width, int Height) viewport, Colour letterbox, bool isDithered)
     {
         var height = RowSamples.Length;
-        var pixels = new byte[4 * _width * height];
+        var pixels = new byte[4 * width * height];
         for (var y = 0; y < height; y++)
         {
-            for (var x = 0; x < _width; x++)
+            for (var x = 0; x < width; x++)
             {
-                var target = pixels.AsSpan(4 * ((y * _width) + x), 4);
+                var target = pixels.AsSpan(4 * ((y * width) + x), 4);
                 target[3] = byte.MaxValue;
                 if (x < viewport.X || x >= viewport.X + viewport.Width || y < viewport.Y || y >= viewport.Y + viewport.Height)
                 {
@@ -66,7 +56,7 @@ internal sealed class RadianceImage
                     continue;
                 }
 
-                var sum = _sums.AsSpan(3 * ((y * _width) + x), 3);
+                var sum = _sums.AsSpan(3 * ((y * width) + x), 3);
                 var scale = 1.0 / Math.Max(1, RowSamples[y]);
                 var (red, green, blue) = display.Apply(new(sum[0] * scale, sum[1] * scale, sum[2] * scale));
                 var offset = isDithered ? OrderedDither.At(x, y) : 0;
@@ -75,7 +65,7 @@ internal sealed class RadianceImage
             }
         }
 
-        return new(_width, height, pixels);
+        return new(width, height, pixels);
     }
 
     private static byte ToByte(double component, double offset) =>

@@ -9,23 +9,16 @@ namespace FractalEngine.Render.Tracing;
 /// <remarks>
 /// After B. Burley, "Practical Hash-based Owen Scrambling", JCGT 2020. The same pixel, sample and seed give the same points everywhere.
 /// </remarks>
-internal struct SampleSequence
+/// <param name="pixel">Index of the pixel.</param>
+/// <param name="sample">Index of the sample, from 0.</param>
+/// <param name="seed">Distinguishes independent images.</param>
+internal struct SampleSequence(int pixel, int sample, int seed)
 {
     private const float UnitOfUInt24 = 1f / (1 << 24);
 
-    private readonly uint _pixelSeed;
-    private readonly uint _reversedIndex;
+    private readonly uint _pixelSeed = Hash((uint)pixel ^ Hash((uint)seed));
+    private readonly uint _reversedIndex = ReverseBits((uint)sample);
     private uint _dimension;
-
-    /// <summary>Begins the points of one sample.</summary>
-    /// <param name="pixel">Index of the pixel.</param>
-    /// <param name="sample">Index of the sample, from 0.</param>
-    /// <param name="seed">Distinguishes independent images.</param>
-    public SampleSequence(int pixel, int sample, int seed)
-    {
-        _pixelSeed = Hash((uint)pixel ^ Hash((uint)seed));
-        _reversedIndex = ReverseBits((uint)sample);
-    }
 
     /// <summary>The next point, both coordinates from 0 to below 1.</summary>
     public (double U, double V) Next()

@@ -6,18 +6,12 @@ using FractalEngine.Render.Passes;
 namespace FractalEngine.Render.Tracing;
 
 /// <summary>What is seen behind everything: the sky, or one colour.</summary>
-internal readonly struct TracedBackground
+internal readonly struct TracedBackground(Scene scene, DisplayTransform display)
 {
-    private readonly SkyRadiance? _sky;
-    private readonly Vector _radiance;
+    private readonly SkyRadiance? _sky = scene.Background is null ? scene.Sky?.ToRadiance() : null;
 
-    /// <summary>Prepares the background of a scene.</summary>
-    public TracedBackground(Scene scene, DisplayTransform display)
-    {
-        _sky = scene.Background is null ? scene.Sky?.ToRadiance() : null;
-        // A background is shown as it is declared, whatever is done with light.
-        _radiance = display.Invert(TracedMaterial.ToLinear(scene.Background ?? RenderSettings.DefaultBackground));
-    }
+    // A background is shown as it is declared, whatever is done with light.
+    private readonly Vector _radiance = display.Invert((scene.Background ?? RenderSettings.DefaultBackground).ToLinearVector());
 
     /// <summary>Whether rays that leave the scene see its sky, and not one colour.</summary>
     public bool IsSky => _sky is not null;

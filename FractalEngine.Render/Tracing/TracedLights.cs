@@ -120,7 +120,7 @@ internal sealed class TracedLights
         public Emitter(Light light)
         {
             Light = light;
-            Colour = light.Intensity * TracedMaterial.ToLinear(light.Colour);
+            Colour = light.Intensity * light.Colour.ToLinearVector();
             if (light is DirectionalLight or SpotLight)
             {
                 Axis = -(light is SpotLight narrow ? narrow.Direction : ((DirectionalLight)light).Direction).UnitVector();

@@ -72,7 +72,7 @@ internal sealed class TracedMaterial
         var isPhysical = material.Roughness is not null || material.Metalness is not null;
         return new()
         {
-            BaseColour = Limit(ToLinear(material.Diffuse), 1),
+            BaseColour = Limit(material.Diffuse.ToLinearVector(), 1),
             Metalness = Limit(material.Metalness ?? 0, 1),
             Specular = isPhysical
                 ? DielectricReflectance * Vector.One
@@ -105,13 +105,6 @@ internal sealed class TracedMaterial
 
         specular = ((1 - Metalness) * specular) + (Metalness * colour);
         return (1 - Metalness) * colour.Stretch(Vector.One - specular);
-    }
-
-    /// <summary>Converts a colour to linear light: red, green, blue.</summary>
-    public static Vector ToLinear(Colour colour)
-    {
-        var (red, green, blue) = colour.ToLinear();
-        return new(red, green, blue);
     }
 
     private static Vector Limit(Vector colour, double max) => new(Limit(colour.X, max), Limit(colour.Y, max), Limit(colour.Z, max));

@@ -110,11 +110,7 @@ internal sealed class TracedModel
 
     private Vector CoordinatesAt(int index) => new(_mesh.TextureCoordinates[2 * index], _mesh.TextureCoordinates[(2 * index) + 1], 0);
 
-    private Vector ColourAt(int corner)
-    {
-        var colours = _mesh.Colours.AsSpan(3 * _mesh.VertexIndices[corner], 3);
-        return TracedMaterial.ToLinear(new(Math.Clamp(colours[0], 0, 1), Math.Clamp(colours[1], 0, 1), Math.Clamp(colours[2], 0, 1)));
-    }
+    private Vector ColourAt(int corner) => DrawableMeshBuilder.LinearColour(_mesh, _mesh.VertexIndices[corner]);
 
     /// <summary>The normal of a corner, of length 1 to a millionth, on the side that the winding says, as it is drawn.</summary>
     private Vector NormalAt(int corner, Vector faceNormal)

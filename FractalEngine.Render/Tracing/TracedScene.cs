@@ -55,10 +55,10 @@ internal sealed class TracedScene
             static model => model,
             model => knownSurfaces.GetValueOrDefault(model) ?? new TracedModel(model, settings.CreaseAngle, textures));
         _models = [.. _objects.Select(placed => _surfaces[placed.Model])];
-        _colours = [.. _objects.Select(static (placed, index) => TracedMaterial.ToLinear(DrawableScene.ColourOf(placed, index)))];
+        _colours = [.. _objects.Select(static (placed, index) => DrawableScene.ColourOf(placed, index).ToLinearVector())];
         _gradientEnds = [.. _objects.Select((placed, index) =>
-            placed.Declaration.Gradient is { } gradient ? TracedMaterial.ToLinear(gradient.EndColour) : _colours[index])];
-        _tints = [.. _objects.Select(static placed => TracedMaterial.ToLinear(placed.Declaration.Colour ?? Colour.White))];
+            placed.Declaration.Gradient is { } gradient ? gradient.EndColour.ToLinearVector() : _colours[index])];
+        _tints = [.. _objects.Select(static placed => (placed.Declaration.Colour ?? Colour.White).ToLinearVector())];
         IsSeeThrough = _models.Any(static model => model.IsSeeThrough);
         Notices = notices.ToImmutable();
         _offset = SurfaceOffset * scene.Bounds.FiniteDiagonalOr(1);

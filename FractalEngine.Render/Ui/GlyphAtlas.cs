@@ -4,25 +4,18 @@ using FractalEngine.Render.Gl;
 namespace FractalEngine.Render.Ui;
 
 /// <summary>The glyphs of a monospaced font, baked at several sizes. The file format is described in eng/bake-glyphs.py.</summary>
-internal sealed class GlyphAtlas
+/// <param name="characters">Sorted; the index of a character is that of its glyph.</param>
+/// <param name="sheets">Sheets of all glyphs at each size, the smallest first.</param>
+internal sealed class GlyphAtlas(char[] characters, GlyphSheet[] sheets)
 {
     private static readonly Lazy<GlyphAtlas> LazyShared = new(Load);
-
-    // Sorted; the index of a character is that of its glyph.
-    private readonly char[] _characters;
-
-    private GlyphAtlas(char[] characters, GlyphSheet[] sheets)
-    {
-        _characters = characters;
-        Sheets = sheets;
-    }
 
     /// <summary>The embedded atlas, read once.</summary>
     /// <exception cref="InvalidDataException">The file is not such an atlas.</exception>
     public static GlyphAtlas Shared => LazyShared.Value;
 
     /// <summary>Sheets of all glyphs at each size, the smallest first.</summary>
-    public IReadOnlyList<GlyphSheet> Sheets { get; }
+    public IReadOnlyList<GlyphSheet> Sheets { get; } = sheets;
 
     /// <summary>Reads the atlas that is embedded in the assembly.</summary>
     /// <exception cref="InvalidDataException">The file is not such an atlas.</exception>
@@ -58,7 +51,7 @@ internal sealed class GlyphAtlas
     /// <summary>Returns the index of a character's glyph; that of the question mark for a character without one.</summary>
     public int GlyphOf(char character)
     {
-        var index = Array.BinarySearch(_characters, character);
-        return index >= 0 ? index : Array.BinarySearch(_characters, '?');
+        var index = Array.BinarySearch(characters, character);
+        return index >= 0 ? index : Array.BinarySearch(characters, '?');
     }
 }

@@ -1,7 +1,11 @@
 namespace FractalEngine.Render.Ui;
 
 /// <summary>Lays panels out as rectangles in whole pixels: font size, wrapping, columns and stacking.</summary>
-internal sealed class OverlayLayout
+/// <param name="atlas">Glyphs of the font.</param>
+/// <param name="sheetIndex">Index of the sheet that the glyphs are taken from.</param>
+/// <param name="width">Width of the frame in pixels.</param>
+/// <param name="height">Height of the frame in pixels.</param>
+internal sealed class OverlayLayout(GlyphAtlas atlas, int sheetIndex, int width, int height)
 {
     // Lines of text that fit a frame: in 720 rows of pixels the text is 16 pixels high, and it grows with the frame.
     private const double TextRows = 45;
@@ -15,19 +19,11 @@ internal sealed class OverlayLayout
     private static readonly (float, float, float, float) TrackColour = (1, 1, 1, 0.14f);
     private static readonly (float, float, float, float) BarColour = (0.42f, 0.71f, 0.93f, 1);
 
-    private readonly GlyphAtlas _atlas;
-    private readonly (int Width, int Height) _frameSize;
+    private readonly (int Width, int Height) _frameSize = (width, height);
     private readonly List<(int X, int Y, int Width, int Height)> _panels = [];
 
-    private OverlayLayout(GlyphAtlas atlas, int sheetIndex, int width, int height)
-    {
-        _atlas = atlas;
-        SheetIndex = sheetIndex;
-        _frameSize = (width, height);
-    }
-
     /// <summary>Index of the sheet that the glyphs are taken from.</summary>
-    public int SheetIndex { get; }
+    public int SheetIndex { get; } = sheetIndex;
 
     /// <summary>Rectangles in drawing order.</summary>
     public List<OverlayQuad> Quads { get; } = [];
@@ -35,7 +31,7 @@ internal sealed class OverlayLayout
     /// <summary>Where a click answers something, and what.</summary>
     public List<(UiRect Area, int Answer)> Answers { get; } = [];
 
-    private GlyphSheet Sheet => _atlas.Sheets[SheetIndex];
+    private GlyphSheet Sheet => atlas.Sheets[SheetIndex];
 
     private int Margin => Sheet.CellHeight / 2;
 
@@ -226,7 +222,7 @@ internal sealed class OverlayLayout
             if (text[i] != ' ')
             {
                 Quads.Add(new(
-                    x + (i * Sheet.CellWidth), y, Sheet.CellWidth, Sheet.CellHeight, ColourOf(tone), _atlas.GlyphOf(text[i]), 0));
+                    x + (i * Sheet.CellWidth), y, Sheet.CellWidth, Sheet.CellHeight, ColourOf(tone), atlas.GlyphOf(text[i]), 0));
             }
         }
     }

@@ -47,42 +47,38 @@ internal sealed class UiTextEdit
     /// <returns>False for keys that a text field does not know.</returns>
     public bool Handle(UiInput input, Func<string> readClipboard, Action<string> writeClipboard)
     {
+        var leavesSelection = Caret != Anchor && !input.IsShiftHeld;
+        int? target = input.Key switch
+        {
+            Key.Left when input.IsControlHeld => SkipWord(-1),
+            Key.Right when input.IsControlHeld => SkipWord(1),
+            _ when input.IsControlHeld => null,
+            Key.Left => leavesSelection ? SelectionStart : Previous(Caret),
+            Key.Right => leavesSelection ? SelectionEnd : Next(Caret),
+            Key.Home => 0,
+            Key.End => Text.Length,
+            _ => null,
+        };
+        if (target is { } index)
+        {
+            MoveTo(index, input.IsShiftHeld);
+            return true;
+        }
+
         if (input.IsControlHeld)
         {
             return HandleControl(input, readClipboard, writeClipboard);
         }
 
-        switch (input.Key)
+        if (input.Key is Key.Backspace or Key.Delete)
         {
-            case Key.Left when Caret != Anchor && !input.IsShiftHeld:
-                MoveTo(SelectionStart, selects: false);
-                return true;
-            case Key.Right when Caret != Anchor && !input.IsShiftHeld:
-                MoveTo(SelectionEnd, selects: false);
-                return true;
-            case Key.Left:
-                MoveTo(Previous(Caret), input.IsShiftHeld);
-                return true;
-            case Key.Right:
-                MoveTo(Next(Caret), input.IsShiftHeld);
-                return true;
-            case Key.Home:
-                MoveTo(0, input.IsShiftHeld);
-                return true;
-            case Key.End:
-                MoveTo(Text.Length, input.IsShiftHeld);
-                return true;
-            case Key.Backspace:
-                Delete(Previous(Caret));
-                return true;
-            case Key.Delete:
-                Delete(Next(Caret));
-                return true;
-            default:
-                // Letters arrive as text, which follows.
-                return input.Key is not (Key.Escape or Key.Tab or Key.Enter or Key.KeypadEnter or Key.Up or Key.Down or Key.PageUp
-                    or Key.PageDown or (>= Key.F1 and <= Key.F12));
+            Delete(input.Key == Key.Backspace ? Previous(Caret) : Next(Caret));
+            return true;
         }
+
+        // Letters arrive as text, which follows.
+        return input.Key is not (Key.Escape or Key.Tab or Key.Enter or Key.KeypadEnter or Key.Up or Key.Down or Key.PageUp
+            or Key.PageDown or (>= Key.F1 and <= Key.F12));
     }
 
     private bool HandleControl(UiInput input, Func<string> readClipboard, Action<string> writeClipboard)
@@ -90,8 +86,7 @@ internal sealed class UiTextEdit
         switch (input.Key)
         {
             case Key.A:
-                Anchor = 0;
-                Caret = Text.Length;
+                Begin(Text);
                 return true;
             case Key.C or Key.X:
                 if (Caret != Anchor)
@@ -110,12 +105,6 @@ internal sealed class UiTextEdit
                 return true;
             case Key.U:
                 Begin("");
-                return true;
-            case Key.Left:
-                MoveTo(SkipWord(-1), input.IsShiftHeld);
-                return true;
-            case Key.Right:
-                MoveTo(SkipWord(1), input.IsShiftHeld);
                 return true;
             default:
                 return false;

@@ -34,6 +34,22 @@ internal static class PanelWidgets
         ui.Tooltip(action.KeyText.Length > 0 ? $"{action.PlainHelp} ({action.KeyText})" : action.PlainHelp);
     }
 
+    /// <summary>Adds rows of check boxes and buttons for actions, in columns of equal width.</summary>
+    /// <param name="ui">The interface that is being built.</param>
+    /// <param name="actions">The window with the document.</param>
+    /// <param name="choose">Runs an action.</param>
+    /// <param name="columns">Number of actions in a row.</param>
+    /// <param name="ids">Ids of the actions in the table.</param>
+    public static void Actions(
+        this UserInterface ui, WindowActions actions, Action<WindowAction> choose, int columns, params ReadOnlySpan<string> ids)
+    {
+        ui.Row([.. Enumerable.Repeat(1.0, columns)]);
+        foreach (var id in ids)
+        {
+            ui.Action(actions, id, choose);
+        }
+    }
+
     /// <summary>Adds a name and its value in one row.</summary>
     /// <param name="ui">The interface that is being built.</param>
     /// <param name="name">What the value is.</param>

@@ -17,17 +17,8 @@ internal sealed class PhysicsPanel(WindowActions actions, Action<WindowAction> c
             return;
         }
 
-        ui.Row(1, 1);
-        ui.Action(actions, "pause", choose);
-        ui.Action(actions, "step", choose);
-        ui.Action(actions, "drop-ball", choose);
-        ui.Action(actions, "throw-ball", choose);
-        ui.Action(actions, "reset-bodies", choose);
-        ui.Action(actions, "walk", choose);
-        ui.Row(1);
-        ui.Action(actions, "shrinking", choose);
-        ui.Action(actions, "closest-points", choose);
-        ui.Action(actions, "next-collider", choose);
+        ui.Actions(actions, choose, 2, "pause", "step", "drop-ball", "throw-ball", "reset-bodies", "walk");
+        ui.Actions(actions, choose, 1, "shrinking", "closest-points", "next-collider");
         var speed = document.Physics.Speed;
         if (ui.Slider("speed", ref speed, 0, 4, 0.05))
         {

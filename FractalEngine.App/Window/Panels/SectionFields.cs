@@ -18,9 +18,7 @@ internal sealed class SectionFields(WindowActions actions, Action<WindowAction> 
     public void Build(UserInterface ui, Document document)
     {
         ui.Heading("Section");
-        ui.Row(1, 1);
-        ui.Action(actions, "section", choose);
-        ui.Action(actions, "section-cap", choose);
+        ui.Actions(actions, choose, 2, "section", "section-cap");
         if (document.Section.Shown is not { } plane)
         {
             return;

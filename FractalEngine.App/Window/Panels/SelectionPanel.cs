@@ -31,9 +31,7 @@ internal sealed class SelectionPanel(WindowActions actions, Action<WindowAction>
                 ui.Paragraph(value);
             }
 
-            ui.Row(1, 1);
-            ui.Action(actions, "select-up", choose);
-            ui.Action(actions, "copy-selection", choose);
+            ui.Actions(actions, choose, 2, "select-up", "copy-selection");
             if (selected is { Depth: > 0, Object.Model.SourcePath: { } path } && path.EndsWith(".fdo", StringComparison.OrdinalIgnoreCase))
             {
                 ui.Row(1);
@@ -65,10 +63,7 @@ internal sealed class SelectionPanel(WindowActions actions, Action<WindowAction>
         }
 
         ui.Heading("Handles");
-        ui.Row(1, 1, 1);
-        ui.Action(actions, "handles-move", choose);
-        ui.Action(actions, "handles-turn", choose);
-        ui.Action(actions, "handles-scale", choose);
+        ui.Actions(actions, choose, 3, "handles-move", "handles-turn", "handles-scale");
         if (document.Tool.Handles != HandleKind.None)
         {
             ui.Scope($"object {index}", () => _placement.Build(ui, objects[index], index));
@@ -78,8 +73,7 @@ internal sealed class SelectionPanel(WindowActions actions, Action<WindowAction>
     private void BuildMeasuring(UserInterface ui, MeasureTool measure)
     {
         ui.Heading("Distances");
-        ui.Row(1);
-        ui.Action(actions, "measure", choose);
+        ui.Actions(actions, choose, 1, "measure");
         foreach (var (kind, name) in ((MeasureKind, string)[])
             [(MeasureKind.Points, "two points"), (MeasureKind.PointToObject, "point to object"), (MeasureKind.Objects, "two objects")])
         {

@@ -15,17 +15,9 @@ internal sealed class ViewPanel(WindowActions actions, Action<WindowAction> choo
     /// <summary>Adds the widgets of the panel.</summary>
     public void Build(UserInterface ui)
     {
-        ui.Row(1, 1, 1);
-        foreach (var id in (ReadOnlySpan<string>)["view-front", "view-right", "view-top"])
-        {
-            ui.Action(actions, id, choose);
-        }
-
-        ui.Row(1, 1);
-        ui.Action(actions, "frame-scene", choose);
-        ui.Action(actions, "reset-camera", choose);
-        ui.Row(1);
-        ui.Action(actions, "projection", choose);
+        ui.Actions(actions, choose, 3, "view-front", "view-right", "view-top");
+        ui.Actions(actions, choose, 2, "frame-scene", "reset-camera");
+        ui.Actions(actions, choose, 1, "projection");
         if (actions.Document is { } document)
         {
             BuildCamera(ui, document);
@@ -33,12 +25,7 @@ internal sealed class ViewPanel(WindowActions actions, Action<WindowAction> choo
         }
 
         ui.Heading("Drawing");
-        ui.Row(1, 1);
-        foreach (var id in (ReadOnlySpan<string>)["wireframe", "grid", "pixel-light", "trace"])
-        {
-            ui.Action(actions, id, choose);
-        }
-
+        ui.Actions(actions, choose, 2, "wireframe", "grid", "pixel-light", "trace");
         BuildDetail(ui);
         if (actions.Document is { } shown)
         {
@@ -51,8 +38,7 @@ internal sealed class ViewPanel(WindowActions actions, Action<WindowAction> choo
             }
 
             ui.Tooltip("bounding boxes of the sub-fractals at a level; 0 for whole objects, -1 for none");
-            ui.Row(1);
-            ui.Action(actions, "normals", choose);
+            ui.Actions(actions, choose, 1, "normals");
             _section.Build(ui, shown);
             BuildBookmarks(ui, shown);
         }
@@ -82,11 +68,7 @@ internal sealed class ViewPanel(WindowActions actions, Action<WindowAction> choo
         }
 
         ui.Tooltip("pixels below which a sub-fractal is drawn as one instance of its base mesh (--detail)");
-        ui.Row(1);
-        foreach (var id in (ReadOnlySpan<string>)["occlusion-culling", "shadows", "ambient-occlusion"])
-        {
-            ui.Action(actions, id, choose);
-        }
+        ui.Actions(actions, choose, 1, "occlusion-culling", "shadows", "ambient-occlusion");
     }
 
     private void BuildBookmarks(UserInterface ui, Document document)

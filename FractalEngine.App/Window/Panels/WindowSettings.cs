@@ -2,8 +2,8 @@ using System.Collections.Immutable;
 using System.Globalization;
 using System.Text;
 using FractalEngine.App.Window.Actions;
-using FractalEngine.Core.Files;
 using FractalEngine.Render.Ui;
+using static System.FormattableString;
 
 namespace FractalEngine.App.Window.Panels;
 
@@ -14,10 +14,6 @@ namespace FractalEngine.App.Window.Panels;
 /// </remarks>
 internal sealed record WindowSettings
 {
-    private const int MaxBytes = 1 << 16;
-
-    private static readonly UTF8Encoding StrictUtf8 = new(encoderShouldEmitUTF8Identifier: false, throwOnInvalidBytes: true);
-
     /// <summary>Whether text is dark on light ground.</summary>
     public bool IsLight { get; init; }
 
@@ -37,35 +33,13 @@ internal sealed record WindowSettings
     public ImmutableDictionary<string, KeyChord> Keys { get; init; } = ImmutableDictionary<string, KeyChord>.Empty;
 
     /// <summary>Full path of the settings of this user; null where the system has no settings folder.</summary>
-    public static string? DefaultPath =>
-        RecentFiles.DefaultPath is { } recent ? Path.Combine(Path.GetDirectoryName(recent)!, "window.txt") : null;
+    public static string? DefaultPath => UserFile.PathOf("window.txt");
 
     /// <summary>Reads settings. A broken file counts as missing, with one message.</summary>
     /// <param name="path">Full path of the file; null for the defaults.</param>
     /// <param name="report">Shows a message about a file that can't be used.</param>
-    public static WindowSettings Read(string? path, Action<string> report)
-    {
-        if (path is null || !File.Exists(path))
-        {
-            return new();
-        }
-
-        try
-        {
-            if (new FileInfo(path).Length > MaxBytes)
-            {
-                throw new InvalidDataException("it is too large");
-            }
-
-            return Parse(StrictUtf8.GetString(File.ReadAllBytes(path)));
-        }
-        catch (Exception exception)
-            when (exception is IOException or UnauthorizedAccessException or InvalidDataException or DecoderFallbackException)
-        {
-            report($"warning: the settings are ignored: {path}: {exception.Message}");
-            return new();
-        }
-    }
+    public static WindowSettings Read(string? path, Action<string> report) =>
+        UserFile.Read(path, new WindowSettings(), Parse, "the settings are", report);
 
     /// <summary>Reads settings from a text.</summary>
     /// <exception cref="InvalidDataException">A line is no setting; the message names it.</exception>
@@ -89,22 +63,7 @@ internal sealed record WindowSettings
     /// <summary>Writes settings, and says so where that fails.</summary>
     /// <param name="path">Full path of the file; null to keep nothing.</param>
     /// <param name="report">Shows a message about a file that can't be written.</param>
-    public void Write(string? path, Action<string> report)
-    {
-        if (path is null)
-        {
-            return;
-        }
-
-        try
-        {
-            AtomicFile.Write(path, stream => stream.Write(StrictUtf8.GetBytes(ToText())));
-        }
-        catch (Exception exception) when (exception is IOException or UnauthorizedAccessException)
-        {
-            report($"warning: the settings can't be written: {exception.Message}");
-        }
-    }
+    public void Write(string? path, Action<string> report) => UserFile.Write(path, ToText(), "the settings", report);
 
     /// <summary>Returns the settings as lines of their file.</summary>
     public string ToText()
@@ -175,8 +134,7 @@ internal sealed record WindowSettings
         }
 
         /// <inheritdoc/>
-        public override string ToString() => string.Create(
-            CultureInfo.InvariantCulture,
+        public override string ToString() => Invariant(
             $"{(IsOpen ? "open" : "closed")} {(IsFolded ? "folded" : "unfolded")} {Dock.ToString().ToLowerInvariant()} {X} {Y}");
     }
 }

@@ -151,6 +151,16 @@ public sealed class GlObjectTests
     }
 
     [Fact]
+    public void SymbolsOf_AllFeatures_AreThoseOfTheShaders()
+    {
+        var shaders = ShaderSource.Read("mesh.vert", []) + ShaderSource.Read("mesh.frag", []);
+        string[] symbols = [.. MeshProgram.SymbolsOf((MeshFeatures)16383)];
+        Assert.Equal(14, symbols.Length);
+        Assert.All(symbols, symbol => Assert.Matches($@"(#ifn?def |defined\(){symbol}\b", shaders));
+        Assert.Empty(MeshProgram.SymbolsOf(MeshFeatures.None));
+    }
+
+    [Fact]
     public void Shaders_AllFiles_AreAscii()
     {
         // OpenTK 4.9.4 hands over the number of characters where OpenGL wants that of bytes: other texts would be cut off at their end.

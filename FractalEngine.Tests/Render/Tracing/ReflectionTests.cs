@@ -1,6 +1,7 @@
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Render;
 using FractalEngine.Render.Tracing;
 
 namespace FractalEngine.Tests.Render.Tracing;
@@ -76,7 +77,7 @@ public class ReflectionTests
         var traced = Trace(scene, 1024);
 
         var red = Integrate(Surface(0, 1, alpha), Vector.K, static _ => 1);
-        var green = Integrate(Surface(0, TracedMaterial.ToLinear(new(0, 0.5, 0)).Y, alpha), Vector.K, static _ => 1);
+        var green = Integrate(Surface(0, new Colour(0, 0.5, 0).ToLinearVector().Y, alpha), Vector.K, static _ => 1);
         var blue = Integrate(Surface(0, 0, alpha, isGlossy: true), Vector.K, static _ => 1);
         Assert.InRange((traced - new Vector(red, green, blue)).Length(), 0, 0.01);
     }

@@ -49,7 +49,7 @@ public sealed class TracedMaterialTests : IDisposable
 
         // A metal sends back its colour of what falls straight onto it, under white light from all around.
         var expected = new[] { material.Diffuse, tint, vertexColour, new Colour(200 / 255.0, 180 / 255.0, 160 / 255.0) }
-            .Aggregate(Vector.One, static (product, colour) => product.Stretch(TracedMaterial.ToLinear(colour)));
+            .Aggregate(Vector.One, static (product, colour) => product.Stretch(colour.ToLinearVector()));
         Assert.InRange((traced - expected).Length(), 0, 0.005);
     }
 
@@ -119,7 +119,7 @@ public sealed class TracedMaterialTests : IDisposable
 
         Assert.Empty(moved.Notices);
         var before = tracer.RadianceAt(10, 10);
-        var expected = before with { Y = before.Y * TracedMaterial.ToLinear(new(0, 0.5, 0)).Y };
+        var expected = before with { Y = before.Y * new Colour(0, 0.5, 0).ToLinearVector().Y };
         Assert.InRange((moved.RadianceAt(10, 10) - expected).Length(), 0, 1e-9);
     }
 

@@ -2,10 +2,21 @@ using OpenTK.Graphics.OpenGL4;
 
 namespace FractalEngine.Render.Gl;
 
-/// <summary>Uploads the pixels of two-dimensional textures.</summary>
-internal static class TextureUpload
+/// <summary>A two-dimensional texture of 8-bit components.</summary>
+internal abstract class Texture2D : GlObject
 {
-    /// <summary>Uploads the first level of the bound texture, and sets its filters.</summary>
+    private readonly int _name;
+
+    /// <summary>Creates an empty texture.</summary>
+    /// <param name="resources">Resources of the current context.</param>
+    /// <param name="label">Name of the texture, for messages.</param>
+    protected Texture2D(GlResources resources, string label)
+        : base(resources, label) => _name = GL.GenTexture();
+
+    /// <summary>Binds the texture to the first texture unit.</summary>
+    public void Bind() => Resources.State.BindTexture(_name);
+
+    /// <summary>Binds the texture, uploads its first level, and sets its filters.</summary>
     /// <param name="internalFormat">Format in which the GPU stores the texture.</param>
     /// <param name="format">Components of the given pixels, one byte each.</param>
     /// <param name="width">Width in texels.</param>
@@ -13,10 +24,11 @@ internal static class TextureUpload
     /// <param name="pixels">Rows without padding, [height × width × components].</param>
     /// <param name="minFilter">Filter for texels smaller than a pixel.</param>
     /// <param name="magFilter">Filter for texels larger than a pixel.</param>
-    public static unsafe void Upload(
+    protected unsafe void Upload(
         PixelInternalFormat internalFormat, PixelFormat format, int width, int height, ReadOnlySpan<byte> pixels,
         TextureMinFilter minFilter, TextureMagFilter magFilter)
     {
+        Bind();
         GL.PixelStore(PixelStoreParameter.UnpackAlignment, 1);
         fixed (byte* start = pixels)
         {
@@ -27,4 +39,7 @@ internal static class TextureUpload
         GL.TexParameter(TextureTarget.Texture2D, TextureParameterName.TextureMinFilter, (int)minFilter);
         GL.TexParameter(TextureTarget.Texture2D, TextureParameterName.TextureMagFilter, (int)magFilter);
     }
+
+    /// <inheritdoc/>
+    protected override void Delete() => Resources.State.DeleteTexture(_name);
 }
