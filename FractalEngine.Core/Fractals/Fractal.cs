@@ -194,7 +194,7 @@ public sealed class Fractal : IEquatable<Fractal>
     private static int MaxRepetitionCount(ImmutableArray<FractalStep> steps, int index, Repetition repetition, long maxInstances)
     {
         var others = FractalSteps.CountUpTo(steps.RemoveAt(index), maxInstances);
-        var perRound = FractalSteps.CountUpTo(repetition.Body, maxInstances);
+        var perRound = FractalSteps.CountUpTo(repetition.Round, maxInstances);
         if (perRound <= 1)
         {
             return repetition.Count ?? FractalLimits.MaxDepth;

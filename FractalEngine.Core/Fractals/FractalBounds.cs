@@ -47,7 +47,7 @@ public static class FractalBounds
 
     /// <summary>The steps of a fractal, without repetitions that say a thing once.</summary>
     private static FractalStep[] LevelsOf(Fractal fractal) =>
-        [.. fractal.Description.Steps.SelectMany(static step => step is Repetition { Count: 1 } once ? once.Body : [step])];
+        [.. fractal.Description.Steps.SelectMany(static step => step is Repetition { Count: 1 } once ? once.Round : [step])];
 
     private static BoundingBox ComputeEnumeratedBox(Fractal fractal, int wideIndex)
     {

@@ -61,7 +61,7 @@ public sealed partial class FractalCollider : Collider
         foreach (var step in steps[..levelSteps])
         {
             _levels.Add(step is Repetition repetition
-                ? (new(Concatenate(repetition.Body)), repetition.Count ?? EndlessRounds)
+                ? (new(Concatenate(repetition.Round)), repetition.Count ?? EndlessRounds)
                 : (new(Concatenate([step])), 1));
         }
 

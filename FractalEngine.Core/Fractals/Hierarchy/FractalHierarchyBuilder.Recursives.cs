@@ -62,7 +62,7 @@ internal sealed partial class FractalHierarchyBuilder
 
     private static bool HasOnlySimilarMaps(FractalStep step) => step switch
     {
-        Repetition repetition => repetition.Body.All(HasOnlySimilarMaps),
+        Repetition repetition => repetition.Round.All(HasOnlySimilarMaps),
         TransformationSet set => HasOnlySimilarMaps(set.Maps.AsSpan()),
         _ => throw new ArgumentException($"{step.GetType().Name} is no step of a fractal", nameof(step)),
     };

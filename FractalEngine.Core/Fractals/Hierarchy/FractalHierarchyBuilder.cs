@@ -86,7 +86,7 @@ internal sealed partial class FractalHierarchyBuilder
     {
         TransformationSet { Maps.Length: > ChildGroups.MaxUngroupedChildren } set => set.Maps.Length,
         Repetition repetition when !_doublesPowers || MapPowers.TryCreate(repetition) is null =>
-            Math.Min(repetition.Count ?? 2, 2) * repetition.Body.Sum(CountWideChildren),
+            Math.Min(repetition.Count ?? 2, 2) * repetition.Round.Sum(CountWideChildren),
         _ => 0,
     };
 
@@ -109,9 +109,9 @@ internal sealed partial class FractalHierarchyBuilder
             return;
         }
 
-        var hasOnlySets = repetition.Body.All(inner => inner is TransformationSet);
+        var hasOnlySets = repetition.Round.All(inner => inner is TransformationSet);
         var levelsBelowRepetition = Built.Top;
-        var period = hasOnlySets ? repetition.Body.Length : int.MaxValue;
+        var period = hasOnlySets ? repetition.Round.Length : int.MaxValue;
         // Two rounds are built in any case: children may skip a round of levels, and must meet the same sets there.
         var nextAttempt = 2;
         for (var round = 0; round < (repetition.Count ?? (_isEmpty ? 1 : int.MaxValue)); round++)
@@ -128,7 +128,7 @@ internal sealed partial class FractalHierarchyBuilder
                 nextAttempt = round + 1 + (round / 8);
             }
 
-            foreach (var inner in repetition.Body.Reverse())
+            foreach (var inner in repetition.Round.Reverse())
             {
                 if (inner is TransformationSet set)
                 {
