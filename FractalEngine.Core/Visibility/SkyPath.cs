@@ -39,7 +39,7 @@ internal sealed class SkyPath
     /// <param name="footprint">What it covers.</param>
     /// <param name="parts">As for <see cref="ComputeParts"/>.</param>
     public void AddParts(
-        in StripContext context, in LodInstance instance, in SimdAffineMap meshToView, in Footprint footprint, Span<float> parts)
+        in StripContext context, in LodInstance instance, in SimdAffineMap meshToView, in ScreenFootprint footprint, Span<float> parts)
     {
         ref readonly var frame = ref context.Frame;
         var visibleSides = context.Hierarchy.VisibleSides;
