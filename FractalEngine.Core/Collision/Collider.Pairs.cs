@@ -1,6 +1,5 @@
 using FractalEngine.Core.Collision.Fractals;
 using FractalEngine.Core.Fractals;
-using FractalEngine.Core.Fractals.Hierarchy;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Collision;
@@ -46,8 +45,8 @@ public abstract partial class Collider
         }
 
         var scale = QueryScale.Of(Math.Max(
-            BoundingVolume.MaxAbsCoordinate(tree.Box.Transform(placement)),
-            BoundingVolume.MaxAbsCoordinate(otherTree.Box.Transform(placementOfOther))));
+            tree.Box.Transform(placement).MaxAbsCoordinate(),
+            otherTree.Box.Transform(placementOfOther).MaxAbsCoordinate()));
         var pair = ClosestPairSearch.Run(
             tree, Scaling(scale) * placement, otherTree, Scaling(scale) * placementOfOther, (context ?? new()).Statistics);
         return scale == 1 ? pair : pair with

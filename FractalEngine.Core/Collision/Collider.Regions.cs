@@ -3,7 +3,6 @@ using System.Globalization;
 using System.Runtime.InteropServices;
 using FractalEngine.Core.Collision.Fractals;
 using FractalEngine.Core.Fractals;
-using FractalEngine.Core.Fractals.Hierarchy;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
@@ -98,7 +97,7 @@ public abstract partial class Collider
             return false;
         }
 
-        var scale = PowerOfTwoScale(tree, BoundingVolume.MaxAbsCoordinate(box));
+        var scale = PowerOfTwoScale(tree, box.MaxAbsCoordinate());
         var policy = new BoxPolicy(new(scale * box.Minimum, scale * box.Maximum), tree.IsFractal, MaxBoundTests);
         return ShapeTraversal.Run(tree, Scaling(scale), ref policy, context ?? new()) switch
         {
@@ -123,7 +122,7 @@ public abstract partial class Collider
 
     /// <summary>The power of two by which a query is scaled, so that squares stay within the range of a double: mostly 1.</summary>
     private static double PowerOfTwoScale(ShapeTree tree, double queryMagnitude) =>
-        tree.IsEmpty ? 1 : QueryScale.Of(Math.Max(queryMagnitude, BoundingVolume.MaxAbsCoordinate(tree.Box)));
+        tree.IsEmpty ? 1 : QueryScale.Of(Math.Max(queryMagnitude, tree.Box.MaxAbsCoordinate()));
 
     /// <summary>Describes faces in the frame of the shape, in the order of the query's result.</summary>
     private static ImmutableArray<ClosestHit> CreateHits(ShapeTree tree, List<BallHit> hits, double scale, QueryContext context)

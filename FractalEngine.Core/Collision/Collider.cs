@@ -111,7 +111,7 @@ public abstract partial class Collider
             return false;
         }
 
-        QueryScale.ThrowIfInfinite(closest.Distance);
+        ScaledQuery.ThrowIfInfinite(closest.Distance);
 
         ClosestPoint.SetErrorBound(ref closest, CompleteErrorBound(position, in closest, epsilon));
         return true;

@@ -39,7 +39,7 @@ public static class FractalBounds
         var steps = LevelsOf(fractal);
         var wide = steps.Select((step, index) => (Set: step as TransformationSet, Index: index))
             .Where(static level => level.Set is not { Maps.Length: 1 }).ToArray();
-        return wide is [{ Set.Maps.Length: > ChildGroups.MaxUngroupedChildren and var count, Index: var index }]
+        return wide is [{ Set.Maps.Length: > SubFractal.MaxUngroupedChildren and var count, Index: var index }]
             && (long)count * fractal.BaseMesh.VertexCount <= MaxEnumeratedVertices
                 ? index
                 : null;

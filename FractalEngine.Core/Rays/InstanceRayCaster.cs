@@ -2,13 +2,12 @@ using FractalEngine.Core.Collision;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
-using FractalEngine.Core.Scenes;
 
 namespace FractalEngine.Core.Rays;
 
 /// <summary>
-/// Finds where rays hit many placed shapes: the objects of a scene (<see cref="SceneRayCaster"/>), or the sub-fractals around a camera
-/// (<see cref="DeepZoomRayCaster"/>). Immutable, as <see cref="RayCaster"/> is.
+/// Finds where rays hit many placed shapes: the objects of a scene (<c>SceneRayCaster</c>), or the sub-fractals around a camera
+/// (<c>DeepZoomRayCaster</c>). Immutable, as <see cref="RayCaster"/> is.
 /// </summary>
 /// <remarks>A ray finds its shape in O(log n) for n that lie apart, by a hierarchy over their boxes.</remarks>
 public abstract class InstanceRayCaster
@@ -39,7 +38,7 @@ public abstract class InstanceRayCaster
     /// <param name="footprint">How wide the ray is; a line unless stated.</param>
     /// <returns>False when the ray hits no face between the two distances.</returns>
     /// <exception cref="ArgumentException">The ray is not finite, its direction is 0, or a distance is negative or NaN.</exception>
-    /// <exception cref="FractalLimitException">A model can't be prepared, see <see cref="RayCaster.For(Model)"/>.</exception>
+    /// <exception cref="FractalLimitException">A model can't be prepared, see <see cref="RayCaster.For(Fractal)"/>.</exception>
     public bool TryFindNearest(
         Ray ray, QueryContext context, out RayHit hit, out int index, double minDistance = 0,
         double maxDistance = double.PositiveInfinity, RayFootprint footprint = default)
@@ -62,7 +61,7 @@ public abstract class InstanceRayCaster
     /// <param name="maxDistance">Largest distance that counts, scene units; may be infinite.</param>
     /// <param name="footprint">How wide the ray is; a line unless stated.</param>
     /// <exception cref="ArgumentException">The ray is not finite, its direction is 0, or a distance is negative or NaN.</exception>
-    /// <exception cref="FractalLimitException">A model can't be prepared, see <see cref="RayCaster.For(Model)"/>.</exception>
+    /// <exception cref="FractalLimitException">A model can't be prepared, see <see cref="RayCaster.For(Fractal)"/>.</exception>
     public bool HitsAny(
         Ray ray, QueryContext context, double minDistance = 0, double maxDistance = double.PositiveInfinity,
         RayFootprint footprint = default)
@@ -88,7 +87,7 @@ public abstract class InstanceRayCaster
             RayInstanceSearch.Run(Instances.Root, in ray, ref search, context, ref found, ref pathLength);
         }
 
-        search.AddTo(context.Statistics);
+        context.Statistics.Add(in search);
         return search;
     }
 }

@@ -47,7 +47,7 @@ public sealed class HierarchyCollider : Collider
         var magnitude = QueryScale.Magnitude(in position, in map, _magnitude);
         if (QueryScale.IsNeeded(magnitude))
         {
-            return QueryScale.FindClosest(this, in position, in map, magnitude, maxDistance, epsilon, context, out closest);
+            return ScaledQuery.FindClosest(this, in position, in map, magnitude, maxDistance, epsilon, context, out closest);
         }
 
         var closestTriangle = new ClosestTriangle(DistanceCutoff.FromRadius(maxDistance));
@@ -78,7 +78,7 @@ public sealed class HierarchyCollider : Collider
         var magnitude = Math.Max(position.MaxAbsComponent(), _magnitude);
         if (QueryScale.IsNeeded(magnitude))
         {
-            return QueryScale.FindClosest(
+            return ScaledQuery.FindClosest(
                 this, in position, AffineMap.Identity, magnitude, maxDistance, epsilon, context, out closest);
         }
 

@@ -68,7 +68,7 @@ internal readonly struct AffineFrame : ISearchFrame<AffineFrame>
     /// <inheritdoc/>
     public void FillQueue(SubFractal subFractal, in ChildQueue queue, ref FractalSearchState search)
     {
-        TransformedBoxDistance.FillQueue(in queue, subFractal, _position, in _map);
+        TransformedBoxDistance.FillQueue(in queue, subFractal.ChildBounds, subFractal.PaddedCount, _position, in _map);
         search.BoundTests += subFractal.Children.Length;
     }
 

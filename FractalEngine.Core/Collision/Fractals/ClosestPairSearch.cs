@@ -1,5 +1,4 @@
 using FractalEngine.Core.Fractals;
-using FractalEngine.Core.Fractals.Hierarchy;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
@@ -38,7 +37,7 @@ internal sealed class ClosestPairSearch
         _nodes2 = new(tree2, in map2);
         _statistics = statistics;
         _tolerance = RoundingErrors.Coordinate * Math.Max(
-            BoundingVolume.MaxAbsCoordinate(_nodes1[0].Box), BoundingVolume.MaxAbsCoordinate(_nodes2[0].Box));
+            _nodes1[0].Box.MaxAbsCoordinate(), _nodes2[0].Box.MaxAbsCoordinate());
     }
 
     /// <summary>Finds the closest points of two shapes, neither of them empty.</summary>

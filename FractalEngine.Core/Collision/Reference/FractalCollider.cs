@@ -53,7 +53,7 @@ public sealed partial class FractalCollider : Collider
             throw new ArgumentException("expected affine composition: the descent follows maps", nameof(fractal));
         }
 
-        QueryScale.ThrowIfTooLarge(fractal.Bounds.IsEmpty ? 0 : BoundingVolume.MaxAbsCoordinate(fractal.Bounds));
+        ScaledQuery.ThrowIfTooLarge(fractal.Bounds.IsEmpty ? 0 : fractal.Bounds.MaxAbsCoordinate());
         var steps = fractal.Description.Steps;
         var lastRepetition = steps.Select((step, index) => step is Repetition ? index : -1).Append(-1).Max();
         // Without a recursion all sets are levels, over the base mesh itself.
@@ -88,7 +88,7 @@ public sealed partial class FractalCollider : Collider
     protected override bool FindClosestCore(Vector position, double maxDistance, double epsilon, QueryContext context,
         out ClosestPoint closest)
     {
-        QueryScale.ThrowIfTooLarge(position.MaxAbsComponent());
+        ScaledQuery.ThrowIfTooLarge(position.MaxAbsComponent());
         context.ClearPath();
         if (_beamWidth > 1)
         {

@@ -82,7 +82,7 @@ internal sealed class ChildLanes
             : UnrotatedChildBounds.HasNoRotation(children) ? UnrotatedRows
             : RotatedRows;
         var rows = new float[groupCount * rowCount * LaneCount];
-        var reach = BoundingVolume.MaxAbsCoordinate(box);
+        var reach = box.MaxAbsCoordinate();
         Span<float> values = stackalloc float[RotatedRows];
         for (var i = 0; i < groupCount * LaneCount; i++)
         {
@@ -239,7 +239,7 @@ internal sealed class ChildLanes
         }
 
         var size = box.Size.MaxAbsComponent();
-        var magnitude = BoundingVolume.MaxAbsCoordinate(box);
+        var magnitude = box.MaxAbsCoordinate();
         return size > 1 / MaxMagnitude && magnitude < MaxMagnitude && magnitude < MaxRelativeMagnitude * size;
     }
 }

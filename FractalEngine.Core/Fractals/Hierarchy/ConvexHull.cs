@@ -65,7 +65,7 @@ internal sealed partial class ConvexHull
         }
 
         // Far from the origin, coordinates are rounded by more than a part of the size.
-        var largest = BoundingVolume.MaxAbsCoordinate(box);
+        var largest = box.MaxAbsCoordinate();
         var tolerance = Math.Max(CoplanarTolerance * box.Diagonal, RoundingErrors.Chain * largest);
         var (i0, i1) = FindFarthestPair(points);
         if (points[i0] == points[i1])
