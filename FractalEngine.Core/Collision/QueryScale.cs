@@ -25,6 +25,9 @@ internal static class QueryScale
     /// <param name="magnitude">Largest coordinate of all shapes and positions; 1 serves where that is NaN.</param>
     public static double Of(double magnitude) => !double.IsNaN(magnitude) && IsNeeded(magnitude) ? Math.ScaleB(1, -Exponent(magnitude)) : 1;
 
+    /// <summary>The map to units in which coordinates are multiplied by a factor.</summary>
+    public static AffineMap Scaling(double scale) => new(scale * Matrix.Identity, Vector.Zero);
+
     /// <summary>The largest coordinate of a mesh's faces, 0 for one without any.</summary>
     public static double Magnitude(Mesh mesh) => mesh.UsedBounds.IsEmpty ? 0 : mesh.UsedBounds.MaxAbsCoordinate();
 
