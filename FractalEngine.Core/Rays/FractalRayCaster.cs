@@ -302,7 +302,7 @@ internal sealed class FractalRayCaster : RayCaster
         int depth, in RayFrame frame, RayBounds bounds, ref RaySearch search, QueryContext context, ref int pathLength)
     {
         var local = frame.ToLocal(bounds.Box).Transform(in bounds.Proxy.Inverse, 1, 1);
-        if (!_bvh.TryIntersect(in local, ref search))
+        if (!_bvh.Rays.TryIntersect(in local, ref search))
         {
             return false;
         }
@@ -359,7 +359,7 @@ internal sealed class FractalRayCaster : RayCaster
 
     private bool TryIntersectBase(in LocalRay ray, ref RaySearch search)
     {
-        if (!_bvh.TryIntersect(in ray, ref search))
+        if (!_bvh.Rays.TryIntersect(in ray, ref search))
         {
             return false;
         }

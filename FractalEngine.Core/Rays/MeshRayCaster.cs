@@ -44,7 +44,7 @@ internal sealed class MeshRayCaster : RayCaster
     /// <inheritdoc/>
     internal override bool TryIntersect(in LocalRay ray, ref RaySearch search, QueryContext context, ref int pathLength)
     {
-        if (!_bvh.TryIntersect(in ray, ref search))
+        if (!_bvh.Rays.TryIntersect(in ray, ref search))
         {
             return false;
         }

@@ -42,7 +42,7 @@ internal readonly struct AffineFrame : ISearchFrame<AffineFrame>
         TriangleBvh bvh, Vector256<double> position, in SimdAffineMap map, ref FractalSearchState search, out ClosestTriangle closest)
     {
         closest = new(search.ClosestDistanceSquared);
-        bvh.FindClosestTransformed(SimdAffineMap.ToVector(position), map.ToAffineMap(), ref closest, search.BoundFactor);
+        TransformedTriangleSearch.Find(bvh, SimdAffineMap.ToVector(position), map.ToAffineMap(), ref closest, search.BoundFactor);
         search.AddStatistics(in closest);
         return closest.FaceIndex >= 0;
     }

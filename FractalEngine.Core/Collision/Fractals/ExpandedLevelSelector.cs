@@ -112,7 +112,7 @@ internal sealed class ExpandedLevelSelector(FractalHierarchy hierarchy, Triangle
     }
 
     private long MeasureBytes(long level) =>
-        _instanceCounts.SumAt(level) * ((BytesPerFace * bvh.FaceCount) + (BytesPerVertex * bvh.Mesh.VertexCount));
+        _instanceCounts.SumAt(level) * ((BytesPerFace * bvh.Mesh.FaceCount) + (BytesPerVertex * bvh.Mesh.VertexCount));
 
     /// <summary>Makes positions anywhere in the box, and near the surface.</summary>
     private Vector[] SamplePositions()

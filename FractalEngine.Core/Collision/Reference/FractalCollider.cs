@@ -205,7 +205,7 @@ public sealed class FractalCollider : Collider
         var closest = new ClosestTriangle(double.PositiveInfinity);
         if (_hasNoLevels)
         {
-            _baseBvh.TestAllTriangles(position, ref closest);
+            ClosestTriangleSearch.TestAll(_baseBvh, position, ref closest);
             context.Statistics.FaceTests += closest.FaceTests;
         }
 
@@ -231,13 +231,13 @@ public sealed class FractalCollider : Collider
         {
             var childScaleSquared = scaleSquared * set.ScalesSquared[childIndex];
             closest = new(cutoffSquared / childScaleSquared);
-            _baseBvh.TestAllTriangles(set.Inverses[childIndex] * localPosition, ref closest);
+            ClosestTriangleSearch.TestAll(_baseBvh, set.Inverses[childIndex] * localPosition, ref closest);
             closest.DistanceSquared *= childScaleSquared;
         }
         else
         {
             closest = new(cutoffSquared);
-            _baseBvh.TestAllTransformedTriangles(position, map * set.Maps[childIndex], ref closest);
+            TransformedTriangleSearch.TestAll(_baseBvh, position, map * set.Maps[childIndex], ref closest);
         }
 
         context.Statistics.FaceTests += closest.FaceTests;
