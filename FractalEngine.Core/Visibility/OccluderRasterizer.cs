@@ -27,7 +27,7 @@ internal sealed class OccluderRasterizer
     /// <param name="frame">Strip that the instance is projected to.</param>
     /// <param name="mesh">Base mesh of the instance.</param>
     /// <param name="map">Map from the base mesh's frame to view space.</param>
-    /// <param name="windingSign">As in <see cref="CulledObject.WindingSign"/>.</param>
+    /// <param name="windingSign">1 where the base mesh is a closed solid wound outwards, −1 inwards; 0 where that is unknown.</param>
     /// <returns>True when the instance is the closest at some sample.</returns>
     public bool Rasterize(in StripFrame frame, OccluderMesh mesh, in SimdAffineMap map, int windingSign)
     {
