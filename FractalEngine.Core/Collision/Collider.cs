@@ -1,5 +1,7 @@
+using System.Collections.Immutable;
 using System.Diagnostics.CodeAnalysis;
 using System.Runtime.CompilerServices;
+using FractalEngine.Core.Collision.Fractals;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
@@ -11,9 +13,10 @@ namespace FractalEngine.Core.Collision;
 /// Finds the point of a shape closest to a position (paper §4.4.2–4.4.3). Immutable: any number of threads may query at once, each with a
 /// context of its own. Queries with a context allocate nothing, see <see cref="QueryContext"/>.
 /// </summary>
-public abstract partial class Collider
+public abstract class Collider
 {
     private readonly SpareContext _spareContext = new();
+    private ShapeTree? _shapeTree;
 
     /// <summary>False for colliders that may miss the closest point.</summary>
     public abstract bool IsExact { get; }
@@ -53,7 +56,7 @@ public abstract partial class Collider
     /// <exception cref="ArgumentOutOfRangeException">The position is not finite.</exception>
     /// <exception cref="InvalidOperationException">The shape has no faces.</exception>
     /// <exception cref="FractalLimitException">The distance, or a coordinate, is beyond the range of a double.</exception>
-    /// <remarks>Allocates its result only. Many positions at once: <see cref="BatchQuery"/>.</remarks>
+    /// <remarks>Allocates its result only. Many positions at once: <c>BatchQuery</c>.</remarks>
     public ClosestHit FindClosest(Vector position) => TryFindClosest(position, double.PositiveInfinity, out var hit)
         ? hit
         : throw new InvalidOperationException(
@@ -99,11 +102,117 @@ public abstract partial class Collider
             return false;
         }
 
-        QueryScale.ThrowIfInfinite(closest.Distance);
+        ScaledQuery.ThrowIfInfinite(closest.Distance);
 
         ClosestPoint.SetErrorBound(ref closest, CompleteErrorBound(position, in closest, epsilon));
         return true;
     }
+
+    /// <summary>Finds all faces within a distance of a position.</summary>
+    /// <param name="position">In the shape's frame, scene units, finite.</param>
+    /// <param name="radius">Scene units, not negative; may be infinite. A face at exactly this distance counts.</param>
+    /// <param name="maxFaces">
+    /// Number of faces beyond which the query is refused, not negative. Those of an instance count for each chain of maps that makes it,
+    /// but for chains that differ only in where they have the identity, or in equal maps of a set.
+    /// </param>
+    /// <param name="context">Receives the costs; null where they don't matter.</param>
+    /// <returns>
+    /// The closest point of each face, by ascending distance; of equal distances by instance path, then by face. Instances whose images of
+    /// the base mesh differ by rounding only are one, the first by its path. Of a fractal, what is smaller than the last digit of its size
+    /// counts as one base mesh, as in <see cref="FindClosest"/>.
+    /// </returns>
+    /// <exception cref="ArgumentOutOfRangeException">The position is not finite, or a limit is negative or NaN.</exception>
+    /// <exception cref="FractalLimitException">
+    /// There are more faces than <paramref name="maxFaces"/>, or finding out takes more than about a million bounds.
+    /// </exception>
+    /// <exception cref="NotSupportedException">The collider is not exact.</exception>
+    public ImmutableArray<ClosestHit> FindAllWithin(Vector position, double radius, int maxFaces, QueryContext? context = null)
+    {
+        ThrowIfInvalid(position, radius, 0);
+        ArgumentOutOfRangeException.ThrowIfNegative(maxFaces);
+        return RegionQuery.FindAllWithin(ShapeTree, position, radius, maxFaces, context ?? new());
+    }
+
+    /// <summary>Tells whether a face meets a closed ball.</summary>
+    /// <param name="centre">In the shape's frame, scene units, finite.</param>
+    /// <param name="radius">Scene units, not negative; may be infinite.</param>
+    /// <param name="context">Receives the costs; null where they don't matter.</param>
+    /// <returns>
+    /// True when the closest distance is at most the radius, as <see cref="FindClosest(Vector)"/> finds it. The inside of a closed shape
+    /// has no faces.
+    /// </returns>
+    /// <exception cref="ArgumentOutOfRangeException">The centre is not finite, or the radius is negative or NaN.</exception>
+    /// <exception cref="FractalLimitException">The answer takes more than about a million bounds.</exception>
+    /// <exception cref="NotSupportedException">The collider is not exact.</exception>
+    public bool Overlaps(Vector centre, double radius, QueryContext? context = null)
+    {
+        ThrowIfInvalid(centre, radius, 0);
+        return !ShapeTree.IsEmpty && (double.IsPositiveInfinity(radius) || TryFindClosest(centre, radius, context ?? new(), out _));
+    }
+
+    /// <summary>Tells whether a face meets a closed box.</summary>
+    /// <param name="box">In the shape's frame, scene units; corners are finite. The empty box meets nothing.</param>
+    /// <param name="context">Receives the costs; null where they don't matter.</param>
+    /// <returns>
+    /// True when a face has a point in the box. A face that is closer to it than about 4e-15 of the largest coordinate may count.
+    /// The inside of a closed shape has no faces.
+    /// </returns>
+    /// <exception cref="ArgumentOutOfRangeException">A coordinate of the box is NaN, or infinite where the box is not empty.</exception>
+    /// <exception cref="FractalLimitException">The answer takes more than about a million bounds.</exception>
+    /// <exception cref="NotSupportedException">The collider is not exact.</exception>
+    public bool Overlaps(BoundingBox box, QueryContext? context = null)
+    {
+        var isFinite = box.Minimum.IsFinite() && box.Maximum.IsFinite();
+        var isEmpty = box == BoundingBox.Empty || (isFinite && box.IsEmpty);
+        if (!isFinite && !isEmpty)
+        {
+            throw new ArgumentOutOfRangeException(nameof(box), box, "expected finite corners");
+        }
+
+        // Colliders that are not exact refuse empty boxes, too.
+        var tree = ShapeTree;
+        return !isEmpty && RegionQuery.Overlaps(tree, box, context ?? new());
+    }
+
+    /// <summary>Finds the closest points of this shape and another one.</summary>
+    /// <param name="other">The collider of the other shape; may be this one.</param>
+    /// <param name="placementOfOther">Maps the other shape's frame to this one's, finite; may stretch, skew or flatten.</param>
+    /// <param name="context">Receives the costs; null where they don't matter.</param>
+    /// <returns>
+    /// Both points in this shape's frame. Shapes whose faces meet have the distance 0, to rounding. A shape inside another one has not:
+    /// only faces count.
+    /// </returns>
+    /// <exception cref="ArgumentOutOfRangeException">The placement is not finite.</exception>
+    /// <exception cref="InvalidOperationException">A shape has no faces.</exception>
+    /// <exception cref="FractalLimitException">The distance is beyond the range of a double.</exception>
+    /// <exception cref="NotSupportedException">A collider is not exact.</exception>
+    /// <remarks>
+    /// The search takes about a million bounds at most, a second or so. Then <see cref="ClosestPair.ErrorBound"/> tells how much closer the
+    /// shapes may be.
+    /// </remarks>
+    public ClosestPair FindClosestPair(Collider other, AffineMap placementOfOther, QueryContext? context = null)
+    {
+        ArgumentNullException.ThrowIfNull(other);
+        if (!placementOfOther.IsFinite())
+        {
+            throw new ArgumentOutOfRangeException(nameof(placementOfOther), placementOfOther, "expected finite numbers");
+        }
+
+        return FindClosestPair(AffineMap.Identity, other, placementOfOther, context);
+    }
+
+    /// <summary>Finds the closest points of two shapes under maps to the frame of the query.</summary>
+    internal ClosestPair FindClosestPair(AffineMap placement, Collider other, AffineMap placementOfOther, QueryContext? context) =>
+        ClosestPairSearch.Run(ShapeTree, placement, other.ShapeTree, placementOfOther, (context ?? new()).Statistics);
+
+    /// <summary>The shape as a tree of nodes, made by the first who asks.</summary>
+    /// <exception cref="NotSupportedException">The collider is not exact.</exception>
+    internal ShapeTree ShapeTree => _shapeTree ??= CreateShapeTree();
+
+    /// <summary>Creates the shape as a tree of nodes, for questions other than the closest point of one position.</summary>
+    /// <exception cref="NotSupportedException">The collider is not exact.</exception>
+    private protected virtual ShapeTree CreateShapeTree() => throw new NotSupportedException(
+        $"{GetType().Name} finds closest points of positions only: expected an exact collider of a mesh or a fractal");
 
     /// <summary>Adds what holds for every collider to the error bound of a result.</summary>
     internal double CompleteErrorBound(Vector position, in ClosestPoint closest, double epsilon)

@@ -51,7 +51,7 @@ internal sealed class ColliderInstance(
             return false;
         }
 
-        QueryScale.ThrowIfInfinite(closest.Distance);
+        ScaledQuery.ThrowIfInfinite(closest.Distance);
         closest = closest with { ErrorBound = collider.Value.CompleteErrorBound(position, in closest, epsilon) };
         return true;
     }

@@ -12,6 +12,18 @@ namespace FractalEngine.Core.Collision;
 /// <remarks>Its first queries make its memory, some 20 KB. It doubles where one goes deeper into a fractal than all before.</remarks>
 public sealed class QueryContext
 {
+    /// <summary>
+    /// Child instances of a search on the stack, of which each takes about 1 KB. Searches that need more are left to a best-first search.
+    /// </summary>
+    internal const int MaxStackDepth = 128;
+
+    /// <summary>Numbers of a search that suffice for some forty levels.</summary>
+    internal const int InitialScratchLength = 2048;
+
+    /// <summary>The largest number of objects of a scene that is searched without a hierarchy.</summary>
+    /// <remarks>From about a hundred on a hierarchy is faster.</remarks>
+    internal const int MaxListedObjects = 64;
+
     private readonly List<int> _instancePath = new(64);
     private readonly List<int> _savedPath = new(64);
     private int[] _pathBuffer = [];
@@ -86,10 +98,10 @@ public sealed class QueryContext
     /// <summary>Makes the memory of most searches before the first of them.</summary>
     internal void MakeRoom()
     {
-        PathBuffer(FractalSearchState.MaxStackDepth);
-        BestPathBuffer(FractalSearchState.MaxStackDepth);
-        ScratchBuffer(FractalSearchState.InitialScratchLength);
-        ObjectBoundsBuffer(SceneObjects.MaxFew);
+        PathBuffer(MaxStackDepth);
+        BestPathBuffer(MaxStackDepth);
+        ScratchBuffer(InitialScratchLength);
+        ObjectBoundsBuffer(MaxListedObjects);
         _traversalStack ??= new();
         _objectQueue ??= new();
     }

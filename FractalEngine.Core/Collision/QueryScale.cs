@@ -1,6 +1,3 @@
-using System.Globalization;
-using FractalEngine.Core.Fractals;
-using FractalEngine.Core.Fractals.Hierarchy;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
@@ -13,13 +10,12 @@ internal static class QueryScale
 {
     // The kernels multiply up to six coordinates, see TriangleKernel.
     private const double MinMagnitude = 1e-40;
-    private const double MaxMagnitude = 1e40;
-
-    // A sum of several coordinates of any shape, times this, is a double.
-    private const double SmallestEntry = 1e-3;
 
     // The power of two that makes the smallest numbers normal is a double, too.
     private const int MinExponent = -1000;
+
+    /// <summary>Largest coordinate of a query that needs no other units.</summary>
+    public const double MaxMagnitude = 1e40;
 
     /// <summary>Tells whether a query with such coordinates must be answered in other units.</summary>
     /// <param name="magnitude">Largest coordinate of position and shape, or an upper bound; NaN where that is out of range.</param>
@@ -29,8 +25,11 @@ internal static class QueryScale
     /// <param name="magnitude">Largest coordinate of all shapes and positions; 1 serves where that is NaN.</param>
     public static double Of(double magnitude) => !double.IsNaN(magnitude) && IsNeeded(magnitude) ? Math.ScaleB(1, -Exponent(magnitude)) : 1;
 
+    /// <summary>The map to units in which coordinates are multiplied by a factor.</summary>
+    public static AffineMap Scaling(double scale) => new(scale * Matrix.Identity, Vector.Zero);
+
     /// <summary>The largest coordinate of a mesh's faces, 0 for one without any.</summary>
-    public static double Magnitude(Mesh mesh) => mesh.UsedBounds.IsEmpty ? 0 : BoundingVolume.MaxAbsCoordinate(mesh.UsedBounds);
+    public static double Magnitude(Mesh mesh) => mesh.UsedBounds.IsEmpty ? 0 : mesh.UsedBounds.MaxAbsCoordinate();
 
     /// <summary>Computes an upper bound of the coordinates of a query, at most a few times too large.</summary>
     /// <param name="position">In the frame of the image.</param>
@@ -40,77 +39,8 @@ internal static class QueryScale
         position.MaxAbsComponent(),
         (map.Linear.MaxAbsEntry() * 3 * shapeMagnitude) + map.Translation.MaxAbsComponent());
 
-    /// <summary>Answers a query in units in which the largest coordinate is about 1.</summary>
-    /// <param name="collider">Supports queries under a map.</param>
-    /// <param name="position">In the frame of the image.</param>
-    /// <param name="map">From the shape's frame to that of the image.</param>
-    /// <param name="magnitude">Largest coordinate, of which <see cref="IsNeeded"/> is true.</param>
-    /// <param name="maxDistance">Search radius in the frame of the image.</param>
-    /// <param name="epsilon">Allowed relative error.</param>
-    /// <param name="context">Receives the costs and the instance.</param>
-    /// <param name="closest">The closest point in the frame of the image. Its distance is infinite where it is beyond a double.</param>
-    /// <exception cref="ArgumentOutOfRangeException">The position is not finite.</exception>
-    /// <exception cref="FractalLimitException">The map is not finite, or no unit makes the image so.</exception>
-    public static bool FindClosest(
-        Collider collider, in Vector position, in AffineMap map, double magnitude, double maxDistance, double epsilon, QueryContext context,
-        out ClosestPoint closest)
-    {
-        if (!position.IsFinite())
-        {
-            throw new ArgumentOutOfRangeException(nameof(position), position, "expected finite coordinates");
-        }
-
-        // The collider asks again while coordinates are out of range: each time they are smaller, or that ends here.
-        if (!map.IsFinite() || (!double.IsFinite(magnitude) && IsSmallest(in position, in map)))
-        {
-            throw new FractalLimitException("the placement of the shape is beyond the range of a double");
-        }
-
-        // Powers of two change no digits.
-        var exponent = Exponent(magnitude);
-        var scale = Math.ScaleB(1, -exponent);
-        AffineMap scaledMap = new(scale * map.Linear, scale * map.Translation);
-        if (!collider.FindClosestTransformed(scale * position, scaledMap, maxDistance * scale, epsilon, context, out var scaled))
-        {
-            closest = default;
-            return false;
-        }
-
-        closest = scaled with
-        {
-            Distance = Math.ScaleB(scaled.Distance, exponent),
-            Point = scaled.Point / scale,
-            ErrorBound = Math.ScaleB(scaled.ErrorBound, exponent),
-        };
-        return closest.Distance <= maxDistance;
-    }
-
-    /// <summary>Throws for a distance that is larger than any double.</summary>
-    /// <exception cref="FractalLimitException">The distance is infinite.</exception>
-    public static void ThrowIfInfinite(double distance)
-    {
-        if (double.IsPositiveInfinity(distance))
-        {
-            throw new FractalLimitException("the distance is beyond the range of a double");
-        }
-    }
-
-    /// <summary>Throws where a collider that has no other units would compute beyond the range of a double.</summary>
-    /// <param name="magnitude">Largest coordinate of a position or a shape.</param>
-    /// <exception cref="FractalLimitException">It is too large; the message says how large it may be.</exception>
-    public static void ThrowIfTooLarge(double magnitude)
-    {
-        if (magnitude > MaxMagnitude)
-        {
-            throw new FractalLimitException(string.Create(
-                CultureInfo.InvariantCulture, $"this collider is not exact, and searches coordinates up to {MaxMagnitude:R} only"));
-        }
-    }
-
-    /// <summary>True where the image of any finite shape is finite, so that an infinite one can't become finite in other units.</summary>
-    private static bool IsSmallest(in Vector position, in AffineMap map) =>
-        position.MaxAbsComponent() <= 2 && map.Translation.MaxAbsComponent() <= 2 && map.Linear.MaxAbsEntry() <= SmallestEntry;
-
-    private static int Exponent(double magnitude) =>
+    /// <summary>The exponent of the power of two by which coordinates are divided.</summary>
+    /// <param name="magnitude">Largest coordinate; may be infinite or NaN.</param>
+    public static int Exponent(double magnitude) =>
         double.IsFinite(magnitude) ? Math.Max(Math.ILogB(magnitude), MinExponent) : Math.ILogB(double.MaxValue);
 }

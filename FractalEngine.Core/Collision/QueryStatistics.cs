@@ -1,3 +1,5 @@
+using FractalEngine.Core.Rays;
+
 namespace FractalEngine.Core.Collision;
 
 /// <summary>Counts of the work that queries did, added up until they are reset.</summary>
@@ -5,7 +7,7 @@ public sealed class QueryStatistics
 {
     /// <summary>Number of faces that were tested: the paper's collision cost (§5.2.3).</summary>
     /// <remarks>
-    /// <see cref="Reference.BoundingBoxCollider"/> also counts twelve faces for each of eight boxes at every level, as the paper does.
+    /// <c>BoundingBoxCollider</c> also counts twelve faces for each of eight boxes at every level, as the paper does.
     /// </remarks>
     public long FaceTests { get; set; }
 
@@ -24,5 +26,12 @@ public sealed class QueryStatistics
     {
         FaceTests += other.FaceTests;
         BoundTests += other.BoundTests;
+    }
+
+    /// <summary>Adds the cost of a search along a ray.</summary>
+    internal void Add(in RaySearch search)
+    {
+        FaceTests += search.FaceTests;
+        BoundTests += search.BoundTests;
     }
 }

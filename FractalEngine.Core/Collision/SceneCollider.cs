@@ -17,7 +17,7 @@ namespace FractalEngine.Core.Collision;
 /// A query finds its object in O(log n) for n objects that lie apart: the first one builds a hierarchy over their boxes. Objects are tested
 /// in the order of the distances of their boxes, equally close ones in the order of the scene. Of equally close points the first one wins.
 /// </remarks>
-public sealed partial class SceneCollider
+public sealed class SceneCollider
 {
     private readonly Dictionary<Model, Lazy<Collider>> _sharedColliders;
     private readonly ColliderKind _kind;
@@ -253,6 +253,30 @@ public sealed partial class SceneCollider
         }
 
         return search.TryGetResult(out closest, out objectIndex);
+    }
+
+    /// <summary>Finds the closest points of two objects, as colliders do for two shapes.</summary>
+    /// <param name="objectIndex">Index of the first object in the scene, from 0.</param>
+    /// <param name="otherObjectIndex">Index of the second object.</param>
+    /// <param name="context">Receives the costs; null where they don't matter.</param>
+    /// <returns>Both points in world space.</returns>
+    /// <exception cref="ArgumentOutOfRangeException">There is no object with such an index.</exception>
+    /// <exception cref="InvalidOperationException">An object has no faces.</exception>
+    /// <exception cref="FractalLimitException">The distance is beyond the range of a double.</exception>
+    /// <exception cref="NotSupportedException">The colliders are not exact.</exception>
+    public ClosestPair FindClosestPair(int objectIndex, int otherObjectIndex, QueryContext? context = null)
+    {
+        var objects = _objects.ToArray();
+        var instance = Instance(objectIndex, nameof(objectIndex));
+        var other = Instance(otherObjectIndex, nameof(otherObjectIndex));
+        return instance.Collider.Value.FindClosestPair(instance.ObjectToWorld, other.Collider.Value, other.ObjectToWorld, context);
+
+        ColliderInstance Instance(int index, string name)
+        {
+            ArgumentOutOfRangeException.ThrowIfNegative(index, name);
+            ArgumentOutOfRangeException.ThrowIfGreaterThanOrEqual(index, objects.Length, name);
+            return objects[index];
+        }
     }
 
     /// <summary>The objects with a hierarchy that is worth its cost, which the first query builds.</summary>

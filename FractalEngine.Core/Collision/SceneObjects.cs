@@ -10,10 +10,6 @@ namespace FractalEngine.Core.Collision;
 /// </remarks>
 internal sealed class SceneObjects
 {
-    /// <summary>The largest number of objects that is searched without a hierarchy.</summary>
-    /// <remarks>From about a hundred on a hierarchy is faster.</remarks>
-    public const int MaxFew = 64;
-
     // A list as long as this costs less than the hierarchy beside it.
     private const int MinLoose = 8;
 
@@ -22,7 +18,7 @@ internal sealed class SceneObjects
         Hierarchy = hierarchy;
         Loose = loose;
         NeedsNewHierarchy = hierarchy is null
-            ? loose.Length > MaxFew
+            ? loose.Length > QueryContext.MaxListedObjects
             : loose.Length > Math.Max(MinLoose, Math.Sqrt(Count)) || hierarchy.IsDegraded;
     }
 

@@ -7,16 +7,9 @@ namespace FractalEngine.Core.Collision;
 /// <param name="scale">Distances in world space divided by those in the local frame, positive.</param>
 internal sealed class Similarity(AffineMap map, double scale)
 {
-    // As a part of the squared scale: more than the rounding error of rotations.
-    private const double Tolerance = 1e-13;
-
     // Beyond these, the matrix's determinant and cofactors leave the range of a double.
     private const double MinScaleSquared = 1e-180;
     private const double MaxScaleSquared = 1e180;
-
-    // A child instance stands for up to 16 maps.
-    private const double MinChainedScaleSquared = 1e-18;
-    private const double MaxChainedScaleSquared = 1e18;
 
     private static readonly Similarity Unmoved = new(AffineMap.Identity, 1);
 
@@ -35,29 +28,13 @@ internal sealed class Similarity(AffineMap map, double scale)
 
     private QueryTerms Terms => _terms ??= new(Map.Inverse(), Map.Linear.Cofactors());
 
-    /// <summary>
-    /// Tells whether a matrix is the linear part of a similarity of which some in a chain, and their squares, stay in a double's range.
-    /// </summary>
-    public static bool IsChainable(Matrix m) => m.V1.LengthSquared() is > MinChainedScaleSquared and < MaxChainedScaleSquared
-        && IsSimilarity(m);
-
-    /// <summary>Tells whether a matrix is the linear part of a similarity.</summary>
-    public static bool IsSimilarity(Matrix m)
-    {
-        var scaleSquared = m.V1.LengthSquared();
-        var tolerance = Tolerance * scaleSquared;
-        return Math.Abs(m.V2.LengthSquared() - scaleSquared) <= tolerance && Math.Abs(m.V3.LengthSquared() - scaleSquared) <= tolerance
-            && Math.Abs(Vector.Dot(m.V1, m.V2)) <= tolerance && Math.Abs(Vector.Dot(m.V1, m.V3)) <= tolerance
-            && Math.Abs(Vector.Dot(m.V2, m.V3)) <= tolerance;
-    }
-
     /// <summary>Creates a similarity from a map.</summary>
     /// <param name="map">From the local frame to world space.</param>
     /// <param name="similarity">The similarity; the identity if the map is none.</param>
     /// <returns>False for maps that do not keep distances in proportion.</returns>
     public static bool TryCreate(AffineMap map, out Similarity similarity)
     {
-        var isSimilarity = map.Linear.V1.LengthSquared() is > MinScaleSquared and < MaxScaleSquared && IsSimilarity(map.Linear);
+        var isSimilarity = map.Linear.V1.LengthSquared() is > MinScaleSquared and < MaxScaleSquared && map.Linear.IsSimilarity();
         similarity = !isSimilarity ? Identity
             // Shared, since many objects of large scenes stand where they were made.
             : map == AffineMap.Identity ? Unmoved

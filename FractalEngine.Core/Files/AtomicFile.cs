@@ -1,20 +1,12 @@
-using System.Collections.Concurrent;
-using System.Text;
-
 namespace FractalEngine.Core.Files;
 
 /// <summary>Writes files completely or not at all: into a temporary file in the same folder, which then replaces the target.</summary>
-public static partial class AtomicFile
+public static class AtomicFile
 {
     // More files of one name in a folder are an accident.
     private const int MaxNumberedNames = 10_000;
 
     private const int BufferBytes = 1 << 16;
-
-    // Of a name within a folder, as nearly all file systems have it.
-    private const int MaxNameBytes = 255;
-
-    private static readonly ConcurrentDictionary<string, bool> Temporaries = new();
 
     /// <summary>Creates or replaces a file; its folder is created if it is missing.</summary>
     /// <param name="path">
@@ -59,7 +51,7 @@ public static partial class AtomicFile
             }
 
             target = FindTarget(path);
-            temporary = TemporaryNameFor(target);
+            temporary = TemporaryFiles.NameFor(target);
             WriteTemporary(temporary, target, write, () => commit(() => File.Move(temporary, target, overwrite: true)));
         }
         catch (Exception exception) when (exception is IOException or UnauthorizedAccessException)
@@ -92,10 +84,10 @@ public static partial class AtomicFile
         }, move =>
         {
             var target = FindTarget(companion);
-            var temporary = TemporaryNameFor(target);
+            var temporary = TemporaryFiles.NameFor(target);
             try
             {
-                WriteTemporary(temporary, target, writeCompanion, () => Exchange(temporary, target, move));
+                WriteTemporary(temporary, target, writeCompanion, () => FileExchange.Run(temporary, target, move));
             }
             catch (Exception exception) when (exception is IOException or UnauthorizedAccessException)
             {
@@ -118,7 +110,7 @@ public static partial class AtomicFile
         ArgumentException.ThrowIfNullOrEmpty(path);
         ArgumentNullException.ThrowIfNull(write);
         var target = Path.GetFullPath(path);
-        var temporary = TemporaryNameFor(target);
+        var temporary = TemporaryFiles.NameFor(target);
         var result = target;
         var wasMoved = false;
         try
@@ -143,20 +135,7 @@ public static partial class AtomicFile
     }
 
     /// <summary>Deletes the temporary files of all unfinished writes, for a process that ends at once.</summary>
-    public static void DeleteUnfinished()
-    {
-        foreach (var temporary in Temporaries.Keys)
-        {
-            try
-            {
-                File.Delete(temporary);
-            }
-            catch (Exception exception) when (exception is IOException or UnauthorizedAccessException)
-            {
-                // The process is about to end, and can do no more.
-            }
-        }
-    }
+    public static void DeleteUnfinished() => TemporaryFiles.DeleteUnfinished();
 
     /// <summary>Follows a symbolic link to what is to be replaced.</summary>
     private static string FindTarget(string path)
@@ -165,19 +144,6 @@ public static partial class AtomicFile
             ? link.ResolveLinkTarget(returnFinalTarget: true)!.FullName
             : Path.GetFullPath(path);
         return Directory.Exists(target) ? throw new IOException("it is a directory") : target;
-    }
-
-    /// <summary>Returns a name in the same folder, which begins with the target's as far as the file system has room for it.</summary>
-    private static string TemporaryNameFor(string target)
-    {
-        var suffix = FormattableString.Invariant($".{Environment.ProcessId}-{Guid.NewGuid():N}.tmp");
-        var name = Path.GetFileName(target.AsSpan());
-        while (Encoding.UTF8.GetByteCount(name) + suffix.Length > MaxNameBytes)
-        {
-            name = name[..^(name.Length > 1 && char.IsLowSurrogate(name[^1]) ? 2 : 1)];
-        }
-
-        return string.Concat(Path.Join(Path.GetDirectoryName(target.AsSpan()), name), suffix);
     }
 
     /// <summary>Describes an error for the user, who knows nothing of the temporary file.</summary>
@@ -274,7 +240,7 @@ public static partial class AtomicFile
             options.UnixCreateMode = mode;
         }
 
-        Temporaries[temporary] = true;
+        TemporaryFiles.Add(temporary);
         try
         {
             using (var stream = new FileStream(temporary, options))
@@ -291,8 +257,7 @@ public static partial class AtomicFile
         }
         finally
         {
-            File.Delete(temporary);
-            Temporaries.TryRemove(temporary, out _);
+            TemporaryFiles.Delete(temporary);
         }
     }
 }

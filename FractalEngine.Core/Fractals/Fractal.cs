@@ -34,8 +34,8 @@ public sealed class Fractal : IEquatable<Fractal>
         BaseMesh = baseMesh;
         _instanceCount = new(() => FractalSteps.InstanceCount(description.Steps));
         _bounds = new(() => FractalBounds.ComputeBox(this));
-        _hierarchy = new(() => FractalHierarchy.Build(this));
-        _hierarchyBySets = new(() => Hierarchy.HasDoubledPowers ? FractalHierarchy.Build(this, doublesPowers: false) : Hierarchy);
+        _hierarchy = new(() => BuildHierarchy());
+        _hierarchyBySets = new(() => Hierarchy.HasDoubledPowers ? BuildHierarchy(doublesPowers: false) : Hierarchy);
     }
 
     /// <summary>The steps that are applied to the base mesh, and how they are composed.</summary>
@@ -70,6 +70,13 @@ public sealed class Fractal : IEquatable<Fractal>
     /// <exception cref="FractalLimitException">The bounds of some level overflow a double, or don't converge.</exception>
     /// <exception cref="SingularMatrixException">A map has no inverse.</exception>
     internal FractalHierarchy HierarchyBySets => _hierarchyBySets.Value;
+
+    /// <summary>Builds the hierarchy of the fractal, which must be in affine composition, without keeping it.</summary>
+    /// <param name="doublesPowers">False for one level for each set of the fractal, see <see cref="HierarchyBySets"/>.</param>
+    /// <param name="keepsAllLevels">True to keep levels that no search from the whole fractal visits.</param>
+    /// <exception cref="FractalLimitException">Bounds overflow a double, or don't converge; the message names the level.</exception>
+    internal FractalHierarchy BuildHierarchy(bool doublesPowers = true, bool keepsAllLevels = false) =>
+        FractalHierarchyBuilder.Build(HierarchyDescription.Of(BaseMesh, Description.Steps), doublesPowers, keepsAllLevels);
 
     /// <summary>Finds the set at one level, 0 being the outermost.</summary>
     public TransformationSet LevelAt(long level) => FractalSteps.LevelAt(Description.Steps, level);
@@ -194,7 +201,7 @@ public sealed class Fractal : IEquatable<Fractal>
     private static int MaxRepetitionCount(ImmutableArray<FractalStep> steps, int index, Repetition repetition, long maxInstances)
     {
         var others = FractalSteps.CountUpTo(steps.RemoveAt(index), maxInstances);
-        var perRound = FractalSteps.CountUpTo(repetition.Body, maxInstances);
+        var perRound = FractalSteps.CountUpTo(repetition.Round, maxInstances);
         if (perRound <= 1)
         {
             return repetition.Count ?? FractalLimits.MaxDepth;

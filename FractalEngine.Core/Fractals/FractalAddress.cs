@@ -15,13 +15,10 @@ namespace FractalEngine.Core.Fractals;
 /// level 50. Memory: 16 bytes a level, at most <see cref="FractalLimits.MaxDepth"/> levels. Lengths are in a unit that changes with the
 /// depth; perspective shows the same in any unit.
 /// </remarks>
-public sealed partial class FractalAddress
+public sealed class FractalAddress
 {
     // Boxes smaller than this fraction of their distance are as far away as what they hold.
     private const double RelativeDistanceTolerance = 0.1;
-
-    // Of sub-fractals larger than this, in the present unit, nothing is visible beyond what smaller ones show.
-    private const double MaxFrameScale = 1e15;
 
     // Sub-fractals smaller than this fraction of the whole are below the last place of a coordinate.
     private const double MinRelativeSize = 1e-17;
@@ -29,80 +26,51 @@ public sealed partial class FractalAddress
     // Among surfaces that are never far, as in a solid, distances are no smaller than this fraction of the sub-fractal's size.
     private const double MinRelativeDistance = 1e-3;
 
-    // A move tells the position to about this part of its length and of the distance before: what is smaller can't be entered by it.
-    private const double MoveResolution = 1e-16;
-
     private readonly LodHierarchy _hierarchy;
-    private readonly ClosestNodeSearch _search;
-    private readonly FractalPath _path;
+    private readonly CameraFrame _frame;
     private double? _closestDistance;
-    private AffineMap _frameToCamera;
-    private int _movesSinceFrameChange;
-
-    // Natural logarithm of the smallest unit that the present move can lead to, scene units. Within a solid without a smallest level,
-    // sub-fractals are entered without end otherwise.
-    private double _smallestUnit = double.NegativeInfinity;
 
     /// <summary>Creates the address of a camera relative to the whole fractal.</summary>
     /// <param name="hierarchy">Hierarchy of the fractal.</param>
     /// <param name="objectToWorld">The object's matrix m, from the fractal's frame to world space.</param>
     /// <param name="cameraPosition">Camera position, world space.</param>
     public FractalAddress(LodHierarchy hierarchy, AffineMap objectToWorld, Vector cameraPosition)
+        : this(hierarchy, new(hierarchy, new(hierarchy), new(objectToWorld.Linear, objectToWorld.Translation - cameraPosition)))
     {
-        _hierarchy = hierarchy;
-        _search = new(hierarchy);
-        _path = new(hierarchy);
-        _frameToCamera = new(objectToWorld.Linear, objectToWorld.Translation - cameraPosition);
     }
 
-    private FractalAddress(FractalAddress other)
+    private FractalAddress(LodHierarchy hierarchy, CameraFrame frame)
     {
-        _hierarchy = other._hierarchy;
-        _search = new(other._hierarchy);
-        _path = other._path.Clone();
-        _frameToCamera = other._frameToCamera;
-        _movesSinceFrameChange = other._movesSinceFrameChange;
-        LogUnit = other.LogUnit;
+        _hierarchy = hierarchy;
+        _frame = frame;
     }
 
     /// <summary>Number of child instances that lead to the sub-fractal.</summary>
-    public int Depth => _path.Depth;
+    public int Depth => NodePath.Depth;
 
     /// <summary>The path to the sub-fractal: for each level the index of the child instance.</summary>
-    public IReadOnlyList<int> Path => _path.Children;
+    public IReadOnlyList<int> Path => NodePath.Children;
 
     /// <summary>Map from the sub-fractal's frame to world axes about the camera, in the present unit.</summary>
-    public AffineMap FrameToCamera => _frameToCamera;
+    public AffineMap FrameToCamera => _frame.FrameToCamera;
 
     /// <summary>The natural logarithm of the present unit, in scene units.</summary>
-    public double LogUnit { get; private set; }
+    public double LogUnit => _frame.LogUnit;
 
     /// <summary>Memory of the path in bytes.</summary>
-    public long StorageBytes => _path.StorageBytes;
+    public long StorageBytes => NodePath.StorageBytes;
 
-    private double CurrentDiagonal => _path.CurrentNode.Box.Transform(_frameToCamera).Diagonal;
+    private FractalPath NodePath => _frame.Path;
 
     /// <summary>Copies the address, so that one of the two can move alone. Cost O(depth).</summary>
-    public FractalAddress Clone() => new(this);
+    public FractalAddress Clone() => new(_hierarchy, _frame.Clone());
 
     /// <summary>Moves the camera, and updates the address.</summary>
     /// <param name="displacement">World axes, in the present unit; finite.</param>
     public void Move(Vector displacement)
     {
         _closestDistance = null;
-        var reach = Math.Max(_frameToCamera.Translation.MaxAbsComponent(), displacement.MaxAbsComponent());
-        _smallestUnit = LogUnit + Math.Log(MoveResolution * reach);
-        _frameToCamera = _frameToCamera with { Translation = _frameToCamera.Translation - displacement };
-        var depth = Depth;
-        UpdateFrame();
-        // Searching the closest surface takes long. It matters only after the camera has approached one for a while and entered nothing.
-        _movesSinceFrameChange = Depth == depth ? _movesSinceFrameChange + 1 : 0;
-        if (_movesSinceFrameChange == MovesBeforeSwitch)
-        {
-            _movesSinceFrameChange = 0;
-            SwitchFrame();
-            UpdateFrame();
-        }
+        _frame.Move(displacement);
     }
 
     /// <summary>
@@ -127,19 +95,7 @@ public sealed partial class FractalAddress
             throw new ArgumentException("expected a sub-fractal around the camera", nameof(root));
         }
 
-        var relative = Clone();
-        while (relative.Depth > parent)
-        {
-            relative._path.Leave();
-        }
-
-        if (child >= 0)
-        {
-            relative._path.Enter(child);
-        }
-
-        relative._frameToCamera = root.FrameToCamera;
-        return relative;
+        return new(_hierarchy, _frame.RelativeTo(parent, child, root.FrameToCamera));
     }
 
     /// <summary>
@@ -147,10 +103,10 @@ public sealed partial class FractalAddress
     /// out.
     /// </summary>
     public ImmutableArray<int> MapIndices =>
-        [.. Enumerable.Range(0, Depth).Select(depth => _path.NodeAt(depth).ChildMapIndices[Path[depth]])];
+        [.. Enumerable.Range(0, Depth).Select(depth => NodePath.NodeAt(depth).ChildMapIndices[Path[depth]])];
 
     /// <summary>Number of levels of the fractal that lie above the sub-fractal.</summary>
-    public long LevelsAbove => _hierarchy.LevelCount - _path.RemainingLevelsAt(Depth);
+    public long LevelsAbove => _hierarchy.LevelCount - NodePath.RemainingLevelsAt(Depth);
 
     /// <summary>Finds the box around a sub-fractal on the path, and where it is.</summary>
     /// <param name="depth">Number of child instances that lead to it, from 0 for the whole fractal to <see cref="Depth"/>.</param>
@@ -159,7 +115,7 @@ public sealed partial class FractalAddress
     /// is 10¹⁵ times as large as the unit.
     /// </returns>
     public (BoundingBox Box, AffineMap FrameToCamera)? SubFractalAt(int depth) =>
-        FrameToCameraAt(depth) is { } map ? (_path.NodeAt(depth).Box, map) : null;
+        _frame.FrameToCameraAt(depth) is { } map ? (NodePath.NodeAt(depth).Box, map) : null;
 
     /// <summary>Computes the map from the surroundings of another camera in the same fractal to those of this one.</summary>
     /// <param name="other">The address of the other camera.</param>
@@ -182,7 +138,9 @@ public sealed partial class FractalAddress
             shared++;
         }
 
-        return FrameToCameraAt(shared) is { } own && other.FrameToCameraAt(shared) is { } others ? own * others.Inverse() : null;
+        return _frame.FrameToCameraAt(shared) is { } own && other._frame.FrameToCameraAt(shared) is { } others
+            ? own * others.Inverse()
+            : null;
     }
 
     /// <summary>Computes the camera position in world space, as far as a double can tell it.</summary>
@@ -190,10 +148,10 @@ public sealed partial class FractalAddress
     public Vector WorldPosition(AffineMap objectToWorld)
     {
         var frameToWorld = objectToWorld;
-        var minDiagonal = MinRelativeSize * _path.NodeAt(0).Box.Transform(objectToWorld).Diagonal;
+        var minDiagonal = MinRelativeSize * NodePath.NodeAt(0).Box.Transform(objectToWorld).Diagonal;
         for (var depth = 0; depth < Depth; depth++)
         {
-            var node = _path.NodeAt(depth);
+            var node = NodePath.NodeAt(depth);
             if (!(node.Box.Transform(frameToWorld).Diagonal > minDiagonal))
             {
                 return frameToWorld * node.Box.Centre;
@@ -202,7 +160,7 @@ public sealed partial class FractalAddress
             frameToWorld *= node.ChildMaps[Path[depth]].ToAffineMap();
         }
 
-        return frameToWorld * CameraInFrame();
+        return frameToWorld * _frame.CameraPosition();
     }
 
     /// <summary>Computes an upper bound of the distance of drawn surfaces, in the present unit.</summary>
@@ -235,11 +193,11 @@ public sealed partial class FractalAddress
             return cached;
         }
 
-        var node = _path.CurrentNode;
+        var node = NodePath.CurrentNode;
         var distance = node.ChildMaps.Length == 0
-            ? DistanceToBox(node.Box.Transform(_frameToCamera), Vector.Zero)
-            : FindClosestNode(RelativeDistanceTolerance).Distance;
-        var closestDistance = Math.Max(distance, MinRelativeDistance * CurrentDiagonal);
+            ? CameraFrame.DistanceToBox(node.Box.Transform(FrameToCamera), Vector.Zero)
+            : _frame.FindClosestNode(RelativeDistanceTolerance).Distance;
+        var closestDistance = Math.Max(distance, MinRelativeDistance * _frame.CurrentDiagonal);
         _closestDistance = closestDistance;
         return closestDistance;
     }
@@ -247,24 +205,24 @@ public sealed partial class FractalAddress
     /// <summary>Lists the sub-fractals to draw, with the depth of the one that each is a child of; −1 for no child.</summary>
     private IEnumerable<(LodRoot Root, int Parent, int Child)> EnumerateRoots(int maxAncestors)
     {
-        yield return (new(_path.RemainingLevelsAt(Depth), _frameToCamera, _path.ColourPathTo(Depth)), Depth, -1);
-        var frameToCamera = _frameToCamera;
+        yield return (new(NodePath.RemainingLevelsAt(Depth), FrameToCamera, NodePath.ColourPathTo(Depth)), Depth, -1);
+        var frameToCamera = FrameToCamera;
         for (var depth = Depth - 1; depth >= Math.Max(0, Depth - (long)maxAncestors); depth--)
         {
-            var node = _path.NodeAt(depth);
+            var node = NodePath.NodeAt(depth);
             frameToCamera *= node.ChildMaps[Path[depth]].ToAffineMap().Inverse();
-            if (!IsWithinScale(frameToCamera))
+            if (!CameraFrame.IsWithinScale(frameToCamera))
             {
                 yield break;
             }
 
-            var colourPath = _path.ColourPathTo(depth);
+            var colourPath = NodePath.ColourPathTo(depth);
             for (var child = 0; child < node.ChildMaps.Length; child++)
             {
                 if (child != Path[depth])
                 {
                     var root = new LodRoot(
-                        _path.ChildLevels(depth, child),
+                        NodePath.ChildLevels(depth, child),
                         frameToCamera * node.ChildMaps[child].ToAffineMap(),
                         colourPath.Append(node.ChildMapIndices[child], child, node.ChildMaps.Length));
                     yield return (root, depth, child);
@@ -273,24 +231,9 @@ public sealed partial class FractalAddress
         }
     }
 
-    /// <summary>Computes the map from the frame of a sub-fractal on the path; null where that is too large for the unit.</summary>
-    private AffineMap? FrameToCameraAt(int depth)
+    private double DistanceTo(LodRoot root)
     {
-        var frameToCamera = _frameToCamera;
-        for (var ancestor = Depth - 1; ancestor >= depth; ancestor--)
-        {
-            frameToCamera *= _path.NodeAt(ancestor).ChildMaps[Path[ancestor]].ToAffineMap().Inverse();
-            if (!IsWithinScale(frameToCamera))
-            {
-                return null;
-            }
-        }
-
-        return frameToCamera;
+        var node = _hierarchy.NodeAt(root.RemainingLevels);
+        return node.IsEmpty ? double.PositiveInfinity : CameraFrame.DistanceToBox(node.Box.Transform(root.FrameToCamera), Vector.Zero);
     }
-
-    private static double DistanceToBox(BoundingBox box, Vector position) => Math.Sqrt(box.DistanceSquared(position));
-
-    private static bool IsWithinScale(AffineMap frameToCamera) =>
-        frameToCamera.IsFinite() && !(frameToCamera.Linear.MaxAbsEntry() > MaxFrameScale);
 }

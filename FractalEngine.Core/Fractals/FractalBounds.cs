@@ -39,7 +39,7 @@ public static class FractalBounds
         var steps = LevelsOf(fractal);
         var wide = steps.Select((step, index) => (Set: step as TransformationSet, Index: index))
             .Where(static level => level.Set is not { Maps.Length: 1 }).ToArray();
-        return wide is [{ Set.Maps.Length: > ChildGroups.MaxUngroupedChildren and var count, Index: var index }]
+        return wide is [{ Set.Maps.Length: > SubFractal.MaxUngroupedChildren and var count, Index: var index }]
             && (long)count * fractal.BaseMesh.VertexCount <= MaxEnumeratedVertices
                 ? index
                 : null;
@@ -47,7 +47,7 @@ public static class FractalBounds
 
     /// <summary>The steps of a fractal, without repetitions that say a thing once.</summary>
     private static FractalStep[] LevelsOf(Fractal fractal) =>
-        [.. fractal.Description.Steps.SelectMany(static step => step is Repetition { Count: 1 } once ? once.Body : [step])];
+        [.. fractal.Description.Steps.SelectMany(static step => step is Repetition { Count: 1 } once ? once.Round : [step])];
 
     private static BoundingBox ComputeEnumeratedBox(Fractal fractal, int wideIndex)
     {

@@ -56,7 +56,7 @@ public sealed record FractalDescription(ImmutableArray<FractalStep> Steps, Compo
 
     private static bool StepPreservesOrientation(FractalStep step) => step switch
     {
-        Repetition repetition => repetition.Body.All(StepPreservesOrientation),
+        Repetition repetition => repetition.Round.All(StepPreservesOrientation),
         TransformationSet set => set.Maps.All(map => map.Linear.Determinant() > 0),
         _ => false,
     };

@@ -8,7 +8,7 @@ namespace FractalEngine.Core.Fractals;
 /// </summary>
 /// <remarks>
 /// So the whole fractal is drawn in place of its sub-fractal. A queue, the trail, keeps the last few m, and the oldest of them is drawn:
-/// what lies behind the camera does not vanish at once. The class exists for comparison with <see cref="FractalAddress"/>, which loses no
+/// what lies behind the camera does not vanish at once. The class exists for comparison with <c>FractalAddress</c>, which loses no
 /// precision. Each call starts at the whole fractal again, as in the paper: cost O(depth · maps). World coordinates end at a depth of about
 /// 50 for halves.
 /// </remarks>

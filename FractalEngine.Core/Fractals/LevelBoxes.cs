@@ -20,7 +20,7 @@ internal sealed class LevelBoxes(Mesh mesh, int maxRounds = int.MaxValue)
 
     /// <summary>Tells whether all maps of some steps keep boxes axis-aligned.</summary>
     public static bool AreExact(ImmutableArray<FractalStep> steps) => steps.All(step => step is Repetition repetition
-        ? AreExact(repetition.Body)
+        ? AreExact(repetition.Round)
         : ((TransformationSet)step).Maps.All(map => map.Linear.KeepsBoxesAxisAligned()));
 
     /// <summary>Computes the box of a fractal in affine composition; all of space where it has no bounds.</summary>
@@ -57,7 +57,7 @@ internal sealed class LevelBoxes(Mesh mesh, int maxRounds = int.MaxValue)
         for (var round = 0; round < roundCount; round++)
         {
             var previous = Volume;
-            foreach (var set in Ascend(repetition.Body))
+            foreach (var set in Ascend(repetition.Round))
             {
                 yield return set;
             }

@@ -7,14 +7,14 @@ namespace FractalEngine.Core.Fractals;
 public sealed class Repetition : FractalStep
 {
     /// <summary>Repeats the steps of one round.</summary>
-    /// <param name="body">Outermost first: at least one step, each with finitely many levels.</param>
+    /// <param name="round">Outermost first: at least one step, each with finitely many levels.</param>
     /// <param name="count">Not negative; null for the infinite fractal.</param>
-    /// <exception cref="ArgumentException">The body is empty or infinite itself.</exception>
-    public Repetition(ImmutableArray<FractalStep> body, int? count)
+    /// <exception cref="ArgumentException">The round is empty or infinite itself.</exception>
+    public Repetition(ImmutableArray<FractalStep> round, int? count)
     {
-        if (body.IsDefaultOrEmpty || body.Any(step => step.LevelCount is null))
+        if (round.IsDefaultOrEmpty || round.Any(step => step.LevelCount is null))
         {
-            throw new ArgumentException("expected at least one step, and only finite ones", nameof(body));
+            throw new ArgumentException("expected at least one step, and only finite ones", nameof(round));
         }
 
         if (count < 0)
@@ -22,15 +22,15 @@ public sealed class Repetition : FractalStep
             throw new ArgumentOutOfRangeException(nameof(count), "expected a number that is not negative");
         }
 
-        Body = body;
-        LevelsPerRound = FractalSteps.LevelCount(body)!.Value;
+        Round = round;
+        LevelsPerRound = FractalSteps.LevelCount(round)!.Value;
         // A round without levels adds nothing, however often.
         Count = LevelsPerRound == 0 ? 0 : count;
-        NestingDepth = 1 + body.Max(step => step.NestingDepth);
+        NestingDepth = 1 + round.Max(step => step.NestingDepth);
     }
 
     /// <summary>The steps of one round, outermost first.</summary>
-    public ImmutableArray<FractalStep> Body { get; }
+    public ImmutableArray<FractalStep> Round { get; }
 
     /// <summary>Number of rounds; null for infinitely many. 0 for rounds without levels.</summary>
     public int? Count { get; }
@@ -48,7 +48,7 @@ public sealed class Repetition : FractalStep
 
     /// <inheritdoc/>
     /// <remarks>Exact at any size: a million rounds of 25 maps give a number of 1.4 million digits in about a second.</remarks>
-    public override BigInteger? InstanceCount => (Count, FractalSteps.InstanceCount(Body)!.Value) switch
+    public override BigInteger? InstanceCount => (Count, FractalSteps.InstanceCount(Round)!.Value) switch
     {
         (0, _) => BigInteger.One,
         (_, var perRound) when perRound.IsZero => perRound,
@@ -57,15 +57,15 @@ public sealed class Repetition : FractalStep
     };
 
     /// <inheritdoc/>
-    public override TransformationSet LevelAt(long level) => FractalSteps.LevelAt(Body, level % LevelsPerRound);
+    public override TransformationSet LevelAt(long level) => FractalSteps.LevelAt(Round, level % LevelsPerRound);
 
     /// <summary>Makes the same round repeated another number of times.</summary>
-    public Repetition WithCount(int? count) => new(Body, count);
+    public Repetition WithCount(int? count) => new(Round, count);
 
     /// <inheritdoc/>
     internal override BigInteger CountUpTo(long limit)
     {
-        var perRound = FractalSteps.CountUpTo(Body, limit);
+        var perRound = FractalSteps.CountUpTo(Round, limit);
         if (perRound <= 1)
         {
             return Count == 0 ? BigInteger.One : perRound;
@@ -82,8 +82,8 @@ public sealed class Repetition : FractalStep
 
     /// <inheritdoc/>
     public override bool Equals(FractalStep? other) =>
-        other is Repetition repetition && Count == repetition.Count && Body.AsSpan().SequenceEqual(repetition.Body.AsSpan());
+        other is Repetition repetition && Count == repetition.Count && Round.AsSpan().SequenceEqual(repetition.Round.AsSpan());
 
     /// <inheritdoc/>
-    public override int GetHashCode() => HashCode.Combine(Count, HashOf(Body));
+    public override int GetHashCode() => HashCode.Combine(Count, HashOf(Round));
 }

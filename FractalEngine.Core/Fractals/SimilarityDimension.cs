@@ -48,7 +48,7 @@ public static class SimilarityDimension
     private static double? Solve(Repetition repetition)
     {
         var levels = new List<Level>();
-        AddLevels(levels, repetition.Body, 1);
+        AddLevels(levels, repetition.Round, 1);
         var largestRatio = levels.Aggregate(
             1.0, static (product, level) => product * Math.Pow(Math.Max(level.LargestRatio, level.IdentityCount > 0 ? 1 : 0), level.Count));
         var hasIdentities = levels.TrueForAll(static level => level.IdentityCount > 0);
@@ -101,7 +101,7 @@ public static class SimilarityDimension
         {
             if (step is Repetition { Count: var repeated } nested)
             {
-                AddLevels(levels, nested.Body, count * (repeated ?? 1));
+                AddLevels(levels, nested.Round, count * (repeated ?? 1));
             }
             else if (step is TransformationSet set)
             {

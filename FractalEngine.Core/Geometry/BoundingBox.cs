@@ -66,6 +66,9 @@ public readonly record struct BoundingBox(Vector Minimum, Vector Maximum)
         other.Minimum.X >= Minimum.X && other.Minimum.Y >= Minimum.Y && other.Minimum.Z >= Minimum.Z
         && other.Maximum.X <= Maximum.X && other.Maximum.Y <= Maximum.Y && other.Maximum.Z <= Maximum.Z;
 
+    /// <summary>Computes the largest absolute coordinate; infinite for the empty box.</summary>
+    internal double MaxAbsCoordinate() => Math.Max(Minimum.MaxAbsComponent(), Maximum.MaxAbsComponent());
+
     /// <summary>Computes the squared distance of a position: 0 inside, infinite for the empty box.</summary>
     public double DistanceSquared(Vector position) => IsEmpty ? double.PositiveInfinity
         : Vector.Max(Vector.Max(Minimum - position, position - Maximum), Vector.Zero).LengthSquared();

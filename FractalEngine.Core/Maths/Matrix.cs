@@ -15,6 +15,13 @@ public readonly record struct Matrix(Vector V1, Vector V2, Vector V3)
     // at most twice as much in an entry.
     private const double MinYawCosine = 1e-13;
 
+    // As a part of the squared scale: more than the rounding error of rotations.
+    private const double SimilarityTolerance = 1e-13;
+
+    // A child instance stands for up to 16 maps.
+    private const double MinChainedScaleSquared = 1e-18;
+    private const double MaxChainedScaleSquared = 1e18;
+
     /// <summary>The identity matrix (i j k).</summary>
     public static Matrix Identity => new(Vector.I, Vector.J, Vector.K);
 
@@ -154,6 +161,21 @@ public readonly record struct Matrix(Vector V1, Vector V2, Vector V3)
     /// <summary>Tells whether the matrix scales and permutes the axes, and has an inverse.</summary>
     /// <remarks>Each column then has exactly one entry that is not zero, each in a row of its own.</remarks>
     internal bool IsScaledAxisPermutation() => KeepsBoxesAxisAligned() && Determinant() != 0;
+
+    /// <summary>
+    /// Tells whether the matrix is the linear part of a similarity of which some in a chain, and their squares, stay in a double's range.
+    /// </summary>
+    internal bool IsChainableSimilarity() => V1.LengthSquared() is > MinChainedScaleSquared and < MaxChainedScaleSquared && IsSimilarity();
+
+    /// <summary>Tells whether the matrix is the linear part of a similarity: a rotation or mirror with a uniform scale.</summary>
+    internal bool IsSimilarity()
+    {
+        var scaleSquared = V1.LengthSquared();
+        var tolerance = SimilarityTolerance * scaleSquared;
+        return Math.Abs(V2.LengthSquared() - scaleSquared) <= tolerance && Math.Abs(V3.LengthSquared() - scaleSquared) <= tolerance
+            && Math.Abs(Vector.Dot(V1, V2)) <= tolerance && Math.Abs(Vector.Dot(V1, V3)) <= tolerance
+            && Math.Abs(Vector.Dot(V2, V3)) <= tolerance;
+    }
 
     /// <summary>Tells whether all entries are finite numbers.</summary>
     public bool IsFinite() => V1.IsFinite() && V2.IsFinite() && V3.IsFinite();

@@ -45,7 +45,7 @@ internal sealed partial class BodyMover
     /// <summary>Finds how far the closest kinematic object pushes a body that stays where it is.</summary>
     private void FindKinematicPush(Body body, double stepLength)
     {
-        var motion = new Motion(body.Position, body.Velocity, body.FreeAcceleration);
+        var motion = new SphereMotion(body.Position, body.Velocity, body.FreeAcceleration);
         var way = stepLength * _obstacles.MaxKinematicSpeed(in motion, stepLength);
         if (way > 0 && _obstacles.TryFindNearKinematic(body.Position, way + motion.MaxTravelDistance(stepLength), out var surface))
         {
@@ -104,7 +104,7 @@ internal sealed partial class BodyMover
         }
 
         // Straight: its plan keeps the ends of the way before the surfaces that it touches, and so all that lies between.
-        var motion = new Motion(body.PlannedStart, way / stepLength, Vector.Zero);
+        var motion = new SphereMotion(body.PlannedStart, way / stepLength, Vector.Zero);
         _sweep.ResetStepBudget();
         var isHit = _sweep.TryFindImpact(in motion, stepLength, out var hit, out var elapsed);
         body.IsHeld = isHit || elapsed < stepLength;

@@ -176,7 +176,7 @@ internal sealed partial class BodyMover
         var isSlow = contacts.Count > 0 && !isCarried && body.Velocity.MaxAbsComponent() <= negligibleSpeed;
         body.Velocity = netAcceleration == Vector.Zero && isSlow ? Vector.Zero : body.Velocity;
         body.NetAcceleration = netAcceleration;
-        var motion = new Motion(position, body.Velocity, netAcceleration);
+        var motion = new SphereMotion(position, body.Velocity, netAcceleration);
         if (body.Velocity == Vector.Zero && netAcceleration == Vector.Zero && _obstacles.MaxKinematicSpeed(in motion, duration) == 0)
         {
             body.AngularVelocity += (spinAcceleration == Vector.Zero ? 0 : duration) * spinAcceleration;

@@ -152,7 +152,7 @@ internal sealed class BodyStepper
     public void Step(Body body, StaticColliders? staticColliders, CharacterController? character, double stepLength, long stepIndex)
     {
         var (faceTests, boundTests) = BeginCount();
-        var motion = new Motion(body.Position, body.Velocity, body.FreeAcceleration);
+        var motion = new SphereMotion(body.Position, body.Velocity, body.FreeAcceleration);
         body.HasHeapMargin = false;
         SetMover(body, staticColliders, character, stepLength);
         if (body.IsCompound)
@@ -279,7 +279,7 @@ internal sealed class BodyStepper
     /// <returns>How far it may move in free flight.</returns>
     private double SetMover(Body body, StaticColliders? staticColliders, CharacterController? character, double stepLength)
     {
-        var maxTravel = new Motion(body.Position, body.Velocity, body.FreeAcceleration).MaxTravelDistance(stepLength);
+        var maxTravel = new SphereMotion(body.Position, body.Velocity, body.FreeAcceleration).MaxTravelDistance(stepLength);
         var margin = (2 * maxTravel) + (SearchMargin * body.Radius);
         _obstacles.SetMover(staticColliders, SingleSphereOffset, body.Radius, body.SafeDistance, margin, character);
         _obstacles.Time = 0;

@@ -27,7 +27,7 @@ internal sealed partial class Obstacles
     /// <summary>Largest speed of the kinematic objects that the mover may meet; 0 where there are none.</summary>
     /// <param name="motion">Path of the mover.</param>
     /// <param name="duration">Seconds that it takes.</param>
-    public double MaxKinematicSpeed(in Motion motion, double duration)
+    public double MaxKinematicSpeed(in SphereMotion motion, double duration)
     {
         if (kinematics.Objects.Count == 0 || _staticColliders is null)
         {

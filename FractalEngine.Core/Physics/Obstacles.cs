@@ -57,7 +57,7 @@ internal sealed partial class Obstacles(
     /// <param name="motion">Its path, unless it meets anything.</param>
     /// <param name="duration">Seconds that it takes.</param>
     /// <param name="excludedIndex">Index of the mover itself.</param>
-    public void PrepareNearbyBodies(in Motion motion, double duration, int excludedIndex)
+    public void PrepareNearbyBodies(in SphereMotion motion, double duration, int excludedIndex)
     {
         _clearBox = motion.SweptBox(duration);
         _isClear = nearbyBodies.Prepare(in _clearBox, _radius * ContactTolerances.NeighbourRadiusFactor, excludedIndex);
@@ -76,7 +76,7 @@ internal sealed partial class Obstacles(
     /// <param name="motion">Path of the mover.</param>
     /// <param name="duration">Seconds that it takes.</param>
     /// <param name="excludedIndex">Index of the mover itself, or <see cref="Contact.NoBody"/>.</param>
-    public void CollectNearbyBodies(in Motion motion, double duration, int excludedIndex)
+    public void CollectNearbyBodies(in SphereMotion motion, double duration, int excludedIndex)
     {
         _candidates.Clear();
         var box = duration > 0 ? motion.SweptBox(duration) : new(motion.Start, motion.Start);

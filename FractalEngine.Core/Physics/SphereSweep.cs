@@ -44,7 +44,7 @@ internal sealed class SphereSweep(Obstacles obstacles)
     /// <param name="hit">The first obstacle that was touched.</param>
     /// <param name="elapsed">Seconds of the path that were followed; fewer than all at an impact or after too many advances.</param>
     /// <returns>True when something was touched.</returns>
-    public bool TryFindImpact(in Motion motion, double maxTime, out Contact hit, out double elapsed)
+    public bool TryFindImpact(in SphereMotion motion, double maxTime, out Contact hit, out double elapsed)
     {
         hit = default;
         elapsed = 0;
@@ -53,7 +53,7 @@ internal sealed class SphereSweep(Obstacles obstacles)
         var obstacleSpeed = obstacles.MaxKinematicSpeed(in motion, maxTime);
         for (; _stepsLeft > 0 && elapsed < maxTime; _stepsLeft--)
         {
-            var remaining = new Motion(motion.PositionAt(elapsed), motion.VelocityAt(elapsed), motion.Acceleration);
+            var remaining = new SphereMotion(motion.PositionAt(elapsed), motion.VelocityAt(elapsed), motion.Acceleration);
             var timeLeft = maxTime - elapsed;
             var maxTravel = remaining.MaxTravelDistance(timeLeft) + (obstacleSpeed * timeLeft);
             obstacles.Time = _startTime + elapsed;
@@ -91,7 +91,7 @@ internal sealed class SphereSweep(Obstacles obstacles)
     /// <param name="overlapped">What it overlaps then.</param>
     /// <param name="hit">Receives what is touched first.</param>
     /// <returns>Seconds from the start of the path.</returns>
-    private double FindTimeOfImpact(in Motion motion, double upperTime, Contact overlapped, out Contact hit)
+    private double FindTimeOfImpact(in SphereMotion motion, double upperTime, Contact overlapped, out Contact hit)
     {
         hit = overlapped;
         var lowerTime = 0.0;
@@ -138,7 +138,7 @@ internal sealed class SphereSweep(Obstacles obstacles)
     }
 
     /// <summary>Updates a surface contact of a later time to its closest point at a position.</summary>
-    private Contact RefreshContact(Vector position, in Contact contact, in Motion motion, double overlapTime)
+    private Contact RefreshContact(Vector position, in Contact contact, in SphereMotion motion, double overlapTime)
     {
         if (contact.IsBody)
         {
@@ -152,13 +152,13 @@ internal sealed class SphereSweep(Obstacles obstacles)
     }
 
     /// <summary>Position at a time, to which the obstacles are set as well.</summary>
-    private Vector PositionAt(in Motion motion, double time)
+    private Vector PositionAt(in SphereMotion motion, double time)
     {
         obstacles.Time = _startTime + time;
         return motion.PositionAt(time);
     }
 
-    private bool IsApproaching(in Motion motion, double time, in Contact contact)
+    private bool IsApproaching(in SphereMotion motion, double time, in Contact contact)
     {
         var position = PositionAt(in motion, time);
         var velocity = motion.VelocityAt(time) - contact.SurfaceVelocity(position);
@@ -166,7 +166,7 @@ internal sealed class SphereSweep(Obstacles obstacles)
     }
 
     /// <summary>Finds when one obstacle alone would be touched, between a time before and a time of overlap.</summary>
-    private double FindTouchTime(in Motion motion, in Contact contact, double lowerTime, double upperTime)
+    private double FindTouchTime(in SphereMotion motion, in Contact contact, double lowerTime, double upperTime)
     {
         var normal = contact.Normal(PositionAt(in motion, upperTime));
         normal = contact.Kinematic?.RotateBack(normal) ?? normal;
@@ -237,7 +237,7 @@ internal sealed class SphereSweep(Obstacles obstacles)
     }
 
     /// <summary>Free distance from an obstacle at a time; for a flat one the distance from its plane, which may be negative.</summary>
-    private double Gap(in Motion motion, in Contact contact, Vector normal, bool isFlat, double time)
+    private double Gap(in SphereMotion motion, in Contact contact, Vector normal, bool isFlat, double time)
     {
         var pointToCentre = contact.PointToCentre(PositionAt(in motion, time));
         normal = contact.Kinematic?.Rotate(normal) ?? normal;

@@ -27,7 +27,7 @@ internal sealed class WorldQueries(
         kinematics.IsFrozen = true;
         try
         {
-            var motion = new Motion(start, way, Vector.Zero);
+            var motion = new SphereMotion(start, way, Vector.Zero);
             obstacles.CollectNearbyBodies(in motion, 1, Contact.NoBody);
             obstacles.DropBodiesOfOtherLayers(layer, mask);
             _sweep.ResetStepBudget();

@@ -1,7 +1,6 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Collision;
 using FractalEngine.Core.Fractals;
-using FractalEngine.Core.Fractals.Hierarchy;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
@@ -76,7 +75,7 @@ public sealed class DeepZoomRayCaster : InstanceRayCaster
 
     // Cameras come to levels that searches from the whole fractal skip.
     private static FractalRayCaster WholeOf(Fractal fractal) =>
-        new(fractal, FractalHierarchy.Build(fractal, doublesPowers: false, keepsAllLevels: true));
+        new(fractal, fractal.BuildHierarchy(doublesPowers: false, keepsAllLevels: true));
 
     private static ObjectBvh? BuildInstances(FractalRayCaster whole, ImmutableArray<LodRoot> roots)
     {
@@ -102,7 +101,7 @@ public sealed class DeepZoomRayCaster : InstanceRayCaster
 
     private static BoundingBox Widened(BoundingBox box)
     {
-        var margin = RoundingErrors.Chain * BoundingVolume.MaxAbsCoordinate(box) * Vector.One;
+        var margin = RoundingErrors.Chain * box.MaxAbsCoordinate() * Vector.One;
         return new(box.Minimum - margin, box.Maximum + margin);
     }
 }

@@ -15,7 +15,7 @@ namespace FractalEngine.Core.Rays;
 /// before the others.
 /// </summary>
 /// <remarks>
-/// Sub-fractals smaller than <see cref="ExactFractalCollider.RelativePrecision"/> of the whole are replaced by the base mesh, and so is
+/// Sub-fractals smaller than <see cref="LevelPrecision.RelativePrecision"/> of the whole are replaced by the base mesh, and so is
 /// what a ray still has to visit after a million bounds. Why no hit is lost is explained in docs/rays.md.
 /// </remarks>
 internal sealed class FractalRayCaster : RayCaster
@@ -57,8 +57,8 @@ internal sealed class FractalRayCaster : RayCaster
         _hierarchy = hierarchy;
         (_root, _rootLevels) = (_hierarchy.Root, _hierarchy.Levels);
         _bvh = TriangleBvh.For(fractal.BaseMesh);
-        _minRadius = ExactFractalCollider.MinRadius(_root);
-        ShapeMagnitude = BoundingVolume.MaxAbsCoordinate(_root.Box);
+        _minRadius = LevelPrecision.MinRadius(_root);
+        ShapeMagnitude = _root.Box.MaxAbsCoordinate();
         _levels = new(_hierarchy);
         _tree = new(_hierarchy, [_bvh], _minRadius);
         _basePlanes = new(fractal.BaseMesh);
@@ -70,8 +70,8 @@ internal sealed class FractalRayCaster : RayCaster
         _hierarchy = whole._hierarchy;
         (_root, _rootLevels) = (_hierarchy.At(levels), levels);
         _bvh = whole._bvh;
-        _minRadius = ExactFractalCollider.MinRadius(_root);
-        ShapeMagnitude = BoundingVolume.MaxAbsCoordinate(_root.Box);
+        _minRadius = LevelPrecision.MinRadius(_root);
+        ShapeMagnitude = _root.Box.MaxAbsCoordinate();
         _levels = whole._levels;
         _tree = new(_hierarchy, [_bvh], _minRadius);
         _basePlanes = whole._basePlanes;
@@ -104,7 +104,7 @@ internal sealed class FractalRayCaster : RayCaster
         context.ClearPath();
         var instance = _hierarchy.ResolveInstance(
             context.BestPathBuffer(pathLength)[..pathLength], _rootLevels, in map, context, out _);
-        return search.Proxy is { } proxy ? SimdAffineMap.Compose(in instance, in proxy.ProxyMap) : instance;
+        return search.Proxy is { } proxy ? SimdAffineMap.Compose(in instance, in proxy.Map) : instance;
     }
 
     /// <inheritdoc/>
@@ -211,7 +211,7 @@ internal sealed class FractalRayCaster : RayCaster
             {
                 isLeafHit = TryIntersectProxy(depth, in inner, bounds, ref search, context, ref pathLength);
             }
-            else if (inner.RemainingLevels == 0 || radius <= minRadius || inner.PathLength >= FractalSearchState.MaxDepth
+            else if (inner.RemainingLevels == 0 || radius <= minRadius || inner.PathLength >= InstanceResolver.MaxDepth
                 || search.BoundTests >= MaxBoundTests)
             {
                 isLeafHit = TryIntersectLeaf(in ray, depth, in inner, bounds, ref search, context, ref pathLength);
@@ -301,13 +301,13 @@ internal sealed class FractalRayCaster : RayCaster
     private bool TryIntersectProxy(
         int depth, in RayFrame frame, RayBounds bounds, ref RaySearch search, QueryContext context, ref int pathLength)
     {
-        var local = frame.ToLocal(bounds.Box).Transform(in bounds.InverseProxyMap, 1, 1);
-        if (!_bvh.TryIntersect(in local, ref search))
+        var local = frame.ToLocal(bounds.Box).Transform(in bounds.Proxy.Inverse, 1, 1);
+        if (!_bvh.Rays.TryIntersect(in local, ref search))
         {
             return false;
         }
 
-        search.Proxy = bounds;
+        search.Proxy = bounds.Proxy;
         pathLength = CopyPath(depth, in frame, context);
         return true;
     }
@@ -359,7 +359,7 @@ internal sealed class FractalRayCaster : RayCaster
 
     private bool TryIntersectBase(in LocalRay ray, ref RaySearch search)
     {
-        if (!_bvh.TryIntersect(in ray, ref search))
+        if (!_bvh.Rays.TryIntersect(in ray, ref search))
         {
             return false;
         }

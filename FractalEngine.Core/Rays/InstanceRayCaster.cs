@@ -6,8 +6,8 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Rays;
 
 /// <summary>
-/// Finds where rays hit many placed shapes: the objects of a scene (<see cref="SceneRayCaster"/>), or the sub-fractals around a camera
-/// (<see cref="DeepZoomRayCaster"/>). Immutable, as <see cref="RayCaster"/> is.
+/// Finds where rays hit many placed shapes: the objects of a scene (<c>SceneRayCaster</c>), or the sub-fractals around a camera
+/// (<c>DeepZoomRayCaster</c>). Immutable, as <see cref="RayCaster"/> is.
 /// </summary>
 /// <remarks>A ray finds its shape in O(log n) for n that lie apart, by a hierarchy over their boxes.</remarks>
 public abstract class InstanceRayCaster
@@ -87,7 +87,7 @@ public abstract class InstanceRayCaster
             RayInstanceSearch.Run(Instances.Root, in ray, ref search, context, ref found, ref pathLength);
         }
 
-        search.AddTo(context.Statistics);
+        context.Statistics.Add(in search);
         return search;
     }
 }

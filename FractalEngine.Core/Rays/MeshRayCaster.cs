@@ -37,7 +37,7 @@ internal sealed class MeshRayCaster(Mesh mesh, Mesh faces) : RayCaster
     /// <inheritdoc/>
     internal override bool TryIntersect(in LocalRay ray, ref RaySearch search, QueryContext context, ref int pathLength)
     {
-        if (!_bvh.TryIntersect(in ray, ref search))
+        if (!_bvh.Rays.TryIntersect(in ray, ref search))
         {
             return false;
         }

@@ -45,8 +45,6 @@ internal sealed class RayBounds
     private readonly RayChild[] _children;
     private readonly RayNormals _normals;
     private readonly float[] _planes;
-    private readonly SimdAffineMap _proxyMap;
-    private readonly SimdAffineMap _inverseProxyMap;
 
     /// <summary>Prepares the bounds of a sub-fractal.</summary>
     /// <param name="subFractal">The sub-fractal.</param>
@@ -73,9 +71,7 @@ internal sealed class RayBounds
         // A flat box stays a little thick, so that the map has an inverse.
         var ownBox = subFractal.Box;
         var thickness = MinThickness * Math.Max(ownBox.Size.MaxAbsComponent(), baseBox.Size.MaxAbsComponent());
-        var proxyMap = ProxyMapTo(ownBox, ownBox.Size + (thickness * Vector.One), baseBox);
-        _proxyMap = new(proxyMap);
-        _inverseProxyMap = new(proxyMap.Inverse());
+        Proxy = new(ProxyMapTo(ownBox, ownBox.Size + (thickness * Vector.One), baseBox));
     }
 
     /// <summary>The bounds with the children themselves; these where no descendants take their places.</summary>
@@ -90,11 +86,8 @@ internal sealed class RayBounds
     /// <summary>Radius of the smallest sub-fractal between this one and its children; infinite where there is none.</summary>
     public double MinInnerRadius { get; }
 
-    /// <summary>Stretches the base mesh to the box of the sub-fractal, so that it can stand for it.</summary>
-    public ref readonly SimdAffineMap ProxyMap => ref _proxyMap;
-
-    /// <summary>Maps the box of the sub-fractal to the base mesh: the inverse of <see cref="ProxyMap"/>.</summary>
-    public ref readonly SimdAffineMap InverseProxyMap => ref _inverseProxyMap;
+    /// <summary>The base mesh, stretched to the box of the sub-fractal, so that it can stand for it.</summary>
+    public RayProxy Proxy { get; }
 
     /// <summary>True where planes bound the sub-fractal better than its box.</summary>
     public bool HasPlanes => _planes.Length > 0;

@@ -1,6 +1,5 @@
 using System.Runtime.CompilerServices;
 using System.Runtime.Intrinsics;
-using FractalEngine.Core.Fractals.Hierarchy;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
@@ -20,7 +19,7 @@ internal sealed class RayBox
     public RayBox(BoundingBox box)
     {
         var halfSize = 0.5 * box.Size;
-        var error = RoundingErrors.Chain * BoundingVolume.MaxAbsCoordinate(box);
+        var error = RoundingErrors.Chain * box.MaxAbsCoordinate();
         var size = Math.Max(halfSize.MaxAbsComponent(), error);
         InverseHalfExtent = size > 0 ? 1 / size : 1;
         HalfExtent = 1 / InverseHalfExtent;

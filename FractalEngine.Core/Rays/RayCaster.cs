@@ -204,7 +204,7 @@ public abstract class RayCaster
         context.ClearPath();
         var ray = LocalRay.Of(origin, unitDirection, start);
         var isHit = TryIntersect(in ray, ref search, context, ref pathLength);
-        search.AddTo(context.Statistics);
+        context.Statistics.Add(in search);
         return isHit;
     }
 }

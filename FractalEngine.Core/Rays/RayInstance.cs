@@ -1,4 +1,3 @@
-using FractalEngine.Core.Fractals.Hierarchy;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
@@ -22,7 +21,7 @@ internal sealed class RayInstance : ObjectBvhLeaf
         : base(index, bounds)
     {
         Caster = caster;
-        ShapeMagnitude = BoundingVolume.MaxAbsCoordinate(bounds);
+        ShapeMagnitude = bounds.MaxAbsCoordinate();
         _objectToWorld = objectToWorld;
         var inverse = objectToWorld.Inverse();
         _worldToObject = new(inverse);

@@ -32,7 +32,7 @@ internal sealed class RayPlanes
         }
 
         var box = new RayBox(volume.Box);
-        var rounding = RoundingErrors.Chain * (1 + (BoundingVolume.MaxAbsCoordinate(volume.Box) * box.InverseHalfExtent));
+        var rounding = RoundingErrors.Chain * (1 + (volume.Box.MaxAbsCoordinate() * box.InverseHalfExtent));
         var groups = (hull.Planes.Length + LaneCount - 1) / LaneCount;
         _rows = new Vector256<double>[groups * RowCount];
         for (var i = 0; i < groups * LaneCount; i++)

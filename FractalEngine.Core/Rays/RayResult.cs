@@ -2,7 +2,7 @@ using System.Collections.Immutable;
 
 namespace FractalEngine.Core.Rays;
 
-/// <summary>The result for one ray of a <see cref="RayBatch"/>.</summary>
+/// <summary>The result for one ray of a <c>RayBatch</c>.</summary>
 /// <param name="ObjectIndex">Index of the object in the scene; −1 where the ray hits none.</param>
 /// <param name="Hit">The hit in world space; it means nothing where there is none.</param>
 /// <param name="InstancePath">

@@ -1,5 +1,3 @@
-using FractalEngine.Core.Collision;
-
 namespace FractalEngine.Core.Rays;
 
 /// <summary>The state of a search along a ray: what counts as a hit, the nearest one so far, and the cost.</summary>
@@ -24,8 +22,8 @@ internal struct RaySearch(double minDistance, double maxDistance, bool stopsAtFi
     /// <summary>What is smaller need not be told apart.</summary>
     public readonly RayFootprint Footprint = footprint;
 
-    /// <summary>The sub-fractal whose proxy was hit last; null where it was a face of the fractal itself.</summary>
-    public RayBounds? Proxy;
+    /// <summary>The proxy that was hit last; null where it was a face of the fractal itself.</summary>
+    public RayProxy? Proxy;
 
     /// <summary>Distance of the nearest hit so far, or the largest that counts.</summary>
     public double MaxDistance = maxDistance;
@@ -45,11 +43,4 @@ internal struct RaySearch(double minDistance, double maxDistance, bool stopsAtFi
 
     /// <summary>Takes over the hit of a search with another rounding, but not its cost.</summary>
     public void Accept(in RaySearch other) => (MaxDistance, Face, Proxy) = (other.MaxDistance, other.Face, other.Proxy);
-
-    /// <summary>Adds the cost to that of other queries.</summary>
-    public readonly void AddTo(QueryStatistics statistics)
-    {
-        statistics.FaceTests += FaceTests;
-        statistics.BoundTests += BoundTests;
-    }
 }

@@ -1,5 +1,4 @@
 using System.Collections.Immutable;
-using FractalEngine.Core.Fractals.Hierarchy;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
@@ -42,7 +41,7 @@ public sealed class SceneRayCaster : InstanceRayCaster
     }
 
     private SceneRayCaster(ObjectBvh? objects, Dictionary<Model, Lazy<RayCaster>> casters, BoundingBox bounds)
-        : base(objects, BoundingVolume.MaxAbsCoordinate(bounds))
+        : base(objects, bounds.MaxAbsCoordinate())
     {
         _casters = casters;
         _bounds = bounds;

@@ -67,12 +67,12 @@ internal sealed class ChildFootprints
     /// <param name="start">Start of the batch.</param>
     /// <param name="child">Index of the child in its node.</param>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public Footprint Read(in StripFrame frame, int start, int child)
+    public ScreenFootprint Read(in StripFrame frame, int start, int child)
     {
         ref var left = ref _footprints[((start + (child / LodNode.Lanes * LodNode.Lanes)) * Rows) + (child % LodNode.Lanes)];
         var depth = Unsafe.Add(ref left, DepthRow);
         return float.IsNaN(depth) ? new() { NeedsDouble = true }
-            : frame.HasFrustumCulling && depth > frame.Far ? Footprint.Outside
+            : frame.HasFrustumCulling && depth > frame.Far ? ScreenFootprint.Outside
             : frame.ClipRectangle(left, Unsafe.Add(ref left, RightRow), Unsafe.Add(ref left, TopRow), Unsafe.Add(ref left, BottomRow),
                 Unsafe.Add(ref left, InverseDepthRow));
     }

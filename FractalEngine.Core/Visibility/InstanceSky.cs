@@ -18,7 +18,7 @@ internal static class InstanceSky
     /// <param name="footprint">What it covers.</param>
     /// <param name="parts">As for <see cref="SkyPath.ComputeParts"/>.</param>
     public static void ComputeParts(
-        SkyPath path, in StripContext context, in LodInstance instance, in SimdAffineMap meshToView, in Footprint footprint,
+        SkyPath path, in StripContext context, in LodInstance instance, in SimdAffineMap meshToView, in ScreenFootprint footprint,
         Span<float> parts)
     {
         ref readonly var frame = ref context.Frame;

@@ -20,7 +20,7 @@ internal sealed class OccluderRasterizer
     public void Clear(in StripFrame frame) => _buffer.Clear(frame.Left, frame.Right, frame.Height, frame.IsMultisampled);
 
     /// <summary>Tests whether everything in a footprint is hidden behind what has been rasterized.</summary>
-    public bool IsOccluded(in Footprint footprint) =>
+    public bool IsOccluded(in ScreenFootprint footprint) =>
         _buffer.IsOccluded(footprint.Left, footprint.Top, footprint.Right, footprint.Bottom, footprint.MaxInverseDepth);
 
     /// <summary>Rasterizes an instance that lies beyond the near plane.</summary>

@@ -142,7 +142,7 @@ internal sealed class StripCuller
     }
 
     /// <summary>Visits a sub-fractal whose footprint was not culled, unless it is cut away.</summary>
-    private void Visit(in StripContext context, in LodInstance instance, in Footprint footprint)
+    private void Visit(in StripContext context, in LodInstance instance, in ScreenFootprint footprint)
     {
         ref readonly var frame = ref context.Frame;
         if (!frame.HasSection)
@@ -163,7 +163,7 @@ internal sealed class StripCuller
     }
 
     /// <summary>Draws a sub-fractal, or visits its children.</summary>
-    private void VisitKept(in StripContext context, in LodInstance instance, in Footprint footprint)
+    private void VisitKept(in StripContext context, in LodInstance instance, in ScreenFootprint footprint)
     {
         if (!IsWithinBudget(in context))
         {
@@ -199,7 +199,7 @@ internal sealed class StripCuller
             && projectedSize * node.MaxChildSizeRatio <= MinChildSizeRatio * minProjectedSize);
 
     /// <summary>Tests whether a footprint can be skipped, and counts it in the statistics if so.</summary>
-    private bool TryCull(in StripContext context, in Footprint footprint)
+    private bool TryCull(in StripContext context, in ScreenFootprint footprint)
     {
         ref var statistics = ref context.Output.Statistics;
         if (footprint.IsOutside)
@@ -276,7 +276,7 @@ internal sealed class StripCuller
     }
 
     /// <summary>Appends the base mesh under a sub-fractal's proxy map to the output, unless closer instances hide it.</summary>
-    private void Emit(in StripContext context, in LodInstance instance, in Footprint footprint)
+    private void Emit(in StripContext context, in LodInstance instance, in ScreenFootprint footprint)
     {
         ref readonly var frame = ref context.Frame;
         var output = context.Output;

@@ -9,7 +9,7 @@ namespace FractalEngine.Core.Visibility;
 /// </summary>
 /// <remarks>
 /// This is where frustum culling of fractals and static meshes happens: a box outside the frustum has the footprint
-/// <see cref="Footprint.Outside"/>, which culling skips. Meshes that physics moves are tested by the renderer, one box for each
+/// <see cref="ScreenFootprint.Outside"/>, which culling skips. Meshes that physics moves are tested by the renderer, one box for each
 /// object.
 /// Pixels are those of the occlusion buffer: two by two for each pixel of the frame where pixels have several samples. Columns and rows
 /// are counted from the upper left corner of the frame.
@@ -163,7 +163,7 @@ internal readonly struct StripFrame
     /// <summary>Tests a box in view space against the frustum, and computes its footprint, in double precision.</summary>
     /// <param name="centre">Centre of the box: x, y, z, 0.</param>
     /// <param name="halfSize">Half the size of the box: x, y, z, 0.</param>
-    public Footprint ProjectBox(Vector256<double> centre, Vector256<double> halfSize)
+    public ScreenFootprint ProjectBox(Vector256<double> centre, Vector256<double> halfSize)
     {
         var low = centre - halfSize;
         var high = centre + halfSize;
@@ -171,7 +171,7 @@ internal readonly struct StripFrame
         var zHigh = high[2];
         if (HasFrustumCulling && (zHigh < Near || zLow > Far))
         {
-            return Footprint.Outside;
+            return ScreenFootprint.Outside;
         }
 
         if (zLow < Near)
@@ -203,11 +203,11 @@ internal readonly struct StripFrame
     /// <param name="bottom">Lower edge.</param>
     /// <param name="inverseDepth">Largest inverse depth of what the rectangle holds.</param>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public Footprint ClipRectangle(float left, float right, float top, float bottom, float inverseDepth)
+    public ScreenFootprint ClipRectangle(float left, float right, float top, float bottom, float inverseDepth)
     {
         if (HasFrustumCulling && !(right >= Left && left <= Right && bottom >= 0 && top <= Height))
         {
-            return Footprint.Outside;
+            return ScreenFootprint.Outside;
         }
 
         // The pixels whose samples may lie between the edges.

@@ -34,7 +34,7 @@ internal static class FractalCheck
     private static bool Shrinks(Repetition repetition)
     {
         var factor = 1.0;
-        foreach (var set in repetition.Body)
+        foreach (var set in repetition.Round)
         {
             factor *= set is TransformationSet { Maps: var maps }
                 ? maps.Where(static map => map != AffineMap.Identity).Select(static map => BoundingSphere.OperatorNormBound(map.Linear))

@@ -129,7 +129,7 @@ public sealed class FractalWriter
                     _orderedForms.Add(form);
                     break;
                 case Repetition repetition:
-                    CollectSets(repetition.Body);
+                    CollectSets(repetition.Round);
                     break;
             }
         }
@@ -180,7 +180,7 @@ public sealed class FractalWriter
                 sets.Clear();
             }
 
-            var body = WriteSteps(repetition.Body, baseName);
+            var body = WriteSteps(repetition.Round, baseName);
             var name = NextName("z", ref _recursiveCount);
             AppendLine($"{name}<{baseName}>. {body}");
             inner = repetition.Count is { } count ? FormattableString.Invariant($"{name} {count}") : name;

@@ -94,26 +94,26 @@ public sealed class QueryPrimitivesTests
     [Fact]
     public void ThrowIf_TooLargeOrInfinite_ThrowsBeyondTheLimitOnly()
     {
-        QueryScale.ThrowIfTooLarge(1e40);
-        QueryScale.ThrowIfInfinite(double.MaxValue);
-        Assert.Contains("1E+40", Assert.Throws<FractalLimitException>(() => QueryScale.ThrowIfTooLarge(Math.BitIncrement(1e40))).Message);
-        Assert.Throws<FractalLimitException>(() => QueryScale.ThrowIfInfinite(double.PositiveInfinity));
+        ScaledQuery.ThrowIfTooLarge(1e40);
+        ScaledQuery.ThrowIfInfinite(double.MaxValue);
+        Assert.Contains("1E+40", Assert.Throws<FractalLimitException>(() => ScaledQuery.ThrowIfTooLarge(Math.BitIncrement(1e40))).Message);
+        Assert.Throws<FractalLimitException>(() => ScaledQuery.ThrowIfInfinite(double.PositiveInfinity));
     }
 
     [Fact]
     public void IsSimilarity_OfMatricesThatAreNearlyOne_TellsAPartIn1e13()
     {
-        Assert.True(Similarity.IsSimilarity(Matrix.Identity));
-        Assert.True(Similarity.IsSimilarity(-2 * Matrix.Identity));
+        Assert.True(Matrix.Identity.IsSimilarity());
+        Assert.True((-2 * Matrix.Identity).IsSimilarity());
         foreach (var (error, expected) in new[] { (1e-14, true), (1e-12, false), (-1e-12, false), (-1e-14, true) })
         {
             foreach (var scale in new[] { 1, 1e-20, 1e20 })
             {
-                Assert.Equal(expected, Similarity.IsSimilarity(scale * new Matrix(Vector.I, (1 + error) * Vector.J, Vector.K)));
-                Assert.Equal(expected, Similarity.IsSimilarity(scale * new Matrix(Vector.I, Vector.J, (1 + error) * Vector.K)));
-                Assert.Equal(expected, Similarity.IsSimilarity(scale * new Matrix(Vector.I, new(error, 1, 0), Vector.K)));
-                Assert.Equal(expected, Similarity.IsSimilarity(scale * new Matrix(Vector.I, Vector.J, new(error, 0, 1))));
-                Assert.Equal(expected, Similarity.IsSimilarity(scale * new Matrix(Vector.I, Vector.J, new(0, error, 1))));
+                Assert.Equal(expected, (scale * new Matrix(Vector.I, (1 + error) * Vector.J, Vector.K)).IsSimilarity());
+                Assert.Equal(expected, (scale * new Matrix(Vector.I, Vector.J, (1 + error) * Vector.K)).IsSimilarity());
+                Assert.Equal(expected, (scale * new Matrix(Vector.I, new(error, 1, 0), Vector.K)).IsSimilarity());
+                Assert.Equal(expected, (scale * new Matrix(Vector.I, Vector.J, new(error, 0, 1))).IsSimilarity());
+                Assert.Equal(expected, (scale * new Matrix(Vector.I, Vector.J, new(0, error, 1))).IsSimilarity());
             }
         }
     }

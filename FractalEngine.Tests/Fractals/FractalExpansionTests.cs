@@ -191,7 +191,7 @@ public class FractalExpansionTests
         [.. steps.Select(step => step switch
     {
         TransformationSet set => (FractalStep)new TransformationSet([.. set.Transformations.OrderBy(_ => random.Next())]),
-        Repetition repetition => new Repetition(Shuffle(random, repetition.Body), repetition.Count),
+        Repetition repetition => new Repetition(Shuffle(random, repetition.Round), repetition.Count),
         _ => step,
     })];
 }

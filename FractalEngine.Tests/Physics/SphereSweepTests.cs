@@ -27,7 +27,7 @@ public sealed class SphereSweepTests
     public void TryFindImpact_OfAFall_IsWhenItTouchesTheFloor(double speed, double acceleration, double expected)
     {
         var setup = new Setup(PhysicsMeshes.FloorMesh());
-        var motion = new Motion(new(0.25, 3, 0.125), new(1, -speed, 0), new(0, -acceleration, 0));
+        var motion = new SphereMotion(new(0.25, 3, 0.125), new(1, -speed, 0), new(0, -acceleration, 0));
         Assert.True(setup.TryFind(motion, 1, out var hit, out var elapsed));
         Near.Equal(expected, elapsed, Tolerance);
         Assert.Equal((false, true), (hit.IsBody, hit.IsFlat));
@@ -49,7 +49,7 @@ public sealed class SphereSweepTests
         var setup = new Setup(PhysicsMeshes.Cube);
         var (beside, before) = (Math.Max(0, Math.Abs(x) - 0.5), Math.Max(0, Math.Abs(z) - 0.5));
         var expectedHeight = 0.5 + Math.Sqrt((Radius * Radius) - (beside * beside) - (before * before));
-        var motion = new Motion(new(x, 3, z), new(0, -4, 0), Vector.Zero);
+        var motion = new SphereMotion(new(x, 3, z), new(0, -4, 0), Vector.Zero);
         Assert.True(setup.TryFind(motion, 1, out var hit, out var elapsed));
         Near.Equal((3 - expectedHeight) / 4, elapsed, Tolerance);
         Near.Equal(new(Math.Clamp(x, -0.5, 0.5), 0.5, Math.Clamp(z, -0.5, 0.5)), hit.Point, 1e-8);
@@ -63,7 +63,7 @@ public sealed class SphereSweepTests
     public void TryFindImpact_OfABall_IsWhenTheirCentresAreTwoRadiiApart(double offset, double expected)
     {
         var setup = new Setup(null, new BodyDescription(new(30, offset, 0), Radius), new BodyDescription(new(3, offset, 0), Radius));
-        var motion = new Motion(Vector.Zero, new(4, 0, 0), Vector.Zero);
+        var motion = new SphereMotion(Vector.Zero, new(4, 0, 0), Vector.Zero);
         setup.Obstacles.CollectNearbyBodies(in motion, 1, Contact.NoBody);
         Assert.True(setup.TryFind(motion, 1, out var hit, out var elapsed));
         Near.Equal(expected, elapsed, Tolerance);
@@ -78,7 +78,7 @@ public sealed class SphereSweepTests
     public void TryFindImpact_OfABallThatIsThrownUp_IsWhenItReturns()
     {
         var setup = new Setup(PhysicsMeshes.FloorMesh());
-        var motion = new Motion(new(0, Radius, 0), new(0.5, 2, 0), new(0, -4, 0));
+        var motion = new SphereMotion(new(0, Radius, 0), new(0.5, 2, 0), new(0, -4, 0));
         Assert.True(setup.TryFind(motion, 2, out _, out var elapsed));
         Near.Equal(1, elapsed, Tolerance);
         Assert.False(setup.TryFind(motion, 0.999, out _, out elapsed));
@@ -188,7 +188,7 @@ public sealed class SphereSweepTests
 
         public StaticColliders? Colliders { get; }
 
-        public bool TryFind(Motion motion, double maxTime, out Contact hit, out double elapsed)
+        public bool TryFind(SphereMotion motion, double maxTime, out Contact hit, out double elapsed)
         {
             _sweep.ResetStepBudget();
             return _sweep.TryFindImpact(in motion, maxTime, out hit, out elapsed);

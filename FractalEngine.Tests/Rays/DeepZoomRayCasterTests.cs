@@ -95,7 +95,7 @@ public class DeepZoomRayCasterTests
         if (hasTwoSets)
         {
             // The same shape by turns with and without another map far away: a place in the one is another in the other.
-            var set = (TransformationSet)((Repetition)fractal.Description.Steps[0]).Body[0];
+            var set = (TransformationSet)((Repetition)fractal.Description.Steps[0]).Round[0];
             TransformationSet larger = new([.. set.Transformations, Samples.MoveAndScale(40, 0, 0, 0.01)]);
             fractal = new(new([new Repetition([set, larger], 3)]), fractal.BaseMesh);
         }

@@ -126,7 +126,7 @@ public sealed class RayPrimitivesTests
         search.Accept(in other);
         Assert.Equal((5.0, 8, 0.5), (search.MaxDistance, search.Face, search.Error));
         var statistics = new QueryStatistics { FaceTests = 10, BoundTests = 20 };
-        search.AddTo(statistics);
+        statistics.Add(in search);
         Assert.Equal((14L, 26L), (statistics.FaceTests, statistics.BoundTests));
         Assert.Equal(3 + (0.25 * 8), search.Footprint.RadiusAt(8));
     }

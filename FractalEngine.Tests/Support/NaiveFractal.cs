@@ -36,7 +36,7 @@ internal static class NaiveFractal
     public static IEnumerable<IReadOnlyList<Transformation>> Levels(IEnumerable<FractalStep> steps) => steps.SelectMany(step => step switch
     {
         TransformationSet set => [set.Transformations],
-        Repetition { Count: { } count } repetition => Enumerable.Repeat(repetition.Body, count).SelectMany(body => Levels(body)),
+        Repetition { Count: { } count } repetition => Enumerable.Repeat(repetition.Round, count).SelectMany(body => Levels(body)),
         _ => throw new ArgumentException("an infinite repetition has no list of levels"),
     });
 

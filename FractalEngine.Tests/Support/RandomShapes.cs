@@ -31,7 +31,7 @@ internal static class RandomShapes
 
     /// <summary>Makes the same step about another centre than the origin, so that the fractal stays around it.</summary>
     private static FractalStep About(Vector centre, FractalStep step) => step is Repetition repetition
-        ? new Repetition([.. repetition.Body.Select(inner => About(centre, inner))], repetition.Count)
+        ? new Repetition([.. repetition.Round.Select(inner => About(centre, inner))], repetition.Count)
         : TransformationSet.Of(((TransformationSet)step).Transformations.Select(map => map == Transformation.Identity
             ? map
             : map with { Position = map.Position + centre - (map.ToAffineMap().Linear * centre) }));

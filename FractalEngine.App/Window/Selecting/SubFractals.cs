@@ -30,7 +30,7 @@ internal static class SubFractals
             var rounds = count / repetition.LevelsPerRound;
             var begun = count % repetition.LevelsPerRound;
             var left = repetition.Count is { } all ? (int?)(all - rounds - (begun > 0 ? 1 : 0)) : null;
-            var round = begun > 0 ? Drop(repetition.Body, begun) : [];
+            var round = begun > 0 ? Drop(repetition.Round, begun) : [];
             return [.. round, repetition.WithCount(left), .. rest];
         }
 

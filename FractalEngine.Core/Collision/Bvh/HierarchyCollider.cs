@@ -47,14 +47,14 @@ public sealed class HierarchyCollider : Collider
         var magnitude = QueryScale.Magnitude(in position, in map, _magnitude);
         if (QueryScale.IsNeeded(magnitude))
         {
-            return QueryScale.FindClosest(this, in position, in map, magnitude, maxDistance, epsilon, context, out closest);
+            return ScaledQuery.FindClosest(this, in position, in map, magnitude, maxDistance, epsilon, context, out closest);
         }
 
         var closestTriangle = new ClosestTriangle(DistanceCutoff.FromRadius(maxDistance));
-        _bvh.FindClosestTransformed(in position, in map, ref closestTriangle, BoundFactor(epsilon));
+        TransformedTriangleSearch.Find(_bvh, in position, in map, ref closestTriangle, BoundFactor(epsilon));
         if (closestTriangle.FaceIndex < 0 && NeedsExactRetry(maxDistance, epsilon))
         {
-            _bvh.FindClosestTransformed(in position, in map, ref closestTriangle, 1);
+            TransformedTriangleSearch.Find(_bvh, in position, in map, ref closestTriangle, 1);
         }
 
         AddStatistics(context, in closestTriangle);
@@ -78,7 +78,7 @@ public sealed class HierarchyCollider : Collider
         var magnitude = Math.Max(position.MaxAbsComponent(), _magnitude);
         if (QueryScale.IsNeeded(magnitude))
         {
-            return QueryScale.FindClosest(
+            return ScaledQuery.FindClosest(
                 this, in position, AffineMap.Identity, magnitude, maxDistance, epsilon, context, out closest);
         }
 
@@ -89,7 +89,7 @@ public sealed class HierarchyCollider : Collider
     private bool FindFirst(in Vector position, double maxDistance, double epsilon, QueryContext context, out ClosestPoint closest)
     {
         var closestTriangle = new ClosestTriangle(DistanceCutoff.FromRadius(maxDistance));
-        _bvh.FindClosest(in position, ref closestTriangle, BoundFactor(epsilon), mayDefer: true);
+        ClosestTriangleSearch.Find(_bvh, in position, ref closestTriangle, BoundFactor(epsilon), mayDefer: true);
         AddStatistics(context, in closestTriangle);
         closest = closestTriangle.FaceIndex < 0 ? default : ClosestPointFactory.OnMesh(_mesh, closestTriangle.FaceIndex, position);
         return closestTriangle.FaceIndex >= 0 && closest.Distance <= maxDistance;

@@ -6,8 +6,8 @@ using System.Runtime.Intrinsics;
 namespace FractalEngine.Core.Collision.Bvh;
 
 /// <summary>
-/// Splits ranges of triangles in two for <see cref="TriangleBvhBuilder"/>, by the surface area heuristic (SAH) over bins: it takes the
-/// plane between two bins with the lowest sum, over both sides, of the surface area times the number of leaves.
+/// Splits ranges of triangles in two for the builder of a hierarchy, by the surface area heuristic (SAH) over bins: it takes the plane
+/// between two bins with the lowest sum, over both sides, of the surface area times the number of leaves.
 /// </summary>
 /// <param name="triangles">The triangles, which are reordered within the ranges.</param>
 /// <param name="maxLeafTriangles">Maximum number of triangles in a leaf.</param>

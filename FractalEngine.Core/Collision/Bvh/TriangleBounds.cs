@@ -3,7 +3,7 @@ using System.Runtime.Intrinsics;
 
 namespace FractalEngine.Core.Collision.Bvh;
 
-/// <summary>The bounding box of a triangle while a <see cref="TriangleBvh"/> is built, with the index of its face.</summary>
+/// <summary>The bounding box of a triangle while a bounding volume hierarchy is built, with the index of its face.</summary>
 /// <param name="Box">The box. The fourth lane of its minimum holds the bits of the face index.</param>
 internal readonly record struct TriangleBounds(SimdBoundingBox Box)
 {

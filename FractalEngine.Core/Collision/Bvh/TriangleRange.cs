@@ -1,6 +1,6 @@
 namespace FractalEngine.Core.Collision.Bvh;
 
-/// <summary>A run of triangles that becomes one child of a node while a <see cref="TriangleBvh"/> is built.</summary>
+/// <summary>A run of triangles that becomes one child of a node while a bounding volume hierarchy is built.</summary>
 /// <param name="Start">Place of the first triangle.</param>
 /// <param name="Count">Number of triangles in the run.</param>
 /// <param name="Bounds">Contains all triangles.</param>

@@ -42,7 +42,7 @@ internal readonly struct AffineFrame : ISearchFrame<AffineFrame>
         TriangleBvh bvh, Vector256<double> position, in SimdAffineMap map, ref FractalSearchState search, out ClosestTriangle closest)
     {
         closest = new(search.ClosestDistanceSquared);
-        bvh.FindClosestTransformed(SimdAffineMap.ToVector(position), map.ToAffineMap(), ref closest, search.BoundFactor);
+        TransformedTriangleSearch.Find(bvh, SimdAffineMap.ToVector(position), map.ToAffineMap(), ref closest, search.BoundFactor);
         search.AddStatistics(in closest);
         return closest.FaceIndex >= 0;
     }
@@ -68,7 +68,7 @@ internal readonly struct AffineFrame : ISearchFrame<AffineFrame>
     /// <inheritdoc/>
     public void FillQueue(SubFractal subFractal, in ChildQueue queue, ref FractalSearchState search)
     {
-        TransformedBoxDistance.FillQueue(in queue, subFractal, _position, in _map);
+        TransformedBoxDistance.FillQueue(in queue, subFractal.ChildBounds, subFractal.PaddedCount, _position, in _map);
         search.BoundTests += subFractal.Children.Length;
     }
 

@@ -122,13 +122,13 @@ internal sealed class BestFirstSearch(FractalHierarchy hierarchy, TriangleBvh[] 
     }
 
     private bool IsLeaf(in SearchNode node, in FractalSearchState search) =>
-        hierarchy.IsBase(node.RemainingLevels) || node.Depth >= FractalSearchState.MaxDepth
+        hierarchy.IsBase(node.RemainingLevels) || node.Depth >= InstanceResolver.MaxDepth
         || node.SubFractal.RadiusSquared * node.Map.FrobeniusNormSquared() <= search.MinRadiusSquared;
 
     private static ChildQueue QueueChildren(in SearchNode node, Vector256<double> position, ref FractalSearchState search)
     {
         var queue = new ChildQueue(search.ScratchSlice(0, ChildQueue.ValuesPerChild * node.SubFractal.PaddedCount));
-        TransformedBoxDistance.FillQueue(in queue, node.SubFractal, position, in node.Map);
+        TransformedBoxDistance.FillQueue(in queue, node.SubFractal.ChildBounds, node.SubFractal.PaddedCount, position, in node.Map);
         search.BoundTests += node.SubFractal.Children.Length;
         return queue;
     }

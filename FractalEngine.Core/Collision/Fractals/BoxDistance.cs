@@ -1,7 +1,6 @@
 using System.Runtime.CompilerServices;
 using System.Runtime.Intrinsics;
 using FractalEngine.Core.Collision.Bvh;
-using FractalEngine.Core.Fractals.Hierarchy;
 
 namespace FractalEngine.Core.Collision.Fractals;
 
@@ -9,8 +8,10 @@ namespace FractalEngine.Core.Collision.Fractals;
 internal static class BoxDistance
 {
     /// <summary>Computes the squared distances of a position from four boxes.</summary>
-    /// <param name="rows">The boxes, see <see cref="SubFractal.ChildBounds"/>.</param>
-    /// <param name="paddedCount">Number of boxes in each row.</param>
+    /// <param name="rows">
+    /// The boxes, [6 × <paramref name="paddedCount"/>]: x, y, z of the centres, then of half the sizes.
+    /// </param>
+    /// <param name="paddedCount">Number of boxes in each row, including padding.</param>
     /// <param name="first">Index of the first of the four.</param>
     /// <param name="position">In the frame of the boxes.</param>
     /// <param name="centreDistances">Squared distances of the boxes' centres.</param>

@@ -1,5 +1,4 @@
 using FractalEngine.Core.Fractals;
-using FractalEngine.Core.Fractals.Hierarchy;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
@@ -38,16 +37,39 @@ internal sealed class ClosestPairSearch
         _nodes2 = new(tree2, in map2);
         _statistics = statistics;
         _tolerance = RoundingErrors.Coordinate * Math.Max(
-            BoundingVolume.MaxAbsCoordinate(_nodes1[0].Box), BoundingVolume.MaxAbsCoordinate(_nodes2[0].Box));
+            _nodes1[0].Box.MaxAbsCoordinate(), _nodes2[0].Box.MaxAbsCoordinate());
     }
 
-    /// <summary>Finds the closest points of two shapes, neither of them empty.</summary>
+    /// <summary>Finds the closest points of two shapes.</summary>
     /// <param name="tree1">The first shape.</param>
     /// <param name="map1">From its frame to that of the query.</param>
     /// <param name="tree2">The second shape.</param>
     /// <param name="map2">From its frame to that of the query.</param>
     /// <param name="statistics">Receives the cost.</param>
+    /// <exception cref="InvalidOperationException">A shape has no faces.</exception>
+    /// <exception cref="FractalLimitException">The distance is beyond the range of a double.</exception>
     public static ClosestPair Run(ShapeTree tree1, in AffineMap map1, ShapeTree tree2, in AffineMap map2, QueryStatistics statistics)
+    {
+        if (tree1.IsEmpty || tree2.IsEmpty)
+        {
+            throw new InvalidOperationException("a shape has no faces, so no points of the two are closest");
+        }
+
+        var scale = QueryScale.Of(Math.Max(
+            tree1.Box.Transform(map1).MaxAbsCoordinate(), tree2.Box.Transform(map2).MaxAbsCoordinate()));
+        var toUnits = QueryScale.Scaling(scale);
+        var pair = RunScaled(tree1, toUnits * map1, tree2, toUnits * map2, statistics);
+        return scale == 1 ? pair : pair with
+        {
+            Distance = pair.Distance / scale,
+            Point = pair.Point / scale,
+            OtherPoint = pair.OtherPoint / scale,
+            ErrorBound = pair.ErrorBound / scale,
+        };
+    }
+
+    private static ClosestPair RunScaled(
+        ShapeTree tree1, in AffineMap map1, ShapeTree tree2, in AffineMap map2, QueryStatistics statistics)
     {
         var search = new ClosestPairSearch(tree1.WithHierarchy(), in map1, tree2.WithHierarchy(), in map2, statistics);
         var openBoundSquared = search.Run();

@@ -20,14 +20,7 @@ namespace FractalEngine.Core.Collision.Fractals;
 public sealed class ExactFractalCollider : Collider
 {
     /// <summary>The part of a fractal's size below which no further level is visited.</summary>
-    public const double RelativePrecision = 1e-15;
-
-    // Squared norms of maps between which their inverses are accurate.
-    private const double MinNormSquared = 1e-100;
-    private const double MaxNormSquared = 1e140;
-
-    // As a part of the largest coordinate: the precision of a fractal that is smaller, such as a point, is that of its coordinates.
-    private const double MinPrecisionRadius = 1e-3;
+    public const double RelativePrecision = LevelPrecision.RelativePrecision;
 
     private static readonly AffineMap Identity = AffineMap.Identity;
 
@@ -40,7 +33,7 @@ public sealed class ExactFractalCollider : Collider
     // Null where there are several.
     private readonly Mesh? _onlyMesh;
     private readonly ExpandedLevels _expandedLevels;
-    private readonly double _precisionRadius;
+    private readonly double _minRadius;
     private readonly double _rootMagnitude;
 
     // Infinite for a fractal that is too large under any map, else 0.
@@ -69,8 +62,8 @@ public sealed class ExactFractalCollider : Collider
     {
         _hierarchy = hierarchy;
         _baseBvhs = Array.ConvertAll(hierarchy.BaseMeshes, TriangleBvh.For);
-        _precisionRadius = PrecisionRadius(_hierarchy.Root);
-        _rootMagnitude = BoundingVolume.MaxAbsCoordinate(_hierarchy.Root.Box);
+        _minRadius = LevelPrecision.MinRadius(_hierarchy.Root);
+        _rootMagnitude = _hierarchy.Root.Box.MaxAbsCoordinate();
         _excess = _rootMagnitude > MaxMagnitude ? double.PositiveInfinity : 0;
         _expandedLevels = ExpandedLevels.For(_hierarchy, _baseBvhs[0]);
         _onlyMesh = hierarchy.BaseMeshes is [var only] ? only : null;
@@ -95,8 +88,7 @@ public sealed class ExactFractalCollider : Collider
         FindClosestInImage(in position, in map, isSimilarity: false, maxDistance, epsilon, context, out closest);
 
     /// <inheritdoc/>
-    private protected override ShapeTree CreateShapeTree() =>
-        new(_hierarchy, _baseBvhs, RelativePrecision * _precisionRadius);
+    private protected override ShapeTree CreateShapeTree() => new(_hierarchy, _baseBvhs, _minRadius);
 
     /// <inheritdoc/>
     protected override bool FindClosestCore(Vector position, double maxDistance, double epsilon, QueryContext context,
@@ -155,7 +147,7 @@ public sealed class ExactFractalCollider : Collider
         // In the fractal's own frame, its box was tested before.
         var box = isSimilarity ? _hierarchy.Root.Box : _hierarchy.Root.Box.Transform(map);
         var magnitude = Math.Max(
-            positionMagnitude, isSimilarity ? _rootMagnitude : Math.Max(_excess, BoundingVolume.MaxAbsCoordinate(box)));
+            positionMagnitude, isSimilarity ? _rootMagnitude : Math.Max(_excess, box.MaxAbsCoordinate()));
         if (QueryScale.IsNeeded(magnitude))
         {
             if (double.IsFinite(positionMagnitude) && Math.Max(positionMagnitude, _rootMagnitude) > MaxMagnitude)
@@ -163,7 +155,7 @@ public sealed class ExactFractalCollider : Collider
                 throw new FractalLimitException("the distances within the fractal, or to it, are beyond the range of a double");
             }
 
-            return QueryScale.FindClosest(this, in position, in map, magnitude, maxDistance, epsilon, context, out closest);
+            return ScaledQuery.FindClosest(this, in position, in map, magnitude, maxDistance, epsilon, context, out closest);
         }
 
         var search = new FractalSearchState(maxDistance, epsilon, positionMagnitude, magnitude, context);
@@ -199,17 +191,16 @@ public sealed class ExactFractalCollider : Collider
 
     private void SearchLevels(in Vector position, in AffineMap map, bool isSimilarity, ref FractalSearchState search)
     {
-        var minRadius = RelativePrecision * _precisionRadius;
         // Where most of the fractal is far smaller than all of it, a result is as precise as its own coordinates.
         var precision = _hierarchy.Root.Clusters is null ? 0 : RelativePrecision * position.MaxAbsComponent();
         if (isSimilarity)
         {
-            search.MinRadiusSquared = Math.Max(minRadius * minRadius, precision * precision);
+            search.MinRadiusSquared = Math.Max(_minRadius * _minRadius, precision * precision);
             _similaritySearch.Run(new(position), ref search);
         }
         else
         {
-            search.MinRadiusSquared = Math.Max(MappedRadiusSquared(minRadius, in map), precision * precision);
+            search.MinRadiusSquared = Math.Max(LevelPrecision.MappedRadiusSquared(_minRadius, in map), precision * precision);
             _affineSearch.Run(new(position, in map), ref search);
         }
 
@@ -218,28 +209,5 @@ public sealed class ExactFractalCollider : Collider
             search.ResetBudget();
             _bestFirstSearch.Run(position, in map, ref search);
         }
-    }
-
-    /// <summary>Computes the radius below which no further level of a fractal is visited.</summary>
-    internal static double MinRadius(SubFractal root) => RelativePrecision * PrecisionRadius(root);
-
-    /// <summary>Squares a radius under a map: about right, and a number at any size.</summary>
-    internal static double MappedRadiusSquared(double radius, in AffineMap map)
-    {
-        var normSquared = new SimdAffineMap(map).FrobeniusNormSquared();
-        var mappedRadius = radius * map.Linear.MaxAbsEntry();
-        return normSquared is > MinNormSquared and < MaxNormSquared ? radius * radius * normSquared : mappedRadius * mappedRadius;
-    }
-
-    /// <summary>Computes the radius that <see cref="RelativePrecision"/> is a part of.</summary>
-    private static double PrecisionRadius(SubFractal root)
-    {
-        if (root.Box.IsEmpty)
-        {
-            return 0;
-        }
-
-        var box = root.Clusters?.Bulk ?? root.Box;
-        return Math.Max(0.5 * box.Diagonal, MinPrecisionRadius * BoundingVolume.MaxAbsCoordinate(box));
     }
 }

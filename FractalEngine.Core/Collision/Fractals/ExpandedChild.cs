@@ -1,6 +1,6 @@
 namespace FractalEngine.Core.Collision.Fractals;
 
-/// <summary>A child instance that a <see cref="BestFirstSearch"/> has yet to visit.</summary>
+/// <summary>A child instance that a best-first search has yet to visit.</summary>
 /// <param name="BoundSquared">Lower bound of its squared distance, in the frame of the query.</param>
 /// <param name="Key">Children are visited by ascending keys.</param>
 /// <param name="ParentNode">Index of the node that it is a child of.</param>

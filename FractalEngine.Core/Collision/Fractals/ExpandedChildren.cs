@@ -1,7 +1,7 @@
 namespace FractalEngine.Core.Collision.Fractals;
 
 /// <summary>
-/// The children that a <see cref="BestFirstSearch"/> has yet to visit, and the nodes they belong to. The next search reuses the memory.
+/// The children that a best-first search has yet to visit, and the nodes they belong to. The next search reuses the memory.
 /// </summary>
 internal sealed class ExpandedChildren
 {

@@ -48,7 +48,7 @@ internal sealed class ExpandedLevelSelector(FractalHierarchy hierarchy, Triangle
             : ExpandedLevels.None;
 
     /// <summary>Tells whether coordinates are in the range in which they are squared as they are.</summary>
-    private static bool IsInRange(BoundingBox box) => !box.IsEmpty && !QueryScale.IsNeeded(BoundingVolume.MaxAbsCoordinate(box));
+    private static bool IsInRange(BoundingBox box) => !box.IsEmpty && !QueryScale.IsNeeded(box.MaxAbsCoordinate());
 
     private ExpandedLevels Select()
     {
@@ -112,7 +112,7 @@ internal sealed class ExpandedLevelSelector(FractalHierarchy hierarchy, Triangle
     }
 
     private long MeasureBytes(long level) =>
-        _instanceCounts.SumAt(level) * ((BytesPerFace * bvh.FaceCount) + (BytesPerVertex * bvh.Mesh.VertexCount));
+        _instanceCounts.SumAt(level) * ((BytesPerFace * bvh.Mesh.FaceCount) + (BytesPerVertex * bvh.Mesh.VertexCount));
 
     /// <summary>Makes positions anywhere in the box, and near the surface.</summary>
     private Vector[] SamplePositions()
@@ -150,7 +150,7 @@ internal sealed class ExpandedLevelSelector(FractalHierarchy hierarchy, Triangle
     private double MeasureWork(ExpandedLevels expandedLevels, Vector[] positions)
     {
         var depthFirst = new DepthFirstSearch<SimilarityFrame, OneBaseMesh>(hierarchy, new(bvh), expandedLevels);
-        var magnitude = BoundingVolume.MaxAbsCoordinate(hierarchy.Root.Box);
+        var magnitude = hierarchy.Root.Box.MaxAbsCoordinate();
         var context = new QueryContext();
         var work = 0.0;
         foreach (var position in positions)

@@ -21,7 +21,7 @@ internal sealed class ExpandedSubFractal
     /// <param name="remainingLevels">Remaining levels of the sub-fractal.</param>
     public ExpandedSubFractal(FractalHierarchy hierarchy, Mesh baseMesh, long remainingLevels)
     {
-        var instances = new InstanceList(hierarchy, baseMesh);
+        var instances = new ExpandedInstances(hierarchy, baseMesh);
         instances.AddAll(hierarchy.At(remainingLevels), remainingLevels, AffineMap.Identity);
         _baseFaceCount = baseMesh.FaceCount;
         _childIndices = [.. instances.ChildIndices];
@@ -55,7 +55,7 @@ internal sealed class ExpandedSubFractal
     }
 
     /// <summary>Lists the instances of a sub-fractal, with their vertices and faces.</summary>
-    private sealed class InstanceList(FractalHierarchy hierarchy, Mesh baseMesh)
+    private sealed class ExpandedInstances(FractalHierarchy hierarchy, Mesh baseMesh)
     {
         private readonly List<int> _path = [];
 

@@ -5,16 +5,7 @@ namespace FractalEngine.Core.Collision.Fractals;
 /// <summary>The state of a search on the levels of a fractal: the closest triangle so far, what that excludes, and the cost.</summary>
 internal ref struct FractalSearchState
 {
-    /// <summary>
-    /// Child instances of a search on the stack, of which each takes about 1 KB. Searches that need more are left to
-    /// <see cref="BestFirstSearch"/>.
-    /// </summary>
-    public const int MaxStackDepth = 128;
-
-    /// <summary>Numbers of a search that suffice for some forty levels.</summary>
-    public const int InitialScratchLength = 2048;
-
-    // Searches that need more are left to BestFirstSearch, too.
+    // Searches that need more are left to BestFirstSearch, as those are that need more of the stack.
     private const int MaxBoundTests = 50_000;
 
     // About a second of work. What is still open then is said in the error bound of the result.
@@ -25,9 +16,6 @@ internal ref struct FractalSearchState
 
     // A larger error is allowed, but its square times that of a distance would leave the range of a double.
     private const double MaxEpsilon = 1e8;
-
-    /// <summary>Maximum number of child instances on a path; longer ones end there.</summary>
-    public const int MaxDepth = 20_000;
 
     private readonly QueryContext _context;
     private readonly double _positionMagnitude;
@@ -46,9 +34,9 @@ internal ref struct FractalSearchState
     {
         _positionMagnitude = positionMagnitude;
         _context = context;
-        _path = context.PathBuffer(MaxStackDepth);
-        _closestPath = context.BestPathBuffer(MaxStackDepth);
-        _scratch = context.ScratchBuffer(InitialScratchLength);
+        _path = context.PathBuffer(QueryContext.MaxStackDepth);
+        _closestPath = context.BestPathBuffer(QueryContext.MaxStackDepth);
+        _scratch = context.ScratchBuffer(QueryContext.InitialScratchLength);
         _tolerance = RoundingErrors.Coordinate * magnitude;
         BoundFactor = (1 + Math.Min(epsilon, MaxEpsilon)) * (1 + Math.Min(epsilon, MaxEpsilon));
         InverseBoundFactor = 1 / BoundFactor;
@@ -150,7 +138,7 @@ internal ref struct FractalSearchState
     /// <summary>Tells whether a depth-first search may go on; when it takes too long, everything is excluded from then on.</summary>
     public bool WithinBudget(int depth)
     {
-        if (depth < MaxStackDepth && BoundTests < MaxBoundTests)
+        if (depth < QueryContext.MaxStackDepth && BoundTests < MaxBoundTests)
         {
             return true;
         }

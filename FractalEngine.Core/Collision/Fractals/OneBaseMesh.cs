@@ -11,7 +11,7 @@ internal readonly struct OneBaseMesh(TriangleBvh bvh) : IBaseMeshes
     public int Count => 1;
 
     /// <inheritdoc/>
-    public int MaxFaceCount { get; } = bvh.FaceCount;
+    public int MaxFaceCount { get; } = bvh.Mesh.FaceCount;
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

@@ -4,7 +4,7 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Collision.Fractals;
 
-/// <summary>A sub-fractal instance that a <see cref="BestFirstSearch"/> has expanded.</summary>
+/// <summary>A sub-fractal instance that a best-first search has expanded.</summary>
 /// <param name="subFractal">The sub-fractal.</param>
 /// <param name="remainingLevels">Its remaining levels.</param>
 /// <param name="map">From its frame to that of the query.</param>

@@ -10,7 +10,7 @@ internal readonly struct SeveralBaseMeshes(TriangleBvh[] bvhs) : IBaseMeshes
     public int Count => bvhs.Length;
 
     /// <inheritdoc/>
-    public int MaxFaceCount { get; } = bvhs.Max(static bvh => bvh.FaceCount);
+    public int MaxFaceCount { get; } = bvhs.Max(static bvh => bvh.Mesh.FaceCount);
 
     /// <inheritdoc/>
     public TriangleBvh At(int index) => bvhs[index];

@@ -6,7 +6,7 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Collision.Fractals;
 
 /// <summary>
-/// A part of a <see cref="ShapeTree"/> in the frame of a query: a sub-fractal, or a node or leaf of the hierarchy of the base mesh.
+/// A part of a shape's tree in the frame of a query: a sub-fractal, or a node or leaf of the hierarchy of the base mesh.
 /// </summary>
 internal readonly struct ShapeNode
 {

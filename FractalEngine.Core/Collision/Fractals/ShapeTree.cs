@@ -73,12 +73,12 @@ internal sealed class ShapeTree
             map = child.Group is null ? map * child.Map : map;
         }
 
-        return Create(subFractal, levels, in map, MinRadiusSquared(AffineMap.Identity), path.Length, BoundingVolume.MaxAbsCoordinate(Box));
+        return Create(subFractal, levels, in map, MinRadiusSquared(AffineMap.Identity), path.Length, Box.MaxAbsCoordinate());
     }
 
     /// <summary>Square of the radius in the frame of the query at which a sub-fractal is replaced by a base mesh; 0 for a mesh.</summary>
     /// <param name="map">From the shape's frame to that of the query.</param>
-    public double MinRadiusSquared(in AffineMap map) => ExactFractalCollider.MappedRadiusSquared(_minRadius, in map);
+    public double MinRadiusSquared(in AffineMap map) => LevelPrecision.MappedRadiusSquared(_minRadius, in map);
 
     /// <summary>Number of places for children; 0 for a leaf.</summary>
     public int ChildCount(in ShapeNode node) => !node.IsBase ? node.SubFractal!.Children.Length
@@ -178,7 +178,7 @@ internal sealed class ShapeTree
     private ShapeNode Create(
         SubFractal subFractal, long levels, in AffineMap map, double minRadiusSquared, int depth, double reach) =>
         _hierarchy!.IsBase(levels) ? CreateBase(subFractal, subFractal.BaseIndex, in map, reach)
-        : depth >= FractalSearchState.MaxDepth || subFractal.RadiusSquared * FrobeniusNormSquared(in map) <= minRadiusSquared
+        : depth >= InstanceResolver.MaxDepth || subFractal.RadiusSquared * FrobeniusNormSquared(in map) <= minRadiusSquared
             ? CreateBase(null, subFractal.BaseIndex, in map, reach)
             : new(subFractal, levels, default, baseIndex: -1, in map, subFractal.Box, reach);
 

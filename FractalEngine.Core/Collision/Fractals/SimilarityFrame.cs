@@ -112,7 +112,7 @@ internal readonly struct SimilarityFrame(
     public void TestTriangles(TriangleBvh bvh, ExpandedSubFractal? expanded, int depth, ref FractalSearchState search)
     {
         var closest = new ClosestTriangle(search.ClosestDistanceSquared * _inverseScaleSquared);
-        bvh.FindClosest(SimdAffineMap.ToVector(_position), ref closest, search.BoundFactor);
+        ClosestTriangleSearch.Find(bvh, SimdAffineMap.ToVector(_position), ref closest, search.BoundFactor);
         search.AddStatistics(in closest);
         if (closest.FaceIndex >= 0)
         {

@@ -2,7 +2,6 @@ using System.Runtime.CompilerServices;
 using System.Runtime.InteropServices;
 using System.Runtime.Intrinsics;
 using FractalEngine.Core.Collision.Bvh;
-using FractalEngine.Core.Fractals.Hierarchy;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Collision.Fractals;
@@ -10,15 +9,18 @@ namespace FractalEngine.Core.Collision.Fractals;
 /// <summary>Computes squared distances to boxes around the images of boxes under any map, four at a time.</summary>
 internal static class TransformedBoxDistance
 {
-    /// <summary>Queues the children of a sub-fractal by the distances of boxes around their images.</summary>
+    /// <summary>Queues children by the distances of boxes around their images.</summary>
     /// <param name="queue">The queue of the children.</param>
-    /// <param name="subFractal">The sub-fractal.</param>
+    /// <param name="childBounds">
+    /// Boxes around the children, [6 × <paramref name="paddedCount"/>]: x, y, z of the centres, then of half the sizes.
+    /// </param>
+    /// <param name="paddedCount">Number of child boxes including padding, which is far from everything.</param>
     /// <param name="position">In the frame of the images: x, y, z, 0.</param>
-    /// <param name="map">From the sub-fractal's frame to that of the images.</param>
-    public static void FillQueue(in ChildQueue queue, SubFractal subFractal, Vector256<double> position, in SimdAffineMap map)
+    /// <param name="map">From the frame of the boxes to that of the images.</param>
+    public static void FillQueue(
+        in ChildQueue queue, double[] childBounds, int paddedCount, Vector256<double> position, in SimdAffineMap map)
     {
-        var paddedCount = subFractal.PaddedCount;
-        ref var rows = ref MemoryMarshal.GetArrayDataReference(subFractal.ChildBounds);
+        ref var rows = ref MemoryMarshal.GetArrayDataReference(childBounds);
         var fromOrigin = VectorX4.Broadcast(position - map.Translation);
         var (v1, v2, v3) = (VectorX4.Broadcast(map.V1), VectorX4.Broadcast(map.V2), VectorX4.Broadcast(map.V3));
         for (var i = 0; i < paddedCount; i += VectorX4.Count)

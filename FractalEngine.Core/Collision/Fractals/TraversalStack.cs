@@ -1,6 +1,6 @@
 namespace FractalEngine.Core.Collision.Fractals;
 
-/// <summary>The nodes that a <see cref="ShapeTraversal"/> has yet to visit, and the path to the last one. The memory is kept.</summary>
+/// <summary>The nodes that a traversal of a shape has yet to visit, and the path to the last one. The memory is kept.</summary>
 internal sealed class TraversalStack
 {
     private Entry[] _entries = new Entry[32];
@@ -14,7 +14,9 @@ internal sealed class TraversalStack
 
     /// <summary>Pushes a node unless nothing in it counts.</summary>
     /// <param name="node">The node.</param>
-    /// <param name="measure">See <see cref="ITraversalPolicy.Measure"/>.</param>
+    /// <param name="measure">
+    /// Positive infinity where no face of the node counts, negative infinity where the traversal has found what it looks for.
+    /// </param>
     /// <param name="childIndex">Index of the child instance that leads to the node; −1 for the root and in the base mesh.</param>
     /// <param name="depth">Number of child instances that lead to the node.</param>
     /// <returns>False when the policy has found what it looks for.</returns>

@@ -43,7 +43,7 @@ public sealed class BoundingBoxCollider : Collider
         Depth = depth ?? DefaultDepth(mesh.FaceCount);
         ArgumentOutOfRangeException.ThrowIfNegative(Depth, nameof(depth));
         ArgumentOutOfRangeException.ThrowIfGreaterThan(Depth, MaxDepth, nameof(depth));
-        QueryScale.ThrowIfTooLarge(QueryScale.Magnitude(mesh));
+        ScaledQuery.ThrowIfTooLarge(QueryScale.Magnitude(mesh));
         _mesh = mesh;
         _faceIndices = [.. Enumerable.Range(0, mesh.FaceCount)];
         Vector[] centroids = [.. _faceIndices.Select(CentroidOf)];
@@ -69,7 +69,7 @@ public sealed class BoundingBoxCollider : Collider
     protected override bool FindClosestCore(Vector position, double maxDistance, double epsilon, QueryContext context,
         out ClosestPoint closest)
     {
-        QueryScale.ThrowIfTooLarge(position.MaxAbsComponent());
+        ScaledQuery.ThrowIfTooLarge(position.MaxAbsComponent());
         context.ClearPath();
         closest = default;
         if (_faceIndices.Length == 0)

@@ -4,7 +4,7 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Collision.Reference;
 
 /// <summary>
-/// The instances of one level that a <see cref="FractalCollider"/> descends into, up to some number. The memory is kept for the next query.
+/// The instances of one level that the paper's descent enters, up to some number. The memory is kept for the next query.
 /// </summary>
 internal sealed class DescentBeam
 {

@@ -16,7 +16,7 @@ namespace FractalEngine.Core.Collision.Reference;
 /// sets concatenated; sets below the last recursion belong to the base mesh. So a query costs exactly b·t face tests a level, b·t·d in all;
 /// the collider keeps t maps and the base mesh.
 /// </remarks>
-public sealed partial class FractalCollider : Collider
+public sealed class FractalCollider : Collider
 {
     // An instance smaller than the last place of a coordinate has no parts that could be told apart.
     private const double MinScale = 1e-15;
@@ -53,7 +53,7 @@ public sealed partial class FractalCollider : Collider
             throw new ArgumentException("expected affine composition: the descent follows maps", nameof(fractal));
         }
 
-        QueryScale.ThrowIfTooLarge(fractal.Bounds.IsEmpty ? 0 : BoundingVolume.MaxAbsCoordinate(fractal.Bounds));
+        ScaledQuery.ThrowIfTooLarge(fractal.Bounds.IsEmpty ? 0 : fractal.Bounds.MaxAbsCoordinate());
         var steps = fractal.Description.Steps;
         var lastRepetition = steps.Select((step, index) => step is Repetition ? index : -1).Append(-1).Max();
         // Without a recursion all sets are levels, over the base mesh itself.
@@ -61,7 +61,7 @@ public sealed partial class FractalCollider : Collider
         foreach (var step in steps[..levelSteps])
         {
             _levels.Add(step is Repetition repetition
-                ? (new(Concatenate(repetition.Body)), repetition.Count ?? EndlessRounds)
+                ? (new(Concatenate(repetition.Round)), repetition.Count ?? EndlessRounds)
                 : (new(Concatenate([step])), 1));
         }
 
@@ -88,7 +88,7 @@ public sealed partial class FractalCollider : Collider
     protected override bool FindClosestCore(Vector position, double maxDistance, double epsilon, QueryContext context,
         out ClosestPoint closest)
     {
-        QueryScale.ThrowIfTooLarge(position.MaxAbsComponent());
+        ScaledQuery.ThrowIfTooLarge(position.MaxAbsComponent());
         context.ClearPath();
         if (_beamWidth > 1)
         {
@@ -128,6 +128,67 @@ public sealed partial class FractalCollider : Collider
         return closestFace >= 0 && closest.Distance <= maxDistance;
     }
 
+    // Differs from §4.4.3: the paper descends into one instance.
+    private bool FindWithBeam(Vector position, double maxDistance, QueryContext context, out ClosestPoint closest)
+    {
+        var beam = context.DescentBeam;
+        var testsBefore = context.Statistics.FaceTests;
+        var baseTriangle = TestBaseWithoutLevels(position, context);
+        beam.Begin(_beamWidth, new(AffineMap.Identity, position, 1, baseTriangle.DistanceSquared, baseTriangle.FaceIndex, -1));
+        foreach (var (set, rounds) in _levels)
+        {
+            for (var round = 0; round < rounds; round++)
+            {
+                var hasChildren = false;
+                for (var parent = 0; parent < beam.Entries.Count; parent++)
+                {
+                    hasChildren |= OfferChildren(beam, parent, set, round > 0, position, context);
+                }
+
+                RequireAllowedTests(context.Statistics.FaceTests - testsBefore);
+                beam.AdvanceLevel(set, _hasOnlySimilarities);
+                if (!hasChildren)
+                {
+                    break;
+                }
+            }
+        }
+
+        if (beam.Entries.Count == 0 || beam.Entries[0].ClosestFace < 0)
+        {
+            closest = default;
+            return false;
+        }
+
+        beam.WritePath(context);
+        closest = ClosestPointFactory.OnInstance(_baseMesh, beam.Entries[0].ClosestFace, beam.Entries[0].Map, position);
+        return closest.Distance <= maxDistance;
+    }
+
+    /// <summary>Offers the children of an entry to the beam.</summary>
+    /// <returns>False when the entry is too small for children, and is offered itself.</returns>
+    private bool OfferChildren(DescentBeam beam, int parent, MapSet set, bool canTerminate, Vector position, QueryContext context)
+    {
+        var entry = beam.Entries[parent];
+        if (canTerminate && BoundingSphere.OperatorNormBound(entry.Map.Linear) < MinScale)
+        {
+            beam.InsertIfCloser(entry.DistanceSquared, parent, -1, entry.ClosestFace);
+            return false;
+        }
+
+        for (var childIndex = 0; childIndex < set.Maps.Length; childIndex++)
+        {
+            var closest = TestChild(
+                set, childIndex, position, entry.LocalPosition, entry.Map, entry.ScaleSquared, beam.CutoffSquared, context);
+            if (closest.FaceIndex >= 0)
+            {
+                beam.InsertIfCloser(closest.DistanceSquared, parent, childIndex, closest.FaceIndex);
+            }
+        }
+
+        return true;
+    }
+
     private static void RequireAllowedTests(long count)
     {
         if (count > FractalLimits.MaxDescentTests)
@@ -144,7 +205,7 @@ public sealed partial class FractalCollider : Collider
         var closest = new ClosestTriangle(double.PositiveInfinity);
         if (_hasNoLevels)
         {
-            _baseBvh.TestAllTriangles(position, ref closest);
+            ClosestTriangleSearch.TestAll(_baseBvh, position, ref closest);
             context.Statistics.FaceTests += closest.FaceTests;
         }
 
@@ -170,13 +231,13 @@ public sealed partial class FractalCollider : Collider
         {
             var childScaleSquared = scaleSquared * set.ScalesSquared[childIndex];
             closest = new(cutoffSquared / childScaleSquared);
-            _baseBvh.TestAllTriangles(set.Inverses[childIndex] * localPosition, ref closest);
+            ClosestTriangleSearch.TestAll(_baseBvh, set.Inverses[childIndex] * localPosition, ref closest);
             closest.DistanceSquared *= childScaleSquared;
         }
         else
         {
             closest = new(cutoffSquared);
-            _baseBvh.TestAllTransformedTriangles(position, map * set.Maps[childIndex], ref closest);
+            TransformedTriangleSearch.TestAll(_baseBvh, position, map * set.Maps[childIndex], ref closest);
         }
 
         context.Statistics.FaceTests += closest.FaceTests;

@@ -26,7 +26,7 @@ public sealed class SimpleCollider(Mesh mesh) : Collider
         var magnitude = QueryScale.Magnitude(in position, in map, _magnitude);
         if (QueryScale.IsNeeded(magnitude))
         {
-            return QueryScale.FindClosest(this, in position, in map, magnitude, maxDistance, epsilon, context, out closest);
+            return ScaledQuery.FindClosest(this, in position, in map, magnitude, maxDistance, epsilon, context, out closest);
         }
 
         context.ClearPath();
@@ -58,7 +58,7 @@ public sealed class SimpleCollider(Mesh mesh) : Collider
         var magnitude = Math.Max(position.MaxAbsComponent(), _magnitude);
         if (QueryScale.IsNeeded(magnitude))
         {
-            return QueryScale.FindClosest(
+            return ScaledQuery.FindClosest(
                 this, in position, AffineMap.Identity, magnitude, maxDistance, epsilon, context, out closest);
         }
 

@@ -3,7 +3,7 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Fractals.Hierarchy;
 
-/// <summary>Bounds of a sub-fractal in its own frame, while a <see cref="FractalHierarchy"/> is built.</summary>
+/// <summary>Bounds of a sub-fractal in its own frame, while the hierarchy of its fractal is built.</summary>
 /// <param name="Box">Contains the sub-fractal.</param>
 /// <param name="Hull">
 /// Contains the sub-fractal if widened by the margin; null where there is none, or where it would be no better than the box.
@@ -97,12 +97,8 @@ internal sealed record BoundingVolume(BoundingBox Box, ConvexHull? Hull, double 
     public static BoundingBox Inflate(BoundingBox box, double margin) =>
         new(box.Minimum - (margin * Vector.One), box.Maximum + (margin * Vector.One));
 
-    /// <summary>Computes the largest absolute coordinate of a box; infinite for the empty box.</summary>
-    public static double MaxAbsCoordinate(BoundingBox box) =>
-        Math.Max(box.Minimum.MaxAbsComponent(), box.Maximum.MaxAbsComponent());
-
     /// <summary>Upper bound of how far rounding moves a mapped point of a box.</summary>
-    public static double RoundingMargin(BoundingBox box) => RoundingErrors.MappedPoint * MaxAbsCoordinate(box);
+    public static double RoundingMargin(BoundingBox box) => RoundingErrors.MappedPoint * box.MaxAbsCoordinate();
 
     /// <summary>Lists the vertices of all faces, each once, by their first use.</summary>
     private static Vector[] UsedVertices(Mesh mesh)

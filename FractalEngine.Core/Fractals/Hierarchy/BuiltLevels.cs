@@ -2,7 +2,7 @@ using System.Runtime.InteropServices;
 
 namespace FractalEngine.Core.Fractals.Hierarchy;
 
-/// <summary>The levels that a <see cref="FractalHierarchyBuilder"/> has built so far, from the base mesh upwards.</summary>
+/// <summary>The levels of a hierarchy that were built so far, from the base mesh upwards.</summary>
 internal sealed class BuiltLevels
 {
     private readonly List<SubFractal> _subFractals = [];
@@ -26,7 +26,8 @@ internal sealed class BuiltLevels
     public BoundingVolume VolumeAt(long remainingLevels) => _volumes[FindIndex(remainingLevels)];
 
     /// <summary>
-    /// The edges of the sub-fractal with a number of remaining levels, see <see cref="ChildInstanceBuilder.EdgesAt"/>.
+    /// The edges of the sub-fractal with a number of remaining levels: one for each map that leads down, to the next level or, where
+    /// identities let levels be skipped, further.
     /// </summary>
     public ChildEdge[] EdgesAt(long remainingLevels) => _levels[FindIndex(remainingLevels)].Edges;
 

@@ -5,9 +5,6 @@ namespace FractalEngine.Core.Fractals.Hierarchy;
 /// <summary>Groups the children of wide sets into trees, so that a search tests few bounds of each set.</summary>
 internal static class ChildGroups
 {
-    /// <summary>Maximum number of children of a sub-fractal without groups; searches keep one bit of a word for each.</summary>
-    public const int MaxUngroupedChildren = 64;
-
     private const int GroupSize = 16;
 
     /// <summary>Groups many children by the places of their boxes, and the groups again, until they are few.</summary>

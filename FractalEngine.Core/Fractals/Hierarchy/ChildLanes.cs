@@ -72,7 +72,7 @@ internal sealed class ChildLanes(float[] rows, int groupCount, int rowCount, dou
             : UnrotatedChildBounds.HasNoRotation(children) ? UnrotatedRows
             : RotatedRows;
         var rows = new float[groupCount * rowCount * LaneCount];
-        var reach = BoundingVolume.MaxAbsCoordinate(box);
+        var reach = box.MaxAbsCoordinate();
         Span<float> values = stackalloc float[RotatedRows];
         for (var i = 0; i < groupCount * LaneCount; i++)
         {
@@ -229,7 +229,7 @@ internal sealed class ChildLanes(float[] rows, int groupCount, int rowCount, dou
         }
 
         var size = box.Size.MaxAbsComponent();
-        var magnitude = BoundingVolume.MaxAbsCoordinate(box);
+        var magnitude = box.MaxAbsCoordinate();
         return size > 1 / MaxMagnitude && magnitude < MaxMagnitude && magnitude < MaxRelativeMagnitude * size;
     }
 }

@@ -8,33 +8,32 @@ namespace FractalEngine.Core.Fractals.Hierarchy;
 /// The convex hull of some points, or of the most important ones where it has too many vertices. Flat sets, segments and single points
 /// have hulls as well.
 /// </summary>
-/// <remarks>
-/// Quickhull (Barber, Dobkin and Huhdanpaa 1996) begins with a tetrahedron, and adds the point farthest above some facet again and again.
-/// The facets that are visible from it are replaced by those between it and their horizon.
-/// </remarks>
-internal sealed partial class ConvexHull
+internal sealed class ConvexHull
 {
     // As a part of the set's size: closer points count as on a facet.
     private const double CoplanarTolerance = 1e-12;
-
-    // Facets whose normals differ by less in every component share a plane.
-    private const double SamePlaneTolerance = 1e-9;
 
     // Shorter transformed normals have lost their direction to rounding.
     private const double MinNormalLength = 1e-30;
 
     private readonly HullFacet[] _facets;
 
-    private ConvexHull(
-        Vector[] vertices,
-        HullPlane[] planes,
-        double maxOutsideDistance,
-        HullFacet[] facets)
+    /// <summary>Makes a hull, and raises its planes so that rounding puts no vertex above them.</summary>
+    /// <param name="vertices">The vertices, at least one.</param>
+    /// <param name="planes">The planes of the facets by descending area, which are changed.</param>
+    /// <param name="maxOutsideDistance">Upper bound of the distance of the points from the hull.</param>
+    /// <param name="facets">The surface, or what a flat hull, a segment or a point has of it.</param>
+    public ConvexHull(Vector[] vertices, HullPlane[] planes, double maxOutsideDistance, HullFacet[] facets)
     {
         Vertices = vertices;
         Planes = planes;
         MaxOutsideDistance = maxOutsideDistance;
         _facets = facets;
+        for (var i = 0; i < planes.Length; i++)
+        {
+            var (normal, offset, area) = planes[i];
+            planes[i] = new(normal, Math.Max(offset, Support(normal)), area);
+        }
     }
 
     /// <summary>The vertices, which are some of the points.</summary>
@@ -65,7 +64,7 @@ internal sealed partial class ConvexHull
         }
 
         // Far from the origin, coordinates are rounded by more than a part of the size.
-        var largest = BoundingVolume.MaxAbsCoordinate(box);
+        var largest = box.MaxAbsCoordinate();
         var tolerance = Math.Max(CoplanarTolerance * box.Diagonal, RoundingErrors.Chain * largest);
         var (i0, i1) = FindFarthestPair(points);
         if (points[i0] == points[i1])
@@ -84,7 +83,7 @@ internal sealed partial class ConvexHull
         var i3 = FindFarthest(points, points[i0], (point, origin) => Math.Abs(Vector.Dot(normal, point - origin)), out var height);
         return height > tolerance
             ? new QuickHull(array, count, tolerance, RoundingErrors.Norm * largest).Build(i0, i1, i2, i3, maxVertices)
-            : BuildFlatHull(points, direction, normal, height, maxVertices);
+            : FlatHull.Build(points, direction, normal, height, maxVertices);
     }
 
     /// <summary>
@@ -122,7 +121,7 @@ internal sealed partial class ConvexHull
             facets[i] = new(map * _facets[i].A, map * _facets[i].B, map * _facets[i].C);
         }
 
-        return new ConvexHull(vertices, planes, 0, facets).WithConservativeOffsets();
+        return new(vertices, planes, 0, facets);
     }
 
     /// <summary>Computes the volume in cubic scene units; 0 where the hull is flat.</summary>
@@ -239,19 +238,4 @@ internal sealed partial class ConvexHull
     }
 
     private static double Component(Vector v, int axis) => axis switch { 0 => v.X, 1 => v.Y, _ => v.Z };
-
-    /// <summary>Raises the planes of a new hull so that rounding puts no vertex above them.</summary>
-    private ConvexHull WithConservativeOffsets()
-    {
-        for (var i = 0; i < Planes.Length; i++)
-        {
-            var (normal, offset, area) = Planes[i];
-            Planes[i] = new(normal, Math.Max(offset, Support(normal)), area);
-        }
-
-        return this;
-    }
-
-    /// <summary>A triangle of the hull's surface, by the coordinates of its corners.</summary>
-    private readonly record struct HullFacet(Vector A, Vector B, Vector C);
 }

@@ -9,10 +9,11 @@ namespace FractalEngine.Core.Fractals.Hierarchy;
 /// </summary>
 /// <remarks>
 /// A state is a recursive and its remaining levels. States are numbered such that maps lead from any to lower ones. The number is called
-/// remaining levels too, since that is what it is for a fractal of one recursive. The states of several recursives take turns, see
-/// <see cref="RecursiveLevels"/>. The lowest states are the base meshes, and so many states have no children.
+/// remaining levels too, since that is what it is for a fractal of one recursive. The states of several recursives take turns:
+/// of k recursives, number k·n + r is recursive r with n remaining levels. The lowest states are the base meshes, and so many states have
+/// no children.
 /// </remarks>
-internal sealed partial class FractalHierarchy
+internal sealed class FractalHierarchy
 {
     // Up to here sub-fractals are found without a search.
     private const int MaxLowestLevel = 63;
@@ -24,25 +25,27 @@ internal sealed partial class FractalHierarchy
     private readonly int _rootRecursive;
     private readonly long _recursiveTop;
 
-    private FractalHierarchy(HierarchyDescription description, FractalHierarchyBuilder builder, bool keepsAllLevels)
+    /// <summary>Takes over the levels that were built.</summary>
+    /// <param name="baseMeshes">That of each recursive.</param>
+    /// <param name="built">The levels.</param>
+    /// <param name="subFractals">Their sub-fractals, in the order of the regions; null where no search visits them.</param>
+    /// <param name="rootRecursive">Index of the recursive that the steps are applied to.</param>
+    /// <param name="recursiveTop">Level of that recursive.</param>
+    public FractalHierarchy(Mesh[] baseMeshes, BuiltLevels built, SubFractal?[] subFractals, int rootRecursive, long recursiveTop)
     {
-        BaseMeshes = [.. description.Recursives.Select(static recursive => recursive.BaseMesh)];
-        _rootRecursive = description.Root;
-        _recursiveTop = builder.RecursiveTop;
-        var built = builder.Built;
+        BaseMeshes = baseMeshes;
+        _rootRecursive = rootRecursive;
+        _recursiveTop = recursiveTop;
         _regions = [.. built.Regions];
         _levels = [.. built.Levels];
         Levels = built.Top;
-        var isReachable = ReachableLevels.Find(built.SubFractals, _regions, Levels);
-        _subFractals = [.. built.SubFractals.Select((subFractal, i) => keepsAllLevels || isReachable[i] ? subFractal : null)];
+        _subFractals = subFractals;
         _lowest = new SubFractal?[Math.Min(Levels, MaxLowestLevel) + 1];
         for (var level = 0; level < _lowest.Length; level++)
         {
             _lowest[level] = _subFractals[LevelRegion.FindIndex(_regions, level)];
         }
 
-        HasOnlySimilarities = builder.HasOnlySimilarities;
-        HasDoubledPowers = builder.HasDoubledPowers;
         Root = At(Levels);
         RadiusSquared = 0.25 * Root.Box.Size.LengthSquared();
     }
@@ -60,10 +63,10 @@ internal sealed partial class FractalHierarchy
     public double RadiusSquared { get; }
 
     /// <summary>True when all maps are similarities, so that they multiply distances by their scale.</summary>
-    public bool HasOnlySimilarities { get; }
+    public bool HasOnlySimilarities { get; init; }
 
-    /// <summary>True when levels stand for doubled powers of one map, see <see cref="MapPowers"/>.</summary>
-    public bool HasDoubledPowers { get; }
+    /// <summary>True when levels stand for doubled powers of one map, so that there is not one for each set.</summary>
+    public bool HasDoubledPowers { get; init; }
 
     /// <summary>The runs of levels, the lowest first.</summary>
     public ReadOnlySpan<LevelRegion> Regions => _regions;
@@ -77,26 +80,6 @@ internal sealed partial class FractalHierarchy
         + _levels.Sum(level => level.StorageBytes) + _levels.Select(level => level.Edges).Distinct().Sum(edges => 24L * edges.Length)
         + _levels.Select(level => level.Set).Distinct().Sum(set => set?.StorageBytes ?? 0) + (16 * (long)_subFractals.Length)
         + (8 * _lowest.Length);
-
-    /// <summary>Builds the hierarchy of a fractal in affine composition.</summary>
-    /// <param name="fractal">The fractal.</param>
-    /// <param name="doublesPowers">False for one level for each set of the fractal, see <see cref="MapPowers"/>.</param>
-    /// <param name="keepsAllLevels">True to keep levels that no search from the whole fractal visits.</param>
-    /// <exception cref="FractalLimitException">Bounds overflow a double, or don't converge; the message names the level.</exception>
-    public static FractalHierarchy Build(Fractal fractal, bool doublesPowers = true, bool keepsAllLevels = false) =>
-        Build(HierarchyDescription.Of(fractal), doublesPowers, keepsAllLevels);
-
-    /// <summary>Builds the hierarchy of recursives and steps.</summary>
-    /// <param name="description">The recursives and the steps.</param>
-    /// <param name="doublesPowers">False for one level for each set, see <see cref="MapPowers"/>.</param>
-    /// <param name="keepsAllLevels">True to keep levels that no search from the whole fractal visits.</param>
-    /// <exception cref="FractalLimitException">Bounds overflow a double, or don't converge; the message names the level.</exception>
-    public static FractalHierarchy Build(HierarchyDescription description, bool doublesPowers = true, bool keepsAllLevels = false)
-    {
-        var builder = new FractalHierarchyBuilder(description, doublesPowers);
-        builder.AddAllLevels();
-        return new(description, builder, keepsAllLevels);
-    }
 
     /// <summary>True for the number of a state without levels, which is a base mesh.</summary>
     public bool IsBase(long remainingLevels) => remainingLevels < BaseMeshes.Length;
@@ -124,6 +107,21 @@ internal sealed partial class FractalHierarchy
     /// <summary>The set on top of the sub-fractal with a number of remaining levels, visited or not; null for the base.</summary>
     public MapSet? MapSetAt(long remainingLevels) => _levels[LevelRegion.FindIndex(_regions, remainingLevels)].Set;
 
+    /// <summary>The base mesh of the instance that a path leads to.</summary>
+    /// <param name="path">Indices of child instances from the root.</param>
+    public Mesh BaseMeshAt(ReadOnlySpan<int> path)
+    {
+        var (subFractal, level) = (Root, Levels);
+        foreach (var childIndex in path)
+        {
+            var child = subFractal.Children[childIndex];
+            level = child.RemainingLevels(level);
+            subFractal = At(child, level);
+        }
+
+        return BaseMeshes[subFractal.BaseIndex];
+    }
+
     /// <summary>Sums the bytes of the children, each once: levels with the same edges share them, and so do narrow ones.</summary>
     private long MeasureChildren()
     {
@@ -134,7 +132,7 @@ internal sealed partial class FractalHierarchy
         for (var i = 0; i < _subFractals.Length; i++)
         {
             var edges = _levels[i].Edges;
-            var isWide = edges.Length > ChildGroups.MaxUngroupedChildren;
+            var isWide = edges.Length > SubFractal.MaxUngroupedChildren;
             bytes += Measure(_subFractals[i], isWide, countsChildren: !isWide || seenWideEdges.Add(edges));
         }
 

@@ -1,4 +1,3 @@
-using FractalEngine.Core.Collision;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
@@ -62,7 +61,7 @@ internal sealed partial class FractalHierarchyBuilder
 
     private static bool HasOnlySimilarMaps(FractalStep step) => step switch
     {
-        Repetition repetition => repetition.Body.All(HasOnlySimilarMaps),
+        Repetition repetition => repetition.Round.All(HasOnlySimilarMaps),
         TransformationSet set => HasOnlySimilarMaps(set.Maps.AsSpan()),
         _ => throw new ArgumentException($"{step.GetType().Name} is no step of a fractal", nameof(step)),
     };
@@ -71,7 +70,7 @@ internal sealed partial class FractalHierarchyBuilder
     {
         foreach (ref readonly var map in maps)
         {
-            if (!Similarity.IsChainable(map.Linear))
+            if (!map.Linear.IsChainableSimilarity())
             {
                 return false;
             }
@@ -85,7 +84,7 @@ internal sealed partial class FractalHierarchyBuilder
     /// </summary>
     private static Func<BoundingBox[]> EdgeBoxesOf(ChildEdge[] edges, long level, Func<long, BoundingVolume> volumeAt)
     {
-        if (edges.Length > ChildGroups.MaxUngroupedChildren)
+        if (edges.Length > SubFractal.MaxUngroupedChildren)
         {
             return () => ComputeEdgeBoxes(edges, level, volumeAt);
         }

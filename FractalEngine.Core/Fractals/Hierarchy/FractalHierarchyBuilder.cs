@@ -33,7 +33,7 @@ internal sealed partial class FractalHierarchyBuilder
     /// <param name="doublesPowers">
     /// True to double the levels of one map, see <see cref="MapPowers"/>; false for one level for each set, whose path colours need.
     /// </param>
-    public FractalHierarchyBuilder(HierarchyDescription description, bool doublesPowers)
+    private FractalHierarchyBuilder(HierarchyDescription description, bool doublesPowers)
     {
         _description = description;
         _doublesPowers = doublesPowers;
@@ -52,30 +52,43 @@ internal sealed partial class FractalHierarchyBuilder
         }
     }
 
-    /// <summary>The levels that were built.</summary>
-    public BuiltLevels Built { get; } = new();
+    private BuiltLevels Built { get; } = new();
 
-    /// <summary>True when all maps are similarities.</summary>
-    public bool HasOnlySimilarities { get; }
+    private bool HasOnlySimilarities { get; }
 
-    /// <summary>True when levels stand for doubled powers of one map.</summary>
-    public bool HasDoubledPowers { get; private set; }
+    private bool HasDoubledPowers { get; set; }
 
-    /// <summary>Level of the recursive that the steps are applied to.</summary>
-    public long RecursiveTop { get; private set; }
+    /// <summary>Builds the hierarchy of recursives and steps.</summary>
+    /// <param name="description">The recursives and the steps.</param>
+    /// <param name="doublesPowers">False for one level for each set, see <see cref="MapPowers"/>.</param>
+    /// <param name="keepsAllLevels">True to keep levels that no search from the whole fractal visits.</param>
+    /// <exception cref="FractalLimitException">Bounds overflow a double, or don't converge; the message names the level.</exception>
+    public static FractalHierarchy Build(HierarchyDescription description, bool doublesPowers = true, bool keepsAllLevels = false) =>
+        new FractalHierarchyBuilder(description, doublesPowers).Build(keepsAllLevels);
 
     /// <summary>Adds the levels of the recursives, and those of all steps, the innermost first.</summary>
-    /// <exception cref="FractalLimitException">Bounds overflow a double, or don't converge; the message names the level.</exception>
-    public void AddAllLevels()
+    private FractalHierarchy Build(bool keepsAllLevels)
     {
         RequireAllowedChildren(_description.Steps.Sum(CountWideChildren));
         AddRecursives();
-        RecursiveTop = Built.Top;
-        _baseIndex = _recursives.BaseIndexAt(RecursiveTop);
+        var recursiveTop = Built.Top;
+        _baseIndex = _recursives.BaseIndexAt(recursiveTop);
         foreach (var step in _description.Steps.Reverse())
         {
             AddStep(step);
         }
+
+        var isReachable = ReachableLevels.Find(Built.SubFractals, [.. Built.Regions], Built.Top);
+        return new(
+            [.. _description.Recursives.Select(static recursive => recursive.BaseMesh)],
+            Built,
+            [.. Built.SubFractals.Select((subFractal, i) => keepsAllLevels || isReachable[i] ? subFractal : null)],
+            _description.Root,
+            recursiveTop)
+        {
+            HasOnlySimilarities = HasOnlySimilarities,
+            HasDoubledPowers = HasDoubledPowers,
+        };
     }
 
     /// <summary>
@@ -84,9 +97,9 @@ internal sealed partial class FractalHierarchyBuilder
     /// </summary>
     private long CountWideChildren(FractalStep step) => step switch
     {
-        TransformationSet { Maps.Length: > ChildGroups.MaxUngroupedChildren } set => set.Maps.Length,
+        TransformationSet { Maps.Length: > SubFractal.MaxUngroupedChildren } set => set.Maps.Length,
         Repetition repetition when !_doublesPowers || MapPowers.TryCreate(repetition) is null =>
-            Math.Min(repetition.Count ?? 2, 2) * repetition.Body.Sum(CountWideChildren),
+            Math.Min(repetition.Count ?? 2, 2) * repetition.Round.Sum(CountWideChildren),
         _ => 0,
     };
 
@@ -109,9 +122,9 @@ internal sealed partial class FractalHierarchyBuilder
             return;
         }
 
-        var hasOnlySets = repetition.Body.All(inner => inner is TransformationSet);
+        var hasOnlySets = repetition.Round.All(inner => inner is TransformationSet);
         var levelsBelowRepetition = Built.Top;
-        var period = hasOnlySets ? repetition.Body.Length : int.MaxValue;
+        var period = hasOnlySets ? repetition.Round.Length : int.MaxValue;
         // Two rounds are built in any case: children may skip a round of levels, and must meet the same sets there.
         var nextAttempt = 2;
         for (var round = 0; round < (repetition.Count ?? (_isEmpty ? 1 : int.MaxValue)); round++)
@@ -128,7 +141,7 @@ internal sealed partial class FractalHierarchyBuilder
                 nextAttempt = round + 1 + (round / 8);
             }
 
-            foreach (var inner in repetition.Body.Reverse())
+            foreach (var inner in repetition.Round.Reverse())
             {
                 if (inner is TransformationSet set)
                 {

@@ -1,4 +1,5 @@
 using System.Collections.Immutable;
+using FractalEngine.Core.Geometry;
 
 namespace FractalEngine.Core.Fractals.Hierarchy;
 
@@ -33,8 +34,7 @@ internal sealed class HierarchyDescription
     public ImmutableArray<FractalStep> Steps { get; }
 
     /// <summary>Describes a fractal in affine composition: one chain of steps on one base mesh.</summary>
-    public static HierarchyDescription Of(Fractal fractal) =>
-        new([new(fractal.BaseMesh, [])], 0, 0, fractal.Description.Steps);
+    public static HierarchyDescription Of(Mesh baseMesh, ImmutableArray<FractalStep> steps) => new([new(baseMesh, [])], 0, 0, steps);
 
     /// <summary>Describes recursives that call each other.</summary>
     /// <param name="recursives">The recursives, at least one.</param>

@@ -27,7 +27,7 @@ internal sealed class LevelUnion(BuiltLevels built, OutlierClusters clusters)
     {
         // Wide levels are collapsed again for each pass: the list would take more memory than their maps.
         var collapsed = CollapseEdges(edges, level);
-        return ComputeUnion(edges.Length > ChildGroups.MaxUngroupedChildren ? collapsed : [.. collapsed], level);
+        return ComputeUnion(edges.Length > SubFractal.MaxUngroupedChildren ? collapsed : [.. collapsed], level);
     }
 
     /// <summary>Collapses the edges of a level that lead to parts with points.</summary>

@@ -1,5 +1,4 @@
 using System.Runtime.InteropServices;
-using FractalEngine.Core.Collision;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
@@ -35,7 +34,7 @@ internal sealed class MapSet
             map.Inverse();
             ScalesSquared[i] = map.Linear.V1.LengthSquared();
             OperatorNormBounds[i] = BoundingSphere.OperatorNormBound(map.Linear) * (1 + RoundingErrors.Norm);
-            AreSimilarities &= Similarity.IsChainable(map.Linear);
+            AreSimilarities &= map.Linear.IsChainableSimilarity();
             IdentityIndex = IdentityIndex < 0 && map == AffineMap.Identity ? i : IdentityIndex;
         }
     }

@@ -70,7 +70,7 @@ internal sealed class OutlierClusters
     }
 
     private bool HasOutliers(FractalStep step) => step is Repetition repetition
-        ? repetition.Body.Any(HasOutliers)
+        ? repetition.Round.Any(HasOutliers)
         : HasOutliers(((TransformationSet)step).Maps);
 
     private bool HasOutliers(ImmutableArray<AffineMap> maps)

@@ -155,7 +155,7 @@ internal sealed class PeriodicBound(
         return box1 == box2 || change <= RoundingErrors.Chain * Magnitude(box1) ? 0 : change / box1.Diagonal;
     }
 
-    private static double Magnitude(BoundingBox box) => box.IsEmpty ? 0 : BoundingVolume.MaxAbsCoordinate(box);
+    private static double Magnitude(BoundingBox box) => box.IsEmpty ? 0 : box.MaxAbsCoordinate();
 
     private static BoundingVolume[] WithoutHulls(BoundingVolume[] volumes) =>
         [.. volumes.Select(volume => volume with { Hull = null, Margin = 0 })];

@@ -12,6 +12,9 @@ namespace FractalEngine.Core.Fractals.Hierarchy;
 /// </summary>
 internal sealed class SubFractal
 {
+    /// <summary>Maximum number of children without groups; searches keep one bit of a word for each.</summary>
+    public const int MaxUngroupedChildren = 64;
+
     // A box for each child.
     private const int ValuesPerChild = 6;
 

@@ -50,7 +50,7 @@ internal sealed class SubFractalFactory(Mesh[] baseMeshes, bool hasOnlySimilarit
         }
 
         var childHull = childVolumes.Length > 0 ? CreateHullBound(childVolumes[0]) : null;
-        if (children.Length > ChildGroups.MaxUngroupedChildren)
+        if (children.Length > SubFractal.MaxUngroupedChildren)
         {
             var parentBox = BoundingBox.Union(volume.Box, baseBox);
             (children, childBoxes) = ChildGroups.Create(set, children, childBoxes, parentBox, childHull, hasOnlySimilarities, baseIndex);

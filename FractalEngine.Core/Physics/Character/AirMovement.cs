@@ -28,7 +28,7 @@ internal sealed class AirMovement(CharacterCapsule capsule)
                 break;
             }
 
-            var motion = new Motion(capsule.Position, velocity, netAcceleration);
+            var motion = new SphereMotion(capsule.Position, velocity, netAcceleration);
             var isHit = capsule.MoveAlong(in motion, ref timeLeft, out var contact, out var elapsed);
             velocity = motion.VelocityAt(elapsed);
             if (!isHit)

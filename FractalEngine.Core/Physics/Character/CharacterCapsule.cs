@@ -116,7 +116,7 @@ internal sealed class CharacterCapsule
     /// <param name="contact">What is touched.</param>
     /// <param name="elapsed">The time that has passed.</param>
     /// <returns>True when something was touched.</returns>
-    public bool MoveAlong(in Motion motion, ref double timeLeft, out Contact contact, out double elapsed)
+    public bool MoveAlong(in SphereMotion motion, ref double timeLeft, out Contact contact, out double elapsed)
     {
         _obstacles.CollectNearbyBodies(in motion, timeLeft, Contact.NoBody);
         var isHit = _sweep.TryFindImpact(in motion, timeLeft, out contact, out elapsed);

@@ -81,7 +81,7 @@ internal sealed class CompoundContacts(Obstacles obstacles)
     public void FindKinematicPush(Body body, double duration)
     {
         obstacles.SelectBall(body.Radius, body.SafeDistance);
-        var motion = new Motion(body.Position, body.Velocity, body.FreeAcceleration);
+        var motion = new SphereMotion(body.Position, body.Velocity, body.FreeAcceleration);
         var way = duration * obstacles.MaxKinematicSpeed(in motion, duration);
         var reach = way + motion.MaxTravelDistance(duration) + (duration * body.AngularVelocity.Length() * body.MaxArm);
         for (var i = 0; i < body.Balls.Length && way > 0; i++)

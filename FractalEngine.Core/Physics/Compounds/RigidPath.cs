@@ -5,7 +5,7 @@ namespace FractalEngine.Core.Physics.Compounds;
 /// <summary>The path of a compound: its centre of mass follows a parabola, and it turns at a constant rate about it.</summary>
 /// <param name="Motion">Path of the centre of mass.</param>
 /// <param name="Spin">Radians per second.</param>
-internal readonly record struct RigidPath(Motion Motion, Vector Spin)
+internal readonly record struct RigidPath(SphereMotion Motion, Vector Spin)
 {
     /// <summary>How the body has turned since the beginning.</summary>
     public Orientation TurnAt(double time) => Orientation.Identity.TurnedBy(time * Spin);
@@ -25,11 +25,11 @@ internal readonly record struct RigidPath(Motion Motion, Vector Spin)
     /// <param name="approach">Speed at which what is in the way comes nearer.</param>
     /// <param name="distance">The distance, scene units.</param>
     public double MinTimeToTravel(double from, double arm, double approach, double distance) =>
-        new Motion(Vector.Zero, (Motion.VelocityAt(from).Length() + (Spin.Length() * arm) + approach) * Vector.I, Motion.Acceleration)
+        new SphereMotion(Vector.Zero, (Motion.VelocityAt(from).Length() + (Spin.Length() * arm) + approach) * Vector.I, Motion.Acceleration)
             .MinTimeToTravel(distance);
 
     /// <summary>Upper bound on how far a point gets that turns with the body.</summary>
     public double MaxTravelDistance(double from, double arm, double duration) =>
-        new Motion(Vector.Zero, Motion.VelocityAt(from), Motion.Acceleration).MaxTravelDistance(duration)
+        new SphereMotion(Vector.Zero, Motion.VelocityAt(from), Motion.Acceleration).MaxTravelDistance(duration)
             + (Spin.Length() * arm * duration);
 }

@@ -13,14 +13,14 @@ internal sealed class GapGroup
     private const double NegligibleShift = 0.1 * OverlapSeparator.NegligibleOverlap;
 
     private readonly GapQueue _queue = new();
-    private Gap[] _gaps = [];
+    private SeparationGap[] _gaps = [];
     private int _count;
 
     /// <summary>True where a body has been displaced since this was last set.</summary>
     public bool HasMoved { get; set; }
 
     /// <summary>The contacts of the group.</summary>
-    public ReadOnlySpan<Gap> Gaps => _gaps.AsSpan(0, _count);
+    public ReadOnlySpan<SeparationGap> Gaps => _gaps.AsSpan(0, _count);
 
     /// <summary>Makes room for the bodies of a world, and for so many contacts of the group.</summary>
     public void Reserve(int bodyCount, int contactCount)
@@ -54,7 +54,7 @@ internal sealed class GapGroup
                 continue;
             }
 
-            var gap = new Gap(in row, in aim);
+            var gap = new SeparationGap(in row, in aim);
             offset = OffsetOf(in gap, movers);
             var distance = gap.IsPlane ? Vector.Dot(offset, gap.Normal) : offset.Length();
             if (distance < maxDistance)
@@ -124,7 +124,7 @@ internal sealed class GapGroup
 
     /// <summary>Moves two overlapping bodies apart, the lighter one farther.</summary>
     /// <returns>True where that may have made others overlap.</returns>
-    public static bool TakeBack(in Gap gap, Span<DisplacedBody> movers)
+    public static bool TakeBack(in SeparationGap gap, Span<DisplacedBody> movers)
     {
         var offset = OffsetOf(in gap, movers);
         double distance;
@@ -180,6 +180,6 @@ internal sealed class GapGroup
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private static Vector OffsetOf(in Gap gap, ReadOnlySpan<DisplacedBody> movers) => gap.Second >= 0
+    private static Vector OffsetOf(in SeparationGap gap, ReadOnlySpan<DisplacedBody> movers) => gap.Second >= 0
         ? gap.Offset + (movers[gap.First].Displacement - movers[gap.Second].Displacement) : gap.Offset + movers[gap.First].Displacement;
 }

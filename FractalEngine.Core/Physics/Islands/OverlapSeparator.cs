@@ -247,7 +247,7 @@ internal sealed class OverlapSeparator
                 return;
             }
 
-            _ = GapGroup.TakeBack(new Gap(in row, in _aim), _movers);
+            _ = GapGroup.TakeBack(new SeparationGap(in row, in _aim), _movers);
         }
     }
 }

@@ -80,7 +80,7 @@ internal sealed class KinematicSet
     /// <param name="motion">Path of the mover.</param>
     /// <param name="duration">Seconds that it takes.</param>
     /// <param name="reach">How far its surface is from its position.</param>
-    public double MaxSpeedNear(in Motion motion, double duration, double reach)
+    public double MaxSpeedNear(in SphereMotion motion, double duration, double reach)
     {
         var maxSpeed = 0.0;
         if (_objects.Count == 0 || IsFrozen)

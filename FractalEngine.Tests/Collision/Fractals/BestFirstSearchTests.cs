@@ -26,8 +26,8 @@ public sealed class BestFirstSearchTests
         {
             var position = random.Vector(4);
             // Children that no search has recorded have no place in a path.
-            context.PathBuffer(FractalSearchState.MaxStackDepth).Fill(int.MaxValue);
-            context.BestPathBuffer(FractalSearchState.MaxStackDepth).Fill(int.MaxValue);
+            context.PathBuffer(QueryContext.MaxStackDepth).Fill(int.MaxValue);
+            context.BestPathBuffer(QueryContext.MaxStackDepth).Fill(int.MaxValue);
             var state = new FractalSearchState(double.PositiveInfinity, 0, position.MaxAbsComponent(), 10, context);
             if (i % 2 == 0)
             {

@@ -28,7 +28,7 @@ internal sealed class BranchAndBoundOracle
         var recursion = steps.OfType<Repetition>().Single();
         var recursionIndex = steps.IndexOf(recursion);
         _outerMaps = [.. ExpandMaps(steps[..recursionIndex]).Select(chain => chain.Map)];
-        var round = ExpandMaps(recursion.Body);
+        var round = ExpandMaps(recursion.Round);
         RoundHasIdentity = round.Any(chain => chain.Map == AffineMap.Identity);
         _roundMaps = [.. round.Where(chain => chain.Map != AffineMap.Identity).Distinct()];
         _roundCount = recursion.Count ?? long.MaxValue;

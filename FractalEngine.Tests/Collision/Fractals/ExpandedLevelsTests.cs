@@ -48,7 +48,7 @@ public class ExpandedLevelsTests
             var (levels1, levels2) = (Select(fractal), Select(other));
             Assert.Equal(levels1.Count, levels2.Count);
             Assert.All(Enumerable.Range(0, levels1.Count), level => Assert.Equal(
-                levels1.At(level)?.Bvh.FaceCount, levels2.At(level)?.Bvh.FaceCount));
+                levels1.At(level)?.Bvh.Mesh.FaceCount, levels2.At(level)?.Bvh.Mesh.FaceCount));
             Assert.Same(levels1, Select(fractal));
         }
     }

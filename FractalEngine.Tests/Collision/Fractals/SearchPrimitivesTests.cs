@@ -1,4 +1,5 @@
 using System.Runtime.Intrinsics;
+using FractalEngine.Core.Collision;
 using FractalEngine.Core.Collision.Bvh;
 using FractalEngine.Core.Collision.Fractals;
 using FractalEngine.Core.Geometry;
@@ -163,7 +164,7 @@ public sealed class SearchPrimitivesTests
     public void WithinBudget_AtItsLimits_EndsTheSearchUntilItIsReset()
     {
         var search = new FractalSearchState(10, 0, 1, 1, new()) { BoundTests = 49_999 };
-        Assert.True(search.WithinBudget(FractalSearchState.MaxStackDepth - 1));
+        Assert.True(search.WithinBudget(QueryContext.MaxStackDepth - 1));
         Assert.False(search.HasExceededBudget);
         search.BoundTests++;
         Assert.False(search.WithinBudget(0));
@@ -171,7 +172,7 @@ public sealed class SearchPrimitivesTests
         search.ResetBudget();
         Assert.False(search.HasExceededBudget || search.Excludes(99));
         search.BoundTests = 0;
-        Assert.False(search.WithinBudget(FractalSearchState.MaxStackDepth));
+        Assert.False(search.WithinBudget(QueryContext.MaxStackDepth));
         search.UpdateClosest(4, 1, 0);
         search.ResetBudget();
         Assert.True(search.Excludes(4));

@@ -241,7 +241,7 @@ public sealed class HierarchyPrimitivesTests
             var counts = new InstanceCounts(fractal.Hierarchy, static _ => 1, long.MaxValue);
             Assert.Equal(depth + 1, counts.SumAt(fractal.Hierarchy.Levels));
             Assert.Equal(depth >= 8, fractal.Hierarchy.HasDoubledPowers);
-            Assert.Equal(depth, FractalHierarchy.Build(fractal, doublesPowers: false).Levels);
+            Assert.Equal(depth, fractal.BuildHierarchy(doublesPowers: false).Levels);
             var limited = new InstanceCounts(fractal.Hierarchy, static _ => 1, 5);
             Assert.Equal(Math.Min(5, depth + 1), limited.SumAt(fractal.Hierarchy.Levels));
         }

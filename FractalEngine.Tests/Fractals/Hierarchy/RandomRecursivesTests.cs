@@ -43,7 +43,7 @@ public class RandomRecursivesTests
         // Where a base mesh is empty, recursives may alternate between faces and none, so that there is no limit.
         var isInfinite = random.Next(2) == 0 && recursives.All(static recursive => recursive.BaseMesh.FaceCount > 0);
         var levels = isInfinite ? (long?)null : random.Next(20, 1000);
-        var collider = new ExactFractalCollider(FractalHierarchy.Build(HierarchyDescription.Of([.. recursives], root, levels)));
+        var collider = new ExactFractalCollider(FractalHierarchyBuilder.Build(HierarchyDescription.Of([.. recursives], root, levels)));
         var found = 0;
         for (var query = 0; query < 10; query++)
         {

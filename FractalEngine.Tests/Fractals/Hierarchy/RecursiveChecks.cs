@@ -18,7 +18,7 @@ internal static class RecursiveChecks
         [0, 0, 0, 1, 0, 0, 1, 0, 1, 0, 0, 1, 0.5, 0.8, 0, 0.5, 0.8, 1], [0, 4, 1, 3, 2, 5, 0, 3, 5, 0, 5, 4, 1, 4, 5, 1, 5, 2]);
 
     public static (FractalHierarchy Hierarchy, ExpandedRecursives Expanded) Create(FractalRecursive[] recursives, int root, int levels) =>
-        (FractalHierarchy.Build(HierarchyDescription.Of([.. recursives], root, levels)), new(recursives, root, levels));
+        (FractalHierarchyBuilder.Build(HierarchyDescription.Of([.. recursives], root, levels)), new(recursives, root, levels));
 
     public static (long Instances, long Faces) Count(FractalHierarchy hierarchy) => (
         new InstanceCounts(hierarchy, static _ => 1, 1L << 60).SumAt(hierarchy.Levels),

@@ -87,7 +87,7 @@ public class RecursiveLevelsTests
         var maps = fractal.LevelAt(0).Maps;
         var description = HierarchyDescription.Of(
             [new(Samples.Tetrahedron, [.. maps.Select(static map => new RecursiveCall(map, 0))])], 0, 30);
-        var (expected, actual) = (fractal.Hierarchy, FractalHierarchy.Build(description));
+        var (expected, actual) = (fractal.Hierarchy, FractalHierarchyBuilder.Build(description));
         Assert.Equal((expected.Levels, expected.Root.Box), (actual.Levels, actual.Root.Box));
         var (colliders, contexts) = (new[] { new ExactFractalCollider(fractal), new(actual) }, new QueryContext[] { new(), new() });
         Seeded.Run(50, random =>
@@ -112,8 +112,8 @@ public class RecursiveLevelsTests
         for (var root = 0; root < 3; root++)
         {
             ImmutableArray<FractalRecursive> recursives = [.. isSimilar ? Similar : Skewed];
-            var deep = FractalHierarchy.Build(HierarchyDescription.Of(recursives, root, levels));
-            var limit = new ExactFractalCollider(FractalHierarchy.Build(HierarchyDescription.Of(recursives, root, 90)));
+            var deep = FractalHierarchyBuilder.Build(HierarchyDescription.Of(recursives, root, levels));
+            var limit = new ExactFractalCollider(FractalHierarchyBuilder.Build(HierarchyDescription.Of(recursives, root, 90)));
             var collider = new ExactFractalCollider(deep);
             Assert.Equal(root, deep.StateAt(deep.Levels).Recursive);
             Assert.InRange(collider.StorageBytes, 1, 400_000);
@@ -146,7 +146,7 @@ public class RecursiveLevelsTests
     public void Steps_OnRecursives_ApplyToAllTheirFaces()
     {
         TransformationSet stairs = new([Transformation.Identity, new(new(0, 2, 0), new(0, 30, 0), 0.9 * Vector.One)]);
-        var hierarchy = FractalHierarchy.Build(HierarchyDescription.Of([.. Similar], 2, 4, [new Repetition([stairs], 3)]));
+        var hierarchy = FractalHierarchyBuilder.Build(HierarchyDescription.Of([.. Similar], 2, 4, [new Repetition([stairs], 3)]));
         // The same as recursives: a chain of the steps, each a sum of what is below once and once more.
         var maps = Enumerable.Range(0, 4).Select(power => Enumerable.Repeat(stairs.Maps[1], power)
             .Aggregate(AffineMap.Identity, static (product, map) => product * map));

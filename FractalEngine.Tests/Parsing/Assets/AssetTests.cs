@@ -110,7 +110,7 @@ public sealed class AssetTests
     public void Recursion_Contracts(string name)
     {
         var repetition = Assert.IsType<Repetition>(Fractal(name).Description.Steps.First(step => step is Repetition));
-        foreach (var map in FractalGenerator.Expand(new(new(repetition.Body), Fractal(name).BaseMesh), 100_000))
+        foreach (var map in FractalGenerator.Expand(new(new(repetition.Round), Fractal(name).BaseMesh), 100_000))
         {
             // Every distance shrinks after a few rounds: the map's spectral radius is that of its linear part's powers.
             var power = Enumerable.Repeat(map.Linear, 64).Aggregate((m1, m2) => m1 * m2);

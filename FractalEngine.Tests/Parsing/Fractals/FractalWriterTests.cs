@@ -29,7 +29,7 @@ public class FractalWriterTests
     private static string BitsOf(IEnumerable<FractalStep> steps) => string.Concat(steps.Select(step => step switch
     {
         TransformationSet set => $"[{Bits.Of(set.Transformations)}]",
-        Repetition repetition => $"({BitsOf(repetition.Body)})^{repetition.Count}",
+        Repetition repetition => $"({BitsOf(repetition.Round)})^{repetition.Count}",
         _ => throw new ArgumentException("unknown kind of step"),
     }));
 

@@ -3,8 +3,8 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Fractals.Hierarchy;
 
-/// <content>Hulls of points of one plane.</content>
-internal sealed partial class ConvexHull
+/// <summary>Builds hulls of points of one plane.</summary>
+internal static class FlatHull
 {
     /// <summary>Builds the hull of points of one plane from the farthest points in evenly spread directions.</summary>
     /// <param name="points">The points.</param>
@@ -12,9 +12,9 @@ internal sealed partial class ConvexHull
     /// <param name="normal">Normal of the plane, of length 1.</param>
     /// <param name="height">Largest distance of a point from the plane.</param>
     /// <param name="maxVertices">Number of directions.</param>
-    private static ConvexHull BuildFlatHull(ReadOnlySpan<Vector> points, Vector along, Vector normal, double height, int maxVertices)
+    public static ConvexHull Build(ReadOnlySpan<Vector> points, Vector along, Vector normal, double height, int maxVertices)
     {
-        var vertices = FindFlatHullVertices(points, along, Vector.Cross(normal, along), maxVertices);
+        var vertices = FindVertices(points, along, Vector.Cross(normal, along), maxVertices);
         // Vertices may be on the other side of the plane.
         var maxOutsideDistance = 2 * height;
         var planeOffset = Vector.Dot(normal, points[0]);
@@ -41,10 +41,10 @@ internal sealed partial class ConvexHull
             facets[i] = new(vertices[0], vertices[(i + 1) % vertices.Count], vertices[(i + 2) % vertices.Count]);
         }
 
-        return new ConvexHull(vertices.ToArray(), planes.ToArray(), maxOutsideDistance, facets).WithConservativeOffsets();
+        return new(vertices.ToArray(), planes.ToArray(), maxOutsideDistance, facets);
     }
 
-    private static List<Vector> FindFlatHullVertices(ReadOnlySpan<Vector> points, Vector along, Vector across, int maxVertices)
+    private static List<Vector> FindVertices(ReadOnlySpan<Vector> points, Vector along, Vector across, int maxVertices)
     {
         var vertices = new List<Vector>();
         for (var i = 0; i < maxVertices; i++)

@@ -1,15 +1,18 @@
 namespace FractalEngine.Core.Files;
 
-/// <content>Writes two files that belong together.</content>
-public static partial class AtomicFile
+/// <summary>Replaces a file so that the one before can come back.</summary>
+internal static class FileExchange
 {
     /// <summary>Moves a file to its name, and back again if what follows fails.</summary>
-    private static void Exchange(string temporary, string target, Action follow)
+    /// <param name="temporary">Full path of the file.</param>
+    /// <param name="target">Its name: that of a file which it replaces, or a free one.</param>
+    /// <param name="follow">What follows.</param>
+    public static void Run(string temporary, string target, Action follow)
     {
-        var previous = File.Exists(target) ? TemporaryNameFor(target) : null;
+        var previous = File.Exists(target) ? TemporaryFiles.NameFor(target) : null;
         if (previous is not null)
         {
-            Temporaries[previous] = true;
+            TemporaryFiles.Add(previous);
             File.Copy(target, previous);
         }
 
@@ -30,8 +33,7 @@ public static partial class AtomicFile
         {
             if (previous is not null)
             {
-                File.Delete(previous);
-                Temporaries.TryRemove(previous, out _);
+                TemporaryFiles.Delete(previous);
             }
         }
     }

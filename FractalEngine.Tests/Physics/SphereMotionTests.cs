@@ -5,7 +5,7 @@ using FractalEngine.Tests.Support;
 namespace FractalEngine.Tests.Physics;
 
 /// <summary>Paths of constant acceleration, and the clock that steps tick.</summary>
-public class MotionTests
+public class SphereMotionTests
 {
     // Of numbers of some units.
     private const double Tolerance = 1e-14;
@@ -13,7 +13,7 @@ public class MotionTests
     [Fact]
     public void Motion_UnderAnAcceleration_IsAParabola() => Seeded.Run(100, random =>
     {
-        var motion = new Motion(random.Vector(), random.Vector(2), random.Next(4) * random.Vector(2));
+        var motion = new SphereMotion(random.Vector(), random.Vector(2), random.Next(4) * random.Vector(2));
         var time = random.Between(0.1, 2);
         Near.Equal(motion.Start + (time * motion.Velocity) + (0.5 * time * time * motion.Acceleration), motion.PositionAt(time), Tolerance);
         Near.Equal(motion.Velocity + (time * motion.Acceleration), motion.VelocityAt(time), Tolerance);
@@ -22,7 +22,7 @@ public class MotionTests
         Near.Equal(time, motion.MinTimeToTravel(distance), 1e-13);
         // Something comes towards it as well.
         Near.Equal(time, motion.MinTimeToTravel(distance + (3 * time), 3), 1e-13);
-        Assert.Equal(double.PositiveInfinity, new Motion(motion.Start, Vector.Zero, Vector.Zero).MinTimeToTravel(1));
+        Assert.Equal(double.PositiveInfinity, new SphereMotion(motion.Start, Vector.Zero, Vector.Zero).MinTimeToTravel(1));
         var box = motion.SweptBox(time);
         for (var i = 0; i <= 20; i++)
         {

@@ -3,7 +3,7 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Physics.Islands;
 
 /// <summary>What a separation of overlapping bodies needs of a contact.</summary>
-internal readonly struct Gap
+internal readonly struct SeparationGap
 {
     /// <summary>Index of the body on the normal's side.</summary>
     public readonly int First;
@@ -38,7 +38,7 @@ internal readonly struct Gap
     /// <summary>Takes from a contact what a separation needs.</summary>
     /// <param name="row">The contact.</param>
     /// <param name="aim">What separations aim at.</param>
-    public Gap(in ContactRow row, in SeparationAim aim)
+    public SeparationGap(in ContactRow row, in SeparationAim aim)
     {
         First = row.First;
         Second = row.Second;

@@ -4,7 +4,7 @@ using FractalEngine.Core.Physics.Islands;
 namespace FractalEngine.Tests.Physics.Islands;
 
 /// <summary>What a gap takes from its contact.</summary>
-public sealed class GapTests
+public sealed class SeparationGapTests
 {
     private static readonly SeparationAim Aim = new(0.25, 1.5, 0.01);
 
@@ -16,7 +16,7 @@ public sealed class GapTests
     public void Gap_OfBalls_HasWhatTheirContactSays(
         bool isAhead, bool hasFixedNormal, bool isBouncing, double relaxation, bool isPlane, bool isOneSided)
     {
-        var gap = new Gap(
+        var gap = new SeparationGap(
             new ContactRow
             {
                 First = 5, Second = 0, Offset = new(1, 2, 3), Normal = Vector.K, MinDistance = 0.75, FirstRadius = 0.5, SecondRadius = 0.25,
@@ -34,11 +34,11 @@ public sealed class GapTests
     {
         var row = new ContactRow { First = 1, Second = ContactRow.Immovable, Offset = new(1, 2, 3), MinDistance = 0.75 };
         row.SetSurface(Vector.I, Vector.J, new(0.5, 0.25, 4));
-        var gap = new Gap(row, Aim);
+        var gap = new SeparationGap(row, Aim);
         Assert.Equal((new Vector(0.5, 1.75, -1), true), (gap.Offset, gap.IsPlane));
         Assert.Equal((0.0, 0.0, 1.0), (gap.Aimed, gap.Negligible, gap.Relaxation));
         row.SetArms(Vector.I, Vector.J);
         row.TurnShift = new(0, 8, 16);
-        Assert.Equal(new(0.5, 9.75, 15), new Gap(row, Aim).Offset);
+        Assert.Equal(new(0.5, 9.75, 15), new SeparationGap(row, Aim).Offset);
     }
 }

@@ -7,7 +7,7 @@ namespace FractalEngine.Core.Physics;
 /// <param name="Start">World space, scene units.</param>
 /// <param name="Velocity">Velocity at the start, units per second.</param>
 /// <param name="Acceleration">Units per second².</param>
-internal readonly record struct Motion(Vector Start, Vector Velocity, Vector Acceleration)
+internal readonly record struct SphereMotion(Vector Start, Vector Velocity, Vector Acceleration)
 {
     /// <summary>Position after a time in seconds.</summary>
     public Vector PositionAt(double time) => Start + (time * (Velocity + (0.5 * time * Acceleration)));

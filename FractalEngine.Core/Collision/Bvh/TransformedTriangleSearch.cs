@@ -1,54 +1,58 @@
 using System.Runtime.Intrinsics;
 using FractalEngine.Core.Collision.Fractals;
+using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Collision.Bvh;
 
-/// <content>The search on the image of the mesh under any map.</content>
-internal sealed partial class TriangleBvh
+/// <summary>Finds the triangle of a mesh's image under any map that is closest to a position, in double precision.</summary>
+internal static class TransformedTriangleSearch
 {
     /// <summary>Finds the closest triangle of the mesh's image under a map, in double precision.</summary>
+    /// <param name="bvh">The triangles.</param>
     /// <param name="position">In the frame of the image, finite.</param>
     /// <param name="map">From the mesh's frame to that of the image.</param>
     /// <param name="closest">The limit; receives the closest triangle and the cost.</param>
-    /// <param name="boundFactor">As in <see cref="FindClosest"/>.</param>
-    public void FindClosestTransformed(in Vector position, in AffineMap map, ref ClosestTriangle closest, double boundFactor)
+    /// <param name="boundFactor">As in <see cref="ClosestTriangleSearch.Find"/>.</param>
+    public static void Find(
+        TriangleBvh bvh, in Vector position, in AffineMap map, ref ClosestTriangle closest, double boundFactor)
     {
-        if (_mesh.FaceCount <= MaxBruteForceTriangles || !_isInSafeRange)
+        if (!bvh.HasNodes)
         {
-            TestAllTransformedTriangles(in position, in map, ref closest);
+            TestAll(bvh, in position, in map, ref closest);
             return;
         }
 
-        TraverseTransformed(BvhChild.Root, in position, in map, ref closest, boundFactor);
+        Traverse(bvh, BvhChild.Root, in position, in map, ref closest, boundFactor);
     }
 
     /// <summary>Tests the image of every triangle, whatever the bounds are.</summary>
+    /// <param name="bvh">The triangles.</param>
     /// <param name="position">In the frame of the image, finite.</param>
     /// <param name="map">From the mesh's frame to that of the image.</param>
     /// <param name="closest">The limit; receives the closest triangle and the cost.</param>
-    public void TestAllTransformedTriangles(in Vector position, in AffineMap map, ref ClosestTriangle closest)
+    public static void TestAll(TriangleBvh bvh, in Vector position, in AffineMap map, ref ClosestTriangle closest)
     {
-        if (_precomputed is not null)
+        if (bvh.Precomputed is not null)
         {
-            for (var quad = 0; quad < _precomputed.QuadCount; quad++)
+            for (var quad = 0; quad < bvh.Precomputed.QuadCount; quad++)
             {
-                _precomputed.TestTransformed(quad, in position, in map, ref closest);
+                bvh.Precomputed.TestTransformed(quad, in position, in map, ref closest);
             }
         }
         else
         {
-            TestTransformedFaces(_faces, in position, in map, ref closest);
+            TestFaces(bvh.Mesh, bvh.AllFaces, in position, in map, ref closest);
         }
 
-        closest.FaceTests += _mesh.FaceCount;
+        closest.FaceTests += bvh.AllFaces.Length;
     }
 
-    private void TraverseTransformed(
-        BvhChild node, in Vector position, in AffineMap map, ref ClosestTriangle closest, double boundFactor)
+    private static void Traverse(
+        TriangleBvh bvh, BvhChild node, in Vector position, in AffineMap map, ref ClosestTriangle closest, double boundFactor)
     {
         Span<double> bounds = stackalloc double[BvhLayout.BranchingFactor];
-        ComputeTransformedBounds(node, in position, in map, bounds);
+        ComputeBounds(bvh, node, in position, in map, bounds);
         closest.BoundTests += BvhLayout.BranchingFactor;
         while (true)
         {
@@ -71,31 +75,31 @@ internal sealed partial class TriangleBvh
             }
 
             bounds[closestChild] = double.PositiveInfinity;
-            var next = Children(node)[closestChild];
+            var next = bvh.Children(node)[closestChild];
             if (next.IsNode)
             {
-                TraverseTransformed(next, in position, in map, ref closest, boundFactor);
+                Traverse(bvh, next, in position, in map, ref closest, boundFactor);
                 continue;
             }
 
             closest.FaceTests += next.TriangleCount;
-            if (_precomputed is not null)
+            if (bvh.Precomputed is not null)
             {
-                _precomputed.TestTransformed(_precomputed.QuadOf(next), in position, in map, ref closest);
+                bvh.Precomputed.TestTransformed(bvh.Precomputed.QuadOf(next), in position, in map, ref closest);
             }
             else
             {
-                TestTransformedFaces(_faces.AsSpan(next.FirstTriangle, next.TriangleCount), in position, in map, ref closest);
+                TestFaces(bvh.Mesh, bvh.Faces(next), in position, in map, ref closest);
             }
         }
     }
 
     /// <summary>Computes the squared distances to the boxes around the images of a node's eight boxes.</summary>
-    private void ComputeTransformedBounds(BvhChild node, in Vector position, in AffineMap map, Span<double> bounds)
+    private static void ComputeBounds(TriangleBvh bvh, BvhChild node, in Vector position, in AffineMap map, Span<double> bounds)
     {
-        var boxes = NodeBounds(node);
-        var inverseScale = 1 / _scale;
-        var fromOrigin = VectorX4.Broadcast(position - (map * _origin));
+        var boxes = bvh.NodeBounds(node);
+        var inverseScale = 1 / bvh.Scale;
+        var fromOrigin = VectorX4.Broadcast(position - (map * bvh.Origin));
         var v1 = VectorX4.Broadcast(inverseScale * map.Linear.V1);
         var v2 = VectorX4.Broadcast(inverseScale * map.Linear.V2);
         var v3 = VectorX4.Broadcast(inverseScale * map.Linear.V3);
@@ -113,13 +117,13 @@ internal sealed partial class TriangleBvh
         }
     }
 
-    private void TestTransformedFaces(
-        ReadOnlySpan<int> faces, ref readonly Vector position, ref readonly AffineMap map, ref ClosestTriangle closest)
+    private static void TestFaces(
+        Mesh mesh, ReadOnlySpan<int> faces, ref readonly Vector position, ref readonly AffineMap map, ref ClosestTriangle closest)
     {
         for (; faces.Length > 0; faces = faces[Math.Min(VectorX4.Count, faces.Length)..])
         {
             var quad = faces[..Math.Min(VectorX4.Count, faces.Length)];
-            closest.Update(TriangleX4.DistancesSquared(_mesh, quad, in position, in map), quad);
+            closest.Update(TriangleX4.DistancesSquared(mesh, quad, in position, in map), quad);
         }
     }
 }

@@ -7,34 +7,34 @@ using FractalEngine.Core.Rays;
 
 namespace FractalEngine.Core.Collision.Bvh;
 
-/// <content>The search along a ray.</content>
-internal sealed partial class TriangleBvh
+/// <summary>Finds the nearest triangle of a mesh along rays.</summary>
+/// <param name="bvh">The triangles.</param>
+internal sealed class TriangleBvhRays(TriangleBvh bvh)
 {
-    // All triangles of a small mesh for rays, made when the first ray comes.
-    private Vector256<double>[]? _rayQuads;
-    private RayBox? _rayBox;
-
-    private Vector256<double>[] RayQuads => _rayQuads ??= RayTriangles.GatherAll(_mesh, _faces);
+    // All triangles of a small mesh, gathered when the first ray comes.
+    private Vector256<double>[]? _quads;
+    private RayBox? _box;
 
     /// <summary>Finds the nearest triangle along a ray, or any.</summary>
     /// <param name="ray">In the mesh's frame.</param>
     /// <param name="search">Receives the hit and the cost.</param>
     /// <returns>True when there is a nearer hit than before.</returns>
-    public bool TryIntersect(in LocalRay ray, ref RaySearch search) => _faces.Length == 0 ? false
-        : _nodes.Length == 0 ? TryIntersectAllTriangles(in ray, ref search)
-        : TryIntersectNodes(in ray, ref search);
+    public bool TryIntersect(in LocalRay ray, ref RaySearch search) => bvh.HasNodes
+        ? TryIntersectNodes(in ray, ref search)
+        : !bvh.AllFaces.IsEmpty && TryIntersectAllTriangles(in ray, ref search);
 
     private bool TryIntersectAllTriangles(in LocalRay ray, ref RaySearch search)
     {
         var triangleRay = new TriangleRay(in ray, search.Error);
-        var quads = RayQuads;
-        search.FaceTests += _faces.Length;
+        var faces = bvh.AllFaces;
+        var quads = _quads ??= RayTriangles.GatherAll(bvh.Mesh, faces);
+        search.FaceTests += faces.Length;
         var isHit = false;
-        for (var first = 0; first < _faces.Length; first += RayTriangles.Count)
+        for (var first = 0; first < faces.Length; first += RayTriangles.Count)
         {
             if (triangleRay.TryIntersect(ref quads[first / RayTriangles.Count * TriangleRay.VectorsPerQuad], ref search))
             {
-                search.Face = _faces[Math.Min(first + search.Face, _faces.Length - 1)];
+                search.Face = faces[Math.Min(first + search.Face, faces.Length - 1)];
                 isHit = true;
                 if (search.StopsAtFirst)
                 {
@@ -49,14 +49,15 @@ internal sealed partial class TriangleBvh
     [SkipLocalsInit]
     private bool TryIntersectNodes(in LocalRay ray, ref RaySearch search)
     {
+        _box ??= new(bvh.Mesh.UsedBounds);
         var approached = ray;
-        if (!TryApproach(ref approached, in search))
+        if (!_box.TryApproach(ref approached, in search))
         {
             return false;
         }
 
         var speed = ray.Speed;
-        var floatRay = new FloatRay(in approached, speed, 1 / speed, SimdAffineMap.ToVector256(_origin), _scale, in search);
+        var floatRay = new FloatRay(in approached, speed, 1 / speed, SimdAffineMap.ToVector256(bvh.Origin), bvh.Scale, in search);
         var triangleRay = new TriangleRay(in approached, search.Error);
         var (nearX, farX) = Sides(in floatRay, 0, out var nearOriginX, out var farOriginX);
         var (nearY, farY) = Sides(in floatRay, 1, out var nearOriginY, out var farOriginY);
@@ -65,10 +66,10 @@ internal sealed partial class TriangleBvh
         var iy = Vector256.Create(floatRay.InverseDirection[1]);
         var iz = Vector256.Create(floatRay.InverseDirection[2]);
         var limit = floatRay.Limit;
-        Span<ulong> stack = stackalloc ulong[_stackSize];
+        Span<ulong> stack = stackalloc ulong[bvh.StackSize];
         Span<Vector256<double>> quad = stackalloc Vector256<double>[TriangleRay.VectorsPerQuad];
         ref var stackBase = ref MemoryMarshal.GetReference(stack);
-        ref var nodes = ref Node(BvhChild.Root);
+        ref var nodes = ref bvh.Node(BvhChild.Root);
         nint stackCount = 0;
         var isHit = false;
         var current = BvhChild.Root;
@@ -123,13 +124,13 @@ internal sealed partial class TriangleBvh
 
     private bool TryIntersectLeaf(BvhChild leaf, in TriangleRay ray, Span<Vector256<double>> quad, ref RaySearch search)
     {
-        var faces = Faces(leaf);
+        var faces = bvh.Faces(leaf);
         search.FaceTests += faces.Length;
         var isHit = false;
         for (var first = 0; first < faces.Length; first += RayTriangles.Count)
         {
             var four = faces[first..Math.Min(first + RayTriangles.Count, faces.Length)];
-            RayTriangles.Gather(_mesh, four, ref quad[0]);
+            RayTriangles.Gather(bvh.Mesh, four, ref quad[0]);
             if (ray.TryIntersect(ref quad[0], ref search))
             {
                 search.Face = four[Math.Min(search.Face, four.Length - 1)];
@@ -142,13 +143,6 @@ internal sealed partial class TriangleBvh
         }
 
         return isHit;
-    }
-
-    /// <summary>Moves the origin of a ray from afar to where it may enter the box of the mesh; false where it misses that.</summary>
-    private bool TryApproach(ref LocalRay ray, in RaySearch search)
-    {
-        _rayBox ??= new(_mesh.UsedBounds);
-        return _rayBox.TryApproach(ref ray, in search);
     }
 
     /// <summary>Finds the sides of boxes where a ray enters and leaves them along an axis.</summary>

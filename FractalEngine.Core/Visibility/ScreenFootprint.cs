@@ -1,10 +1,10 @@
 namespace FractalEngine.Core.Visibility;
 
 /// <summary>The part of a strip that a box covers at most, and the depth of the box.</summary>
-internal readonly struct Footprint
+internal readonly struct ScreenFootprint
 {
     /// <summary>The footprint of a box that lies outside the strip's frustum.</summary>
-    public static Footprint Outside => new() { IsOutside = true };
+    public static ScreenFootprint Outside => new() { IsOutside = true };
 
     /// <summary>Whether the box is too close for single precision; nothing else is known then.</summary>
     public bool NeedsDouble { get; init; }
