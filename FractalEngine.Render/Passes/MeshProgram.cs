@@ -3,7 +3,6 @@ using FractalEngine.Core.Geometry;
 using FractalEngine.Render.Gl;
 using FractalEngine.Render.Preparation;
 using FractalEngine.Render.Windowing;
-using OpenTK.Graphics.OpenGL4;
 
 namespace FractalEngine.Render.Passes;
 
