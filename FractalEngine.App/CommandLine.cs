@@ -1,5 +1,6 @@
 using System.CommandLine;
 using FractalEngine.App.Commands;
+using FractalEngine.App.Shell;
 
 namespace FractalEngine.App;
 

@@ -1,6 +1,7 @@
 using System.CommandLine;
 using System.CommandLine.Help;
 using System.Globalization;
+using FractalEngine.App.Options;
 
 namespace FractalEngine.App;
 

@@ -1,4 +1,5 @@
 using System.CommandLine;
+using FractalEngine.App.Shell;
 using FractalEngine.Core;
 
 namespace FractalEngine.App;

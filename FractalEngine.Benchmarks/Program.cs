@@ -9,9 +9,10 @@ using FractalEngine.Benchmarks.Paper;
 using FractalEngine.Benchmarks.Physics;
 using FractalEngine.Benchmarks.Precision;
 using FractalEngine.Benchmarks.Rays;
-using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Parsing.Text;
 using FractalEngine.Render.Windowing;
+
 
 // Commands are for what BenchmarkDotNet can't measure: rows that take turns, and frames. Everything else is a class of it.
 var commands = new Dictionary<string, Func<string[], int>>

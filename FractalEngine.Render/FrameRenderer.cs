@@ -1,9 +1,13 @@
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Images;
-using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Scenes.Cameras;
+using FractalEngine.Render.Frame;
 using FractalEngine.Render.Gl;
-using FractalEngine.Render.Passes;
+using FractalEngine.Render.Gl.State;
 using FractalEngine.Render.Ui;
+using FractalEngine.Render.Ui.Drawing;
+using FractalEngine.Render.Ui.Overlays;
+using FractalEngine.Render.Views;
 using FractalEngine.Render.Windowing;
 using OpenTK.Graphics.OpenGL4;
 

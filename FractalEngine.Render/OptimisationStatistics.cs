@@ -1,3 +1,5 @@
+using FractalEngine.Render.Gl.State;
+
 namespace FractalEngine.Render;
 
 /// <summary>Counts the work that optimisations saved, apart from what <see cref="FrameStatistics.Culling"/> counts.</summary>

@@ -1,7 +1,11 @@
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
-using FractalEngine.Render.Passes;
+using FractalEngine.Render.Drawables;
+using FractalEngine.Render.Frame;
+using FractalEngine.Render.Gl.State;
 using FractalEngine.Render.Preparation;
+using FractalEngine.Render.Upload;
+using FractalEngine.Render.Views;
 using FractalEngine.Render.Windowing;
 
 namespace FractalEngine.Render;
@@ -26,7 +30,7 @@ public sealed class SceneRenderer : IDisposable
     /// <summary>Uploads a scene, on the context's thread.</summary>
     /// <param name="context">Context to draw in. It must outlive this renderer.</param>
     /// <param name="scene">Scene to draw, prepared on any thread.</param>
-    /// <exception cref="Gl.GlException">The GPU's memory does not suffice.</exception>
+    /// <exception cref="GlException">The GPU's memory does not suffice.</exception>
     public SceneRenderer(RenderContext context, DrawableScene scene)
     {
         context.MakeCurrent();
@@ -103,7 +107,7 @@ public sealed class SceneRenderer : IDisposable
 
     /// <summary>Replaces the models by those of a further preparation of the same scene, on the context's thread.</summary>
     /// <param name="scene">Same scene, with more of its models prepared. Objects keep their current positions.</param>
-    /// <exception cref="Gl.GlException">
+    /// <exception cref="GlException">
     /// The driver refuses something, or the GPU's memory does not suffice: nothing has changed.
     /// </exception>
     public void Update(DrawableScene scene)
@@ -120,7 +124,7 @@ public sealed class SceneRenderer : IDisposable
 
     /// <summary>Shows another scene, on the context's thread. Models and textures that both scenes have stay on the GPU.</summary>
     /// <param name="scene">A scene whose objects stand where it declares them.</param>
-    /// <exception cref="Gl.GlException">
+    /// <exception cref="GlException">
     /// The driver refuses something, or the GPU's memory does not suffice: nothing has changed.
     /// </exception>
     public void Replace(DrawableScene scene)
@@ -132,7 +136,7 @@ public sealed class SceneRenderer : IDisposable
         {
             _buffers.Upload(scene);
         }
-        catch (Gl.GlException)
+        catch (GlException)
         {
             objectsPass.Dispose();
             throw;

@@ -1,10 +1,13 @@
 using System.Collections.Immutable;
-using FractalEngine.Core.Collision;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Queries;
 using FractalEngine.Core.Scenes;
-using FractalEngine.Render.Ui;
+using FractalEngine.Core.Scenes.Cameras;
+using FractalEngine.Core.Scenes.Lights;
+using FractalEngine.Render.Ui.Overlays;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests;

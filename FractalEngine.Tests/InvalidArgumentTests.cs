@@ -1,12 +1,17 @@
-using FractalEngine.Core.Collision;
+using FractalEngine.Core.Colliders;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Fractals.Descriptions;
+using FractalEngine.Core.Generation;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.SceneQueries;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Scenes.Cameras;
+using FractalEngine.Core.Scenes.Lights;
 using FractalEngine.Parsing.Assets;
-using FractalEngine.Parsing.Meshes;
-using FractalEngine.Render;
+using FractalEngine.Parsing.Wavefront.Writing;
 using FractalEngine.Render.Preparation;
+using FractalEngine.Render.Views;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests;

@@ -2,13 +2,16 @@ using System.Collections.Immutable;
 using System.Linq.Expressions;
 using System.Reflection;
 using System.Runtime.CompilerServices;
-using FractalEngine.Core.Collision;
+using FractalEngine.Core.Colliders;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Fractals.Descriptions;
+using FractalEngine.Core.Generation;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Scenes.Cameras;
 using FractalEngine.Parsing.Assets;
-using FractalEngine.Render;
+using FractalEngine.Render.Views;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests;
@@ -56,7 +59,7 @@ public sealed class NullArgumentTests : IDisposable
             ("MeshFile", "Write(path)"), ("MeshFile", "Read(path)"), ("SceneFile", "Write(scene)"), ("SceneFile", "Write(path)"),
             ("SceneFile", "Read(path)"), ("PhysicsWorld", "Add(description)"), ("Mesh", ".ctor(positions)"),
             ("Mesh", ".ctor(vertexIndices)"), ("Mesh", "WithNormals(normals)"), ("Mesh", "WithColours(colours)"),
-            ("Mesh", "WithTextureCoordinates(coordinates)"), ("Repetition", ".ctor(body)"), ("TransformationSet", ".ctor(transformations)"),
+            ("Mesh", "WithTextureCoordinates(coordinates)"), ("Repetition", ".ctor(round)"), ("TransformationSet", ".ctor(transformations)"),
             ("LoadedScene", "Of(scene)"), ("SceneCollider", ".ctor(scene)"), ("SceneRayCaster", ".ctor(scene)"),
             ("FractalGenerator", "Expand(fractal)"), ("FractalGenerator", "Flatten(fractal)"), ("BoundingBoxCollider", ".ctor(mesh)"),
         };

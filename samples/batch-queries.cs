@@ -1,10 +1,12 @@
 #:project ../FractalEngine.Core/FractalEngine.Core.csproj
 #:property PublishAot=false
 // Measures distances to a fractal on a grid, on all cores; the results are the same bits on any number of threads.
-using FractalEngine.Core.Collision;
+using FractalEngine.Core.Colliders;
 using FractalEngine.Core.Fractals;
-using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Generation;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.SceneQueries;
+
 
 var tetrahedron = Shapes.Tetrahedron();
 var maps = Enumerable.Range(0, 4).Select(vertex => Transformation.At(0.5 * tetrahedron.Vertex(vertex), scale: 0.5));

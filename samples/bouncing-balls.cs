@@ -2,9 +2,10 @@
 #:property PublishAot=false
 // Lets balls fall through a Menger sponge of 10^53 faces, and writes their heights as CSV; the same bits on every run.
 using FractalEngine.Core.Fractals;
-using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Generation;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
+
 
 var maps = from x in Enumerable.Range(-1, 3) from y in Enumerable.Range(-1, 3) from z in Enumerable.Range(-1, 3)
            where Math.Abs(x) + Math.Abs(y) + Math.Abs(z) > 1

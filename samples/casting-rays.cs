@@ -1,11 +1,12 @@
 #:project ../FractalEngine.Core/FractalEngine.Core.csproj
 #:property PublishAot=false
 // Casts exact rays at a Menger sponge of 10^53 faces: what a camera sees of it, and what lies in the shadow.
-using FractalEngine.Core.Collision;
 using FractalEngine.Core.Fractals;
-using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Generation;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Queries;
 using FractalEngine.Core.Rays;
+
 
 var maps = from x in Enumerable.Range(-1, 3)
            from y in Enumerable.Range(-1, 3)

@@ -1,10 +1,12 @@
 #:project ../FractalEngine.Core/FractalEngine.Core.csproj
 #:property PublishAot=false
 // Finds the point of a Menger sponge of 10^53 faces that is closest to a position, exactly.
-using FractalEngine.Core.Collision;
+using FractalEngine.Core.Colliders;
 using FractalEngine.Core.Fractals;
-using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Generation;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Queries;
+
 
 // The 20 of 27 small cubes that are not in the middle of a side or of the whole.
 var maps = from x in Enumerable.Range(-1, 3)

@@ -1,10 +1,12 @@
 #:project ../FractalEngine.Core/FractalEngine.Core.csproj
 #:property PublishAot=false
 // A lift carries a ball past a trigger. Contacts are reported with their impulses; then a ray and a sphere look at the world.
-using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Generation;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
+using FractalEngine.Core.Physics.Descriptions;
 using FractalEngine.Core.Physics.Events;
+
 
 var world = new PhysicsWorld(new PhysicsSettings { ReportsContacts = true });
 var lift = world.AddStatic(Shapes.Cube(), Transformation.At(new(0, -0.5, 0)));

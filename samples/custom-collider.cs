@@ -1,9 +1,12 @@
 #:project ../FractalEngine.Core/FractalEngine.Core.csproj
 #:property PublishAot=false
 // Writes a collider of one's own, a smooth sphere by its formula, and measures how far the engine's mesh of a sphere is from it.
-using FractalEngine.Core.Collision;
-using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Colliders;
+using FractalEngine.Core.Generation;
+using FractalEngine.Core.Geometry.Triangles;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Queries;
+
 
 var smooth = new SphereCollider(radius: 1);
 foreach (var subdivisions in (int[])[1, 3, 5])

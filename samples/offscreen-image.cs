@@ -2,11 +2,15 @@
 #:property PublishAot=false
 // Draws a fractal tree and a sphere into out/scene.png without a window. Drawing needs a display, such as xvfb-run gives.
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Generation;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Views;
 using FractalEngine.Render;
 using FractalEngine.Render.Images;
+using FractalEngine.Render.Views;
+
 
 Transformation[] twigs =
 [

@@ -2,9 +2,10 @@
 #:property PublishAot=false
 // Makes a tree in code: one set of maps for its twigs, another for its leaves; counts it at any depth, and writes it as a file.
 using FractalEngine.Core.Fractals;
-using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Generation;
 using FractalEngine.Core.Maths;
-using FractalEngine.Parsing.Fractals;
+using FractalEngine.Parsing;
+
 
 var branch = Shapes.Box(new(new(-0.05, 0, -0.05), new(0.05, 1, 0.05)));
 Transformation[] twigs =

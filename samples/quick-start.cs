@@ -2,15 +2,17 @@
 #:project ../FractalEngine.Parsing/FractalEngine.Parsing.csproj
 #:property PublishAot=false
 // Makes a fractal in code, queries it, drops a ball on it, draws it and saves it. Drawing needs a display, such as xvfb-run gives.
-using FractalEngine.Core.Collision;
+using FractalEngine.Core.Colliders;
 using FractalEngine.Core.Fractals;
-using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Generation;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
 using FractalEngine.Core.Scenes;
-using FractalEngine.Parsing.Fractals;
+using FractalEngine.Core.Views;
+using FractalEngine.Parsing;
 using FractalEngine.Render;
 using FractalEngine.Render.Images;
+
 
 var maps = from x in Enumerable.Range(-1, 3) from y in Enumerable.Range(-1, 3) from z in Enumerable.Range(-1, 3)
            where Math.Abs(x) + Math.Abs(y) + Math.Abs(z) > 1

@@ -1,3 +1,5 @@
+using FractalEngine.App.Jobs;
+using FractalEngine.App.Shell;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
 using FractalEngine.Core.Scenes;

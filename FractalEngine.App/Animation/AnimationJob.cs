@@ -1,6 +1,9 @@
+using FractalEngine.App.Jobs;
+using FractalEngine.App.Shell;
+using FractalEngine.App.Shell.Reports;
 using FractalEngine.Core.Scenes;
-using FractalEngine.Render;
 using FractalEngine.Render.Preparation;
+using FractalEngine.Render.Views;
 
 namespace FractalEngine.App.Animation;
 

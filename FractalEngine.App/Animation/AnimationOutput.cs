@@ -1,3 +1,4 @@
+using FractalEngine.App.Shell;
 using FractalEngine.Core.Images;
 
 namespace FractalEngine.App.Animation;

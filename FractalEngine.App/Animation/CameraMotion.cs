@@ -1,7 +1,8 @@
+using FractalEngine.App.Cameras;
 using FractalEngine.Core.Maths;
-using FractalEngine.Core.Scenes;
-using FractalEngine.Render;
+using FractalEngine.Core.Scenes.Cameras;
 using FractalEngine.Render.Preparation;
+using FractalEngine.Render.Views;
 
 namespace FractalEngine.App.Animation;
 

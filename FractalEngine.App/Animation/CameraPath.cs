@@ -1,6 +1,8 @@
+using FractalEngine.App.Jobs;
+using FractalEngine.App.Shell;
 using FractalEngine.Core.Maths;
-using FractalEngine.Core.Scenes;
-using FractalEngine.Parsing;
+using FractalEngine.Core.Scenes.Cameras;
+using FractalEngine.Core.Views;
 using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.App.Animation;

@@ -1,6 +1,7 @@
+using FractalEngine.App.Jobs;
 using FractalEngine.Core.Images;
-using FractalEngine.Render;
 using FractalEngine.Render.Preparation;
+using FractalEngine.Render.Views;
 
 namespace FractalEngine.App.Animation;
 

@@ -1,5 +1,5 @@
 using FractalEngine.Core.Images;
-using FractalEngine.Render;
+using FractalEngine.Render.Views;
 
 namespace FractalEngine.App.Animation;
 

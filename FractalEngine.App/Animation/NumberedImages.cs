@@ -1,4 +1,5 @@
 using System.Globalization;
+using FractalEngine.App.Shell;
 using FractalEngine.Core.Files;
 using FractalEngine.Core.Images;
 

@@ -1,7 +1,8 @@
+using FractalEngine.App.Jobs;
 using FractalEngine.Core.Images;
 using FractalEngine.Core.Scenes;
-using FractalEngine.Render;
 using FractalEngine.Render.Tracing;
+using FractalEngine.Render.Views;
 
 namespace FractalEngine.App.Animation;
 

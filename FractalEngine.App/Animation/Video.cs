@@ -1,6 +1,7 @@
 using System.ComponentModel;
 using System.Diagnostics;
 using System.Globalization;
+using FractalEngine.App.Shell;
 using FractalEngine.Core.Files;
 using FractalEngine.Core.Images;
 

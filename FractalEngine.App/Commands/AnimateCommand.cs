@@ -1,8 +1,11 @@
 using System.CommandLine;
 using FractalEngine.App.Animation;
+using FractalEngine.App.Options;
+using FractalEngine.App.Shell;
+using FractalEngine.App.Shell.Reports;
 using FractalEngine.Core.Scenes;
-using FractalEngine.Render;
 using FractalEngine.Render.Preparation;
+using FractalEngine.Render.Views;
 
 namespace FractalEngine.App.Commands;
 

@@ -1,4 +1,6 @@
 using System.CommandLine;
+using FractalEngine.App.Options;
+using FractalEngine.App.Shell;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Parsing.Text;
 

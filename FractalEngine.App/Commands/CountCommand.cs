@@ -1,5 +1,8 @@
 using System.CommandLine;
-using FractalEngine.Parsing.Meshes;
+using FractalEngine.App.Options;
+using FractalEngine.App.Shell;
+using FractalEngine.App.Shell.Reports;
+using FractalEngine.Parsing.Wavefront.Writing;
 
 namespace FractalEngine.App.Commands;
 

@@ -1,8 +1,12 @@
 using System.CommandLine;
-using FractalEngine.Core.Fractals;
+using FractalEngine.App.Jobs;
+using FractalEngine.App.Options;
+using FractalEngine.App.Shell;
+using FractalEngine.App.Shell.Reports;
+using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Assets;
-using FractalEngine.Parsing.Meshes;
+using FractalEngine.Parsing.Wavefront.Writing;
 
 namespace FractalEngine.App.Commands;
 

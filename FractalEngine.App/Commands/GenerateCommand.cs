@@ -1,7 +1,10 @@
 using System.CommandLine;
 using System.Globalization;
+using FractalEngine.App.Options;
+using FractalEngine.App.Shell;
+using FractalEngine.App.Shell.Reports;
 using FractalEngine.Core.Generation;
-using FractalEngine.Parsing.Meshes;
+using FractalEngine.Parsing.Wavefront.Writing;
 
 namespace FractalEngine.App.Commands;
 

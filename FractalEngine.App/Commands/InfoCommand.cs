@@ -1,5 +1,9 @@
 using System.CommandLine;
 using System.Diagnostics;
+using FractalEngine.App.Jobs;
+using FractalEngine.App.Options;
+using FractalEngine.App.Shell;
+using FractalEngine.App.Shell.Reports;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Render.Preparation;
 

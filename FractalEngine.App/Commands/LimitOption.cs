@@ -1,6 +1,7 @@
 using System.CommandLine;
 using System.Globalization;
-using FractalEngine.Core.Fractals;
+using FractalEngine.App.Shell;
+using FractalEngine.Core.Fractals.Descriptions;
 
 namespace FractalEngine.App.Commands;
 

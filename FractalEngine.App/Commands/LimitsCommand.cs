@@ -1,9 +1,13 @@
 using System.CommandLine;
+using FractalEngine.App.Cameras;
+using FractalEngine.App.Jobs;
+using FractalEngine.App.Options;
+using FractalEngine.App.Shell;
 using FractalEngine.Core;
-using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Generation;
 using FractalEngine.Core.Physics;
-using FractalEngine.Parsing;
+using FractalEngine.Parsing.Text;
 using static System.FormattableString;
 
 namespace FractalEngine.App.Commands;

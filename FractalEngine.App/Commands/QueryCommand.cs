@@ -2,14 +2,20 @@ using System.CommandLine;
 using System.Diagnostics;
 using System.Globalization;
 using System.Text;
+using FractalEngine.App.Jobs;
+using FractalEngine.App.Options;
+using FractalEngine.App.Shell;
+using FractalEngine.App.Shell.Reports;
 using FractalEngine.Core;
-using FractalEngine.Core.Collision;
+using FractalEngine.Core.Colliders;
+using FractalEngine.Core.Geometry.Triangles;
 using FractalEngine.Core.Maths;
-using FractalEngine.Core.Scenes;
-using FractalEngine.Parsing;
+using FractalEngine.Core.Queries;
+using FractalEngine.Core.SceneQueries;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Parsing.Points;
-using static FractalEngine.App.StandardStreams;
+using FractalEngine.Parsing.Text;
+using static FractalEngine.App.Shell.StandardStreams;
 
 namespace FractalEngine.App.Commands;
 

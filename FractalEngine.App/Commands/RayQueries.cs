@@ -1,12 +1,15 @@
 using System.Diagnostics;
 using System.Globalization;
-using FractalEngine.Core.Collision;
+using FractalEngine.App.Shell;
+using FractalEngine.App.Shell.Reports;
+using FractalEngine.Core.Queries;
 using FractalEngine.Core.Rays;
-using FractalEngine.Parsing;
+using FractalEngine.Core.SceneQueries;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Parsing.Points;
+using FractalEngine.Parsing.Text;
 using static FractalEngine.App.Commands.QueryCommand;
-using static FractalEngine.App.StandardStreams;
+using static FractalEngine.App.Shell.StandardStreams;
 
 namespace FractalEngine.App.Commands;
 

@@ -1,9 +1,14 @@
 using System.CommandLine;
 using FractalEngine.App.Animation;
+using FractalEngine.App.Cameras;
+using FractalEngine.App.Jobs;
+using FractalEngine.App.Options;
+using FractalEngine.App.Shell;
+using FractalEngine.App.Shell.Reports;
 using FractalEngine.Core.Images;
 using FractalEngine.Core.Scenes;
-using FractalEngine.Render;
 using FractalEngine.Render.Preparation;
+using FractalEngine.Render.Views;
 
 namespace FractalEngine.App.Commands;
 

@@ -1,7 +1,11 @@
 using System.CommandLine;
 using System.Text;
+using FractalEngine.App.Options;
+using FractalEngine.App.Shell;
+using FractalEngine.App.Shell.Reports;
 using FractalEngine.Parsing.Assets;
-using FractalEngine.Parsing.Scenes;
+using FractalEngine.Parsing.Assets.References;
+using FractalEngine.Parsing.Sdo;
 
 namespace FractalEngine.App.Commands;
 

@@ -1,13 +1,19 @@
 using System.CommandLine;
 using System.Diagnostics;
 using System.Text;
+using FractalEngine.App.Jobs;
+using FractalEngine.App.Options;
+using FractalEngine.App.Shell;
+using FractalEngine.App.Shell.Reports;
 using FractalEngine.Core;
+using FractalEngine.Core.Colliders;
 using FractalEngine.Core.Files;
 using FractalEngine.Core.Physics;
+using FractalEngine.Core.Physics.Descriptions;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Assets;
-using static FractalEngine.App.StandardStreams;
 using static System.FormattableString;
+using static FractalEngine.App.Shell.StandardStreams;
 
 namespace FractalEngine.App.Commands;
 

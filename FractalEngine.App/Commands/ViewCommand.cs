@@ -1,7 +1,13 @@
 using System.CommandLine;
+using FractalEngine.App.Jobs;
+using FractalEngine.App.Options;
+using FractalEngine.App.Shell;
+using FractalEngine.App.Shell.Reports;
 using FractalEngine.App.Window;
-using FractalEngine.App.Window.Panels;
-using FractalEngine.Render;
+using FractalEngine.App.Window.Actions;
+using FractalEngine.App.Window.Files;
+using FractalEngine.App.Window.State;
+using FractalEngine.Render.Views;
 using FractalEngine.Render.Windowing;
 
 namespace FractalEngine.App.Commands;

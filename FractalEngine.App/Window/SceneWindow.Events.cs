@@ -1,5 +1,8 @@
 using FractalEngine.App.Window.Actions;
-using FractalEngine.Render.Windowing;
+using FractalEngine.App.Window.Files;
+using FractalEngine.App.Window.State;
+using FractalEngine.Render.Windowing.Events;
+using FractalEngine.Render.Windowing.Keyboard;
 
 namespace FractalEngine.App.Window;
 

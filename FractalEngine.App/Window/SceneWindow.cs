@@ -1,6 +1,11 @@
 using System.Diagnostics;
 using FractalEngine.App.Window.Actions;
+using FractalEngine.App.Window.Drawing;
+using FractalEngine.App.Window.Files;
+using FractalEngine.App.Window.Input;
+using FractalEngine.App.Window.Loading;
 using FractalEngine.App.Window.Panels;
+using FractalEngine.App.Window.State;
 using FractalEngine.Core;
 using FractalEngine.Render;
 using FractalEngine.Render.Windowing;

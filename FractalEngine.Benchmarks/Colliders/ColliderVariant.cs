@@ -1,9 +1,6 @@
 using FractalEngine.Benchmarks.Measuring;
-using FractalEngine.Core.Collision;
-using FractalEngine.Core.Collision.Bvh;
-using FractalEngine.Core.Collision.Fractals;
-using FractalEngine.Core.Collision.Reference;
-using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Colliders;
+using FractalEngine.Core.Fractals.Descriptions;
 
 namespace FractalEngine.Benchmarks.Colliders;
 

@@ -1,10 +1,9 @@
 using BenchmarkDotNet.Attributes;
 using FractalEngine.Benchmarks.Measuring;
-using FractalEngine.Core.Collision;
-using FractalEngine.Core.Collision.Fractals;
-using FractalEngine.Core.Collision.Reference;
+using FractalEngine.Core.Colliders;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Queries;
 
 namespace FractalEngine.Benchmarks.Colliders;
 

@@ -1,8 +1,8 @@
 using System.Diagnostics;
 using FractalEngine.Benchmarks.Measuring;
-using FractalEngine.Core.Collision;
-using FractalEngine.Core.Collision.Reference;
+using FractalEngine.Core.Colliders;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Queries;
 
 namespace FractalEngine.Benchmarks.Colliders;
 

@@ -1,6 +1,7 @@
 using System.Diagnostics;
 using FractalEngine.Core.Maths;
 using FractalEngine.Render;
+using FractalEngine.Render.Views;
 
 namespace FractalEngine.Benchmarks.Drawing;
 

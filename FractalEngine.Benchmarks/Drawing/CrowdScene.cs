@@ -2,7 +2,7 @@ using System.Globalization;
 using System.Text;
 using FractalEngine.Core.Generation;
 using FractalEngine.Core.Geometry;
-using FractalEngine.Parsing.Meshes;
+using FractalEngine.Parsing.Wavefront.Writing;
 using FractalEngine.Render.Images;
 
 namespace FractalEngine.Benchmarks.Drawing;

@@ -2,7 +2,9 @@ using FractalEngine.Benchmarks.Measuring;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
-using FractalEngine.Render;
+using FractalEngine.Core.Scenes.Cameras;
+using FractalEngine.Core.Views;
+using FractalEngine.Render.Views;
 
 namespace FractalEngine.Benchmarks.Drawing;
 

@@ -3,6 +3,7 @@ using FractalEngine.Benchmarks.Measuring;
 using FractalEngine.Core.Images;
 using FractalEngine.Render;
 using FractalEngine.Render.Preparation;
+using FractalEngine.Render.Views;
 using FractalEngine.Render.Windowing;
 
 namespace FractalEngine.Benchmarks.Drawing;

@@ -1,6 +1,6 @@
-using FractalEngine.Core.Visibility;
+using FractalEngine.Core.Visibility.Frames;
 using FractalEngine.Parsing.Assets;
-using FractalEngine.Render;
+using FractalEngine.Render.Views;
 
 namespace FractalEngine.Benchmarks.Drawing;
 

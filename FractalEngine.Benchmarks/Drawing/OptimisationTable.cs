@@ -7,6 +7,7 @@ using FractalEngine.Parsing.Assets;
 using FractalEngine.Render;
 using FractalEngine.Render.Images;
 using FractalEngine.Render.Preparation;
+using FractalEngine.Render.Views;
 using FractalEngine.Render.Windowing;
 
 namespace FractalEngine.Benchmarks.Drawing;

@@ -1,8 +1,10 @@
 using BenchmarkDotNet.Attributes;
 using FractalEngine.Benchmarks.Measuring;
 using FractalEngine.Core.Maths;
-using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Views;
 using FractalEngine.Core.Visibility;
+using FractalEngine.Core.Visibility.Frames;
+using FractalEngine.Core.Visibility.Levels;
 
 namespace FractalEngine.Benchmarks.Drawing;
 

@@ -2,6 +2,7 @@ using FractalEngine.Benchmarks.Drawing;
 using FractalEngine.Benchmarks.Measuring;
 using FractalEngine.Render;
 using FractalEngine.Render.Preparation;
+using FractalEngine.Render.Views;
 using FractalEngine.Render.Windowing;
 
 namespace FractalEngine.Benchmarks.Growth;

@@ -1,6 +1,5 @@
 using FractalEngine.Benchmarks.Measuring;
-using FractalEngine.Core.Collision.Fractals;
-using FractalEngine.Core.Collision.Reference;
+using FractalEngine.Core.Colliders;
 using FractalEngine.Core.Fractals;
 
 namespace FractalEngine.Benchmarks.Growth;

@@ -1,8 +1,8 @@
 using System.Diagnostics;
 using FractalEngine.Benchmarks.Measuring;
 using FractalEngine.Benchmarks.Physics;
+using FractalEngine.Core.Colliders;
 using FractalEngine.Core.Physics;
-using FractalEngine.Core.Scenes;
 
 namespace FractalEngine.Benchmarks.Growth;
 

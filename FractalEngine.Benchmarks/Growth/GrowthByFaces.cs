@@ -1,7 +1,5 @@
 using FractalEngine.Benchmarks.Measuring;
-using FractalEngine.Core.Collision.Bvh;
-using FractalEngine.Core.Collision.Fractals;
-using FractalEngine.Core.Collision.Reference;
+using FractalEngine.Core.Colliders;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Generation;
 using FractalEngine.Core.Geometry;

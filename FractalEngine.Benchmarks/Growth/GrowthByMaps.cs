@@ -1,5 +1,5 @@
 using FractalEngine.Benchmarks.Measuring;
-using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 

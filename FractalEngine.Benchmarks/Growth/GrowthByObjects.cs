@@ -1,8 +1,9 @@
 using FractalEngine.Benchmarks.Measuring;
-using FractalEngine.Core.Collision;
 using FractalEngine.Core.Generation;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Queries;
+using FractalEngine.Core.SceneQueries;
 using FractalEngine.Core.Scenes;
 
 namespace FractalEngine.Benchmarks.Growth;

@@ -8,6 +8,7 @@ using FractalEngine.Render;
 using FractalEngine.Render.Images;
 using FractalEngine.Render.Preparation;
 using FractalEngine.Render.Tracing;
+using FractalEngine.Render.Views;
 using FractalEngine.Render.Windowing;
 
 namespace FractalEngine.Benchmarks.Light;

@@ -1,13 +1,17 @@
 using FractalEngine.Benchmarks.Drawing;
 using FractalEngine.Benchmarks.Measuring;
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Geometry.Surfaces;
 using FractalEngine.Core.Images;
 using FractalEngine.Core.Scenes;
-using FractalEngine.Core.Visibility;
+using FractalEngine.Core.Scenes.Lights;
+using FractalEngine.Core.Visibility.Levels;
+using FractalEngine.Core.Visibility.SkyBaking;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Render;
 using FractalEngine.Render.Images;
 using FractalEngine.Render.Tracing;
+using FractalEngine.Render.Views;
 
 namespace FractalEngine.Benchmarks.Light;
 

@@ -1,10 +1,13 @@
-using FractalEngine.Core.Collision;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Images;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Queries;
 using FractalEngine.Core.Rays;
+using FractalEngine.Core.SceneQueries;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Scenes.Lights;
 using FractalEngine.Render;
+using FractalEngine.Render.Views;
 
 namespace FractalEngine.Benchmarks.Light;
 
@@ -66,7 +69,7 @@ internal sealed class ShadowError
         return (facing, wrong);
     }
 
-    private LoadedScene LitBy(Core.Scenes.Light light) => _scene with
+    private LoadedScene LitBy(Core.Scenes.Lights.Light light) => _scene with
     {
         Scene = _scene.Scene with
         {
@@ -79,7 +82,7 @@ internal sealed class ShadowError
         },
     };
 
-    private (int Facing, int Wrong) Count(Core.Scenes.Light light, PixelImage drawn, PixelImage plain)
+    private (int Facing, int Wrong) Count(Core.Scenes.Lights.Light light, PixelImage drawn, PixelImage plain)
     {
         var (facing, wrong) = (0, 0);
         Parallel.For(0, _height, static () => new QueryContext(), (y, _, context) =>
@@ -129,7 +132,7 @@ internal sealed class ShadowError
     }
 
     /// <summary>Tells whether a light arrives; null where the surface does not face it.</summary>
-    private bool? IsLit(Core.Scenes.Light light, in RayHit hit, double radius, QueryContext context)
+    private bool? IsLit(Core.Scenes.Lights.Light light, in RayHit hit, double radius, QueryContext context)
     {
         var normal = hit.IsFrontFace ? hit.Normal : -hit.Normal;
         var origin = hit.Point + (SurfaceOffset * _scene.Bounds.Diagonal * normal);

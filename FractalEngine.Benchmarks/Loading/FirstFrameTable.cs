@@ -5,6 +5,7 @@ using FractalEngine.Benchmarks.Measuring;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Render;
 using FractalEngine.Render.Preparation;
+using FractalEngine.Render.Views;
 using FractalEngine.Render.Windowing;
 
 namespace FractalEngine.Benchmarks.Loading;

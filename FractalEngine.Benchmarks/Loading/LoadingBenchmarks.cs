@@ -2,9 +2,10 @@ using BenchmarkDotNet.Attributes;
 using FractalEngine.Benchmarks.Measuring;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Generation;
-using FractalEngine.Parsing.Fractals;
-using FractalEngine.Parsing.Meshes;
+using FractalEngine.Parsing.Fdo;
 using FractalEngine.Parsing.Text;
+using FractalEngine.Parsing.Wavefront;
+using FractalEngine.Parsing.Wavefront.Writing;
 
 namespace FractalEngine.Benchmarks.Loading;
 

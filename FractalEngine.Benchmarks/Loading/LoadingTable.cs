@@ -3,8 +3,9 @@ using FractalEngine.Benchmarks.Measuring;
 using FractalEngine.Core.Generation;
 using FractalEngine.Parsing;
 using FractalEngine.Parsing.Assets;
-using FractalEngine.Parsing.Meshes;
 using FractalEngine.Parsing.Text;
+using FractalEngine.Parsing.Wavefront;
+using FractalEngine.Parsing.Wavefront.Writing;
 
 namespace FractalEngine.Benchmarks.Loading;
 

@@ -1,9 +1,11 @@
 using System.Globalization;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Assets;
+using FractalEngine.Parsing.Assets.References;
 
 namespace FractalEngine.Benchmarks.Measuring;
 

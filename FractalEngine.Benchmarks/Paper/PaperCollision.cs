@@ -1,11 +1,9 @@
 using FractalEngine.Benchmarks.Measuring;
-using FractalEngine.Core.Collision;
-using FractalEngine.Core.Collision.Bvh;
-using FractalEngine.Core.Collision.Fractals;
-using FractalEngine.Core.Collision.Reference;
+using FractalEngine.Core.Colliders;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Queries;
 using FractalEngine.Core.Scenes;
 
 namespace FractalEngine.Benchmarks.Paper;

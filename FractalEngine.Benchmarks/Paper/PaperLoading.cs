@@ -1,6 +1,6 @@
 using System.Diagnostics;
-using FractalEngine.Render;
 using FractalEngine.Render.Preparation;
+using FractalEngine.Render.Views;
 
 namespace FractalEngine.Benchmarks.Paper;
 

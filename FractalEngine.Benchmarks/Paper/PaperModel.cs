@@ -2,7 +2,7 @@ using FractalEngine.Benchmarks.Measuring;
 using FractalEngine.Core.Generation;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Assets;
-using FractalEngine.Parsing.Meshes;
+using FractalEngine.Parsing.Wavefront.Writing;
 
 namespace FractalEngine.Benchmarks.Paper;
 

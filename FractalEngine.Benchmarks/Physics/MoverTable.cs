@@ -1,8 +1,9 @@
 using System.Globalization;
 using FractalEngine.Benchmarks.Measuring;
-using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Generation;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
+using FractalEngine.Core.Physics.Descriptions;
 
 namespace FractalEngine.Benchmarks.Physics;
 

@@ -1,5 +1,5 @@
 using FractalEngine.Benchmarks.Measuring;
-using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Colliders;
 
 namespace FractalEngine.Benchmarks.Physics;
 

@@ -1,8 +1,10 @@
 using System.Diagnostics;
 using System.Globalization;
 using FractalEngine.Benchmarks.Measuring;
+using FractalEngine.Core.Colliders;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
+using FractalEngine.Core.Physics.Descriptions;
 using FractalEngine.Core.Scenes;
 
 namespace FractalEngine.Benchmarks.Physics;

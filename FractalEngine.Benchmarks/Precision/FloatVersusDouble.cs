@@ -2,7 +2,7 @@ using System.Numerics;
 using System.Runtime.CompilerServices;
 using System.Runtime.Intrinsics;
 using FractalEngine.Benchmarks.Measuring;
-using FractalEngine.Core.Collision;
+using FractalEngine.Core.Geometry.Triangles;
 using Vector = FractalEngine.Core.Maths.Vector;
 
 namespace FractalEngine.Benchmarks.Precision;

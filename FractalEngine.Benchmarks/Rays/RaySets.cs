@@ -1,6 +1,6 @@
-using FractalEngine.Core.Collision;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Queries;
 using FractalEngine.Core.Rays;
 
 namespace FractalEngine.Benchmarks.Rays;

@@ -1,8 +1,10 @@
 using System.Globalization;
 using FractalEngine.Benchmarks.Measuring;
-using FractalEngine.Core.Collision;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Queries;
 using FractalEngine.Core.Rays;
+using FractalEngine.Core.SceneQueries;
 using FractalEngine.Core.Scenes;
 
 namespace FractalEngine.Benchmarks.Rays;

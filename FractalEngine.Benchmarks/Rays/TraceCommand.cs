@@ -6,6 +6,7 @@ using FractalEngine.Core.Images;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Render;
 using FractalEngine.Render.Tracing;
+using FractalEngine.Render.Views;
 
 namespace FractalEngine.Benchmarks.Rays;
 

@@ -1,3 +1,5 @@
+using FractalEngine.Core.Bvh.Objects;
+using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using BigInteger = System.Numerics.BigInteger;

@@ -1,4 +1,5 @@
 using System.Numerics;
+using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Fractals;

@@ -1,7 +1,9 @@
 using System.Collections.Immutable;
 using System.Numerics;
 using System.Runtime.CompilerServices;
-using FractalEngine.Core.Fractals.Hierarchy;
+using FractalEngine.Core.Fractals.Descriptions;
+using FractalEngine.Core.Fractals.Levels;
+using FractalEngine.Core.Fractals.Levels.Building;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 

@@ -1,4 +1,5 @@
-using FractalEngine.Core.Fractals.Hierarchy;
+using FractalEngine.Core.Fractals.Descriptions;
+using FractalEngine.Core.Fractals.Levels;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 

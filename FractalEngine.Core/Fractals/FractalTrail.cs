@@ -1,3 +1,4 @@
+using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Fractals;

@@ -1,11 +1,13 @@
 using System.Collections.Immutable;
+using FractalEngine.Core.Fractals.Descriptions;
+using FractalEngine.Core.Fractals.Levels;
 using FractalEngine.Core.Geometry;
 
 namespace FractalEngine.Core.Fractals;
 
 /// <summary>
 /// Bounds the levels of a fractal one after another, from the base mesh outwards, by a box and a sphere. The boxes are exact where all maps
-/// keep boxes axis-aligned; elsewhere they grow with each level, and the <see cref="Hierarchy.FractalHierarchy"/> bounds better.
+/// keep boxes axis-aligned; elsewhere they grow with each level, and the <see cref="FractalHierarchy"/> bounds better.
 /// </summary>
 /// <param name="mesh">The base mesh.</param>
 /// <param name="maxRounds">Maximum number of rounds of a repetition; those of an infinite one are never more than 100,000.</param>

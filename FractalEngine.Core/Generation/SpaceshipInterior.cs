@@ -1,3 +1,4 @@
+using FractalEngine.Core.Generation.Building;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 

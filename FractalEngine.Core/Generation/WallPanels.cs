@@ -1,3 +1,5 @@
+using FractalEngine.Core.Generation.Building;
+
 namespace FractalEngine.Core.Generation;
 
 /// <summary>Generates panelling: divides an area at random until its parts are small, and adds a fitting to each.</summary>

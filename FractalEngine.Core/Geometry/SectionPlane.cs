@@ -1,5 +1,4 @@
 using FractalEngine.Core.Maths;
-using FractalEngine.Core.Rays;
 
 namespace FractalEngine.Core.Geometry;
 

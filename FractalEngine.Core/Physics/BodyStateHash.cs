@@ -1,6 +1,7 @@
 using System.Buffers.Binary;
 using System.Security.Cryptography;
-using FractalEngine.Core.Physics.Kinematics;
+using FractalEngine.Core.Physics.Bodies;
+using FractalEngine.Core.Physics.Statics;
 
 namespace FractalEngine.Core.Physics;
 

@@ -1,4 +1,6 @@
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics.Bodies;
+using FractalEngine.Core.Physics.Statics;
 
 namespace FractalEngine.Core.Physics;
 

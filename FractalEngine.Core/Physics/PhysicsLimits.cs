@@ -1,5 +1,6 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics.Bodies;
 using FractalEngine.Core.Scenes;
 
 namespace FractalEngine.Core.Physics;

@@ -1,8 +1,12 @@
-using FractalEngine.Core.Collision;
+using FractalEngine.Core.Colliders;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
-using FractalEngine.Core.Physics.Character;
+using FractalEngine.Core.Physics.Bodies;
+using FractalEngine.Core.Physics.Descriptions;
+using FractalEngine.Core.Physics.Movement;
+using FractalEngine.Core.Physics.Statics;
 using FractalEngine.Core.Scenes;
 
 namespace FractalEngine.Core.Physics;

@@ -1,5 +1,5 @@
-using FractalEngine.Core.Physics.Character;
 using FractalEngine.Core.Physics.Islands;
+using FractalEngine.Core.Physics.Movement;
 
 namespace FractalEngine.Core.Physics;
 

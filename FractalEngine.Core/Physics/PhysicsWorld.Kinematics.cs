@@ -1,3 +1,6 @@
+using FractalEngine.Core.Physics.Bodies;
+using FractalEngine.Core.Physics.Statics;
+
 namespace FractalEngine.Core.Physics;
 
 /// <content>Objects that move by themselves.</content>

@@ -1,6 +1,10 @@
 using FractalEngine.Core.Maths;
-using FractalEngine.Core.Physics.Character;
+using FractalEngine.Core.Physics.Bodies;
 using FractalEngine.Core.Physics.Islands;
+using FractalEngine.Core.Physics.Movement;
+using FractalEngine.Core.Physics.Statics;
+using FractalEngine.Core.Physics.Stepping;
+using FractalEngine.Core.Threading;
 
 namespace FractalEngine.Core.Physics;
 

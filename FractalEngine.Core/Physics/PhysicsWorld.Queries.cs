@@ -1,8 +1,14 @@
+using FractalEngine.Core.Colliders;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Fractals.Descriptions;
+using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics.Bodies;
+using FractalEngine.Core.Physics.Descriptions;
 using FractalEngine.Core.Physics.Events;
+using FractalEngine.Core.Physics.Statics;
 using FractalEngine.Core.Rays;
-using FractalEngine.Core.Scenes;
+using FractalEngine.Core.SceneQueries;
 
 namespace FractalEngine.Core.Physics;
 

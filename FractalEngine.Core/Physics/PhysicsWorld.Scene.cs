@@ -1,5 +1,6 @@
-using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics.Descriptions;
 using FractalEngine.Core.Scenes;
 
 namespace FractalEngine.Core.Physics;

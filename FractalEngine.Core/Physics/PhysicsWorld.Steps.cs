@@ -1,7 +1,9 @@
-using FractalEngine.Core.Collision;
-using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Colliders;
+using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Maths;
-using FractalEngine.Core.Physics.Character;
+using FractalEngine.Core.Physics.Bodies;
+using FractalEngine.Core.Physics.Descriptions;
+using FractalEngine.Core.Physics.Movement;
 
 namespace FractalEngine.Core.Physics;
 

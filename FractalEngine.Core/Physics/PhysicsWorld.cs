@@ -1,9 +1,16 @@
-using FractalEngine.Core.Collision;
+using FractalEngine.Core.Colliders;
+using FractalEngine.Core.Geometry.Triangles;
 using FractalEngine.Core.Maths;
-using FractalEngine.Core.Physics.Character;
+using FractalEngine.Core.Physics.Bodies;
+using FractalEngine.Core.Physics.Descriptions;
 using FractalEngine.Core.Physics.Events;
-using FractalEngine.Core.Physics.Islands;
-using FractalEngine.Core.Physics.Kinematics;
+using FractalEngine.Core.Physics.Movement;
+using FractalEngine.Core.Physics.Separation;
+using FractalEngine.Core.Physics.Solving;
+using FractalEngine.Core.Physics.Statics;
+using FractalEngine.Core.Physics.Stepping;
+using FractalEngine.Core.Queries;
+using FractalEngine.Core.SceneQueries;
 using FractalEngine.Core.Scenes;
 
 namespace FractalEngine.Core.Physics;

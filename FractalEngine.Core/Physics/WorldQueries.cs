@@ -1,7 +1,13 @@
-using FractalEngine.Core.Collision;
+using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
-using FractalEngine.Core.Physics.Kinematics;
+using FractalEngine.Core.Physics.Bodies;
+using FractalEngine.Core.Physics.Descriptions;
+using FractalEngine.Core.Physics.Movement;
+using FractalEngine.Core.Physics.Statics;
+using FractalEngine.Core.Physics.Stepping;
+using FractalEngine.Core.Queries;
 using FractalEngine.Core.Rays;
+using FractalEngine.Core.SceneQueries;
 using FractalEngine.Core.Scenes;
 
 namespace FractalEngine.Core.Physics;

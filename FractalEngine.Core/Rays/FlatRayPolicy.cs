@@ -1,8 +1,9 @@
 using System.Runtime.Intrinsics;
-using FractalEngine.Core.Collision.Bvh;
-using FractalEngine.Core.Collision.Fractals;
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Geometry.Rays;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Queries;
+using FractalEngine.Core.Queries.Regions;
 
 namespace FractalEngine.Core.Rays;
 

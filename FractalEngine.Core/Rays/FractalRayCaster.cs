@@ -1,12 +1,14 @@
 using System.Numerics;
 using System.Runtime.CompilerServices;
-using FractalEngine.Core.Collision;
-using FractalEngine.Core.Collision.Bvh;
-using FractalEngine.Core.Collision.Fractals;
+using FractalEngine.Core.Bvh;
 using FractalEngine.Core.Fractals;
-using FractalEngine.Core.Fractals.Hierarchy;
+using FractalEngine.Core.Fractals.Levels;
+using FractalEngine.Core.Fractals.Levels.Rays;
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Geometry.Rays;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Queries;
+using FractalEngine.Core.Queries.Regions;
 
 namespace FractalEngine.Core.Rays;
 

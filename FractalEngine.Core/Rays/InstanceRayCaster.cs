@@ -1,7 +1,10 @@
-using FractalEngine.Core.Collision;
+using FractalEngine.Core.Bvh.Objects;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Geometry.Rays;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Queries;
 
 namespace FractalEngine.Core.Rays;
 

@@ -1,9 +1,13 @@
 using System.Runtime.CompilerServices;
-using FractalEngine.Core.Collision;
-using FractalEngine.Core.Collision.Bvh;
+using FractalEngine.Core.Bvh;
+using FractalEngine.Core.Colliders;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Geometry.Rays;
+using FractalEngine.Core.Geometry.Triangles;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Queries;
 
 namespace FractalEngine.Core.Rays;
 

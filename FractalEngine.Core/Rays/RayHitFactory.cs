@@ -1,6 +1,7 @@
 using System.Runtime.CompilerServices;
-using FractalEngine.Core.Collision;
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Geometry.Rays;
+using FractalEngine.Core.Geometry.Triangles;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Rays;

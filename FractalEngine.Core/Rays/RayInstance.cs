@@ -1,4 +1,6 @@
+using FractalEngine.Core.Bvh.Objects;
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Geometry.Rays;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Rays;

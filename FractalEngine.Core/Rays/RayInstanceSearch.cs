@@ -1,8 +1,9 @@
 using System.Numerics;
 using System.Runtime.Intrinsics;
-using FractalEngine.Core.Collision;
-using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Bvh.Objects;
+using FractalEngine.Core.Geometry.Rays;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Queries;
 
 namespace FractalEngine.Core.Rays;
 

@@ -1,5 +1,5 @@
 using System.Numerics;
-using FractalEngine.Core.Collision;
+using FractalEngine.Core.Colliders;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Rays;
 

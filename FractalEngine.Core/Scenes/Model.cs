@@ -1,7 +1,8 @@
 using System.Collections.Immutable;
 using System.Numerics;
-using FractalEngine.Core.Collision;
+using FractalEngine.Core.Colliders;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Rays;

@@ -1,3 +1,4 @@
+using FractalEngine.Core.Colliders;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Scenes;

@@ -1,5 +1,7 @@
+using FractalEngine.Core.Bvh.Objects;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Visibility.Frames;
 
 namespace FractalEngine.Core.Visibility;
 

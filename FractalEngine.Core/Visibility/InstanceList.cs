@@ -2,6 +2,7 @@ using System.Runtime.CompilerServices;
 using System.Runtime.InteropServices;
 using System.Runtime.Intrinsics;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Visibility.Sky;
 
 namespace FractalEngine.Core.Visibility;
 

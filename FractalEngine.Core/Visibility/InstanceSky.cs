@@ -1,4 +1,7 @@
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Visibility.Frames;
+using FractalEngine.Core.Visibility.Levels;
+using FractalEngine.Core.Visibility.Sky;
 using BitOperations = System.Numerics.BitOperations;
 
 namespace FractalEngine.Core.Visibility;

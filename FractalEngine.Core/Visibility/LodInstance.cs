@@ -1,4 +1,5 @@
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Visibility.Levels;
 
 namespace FractalEngine.Core.Visibility;
 

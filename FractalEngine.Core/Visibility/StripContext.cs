@@ -1,6 +1,8 @@
 using System.Runtime.Intrinsics;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Visibility.Frames;
+using FractalEngine.Core.Visibility.Levels;
 
 namespace FractalEngine.Core.Visibility;
 

@@ -1,5 +1,7 @@
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Visibility.Frames;
+using FractalEngine.Core.Visibility.Levels;
 
 namespace FractalEngine.Core.Visibility;
 

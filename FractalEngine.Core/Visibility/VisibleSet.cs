@@ -1,3 +1,6 @@
+using FractalEngine.Core.Visibility.Frames;
+using FractalEngine.Core.Visibility.Sky;
+
 namespace FractalEngine.Core.Visibility;
 
 /// <summary>The visible instances of a scene's fractals in one frame.</summary>

@@ -1,6 +1,7 @@
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Scenes;
-using FractalEngine.Parsing.Fractals;
+using FractalEngine.Parsing.Fdo;
 using FractalEngine.Parsing.Meshes;
 using FractalEngine.Parsing.Text;
 

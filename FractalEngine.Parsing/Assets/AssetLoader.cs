@@ -1,10 +1,12 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Files;
-using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
-using FractalEngine.Parsing.Scenes;
+using FractalEngine.Core.Scenes.Cameras;
+using FractalEngine.Parsing.Assets.References;
+using FractalEngine.Parsing.Sdo;
 using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.Parsing.Assets;

@@ -1,5 +1,6 @@
 using System.Collections.Immutable;
-using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Fractals.Descriptions;
+using FractalEngine.Parsing.Assets.References;
 using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.Parsing.Assets;

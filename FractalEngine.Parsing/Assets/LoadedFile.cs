@@ -1,6 +1,6 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Scenes;
-using FractalEngine.Parsing.Scenes;
+using FractalEngine.Parsing.Sdo;
 using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.Parsing.Assets;

@@ -1,7 +1,9 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Files;
 using FractalEngine.Core.Geometry;
+using FractalEngine.Parsing.Assets.References;
 using FractalEngine.Parsing.Meshes;
+using FractalEngine.Parsing.Mtl;
 using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.Parsing.Assets;

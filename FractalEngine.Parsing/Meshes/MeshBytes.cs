@@ -1,5 +1,6 @@
 using System.Text;
 using FractalEngine.Parsing.Text;
+using FractalEngine.Parsing.Text.Numbers;
 
 namespace FractalEngine.Parsing.Meshes;
 

@@ -2,6 +2,7 @@ using System.Globalization;
 using System.Runtime.InteropServices;
 using System.Text;
 using FractalEngine.Parsing.Text;
+using FractalEngine.Parsing.Text.Numbers;
 
 namespace FractalEngine.Parsing.Meshes;
 

@@ -1,7 +1,8 @@
 using System.Collections.Immutable;
-using FractalEngine.Core.Collision;
+using FractalEngine.Core.Colliders;
 using FractalEngine.Core.Maths;
 using FractalEngine.Parsing.Text;
+using FractalEngine.Parsing.Text.Grammar;
 
 namespace FractalEngine.Parsing.Points;
 

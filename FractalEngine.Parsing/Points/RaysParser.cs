@@ -1,8 +1,10 @@
 using System.Collections.Immutable;
-using FractalEngine.Core.Collision;
+using FractalEngine.Core.Colliders;
+using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Rays;
 using FractalEngine.Parsing.Text;
+using FractalEngine.Parsing.Text.Grammar;
 
 namespace FractalEngine.Parsing.Points;
 

@@ -1,3 +1,4 @@
+using FractalEngine.Render.Gl.State;
 using OpenTK.Graphics.OpenGL4;
 
 namespace FractalEngine.Render.Gl;

@@ -1,4 +1,5 @@
 using FractalEngine.Core.Maths;
+using FractalEngine.Render.Gl.State;
 using OpenTK.Graphics.OpenGL4;
 
 namespace FractalEngine.Render.Gl;

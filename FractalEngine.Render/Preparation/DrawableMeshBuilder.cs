@@ -1,5 +1,8 @@
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Geometry.Surfaces;
 using FractalEngine.Core.Maths;
+using FractalEngine.Render.Drawables;
+using FractalEngine.Render.Lights;
 
 namespace FractalEngine.Render.Preparation;
 

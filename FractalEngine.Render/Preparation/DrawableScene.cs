@@ -1,6 +1,8 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Render.Drawables;
+using FractalEngine.Render.Views;
 
 namespace FractalEngine.Render.Preparation;
 

@@ -1,6 +1,7 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Render.Drawables;
 
 namespace FractalEngine.Render.Preparation;
 

@@ -1,6 +1,8 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Maths;
+using FractalEngine.Render.Views;
 
 namespace FractalEngine.Render.Preparation;
 

@@ -1,9 +1,13 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Geometry.Surfaces;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
-using FractalEngine.Core.Visibility;
+using FractalEngine.Core.Visibility.Levels;
+using FractalEngine.Render.Drawables;
+using FractalEngine.Render.Views;
 
 namespace FractalEngine.Render.Preparation;
 

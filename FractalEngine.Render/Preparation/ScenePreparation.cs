@@ -1,7 +1,10 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Scenes;
-using FractalEngine.Core.Visibility;
-using FractalEngine.Render.Passes;
+using FractalEngine.Core.Scenes.Lights;
+using FractalEngine.Core.Visibility.SkyBaking;
+using FractalEngine.Render.Drawables;
+using FractalEngine.Render.Lights;
+using FractalEngine.Render.Views;
 
 namespace FractalEngine.Render.Preparation;
 

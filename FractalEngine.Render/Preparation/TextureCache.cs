@@ -1,6 +1,7 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Images;
+using FractalEngine.Render.Drawables;
 using FractalEngine.Render.Images;
 
 namespace FractalEngine.Render.Preparation;

@@ -1,6 +1,7 @@
 using FractalEngine.Core.Geometry;
 using FractalEngine.Render.Gl;
-using FractalEngine.Render.Passes;
+using FractalEngine.Render.Gl.State;
+using FractalEngine.Render.Upload;
 using OpenTK.Graphics.OpenGL4;
 
 namespace FractalEngine.Render.Shadows;

@@ -1,8 +1,11 @@
 using FractalEngine.Core.Geometry;
-using FractalEngine.Core.Visibility;
+using FractalEngine.Core.Visibility.Frames;
+using FractalEngine.Render.Drawables;
 using FractalEngine.Render.Gl;
-using FractalEngine.Render.Passes;
+using FractalEngine.Render.Gl.State;
 using FractalEngine.Render.Preparation;
+using FractalEngine.Render.Upload;
+using FractalEngine.Render.Views;
 using OpenTK.Graphics.OpenGL4;
 
 namespace FractalEngine.Render.Shadows;
@@ -150,5 +153,5 @@ internal sealed class CasterRenderer(
 
     /// <summary>Returns the faces of a closed solid that point away from the light; none where that is not known.</summary>
     private CullFace FaceToCull(int index, int windingSign) =>
-        ObjectsPass.FaceOf(windingSign * Math.Sign(transforms.ObjectToWorld[index].Linear.Determinant()));
+        GlState.BackFacesOf(windingSign * Math.Sign(transforms.ObjectToWorld[index].Linear.Determinant()));
 }

@@ -1,7 +1,8 @@
 using System.Runtime.InteropServices;
 using FractalEngine.Core.Maths;
 using FractalEngine.Render.Gl;
-using FractalEngine.Render.Passes;
+using FractalEngine.Render.Gl.State;
+using FractalEngine.Render.Lights;
 using OpenTK.Graphics.OpenGL4;
 
 namespace FractalEngine.Render.Shadows;

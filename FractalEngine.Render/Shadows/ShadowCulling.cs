@@ -1,4 +1,4 @@
-using FractalEngine.Core.Visibility;
+using FractalEngine.Core.Visibility.Frames;
 
 namespace FractalEngine.Render.Shadows;
 

@@ -1,8 +1,10 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
-using FractalEngine.Core.Scenes;
-using FractalEngine.Render.Passes;
+using FractalEngine.Core.Scenes.Cameras;
+using FractalEngine.Core.Scenes.Lights;
+using FractalEngine.Render.Lights;
+using FractalEngine.Render.Views;
 
 namespace FractalEngine.Render.Shadows;
 

@@ -1,6 +1,7 @@
 using FractalEngine.Core.Geometry;
-using FractalEngine.Core.Visibility;
+using FractalEngine.Core.Visibility.Frames;
 using FractalEngine.Render.Gl;
+using FractalEngine.Render.Views;
 using OpenTK.Graphics.OpenGL4;
 
 namespace FractalEngine.Render.Shadows;

@@ -1,11 +1,15 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
-using FractalEngine.Core.Scenes;
-using FractalEngine.Core.Visibility;
+using FractalEngine.Core.Scenes.Lights;
+using FractalEngine.Core.Visibility.Frames;
+using FractalEngine.Render.Drawables;
 using FractalEngine.Render.Gl;
-using FractalEngine.Render.Passes;
+using FractalEngine.Render.Gl.State;
+using FractalEngine.Render.Lights;
 using FractalEngine.Render.Preparation;
+using FractalEngine.Render.Upload;
+using FractalEngine.Render.Views;
 using FractalEngine.Render.Windowing;
 
 namespace FractalEngine.Render.Shadows;

@@ -1,6 +1,6 @@
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
-using FractalEngine.Core.Visibility;
+using FractalEngine.Core.Visibility.Frames;
 
 namespace FractalEngine.Render.Shadows;
 

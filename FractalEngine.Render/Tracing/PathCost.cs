@@ -1,5 +1,5 @@
-using FractalEngine.Core.Collision;
-using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Fractals.Descriptions;
+using FractalEngine.Core.Queries;
 
 namespace FractalEngine.Render.Tracing;
 

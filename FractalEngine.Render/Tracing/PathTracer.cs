@@ -1,13 +1,15 @@
 using System.Collections.Immutable;
 using System.Runtime.ExceptionServices;
-using FractalEngine.Core.Collision;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Images;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Queries;
 using FractalEngine.Core.Rays;
 using FractalEngine.Core.Scenes;
-using FractalEngine.Render.Passes;
+using FractalEngine.Render.Lights;
+using FractalEngine.Render.Views;
 
 namespace FractalEngine.Render.Tracing;
 

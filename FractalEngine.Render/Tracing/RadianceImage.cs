@@ -2,7 +2,7 @@ using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Images;
 using FractalEngine.Core.Maths;
 using FractalEngine.Render.Images;
-using FractalEngine.Render.Passes;
+using FractalEngine.Render.Lights;
 
 namespace FractalEngine.Render.Tracing;
 

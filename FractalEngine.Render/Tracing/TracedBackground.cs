@@ -1,7 +1,9 @@
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
-using FractalEngine.Render.Passes;
+using FractalEngine.Core.Scenes.Lights;
+using FractalEngine.Render.Lights;
+using FractalEngine.Render.Views;
 
 namespace FractalEngine.Render.Tracing;
 

@@ -1,5 +1,6 @@
-using FractalEngine.Core.Rays;
-using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Scenes.Cameras;
+using FractalEngine.Render.Views;
 
 namespace FractalEngine.Render.Tracing;
 

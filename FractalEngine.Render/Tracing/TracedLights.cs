@@ -1,7 +1,8 @@
-using FractalEngine.Core.Collision;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Queries;
 using FractalEngine.Core.Scenes;
-using FractalEngine.Render.Passes;
+using FractalEngine.Core.Scenes.Lights;
+using FractalEngine.Render.Lights;
 
 namespace FractalEngine.Render.Tracing;
 

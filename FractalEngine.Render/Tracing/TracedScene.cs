@@ -1,12 +1,16 @@
 using System.Collections.Concurrent;
 using System.Collections.Immutable;
-using FractalEngine.Core.Collision;
+using FractalEngine.Core.DeepZoom;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Queries;
 using FractalEngine.Core.Rays;
+using FractalEngine.Core.SceneQueries;
 using FractalEngine.Core.Scenes;
-using FractalEngine.Core.Visibility;
+using FractalEngine.Core.Visibility.Levels;
+using FractalEngine.Render.Lights;
 using FractalEngine.Render.Preparation;
+using FractalEngine.Render.Views;
 
 namespace FractalEngine.Render.Tracing;
 

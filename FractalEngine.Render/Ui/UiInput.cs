@@ -1,4 +1,4 @@
-using FractalEngine.Render.Windowing;
+using FractalEngine.Render.Windowing.Keyboard;
 
 namespace FractalEngine.Render.Ui;
 

@@ -1,3 +1,5 @@
+using FractalEngine.Render.Ui.Overlays;
+
 namespace FractalEngine.Render.Ui;
 
 /// <summary>A panel of the user interface: its contents, and the state that the user changes.</summary>

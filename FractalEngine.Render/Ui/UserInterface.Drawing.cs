@@ -1,4 +1,5 @@
 using FractalEngine.Core.Geometry;
+using FractalEngine.Render.Ui.Overlays;
 
 namespace FractalEngine.Render.Ui;
 

@@ -1,3 +1,5 @@
+using FractalEngine.Render.Ui.Overlays;
+
 namespace FractalEngine.Render.Ui;
 
 /// <content>Places widgets in rows and columns.</content>

@@ -1,4 +1,5 @@
 using System.Collections.Immutable;
+using FractalEngine.Render.Ui.Overlays;
 
 namespace FractalEngine.Render.Ui;
 

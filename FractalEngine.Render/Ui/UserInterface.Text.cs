@@ -1,4 +1,5 @@
-using FractalEngine.Render.Windowing;
+using FractalEngine.Render.Ui.Overlays;
+using FractalEngine.Render.Windowing.Keyboard;
 
 namespace FractalEngine.Render.Ui;
 

@@ -1,3 +1,5 @@
+using FractalEngine.Render.Ui.Overlays;
+
 namespace FractalEngine.Render.Ui;
 
 /// <content>Tooltips, which cover no row of their panel.</content>

@@ -1,5 +1,6 @@
 using FractalEngine.Core.Geometry;
-using FractalEngine.Render.Windowing;
+using FractalEngine.Render.Ui.Overlays;
+using FractalEngine.Render.Windowing.Keyboard;
 
 namespace FractalEngine.Render.Ui;
 

@@ -1,5 +1,6 @@
 using System.Runtime.InteropServices;
-using FractalEngine.Render.Windowing;
+using FractalEngine.Render.Ui.Overlays;
+using FractalEngine.Render.Windowing.Events;
 
 namespace FractalEngine.Render.Ui;
 

@@ -1,3 +1,4 @@
+using FractalEngine.Render.Windowing.Keyboard;
 using OpenTK.Windowing.GraphicsLibraryFramework;
 
 namespace FractalEngine.Render.Windowing;

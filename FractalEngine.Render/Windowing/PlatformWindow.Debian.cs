@@ -1,5 +1,6 @@
 using System.Runtime.CompilerServices;
 using System.Runtime.InteropServices;
+using FractalEngine.Render.Windowing.Events;
 using OpenTK;
 using OpenTK.Graphics;
 

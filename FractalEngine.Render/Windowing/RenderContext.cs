@@ -1,5 +1,6 @@
 using System.Globalization;
 using FractalEngine.Render.Gl;
+using FractalEngine.Render.Views;
 using OpenTK.Graphics.OpenGL4;
 
 namespace FractalEngine.Render.Windowing;

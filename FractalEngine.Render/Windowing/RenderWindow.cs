@@ -1,3 +1,5 @@
+using FractalEngine.Render.Windowing.Events;
+
 namespace FractalEngine.Render.Windowing;
 
 /// <summary>

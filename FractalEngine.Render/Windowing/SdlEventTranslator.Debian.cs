@@ -1,4 +1,6 @@
 using System.Runtime.InteropServices;
+using FractalEngine.Render.Windowing.Events;
+using FractalEngine.Render.Windowing.Keyboard;
 
 namespace FractalEngine.Render.Windowing;
 

@@ -1,5 +1,5 @@
 using System.Diagnostics;
-using FractalEngine.App;
+using FractalEngine.App.Jobs;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.App;

@@ -1,4 +1,4 @@
-using FractalEngine.App;
+using FractalEngine.App.Shell;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.App;

@@ -1,7 +1,7 @@
 using System.CommandLine;
 using System.Globalization;
-using FractalEngine.App;
-using FractalEngine.App.Commands;
+using FractalEngine.App.Jobs;
+using FractalEngine.App.Options;
 using FractalEngine.Core.Images;
 using FractalEngine.Tests.Support;
 

@@ -1,5 +1,5 @@
 using System.CommandLine;
-using FractalEngine.App.Commands;
+using FractalEngine.App.Options;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.App;

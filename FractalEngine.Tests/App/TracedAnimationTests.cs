@@ -1,5 +1,5 @@
-using FractalEngine.App;
 using FractalEngine.App.Animation;
+using FractalEngine.App.Jobs;
 using FractalEngine.Core.Images;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Tests.Support;

@@ -1,9 +1,8 @@
 using FractalEngine.Benchmarks.Measuring;
-using FractalEngine.Core.Collision;
-using FractalEngine.Core.Collision.Bvh;
-using FractalEngine.Core.Collision.Reference;
+using FractalEngine.Core.Colliders;
 using FractalEngine.Core.Maths;
-using FractalEngine.Tests.Collision;
+using FractalEngine.Core.Queries;
+using FractalEngine.Tests.Colliders;
 
 namespace FractalEngine.Tests.Benchmarks;
 

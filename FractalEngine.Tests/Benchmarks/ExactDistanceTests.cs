@@ -1,6 +1,6 @@
 using FractalEngine.Benchmarks.Precision;
 using FractalEngine.Core.Maths;
-using FractalEngine.Tests.Collision;
+using FractalEngine.Tests.Colliders;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Benchmarks;

@@ -1,5 +1,7 @@
-using FractalEngine.Core.Collision;
+using FractalEngine.Core.Colliders;
+using FractalEngine.Core.Geometry.Triangles;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Queries;
 
 namespace FractalEngine.Tests.Benchmarks;
 

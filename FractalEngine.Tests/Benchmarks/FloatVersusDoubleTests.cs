@@ -1,7 +1,7 @@
 using FractalEngine.Benchmarks.Precision;
-using FractalEngine.Core.Collision;
+using FractalEngine.Core.Geometry.Triangles;
 using FractalEngine.Core.Maths;
-using FractalEngine.Tests.Collision;
+using FractalEngine.Tests.Colliders;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Benchmarks;

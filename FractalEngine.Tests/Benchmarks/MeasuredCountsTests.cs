@@ -3,7 +3,7 @@ using FractalEngine.Benchmarks.Colliders;
 using FractalEngine.Benchmarks.Measuring;
 using FractalEngine.Benchmarks.Paper;
 using FractalEngine.Benchmarks.Rays;
-using FractalEngine.Core.Collision;
+using FractalEngine.Core.Queries;
 using FractalEngine.Core.Rays;
 using FractalEngine.Tests.Support;
 

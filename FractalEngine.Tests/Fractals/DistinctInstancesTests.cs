@@ -1,8 +1,7 @@
 using System.Numerics;
-using FractalEngine.Core.Collision;
-using FractalEngine.Core.Collision.Fractals;
-using FractalEngine.Core.Collision.Reference;
+using FractalEngine.Core.Colliders;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Tests.Support;

@@ -1,13 +1,15 @@
 using System.Globalization;
-using FractalEngine.Core.Collision;
-using FractalEngine.Core.Collision.Fractals;
+using FractalEngine.Core.Colliders;
+using FractalEngine.Core.DeepZoom;
 using FractalEngine.Core.Fractals;
-using FractalEngine.Core.Fractals.Hierarchy;
+using FractalEngine.Core.Fractals.Descriptions;
+using FractalEngine.Core.Fractals.Levels;
 using FractalEngine.Core.Maths;
-using FractalEngine.Core.Visibility;
-using FractalEngine.Tests.Collision;
+using FractalEngine.Core.Queries;
+using FractalEngine.Core.Visibility.Levels;
+using FractalEngine.Tests.Colliders;
 using FractalEngine.Tests.Support;
-using FractalEngine.Tests.Visibility;
+using FractalEngine.Tests.Visibility.Frames;
 
 namespace FractalEngine.Tests.Fractals;
 

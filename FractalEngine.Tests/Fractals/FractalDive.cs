@@ -1,6 +1,6 @@
-using FractalEngine.Core.Fractals;
+using FractalEngine.Core.DeepZoom;
 using FractalEngine.Core.Maths;
-using FractalEngine.Core.Visibility;
+using FractalEngine.Core.Visibility.Levels;
 
 namespace FractalEngine.Tests.Fractals;
 

@@ -2,8 +2,9 @@ using System.Collections.Concurrent;
 using FractalEngine.Core.Generation;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
-using FractalEngine.Parsing.Meshes;
 using FractalEngine.Parsing.Text;
+using FractalEngine.Parsing.Wavefront;
+using FractalEngine.Parsing.Wavefront.Writing;
 
 namespace FractalEngine.Tests.Generation;
 

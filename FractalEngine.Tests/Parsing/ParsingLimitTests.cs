@@ -1,5 +1,5 @@
 using FractalEngine.Core;
-using FractalEngine.Parsing;
+using FractalEngine.Parsing.Text;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Parsing;

@@ -1,6 +1,9 @@
+using FractalEngine.Core.Colliders;
+using FractalEngine.Core.Generation;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
+using FractalEngine.Core.Physics.Descriptions;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Tests.Support;
 

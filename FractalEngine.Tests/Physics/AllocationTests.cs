@@ -1,11 +1,12 @@
-using FractalEngine.Core.Collision;
-using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Colliders;
+using FractalEngine.Core.Generation;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
-using FractalEngine.Core.Physics.Compounds;
+using FractalEngine.Core.Physics.Descriptions;
+using FractalEngine.Core.Queries;
 using FractalEngine.Core.Rays;
 using FractalEngine.Core.Scenes;
-using FractalEngine.Tests.Collision;
+using FractalEngine.Tests.Colliders;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Physics;

@@ -1,7 +1,9 @@
-using FractalEngine.Core.Collision;
-using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Colliders;
+using FractalEngine.Core.Generation;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
+using FractalEngine.Core.Physics.Bodies;
+using FractalEngine.Core.SceneQueries;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Tests.Support;
 

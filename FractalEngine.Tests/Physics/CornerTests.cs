@@ -1,6 +1,6 @@
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
-using FractalEngine.Tests.Collision;
+using FractalEngine.Tests.Colliders;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Physics;

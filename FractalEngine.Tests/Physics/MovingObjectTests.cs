@@ -1,6 +1,9 @@
+using FractalEngine.Core.Colliders;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
-using FractalEngine.Core.Physics.Compounds;
+using FractalEngine.Core.Physics.Bodies;
+using FractalEngine.Core.Physics.Descriptions;
+using FractalEngine.Core.Physics.Statics;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Tests.Support;
 

@@ -1,6 +1,7 @@
 using FractalEngine.Core;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
+using FractalEngine.Core.Physics.Descriptions;
 using FractalEngine.Core.Scenes;
 
 namespace FractalEngine.Tests.Physics;

@@ -1,13 +1,12 @@
-using FractalEngine.Core.Collision;
-using FractalEngine.Core.Collision.Bvh;
-using FractalEngine.Core.Collision.Reference;
+using FractalEngine.Core.Colliders;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Generation;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
+using FractalEngine.Core.Queries;
 using FractalEngine.Core.Scenes;
-using FractalEngine.Tests.Collision;
+using FractalEngine.Tests.Colliders;
 using FractalEngine.Tests.Support;
 using Xunit.Sdk;
 

@@ -2,7 +2,8 @@ using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Generation;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
-using FractalEngine.Tests.Collision;
+using FractalEngine.Core.Physics.Descriptions;
+using FractalEngine.Tests.Colliders;
 using FractalEngine.Tests.Support;
 using Xunit.Sdk;
 

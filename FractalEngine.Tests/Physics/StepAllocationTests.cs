@@ -1,6 +1,7 @@
+using FractalEngine.Core.Colliders;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
-using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Physics.Descriptions;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Physics;

@@ -1,6 +1,8 @@
+using FractalEngine.Core.Generation;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
+using FractalEngine.Core.Physics.Descriptions;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Physics;

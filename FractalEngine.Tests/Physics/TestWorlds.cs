@@ -2,6 +2,7 @@ using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
+using FractalEngine.Core.Physics.Descriptions;
 using FractalEngine.Core.Scenes;
 
 namespace FractalEngine.Tests.Physics;

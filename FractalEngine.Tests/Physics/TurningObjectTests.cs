@@ -1,7 +1,9 @@
-using FractalEngine.Core.Collision;
+using FractalEngine.Core.Colliders;
+using FractalEngine.Core.Geometry.Triangles;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
-using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Physics.Descriptions;
+using FractalEngine.Core.Physics.Statics;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Physics;

@@ -1,6 +1,8 @@
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
-using FractalEngine.Tests.Collision;
+using FractalEngine.Core.Physics.Bodies;
+using FractalEngine.Core.Physics.Statics;
+using FractalEngine.Tests.Colliders;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Physics;
@@ -36,7 +38,7 @@ public class WorldQueryTests
         if (world.TryCastSphere(start, 0.05, way, out var hit))
         {
             var centre = start + (hit.Distance * way.UnitVector());
-            Assert.True(world.TryFindClosest(centre, Core.Scenes.ColliderKind.Exact, out var closest));
+            Assert.True(world.TryFindClosest(centre, Core.Colliders.ColliderKind.Exact, out var closest));
             Near.Equal(0.05, closest.Distance, 1e-10);
             Near.Equal(centre - (0.05 * hit.Normal), hit.Point, 1e-9);
         }

@@ -1,7 +1,10 @@
 using System.Reflection;
-using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Colliders;
+using FractalEngine.Core.Generation;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
+using FractalEngine.Core.Physics.Bodies;
+using FractalEngine.Core.Physics.Descriptions;
 using FractalEngine.Core.Physics.Events;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Tests.Support;

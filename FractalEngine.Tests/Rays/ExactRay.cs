@@ -1,5 +1,5 @@
 using System.Numerics;
-using FractalEngine.Core.Rays;
+using FractalEngine.Core.Geometry;
 using FractalEngine.Tests.Support;
 using Vector = FractalEngine.Core.Maths.Vector;
 

@@ -1,6 +1,6 @@
+using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
-using FractalEngine.Core.Rays;
-using FractalEngine.Tests.Collision.Queries;
+using FractalEngine.Tests.Queries.Regions;
 
 namespace FractalEngine.Tests.Rays;
 

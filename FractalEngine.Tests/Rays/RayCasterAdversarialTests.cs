@@ -1,9 +1,9 @@
-using FractalEngine.Core.Collision;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Queries;
 using FractalEngine.Core.Rays;
-using FractalEngine.Tests.Collision;
-using FractalEngine.Tests.Collision.Fractals;
-using FractalEngine.Tests.Collision.Queries;
+using FractalEngine.Tests.Colliders;
+using FractalEngine.Tests.Queries.Closest;
+using FractalEngine.Tests.Queries.Regions;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Rays;

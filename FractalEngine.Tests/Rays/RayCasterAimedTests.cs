@@ -1,8 +1,8 @@
 using System.Globalization;
-using FractalEngine.Core.Collision;
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Queries;
 using FractalEngine.Core.Rays;
-using FractalEngine.Tests.Collision.Queries;
+using FractalEngine.Tests.Queries.Regions;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Rays;

@@ -1,6 +1,6 @@
-using FractalEngine.Core.Collision;
+using FractalEngine.Core.Queries;
 using FractalEngine.Core.Rays;
-using FractalEngine.Tests.Collision;
+using FractalEngine.Tests.Colliders;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Rays;

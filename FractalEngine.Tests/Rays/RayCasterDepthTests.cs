@@ -1,13 +1,14 @@
 using FractalEngine.Core;
-using FractalEngine.Core.Collision;
-using FractalEngine.Core.Collision.Bvh;
-using FractalEngine.Core.Collision.Fractals;
+using FractalEngine.Core.Colliders;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Fractals.Descriptions;
+using FractalEngine.Core.Generation;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Queries;
 using FractalEngine.Core.Rays;
-using FractalEngine.Tests.Collision;
-using FractalEngine.Tests.Collision.Queries;
+using FractalEngine.Tests.Colliders;
+using FractalEngine.Tests.Queries.Regions;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Rays;

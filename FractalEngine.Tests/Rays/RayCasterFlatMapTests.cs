@@ -1,7 +1,7 @@
-using FractalEngine.Core.Collision;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Queries;
 using FractalEngine.Core.Rays;
-using FractalEngine.Tests.Collision.Queries;
+using FractalEngine.Tests.Queries.Regions;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Rays;

@@ -1,8 +1,8 @@
-using FractalEngine.Core.Collision;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Generation;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Queries;
 using FractalEngine.Core.Rays;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Tests.Support;

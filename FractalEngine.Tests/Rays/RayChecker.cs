@@ -1,8 +1,9 @@
 using System.Globalization;
-using FractalEngine.Core.Collision;
+using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Queries;
 using FractalEngine.Core.Rays;
-using FractalEngine.Tests.Collision.Queries;
+using FractalEngine.Tests.Queries.Regions;
 using Xunit.Sdk;
 
 namespace FractalEngine.Tests.Rays;

@@ -1,7 +1,7 @@
 using System.Globalization;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Rays;
-using FractalEngine.Tests.Collision.Queries;
+using FractalEngine.Tests.Queries.Regions;
 
 namespace FractalEngine.Tests.Rays;
 

@@ -1,6 +1,6 @@
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
-using FractalEngine.Tests.Collision.Queries;
+using FractalEngine.Tests.Queries.Regions;
 
 namespace FractalEngine.Tests.Rays;
 

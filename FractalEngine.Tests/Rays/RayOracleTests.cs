@@ -1,6 +1,6 @@
 using FractalEngine.Core.Maths;
-using FractalEngine.Tests.Collision;
-using FractalEngine.Tests.Collision.Queries;
+using FractalEngine.Tests.Colliders;
+using FractalEngine.Tests.Queries.Regions;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Rays;

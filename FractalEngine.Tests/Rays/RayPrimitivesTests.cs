@@ -1,7 +1,10 @@
 using System.Runtime.Intrinsics;
-using FractalEngine.Core.Collision;
+using FractalEngine.Core.Fractals.Levels.Rays;
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Geometry.Rays;
+using FractalEngine.Core.Geometry.Triangles;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Queries;
 using FractalEngine.Core.Rays;
 using FractalEngine.Tests.Support;
 

@@ -1,4 +1,4 @@
-using FractalEngine.Tests.Collision.Queries;
+using FractalEngine.Tests.Queries.Regions;
 
 namespace FractalEngine.Tests.Rays;
 

@@ -1,9 +1,11 @@
+using FractalEngine.Core.Colliders;
+using FractalEngine.Core.Generation;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
-using FractalEngine.Core.Physics.Character;
-using FractalEngine.Core.Physics.Compounds;
-using FractalEngine.Core.Rays;
+using FractalEngine.Core.Physics.Descriptions;
+using FractalEngine.Core.Physics.Movement;
+using FractalEngine.Core.Physics.Statics;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Tests.Physics;
 using FractalEngine.Tests.Support;

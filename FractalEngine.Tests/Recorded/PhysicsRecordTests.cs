@@ -1,9 +1,9 @@
-using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Colliders;
+using FractalEngine.Core.Generation;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
-using FractalEngine.Core.Physics.Compounds;
-using FractalEngine.Core.Scenes;
-using FractalEngine.Tests.Collision;
+using FractalEngine.Core.Physics.Descriptions;
+using FractalEngine.Tests.Colliders;
 using FractalEngine.Tests.Physics;
 using static FractalEngine.Tests.Recorded.RecordedWorlds;
 

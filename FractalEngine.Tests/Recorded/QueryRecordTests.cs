@@ -1,8 +1,9 @@
 using FractalEngine.Core;
-using FractalEngine.Core.Collision;
-using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Colliders;
+using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Queries;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Tests.Support;
 

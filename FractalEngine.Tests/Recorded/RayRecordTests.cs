@@ -1,7 +1,7 @@
 using FractalEngine.Core;
-using FractalEngine.Core.Collision;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Queries;
 using FractalEngine.Core.Rays;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Tests.Support;

@@ -1,17 +1,23 @@
 using System.Collections.Immutable;
 using System.Globalization;
 using System.Runtime.CompilerServices;
-using FractalEngine.Core.Collision;
-using FractalEngine.Core.Collision.Fractals;
+using FractalEngine.Core.Colliders;
+using FractalEngine.Core.DeepZoom;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Generation;
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Geometry.Surfaces;
 using FractalEngine.Core.Images;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
-using FractalEngine.Core.Physics.Compounds;
+using FractalEngine.Core.Physics.Descriptions;
+using FractalEngine.Core.Queries;
 using FractalEngine.Core.Rays;
+using FractalEngine.Core.SceneQueries;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Scenes.Cameras;
+using FractalEngine.Core.Scenes.Lights;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Recorded;

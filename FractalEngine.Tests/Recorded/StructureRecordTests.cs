@@ -1,11 +1,15 @@
 using System.Globalization;
 using FractalEngine.Core;
+using FractalEngine.Core.DeepZoom;
 using FractalEngine.Core.Fractals;
-using FractalEngine.Core.Fractals.Hierarchy;
+using FractalEngine.Core.Fractals.Descriptions;
+using FractalEngine.Core.Fractals.Levels;
 using FractalEngine.Core.Generation;
+using FractalEngine.Core.Geometry.Hulls;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Visibility;
-using FractalEngine.Tests.Visibility;
+using FractalEngine.Core.Visibility.Levels;
+using FractalEngine.Tests.Visibility.Frames;
 
 namespace FractalEngine.Tests.Recorded;
 

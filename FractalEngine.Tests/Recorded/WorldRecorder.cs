@@ -3,7 +3,8 @@ using System.Runtime.CompilerServices;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
 using FractalEngine.Core.Physics.Events;
-using FractalEngine.Core.Physics.Islands;
+using FractalEngine.Core.Physics.Separation;
+using FractalEngine.Core.Physics.Solving;
 
 namespace FractalEngine.Tests.Recorded;
 

@@ -1,13 +1,17 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Images;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Scenes.Cameras;
+using FractalEngine.Core.Views;
 using FractalEngine.Core.Visibility;
 using FractalEngine.Render;
 using FractalEngine.Render.Preparation;
-using FractalEngine.Tests.Collision;
+using FractalEngine.Render.Views;
+using FractalEngine.Tests.Colliders;
 using FractalEngine.Tests.Support;
 using static System.FormattableString;
 

@@ -1,12 +1,18 @@
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
-using FractalEngine.Parsing.Meshes;
+using FractalEngine.Core.Scenes.Cameras;
+using FractalEngine.Core.Scenes.Lights;
+using FractalEngine.Core.Views;
 using FractalEngine.Parsing.Text;
+using FractalEngine.Parsing.Wavefront;
+using FractalEngine.Parsing.Wavefront.Writing;
 using FractalEngine.Render;
-using FractalEngine.Render.Gl;
+using FractalEngine.Render.Gl.State;
 using FractalEngine.Render.Preparation;
+using FractalEngine.Render.Views;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Render;

@@ -1,9 +1,12 @@
+using FractalEngine.Core.Generation;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Images;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Scenes.Cameras;
 using FractalEngine.Render;
 using FractalEngine.Render.Preparation;
+using FractalEngine.Render.Views;
 
 namespace FractalEngine.Tests.Render;
 

@@ -4,7 +4,8 @@ using FractalEngine.Core.Images;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Render;
-using FractalEngine.Render.Gl;
+using FractalEngine.Render.Drawables;
+using FractalEngine.Render.Gl.State;
 using FractalEngine.Render.Preparation;
 
 namespace FractalEngine.Tests.Render;

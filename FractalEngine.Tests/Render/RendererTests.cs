@@ -2,9 +2,12 @@ using FractalEngine.Core;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Scenes.Cameras;
+using FractalEngine.Core.Views;
 using FractalEngine.Render;
 using FractalEngine.Render.Images;
 using FractalEngine.Render.Preparation;
+using FractalEngine.Render.Views;
 using FractalEngine.Render.Windowing;
 using FractalEngine.Tests.Support;
 

@@ -1,10 +1,13 @@
-using FractalEngine.App.Window.Selecting;
+using FractalEngine.App.Window.Tools;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Images;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
-using FractalEngine.Render;
+using FractalEngine.Core.Scenes.Cameras;
+using FractalEngine.Core.Scenes.Lights;
+using FractalEngine.Core.Views;
 using FractalEngine.Render.Tracing;
+using FractalEngine.Render.Views;
 
 namespace FractalEngine.Tests.Render;
 

@@ -1,10 +1,10 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
-using FractalEngine.Core.Scenes;
-using FractalEngine.Render;
-using FractalEngine.Render.Passes;
+using FractalEngine.Core.Scenes.Cameras;
+using FractalEngine.Core.Scenes.Lights;
 using FractalEngine.Render.Shadows;
+using FractalEngine.Render.Views;
 
 namespace FractalEngine.Tests.Render;
 

@@ -2,9 +2,12 @@ using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Images;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Scenes.Cameras;
+using FractalEngine.Core.Scenes.Lights;
 using FractalEngine.Render;
 using FractalEngine.Render.Preparation;
 using FractalEngine.Render.Tracing;
+using FractalEngine.Render.Views;
 
 namespace FractalEngine.Tests.Render;
 

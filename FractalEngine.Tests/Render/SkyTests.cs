@@ -2,11 +2,14 @@ using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Images;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Scenes.Cameras;
+using FractalEngine.Core.Scenes.Lights;
 using FractalEngine.Render;
 using FractalEngine.Render.Images;
-using FractalEngine.Render.Passes;
+using FractalEngine.Render.Lights;
 using FractalEngine.Render.Preparation;
 using FractalEngine.Render.Tracing;
+using FractalEngine.Render.Views;
 using FractalEngine.Tests.Render.Tracing;
 
 namespace FractalEngine.Tests.Render;

@@ -1,8 +1,8 @@
 using System.Text;
 using FractalEngine.Core.Fractals;
-using FractalEngine.Parsing;
+using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Parsing.Assets;
-using FractalEngine.Parsing.Scenes;
+using FractalEngine.Parsing.Sdo;
 using FractalEngine.Parsing.Text;
 using FractalEngine.Tests.Support;
 

@@ -1,15 +1,15 @@
 using System.Globalization;
 using FractalEngine.Core;
-using FractalEngine.Core.Collision;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.SceneQueries;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Parsing.Points;
 using FractalEngine.Parsing.Text;
-using FractalEngine.Render;
 using FractalEngine.Render.Preparation;
 using FractalEngine.Render.Tracing;
+using FractalEngine.Render.Views;
 using FractalEngine.Tests.Support;
 using Xunit.Sdk;
 

@@ -1,9 +1,11 @@
 using FractalEngine.Core;
+using FractalEngine.Core.Colliders;
 using FractalEngine.Core.Fractals;
-using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Generation;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
-using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Physics.Bodies;
+using FractalEngine.Core.Physics.Descriptions;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Robustness;

@@ -1,7 +1,11 @@
-using FractalEngine.Core.Collision;
+using FractalEngine.Core.Colliders;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Geometry.Triangles;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Queries;
+using FractalEngine.Core.SceneQueries;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Tests.Support;
 

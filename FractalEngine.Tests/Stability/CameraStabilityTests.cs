@@ -1,11 +1,15 @@
 using System.Runtime.CompilerServices;
-using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Images;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Scenes.Cameras;
+using FractalEngine.Core.Scenes.Lights;
+using FractalEngine.Core.Views;
 using FractalEngine.Render;
 using FractalEngine.Render.Preparation;
+using FractalEngine.Render.Views;
 using FractalEngine.Tests.Fractals;
 using FractalEngine.Tests.Render;
 using FractalEngine.Tests.Support;

@@ -1,15 +1,19 @@
 using System.Numerics;
 using System.Runtime.CompilerServices;
-using FractalEngine.Core.Collision;
-using FractalEngine.Core.Collision.Fractals;
+using FractalEngine.Core.Colliders;
+using FractalEngine.Core.DeepZoom;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Queries;
+using FractalEngine.Core.SceneQueries;
 using FractalEngine.Core.Scenes;
-using FractalEngine.Core.Visibility;
-using FractalEngine.Tests.Collision;
-using FractalEngine.Tests.Collision.Fractals;
+using FractalEngine.Core.Visibility.Levels;
+using FractalEngine.Tests.Colliders;
+using FractalEngine.Tests.Fractals;
+using FractalEngine.Tests.Queries.Closest;
 using FractalEngine.Tests.Support;
-using FractalEngine.Tests.Visibility;
+using FractalEngine.Tests.Visibility.Frames;
 using Xunit.Abstractions;
 using Vector = FractalEngine.Core.Maths.Vector;
 

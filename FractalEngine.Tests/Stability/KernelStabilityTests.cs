@@ -1,7 +1,7 @@
 using System.Runtime.CompilerServices;
-using FractalEngine.Core.Collision;
+using FractalEngine.Core.Geometry.Triangles;
 using FractalEngine.Core.Maths;
-using FractalEngine.Tests.Collision;
+using FractalEngine.Tests.Colliders;
 using FractalEngine.Tests.Support;
 using Xunit.Abstractions;
 

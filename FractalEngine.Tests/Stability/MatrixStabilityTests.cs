@@ -1,5 +1,5 @@
 using FractalEngine.Core.Maths;
-using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Scenes.Cameras;
 using FractalEngine.Tests.Support;
 using Xunit.Abstractions;
 

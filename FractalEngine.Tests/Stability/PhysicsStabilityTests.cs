@@ -1,6 +1,6 @@
 using System.Runtime.CompilerServices;
-using FractalEngine.Core.Physics;
-using FractalEngine.Tests.Collision;
+using FractalEngine.Core.Physics.Descriptions;
+using FractalEngine.Tests.Colliders;
 using FractalEngine.Tests.Physics;
 using FractalEngine.Tests.Support;
 using Xunit.Abstractions;

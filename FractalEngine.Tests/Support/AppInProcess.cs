@@ -39,7 +39,7 @@ internal static class AppInProcess
                 limit.Value = limit.Default;
             }
 
-            var paths = typeof(FractalEngine.App.InputFiles).GetField("Paths", BindingFlags.NonPublic | BindingFlags.Static)!;
+            var paths = typeof(FractalEngine.App.Shell.InputFiles).GetField("Paths", BindingFlags.NonPublic | BindingFlags.Static)!;
             ((HashSet<string>)paths.GetValue(null)!).Clear();
         }
     }

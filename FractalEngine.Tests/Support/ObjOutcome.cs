@@ -2,6 +2,7 @@ using System.Text;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Parsing.Meshes;
 using FractalEngine.Parsing.Text;
+using FractalEngine.Parsing.Wavefront;
 using Xunit.Sdk;
 
 namespace FractalEngine.Tests.Support;

@@ -1,4 +1,4 @@
-using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Tests.Support;

@@ -1,8 +1,9 @@
 using System.Text;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
-using FractalEngine.Parsing.Fractals;
+using FractalEngine.Parsing.Fdo;
 using FractalEngine.Parsing.Meshes;
 using FractalEngine.Parsing.Text;
 

@@ -1,10 +1,15 @@
-using System.Runtime.Intrinsics;
 using System.Collections.Immutable;
+using System.Runtime.Intrinsics;
 using FractalEngine.Core.Fractals;
-using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Fractals.Descriptions;
+using FractalEngine.Core.Generation;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Visibility;
-using FractalEngine.Tests.Collision;
+using FractalEngine.Core.Visibility.Frames;
+using FractalEngine.Core.Visibility.Levels;
+using FractalEngine.Core.Visibility.Sky;
+using FractalEngine.Core.Visibility.SkyBaking;
+using FractalEngine.Tests.Colliders;
 using FractalEngine.Tests.Render;
 using FractalEngine.Tests.Support;
 

@@ -1,10 +1,14 @@
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Visibility;
-using FractalEngine.Tests.Collision;
+using FractalEngine.Core.Visibility.Frames;
+using FractalEngine.Core.Visibility.Levels;
+using FractalEngine.Tests.Colliders;
 using FractalEngine.Tests.Render;
 using FractalEngine.Tests.Support;
+using FractalEngine.Tests.Visibility.Frames;
 
 namespace FractalEngine.Tests.Visibility;
 

@@ -1,7 +1,9 @@
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Visibility;
+using FractalEngine.Core.Visibility.Frames;
 using FractalEngine.Tests.Support;
+using FractalEngine.Tests.Visibility.Frames;
 
 namespace FractalEngine.Tests.Visibility;
 

@@ -1,8 +1,10 @@
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Visibility;
-using FractalEngine.Tests.Collision;
+using FractalEngine.Core.Visibility.Frames;
+using FractalEngine.Tests.Colliders;
 using FractalEngine.Tests.Support;
+using FractalEngine.Tests.Visibility.Frames;
 
 namespace FractalEngine.Tests.Visibility;
 

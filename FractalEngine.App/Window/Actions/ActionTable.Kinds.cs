@@ -1,9 +1,9 @@
-using FractalEngine.App.Window.Selecting;
+using FractalEngine.App.Window.State;
 using FractalEngine.App.Window.Tools;
 using FractalEngine.Core.Maths;
-using FractalEngine.Parsing.Assets;
-using FractalEngine.Render;
-using FractalEngine.Render.Windowing;
+using FractalEngine.Parsing.Text;
+using FractalEngine.Render.Views;
+using FractalEngine.Render.Windowing.Keyboard;
 
 namespace FractalEngine.App.Window.Actions;
 

@@ -1,8 +1,10 @@
 using System.Collections.Immutable;
+using FractalEngine.App.Window.State;
 using FractalEngine.App.Window.Tools;
 using FractalEngine.Core.Maths;
-using FractalEngine.Render;
-using FractalEngine.Render.Windowing;
+using FractalEngine.Render.Views;
+using FractalEngine.Render.Windowing.Events;
+using FractalEngine.Render.Windowing.Keyboard;
 
 namespace FractalEngine.App.Window.Actions;
 
@@ -84,7 +86,7 @@ internal static partial class ActionTable
         {
             Keys = [new(Key.Digit5)], Flag = "--projection", MoveCamera = static (camera, _) => camera.ToggleProjection(),
             IsAvailable = HasDocument,
-            IsOn = static a => a.Document?.FlyingCamera.Projection == Core.Scenes.Projection.Orthographic,
+            IsOn = static a => a.Document?.FlyingCamera.Projection == Core.Scenes.Cameras.Projection.Orthographic,
         },
         new("reset-camera", "View", "File's camera", "return to the camera of the file")
         {

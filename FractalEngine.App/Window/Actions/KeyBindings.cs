@@ -1,5 +1,6 @@
 using System.Collections.Immutable;
-using FractalEngine.Render.Windowing;
+using FractalEngine.Render.Windowing.Events;
+using FractalEngine.Render.Windowing.Keyboard;
 
 namespace FractalEngine.App.Window.Actions;
 

@@ -1,4 +1,5 @@
-using FractalEngine.Render.Windowing;
+using FractalEngine.Render.Windowing.Events;
+using FractalEngine.Render.Windowing.Keyboard;
 
 namespace FractalEngine.App.Window.Actions;
 

@@ -1,6 +1,7 @@
-using FractalEngine.App.Window.Panels;
 using FractalEngine.Render.Ui;
+using FractalEngine.Render.Ui.Overlays;
 using FractalEngine.Render.Windowing;
+using FractalEngine.Render.Windowing.Events;
 
 namespace FractalEngine.App.Window.Actions;
 

@@ -1,6 +1,7 @@
-using FractalEngine.App.Window.Editing;
+using FractalEngine.App.Window.Files;
 using FractalEngine.Core;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Scenes.Lights;
 using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.App.Window.Actions;

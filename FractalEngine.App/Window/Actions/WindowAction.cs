@@ -1,4 +1,6 @@
 using System.Collections.Immutable;
+using FractalEngine.App.Cameras;
+using FractalEngine.App.Window.State;
 
 namespace FractalEngine.App.Window.Actions;
 

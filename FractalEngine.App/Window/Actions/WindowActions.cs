@@ -1,7 +1,14 @@
+using FractalEngine.App.Jobs;
+using FractalEngine.App.Window.Drawing;
+using FractalEngine.App.Window.Files;
+using FractalEngine.App.Window.Input;
+using FractalEngine.App.Window.Loading;
+using FractalEngine.App.Window.State;
 using FractalEngine.Core;
 using FractalEngine.Core.Images;
-using FractalEngine.Render;
+using FractalEngine.Render.Views;
 using FractalEngine.Render.Windowing;
+using FractalEngine.Render.Windowing.Events;
 
 namespace FractalEngine.App.Window.Actions;
 

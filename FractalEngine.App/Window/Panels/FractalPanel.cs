@@ -1,10 +1,11 @@
 using System.Collections.Immutable;
 using System.Globalization;
 using FractalEngine.App.Window.Actions;
+using FractalEngine.App.Window.Widgets;
 using FractalEngine.Core;
 using FractalEngine.Core.Files;
 using FractalEngine.Core.Scenes;
-using FractalEngine.Parsing.Fractals;
+using FractalEngine.Parsing.Fdo;
 using FractalEngine.Parsing.Text;
 using FractalEngine.Render.Ui;
 

@@ -1,4 +1,5 @@
 using FractalEngine.App.Window.Actions;
+using FractalEngine.App.Window.Widgets;
 using FractalEngine.Render.Ui;
 
 namespace FractalEngine.App.Window.Panels;

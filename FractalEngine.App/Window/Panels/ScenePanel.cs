@@ -1,13 +1,15 @@
 using System.Globalization;
 using FractalEngine.App.Window.Actions;
-using FractalEngine.App.Window.Editing;
-using FractalEngine.App.Window.Selecting;
+using FractalEngine.App.Window.Files;
+using FractalEngine.App.Window.State;
+using FractalEngine.App.Window.Tools;
+using FractalEngine.App.Window.Widgets;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
-using FractalEngine.Parsing.Assets;
-using FractalEngine.Render;
+using FractalEngine.Parsing.Text;
 using FractalEngine.Render.Ui;
+using FractalEngine.Render.Views;
 
 namespace FractalEngine.App.Window.Panels;
 

@@ -1,7 +1,8 @@
 using FractalEngine.App.Window.Actions;
+using FractalEngine.App.Window.State;
 using FractalEngine.App.Window.Tools;
-using FractalEngine.App.Window.Selecting;
-using FractalEngine.Parsing.Assets;
+using FractalEngine.App.Window.Widgets;
+using FractalEngine.Parsing.Text;
 using FractalEngine.Render.Ui;
 
 namespace FractalEngine.App.Window.Panels;

@@ -1,4 +1,7 @@
+using FractalEngine.App.Cameras;
 using FractalEngine.App.Window.Actions;
+using FractalEngine.App.Window.State;
+using FractalEngine.App.Window.Widgets;
 using FractalEngine.Render.Ui;
 
 namespace FractalEngine.App.Window.Panels;

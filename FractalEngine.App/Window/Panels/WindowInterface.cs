@@ -1,5 +1,5 @@
 using FractalEngine.App.Window.Actions;
-using FractalEngine.App.Window.Tools;
+using FractalEngine.App.Window.Widgets;
 using FractalEngine.Core.Maths;
 using FractalEngine.Render.Ui;
 

@@ -1,6 +1,6 @@
+using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
-using FractalEngine.Core.Rays;
-using FractalEngine.Render;
+using FractalEngine.Render.Views;
 
 namespace FractalEngine.App.Window.Tools;
 
@@ -26,7 +26,7 @@ internal readonly struct PointerMath(View view, int width, int height)
     public double LengthOf(double pixels, Vector point)
     {
         var depth = view.Camera.ToCameraSpace(point).Z;
-        var halfHeight = view.Projection == Core.Scenes.Projection.Perspective
+        var halfHeight = view.Projection == Core.Scenes.Cameras.Projection.Perspective
             ? depth * view.Camera.HalfHeightAtUnitDepth : 0.5 * view.OrthographicHeight;
         return pixels * 2 * halfHeight / FrameHeight;
     }
@@ -70,7 +70,7 @@ internal readonly struct PointerMath(View view, int width, int height)
     }
 
     /// <summary>Direction in which the camera looks at a point, of length 1.</summary>
-    public Vector DirectionTo(Vector point) => view.Projection == Core.Scenes.Projection.Perspective
+    public Vector DirectionTo(Vector point) => view.Projection == Core.Scenes.Cameras.Projection.Perspective
         ? (point - view.Camera.Position).UnitVector() : view.Camera.LocalAxes.V3;
 
     private Ray RayAt(double x, double y)

@@ -1,5 +1,7 @@
 using System.Runtime.InteropServices;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics.Bodies;
+using FractalEngine.Core.Physics.Statics;
 
 namespace FractalEngine.Core.Physics.Events;
 

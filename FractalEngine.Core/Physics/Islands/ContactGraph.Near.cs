@@ -1,5 +1,6 @@
 using System.Runtime.InteropServices;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Threading;
 
 namespace FractalEngine.Core.Physics.Islands;
 

@@ -1,4 +1,6 @@
 using System.Runtime.InteropServices;
+using FractalEngine.Core.Physics.Rows;
+using FractalEngine.Core.Threading;
 
 namespace FractalEngine.Core.Physics.Islands;
 

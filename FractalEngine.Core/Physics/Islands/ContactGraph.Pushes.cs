@@ -1,3 +1,5 @@
+using FractalEngine.Core.Physics.Bodies;
+
 namespace FractalEngine.Core.Physics.Islands;
 
 /// <content>How far kinematic objects push bodies, and these push others.</content>

@@ -1,6 +1,8 @@
 using System.Runtime.InteropServices;
 using FractalEngine.Core.Maths;
-using FractalEngine.Core.Physics.Compounds;
+using FractalEngine.Core.Physics.Bodies;
+using FractalEngine.Core.Physics.Descriptions;
+using FractalEngine.Core.Physics.Rows;
 
 namespace FractalEngine.Core.Physics.Islands;
 

@@ -1,3 +1,6 @@
+using FractalEngine.Core.Physics.Bodies;
+using FractalEngine.Core.Physics.Descriptions;
+
 namespace FractalEngine.Core.Physics.Islands;
 
 /// <content>What is copied of bodies, on all threads: searches and contacts read those of many bodies.</content>

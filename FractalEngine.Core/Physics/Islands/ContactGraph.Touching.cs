@@ -1,5 +1,9 @@
 using System.Runtime.InteropServices;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics.Bodies;
+using FractalEngine.Core.Physics.Descriptions;
+using FractalEngine.Core.Physics.Rows;
+using FractalEngine.Core.Threading;
 
 namespace FractalEngine.Core.Physics.Islands;
 

@@ -1,4 +1,5 @@
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics.Bodies;
 
 namespace FractalEngine.Core.Physics.Islands;
 

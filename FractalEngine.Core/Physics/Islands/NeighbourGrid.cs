@@ -1,5 +1,6 @@
 using System.Runtime.Intrinsics;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics.Bodies;
 
 namespace FractalEngine.Core.Physics.Islands;
 

@@ -1,10 +1,14 @@
-using FractalEngine.App.Window;
+using FractalEngine.App.Window.Drawing;
+using FractalEngine.App.Window.Simulation;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Generation;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
 using FractalEngine.Core.Scenes;
-using FractalEngine.Render.Ui;
+using FractalEngine.Core.Scenes.Cameras;
+using FractalEngine.Core.Views;
+using FractalEngine.Render.Ui.Overlays;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.App.Window;

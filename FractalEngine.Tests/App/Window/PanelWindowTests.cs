@@ -1,6 +1,6 @@
 using FractalEngine.App.Window.Actions;
 using FractalEngine.Core.Images;
-using FractalEngine.Render.Windowing;
+using FractalEngine.Render.Windowing.Keyboard;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.App.Window;

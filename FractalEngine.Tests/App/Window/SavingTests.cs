@@ -1,5 +1,5 @@
 using System.Text;
-using FractalEngine.Parsing.Scenes;
+using FractalEngine.Parsing.Sdo;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.App.Window;

@@ -1,9 +1,9 @@
-using FractalEngine.App;
+using FractalEngine.App.Jobs;
 using FractalEngine.Core.Images;
 using FractalEngine.Parsing.Assets;
-using FractalEngine.Parsing.Scenes;
-using FractalEngine.Render;
+using FractalEngine.Parsing.Sdo;
 using FractalEngine.Render.Tracing;
+using FractalEngine.Render.Views;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.App.Window;

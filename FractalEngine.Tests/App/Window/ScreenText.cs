@@ -1,5 +1,5 @@
 using FractalEngine.Core.Images;
-using FractalEngine.Render.Ui;
+using FractalEngine.Render.Ui.Overlays;
 
 namespace FractalEngine.Tests.App.Window;
 

@@ -1,8 +1,9 @@
 using System.Diagnostics;
 using System.Globalization;
-using FractalEngine.App.Window;
-using FractalEngine.Parsing.Fractals;
-using FractalEngine.Render;
+using FractalEngine.App.Window.Drawing;
+using FractalEngine.App.Window.Loading;
+using FractalEngine.Parsing.Fdo;
+using FractalEngine.Render.Views;
 using FractalEngine.Render.Windowing;
 using FractalEngine.Tests.Support;
 

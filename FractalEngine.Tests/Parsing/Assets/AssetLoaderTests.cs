@@ -1,6 +1,7 @@
 using System.IO.Compression;
-using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Scenes.Cameras;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Parsing.Text;
 using FractalEngine.Tests.Support;

@@ -1,8 +1,10 @@
 using System.Globalization;
 using System.Numerics;
-using FractalEngine.Core.Collision;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Physics;
+using FractalEngine.Core.Physics.Bodies;
+using FractalEngine.Core.SceneQueries;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Tests.Support;

@@ -1,7 +1,6 @@
 using System.Buffers.Binary;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Scenes;
-using FractalEngine.Parsing;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Parsing.Text;
 using FractalEngine.Tests.Support;

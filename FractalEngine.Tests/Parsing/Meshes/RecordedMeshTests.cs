@@ -2,9 +2,14 @@ using System.Buffers.Binary;
 using System.IO.Compression;
 using System.Text;
 using FractalEngine.Core.Geometry;
-using FractalEngine.Parsing;
+using FractalEngine.Parsing.Assets;
 using FractalEngine.Parsing.Meshes;
+using FractalEngine.Parsing.Mtl;
+using FractalEngine.Parsing.Ply;
+using FractalEngine.Parsing.Stl;
 using FractalEngine.Parsing.Text;
+using FractalEngine.Parsing.Wavefront;
+using FractalEngine.Tests.Geometry;
 using FractalEngine.Tests.Recorded;
 using FractalEngine.Tests.Support;
 

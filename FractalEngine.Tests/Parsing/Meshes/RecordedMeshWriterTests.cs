@@ -1,7 +1,10 @@
 using System.Text;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Scenes;
-using FractalEngine.Parsing.Meshes;
+using FractalEngine.Parsing.Mtl;
+using FractalEngine.Parsing.Wavefront;
+using FractalEngine.Parsing.Wavefront.Writing;
+using FractalEngine.Tests.Geometry;
 using FractalEngine.Tests.Recorded;
 using FractalEngine.Tests.Support;
 

@@ -1,4 +1,4 @@
-using FractalEngine.Core.Rays;
+using FractalEngine.Core.Geometry;
 using FractalEngine.Parsing.Points;
 using FractalEngine.Parsing.Text;
 

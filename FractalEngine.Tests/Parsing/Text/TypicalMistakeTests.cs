@@ -1,5 +1,5 @@
-using FractalEngine.Parsing.Fractals;
-using FractalEngine.Parsing.Scenes;
+using FractalEngine.Parsing.Fdo;
+using FractalEngine.Parsing.Sdo;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Parsing.Text;

@@ -1,6 +1,8 @@
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
+using FractalEngine.Core.Physics.Bodies;
 using FractalEngine.Core.Physics.Events;
+using FractalEngine.Core.Physics.Statics;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Physics.Events;

@@ -1,6 +1,6 @@
 using FractalEngine.Core.Maths;
-using FractalEngine.Core.Physics;
-using FractalEngine.Core.Physics.Compounds;
+using FractalEngine.Core.Physics.Bodies;
+using FractalEngine.Core.Physics.Descriptions;
 using FractalEngine.Core.Physics.Islands;
 using FractalEngine.Tests.Support;
 

@@ -1,6 +1,8 @@
 using FractalEngine.Core.Maths;
-using FractalEngine.Core.Physics;
+using FractalEngine.Core.Physics.Descriptions;
 using FractalEngine.Core.Physics.Islands;
+using FractalEngine.Core.Physics.Rows;
+using FractalEngine.Core.Physics.Separation;
 
 namespace FractalEngine.Tests.Physics.Islands;
 

@@ -2,10 +2,12 @@ using System.Text;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Render;
+using FractalEngine.Render.Frame;
 using FractalEngine.Render.Gl;
-using FractalEngine.Render.Passes;
+using FractalEngine.Render.Gl.State;
+using FractalEngine.Render.Lights;
 using FractalEngine.Render.Preparation;
-using FractalEngine.Render.Ui;
+using FractalEngine.Render.Ui.Overlays;
 using FractalEngine.Render.Windowing;
 
 namespace FractalEngine.Tests.Render.Gl;

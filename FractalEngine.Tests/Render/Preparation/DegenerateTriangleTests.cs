@@ -1,8 +1,9 @@
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
-using FractalEngine.Render;
+using FractalEngine.Render.Drawables;
 using FractalEngine.Render.Preparation;
+using FractalEngine.Render.Views;
 
 namespace FractalEngine.Tests.Render.Preparation;
 

@@ -1,10 +1,12 @@
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Assets;
-using FractalEngine.Render;
+using FractalEngine.Render.Drawables;
 using FractalEngine.Render.Preparation;
+using FractalEngine.Render.Views;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Render.Preparation;

@@ -1,11 +1,15 @@
 using System.Collections.Immutable;
+using FractalEngine.Core.Generation;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
-using FractalEngine.Core.Visibility;
-using FractalEngine.Render;
+using FractalEngine.Core.Scenes.Cameras;
+using FractalEngine.Core.Scenes.Lights;
+using FractalEngine.Core.Views;
+using FractalEngine.Core.Visibility.Levels;
 using FractalEngine.Render.Tracing;
-using FractalEngine.Tests.Collision;
+using FractalEngine.Render.Views;
+using FractalEngine.Tests.Colliders;
 using FractalEngine.Tests.Fractals;
 using FractalEngine.Tests.Support;
 

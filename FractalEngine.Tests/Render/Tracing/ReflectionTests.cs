@@ -1,7 +1,9 @@
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
-using FractalEngine.Render;
+using FractalEngine.Core.Scenes.Cameras;
+using FractalEngine.Core.Scenes.Lights;
+using FractalEngine.Render.Lights;
 using FractalEngine.Render.Tracing;
 
 namespace FractalEngine.Tests.Render.Tracing;

@@ -2,10 +2,12 @@ using System.Collections.Immutable;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
-using FractalEngine.Parsing.Meshes;
-using FractalEngine.Render;
+using FractalEngine.Core.Scenes.Cameras;
+using FractalEngine.Parsing.Mtl;
+using FractalEngine.Render.Lights;
 using FractalEngine.Render.Preparation;
 using FractalEngine.Render.Tracing;
+using FractalEngine.Render.Views;
 
 namespace FractalEngine.Tests.Render.Tracing;
 

@@ -1,7 +1,7 @@
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Images;
 using FractalEngine.Render;
-using FractalEngine.Render.Ui;
+using FractalEngine.Render.Ui.Overlays;
 
 namespace FractalEngine.Tests.Render.Ui;
 

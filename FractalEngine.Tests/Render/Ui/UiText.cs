@@ -1,4 +1,5 @@
 using FractalEngine.Render.Ui;
+using FractalEngine.Render.Ui.Overlays;
 
 namespace FractalEngine.Tests.Render.Ui;
 

@@ -1,5 +1,6 @@
 using FractalEngine.Render.Ui;
-using FractalEngine.Render.Windowing;
+using FractalEngine.Render.Windowing.Events;
+using FractalEngine.Render.Windowing.Keyboard;
 
 namespace FractalEngine.Tests.Render.Ui;
 

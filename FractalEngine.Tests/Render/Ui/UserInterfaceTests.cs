@@ -1,5 +1,7 @@
 using FractalEngine.Render.Ui;
-using FractalEngine.Render.Windowing;
+using FractalEngine.Render.Ui.Overlays;
+using FractalEngine.Render.Windowing.Events;
+using FractalEngine.Render.Windowing.Keyboard;
 
 namespace FractalEngine.Tests.Render.Ui;
 

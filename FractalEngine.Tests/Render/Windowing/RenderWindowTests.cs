@@ -3,6 +3,7 @@ using System.Runtime.InteropServices;
 using System.Text;
 using FractalEngine.Render;
 using FractalEngine.Render.Windowing;
+using FractalEngine.Render.Windowing.Events;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Render.Windowing;

@@ -1,7 +1,7 @@
 using FractalEngine.App.Window.Tools;
 using FractalEngine.Core.Maths;
-using FractalEngine.Core.Scenes;
-using FractalEngine.Render;
+using FractalEngine.Core.Scenes.Cameras;
+using FractalEngine.Render.Views;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.App.Window.Tools;

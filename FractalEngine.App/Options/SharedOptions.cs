@@ -1,0 +1,151 @@
+using System.CommandLine;
+using System.Globalization;
+using FractalEngine.App.Shell;
+using FractalEngine.Core.Colliders;
+using FractalEngine.Core.Fractals.Descriptions;
+using FractalEngine.Core.Scenes.Cameras;
+using FractalEngine.Parsing.Assets;
+using FractalEngine.Parsing.Assets.References;
+
+namespace FractalEngine.App.Options;
+
+/// <summary>Arguments and options that several commands have in common.</summary>
+internal sealed class SharedOptions
+{
+    /// <summary>Largest width and height of an image that the command line takes, in pixels; drivers allow less.</summary>
+    public const int MaxImageSide = 1_000_000;
+
+    /// <summary>Largest time of the physics before an image, in seconds.</summary>
+    public const double MaxTime = 3600;
+
+    /// <summary>Width and height of an image or window unless <c>--resolution</c> is given, in pixels.</summary>
+    public static (int Width, int Height) DefaultResolution => (1280, 720);
+
+    /// <summary>The input file of a command.</summary>
+    public Argument<string> File { get; } = FileArgument(
+        "A mesh (.obj, .obj.gz, .ply, .stl), a fractal (.fdo) or a scene (.sdo); '-' reads a scene or a fractal from the standard input.");
+
+    /// <summary>The option that lifts the restriction of <see cref="AssetFolder"/>.</summary>
+    public Option<bool> AllowOutside { get; } = new("--allow-outside")
+    {
+        Description = "Allow files to refer to files outside their folder.",
+    };
+
+    /// <summary>The option that selects how transformations are composed.</summary>
+    public Option<Composition?> Composition { get; } = WordOption.Single(
+        "--composition", "How to compose the transformations of fractals, overriding their files.",
+        ("affine", Core.Fractals.Descriptions.Composition.Affine), ("componentwise", Core.Fractals.Descriptions.Composition.Componentwise));
+
+    /// <summary>Adds the input file and the options of loading to a command.</summary>
+    /// <param name="command">The command that loads a file.</param>
+    /// <param name="hasComposition">Whether composition makes a difference to the command.</param>
+    public void AddTo(Command command, bool hasComposition = true)
+    {
+        command.Add(File);
+        command.Add(AllowOutside);
+        if (hasComposition)
+        {
+            command.Add(Composition);
+        }
+    }
+
+    /// <summary>Adds options to a command, in the order of the help text.</summary>
+    public static void AddAll(Command command, params ReadOnlySpan<Option> options)
+    {
+        foreach (var option in options)
+        {
+            command.Add(option);
+        }
+    }
+
+    /// <summary>Returns the load options that the command line asks for.</summary>
+    public LoadOptions LoadOptions(ParseResult result) => new()
+    {
+        AllowOutsideFiles = result.GetValue(AllowOutside),
+        Composition = result.CommandResult.Command.Options.Contains(Composition) ? result.GetValue(Composition) : null,
+    };
+
+    /// <summary>Creates an argument for an input file. Names that begin with a dash need the prefix <c>./</c>.</summary>
+    public static Argument<string> FileArgument(string description) => new("FILE")
+    {
+        Description = description,
+        Validators =
+        {
+            result =>
+            {
+                if (result.Tokens is [{ Value: var path }] && path != StandardInput.Name && (path.Length == 0 || path[0] == '-'))
+                {
+                    result.AddError(path.Length == 0 ? "the name of the file is empty" : $"unknown option '{path}'");
+                }
+            },
+        },
+    };
+
+    /// <summary>Creates an option for a text, which the command parses.</summary>
+    /// <param name="name">The name with its dashes.</param>
+    /// <param name="helpName">The placeholder of the value in the help text.</param>
+    /// <param name="description">The sentence in the help text.</param>
+    public static Option<string?> TextOption(string name, string helpName, string description) =>
+        new(name) { Description = description, HelpName = helpName };
+
+    /// <summary>Creates the required option for an output file.</summary>
+    /// <param name="extension">The extension that the file name must have, with its dot.</param>
+    /// <param name="description">The sentence in the help text.</param>
+    /// <param name="isText">Whether <c>-</c> stands for the standard output.</param>
+    public static Option<string> OutputOption(string extension, string description, bool isText = true) => new("--output", "-o")
+    {
+        Description = isText ? $"{description} '-' is the standard output." : description,
+        HelpName = $"FILE{extension}",
+        Required = true,
+        Validators =
+        {
+            result =>
+            {
+                if (result.Tokens is [{ Value: var path }] && !path.EndsWith(extension, StringComparison.OrdinalIgnoreCase)
+                    && !(isText && path == StandardInput.Name))
+                {
+                    result.AddError($"--output '{path}' must end in {extension}");
+                }
+            },
+        },
+    };
+
+    /// <summary>Creates the option that selects the collider of closest-point queries.</summary>
+    public static Option<ColliderKind?> ColliderOption(string description) => WordOption.Single(
+        "--collider", description, [.. ColliderNames.All.Select(static known => (known.Name, known.Kind))]);
+
+    /// <summary>Creates the option that selects the projection of a frame.</summary>
+    public static Option<Projection?> ProjectionOption() => WordOption.Single(
+        "--projection", "Projection, overriding the scene's.",
+        ("perspective", Projection.Perspective), ("orthographic", Projection.Orthographic));
+
+    /// <summary>Creates the option for what is behind the scene.</summary>
+    public static Option<string?> BackgroundOption() => TextOption(
+        "--background", "transparent|\"(r, g, b)\"",
+        "Colour behind the scene, sRGB from 0 to 1, overriding the scene's; or transparent.");
+
+    /// <summary>Creates the option for the physics time at which a scene is shown, in seconds.</summary>
+    public static Option<double?> TimeOption() => NumberOption.Decimal(
+        "--time", "SECONDS", 0, MaxTime, "Simulate the physics for this time first (default: 0).");
+
+    /// <summary>Creates the option for the size of an image or window in pixels.</summary>
+    public static Option<(int Width, int Height)?> ResolutionOption() => new("--resolution")
+    {
+        Description = $"Width and height in pixels (default: {DefaultResolution.Width}x{DefaultResolution.Height}).",
+        HelpName = "WIDTHxHEIGHT",
+        CustomParser = result =>
+        {
+            if (result.Tokens is [{ Value: var token }] && token.Split('x') is [var widthText, var heightText]
+                && TryParseSide(widthText, out var width) && TryParseSide(heightText, out var height))
+            {
+                return (width, height);
+            }
+
+            result.AddError("--resolution: expected a size such as 1280x720");
+            return null;
+        },
+    };
+
+    private static bool TryParseSide(string text, out int side) =>
+        int.TryParse(text, NumberStyles.None, CultureInfo.InvariantCulture, out side) && side is > 0 and <= MaxImageSide;
+}

@@ -1,0 +1,41 @@
+using System.CommandLine;
+using FractalEngine.App.Jobs;
+using FractalEngine.App.Shell;
+
+namespace FractalEngine.App.Options;
+
+/// <summary>The options of images that are traced instead of drawn.</summary>
+/// <param name="canKeepPartial">Whether the command can write an image that is interrupted.</param>
+internal sealed class TraceOptions(bool canKeepPartial)
+{
+    /// <summary>Largest number of samples of each pixel.</summary>
+    public const int MaxSamples = 1_000_000;
+
+    private readonly Option<int?> _samples = NumberOption.Integer(
+        "--trace", "SAMPLES", 1, MaxSamples,
+        "Follow light through the scene instead of drawing it, with so many samples of each pixel: 64 show it, 1024 are smooth.");
+
+    private readonly Option<int?> _seed = NumberOption.Integer("--seed", "N", 0, int.MaxValue, "Seed of a traced image (default: 0).");
+
+    private readonly Option<bool> _keepsPartial = new("--keep-partial")
+    {
+        Description = "Write a traced image that is interrupted as far as it is.",
+    };
+
+    /// <summary>Adds the options to a command.</summary>
+    public void AddTo(Command command) =>
+        SharedOptions.AddAll(command, canKeepPartial ? [_samples, _seed, _keepsPartial] : [_samples, _seed]);
+
+    /// <summary>How the image is traced; null where it is drawn.</summary>
+    /// <exception cref="UsageException">An option has a meaning for traced images only.</exception>
+    public TracedImage? Choice(ParseResult result)
+    {
+        var samples = result.GetValue(_samples);
+        var seed = result.GetValue(_seed);
+        var keepsPartial = canKeepPartial && result.GetValue(_keepsPartial);
+        return samples is { } count ? new(count, seed ?? 0, keepsPartial)
+            : seed is not null || keepsPartial
+                ? throw new UsageException(canKeepPartial ? "--seed and --keep-partial need --trace" : "--seed needs --trace")
+            : null;
+    }
+}

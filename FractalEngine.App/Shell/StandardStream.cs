@@ -1,0 +1,29 @@
+namespace FractalEngine.App.Shell;
+
+/// <summary>A stream that may be closed or full, with its own way to report errors.</summary>
+/// <param name="open">Opens the stream when it is first written.</param>
+/// <param name="report">Receives each error of opening and writing.</param>
+internal sealed class StandardStream(Func<Stream> open, Action<Exception> report) : WriteOnlyStream
+{
+    private Stream? _target;
+
+    /// <inheritdoc/>
+    public override void Flush()
+    {
+    }
+
+    /// <inheritdoc/>
+    public override void Write(ReadOnlySpan<byte> buffer)
+    {
+        try
+        {
+            _target ??= open();
+            _target.Write(buffer);
+            _target.Flush();
+        }
+        catch (Exception exception) when (exception is IOException or UnauthorizedAccessException or ObjectDisposedException)
+        {
+            report(exception);
+        }
+    }
+}

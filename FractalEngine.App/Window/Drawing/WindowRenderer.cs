@@ -1,0 +1,135 @@
+using FractalEngine.App.Window.State;
+using FractalEngine.Core.Images;
+using FractalEngine.Core.Scenes.Cameras;
+using FractalEngine.Parsing.Text;
+using FractalEngine.Render;
+using FractalEngine.Render.Ui;
+using FractalEngine.Render.Ui.Overlays;
+using FractalEngine.Render.Views;
+
+namespace FractalEngine.App.Window.Drawing;
+
+/// <summary>
+/// Draws the frames of a window. While the camera moves, frames are coarser and one view behind, so that the instances of the next frame
+/// are culled while one is drawn. When it stops, a full frame follows. The first frame of a scene is a preview: one sample a pixel, coarse
+/// detail and no shadows, since full frames of large scenes take seconds without a GPU.
+/// </summary>
+/// <param name="frame">The frame renderer of the window.</param>
+internal sealed class WindowRenderer(FrameRenderer frame)
+{
+    private readonly AdaptiveQuality _adaptiveQuality = new();
+    private long _drawnCount;
+    private long _presentedAgainCount;
+    private View? _nextView;
+    private View? _shownView;
+
+    /// <summary>The camera's view at the time of the last frame; null before the first frame of a document.</summary>
+    public View? LatestView { get; private set; }
+
+    /// <summary>True when the last frame was a preview or drawn for a moving camera, so that a full one must follow.</summary>
+    public bool IsReducedQuality { get; private set; }
+
+    /// <summary>Counts a frame that is presented again, below a new overlay.</summary>
+    public void CountPresentedAgain() => _presentedAgainCount++;
+
+    /// <summary>Counts the frames so far.</summary>
+    /// <param name="frameCount">Number of frames that a loop of 60 frames a second would have drawn.</param>
+    public FrameCounts CountFrames(long frameCount) =>
+        new(_drawnCount, _presentedAgainCount, Math.Max(0, frameCount - _drawnCount - _presentedAgainCount));
+
+    /// <summary>Discards the views of a document that is no longer shown.</summary>
+    public void Reset()
+    {
+        _nextView = null;
+        _shownView = null;
+        LatestView = null;
+    }
+
+    /// <summary>Draws one frame of the document.</summary>
+    /// <param name="document">The document to draw; null for the background alone.</param>
+    /// <param name="settings">The render settings for a camera at rest.</param>
+    /// <param name="width">Width of the frame in pixels.</param>
+    /// <param name="height">Height of the frame in pixels.</param>
+    /// <returns>The settings that were used.</returns>
+    public RenderSettings Draw(Document? document, RenderSettings settings, int width, int height)
+    {
+        _drawnCount++;
+        IsReducedQuality = document?.IsMoving == true;
+        if (document is null)
+        {
+            frame.Draw(null, new(Camera.Default, Projection.Perspective), width, height, settings);
+            return settings;
+        }
+
+        var view = document.UpdateView((double)width / height);
+        LatestView = view;
+        if (_shownView is null && document is { IsReload: false, File.Kind: FileKind.Scene })
+        {
+            IsReducedQuality = true;
+            _shownView = view;
+            _nextView = view;
+            var preview = _adaptiveQuality.Adapt(settings) with { Shadows = false };
+            frame.Draw(document.Renderer, view, width, height, preview);
+            return preview;
+        }
+
+        if (!IsReducedQuality)
+        {
+            _shownView = view;
+            _nextView = null;
+            frame.Draw(document.Renderer, view, width, height, settings);
+            return settings;
+        }
+
+        var adapted = _adaptiveQuality.Adapt(settings);
+        if (document.IsTrailEnabled)
+        {
+            // The paper's zoom moves the fractal with the camera, so an older view would not fit it.
+            _shownView = view;
+            _nextView = null;
+        }
+        else
+        {
+            _shownView = _nextView ?? view;
+            _nextView = view;
+        }
+
+        frame.Draw(document.Renderer, _shownView, width, height, adapted, _nextView);
+        return adapted;
+    }
+
+    /// <summary>Reports the time of the last frame, so that the next ones keep up with a moving camera.</summary>
+    /// <param name="frameTime">The time that drawing and presenting took.</param>
+    public void RecordFrameTime(TimeSpan frameTime)
+    {
+        if (IsReducedQuality)
+        {
+            _adaptiveQuality.RecordFrameTime(frameTime);
+        }
+    }
+
+    /// <summary>Captures the last frame as it is presented.</summary>
+    /// <param name="layer">Traced image over the frame; null for none.</param>
+    /// <param name="ui">Menus and panels as they were built last.</param>
+    /// <param name="overlay">Texts over all of these.</param>
+    public PixelImage CaptureWindow(ImageLayer? layer, UserInterface ui, IReadOnlyList<OverlayPanel> overlay) =>
+        frame.Capture(layer, ui, overlay);
+
+    /// <summary>
+    /// Captures the scene without overlay in full quality, in the middle of the image: the view on the screen while the camera moves, else
+    /// the present one.
+    /// </summary>
+    /// <remarks>Overwrites the frame, so the window must be drawn again.</remarks>
+    /// <param name="document">The document to capture.</param>
+    /// <param name="settings">The render settings for a camera at rest.</param>
+    /// <param name="width">Width of the image in pixels.</param>
+    /// <param name="height">Height of the image in pixels.</param>
+    public PixelImage Capture(Document document, RenderSettings settings, int width, int height)
+    {
+        var view = document.IsMoving && _shownView is { } shownView
+            ? shownView with { HorizontalShift = 0 }
+            : document.UpdateView((double)width / height, isBesidePanels: false);
+        frame.Draw(document.Renderer, view, width, height, settings);
+        return frame.Capture();
+    }
+}

@@ -1,6 +1,0 @@
-namespace FractalEngine.App.Window.Editing;
-
-/// <summary>What an undo returns to: the view, and the texts of the files.</summary>
-/// <param name="Camera">The state of the flying camera.</param>
-/// <param name="Edits">The files that were edited and not saved.</param>
-internal sealed record WindowState(CameraState Camera, FileEdits Edits);

@@ -1,0 +1,168 @@
+using System.Collections.Immutable;
+using FractalEngine.Render.Ui.Overlays;
+using FractalEngine.Render.Windowing.Events;
+using FractalEngine.Render.Windowing.Keyboard;
+
+namespace FractalEngine.App.Window.Input;
+
+/// <summary>
+/// A line of text that the user edits, with suggestions. Tab completes, Up and Down pick a suggestion, Enter accepts, Escape cancels.
+/// </summary>
+/// <param name="title">What is asked for.</param>
+/// <param name="text">The text to begin with.</param>
+/// <param name="accept">Takes the text. Returns why it is refused, or null to close the question.</param>
+/// <param name="suggest">Returns the texts that a beginning could become; null for none.</param>
+internal sealed class TextPrompt(
+    string title, string text, Func<string, string?> accept, Func<string, ImmutableArray<string>>? suggest = null) : Prompt
+{
+    private const int MaxShownSuggestions = 8;
+
+    private ImmutableArray<string>? _suggestions;
+    private int? _picked;
+    private int _cursor = text.Length;
+    private string? _refusal;
+
+    /// <summary>The text as it is edited so far.</summary>
+    public string Text { get; private set; } = text;
+
+    /// <inheritdoc/>
+    public override OverlayPanel Panel
+    {
+        get
+        {
+            var first = Math.Clamp((_picked ?? 0) - (MaxShownSuggestions / 2), 0, Math.Max(0, Suggestions.Length - MaxShownSuggestions));
+            var shown = Suggestions.Select((suggestion, index) => new OverlayLine(
+                (index == _picked ? "> " : "  ") + suggestion, null, index == _picked ? OverlayTone.Accent : OverlayTone.Dim)
+            {
+                Answer = index,
+            });
+            var hiddenCount = Suggestions.Length - MaxShownSuggestions;
+            return new(OverlayAnchor.Centre,
+            [
+                new OverlayLine($"{Text[.._cursor]}|{Text[_cursor..]}"),
+                .. shown.Skip(first).Take(MaxShownSuggestions),
+                .. hiddenCount > 0 ? [new OverlayLine($"  … {hiddenCount} more", null, OverlayTone.Dim)] : (OverlayLine[])[],
+                .. _refusal is { } refusal ? [new OverlayLine(refusal, null, OverlayTone.Warning)] : (OverlayLine[])[],
+                new OverlayLine($"{(suggest is null ? "" : "Tab completes, ")}Enter accepts, Esc cancels", null, OverlayTone.Dim),
+            ])
+            {
+                Title = title,
+                IsQuestion = true,
+            };
+        }
+    }
+
+    private ImmutableArray<string> Suggestions => _suggestions ??= suggest?.Invoke(Text) ?? [];
+
+    /// <inheritdoc/>
+    public override void HandleText(string text) => Edit(Text.Insert(_cursor, text), _cursor + text.Length);
+
+    /// <inheritdoc/>
+    public override void HandleKey(KeyPressed pressed)
+    {
+        switch (pressed.Key)
+        {
+            case Key.Escape:
+                Close();
+                break;
+            case Key.Enter or Key.KeypadEnter:
+                Accept();
+                break;
+            case Key.Tab:
+                Complete();
+                break;
+            case Key.Up:
+                Pick(-1);
+                break;
+            case Key.Down:
+                Pick(1);
+                break;
+            case Key.Backspace when _cursor > 0:
+                var start = Previous(_cursor);
+                Edit(Text.Remove(start, _cursor - start), start);
+                break;
+            case Key.Delete when _cursor < Text.Length:
+                Edit(Text.Remove(_cursor, Next(_cursor) - _cursor), _cursor);
+                break;
+            case Key.U when pressed.Modifiers.HasFlag(KeyModifiers.Control):
+                Edit("", 0);
+                break;
+            case Key.Left when _cursor > 0:
+                _cursor = Previous(_cursor);
+                break;
+            case Key.Right when _cursor < Text.Length:
+                _cursor = Next(_cursor);
+                break;
+            case Key.Home:
+                _cursor = 0;
+                break;
+            case Key.End:
+                _cursor = Text.Length;
+                break;
+        }
+    }
+
+    /// <inheritdoc/>
+    public override void HandleAnswer(int answer)
+    {
+        _picked = answer;
+        Accept();
+    }
+
+    private void Accept()
+    {
+        if (_picked is { } picked)
+        {
+            Edit(Suggestions[picked], Suggestions[picked].Length);
+        }
+
+        _refusal = accept(Text);
+        if (_refusal is null)
+        {
+            Close();
+        }
+    }
+
+    /// <summary>Takes the picked suggestion, or extends the text as far as all suggestions agree.</summary>
+    private void Complete()
+    {
+        if (Suggestions.Length == 0)
+        {
+            return;
+        }
+
+        var completed = _picked is { } picked ? Suggestions[picked] : Suggestions.Skip(1).Aggregate(Suggestions[0], CommonBeginning);
+        if (completed.Length > Text.Length || _picked is not null)
+        {
+            Edit(completed, completed.Length);
+        }
+    }
+
+    private void Pick(int step)
+    {
+        if (Suggestions.Length > 0)
+        {
+            _picked = _picked is { } picked ? Math.Clamp(picked + step, 0, Suggestions.Length - 1) : step > 0 ? 0 : Suggestions.Length - 1;
+        }
+    }
+
+    private void Edit(string text, int cursor)
+    {
+        Text = text;
+        _cursor = cursor;
+        _suggestions = null;
+        _picked = null;
+        _refusal = null;
+    }
+
+    // A character beyond 16 bits is two of them, which are never separated.
+    private int Previous(int index) => index - (index > 1 && char.IsSurrogatePair(Text[index - 2], Text[index - 1]) ? 2 : 1);
+
+    private int Next(int index) => index + (index + 1 < Text.Length && char.IsSurrogatePair(Text[index], Text[index + 1]) ? 2 : 1);
+
+    private static string CommonBeginning(string text1, string text2)
+    {
+        var length = text1.Zip(text2).TakeWhile(static pair => pair.First == pair.Second).Count();
+        return text1[..length];
+    }
+}

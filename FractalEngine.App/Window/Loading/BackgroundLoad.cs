@@ -1,0 +1,90 @@
+using System.Collections.Immutable;
+using FractalEngine.App.Shell;
+using FractalEngine.App.Shell.Reports;
+using FractalEngine.App.Window.State;
+using FractalEngine.Core;
+using FractalEngine.Core.Files;
+using FractalEngine.Parsing.Assets;
+using FractalEngine.Render.Preparation;
+using FractalEngine.Render.Views;
+
+namespace FractalEngine.App.Window.Loading;
+
+/// <summary>Loads a file and prepares its scene on another thread.</summary>
+internal sealed class BackgroundLoad
+{
+    private readonly ThrottledProgress _progress = new();
+    private readonly AssetCache _cache;
+    private readonly Task<(LoadedFile File, ScenePreparation Preparation)> _task;
+
+    /// <summary>Starts to load a file.</summary>
+    /// <param name="path">Path of the mesh, fractal or scene.</param>
+    /// <param name="options">What overrides the files.</param>
+    /// <param name="settings">The render settings to prepare the scene for.</param>
+    /// <param name="aspect">Width divided by height of the window. Only models visible at first are prepared.</param>
+    /// <param name="cache">What was read before. No other load may use it meanwhile.</param>
+    /// <param name="previous">The document whose models are used further where their files are unchanged; null for none.</param>
+    /// <param name="completed">Called on the other thread when the load has succeeded or failed.</param>
+    public BackgroundLoad(
+        string path, LoadOptions options, RenderSettings settings, double aspect, AssetCache cache, Document? previous, Action completed)
+    {
+        Path = path;
+        Previous = previous;
+        _cache = cache;
+        // The camera may be elsewhere by the end of the load. What it sees then is prepared at first sight.
+        var view = previous?.LatestView;
+        _task = Task.Run(() =>
+        {
+            var file = AssetLoader.Load(path, options, _progress, cache);
+            var models = file.Scene.Models.ToHashSet();
+            var preparation = new ScenePreparation(file.Scene, settings, previous?.FirstSightLoader.Stop(models.Contains));
+            if (file.Scene.Objects.Length == 1 || !settings.LazyLoading)
+            {
+                // A single object is prepared even if it is out of view, since there is nothing else to show.
+                preparation.PrepareAll(_progress, CancellationToken.None);
+            }
+            else
+            {
+                preparation.PrepareVisible(view ?? View.Of(file.Scene, aspect), aspect, _progress);
+            }
+
+            return (file, preparation);
+        });
+        _task.ContinueWith(_ => completed(), TaskScheduler.Default);
+    }
+
+    /// <summary>The mesh, fractal or scene that is loaded, by the path under which it was opened.</summary>
+    public string Path { get; }
+
+    /// <summary>The document that the loaded one continues; null for none.</summary>
+    public Document? Previous { get; }
+
+    /// <summary>True when the load has succeeded or failed.</summary>
+    public bool IsCompleted => _task.IsCompleted;
+
+    /// <summary>The file being loaded, and the completed fraction from 0 to 1.</summary>
+    public (string Text, double Fraction) Progress => _progress.Latest;
+
+    /// <summary>All files that the load looked at, as they were before, once it is completed.</summary>
+    public ImmutableDictionary<string, FileStamp> Files => _cache.Files;
+
+    /// <summary>Waits for the load and returns its result; null if the file can't be loaded.</summary>
+    /// <param name="exitCode">The exit code of a program that only loads this file.</param>
+    /// <param name="error">The reason why the file can't be loaded; null if it can.</param>
+    public (LoadedFile File, ScenePreparation Preparation)? TakeResult(out int exitCode, out string? error)
+    {
+        exitCode = ExitCode.Done;
+        error = null;
+        try
+        {
+            return _task.GetAwaiter().GetResult();
+        }
+        catch (Exception exception) when (exception is FractalEngineException or OutOfMemoryException)
+        {
+            var failure = Failure.Of(exception);
+            exitCode = failure.ExitCode;
+            error = failure.Text;
+            return null;
+        }
+    }
+}

@@ -1,0 +1,233 @@
+using System.Diagnostics.CodeAnalysis;
+using FractalEngine.Core;
+using FractalEngine.Core.Colliders;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Scenes.Cameras;
+
+namespace FractalEngine.App.Window.Simulation;
+
+/// <summary>Adds spheres and players to a world at the camera, small enough for the free space there.</summary>
+internal static class BodySpawner
+{
+    // Fractions of the scene's size.
+    private const double SphereRadiusFraction = 0.015;
+    private const double PlayerHeightFraction = 0.05;
+
+    // Fraction of the player's height.
+    private const double PlayerRadiusFraction = 0.2;
+
+    // Fraction of the distance from the camera to the closest surface, so that a new body overlaps nothing.
+    private const double FreeDistanceFraction = 0.3;
+
+    // Radii of a dropped sphere that are free around it.
+    private const double FreeRadii = 1.5;
+
+    // Fraction of the scene's size by which rounding may miss a wanted distance.
+    private const double Rounding = 1e-9;
+
+    private const int MaxSearchSteps = 256;
+
+    private const double SphereRestitution = 0.6;
+    private const double SphereFriction = 0.3;
+
+    /// <summary>
+    /// Drops a sphere where the camera looks: before the surface in the middle of the view, or in the air beside the scene.
+    /// </summary>
+    /// <param name="world">The world that the sphere is added to.</param>
+    /// <param name="sceneSize">The size of the scene in scene units.</param>
+    /// <param name="camera">The present camera.</param>
+    /// <returns>A message for the user.</returns>
+    public static string DropSphere(PhysicsWorld world, double sceneSize, Camera camera)
+    {
+        if (!TryFindFreeDistance(world, camera.Position, out var freeDistance, out var problem))
+        {
+            return problem;
+        }
+
+        var wantedRadius = SphereRadiusFraction * sceneSize;
+        var distance = FindVisibleDistance(world, camera, FreeRadii * wantedRadius, sceneSize);
+        var radius = wantedRadius;
+        if (distance < 2 * wantedRadius)
+        {
+            // The camera is too close to a surface for a ball of this size.
+            radius = Math.Min(wantedRadius, FreeDistanceFraction * freeDistance);
+            distance = 2 * radius;
+        }
+
+        if (!(radius > 0))
+        {
+            return "there is no room for a ball";
+        }
+
+        world.Add(new(camera.Position + (distance * camera.LocalAxes.V3), radius)
+        {
+            Restitution = SphereRestitution,
+            Friction = SphereFriction,
+        });
+        return "dropped a ball";
+    }
+
+    /// <summary>Throws a sphere from the camera straight ahead, fast enough to cross half of the scene in a second.</summary>
+    /// <inheritdoc cref="DropSphere"/>
+    public static string ThrowSphere(PhysicsWorld world, double sceneSize, Camera camera)
+    {
+        if (!TryFindFreeDistance(world, camera.Position, out var freeDistance, out var problem))
+        {
+            return problem;
+        }
+
+        var radius = Math.Min(SphereRadiusFraction * sceneSize, FreeDistanceFraction * freeDistance);
+        if (!(radius > 0))
+        {
+            return "there is no room for a ball";
+        }
+
+        world.Add(new(camera.Position + (2 * radius * camera.LocalAxes.V3), radius)
+        {
+            Velocity = 0.5 * sceneSize * camera.LocalAxes.V3,
+            Restitution = SphereRestitution,
+            Friction = SphereFriction,
+        });
+        return "threw a ball";
+    }
+
+    /// <summary>Tells whether a falling player meets something.</summary>
+    /// <param name="world">The world with its player.</param>
+    public static bool HasGround(PhysicsWorld world)
+    {
+        var player = world.Character!;
+        var direction = -player.Up;
+        var position = player.Position;
+        var kind = world.ColliderOverride ?? ColliderKind.Exact;
+        for (var i = 0; i < MaxSearchSteps; i++)
+        {
+            if (!world.TryFindClosest(position, kind, out var closest))
+            {
+                return false;
+            }
+
+            // Nothing is closer than this, so that nothing is passed by.
+            var step = Math.Max(closest.Distance, 0.1 * player.Description.Radius);
+            if (closest.Distance <= player.Description.Radius)
+            {
+                return true;
+            }
+
+            if (Vector.Dot(closest.Point - position, direction) < 0 && IsBeyondAll(world, position, direction))
+            {
+                return false;
+            }
+
+            position += step * direction;
+        }
+
+        return true;
+    }
+
+    /// <summary>Activates the player: that of the scene, or else a new one at the camera.</summary>
+    /// <param name="world">The world of the scene.</param>
+    /// <param name="scene">The scene that may declare a player.</param>
+    /// <param name="sceneSize">The size of the scene in scene units.</param>
+    /// <param name="camera">The present camera.</param>
+    /// <param name="problem">The reason why no player can walk; null on success.</param>
+    /// <returns>True on success.</returns>
+    public static bool TryActivatePlayer(
+        PhysicsWorld world, Scene scene, double sceneSize, Camera camera, [NotNullWhen(false)] out string? problem)
+    {
+        if (!TryFindFreeDistance(world, camera.Position, out var freeDistance, out problem))
+        {
+            return false;
+        }
+
+        if (scene.Player is null)
+        {
+            var height = Math.Min(PlayerHeightFraction * sceneSize, FreeDistanceFraction * freeDistance);
+            if (!(height > 0))
+            {
+                problem = "there is no room for a player";
+                return false;
+            }
+
+            world.AddCharacter(new(camera.Position, PlayerRadiusFraction * height, height));
+        }
+
+        world.Character!.IsActive = true;
+        return true;
+    }
+
+    /// <summary>Finds how far the line of sight has some room around it, before it meets a surface or passes everything.</summary>
+    /// <returns>A distance from the camera in scene units; 0 where there is no room.</returns>
+    private static double FindVisibleDistance(PhysicsWorld world, Camera camera, double room, double sceneSize)
+    {
+        var direction = camera.LocalAxes.V3;
+        var kind = world.ColliderOverride ?? ColliderKind.Exact;
+        var closestDistance = double.PositiveInfinity;
+        var found = 0.0;
+        var travelled = 0.0;
+        for (var i = 0; i < MaxSearchSteps; i++)
+        {
+            var position = camera.Position + (travelled * direction);
+            if (!world.TryFindClosest(position, kind, out var closest))
+            {
+                return sceneSize;
+            }
+
+            // A step straight at a surface ends where the room does.
+            if (closest.Distance < room - (Rounding * sceneSize))
+            {
+                return found;
+            }
+
+            // Where the line of sight passes everything, the ball falls at the place closest to it.
+            if (closest.Distance < closestDistance)
+            {
+                closestDistance = closest.Distance;
+                found = travelled;
+            }
+            else if (IsBeyondAll(world, position, direction))
+            {
+                return found;
+            }
+
+            // The surface may be as near as this, so that the room ends here at the earliest.
+            travelled += Math.Max(closest.Distance - room, 0.1 * room);
+        }
+
+        return found;
+    }
+
+    /// <summary>Tells whether all static objects lie behind a position.</summary>
+    private static bool IsBeyondAll(PhysicsWorld world, Vector position, Vector direction) =>
+        world.StaticObjects.All(placed =>
+        {
+            var box = placed.Bounds;
+            var farthest = new Vector(
+                direction.X > 0 ? box.Maximum.X : box.Minimum.X, direction.Y > 0 ? box.Maximum.Y : box.Minimum.Y,
+                direction.Z > 0 ? box.Maximum.Z : box.Minimum.Z);
+            return box.IsEmpty || Vector.Dot(farthest - position, direction) < 0;
+        });
+
+    /// <summary>Computes the distance from a position to the closest surface. The first call builds the colliders.</summary>
+    private static bool TryFindFreeDistance(
+        PhysicsWorld world, Vector position, out double distance, [NotNullWhen(false)] out string? problem)
+    {
+        distance = double.PositiveInfinity;
+        problem = null;
+        try
+        {
+            if (world.TryFindClosest(position, world.ColliderOverride ?? ColliderKind.Exact, out var closest))
+            {
+                distance = closest.Distance;
+            }
+
+            return true;
+        }
+        catch (FractalEngineException exception)
+        {
+            problem = $"error: {exception.Message}";
+            return false;
+        }
+    }
+}

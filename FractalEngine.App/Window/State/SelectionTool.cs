@@ -1,0 +1,194 @@
+using FractalEngine.App.Window.Tools;
+using FractalEngine.Core;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Parsing.Text;
+using FractalEngine.Render.Views;
+using FractalEngine.Render.Windowing.Events;
+using FractalEngine.Render.Windowing.Keyboard;
+
+namespace FractalEngine.App.Window.State;
+
+/// <summary>Selects, measures and focuses on what is clicked in the frame of a document.</summary>
+/// <param name="document">The document shown.</param>
+internal sealed class SelectionTool(Document document)
+{
+    // A drag is longer than this, pixels.
+    private const double MaxClickDistance = 4;
+
+    private static readonly TimeSpan DoubleClickTime = TimeSpan.FromSeconds(0.4);
+
+    private readonly Picker _picker = new();
+    private (double X, double Y)? _press;
+    private (double X, double Y, TimeSpan Time)? _lastClick;
+
+    /// <summary>What is selected; null for nothing.</summary>
+    public Selection? Selected { get; set; }
+
+    /// <summary>Measures distances between clicks.</summary>
+    public MeasureTool Measure { get; private set; } = new();
+
+    /// <summary>The bounding boxes that are shown.</summary>
+    public BoxesOfLevel Boxes { get; private set; } = new();
+
+    /// <summary>The normals that are shown.</summary>
+    public NormalLines Normals { get; private set; } = new();
+
+    /// <summary>The handles of the selected object.</summary>
+    public HandleKind Handles { get; private set; }
+
+    /// <summary>Distance of the handles from the middle of the object, as a part of the frame's height.</summary>
+    public double HandleReach { get; set; } = 0.1;
+
+    /// <summary>Shows handles at the selected object, or none where these are shown already.</summary>
+    /// <returns>A message for the user.</returns>
+    public string ToggleHandles(HandleKind kind)
+    {
+        Handles = Handles == kind ? HandleKind.None : kind;
+        return Handles == HandleKind.None ? "no handles"
+            : document.File.Kind != FileKind.Scene ? "save this as a scene first: then its objects can be moved"
+            : Selected is null ? "click an object: its handles appear"
+            : "drag a handle; Ctrl snaps, and the panel of the selection takes numbers";
+    }
+
+    /// <summary>Takes over what was selected and measured in the same scene before it was loaded again.</summary>
+    public void ContinueFrom(SelectionTool other)
+    {
+        Measure = other.Measure;
+        Boxes = other.Boxes;
+        Normals = other.Normals;
+        Handles = other.Handles;
+        HandleReach = other.HandleReach;
+        var objects = document.File.Scene.Objects;
+        if (other.Selected is { } selected && selected.ObjectIndex < objects.Length)
+        {
+            Selected = selected.ContinueIn(objects[selected.ObjectIndex]);
+        }
+    }
+
+    /// <summary>Moves what is selected with its object.</summary>
+    /// <param name="scene">The scene with its bodies and moving objects where they are now.</param>
+    public void Follow(LoadedScene scene)
+    {
+        if (Selected is { Viewpoint: null } selected && selected.ObjectIndex < scene.Objects.Length
+            && scene.Objects[selected.ObjectIndex] is var placed && ReferenceEquals(placed.Model, selected.Object.Model)
+            && placed.ObjectToWorld != selected.Object.ObjectToWorld)
+        {
+            Selected = selected.ContinueIn(placed);
+        }
+    }
+
+    /// <summary>Processes an event: a click selects, and a double click makes the point the centre of the orbit.</summary>
+    /// <param name="windowEvent">Any event of the window.</param>
+    /// <param name="size">Size of the frame in pixels.</param>
+    /// <param name="now">The present time.</param>
+    /// <returns>A message for the user; null for events without an effect.</returns>
+    public string? Handle(WindowEvent windowEvent, (int Width, int Height) size, TimeSpan now)
+    {
+        switch (windowEvent)
+        {
+            case MousePressed { Button: MouseButton.Left, Modifiers: KeyModifiers.None } pressed when !document.Physics.IsWalking:
+                _press = (pressed.X, pressed.Y);
+                return null;
+            case MousePressed:
+                _press = null;
+                return null;
+            case MouseReleased { Button: MouseButton.Left } released when _press is var (x, y):
+                _press = null;
+                return Math.Abs(released.X - x) + Math.Abs(released.Y - y) <= MaxClickDistance ? Click((x, y), size, now) : null;
+            default:
+                return null;
+        }
+    }
+
+    /// <summary>Selects the next larger part, see <see cref="Selection.Up"/>.</summary>
+    /// <returns>A message for the user.</returns>
+    public string Up()
+    {
+        Selected = Selected?.Up();
+        return Selected is { } selected ? $"selected {selected.Title}" : "nothing is selected";
+    }
+
+    /// <summary>Whether any lines are drawn over the scene.</summary>
+    public bool HasLines => Selected is not null || !Measure.Dimensions.IsEmpty || Measure.HasFirstPoint || WorldLines().Count > 0;
+
+    /// <summary>Lists the lines that belong to the scene, world space.</summary>
+    public List<LineSegment> WorldLines()
+    {
+        var lines = new List<LineSegment>();
+        var scene = document.Physics.CurrentScene;
+        Boxes.AddTo(scene, lines);
+        if (Selected is not { Viewpoint: not null })
+        {
+            Normals.AddTo(scene, Selected, lines);
+        }
+
+        return lines;
+    }
+
+    /// <summary>Adds the lines around the selection and those of the distances, in the frame that is drawn.</summary>
+    public void AddDrawnLines(List<LineSegment> lines)
+    {
+        if (Selected is { } selected && document.MapToDrawnFrame(selected.Viewpoint) is { } map)
+        {
+            var own = new List<LineSegment>();
+            selected.AddLines(own);
+            if (selected.Viewpoint is not null)
+            {
+                Normals.AddTo(document.File.Scene, selected, own);
+            }
+
+            lines.AddRange(own.Select(line => line with { From = map(line.From), To = map(line.To) }));
+        }
+
+        Measure.AddLines(lines, document.MapToDrawnFrame);
+    }
+
+    private string Click((double X, double Y) pixel, (int Width, int Height) size, TimeSpan now)
+    {
+        var isDouble = _lastClick is var (x, y, time) && now - time < DoubleClickTime
+            && Math.Abs(pixel.X - x) + Math.Abs(pixel.Y - y) <= MaxClickDistance;
+        _lastClick = isDouble ? null : (pixel.X, pixel.Y, now);
+        var scene = document.Physics.CurrentScene;
+        Selection? clicked;
+        try
+        {
+            clicked = Pick(scene, pixel, size);
+            if (Measure.IsActive && !isDouble)
+            {
+                return clicked is null ? "nothing is there" : Measure.Click(clicked, scene);
+            }
+
+            if (!isDouble || clicked is null)
+            {
+                Selected = clicked;
+                return clicked is null ? "nothing selected" : $"selected {clicked.Title}";
+            }
+        }
+        catch (Exception exception) when (exception is FractalEngineException or InvalidOperationException)
+        {
+            return exception.Message;
+        }
+
+        if (document.FlyingCamera.ToCameraFrame(clicked.Point, clicked.Viewpoint) is { } point)
+        {
+            document.MoveCamera((camera, _) => camera.FocusOn(point), 1);
+        }
+
+        return "orbiting around the point";
+    }
+
+    private Selection? Pick(LoadedScene scene, (double X, double Y) pixel, (int Width, int Height) size)
+    {
+        var view = View.Of(scene with { Scene = document.GetCurrentScene() }, (double)size.Width / size.Height) with
+        {
+            Section = document.Section.Shown,
+            HorizontalShift = document.Area.HorizontalShift,
+            // Within a fractal, the frame has clip planes by what is around the camera.
+            FixedClipPlanes = document.VisibleDepth > 0 ? null : document.File.Scene.Scene.Clip,
+        };
+        var camera = document.FlyingCamera;
+        return document.VisibleDepth > 0 && !Picker.IsExactAt(camera.Log10Magnification)
+            ? _picker.PickDeep(scene, camera.WithDeepZoom(view), camera.Address!, pixel, size)
+            : _picker.Pick(scene, view, pixel, size);
+    }
+}

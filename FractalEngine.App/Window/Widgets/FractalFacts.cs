@@ -1,0 +1,38 @@
+using System.Globalization;
+using System.Numerics;
+using FractalEngine.Core.Fractals.Descriptions;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Render.Ui;
+
+namespace FractalEngine.App.Window.Widgets;
+
+/// <summary>What a panel tells about a fractal: its counts, size and dimension.</summary>
+internal sealed class FractalFacts
+{
+    private FractalModel? _measured;
+    private double? _dimension;
+
+    /// <summary>Adds a line for each: counts are exact up to fifteen digits.</summary>
+    public void Build(UserInterface ui, FractalModel model)
+    {
+        if (!ReferenceEquals(model, _measured))
+        {
+            (_measured, _dimension) = (model, SimilarityDimension.Of(model.Fractal.Description));
+        }
+
+        ui.Heading(model.Name);
+        ui.Fact("instances", Count(model.InstanceCount));
+        ui.Fact("faces", Count(model.FaceCount));
+        var size = model.Bounds.Size;
+        ui.Fact("size", size.IsFinite()
+            ? $"{PanelWidgets.Number(size.X)} × {PanelWidgets.Number(size.Y)} × {PanelWidgets.Number(size.Z)}" : "no bounds");
+        ui.Fact(
+            "dimension", _dimension is { } dimension ? PanelWidgets.Number(dimension) : "none",
+            "similarity dimension s: the ratios r of all child instances have the sum of r^s = 1, as if the depth had no end");
+        ui.Fact("composition", model.Fractal.Description.Composition.ToString().ToLowerInvariant());
+    }
+
+    private static string Count(BigInteger? count) => count is not { } number ? "infinite"
+        : number < 1_000_000_000_000_000 ? number.ToString("N0", CultureInfo.InvariantCulture)
+        : number.ToString("E3", CultureInfo.InvariantCulture);
+}

@@ -1,0 +1,85 @@
+using System.Globalization;
+using FractalEngine.App.Window.Actions;
+using FractalEngine.App.Window.Files;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Scenes.Cameras;
+using FractalEngine.Core.Scenes.Lights;
+using FractalEngine.Render.Ui;
+
+namespace FractalEngine.App.Window.Widgets;
+
+/// <summary>The lights of a scene, in its panel.</summary>
+/// <param name="actions">The window with the document.</param>
+internal sealed class LightList(WindowActions actions)
+{
+    private int _light = -1;
+    private bool _isOpen;
+
+    /// <summary>Adds the branch of the lights.</summary>
+    public void Build(UserInterface ui, Scene scene)
+    {
+        if (!ui.Branch(string.Create(CultureInfo.InvariantCulture, $"Lights ({scene.Lights.Length})"), ref _isOpen))
+        {
+            return;
+        }
+
+        for (var i = 0; i < scene.Lights.Length; i++)
+        {
+            var light = scene.Lights[i];
+            var index = i;
+            ui.Scope($"light {i}", () =>
+            {
+                ui.Row(1);
+                if (ui.Selectable(light.GetType().Name.Replace("Light", "", StringComparison.Ordinal), index == _light, depth: 1))
+                {
+                    _light = index == _light ? -1 : index;
+                }
+
+                if (index == _light)
+                {
+                    BuildLight(ui, light, index);
+                }
+            });
+        }
+
+        ui.Row(1, 1);
+        if (ui.Button("Add a sun"))
+        {
+            // From behind the default camera.
+            actions.ChangeScene(static present => present with
+            {
+                Lights = present.Lights.Add(new DirectionalLight(present.Handedness.Mirror(new(1, -2, 1)), Colour.White, 0.7)),
+            });
+        }
+
+        if (ui.Button("Add a lamp"))
+        {
+            var document = actions.Document!;
+            var lamp = new PointLight(document.Camera.Position, Colour.White, 0.7, document.File.Scene.Bounds.Diagonal);
+            actions.ChangeScene(present => present with { Lights = present.Lights.Add(lamp) });
+        }
+    }
+
+    private void BuildLight(UserInterface ui, Light light, int index)
+    {
+        ui.Row(1);
+        var intensity = light.Intensity;
+        if (ui.Slider("intensity", ref intensity, 0, 2, 0.01, isBounded: false) && intensity is >= 0 and <= 1e9)
+        {
+            actions.ChangeLight(index, present => present with { Intensity = intensity });
+        }
+
+        if (ui.Colour(light.Colour) is { } colour)
+        {
+            actions.ChangeLight(index, present => present with { Colour = PanelWidgets.Merge(present.Colour, light.Colour, colour) });
+        }
+
+        ui.Row(1);
+        if (ui.Button("Remove the light"))
+        {
+            actions.EditLine(index, SceneEditor.RemoveLight);
+            _light = -1;
+        }
+    }
+}

@@ -1,0 +1,90 @@
+using FractalEngine.App.Window.Actions;
+using FractalEngine.App.Window.Tools;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Scenes.Lights;
+using FractalEngine.Render.Ui;
+
+namespace FractalEngine.App.Window.Widgets;
+
+/// <summary>The sky of a scene, its exposure, tone and haze, in the scene's panel.</summary>
+/// <param name="actions">The window with the document.</param>
+internal sealed class SkyFields(WindowActions actions)
+{
+    private static readonly Colour DefaultZenith = new(0.25, 0.45, 0.75);
+    private static readonly Colour DefaultHorizon = new(0.75, 0.82, 0.90);
+
+    private bool _isOpen;
+
+    // The sky that was taken away last, and the scene that had it.
+    private (string Path, Sky Sky)? _removed;
+
+    /// <summary>Adds the branch of the sky.</summary>
+    public void Build(UserInterface ui, Scene scene)
+    {
+        if (!ui.Branch("Sky and haze", ref _isOpen))
+        {
+            return;
+        }
+
+        ui.Row(1);
+        var hasSky = scene.Sky is not null;
+        if (ui.CheckBox("sky", ref hasSky))
+        {
+            var path = actions.Document!.File.Path;
+            var added = _removed is var (owner, removed) && owner == path ? removed : new(DefaultZenith, DefaultHorizon);
+            _removed = scene.Sky is { } present ? (path, present) : _removed;
+            actions.ChangeScene(present => present with { Sky = hasSky ? added : null });
+        }
+
+        ui.Tooltip("light from all around; a background hides the sky itself");
+        if (scene.Sky is { } sky)
+        {
+            BuildColour(ui, "zenith", sky.Zenith, static sky => sky.Zenith, (present, colour) => present with { Zenith = colour });
+            BuildColour(ui, "horizon", sky.Horizon, static sky => sky.Horizon, (present, colour) => present with { Horizon = colour });
+        }
+
+        ui.Row(1);
+        var exposure = scene.Exposure;
+        if (ui.Slider("exposure", ref exposure, 0.1, 4, 0.05, isBounded: false) && exposure is >= 1e-9 and <= 1e9)
+        {
+            actions.ChangeScene(present => present with { Exposure = exposure });
+        }
+
+        ui.Tooltip("multiplies all light before it is shown");
+        var isFilmic = scene.Tone == Tone.Filmic;
+        if (ui.CheckBox("filmic tone", ref isFilmic))
+        {
+            actions.ChangeScene(present => present with { Tone = isFilmic ? Tone.Filmic : Tone.None });
+        }
+
+        BuildFog(ui, scene);
+    }
+
+    private void BuildFog(UserInterface ui, Scene scene)
+    {
+        var density = scene.Fog?.Density ?? 0;
+        var size = SceneSize.Of(actions.Document!.File.Scene.Bounds);
+        ui.Row(1);
+        if (ui.Slider("haze", ref density, 0, 3 / size, 0, isBounded: false) && density is >= 0 and < 1e6)
+        {
+            actions.ChangeScene(present => present with { Fog = density > 0 ? new(density, present.Fog?.Colour) : null });
+        }
+
+        ui.Tooltip("density of the haze: after d units, exp(-density * d) of the light is left");
+    }
+
+    private void BuildColour(
+        UserInterface ui, string name, Colour colour, Func<Sky, Colour> read, Func<Sky, Colour, Sky> change) => ui.Scope(name, () =>
+    {
+        ui.Row(1);
+        ui.Label(name, isDim: true);
+        if (ui.Colour(colour) is { } changed)
+        {
+            actions.ChangeScene(present => present.Sky is { } sky ? present with
+            {
+                Sky = change(sky, PanelWidgets.Merge(read(sky), colour, changed)),
+            } : present);
+        }
+    });
+}

@@ -1,0 +1,84 @@
+using FractalEngine.Core.Visibility.Levels;
+
+namespace FractalEngine.Core.DeepZoom;
+
+/// <summary>A path of child instances from a whole fractal to one of its sub-fractals, at any depth.</summary>
+/// <param name="hierarchy">Hierarchy of the fractal.</param>
+internal sealed class FractalPath(LodHierarchy hierarchy)
+{
+    // Deeper in the path the weights are below the last place of a colour.
+    private const int MaxColouredLevels = 64;
+
+    private readonly List<int> _children = [];
+    private readonly List<long> _remainingLevels = [hierarchy.LevelCount];
+
+    // The number of maps that are not the identity, up to each depth.
+    private readonly List<int> _mapCounts = [0];
+
+    /// <summary>Number of child instances in the path.</summary>
+    public int Depth => _children.Count;
+
+    /// <summary>Indices of the child instances, the outermost first.</summary>
+    public IReadOnlyList<int> Children => _children;
+
+    /// <summary>Node of the sub-fractal at the end of the path.</summary>
+    public LodNode CurrentNode => NodeAt(Depth);
+
+    /// <summary>Memory of the path in bytes.</summary>
+    public long StorageBytes =>
+        (sizeof(int) * ((long)_children.Capacity + _mapCounts.Capacity)) + (sizeof(long) * (long)_remainingLevels.Capacity);
+
+    /// <summary>Finds the node that the path passes through at a depth; 0 is the whole fractal.</summary>
+    public LodNode NodeAt(int depth) => hierarchy.NodeAt(_remainingLevels[depth]);
+
+    /// <summary>Number of levels that the sub-fractal at a depth has left.</summary>
+    public long RemainingLevelsAt(int depth) => _remainingLevels[depth];
+
+    /// <summary>Computes the remaining levels of a child of the sub-fractal at a depth.</summary>
+    public long ChildLevels(int depth, int child) => NodeAt(depth).ChildLevelSteps[child].RemainingLevels(_remainingLevels[depth]);
+
+    /// <summary>Finds the node of a child of the current sub-fractal.</summary>
+    public LodNode ChildNode(int child) => hierarchy.NodeAt(ChildLevels(Depth, child));
+
+    /// <summary>Copies the path, so that one of the two can change alone.</summary>
+    public FractalPath Clone()
+    {
+        var copy = new FractalPath(hierarchy);
+        copy._children.AddRange(_children);
+        copy._remainingLevels.AddRange(_remainingLevels.Skip(1));
+        copy._mapCounts.AddRange(_mapCounts.Skip(1));
+        return copy;
+    }
+
+    /// <summary>Appends a child of the current sub-fractal.</summary>
+    public void Enter(int child)
+    {
+        var node = CurrentNode;
+        _remainingLevels.Add(ChildLevels(Depth, child));
+        _children.Add(child);
+        _mapCounts.Add(_mapCounts[^1] + (node.ChildMapIndices[child] < 0 ? 0 : 1));
+    }
+
+    /// <summary>Removes the last child instance, and returns its index.</summary>
+    public int Leave()
+    {
+        var child = _children[^1];
+        _children.RemoveAt(_children.Count - 1);
+        _remainingLevels.RemoveAt(_remainingLevels.Count - 1);
+        _mapCounts.RemoveAt(_mapCounts.Count - 1);
+        return child;
+    }
+
+    /// <summary>Computes the colour path to the sub-fractal at a depth.</summary>
+    public ColourPath ColourPathTo(int depth)
+    {
+        var colourPath = ColourPath.Start;
+        for (var i = 0; i < Math.Min(depth, MaxColouredLevels); i++)
+        {
+            var node = NodeAt(i);
+            colourPath = colourPath.Append(node.ChildMapIndices[_children[i]], _children[i], node.ChildMaps.Length);
+        }
+
+        return colourPath with { MapCount = _mapCounts[depth] };
+    }
+}

@@ -1,0 +1,153 @@
+using System.Runtime.CompilerServices;
+using FractalEngine.Core.Geometry;
+
+namespace FractalEngine.Core.Fractals.Levels;
+
+/// <summary>
+/// The sub-fractals of a fractal, one for each state. Deep repetitions share those of one round once their bounds have converged, so the
+/// hierarchy takes kilobytes at any depth.
+/// </summary>
+/// <remarks>
+/// A state is a recursive and its remaining levels. States are numbered such that maps lead from any to lower ones. The number is called
+/// remaining levels too, since that is what it is for a fractal of one recursive. The states of several recursives take turns:
+/// of k recursives, number k·n + r is recursive r with n remaining levels. The lowest states are the base meshes, and so many states have
+/// no children.
+/// </remarks>
+internal sealed class FractalHierarchy
+{
+    // Up to here sub-fractals are found without a search.
+    private const int MaxLowestLevel = 63;
+
+    private readonly SubFractal?[] _subFractals;
+    private readonly HierarchyLevel[] _levels;
+    private readonly LevelRegion[] _regions;
+    private readonly SubFractal?[] _lowest;
+    private readonly int _rootRecursive;
+    private readonly long _recursiveTop;
+
+    /// <summary>Takes over the levels that were built.</summary>
+    /// <param name="baseMeshes">That of each recursive.</param>
+    /// <param name="built">The levels.</param>
+    /// <param name="subFractals">Their sub-fractals, in the order of the regions; null where no search visits them.</param>
+    /// <param name="rootRecursive">Index of the recursive that the steps are applied to.</param>
+    /// <param name="recursiveTop">Level of that recursive.</param>
+    public FractalHierarchy(Mesh[] baseMeshes, BuiltLevels built, SubFractal?[] subFractals, int rootRecursive, long recursiveTop)
+    {
+        BaseMeshes = baseMeshes;
+        _rootRecursive = rootRecursive;
+        _recursiveTop = recursiveTop;
+        _regions = [.. built.Regions];
+        _levels = [.. built.Levels];
+        Levels = built.Top;
+        _subFractals = subFractals;
+        _lowest = new SubFractal?[Math.Min(Levels, MaxLowestLevel) + 1];
+        for (var level = 0; level < _lowest.Length; level++)
+        {
+            _lowest[level] = _subFractals[LevelRegion.FindIndex(_regions, level)];
+        }
+
+        Root = At(Levels);
+        RadiusSquared = 0.25 * Root.Box.Size.LengthSquared();
+    }
+
+    /// <summary>The base meshes: that of each recursive.</summary>
+    public Mesh[] BaseMeshes { get; }
+
+    /// <summary>Number of levels of the whole fractal, which is its state; a huge number where they are infinitely many.</summary>
+    public long Levels { get; }
+
+    /// <summary>The sub-fractal with all levels, which is the whole fractal.</summary>
+    public SubFractal Root { get; }
+
+    /// <summary>Square of half the diagonal of the whole fractal's box.</summary>
+    public double RadiusSquared { get; }
+
+    /// <summary>True when all maps are similarities, so that they multiply distances by their scale.</summary>
+    public bool HasOnlySimilarities { get; init; }
+
+    /// <summary>True when levels stand for doubled powers of one map, so that there is not one for each set.</summary>
+    public bool HasDoubledPowers { get; init; }
+
+    /// <summary>The runs of levels, the lowest first.</summary>
+    public ReadOnlySpan<LevelRegion> Regions => _regions;
+
+    /// <summary>All levels in the order of <see cref="Regions"/>, also those that searches skip.</summary>
+    public ReadOnlySpan<HierarchyLevel> AllLevels => _levels;
+
+    /// <summary>Number of bytes of everything in the hierarchy.</summary>
+    public long StorageBytes => _subFractals.Sum(subFractal => subFractal?.StorageBytes ?? 0)
+        + MeasureChildren()
+        + _levels.Sum(level => level.StorageBytes) + _levels.Select(level => level.Edges).Distinct().Sum(edges => 24L * edges.Length)
+        + _levels.Select(level => level.Set).Distinct().Sum(set => set?.StorageBytes ?? 0) + (16 * (long)_subFractals.Length)
+        + (8 * _lowest.Length);
+
+    /// <summary>True for the number of a state without levels, which is a base mesh.</summary>
+    public bool IsBase(long remainingLevels) => remainingLevels < BaseMeshes.Length;
+
+    /// <summary>The state that a level stands for. Steps count as levels of the recursive that they are applied to.</summary>
+    public HierarchyState StateAt(long remainingLevels) => remainingLevels <= _recursiveTop
+        ? new((int)(remainingLevels % BaseMeshes.Length), remainingLevels / BaseMeshes.Length)
+        : new(_rootRecursive, (_recursiveTop / BaseMeshes.Length) + remainingLevels - _recursiveTop);
+
+    /// <summary>The sub-fractal with a number of remaining levels, which must be one that a search can visit.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public SubFractal At(long remainingLevels) =>
+        (ulong)remainingLevels < (ulong)_lowest.Length ? _lowest[remainingLevels]! : AtHighLevel(remainingLevels);
+
+    private SubFractal AtHighLevel(long remainingLevels) => FindOrNull(remainingLevels)!;
+
+    /// <summary>The sub-fractal with a number of remaining levels; null where no search visits it.</summary>
+    public SubFractal? FindOrNull(long remainingLevels) => _subFractals[LevelRegion.FindIndex(_regions, remainingLevels)];
+
+    /// <summary>The sub-fractal, or the group of children, that a child is an instance of.</summary>
+    /// <param name="child">The child.</param>
+    /// <param name="remainingLevels">Remaining levels of the child.</param>
+    public SubFractal At(ChildInstance child, long remainingLevels) => child.Group ?? At(remainingLevels);
+
+    /// <summary>The set on top of the sub-fractal with a number of remaining levels, visited or not; null for the base.</summary>
+    public MapSet? MapSetAt(long remainingLevels) => _levels[LevelRegion.FindIndex(_regions, remainingLevels)].Set;
+
+    /// <summary>The base mesh of the instance that a path leads to.</summary>
+    /// <param name="path">Indices of child instances from the root.</param>
+    public Mesh BaseMeshAt(ReadOnlySpan<int> path)
+    {
+        var (subFractal, level) = (Root, Levels);
+        foreach (var childIndex in path)
+        {
+            var child = subFractal.Children[childIndex];
+            level = child.RemainingLevels(level);
+            subFractal = At(child, level);
+        }
+
+        return BaseMeshes[subFractal.BaseIndex];
+    }
+
+    /// <summary>Sums the bytes of the children, each once: levels with the same edges share them, and so do narrow ones.</summary>
+    private long MeasureChildren()
+    {
+        var seen = new HashSet<ChildInstance>();
+        // A set of all children of a wide level would take megabytes itself.
+        var seenWideEdges = new HashSet<ChildEdge[]>(ReferenceEqualityComparer.Instance);
+        var bytes = 0L;
+        for (var i = 0; i < _subFractals.Length; i++)
+        {
+            var edges = _levels[i].Edges;
+            var isWide = edges.Length > SubFractal.MaxUngroupedChildren;
+            bytes += Measure(_subFractals[i], isWide, countsChildren: !isWide || seenWideEdges.Add(edges));
+        }
+
+        return bytes;
+
+        long Measure(SubFractal? subFractal, bool isWide, bool countsChildren)
+        {
+            var sum = 0L;
+            foreach (var child in subFractal?.Children ?? [])
+            {
+                var isNew = isWide ? countsChildren || child.Group is not null : seen.Add(child);
+                sum += isNew ? child.StorageBytes + Measure(child.Group, isWide, countsChildren) : 0;
+            }
+
+            return sum;
+        }
+    }
+}

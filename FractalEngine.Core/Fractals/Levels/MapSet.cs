@@ -1,0 +1,72 @@
+using System.Runtime.InteropServices;
+using FractalEngine.Core.Fractals.Descriptions;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Fractals.Levels;
+
+/// <summary>The maps of a transformation set with the terms a search needs. All levels with the same set share it.</summary>
+internal sealed class MapSet
+{
+    // Computed twice at worst, with the same result.
+    private AffineMap[]? _inverses;
+
+    /// <summary>Computes the terms of a transformation set.</summary>
+    /// <exception cref="SingularMatrixException">A map has no inverse.</exception>
+    public MapSet(TransformationSet set)
+        // Shared, since nothing writes into it: wide sets take much memory.
+        : this(ImmutableCollectionsMarshal.AsArray(set.Maps)!)
+    {
+    }
+
+    /// <summary>Computes the terms of some maps.</summary>
+    /// <exception cref="SingularMatrixException">A map has no inverse.</exception>
+    public MapSet(AffineMap[] maps)
+    {
+        Maps = maps;
+        ScalesSquared = new double[maps.Length];
+        OperatorNormBounds = new double[maps.Length];
+        IdentityIndex = -1;
+        AreSimilarities = true;
+        for (var i = 0; i < maps.Length; i++)
+        {
+            var map = maps[i];
+            // Only to find out whether there is one.
+            map.Inverse();
+            ScalesSquared[i] = map.Linear.V1.LengthSquared();
+            OperatorNormBounds[i] = BoundingSphere.OperatorNormBound(map.Linear) * (1 + RoundingErrors.Norm);
+            AreSimilarities &= map.Linear.IsChainableSimilarity();
+            IdentityIndex = IdentityIndex < 0 && map == AffineMap.Identity ? i : IdentityIndex;
+        }
+    }
+
+    /// <summary>How a chain of the fractal's own maps replaces the map of this set; null where the set is one of the fractal's.</summary>
+    public MapPower? Power { get; init; }
+
+    /// <summary>True where each map is that of a call: it leads to a recursive of its own, and skips no level by an identity.</summary>
+    public bool IsOfCalls { get; init; }
+
+    /// <summary>The set that contains the identity alone.</summary>
+    public static MapSet Identity { get; } = new([AffineMap.Identity]);
+
+    /// <summary>The maps in the order of the set.</summary>
+    public AffineMap[] Maps { get; }
+
+    /// <summary>The inverses of the maps, computed at the first use: they are as large as the maps, and few searches need them.</summary>
+    public AffineMap[] Inverses => _inverses ??= Array.ConvertAll(Maps, static map => map.Inverse());
+
+    /// <summary>Squares of the factors by which the maps lengthen vectors; meaningful for similarities only.</summary>
+    public double[] ScalesSquared { get; }
+
+    /// <summary>Upper bounds of the factors by which the maps lengthen vectors.</summary>
+    public double[] OperatorNormBounds { get; }
+
+    /// <summary>Index of the first identity in the set; −1 for none.</summary>
+    public int IdentityIndex { get; }
+
+    /// <summary>True when all maps are similarities.</summary>
+    public bool AreSimilarities { get; }
+
+    /// <summary>Number of bytes of the arrays.</summary>
+    public long StorageBytes => Maps.Length * (_inverses is null ? 14 : 26) * sizeof(double);
+}

@@ -1,0 +1,43 @@
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Physics.Descriptions;
+
+/// <summary>Distances within which a sphere counts as touching something.</summary>
+internal static class ContactTolerances
+{
+    /// <summary>Factor on a radius that still finds neighbours which touch up to rounding.</summary>
+    public const double NeighbourRadiusFactor = 1 + 1e-6;
+
+    /// <summary>
+    /// Of the smaller radius: balls of large islands stay up to so far apart where they touch. What their solve leaves of an approach uses
+    /// that up first, so that they rarely overlap.
+    /// </summary>
+    public const double HeapMargin = 1e-3;
+
+    /// <summary>Factor on a radius that finds all that may rest on a body, or support it.</summary>
+    public const double SupportRadiusFactor = NeighbourRadiusFactor + HeapMargin;
+
+    // Of the radius: ten times the tolerance to which the moment of an impact is found.
+    private const double TouchFraction = 1e-9;
+
+    // Of the radius: large enough that a body on several edges is not passed from one to the next by the curve of its path.
+    private const double SlopFraction = 1e-6;
+
+    // Of the largest coordinate: about 45 roundings of a double.
+    private const double RoundingFraction = 1e-14;
+
+    /// <summary>Largest gap that rounding cannot tell from 0, in scene units.</summary>
+    public static double Touch(double radius, Vector position) =>
+        (TouchFraction * radius) + (RoundingFraction * position.MaxAbsComponent());
+
+    /// <summary>Largest gap at which something that was touched still counts as a contact, in scene units.</summary>
+    public static double Slop(double radius, Vector position) =>
+        (SlopFraction * radius) + (RoundingFraction * position.MaxAbsComponent());
+
+    /// <summary>Largest gap at which two balls count as touching, in scene units.</summary>
+    /// <param name="radius">Radius of the smaller one.</param>
+    /// <param name="rounding">The <see cref="Slop"/> of a radius of 0 where they are.</param>
+    /// <param name="keepsMargin">True for two balls of a large island.</param>
+    public static double TouchDistance(double radius, double rounding, bool keepsMargin) =>
+        ((SlopFraction + (keepsMargin ? HeapMargin : 0)) * radius) + rounding;
+}

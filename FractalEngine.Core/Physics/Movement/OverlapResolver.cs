@@ -1,0 +1,96 @@
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics.Bodies;
+
+namespace FractalEngine.Core.Physics.Movement;
+
+/// <summary>Moves an overlapping mover to the closest free position, if there is one that can be reached.</summary>
+internal sealed class OverlapResolver(Obstacles obstacles)
+{
+    private const int MaxPushes = 32;
+    private const int MaxSteps = 64;
+
+    // Of the free distance: how much of it a step towards a free position uses, so that rounding crosses no surface.
+    private const double StepFraction = 0.9;
+
+    // Of the radius: how far in front of a surface a centre is put that was on it or behind it.
+    private const double SurfaceOffset = 1e-6;
+
+    // Of the radius: a centre this close to a surface is taken to be on it.
+    private const double OnSurfaceTolerance = 1e-9;
+
+    private readonly HalfSpaces _planes = new();
+
+    /// <summary>Finds a free position. It keeps clear of all obstacles that were met so far at once, not only of the last one.</summary>
+    /// <param name="position">Position of the mover; receives the free position, and is unchanged where there is none.</param>
+    /// <param name="excludedIndex">Index of the mover itself, or <see cref="Contact.NoBody"/>.</param>
+    /// <param name="ignoresBodies">True where only surfaces are in the way.</param>
+    /// <returns>False where the mover is closed in.</returns>
+    public bool TryResolve(ref Vector position, int excludedIndex, bool ignoresBodies = false)
+    {
+        var touchTolerance = obstacles.TouchTolerance(position);
+        var start = MoveOutOfSurface(position);
+        var current = start;
+        _planes.Clear();
+        for (var push = 0; push < MaxPushes; push++)
+        {
+            if (!ignoresBodies)
+            {
+                obstacles.CollectNearbyBodies(new(current, Vector.Zero, Vector.Zero), 0, excludedIndex);
+            }
+
+            if (!obstacles.TryFindClosestContact(current, 0, out var overlap) || overlap.Gap(current) >= -touchTolerance)
+            {
+                position = current;
+                return true;
+            }
+
+            // Of two centres at one position, neither is to any side of the other.
+            var normal = overlap.PointToCentre(current).Length() > OnSurfaceTolerance * obstacles.Radius
+                ? overlap.Normal(current)
+                : Vector.J;
+            var offset = Vector.Dot(normal, overlap.Point - overlap.SphereOffset) + overlap.CombinedRadius + (0.5 * touchTolerance);
+            _planes.Add(normal, offset);
+            if (!_planes.TryProject(start, out var next) || !IsReachable(current, next))
+            {
+                return false;
+            }
+
+            current = next;
+        }
+
+        return false;
+    }
+
+    /// <summary>The position itself; or one just in front of the surface, where it is on a surface or inside a solid.</summary>
+    private Vector MoveOutOfSurface(Vector position)
+    {
+        if (obstacles.TryFindSurfaceSide(position, out var closest, out var isInside)
+            && (closest.Distance <= OnSurfaceTolerance * obstacles.Radius || isInside))
+        {
+            return closest.Point + (SurfaceOffset * obstacles.Radius * closest.Normal);
+        }
+
+        return position;
+    }
+
+    /// <summary>True when a centre can go straight to a position without meeting a surface.</summary>
+    public bool IsReachable(Vector from, Vector to)
+    {
+        var path = to - from;
+        var length = path.Length();
+        var travelled = 0.0;
+        for (var step = 0; step < MaxSteps && travelled < length; step++)
+        {
+            var position = from + (travelled / length * path);
+            var distance = obstacles.SurfaceDistance(position, obstacles.Radius);
+            if (distance < OnSurfaceTolerance * obstacles.Radius)
+            {
+                return false;
+            }
+
+            travelled += StepFraction * distance;
+        }
+
+        return travelled >= length;
+    }
+}

@@ -1,0 +1,108 @@
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics.Bodies;
+using FractalEngine.Core.Physics.Descriptions;
+
+namespace FractalEngine.Core.Physics.Rows;
+
+/// <summary>Makes contacts of balls with surfaces and with each other.</summary>
+internal static class ContactRows
+{
+    // Balls of a compound for which contacts with one and the same body differ.
+    private const int MaxBalls = CompoundShape.MaxBalls;
+
+    /// <summary>Makes the contact of a ball with a surface.</summary>
+    /// <param name="body">The body.</param>
+    /// <param name="ball">Index of its ball.</param>
+    /// <param name="contact">The surface.</param>
+    /// <param name="isAhead">True where it is not touched yet.</param>
+    /// <param name="duration">Seconds for which it is planned.</param>
+    public static ContactRow OfSurface(Body body, int ball, in Contact contact, bool isAhead, double duration)
+    {
+        var row = new ContactRow
+        {
+            First = body.Index,
+            Second = ContactRow.Immovable,
+            Offset = contact.PointToCentre(body.BallCentre(ball)),
+            MinDistance = body.BallRadius(ball),
+            FirstRadius = body.BallRadius(ball),
+            Friction = body.Description.Friction,
+            Restitution = body.Description.Restitution,
+            IsAhead = isAhead,
+            RollingArm = body.Description.RollingFriction * body.BallRadius(ball),
+            SpinningArm = body.Description.SpinningFriction * body.BallRadius(ball),
+            FeatureId = ball,
+        };
+        row.Normal = row.Offset.UnitVectorOrZero();
+        if (body.IsCompound)
+        {
+            row.SetArms(body.BallOffset(ball), Vector.Zero);
+        }
+
+        if (contact.Kinematic is { } kinematic)
+        {
+            row.SetSurface(
+                contact.SurfaceVelocity(body.BallCentre(ball)), kinematic.AngularVelocity, duration * kinematic.VelocityAt(contact.Point));
+        }
+
+        return row;
+    }
+
+    /// <summary>Makes the contact of a ball with a face that it touches or may meet.</summary>
+    /// <param name="body">The body.</param>
+    /// <param name="ball">Index of its ball.</param>
+    /// <param name="face">The face, with its normal.</param>
+    /// <param name="duration">Seconds for which it is planned.</param>
+    public static ContactRow OfNearSurface(Body body, int ball, in Contact face, double duration)
+    {
+        var centre = body.BallCentre(ball);
+        var gap = Vector.Dot(face.PointToCentre(centre), face.CachedNormal) - body.BallRadius(ball);
+        var row = OfSurface(body, ball, in face, gap > ContactTolerances.Slop(body.BallRadius(ball), centre), duration);
+        row.Normal = face.CachedNormal;
+        return row;
+    }
+
+    /// <summary>Makes the contact of two balls.</summary>
+    /// <param name="row">Receives the contact; must be empty.</param>
+    /// <param name="body">A body that can move.</param>
+    /// <param name="ball">Index of its ball.</param>
+    /// <param name="other">The other body.</param>
+    /// <param name="otherBall">Index of the other one's ball.</param>
+    /// <param name="isImmovable">True where the other one does not give way.</param>
+    /// <param name="isAhead">True where they do not touch yet.</param>
+    public static void SetBalls(ref ContactRow row, Body body, int ball, Body other, int otherBall, bool isImmovable, bool isAhead)
+    {
+        row.First = body.Index;
+        row.Second = isImmovable ? ContactRow.Immovable : other.Index;
+        row.IsAhead = isAhead;
+        SetBalls(ref row, body.BallCentre(ball) - other.BallCentre(otherBall), body.BallRadius(ball), other.BallRadius(otherBall));
+        SetMaterials(ref row, new(body.Description), new(other.Description));
+        if (body.IsCompound || other.IsCompound)
+        {
+            row.SetArms(body.BallOffset(ball), other.BallOffset(otherBall));
+        }
+
+        row.FeatureId = (MaxBalls * otherBall) + ball;
+    }
+
+    /// <summary>Sets the shape of a contact of two balls.</summary>
+    public static void SetBalls(ref ContactRow row, Vector offset, double firstRadius, double secondRadius)
+    {
+        row.Offset = offset;
+        row.Normal = offset.UnitVectorOrZero();
+        row.MinDistance = firstRadius + secondRadius;
+        row.FirstRadius = firstRadius;
+        row.SecondRadius = secondRadius;
+        row.IsBall = true;
+    }
+
+    /// <summary>Sets what the materials of two balls make of their contact, whose radii must be known.</summary>
+    public static void SetMaterials(ref ContactRow row, in BodyMaterial first, in BodyMaterial second)
+    {
+        var radius = Math.Min(row.FirstRadius, row.SecondRadius);
+        row.Friction = Math.Min(first.Friction, second.Friction);
+        row.Restitution = Math.Min(first.Restitution, second.Restitution);
+        row.RollingArm = radius * Math.Min(first.RollingFriction, second.RollingFriction);
+        row.SpinningArm = radius * Math.Min(first.SpinningFriction, second.SpinningFriction);
+        row.TurnImpulse = Vector.Zero;
+    }
+}

@@ -1,0 +1,305 @@
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics.Bodies;
+using FractalEngine.Core.Physics.Descriptions;
+using FractalEngine.Core.Physics.Events;
+using FractalEngine.Core.Physics.Islands;
+using FractalEngine.Core.Physics.Rows;
+
+namespace FractalEngine.Core.Physics.Solving;
+
+/// <summary>
+/// Plans the step of all bodies that touch others: the impulses of what approaches, then the forces that all contacts exert during the
+/// step. Both are solved for a whole island at once.
+/// </summary>
+/// <remarks>
+/// The forces are constant during the step, so that each body follows a parabola. They act along the mean of the line of contact before
+/// and after the step. Along it, two balls that stay in touch do not come closer, so that the forces between them do no work.
+/// </remarks>
+internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies nearbyBodies, ContactLog contactLog, int maxThreads)
+{
+    // Times that the lines of contact are corrected for how far the bodies move in the step.
+    private const int MaxTurns = 4;
+    private const int MinTurns = 2;
+    private const int MaxRowsOfManyTurns = 300;
+
+    // Radians: lines of contact that turn by less need no further correction.
+    private const double TurnTolerance = 1e-10;
+
+    // Of the speed: what rounding leaves of a velocity along a normal.
+    private const double RelativeTolerance = 1e-13;
+
+    // Of what gravity and forces add to the speed: less is what the solve leaves of it, and the body rests.
+    private const double RestFraction = 1e-10;
+
+    private readonly ContactSolver _solver = new(maxThreads);
+    private readonly ImpulseCache _cache = new();
+
+    /// <summary>The contacts and islands of this step.</summary>
+    public ContactGraph Graph { get; } = new(bodies, nearbyBodies, maxThreads);
+
+    /// <summary>What has been solved so far.</summary>
+    public IslandStatistics Statistics { get; private set; }
+
+    /// <summary>Forgets what has been solved before.</summary>
+    public void Reset()
+    {
+        Statistics = default;
+        _cache.Clear();
+    }
+
+    /// <summary>Makes room for the bodies of a world and their contacts, before the first step with them.</summary>
+    public void Reserve(int bodyCount, int contactCount)
+    {
+        CreateJobs();
+        Graph.Reserve(bodyCount, contactCount);
+        _solver.Reserve(bodyCount, contactCount);
+        _cache.Reserve(contactCount);
+        _rebounding.EnsureCapacity(contactCount);
+        for (var i = 0; i < _reboundingOfParts.Length; i++)
+        {
+            _reboundingOfParts[i].EnsureCapacity(contactCount / (i + 1));
+        }
+    }
+
+    /// <summary>Takes away all approaching velocities of bodies that touch. They must have been joined.</summary>
+    public void StopApproaches()
+    {
+        Graph.Group(onlyImpacts: true);
+        foreach (var island in Graph.Islands)
+        {
+            var rows = Graph.RowsOf(in island);
+            if (rows.Length == 0)
+            {
+                continue;
+            }
+
+            Load(Graph.BodiesOf(in island), rows);
+            if (island.IsLarge)
+            {
+                // What then still approaches is stopped by the solve of the step.
+                BounceAll(rows);
+            }
+            else
+            {
+                // The solve of the step ends what this one leaves.
+                _ = StopApproaches(rows, island.HasCompound ? RoundLimits.Many : RoundLimits.First);
+            }
+
+            StoreVelocities(Graph.BodiesOf(in island));
+        }
+    }
+
+    /// <summary>Plans the step of all islands. Their bodies must have been joined.</summary>
+    /// <param name="stepLength">Seconds.</param>
+    public void Plan(double stepLength)
+    {
+        Graph.Group(onlyImpacts: false);
+        for (var index = 0; index < Graph.Islands.Count; index++)
+        {
+            var island = Graph.Islands[index];
+            var isConverged = island.IsLarge ? PlanLarge(index, in island, stepLength) : PlanSmall(index, in island, stepLength);
+            Statistics = new(Statistics.Solves + 1, Statistics.Rounds, Statistics.Unconverged + (isConverged ? 0 : 1));
+            Log(Graph.RowsOf(in island));
+        }
+
+        _cache.Store(Graph, maxThreads);
+    }
+
+    private bool PlanSmall(int index, in Island island, double stepLength)
+    {
+        var members = Graph.BodiesOf(in island);
+        var rows = Graph.RowsOf(in island);
+        Join(members, index, isLarge: false);
+        var isConverged = FindForces(in island, stepLength);
+        StorePlan(members, stepLength, isLarge: false);
+        StoreTurns(members, rows, stepLength);
+        FindRebounding(rows, _rebounding);
+        StopRebounds(rows, _rebounding);
+        StoreChanges(members);
+        return isConverged;
+    }
+
+    /// <summary>Tells bodies which island they are of.</summary>
+    private void Join(ReadOnlySpan<int> members, int island, bool isLarge)
+    {
+        foreach (var index in members)
+        {
+            bodies[index].IslandIndex = island;
+            bodies[index].MayTouchBodies = true;
+            bodies[index].HasHeapMargin = isLarge;
+            bodies[index].PlannedStartOrientation = bodies[index].Orientation;
+        }
+    }
+
+    private void Load(ReadOnlySpan<int> island, Span<ContactRow> rows)
+    {
+        foreach (var index in island)
+        {
+            _solver.Load(index, bodies[index]);
+        }
+
+        foreach (ref var row in rows)
+        {
+            _solver.ComputeMasses(ref row);
+        }
+    }
+
+    private bool FindForces(in Island island, double stepLength)
+    {
+        var members = Graph.BodiesOf(in island);
+        var rows = Graph.RowsOf(in island);
+        Load(members, rows);
+        // Of bodies that have joined without touching another: they may run into surfaces.
+        var isConverged = StopApproaches(rows);
+        StoreVelocities(members);
+        return FindForces(members, rows, stepLength) && isConverged;
+    }
+
+    /// <summary>Takes away all approaching velocities: by bounces where they are fast enough, else by one solve.</summary>
+    private bool StopApproaches(Span<ContactRow> rows, int maxRounds = RoundLimits.Many)
+    {
+        BounceAll(rows);
+        var isApproaching = false;
+        foreach (ref var row in rows)
+        {
+            isApproaching |= !row.IsAhead && NormalVelocity(in row) < -Rounding(in row);
+        }
+
+        if (!isApproaching)
+        {
+            return true;
+        }
+
+        // What does not touch yet exerts no impulse.
+        foreach (ref var row in rows)
+        {
+            row.MinNormalVelocity = row.IsAhead ? double.NegativeInfinity : 0;
+        }
+
+        var isConverged = Solve(rows, RoundLimits.For(rows.Length, maxRounds));
+        Log(rows);
+        return isConverged;
+    }
+
+    private void Log(ReadOnlySpan<ContactRow> rows)
+    {
+        if (!contactLog.IsEnabled)
+        {
+            return;
+        }
+
+        foreach (ref readonly var row in rows)
+        {
+            if (row.NormalImpulse > 0 || !row.IsAhead)
+            {
+                Log(in row, row.NormalImpulse);
+            }
+        }
+    }
+
+    private void Log(in ContactRow row, double impulse) => contactLog.Add(
+        row.First, row.Second, bodies[row.First].Position + row.FirstArm - (row.FirstRadius * row.Normal), row.Normal, impulse);
+
+    private double Threshold(in ContactRow row)
+    {
+        var threshold = bodies[row.First].RestitutionThreshold;
+        return row.Second >= 0 ? Math.Max(threshold, bodies[row.Second].RestitutionThreshold) : threshold;
+    }
+
+    private double NormalVelocity(in ContactRow row) => Vector.Dot(_solver.RelativeVelocity(in row), row.Normal);
+
+    private double Rounding(in ContactRow row)
+    {
+        var rounding = RelativeTolerance * _solver.Bodies[row.First].Velocity.MaxAbsComponent();
+        return row.Second >= 0
+            ? Math.Max(rounding, RelativeTolerance * _solver.Bodies[row.Second].Velocity.MaxAbsComponent()) : rounding;
+    }
+
+    private bool FindForces(ReadOnlySpan<int> island, Span<ContactRow> rows, double stepLength)
+    {
+        _cache.Recall(rows);
+        FindFreeTurns(island, stepLength);
+        var isConverged = false;
+        var turn = double.PositiveInfinity;
+        var maxTurns = rows.Length <= MaxRowsOfManyTurns ? MaxTurns : MinTurns;
+        for (var i = 0; i < maxTurns && turn > TurnTolerance; i++)
+        {
+            turn = 0;
+            foreach (ref var row in rows)
+            {
+                turn = Math.Max(turn, SetConstraint(ref row, stepLength, isFirst: i == 0));
+            }
+
+            // Lines of contact of forces that have not converged need no correction.
+            if (i > 0 && (turn <= TurnTolerance || (i > 1 && !isConverged)))
+            {
+                break;
+            }
+
+            foreach (var index in island)
+            {
+                ref var solverBody = ref _solver.Bodies[index];
+                solverBody.Velocity = bodies[index].Velocity + (stepLength * bodies[index].FreeAcceleration);
+                solverBody.Spin = bodies[index].IsCompound ? bodies[index].FreeSpin : bodies[index].AngularVelocity;
+            }
+
+            foreach (ref var row in rows)
+            {
+                ApplyKnownImpulses(ref row);
+            }
+
+            isConverged = Solve(rows, RoundLimits.For(rows.Length));
+        }
+
+        return isConverged;
+    }
+
+    /// <summary>Gives the bodies of a contact the impulses from which the solve begins.</summary>
+    private void ApplyKnownImpulses(ref ContactRow row)
+    {
+        row.FrictionImpulse -= Vector.Dot(row.FrictionImpulse, row.Normal) * row.Normal;
+        _solver.Apply(in row, row.NormalImpulse, row.FrictionImpulse);
+        _solver.ApplyTurn(in row, row.TurnImpulse);
+    }
+
+    private bool Solve(Span<ContactRow> rows, int maxRounds)
+    {
+        var isConverged = _solver.Solve(rows, maxRounds);
+        Statistics = Statistics with { Rounds = Statistics.Rounds + _solver.Rounds };
+        return isConverged;
+    }
+
+    private void StoreVelocities(ReadOnlySpan<int> island)
+    {
+        foreach (var index in island)
+        {
+            bodies[index].Velocity = _solver.Bodies[index].Velocity;
+            bodies[index].AngularVelocity = _solver.Bodies[index].Spin;
+        }
+    }
+
+    private void StorePlan(ReadOnlySpan<int> island, double stepLength, bool isLarge)
+    {
+        foreach (var index in island)
+        {
+            var body = bodies[index];
+            var negligible = RestFraction * stepLength * body.FreeAcceleration.Length();
+            var change = _solver.Bodies[index].Velocity - body.Velocity;
+            body.PlannedVelocity = body.Velocity;
+            body.PlannedStartEnergy = body.KineticEnergy;
+            if (change.MaxAbsComponent() <= negligible && body.Velocity.MaxAbsComponent() <= negligible
+                && _solver.Bodies[index].Spin.MaxAbsComponent() * body.Radius <= negligible)
+            {
+                body.AngularVelocity = Vector.Zero;
+                body.Velocity = Vector.Zero;
+                change = Vector.Zero;
+            }
+
+            body.NetAcceleration = change / stepLength;
+            // Of a large island, what touches nothing follows its parabola too.
+            var isStraight = isLarge && change != Vector.Zero
+                && _solver.Bodies[index].Velocity != body.Velocity + (stepLength * body.FreeAcceleration);
+            body.PlannedDisplacement = stepLength * (body.Velocity + (isStraight ? change : 0.5 * stepLength * body.NetAcceleration));
+        }
+    }
+}

@@ -1,0 +1,298 @@
+using System.Globalization;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics.Bodies;
+using FractalEngine.Core.Physics.Descriptions;
+using FractalEngine.Core.Physics.Events;
+using FractalEngine.Core.Physics.Movement;
+using FractalEngine.Core.Physics.Solving;
+using FractalEngine.Core.Physics.Statics;
+using FractalEngine.Core.Queries;
+
+namespace FractalEngine.Core.Physics.Stepping;
+
+/// <summary>Takes one body through one step: shrinking, damping, forces, motion and sleep.</summary>
+internal sealed class BodyStepper
+{
+    // Of the speed that the acceleration adds in a step.
+    private const double RestitutionThresholdFraction = 0.5;
+
+    // Of √(acceleration · radius), the speed that a body reaches by falling half its radius.
+    private const double SleepSpeedFraction = 0.02;
+
+    // Of the radius: how much farther than a body goes in two steps its queries search, so that the next ones need none.
+    private const double SearchMargin = 0.5;
+
+    /// <summary>The offset of the only sphere of a body.</summary>
+    public static readonly Vector[] SingleSphereOffset = [Vector.Zero];
+
+    private readonly PhysicsSettings _settings;
+    private readonly BodyGrid _grid;
+    private readonly NearbyBodies _nearbyBodies;
+    private readonly Obstacles _obstacles;
+    private readonly SleepIslands _islands;
+    private readonly QueryContext _queryContext;
+    private readonly BodyMover _mover;
+    private readonly CompoundMover _compoundMover;
+
+    public BodyStepper(
+        PhysicsSettings settings, List<Body> bodies, BodyGrid grid, NearbyBodies nearbyBodies, Obstacles obstacles, SleepIslands islands,
+        IslandPlanner planner, QueryContext queryContext, ContactLog contactLog)
+    {
+        _settings = settings;
+        _grid = grid;
+        _nearbyBodies = nearbyBodies;
+        _obstacles = obstacles;
+        _islands = islands;
+        _queryContext = queryContext;
+        _mover = new(bodies, obstacles, islands, contactLog);
+        _compoundMover = new(bodies, obstacles, islands, planner);
+    }
+
+    /// <summary>Makes room for so many bodies near one.</summary>
+    public void Reserve(int bodyCount)
+    {
+        _nearbyBodies.Reserve(bodyCount);
+        _obstacles.Reserve(bodyCount);
+    }
+
+    /// <summary>Begins the step of a body that is awake: all but its motion.</summary>
+    /// <param name="body">Its previous state must have been saved.</param>
+    /// <param name="staticColliders">Colliders of the body's kind; null where there are no static objects.</param>
+    /// <param name="character">Character that is in the way; null for none.</param>
+    /// <param name="gravity">Units per second².</param>
+    /// <param name="stepLength">Seconds, positive.</param>
+    public void Prepare(Body body, StaticColliders? staticColliders, CharacterController? character, Vector gravity, double stepLength)
+    {
+        body.IsPrepared = true;
+        var (faceTests, boundTests) = BeginCount();
+        var description = body.Description;
+        if (body.IsShrinking)
+        {
+            body.Scale = Math.Max(description.MinScale, body.Scale - (body.Shrinkage * stepLength));
+            body.UpdateBalls();
+        }
+
+        var acceleration = gravity + ((body.Force + body.StepForce) / description.Mass);
+        if (description.Damping > 0)
+        {
+            body.Velocity *= Math.Exp(-description.Damping * stepLength);
+            body.AngularVelocity *= Math.Exp(-description.Damping * stepLength);
+        }
+
+        if (body.StepTorque != Vector.Zero)
+        {
+            body.AngularVelocity += stepLength * (body.IsCompound
+                ? body.InverseInertiaTensor * body.StepTorque : body.InverseInertia * body.StepTorque);
+        }
+
+        body.FreeAcceleration = acceleration;
+        body.RestitutionThreshold =
+            _settings.RestitutionThreshold ?? RestitutionThresholdFraction * acceleration.Length() * stepLength;
+        var wasResolved = body.IsOverlapResolved;
+        SetMover(body, staticColliders, character, stepLength);
+        if (body.IsCompound)
+        {
+            _compoundMover.Prepare(body, stepLength);
+        }
+        else
+        {
+            _mover.Prepare(body, stepLength);
+        }
+
+        if (!wasResolved)
+        {
+            _grid.Update(body.Index);
+        }
+
+        EndCount(body, faceTests, boundTests);
+    }
+
+    /// <summary>Tells whether a kinematic object may come to touch a body that sleeps.</summary>
+    /// <param name="body">Any body.</param>
+    /// <param name="staticColliders">Colliders of the body's kind; null where there are no static objects.</param>
+    /// <param name="distance">How far the object moves.</param>
+    public bool IsNearKinematic(Body body, StaticColliders? staticColliders, double distance)
+    {
+        _obstacles.SetMover(staticColliders, SingleSphereOffset, body.Radius, body.SafeDistance, 0);
+        _obstacles.Time = 0;
+        return _obstacles.TryFindNearKinematic(body.Position, distance + _obstacles.ContactSlop(body.Position), out _);
+    }
+
+    /// <summary>Finds the surfaces that a body may meet in the step.</summary>
+    /// <param name="body">Must have been prepared.</param>
+    /// <param name="staticColliders">Colliders of the body's kind; null where there are no static objects.</param>
+    /// <param name="reach">How far it may move.</param>
+    /// <param name="stepLength">Seconds, positive.</param>
+    public void FindNearSurfaces(Body body, StaticColliders? staticColliders, double reach, double stepLength)
+    {
+        if (IsFree(body, body.Position, reach))
+        {
+            return;
+        }
+
+        var (faceTests, boundTests) = BeginCount();
+        SetMover(body, staticColliders, character: null, stepLength);
+        if (body.IsCompound)
+        {
+            _compoundMover.FindNearSurfaces(body, reach, stepLength);
+        }
+        else
+        {
+            _mover.FindNearSurfaces(body, reach, stepLength);
+        }
+
+        EndCount(body, faceTests, boundTests);
+    }
+
+    /// <summary>Makes the step of a body that is awake and of no island.</summary>
+    /// <param name="body">Must have been prepared.</param>
+    /// <param name="staticColliders">Colliders of the body's kind; null where there are no static objects.</param>
+    /// <param name="character">Character that is in the way; null for none.</param>
+    /// <param name="stepLength">Seconds, positive.</param>
+    /// <param name="stepIndex">Number of steps before this one, for the message.</param>
+    /// <exception cref="InvalidOperationException">The body has left the range of a double; the message names it.</exception>
+    public void Step(Body body, StaticColliders? staticColliders, CharacterController? character, double stepLength, long stepIndex)
+    {
+        var (faceTests, boundTests) = BeginCount();
+        var motion = new SphereMotion(body.Position, body.Velocity, body.FreeAcceleration);
+        body.HasHeapMargin = false;
+        SetMover(body, staticColliders, character, stepLength);
+        if (body.IsCompound)
+        {
+            _ = _nearbyBodies.Prepare(motion.SweptBox(stepLength), body.Radius * ContactTolerances.NeighbourRadiusFactor, body.Index);
+            _compoundMover.Move(body, stepLength);
+        }
+        else
+        {
+            _obstacles.PrepareNearbyBodies(in motion, stepLength, body.Index);
+            _mover.Move(body, stepLength);
+        }
+
+        EndCount(body, faceTests, boundTests);
+        Finish(body, stepLength, stepIndex);
+        Settle(body);
+    }
+
+    /// <summary>Moves a body of an island, before it is known whether all of them have room.</summary>
+    /// <inheritdoc cref="Step"/>
+    public void MovePlanned(Body body, StaticColliders? staticColliders, CharacterController? character, double stepLength)
+    {
+        if (character is null && IsFree(body, body.PlannedStart, (body.Target - body.PlannedStart).Length()))
+        {
+            BodyMover.MoveFreely(body);
+            return;
+        }
+
+        var (faceTests, boundTests) = BeginCount();
+        SetMover(body, staticColliders, character, stepLength);
+        if (body.IsCompound)
+        {
+            _compoundMover.MovePlanned(body, stepLength);
+        }
+        else
+        {
+            _mover.MovePlanned(body, stepLength);
+        }
+
+        EndCount(body, faceTests, boundTests);
+    }
+
+    /// <summary>Ends the step of a body of an island, whose position is known. It has to settle then.</summary>
+    /// <inheritdoc cref="Step"/>
+    public void FinishPlanned(Body body, StaticColliders? staticColliders, double stepLength, long stepIndex)
+    {
+        if (body.IsCompound || body.Contacts.Count > 0)
+        {
+            var (faceTests, boundTests) = BeginCount();
+            SetMover(body, staticColliders, character: null, stepLength);
+            _obstacles.Time = stepLength;
+            if (body.IsCompound)
+            {
+                _compoundMover.FinishPlanned(body);
+            }
+            else
+            {
+                _mover.FinishPlanned(body);
+            }
+
+            EndCount(body, faceTests, boundTests);
+        }
+
+        Finish(body, stepLength, stepIndex);
+    }
+
+    /// <summary>Tells others where a body is that has ended its step: it wakes what may have lain on it. One thread at a time.</summary>
+    public void Settle(Body body)
+    {
+        _islands.WakeLeft(body);
+        // Last, so that what was collected for this body serves its islands too.
+        _grid.Update(body.Index);
+    }
+
+    /// <summary>Does so unless others may have to be told: many threads may do so at once.</summary>
+    /// <returns>False where it has to settle.</returns>
+    public bool TrySettle(Body body) => !_islands.HasSleeping && _grid.TryUpdateWithinCell(body.Index);
+
+    /// <summary>Moves a body on that a kinematic object has overrun, at the end of the step.</summary>
+    /// <param name="body">Must have been moved.</param>
+    /// <param name="staticColliders">Colliders of the body's kind; null where there are no static objects.</param>
+    /// <param name="stepLength">Seconds, positive.</param>
+    public void PushOut(Body body, StaticColliders? staticColliders, double stepLength)
+    {
+        var (faceTests, boundTests) = BeginCount();
+        SetMover(body, staticColliders, character: null, stepLength);
+        body.MayTouchBodies = true;
+        _obstacles.Time = stepLength;
+        if (!body.IsCompound)
+        {
+            // A compound is moved on when its next step begins.
+            _mover.PushOut(body);
+        }
+
+        EndCount(body, faceTests, boundTests);
+        _grid.Update(body.Index);
+    }
+
+    /// <summary>Ends the step of a body that has moved.</summary>
+    /// <param name="body">Must have been moved.</param>
+    /// <param name="stepLength">Seconds, positive.</param>
+    /// <param name="stepIndex">Number of steps before this one, for the message.</param>
+    /// <exception cref="InvalidOperationException">The body has left the range of a double; the message names it.</exception>
+    private void Finish(Body body, double stepLength, long stepIndex)
+    {
+        if (!body.Position.IsFinite() || !body.Velocity.IsFinite())
+        {
+            var state = $"position {body.Position}, velocity {body.Velocity}";
+            throw new InvalidOperationException(string.Create(
+                CultureInfo.InvariantCulture, $"body {body.Name} has left the range of a double in step {stepIndex}: {state}"));
+        }
+
+        body.Turn(stepLength);
+        var sleepSpeed = _settings.SleepSpeed ?? SleepSpeedFraction * Math.Sqrt(body.FreeAcceleration.Length() * body.Radius);
+        _islands.Update(body, sleepSpeed, _settings.TimeBeforeSleep, stepLength);
+        body.IsFinished = true;
+    }
+
+    /// <summary>True for a ball that meets no surface on a way, as far as is known without a query.</summary>
+    private bool IsFree(Body body, Vector start, double way) =>
+        !body.IsCompound && !_obstacles.HasKinematics && body.SafeDistance.LowerBoundAt(start) - body.Radius > way;
+
+    /// <summary>Makes a body the mover of the obstacles.</summary>
+    /// <returns>How far it may move in free flight.</returns>
+    private double SetMover(Body body, StaticColliders? staticColliders, CharacterController? character, double stepLength)
+    {
+        var maxTravel = new SphereMotion(body.Position, body.Velocity, body.FreeAcceleration).MaxTravelDistance(stepLength);
+        var margin = (2 * maxTravel) + (SearchMargin * body.Radius);
+        _obstacles.SetMover(staticColliders, SingleSphereOffset, body.Radius, body.SafeDistance, margin, character);
+        _obstacles.Time = 0;
+        return maxTravel;
+    }
+
+    private (long FaceTests, long BoundTests) BeginCount() => (_queryContext.Statistics.FaceTests, _queryContext.Statistics.BoundTests);
+
+    private void EndCount(Body body, long faceTestsBefore, long boundTestsBefore)
+    {
+        body.FaceTests += _queryContext.Statistics.FaceTests - faceTestsBefore;
+        body.BoundTests += _queryContext.Statistics.BoundTests - boundTestsBefore;
+    }
+}

@@ -1,0 +1,200 @@
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics.Bodies;
+using FractalEngine.Core.Physics.Events;
+
+namespace FractalEngine.Core.Physics.Stepping;
+
+/// <summary>
+/// How contacts change the velocity of a body: the paper's response v ← −e·vₙ + vₛ (§4.4.4), and friction.
+/// </summary>
+internal sealed class ContactResponse(List<Body> bodies, SleepIslands islands, ContactLog contactLog)
+{
+    // Bounces at the same moment, one after the other: more of them are a corner that leaves no path.
+    private const int MaxBounces = 16;
+
+    // Of the speed: what rounding leaves along a normal.
+    private const double RelativeTolerance = 1e-13;
+
+    private readonly HalfSpaces _planes = new();
+
+    /// <summary>Makes the velocity of a body lead into none of its contacts: by bouncing where the approach is fast enough.</summary>
+    /// <param name="body">Its contacts must be up to date.</param>
+    /// <param name="position">Position of the body, world space.</param>
+    /// <param name="restitutionThreshold">Approach speed below which it does not bounce, units per second.</param>
+    public void ResolveContacts(Body body, Vector position, double restitutionThreshold)
+    {
+        var contacts = body.Contacts;
+        for (var bounce = 0; bounce < MaxBounces; bounce++)
+        {
+            var fastestIndex = -1;
+            var fastestSpeed = 0.0;
+            for (var i = 0; i < contacts.Count; i++)
+            {
+                var velocity = RelativeVelocity(body, contacts[i], position);
+                var speed = Vector.Dot(velocity, contacts[i].Normal(position));
+                if (speed < fastestSpeed && speed < -RelativeTolerance * velocity.MaxAbsComponent()
+                    && (contacts[i].IsBody || -speed > restitutionThreshold))
+                {
+                    fastestIndex = i;
+                    fastestSpeed = speed;
+                }
+            }
+
+            if (fastestIndex < 0)
+            {
+                break;
+            }
+
+            Bounce(body, contacts[fastestIndex], position, -fastestSpeed, restitutionThreshold);
+        }
+
+        // Slow approaches to surfaces, all at once.
+        var velocityBefore = body.Velocity;
+        body.Velocity = contacts.ProjectVelocity(body.Velocity, position, _planes, onlySurfaces: true);
+        if (body.Velocity != velocityBefore)
+        {
+            contactLog.AddSum(body, position, body.Description.Mass * (body.Velocity - velocityBefore));
+        }
+    }
+
+    /// <summary>
+    /// Reduces an acceleration by friction. It acts against the velocity at the end of the time, so that it never turns a body round, and
+    /// holds slow bodies.
+    /// </summary>
+    /// <param name="body">Touches something.</param>
+    /// <param name="velocity">Velocity of the body relative to what it touches.</param>
+    /// <param name="acceleration">By gravity and forces.</param>
+    /// <param name="netAcceleration">What the contacts leave of it; receives what friction leaves of that.</param>
+    /// <param name="duration">Seconds; receives the time until the body stops or turns, if that is sooner.</param>
+    /// <returns>True when the body stops then.</returns>
+    public static bool ApplyFriction(
+        Body body, Vector velocity, Vector acceleration, ref Vector netAcceleration, ref double duration)
+    {
+        var frictionDeceleration = body.Description.Friction * (acceleration - netAcceleration).Length();
+        var velocityDotAcceleration = Vector.Dot(velocity, netAcceleration);
+        var speedSquared = velocity.LengthSquared();
+        if (velocityDotAcceleration < 0)
+        {
+            // Beyond that time the friction would help it.
+            duration = Math.Min(duration, -speedSquared / velocityDotAcceleration);
+        }
+
+        var velocityWithoutFriction = velocity + (duration * netAcceleration);
+        var speedWithoutFriction = velocityWithoutFriction.Length();
+        if (speedWithoutFriction > duration * frictionDeceleration)
+        {
+            netAcceleration -= frictionDeceleration / speedWithoutFriction * velocityWithoutFriction;
+            return false;
+        }
+
+        // When friction has taken all that the acceleration has added to the velocity: |v + s·t| = f·t.
+        var excess = (frictionDeceleration * frictionDeceleration) - netAcceleration.LengthSquared();
+        var stopTime = excess > 0
+            ? (velocityDotAcceleration + Math.Sqrt((velocityDotAcceleration * velocityDotAcceleration) + (excess * speedSquared))) / excess
+            : velocityDotAcceleration < 0
+                // Uphill, where the friction alone would not hold: the same root, without the division by the excess.
+                ? speedSquared / (Math.Sqrt(Math.Max(0, (velocityDotAcceleration * velocityDotAcceleration) + (excess * speedSquared)))
+                    - velocityDotAcceleration)
+                : duration;
+        duration = Math.Min(duration, stopTime);
+        netAcceleration = duration > 0 ? -velocity / duration : Vector.Zero;
+        return true;
+    }
+
+    private Vector RelativeVelocity(Body body, in Contact contact, Vector position) => body.Velocity
+        - (contact.IsBody ? bodies[contact.BodyIndex].VelocityAt(ArmOf(in contact)) : contact.SurfaceVelocity(position));
+
+    /// <summary>Centre of the touched ball relative to its body.</summary>
+    private Vector ArmOf(in Contact contact) => contact.Point - bodies[contact.BodyIndex].Position;
+
+    private void Bounce(Body body, in Contact contact, Vector position, double approachSpeed, double restitutionThreshold)
+    {
+        var normal = contact.Normal(position);
+        var other = contact.IsBody ? bodies[contact.BodyIndex] : null;
+        if (other is { IsAsleep: true } && approachSpeed > restitutionThreshold)
+        {
+            islands.Wake(other);
+        }
+
+        // A body that sleeps on is as immovable as the ground.
+        var movable = other is { IsAsleep: false, IsStuck: false } ? other : null;
+        var inverseMass = 1 / body.Description.Mass;
+        var otherInverseMass = movable is null ? 0
+            : movable.IsCompound ? movable.InverseMassAt(ArmOf(in contact), normal) : 1 / movable.Description.Mass;
+        var restitution = approachSpeed > restitutionThreshold ? CombinedRestitution(body, other) : 0;
+        var impulse = (1 + restitution) * approachSpeed / (inverseMass + otherInverseMass) * normal;
+        contactLog.Add(body, in contact, position, impulse.Length());
+        var friction = other is null ? body.Description.Friction : Math.Min(body.Description.Friction, other.Description.Friction);
+        if (movable is { IsCompound: true })
+        {
+            BounceOffCompound(body, movable, in contact, position, impulse, friction);
+            return;
+        }
+
+        if (friction > 0)
+        {
+            var relative = RelativeVelocity(body, in contact, position);
+            var otherRadius = other is { IsCompound: true } ? contact.CombinedRadius - body.Radius : other?.Radius ?? 0;
+            var across = StopSlip(body, other, otherRadius, movable, relative, normal, friction * impulse.Length());
+            impulse += across;
+            Turn(body, body.Radius, normal, across);
+            if (movable is not null)
+            {
+                Turn(movable, movable.Radius, normal, across);
+            }
+        }
+
+        body.Velocity += inverseMass * impulse;
+        if (movable is not null)
+        {
+            movable.Velocity -= otherInverseMass * impulse;
+        }
+    }
+
+    /// <summary>Gives a ball and a compound the impulse of a bounce, then that of friction: both together could add energy.</summary>
+    private void BounceOffCompound(Body body, Body other, in Contact contact, Vector position, Vector impulse, double friction)
+    {
+        var normal = contact.Normal(position);
+        var arm = ArmOf(in contact) + ((contact.CombinedRadius - body.Radius) * normal);
+        body.Velocity += impulse / body.Description.Mass;
+        other.ApplyImpulse(arm, -impulse);
+        if (friction > 0)
+        {
+            var relative = RelativeVelocity(body, in contact, position);
+            var across = StopSlip(body, other, contact.CombinedRadius - body.Radius, other, relative, normal, friction * impulse.Length());
+            Turn(body, body.Radius, normal, across);
+            body.Velocity += across / body.Description.Mass;
+            other.ApplyImpulse(arm, -across);
+        }
+    }
+
+    /// <summary>Impulse across the normal that stops the slip of the touching points, as far as friction allows.</summary>
+    private static Vector StopSlip(
+        Body body, Body? other, double otherRadius, Body? movable, Vector relative, Vector normal, double limit)
+    {
+        var spin = body.Radius * body.AngularVelocity;
+        var inverseMass = InverseMassAcross(body);
+        if (other is not null)
+        {
+            spin += otherRadius * other.AngularVelocity;
+            inverseMass += movable is null ? 0 : InverseMassAcross(movable);
+        }
+
+        var slip = relative - (Vector.Dot(relative, normal) * normal) + Vector.Cross(normal, spin);
+        var impulse = -slip / inverseMass;
+        var length = impulse.Length();
+        return length > limit ? limit / length * impulse : impulse;
+    }
+
+    /// <summary>Inverse of the mass that an impulse at the surface and along it moves.</summary>
+    private static double InverseMassAcross(Body body) =>
+        (1 / body.Description.Mass) + (body.InverseInertia * body.Radius * body.Radius);
+
+    /// <summary>Turns a body by an impulse at its touching point; both bodies of a contact turn alike.</summary>
+    private static void Turn(Body body, double radius, Vector normal, Vector across) =>
+        body.AngularVelocity -= body.InverseInertia * radius * Vector.Cross(normal, across);
+
+    private static double CombinedRestitution(Body body, Body? other) => other is null
+        ? body.Description.Restitution
+        : Math.Min(body.Description.Restitution, other.Description.Restitution);
+}

@@ -1,0 +1,135 @@
+using System.Runtime.Intrinsics;
+using FractalEngine.Core.Fractals.Descriptions;
+using FractalEngine.Core.Fractals.Levels;
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Queries;
+
+/// <summary>Finds the instance that a path of a search leads to.</summary>
+internal static class InstanceResolver
+{
+    /// <summary>Maximum number of child instances on a path; longer ones end there.</summary>
+    public const int MaxDepth = 20_000;
+
+    /// <summary>Follows a path to an instance: composes its map, and records the map index of each level.</summary>
+    /// <param name="hierarchy">The levels of the fractal.</param>
+    /// <param name="path">Indices of child instances from the root.</param>
+    /// <param name="rootMap">From the frame of the fractal to that of the query.</param>
+    /// <param name="context">Receives the map indices.</param>
+    /// <param name="reach">The largest absolute coordinate of a frame's origin on the way, in the frame of the query.</param>
+    public static SimdAffineMap ResolveInstance(
+        this FractalHierarchy hierarchy, ReadOnlySpan<int> path, in AffineMap rootMap, QueryContext context, out double reach) =>
+        ResolveInstance(hierarchy, path, hierarchy.Levels, in rootMap, context, out reach);
+
+    /// <summary>Follows a path from a sub-fractal to an instance.</summary>
+    /// <param name="hierarchy">The levels of the fractal.</param>
+    /// <param name="path">Indices of child instances from the sub-fractal.</param>
+    /// <param name="remainingLevels">Remaining levels of the sub-fractal.</param>
+    /// <param name="rootMap">From the frame of the sub-fractal to that of the query.</param>
+    /// <param name="context">Receives the map indices.</param>
+    /// <param name="reach">The largest absolute coordinate of a frame's origin on the way, in the frame of the query.</param>
+    public static SimdAffineMap ResolveInstance(
+        this FractalHierarchy hierarchy, ReadOnlySpan<int> path, long remainingLevels, in AffineMap rootMap, QueryContext context,
+        out double reach)
+    {
+        var map = new SimdAffineMap(rootMap);
+        var maxTranslation = Vector256.Abs(map.Translation);
+        var exponent = 0L;
+        int? end = null;
+        var subFractal = hierarchy.At(remainingLevels);
+        foreach (var childIndex in path)
+        {
+            var child = subFractal.Children[childIndex];
+            if (child.Group is { } group)
+            {
+                subFractal = group;
+                continue;
+            }
+
+            map = SimdAffineMap.Compose(in map, child.SimdMap);
+            maxTranslation = Vector256.Max(maxTranslation, Vector256.Abs(map.Translation));
+            if (child.HasMapsOfLevels)
+            {
+                foreach (var edge in child.Edges)
+                {
+                    context.AppendToPath(edge.MapIndex);
+                }
+
+                remainingLevels = child.RemainingLevels(remainingLevels);
+                subFractal = hierarchy.At(remainingLevels);
+                continue;
+            }
+
+            foreach (var edge in child.Edges)
+            {
+                var childLevels = edge.RemainingLevels(remainingLevels);
+                if (edge.Set.IsOfCalls)
+                {
+                    context.AppendToPath(edge.MapIndex);
+                    remainingLevels = childLevels;
+                    continue;
+                }
+
+                if (edge.Set.Power is { } power)
+                {
+                    exponent = AppendPower(power, context, exponent, childLevels);
+                    end ??= exponent == 0 && power.Count > FractalLimits.MaxDepth ? context.InstancePath.Length : null;
+                    remainingLevels = childLevels;
+                    continue;
+                }
+
+                var isIdentity = edge.Set == MapSet.Identity;
+                // Levels that are skipped take their identity. A path that ends early goes on with identities, and one that takes them
+                // without end can't name what follows.
+                var lastSkipped = isIdentity ? childLevels : childLevels + 1;
+                var maxSkipped = isIdentity && childLevels == 0 ? MaxDepth : FractalLimits.MaxDepth;
+                end ??= remainingLevels - lastSkipped > maxSkipped ? context.InstancePath.Length : null;
+                for (var level = remainingLevels; level > lastSkipped && end is null; level--)
+                {
+                    context.AppendToPath(hierarchy.MapSetAt(level)!.IdentityIndex);
+                }
+
+                if (!isIdentity)
+                {
+                    context.AppendToPath(edge.MapIndex);
+                }
+
+                remainingLevels = childLevels;
+            }
+
+            subFractal = hierarchy.At(remainingLevels);
+        }
+
+        context.ShortenPath(end ?? context.InstancePath.Length);
+        reach = SimdAffineMap.ToVector(maxTranslation).MaxAbsComponent();
+        return map;
+    }
+
+    /// <summary>Appends the map indices of an edge to the path of a result and, below the repetition, those of the identities.</summary>
+    /// <param name="power">The part of the repetition that the edge stands for.</param>
+    /// <param name="context">Receives the indices.</param>
+    /// <param name="exponent">How often the edges before have applied the map.</param>
+    /// <param name="childLevels">Remaining levels below the edge.</param>
+    /// <returns>How often the map is applied after the edge; 0 below the repetition.</returns>
+    private static long AppendPower(MapPower power, QueryContext context, long exponent, long childLevels)
+    {
+        for (var i = 0L; i < power.Exponent; i++)
+        {
+            context.AppendToPath(power.MapIndex);
+        }
+
+        exponent += power.Exponent;
+        if (childLevels != power.LevelBelow)
+        {
+            return exponent;
+        }
+
+        // A path that ends early goes on with identities.
+        for (var i = exponent; i < power.Count && power.Count <= (power.LevelBelow > 0 ? FractalLimits.MaxDepth : MaxDepth); i++)
+        {
+            context.AppendToPath(power.IdentityIndex);
+        }
+
+        return 0;
+    }
+}

@@ -1,0 +1,114 @@
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Queries.Regions;
+
+/// <summary>The nodes of a <see cref="ShapeTree"/> that a <see cref="ClosestPairSearch"/> has made: each once, for all its pairs.</summary>
+internal sealed class ShapeNodes
+{
+    private const int Unexpanded = -1;
+
+    private readonly ShapeTree _tree;
+    private readonly double _minRadiusSquared;
+    private readonly List<Entry> _entries = [];
+    private readonly List<int> _faces = [];
+    private readonly List<(Vector A, Vector B, Vector C)> _triangles = [];
+    private readonly List<BoundingBox> _triangleBoxes = [];
+    private int _leafOfTriangles = -1;
+
+    /// <summary>Begins with the root, which has the index 0.</summary>
+    /// <param name="tree">The shape, not empty.</param>
+    /// <param name="map">From its frame to that of the query.</param>
+    public ShapeNodes(ShapeTree tree, in AffineMap map)
+    {
+        _tree = tree;
+        _minRadiusSquared = tree.MinRadiusSquared(in map);
+        Add(tree.Root(in map), -1, -1, 0);
+    }
+
+    /// <summary>Number of nodes that are kept.</summary>
+    public int Count => _entries.Count;
+
+    /// <summary>How far a sub-fractal may reach that was replaced by the base mesh, in the frame of the query.</summary>
+    public double Precision => 2 * Math.Sqrt(_minRadiusSquared);
+
+    /// <summary>The faces of the leaf that <see cref="LoadTriangles"/> was called for last, as indices in the base mesh.</summary>
+    public IReadOnlyList<int> Faces => _faces;
+
+    /// <summary>The triangles of these faces in the frame of the query.</summary>
+    public IReadOnlyList<(Vector A, Vector B, Vector C)> Triangles => _triangles;
+
+    /// <summary>The boxes around these triangles.</summary>
+    public IReadOnlyList<BoundingBox> TriangleBoxes => _triangleBoxes;
+
+    /// <summary>The node with an index in the order in which nodes were made.</summary>
+    public ShapeNode this[int index] => _entries[index].Node;
+
+    /// <summary>True for a node without children.</summary>
+    public bool IsLeaf(int index) => _tree.ChildCount(_entries[index].Node) == 0;
+
+    /// <summary>The children of a node, which are made when it is first asked for them.</summary>
+    public Range Children(int index)
+    {
+        var entry = _entries[index];
+        if (entry.FirstChild == Unexpanded)
+        {
+            entry = entry with { FirstChild = _entries.Count };
+            var depth = entry.Node.IsBase ? entry.Depth : entry.Depth + 1;
+            for (var i = 0; i < _tree.ChildCount(entry.Node); i++)
+            {
+                if (_tree.TryGetChild(entry.Node, i, _minRadiusSquared, depth, out var child))
+                {
+                    Add(child, index, entry.Node.IsBase ? -1 : i, depth);
+                }
+            }
+
+            entry = entry with { ChildCount = _entries.Count - entry.FirstChild };
+            _entries[index] = entry;
+        }
+
+        return entry.FirstChild..(entry.FirstChild + entry.ChildCount);
+    }
+
+    /// <summary>Computes the triangles of a leaf.</summary>
+    public void LoadTriangles(int leaf)
+    {
+        if (leaf == _leafOfTriangles)
+        {
+            return;
+        }
+
+        _leafOfTriangles = leaf;
+        _faces.Clear();
+        _triangles.Clear();
+        _triangleBoxes.Clear();
+        var node = _entries[leaf].Node;
+        foreach (var face in _tree.Faces(in node))
+        {
+            var (a, b, c) = _tree.Triangle(in node, face);
+            _faces.Add(face);
+            _triangles.Add((a, b, c));
+            _triangleBoxes.Add(new(Vector.Min(a, Vector.Min(b, c)), Vector.Max(a, Vector.Max(b, c))));
+        }
+    }
+
+    /// <summary>Names the instance of a node.</summary>
+    public int[] InstancePath(int index)
+    {
+        var path = new int[_entries[index].Depth];
+        for (; index > 0; index = _entries[index].Parent)
+        {
+            if (_entries[index].ChildIndex >= 0)
+            {
+                path[_entries[index].Depth - 1] = _entries[index].ChildIndex;
+            }
+        }
+
+        return _tree.InstancePath(path, new());
+    }
+
+    private void Add(in ShapeNode node, int parent, int childIndex, int depth) =>
+        _entries.Add(new(node, parent, childIndex, depth, Unexpanded, 0));
+
+    private readonly record struct Entry(ShapeNode Node, int Parent, int ChildIndex, int Depth, int FirstChild, int ChildCount);
+}

@@ -1,0 +1,86 @@
+using FractalEngine.Core.Bvh;
+using FractalEngine.Core.Fractals.Levels;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Queries;
+
+/// <summary>
+/// A part of a shape's tree in the frame of a query: a sub-fractal, or a node or leaf of the hierarchy of the base mesh.
+/// </summary>
+internal readonly struct ShapeNode
+{
+    /// <summary>Creates a node of a shape.</summary>
+    /// <param name="subFractal">The sub-fractal; null inside the base mesh.</param>
+    /// <param name="remainingLevels">Its remaining levels.</param>
+    /// <param name="bvhNode">The node or leaf of the base mesh's hierarchy.</param>
+    /// <param name="baseIndex">Index of the base mesh that the node is or is inside of; negative above the base meshes.</param>
+    /// <param name="map">From the node's frame to that of the query.</param>
+    /// <param name="localBox">A box around the node in its own frame.</param>
+    /// <param name="reach">The largest absolute coordinate on the way to the node.</param>
+    public ShapeNode(
+        SubFractal? subFractal, long remainingLevels, BvhChild bvhNode, int baseIndex, in AffineMap map, BoundingBox localBox, double reach)
+    {
+        SubFractal = subFractal;
+        RemainingLevels = remainingLevels;
+        BvhNode = bvhNode;
+        BaseIndex = baseIndex;
+        Map = map;
+        LocalBox = localBox;
+        Box = localBox.Transform(map);
+        // The largest products and sums that make a coordinate.
+        var localReach = map.Linear.Absolute() * Vector.Max(localBox.Minimum.Absolute(), localBox.Maximum.Absolute());
+        Reach = Math.Max(reach, localReach.MaxAbsComponent() + map.Translation.MaxAbsComponent());
+    }
+
+    /// <summary>The sub-fractal; null inside the base mesh.</summary>
+    public SubFractal? SubFractal { get; }
+
+    /// <summary>Remaining levels of the sub-fractal.</summary>
+    public long RemainingLevels { get; }
+
+    /// <summary>The node or leaf of the base mesh's hierarchy; meaningless above the base mesh.</summary>
+    public BvhChild BvhNode { get; }
+
+    /// <summary>True for a base mesh and what is inside.</summary>
+    public bool IsBase => BaseIndex >= 0;
+
+    /// <summary>Index of that base mesh; negative above.</summary>
+    public int BaseIndex { get; }
+
+    /// <summary>From the node's frame to that of the query.</summary>
+    public AffineMap Map { get; }
+
+    /// <summary>A box around the node in its own frame.</summary>
+    public BoundingBox LocalBox { get; }
+
+    /// <summary>A box around the node in the frame of the query.</summary>
+    public BoundingBox Box { get; }
+
+    /// <summary>The largest absolute coordinate on the way to the node, in the frame of the query.</summary>
+    public double Reach { get; }
+
+    /// <summary>How far rounding may have moved what is inside, in the frame of the query.</summary>
+    public double Slack => RoundingErrors.Coordinate * Reach;
+
+    /// <summary>True where the best convex solid around the node is its box in the frame of the query.</summary>
+    public bool IsBoundedByBox => SubFractal?.Solid is null or { IsBox: true } && Map.Linear.KeepsBoxesAxisAligned();
+
+    /// <summary>Finds a point of a convex solid around the node that lies lowest in a direction.</summary>
+    /// <param name="direction">In the frame of the query, of any length.</param>
+    /// <param name="margin">How much lower the node may reach, times the length of the direction.</param>
+    public Vector FindLowestPoint(Vector direction, out double margin)
+    {
+        var local = Map.Linear.Transpose() * direction;
+        if (SubFractal?.Solid is { } solid)
+        {
+            margin = solid.Margin * local.Length();
+            return Map * solid.FindLowestVertex(local);
+        }
+
+        margin = 0;
+        var (minimum, maximum) = LocalBox;
+        return Map * new Vector(
+            local.X > 0 ? minimum.X : maximum.X, local.Y > 0 ? minimum.Y : maximum.Y, local.Z > 0 ? minimum.Z : maximum.Z);
+    }
+}

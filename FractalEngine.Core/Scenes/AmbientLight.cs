@@ -1,8 +1,0 @@
-using FractalEngine.Core.Geometry;
-
-namespace FractalEngine.Core.Scenes;
-
-/// <summary>Light that falls equally from all directions.</summary>
-/// <param name="Colour">sRGB.</param>
-/// <param name="Intensity">Not negative.</param>
-public sealed record AmbientLight(Colour Colour, double Intensity) : Light(Colour, Intensity);

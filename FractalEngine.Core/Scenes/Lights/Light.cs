@@ -1,0 +1,16 @@
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Scenes.Lights;
+
+/// <summary>A source of light. Intensities multiply the linear components of the colour; 1 shows a white surface white.</summary>
+/// <param name="Colour">Colour of the light as the scene file writes it, in sRGB components.</param>
+/// <param name="Intensity">Factor of the colour's linear components, not negative.</param>
+public abstract record Light(Colour Colour, double Intensity)
+{
+    /// <summary>Throws for a vector that points nowhere.</summary>
+    private protected static Vector RequireDirection(Vector direction, string parameterName) =>
+        direction.IsFinite() && direction != Vector.Zero
+            ? direction
+            : throw new ArgumentException("expected a finite direction that is not (0, 0, 0)", parameterName);
+}

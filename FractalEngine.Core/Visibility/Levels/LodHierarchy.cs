@@ -1,0 +1,111 @@
+using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Fractals.Descriptions;
+using FractalEngine.Core.Fractals.Levels;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Visibility.Frames;
+using FractalEngine.Core.Visibility.Sky;
+
+namespace FractalEngine.Core.Visibility.Levels;
+
+/// <summary>
+/// The level-of-detail hierarchy of a fractal: one node for each number of remaining levels, with the bounding boxes that exact search
+/// has found. It takes kilobytes at any depth.
+/// </summary>
+public sealed class LodHierarchy
+{
+    private readonly LodNode[] _nodes;
+    private readonly LevelRegion[] _regions;
+    private SkySides? _sides;
+    private VisibleSides? _visibleSides;
+    private SkyMasks?[] _lastSkyMasks = [];
+
+    // Set on the thread that bakes, after all masks.
+    private volatile bool _hasSkyMasks;
+    private volatile bool _isSkyBaked;
+
+    internal LodHierarchy(LodNode[] nodes, LevelRegion[] regions, long levelCount, Mesh mesh)
+    {
+        _nodes = nodes;
+        _regions = regions;
+        LevelCount = levelCount;
+        Mesh = mesh;
+        Occluder = new(mesh);
+    }
+
+    /// <summary>The base mesh that every instance draws.</summary>
+    public Mesh Mesh { get; }
+
+    /// <summary>The base mesh in the form that an <see cref="OcclusionBuffer"/> rasterizes.</summary>
+    internal OccluderMesh Occluder { get; }
+
+    /// <summary>Points of the base mesh that stand for its sides.</summary>
+    internal SkySides Sides => _sides ??= new(Mesh);
+
+    /// <summary>Tells which of these an eye sees.</summary>
+    internal VisibleSides VisibleSides => _visibleSides ??= new(Mesh);
+
+    /// <summary>Number of levels of the whole fractal; a huge number where they are infinitely many.</summary>
+    internal long LevelCount { get; }
+
+    /// <summary>True for a mesh, and for a fractal that is its base mesh: one instance, or none where it is not visible.</summary>
+    public bool HasNoLevels => LevelCount == 0;
+
+    /// <summary>Builds the hierarchy of a fractal.</summary>
+    /// <param name="fractal">Fractal of any composition and depth.</param>
+    /// <exception cref="FractalLimitException">
+    /// Bounds overflow a double or don't converge, as those of an infinite fractal that grows; or there are more than
+    /// <see cref="FractalLimits.MaxComponentwiseSums"/> sums in componentwise composition.
+    /// </exception>
+    /// <exception cref="SingularMatrixException">A map of the fractal flattens space.</exception>
+    public static LodHierarchy Build(Fractal fractal) => LodHierarchyBuilder.Build(fractal);
+
+    /// <summary>Builds the hierarchy of a mesh that is drawn once.</summary>
+    public static LodHierarchy Build(Mesh mesh) =>
+        new([new(mesh.FaceCount == 0 ? BoundingBox.Empty : mesh.Bounds, AffineMap.Identity, [])], [new(0, 1, 0, 1)], 0, mesh)
+        {
+            IsSkyBaked = true,
+        };
+
+    /// <summary>Whether it is known what the parts of the fractal leave of each other's sky: see <c>SkyMaskBaker.Bake</c>.</summary>
+    public bool HasSkyMasks
+    {
+        get => _hasSkyMasks;
+        internal set => _hasSkyMasks = value;
+    }
+
+    /// <summary>Whether <c>SkyMaskBaker.Bake</c> has nothing more to do.</summary>
+    public bool IsSkyBaked
+    {
+        get => _isSkyBaked;
+        internal set => _isSkyBaked = value;
+    }
+
+    /// <summary>Is held while masks are computed: two preparations of a scene may share the hierarchy.</summary>
+    internal Lock BakeLock { get; } = new();
+
+    /// <summary>
+    /// Whether no part of the fractal can hide another one's sky, so that <c>SkyMaskBaker.Bake</c> would find nothing: it is one part, or
+    /// lies in a plane. Costs a pass over the base mesh and the nodes; false proves nothing.
+    /// </summary>
+    public bool HasOpenSky() => OpenSky.IsSinglePath(_nodes) || IsFlat();
+
+    /// <summary>Whether all instances of the base mesh certainly lie in one plane.</summary>
+    public bool IsFlat() => OpenSky.IsFlat(Mesh, _nodes);
+
+    /// <summary>Bytes of the tables that <c>SkyMaskBaker.Bake</c> has made.</summary>
+    public int SkyMaskBytes => HasSkyMasks
+        ? _nodes.Select(static node => node.SkyMasks).Concat(_lastSkyMasks).OfType<SkyMasks>().Distinct()
+            .Sum(static masks => masks.ByteCount)
+        : 0;
+
+    /// <summary>Sets the masks of the last levels: they end in the base mesh, unlike others with the same node.</summary>
+    internal void SetLastSkyMasks(SkyMasks?[] masks) => _lastSkyMasks = masks;
+
+    /// <summary>Finds the masks of a node with a number of remaining levels; null for none.</summary>
+    internal SkyMasks? SkyMasksAt(LodNode node, long remainingLevels) =>
+        remainingLevels < _lastSkyMasks.Length ? _lastSkyMasks[remainingLevels] : node.SkyMasks;
+
+    /// <summary>Finds the node of a number of remaining levels.</summary>
+    internal LodNode NodeAt(long remainingLevels) => _nodes[LevelRegion.FindIndex(_regions, remainingLevels)];
+}

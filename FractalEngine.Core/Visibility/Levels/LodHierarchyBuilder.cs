@@ -1,0 +1,65 @@
+using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Fractals.Descriptions;
+using FractalEngine.Core.Fractals.Levels;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Visibility.Levels;
+
+/// <summary>Builds the <see cref="LodHierarchy"/> of a fractal.</summary>
+internal static class LodHierarchyBuilder
+{
+    // A box counts as holding another one if their union is no larger than this multiple of it.
+    private const double ContainmentFactor = 1.001;
+
+    /// <summary>Builds the hierarchy of a fractal of either composition, see <see cref="LodHierarchy.Build(Fractal)"/>.</summary>
+    public static LodHierarchy Build(Fractal fractal) =>
+        fractal.Description.Composition == Composition.Componentwise ? BuildComponentwise(fractal) : BuildAffine(fractal);
+
+    private static LodHierarchy BuildAffine(Fractal fractal)
+    {
+        var hierarchy = fractal.HierarchyBySets;
+        var levels = hierarchy.AllLevels;
+        var nodes = new LodNode[levels.Length];
+        for (var i = 0; i < nodes.Length; i++)
+        {
+            // The first level is the base mesh.
+            nodes[i] = BuildNode(levels[i], levels[0].Box);
+        }
+
+        return new(nodes, hierarchy.Regions.ToArray(), hierarchy.Levels, fractal.BaseMesh);
+    }
+
+    private static LodNode BuildNode(HierarchyLevel level, BoundingBox baseBox)
+    {
+        var children = new List<LodChild>();
+        foreach (var (edge, box) in level.Edges.Zip(level.GetEdgeBoxes()))
+        {
+            if (!box.IsEmpty)
+            {
+                children.Add(new(edge.Map, box, edge.LevelStep, edge.Map == AffineMap.Identity ? -1 : edge.MapIndex));
+            }
+        }
+
+        return new(level.Box, ComputeProxyMap(baseBox, level.Box), [.. children]);
+    }
+
+    /// <summary>Computes the map under which the base mesh is the proxy of what a box holds.</summary>
+    /// <remarks>
+    /// It is the identity where the base mesh lies within the box. Otherwise the maps have carried the base mesh away, and the proxy is
+    /// stretched to fill the box.
+    /// </remarks>
+    private static AffineMap ComputeProxyMap(BoundingBox baseBox, BoundingBox box) =>
+        box.IsEmpty || BoundingBox.Union(box, baseBox).Diagonal <= ContainmentFactor * box.Diagonal
+        ? AffineMap.Identity
+        : BoundingBox.MapBoxToBox(baseBox, box);
+
+    /// <summary>Builds the hierarchy of componentwise sums, which have no levels: an <see cref="InstanceBvh"/> groups them.</summary>
+    private static LodHierarchy BuildComponentwise(Fractal fractal)
+    {
+        var mesh = fractal.BaseMesh;
+        var maps = mesh.FaceCount == 0 ? [] : FractalGenerator.Expand(fractal, FractalLimits.MaxComponentwiseSums);
+        var bvh = new InstanceBvh(mesh.Bounds, [.. maps]);
+        return new(bvh.Nodes, [new(0, bvh.Nodes.Length, 0, bvh.Nodes.Length)], bvh.RootIndex, mesh);
+    }
+}

@@ -1,9 +1,0 @@
-using FractalEngine.Core.Maths;
-
-namespace FractalEngine.Core.Visibility;
-
-/// <summary>A sub-fractal at which drawing begins.</summary>
-/// <param name="RemainingLevels">Number of levels that the sub-fractal has left.</param>
-/// <param name="FrameToCamera">Map from the sub-fractal's frame to world axes about the camera, in any unit.</param>
-/// <param name="ColourPath">Path of maps that lead to the sub-fractal; its colours continue from there.</param>
-public readonly record struct LodRoot(long RemainingLevels, AffineMap FrameToCamera, ColourPath ColourPath);

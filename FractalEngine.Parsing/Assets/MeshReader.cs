@@ -1,0 +1,24 @@
+using FractalEngine.Parsing.Meshes;
+using FractalEngine.Parsing.Ply;
+using FractalEngine.Parsing.Stl;
+using FractalEngine.Parsing.Text;
+using FractalEngine.Parsing.Wavefront;
+
+namespace FractalEngine.Parsing.Assets;
+
+/// <summary>Reads mesh files of all formats, told apart by the endings of their names.</summary>
+internal static class MeshReader
+{
+    /// <summary>Reads a mesh without its materials.</summary>
+    /// <param name="path">Path of a file that ends in .obj, .obj.gz, .ply or .stl.</param>
+    /// <param name="fileName">Name of the file in messages.</param>
+    /// <param name="progress">Receives the fraction that is done, from 0 to 1; only of OBJ files.</param>
+    /// <exception cref="SourceException">The file can't be read, or is not of the format.</exception>
+    public static ParsedObj Read(string path, string fileName, IProgress<double>? progress = null) =>
+        Path.GetExtension(path).ToUpperInvariant() switch
+        {
+            ".PLY" => PlyReader.Read(path, fileName),
+            ".STL" => StlReader.Read(path, fileName),
+            _ => ObjReader.Read(path, fileName, progress),
+        };
+}

@@ -1,0 +1,48 @@
+using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Fractals.Descriptions;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Parsing.Fdo;
+
+/// <summary>Rejects fractals whose description is well-formed but defines no bounded set of instances.</summary>
+internal static class FractalCheck
+{
+    /// <summary>Message for a description that <see cref="IsComposable"/> rejects.</summary>
+    public const string NotComposableMessage =
+        "an infinite fractal can't be composed componentwise: its positions don't shrink; give it a depth";
+
+    /// <summary>Returns whether the composition is defined for the number of levels.</summary>
+    public static bool IsComposable(FractalDescription description) =>
+        !description.IsInfinite || description.Composition != Composition.Componentwise;
+
+    /// <summary>Returns what is wrong with the bounds of a fractal; null if they are finite.</summary>
+    public static string? FindBoundsFault(Fractal fractal)
+    {
+        if (fractal.Bounds == BoundingBox.Empty || fractal.Bounds.Size.IsFinite())
+        {
+            return null;
+        }
+
+        return !fractal.Description.IsInfinite ? "the fractal grows beyond the range of a double"
+            : fractal.Description.Steps.OfType<Repetition>().Where(static step => step.Count is null).All(Shrinks)
+                ? "the infinite fractal's transformations shrink too slowly: its bounds still change after thousands of levels; "
+                    + "give it a depth"
+                : "the infinite fractal has no bounds: its transformations don't shrink";
+    }
+
+    /// <summary>Tells whether each round of a repetition makes shorter what it makes at all: the identity makes nothing new.</summary>
+    private static bool Shrinks(Repetition repetition)
+    {
+        var factor = 1.0;
+        foreach (var set in repetition.Round)
+        {
+            factor *= set is TransformationSet { Maps: var maps }
+                ? maps.Where(static map => map != AffineMap.Identity).Select(static map => BoundingSphere.OperatorNormBound(map.Linear))
+                    .DefaultIfEmpty(1).Max()
+                : double.PositiveInfinity;
+        }
+
+        return factor < 1;
+    }
+}

@@ -1,0 +1,259 @@
+using System.Collections.Immutable;
+using FractalEngine.Core.Fractals.Descriptions;
+using FractalEngine.Core.Maths;
+using FractalEngine.Parsing.Text;
+using FractalEngine.Parsing.Text.Grammar;
+using FractalEngine.Parsing.Text.Numbers;
+
+namespace FractalEngine.Parsing.Fdo;
+
+/// <content>Parses transformation functions and the sets that call them.</content>
+public sealed partial class FractalParser
+{
+    private const int MaxParameters = 3;
+
+    // The arguments of the call that is read.
+    private readonly Vector[] _arguments = new Vector[MaxParameters];
+
+    /// <summary>Parses <c>t.a.b. (out, out, out)</c>; each output is a parameter, the number of a vector, or '#'.</summary>
+    private bool ParseFunction(Cursor cursor, out Cursor rest)
+    {
+        _outputCount = 0;
+        if (!ParseName(cursor, "a declaration", out var name, out rest) || !ParseChar(rest, '.', out rest)
+            || !ParseParameters(rest, out var parameters, out rest)
+            || !ParseBlanks(rest, out rest) || !ParseChar(rest, '(', out rest)
+            || !ParseBlanks(rest, out rest) || !ParseOutput(rest, parameters, Vector.Zero, out var position, out rest)
+            || !ParseSeparator(rest, out rest) || !ParseOutput(rest, parameters, Vector.Zero, out var rotation, out rest)
+            || !ParseSeparator(rest, out rest) || !ParseOutput(rest, parameters, Vector.One, out var scale, out rest)
+            || !ParseBlanks(rest, out rest) || !ParseChar(rest, ')', out rest))
+        {
+            return false;
+        }
+
+        RequireLimit(_objects.Count + _functions.Count + 1, ParsingLimits.MaxNames, "names", cursor);
+        if (!_functions.TryAdd(name, new(parameters.Count, position, rotation, scale)))
+        {
+            throw Error(cursor, $"the transformation '{name}' is declared twice, first in line {LineOfDeclaration(name + '.')}");
+        }
+
+        _declarationOffsets[name + '.'] = cursor.Offset;
+        return true;
+    }
+
+    private bool ParseParameters(Cursor cursor, out List<string> parameters, out Cursor rest)
+    {
+        parameters = [];
+        for (rest = cursor; char.IsLetter(rest.Current) || rest.Current == '_';)
+        {
+            var parameterStart = rest;
+            if (!ParseName(rest, "a parameter", out var parameter, out rest) || !ParseChar(rest, '.', out rest))
+            {
+                return false;
+            }
+
+            if (parameters.Contains(parameter))
+            {
+                throw Error(parameterStart, $"the parameter '{parameter}' is named twice");
+            }
+
+            if (parameters.Count == MaxParameters)
+            {
+                throw Error(parameterStart, $"a transformation has at most {MaxParameters} parameters");
+            }
+
+            parameters.Add(parameter);
+        }
+
+        return true;
+    }
+
+    private bool ParseOutput(
+        Cursor cursor, List<string> parameters, Vector defaultValue, out FunctionOutput output, out Cursor rest)
+    {
+        output = new(null, null, defaultValue, cursor);
+        rest = cursor;
+        if (char.IsAsciiDigit(cursor.Current) && !IsDecimal(cursor))
+        {
+            if (!ParseInteger(cursor, FractalMistakes.VectorNumber, out var number, out rest))
+            {
+                return false;
+            }
+
+            if (number == 0)
+            {
+                throw VectorError(cursor, "");
+            }
+
+            output = output with { VectorNumber = number };
+            ListOutput(number);
+            _outputCount++;
+            return true;
+        }
+
+        if (char.IsLetter(cursor.Current) && ParseName(cursor, "a parameter", out var name, out var afterName)
+            && parameters.IndexOf(name) is >= 0 and var index)
+        {
+            output = output with { Parameter = index };
+            _outputCount++;
+            rest = afterName;
+            return true;
+        }
+
+        if (cursor.Current == '#')
+        {
+            _outputCount++;
+            rest = cursor.Advance(1);
+            return true;
+        }
+
+        Fail(cursor, FractalMistakes.VectorNumber);
+        Fail(cursor, "a parameter");
+        return Fail(cursor, "'#'");
+    }
+
+    /// <summary>Tells whether a number with a point and decimals begins here, such as 0.5.</summary>
+    private static bool IsDecimal(Cursor cursor) =>
+        NumberReader.TryRead(cursor.Rest, out _, out var length) && cursor.Rest[..length].Contains('.');
+
+    /// <summary>Parses the number of a vector that is declared above.</summary>
+    private bool ParseVectorNumber(Cursor cursor, out int number, out Vector vector, out Cursor rest)
+    {
+        vector = default;
+        if (!ParseInteger(cursor, FractalMistakes.VectorNumber, out number, out rest))
+        {
+            return false;
+        }
+
+        if (number < 1 || number > _vectors.Count)
+        {
+            throw VectorError(cursor, " above");
+        }
+
+        vector = _vectors[number - 1];
+        return true;
+    }
+
+    /// <summary>Creates the error of a number that is that of no vector.</summary>
+    private SourceException VectorError(Cursor start, string place)
+    {
+        ParseInteger(start, FractalMistakes.VectorNumber, out var number, out var end);
+        var fault = number == 0 ? "vectors are numbered from 1"
+            : $"it is not declared{place}, and values stand in vectors of their own";
+        return Error(start, $"vector {TextBetween(start, end)} of {_vectors.Count}: {fault}");
+    }
+
+    /// <summary>Parses a set of calls: <c>[#, t.1, u.6.10]</c>.</summary>
+    private bool ParseSet(Cursor cursor, out TransformationSet set, out Cursor rest)
+    {
+        set = new([]);
+        if (!ParseChar(cursor, '[', out rest) || !ParseBlanks(rest, out rest))
+        {
+            return false;
+        }
+
+        var transformations = ImmutableArray.CreateBuilder<Transformation>(Math.Min(CountCalls(rest), ParsingLimits.MaxMaps));
+
+        for (var first = true; rest.Current != ']'; first = false)
+        {
+            _callIndex = transformations.Count;
+            if ((!first && !ParseSeparator(rest, out rest)) || !ParseCall(rest, out var transformation, out rest))
+            {
+                return false;
+            }
+
+            RequireLimit(++_mapCount, ParsingLimits.MaxMaps, "transformations in all sets", rest);
+            transformations.Add(transformation);
+            if (ParseBlanks(rest, out var next) && next.Current == ']')
+            {
+                rest = next;
+            }
+        }
+
+        ListSet(transformations.Count);
+        set = new(transformations.DrainToImmutable());
+        return ParseChar(rest, ']', out rest);
+    }
+
+    /// <summary>Counts what may be the calls of a set, so that wide sets are collected without copies.</summary>
+    private static int CountCalls(Cursor cursor)
+    {
+        var end = cursor.Rest.IndexOfAny(']', '\n', '\r');
+        var text = end < 0 ? cursor.Rest : cursor.Rest[..end];
+        var count = 0;
+        var isBetween = true;
+        foreach (var character in text)
+        {
+            var isSeparator = character is ',' or ' ' or '\t';
+            count += isBetween && !isSeparator ? 1 : 0;
+            isBetween = isSeparator;
+        }
+
+        return count;
+    }
+
+    /// <summary>Parses <c>#</c>, or a function with the numbers of its arguments: <c>t.4</c>, <c>u.6.10</c>, <c>r.</c></summary>
+    private bool ParseCall(Cursor cursor, out Transformation transformation, out Cursor rest)
+    {
+        transformation = Transformation.Identity;
+        if (cursor.Current == '#')
+        {
+            rest = cursor.Advance(1);
+            return true;
+        }
+
+        Fail(cursor, "'#'");
+        if (!ParseName(cursor, FractalMistakes.TransformationName, out var name, out rest))
+        {
+            return false;
+        }
+
+        var function = FindFunction(cursor, name);
+        var argumentCount = 0;
+        if (!ParseChar(rest, '.', out rest))
+        {
+            return false;
+        }
+
+        while (char.IsAsciiDigit(rest.Current))
+        {
+            var start = rest;
+            if (!ParseVectorNumber(rest, out var number, out var argument, out rest))
+            {
+                return false;
+            }
+
+            ListArgument(name, start, rest, number, argumentCount, function);
+            if (argumentCount < MaxParameters)
+            {
+                _arguments[argumentCount] = argument;
+            }
+
+            argumentCount++;
+            if (rest.Current != '.')
+            {
+                break;
+            }
+
+            rest = rest.Advance(1);
+        }
+
+        if (argumentCount != function.ParameterCount)
+        {
+            var hint = char.IsAsciiDigit(rest.Advance(1).Current) && rest.Current is ' ' or '\t' ? ": no blank stands within a call" : "";
+            throw Error(cursor, $"'{name}' takes {ArgumentCountText(function.ParameterCount)}, not {argumentCount}{hint}");
+        }
+
+        if (function.Last.VectorNumber > _vectors.Count)
+        {
+            throw VectorError(function.Last.Start, $" above the call in line {Source.LineOf(cursor.Offset)}");
+        }
+
+        transformation = function.Apply(_arguments, _vectors);
+        Hint(cursor, RotationUnits.DescribeRadians(transformation.Rotation));
+        return ScaleCheck.IsInvertible(transformation.Scale)
+            ? true
+            : throw Error(cursor, ScaleCheck.SingularScaleMessage(transformation.Scale));
+    }
+
+    private static string ArgumentCountText(int count) => count == 1 ? "1 argument" : $"{count} arguments";
+}

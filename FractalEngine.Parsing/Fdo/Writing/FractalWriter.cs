@@ -1,0 +1,245 @@
+using System.Collections.Immutable;
+using System.Text;
+using FractalEngine.Core;
+using FractalEngine.Core.Fractals.Descriptions;
+using FractalEngine.Core.Maths;
+using FractalEngine.Parsing.Text;
+
+namespace FractalEngine.Parsing.Fdo.Writing;
+
+/// <summary>
+/// Writes fractals in the language of fractal files (paper §4.2.2). <see cref="FractalParser"/> reads the text back to an equal
+/// description, every number bit for bit.
+/// </summary>
+/// <remarks>
+/// The text is about as long as a person would write it. Every vector is declared once. Each set has one transformation function, whose
+/// outputs are parameters where the transformations of the set differ.
+/// </remarks>
+public sealed class FractalWriter
+{
+    // The letters of the paper and of the examples; 'v' declares a vector.
+    private const string FunctionLetters = "turspqw";
+
+    private readonly StringBuilder _text = new();
+    private readonly FractalVectors _vectors = new();
+    private readonly Dictionary<TransformationSet, FractalSetForm> _forms = new(ReferenceEqualityComparer.Instance);
+    private readonly Dictionary<string, string> _functionNames = [];
+    private readonly HashSet<FractalStep> _collectedSteps = new(ReferenceEqualityComparer.Instance);
+    private readonly List<FractalSetForm> _orderedForms = [];
+    private long _setCharacters;
+    private int _recursiveCount;
+    private int _objectCount;
+
+    private FractalWriter()
+    {
+    }
+
+    /// <summary>Returns the text of a fractal file.</summary>
+    /// <param name="description">Steps and composition of the fractal.</param>
+    /// <param name="baseFile">Name of the base mesh's file, relative to the fractal file; that of a mesh.</param>
+    /// <exception cref="FractalEngineException">
+    /// The language can't express the fractal: a scale is singular, steps follow an infinite repetition, or a limit is exceeded.
+    /// </exception>
+    /// <remarks>Time and memory are proportional to the text, which has at most 16 MiB.</remarks>
+    public static string Write(FractalDescription description, string baseFile)
+    {
+        FileReference.RequireQuotable(baseFile);
+        RequireExpressible(description);
+        var text = new FractalWriter().WriteText(description, baseFile);
+        RequireLength(Encoding.UTF8.GetByteCount(text));
+        RequireReadable(text);
+        return text;
+    }
+
+    private static void RequireExpressible(FractalDescription description)
+    {
+        // Deeper nesting is refused here, before any recursion over the steps.
+        var nesting = description.Steps.Select(step => step.NestingDepth).DefaultIfEmpty().Max();
+        if (nesting > FractalLimits.MaxNesting)
+        {
+            throw Fault(ErrorKind.Limit, $"it has more than the limit of {FractalLimits.MaxNesting} repetitions inside each other");
+        }
+
+        var infinite = description.Steps.ToList().FindLastIndex(step => step.LevelCount is null);
+        if (description.Steps.Take(infinite).Any(step => step is Repetition))
+        {
+            throw Fault(ErrorKind.Input, "an infinite repetition can't be repeated again");
+        }
+    }
+
+    private static void RequireLength(long length)
+    {
+        if (length > ParsingLimits.MaxDescriptionBytes)
+        {
+            throw Fault(ErrorKind.Limit, $"its text has more than the limit of {ParsingLimits.MaxDescriptionBytes} bytes");
+        }
+    }
+
+    /// <summary>The parser decides about all limits and scales, so that both never disagree.</summary>
+    private static void RequireReadable(string text)
+    {
+        try
+        {
+            FractalParser.Parse(new SourceText("fractal.fdo", text));
+        }
+        catch (SourceException exception)
+        {
+            throw Fault(exception.Kind, exception.Diagnostic.Message, exception);
+        }
+    }
+
+    private static FractalEngineException Fault(ErrorKind kind, string fault, Exception? innerException = null) =>
+        new(kind, $"the fractal can't be written as a file: {fault}", innerException);
+
+    private string WriteText(FractalDescription description, string baseFile)
+    {
+        CollectSets(description.Steps);
+        if (description.Composition == Composition.Componentwise)
+        {
+            AppendLine("composition componentwise");
+            AppendLine("");
+        }
+
+        WriteVectors("position", "positions", form => form.Vectors(FractalSetForm.Position));
+        WriteVectors("rotation in degrees", "rotations in degrees", form => form.Vectors(FractalSetForm.Rotation));
+        WriteVectors("scale", "scales", form => form.Vectors(FractalSetForm.Scale));
+        AppendLine(_vectors.Count > 0 ? "" : null);
+        AppendLine($"x. \"{baseFile}\"");
+        var result = WriteSteps(description.Steps, "x");
+        AppendLine($"<$>. {result}");
+        return _text.ToString();
+    }
+
+    /// <summary>Finds all sets in the order of their use in the text: innermost first, each object once.</summary>
+    private void CollectSets(ImmutableArray<FractalStep> steps)
+    {
+        foreach (var step in steps.Reverse())
+        {
+            if (!_collectedSteps.Add(step))
+            {
+                continue;
+            }
+
+            switch (step)
+            {
+                case TransformationSet set:
+                    var form = new FractalSetForm(set);
+                    _forms.Add(set, form);
+                    _orderedForms.Add(form);
+                    break;
+                case Repetition repetition:
+                    CollectSets(repetition.Round);
+                    break;
+            }
+        }
+    }
+
+    private void WriteVectors(string name, string pluralName, Func<FractalSetForm, IEnumerable<Vector>> select)
+    {
+        var lines = new List<string>();
+        var first = _vectors.Count + 1;
+        foreach (var vector in _orderedForms.SelectMany(select))
+        {
+            if (_vectors.Add(vector))
+            {
+                lines.Add(FormattableString.Invariant($"v {vector.X:R} {vector.Y:R} {vector.Z:R}"));
+            }
+        }
+
+        if (lines.Count > 0)
+        {
+            var separator = lines.Count == 2 ? "and" : "to";
+            AppendLine(lines.Count == 1 ? $"# {first}: {name}." : $"# {first} {separator} {_vectors.Count}: {pluralName}.");
+            lines.ForEach(AppendLine);
+        }
+    }
+
+    /// <summary>Writes the declarations that some steps over a base need.</summary>
+    /// <param name="steps">Outermost first.</param>
+    /// <param name="baseName">Name of the declared object that the steps apply to.</param>
+    /// <returns>Object that the steps make of the base, as written behind the name of a declaration.</returns>
+    private string WriteSteps(ImmutableArray<FractalStep> steps, string baseName)
+    {
+        var sets = new List<string>();
+        var inner = baseName;
+        foreach (var step in steps.Reverse())
+        {
+            if (step is TransformationSet set)
+            {
+                sets.Add(FormatSet(_forms[set]));
+                continue;
+            }
+
+            var repetition = (Repetition)step;
+            if (sets.Count > 0 || inner != baseName)
+            {
+                // A recursive needs a name for what it is applied to.
+                baseName = NextName("y", ref _objectCount);
+                AppendLine($"{baseName}. {FormatObject(sets, inner)}");
+                sets.Clear();
+            }
+
+            var body = WriteSteps(repetition.Round, baseName);
+            var name = NextName("z", ref _recursiveCount);
+            AppendLine($"{name}<{baseName}>. {body}");
+            inner = repetition.Count is { } count ? FormattableString.Invariant($"{name} {count}") : name;
+        }
+
+        return FormatObject(sets, inner);
+    }
+
+    private static string FormatObject(List<string> sets, string inner) =>
+        string.Join(' ', Enumerable.Reverse(sets).Append(inner));
+
+    private string FormatSet(FractalSetForm form)
+    {
+        var function = form.HasTransformations ? FunctionFor(form) : "";
+        var text = $"[{string.Join(", ", form.Set.Transformations.Select(transformation => FormatCall(form, function, transformation)))}]";
+        _setCharacters += text.Length;
+        RequireLength(_setCharacters);
+        return text;
+    }
+
+    private string FormatCall(FractalSetForm form, string function, Transformation transformation)
+    {
+        if (FractalSetForm.IsIdentity(transformation))
+        {
+            return "#";
+        }
+
+        var arguments = form.Arguments(transformation).Select(vector => FormattableString.Invariant($"{_vectors.NumberOf(vector)}"));
+        return $"{function}.{string.Join('.', arguments)}";
+    }
+
+    /// <summary>Returns the name of the function that makes the transformations of a set, and declares it if it is new.</summary>
+    private string FunctionFor(FractalSetForm form)
+    {
+        var parameters = form.ParameterNames;
+        var outputs = form.Outputs(vector => FormattableString.Invariant($"{_vectors.NumberOf(vector)}"));
+        var definition = $"{string.Concat(parameters.Select(parameter => $"{parameter}."))} ({string.Join(", ", outputs)})";
+        if (!_functionNames.TryGetValue(definition, out var name))
+        {
+            var index = _functionNames.Count;
+            name = index < FunctionLetters.Length ? $"{FunctionLetters[index]}" : FormattableString.Invariant($"t{index + 1}");
+            _functionNames.Add(definition, name);
+            AppendLine($"{name}.{definition}");
+        }
+
+        return name;
+    }
+
+    private static string NextName(string letter, ref int count)
+    {
+        count++;
+        return count == 1 ? letter : FormattableString.Invariant($"{letter}{count}");
+    }
+
+    private void AppendLine(string? line)
+    {
+        if (line is not null)
+        {
+            _text.Append(line).Append('\n');
+            RequireLength(_text.Length);
+        }
+    }
+}

@@ -1,0 +1,96 @@
+using System.Text;
+using FractalEngine.Core.Files;
+using FractalEngine.Parsing.Text;
+
+namespace FractalEngine.Parsing.Sdo.Merging;
+
+/// <summary>Writes changes of a scene into its file as it is on the disk, see <see cref="SceneMerge"/>.</summary>
+public static class SceneFileMerge
+{
+    // So many times the file may change while it is being written before the write is given up.
+    private const int MaxAttempts = 20;
+
+    /// <summary>Merges the changes from one text to another into a file. Nothing is written where a conflict is left to decide.</summary>
+    /// <param name="path">Path of the scene. A missing file is written with the changed text; its folder must exist.</param>
+    /// <param name="original">Text that both sides began with.</param>
+    /// <param name="mine">The original with the changes of the side that saves.</param>
+    /// <param name="preference">Which side wins where both have changed the same declaration.</param>
+    /// <returns>The text that the file has now, and the conflicts for which nothing was written.</returns>
+    /// <exception cref="IOException">The file can't be read or written, or its folder is missing. It is unchanged then.</exception>
+    /// <remarks>
+    /// The file is replaced whole, and only if it is still the one that was merged. That is asked just before the new file takes
+    /// its name; what another program writes within the microseconds between is lost. Its encoding stays: UTF-8 with or
+    /// without a byte order mark, UTF-16, or bytes that are no text at all.
+    /// </remarks>
+    public static MergedScene Write(string path, string original, string mine, MergePreference preference = MergePreference.None)
+    {
+        for (var attempt = 0; ; attempt++)
+        {
+            if (Path.GetDirectoryName(Path.GetFullPath(path)) is { } folder && !Directory.Exists(folder))
+            {
+                throw new IOException($"{path} can't be written: the folder {folder} is gone");
+            }
+
+            var stamp = FileStamp.Of(path);
+            var theirs = stamp.Exists ? ReadBytes(path) : null;
+            var encoding = theirs is null ? Encoding.UTF8 : EncodingOf(theirs);
+            var merged = theirs is null ? new(mine, []) : SceneMerge.Merge(original, mine, encoding.GetString(theirs), preference);
+            if (merged.Conflicts.Length == 0 && !TryWrite(path, stamp, theirs, encoding.GetBytes(merged.Text)))
+            {
+                if (attempt < MaxAttempts)
+                {
+                    continue;
+                }
+
+                throw new IOException($"{path} can't be written: another program changes it all the time");
+            }
+
+            return merged with { Text = theirs is null ? mine : DecodeForReaders(encoding.GetBytes(merged.Text), path) };
+        }
+    }
+
+    /// <summary>Replaces the file unless it has changed meanwhile.</summary>
+    private static bool TryWrite(string path, FileStamp stamp, byte[]? before, byte[] after)
+    {
+        if (before.AsSpan().SequenceEqual(after) && before is not null)
+        {
+            return true;
+        }
+
+        // Asked last, when the file has only to take its name: between the two no more than the rename lies.
+        var isUnchanged = true;
+        AtomicFile.WriteIf(path, stream => stream.Write(after), () => isUnchanged = FileStamp.Of(path) == stamp);
+        return isUnchanged;
+    }
+
+    private static byte[] ReadBytes(string path)
+    {
+        try
+        {
+            return SourceText.ReadBytes(path, path, ParsingLimits.MaxDescriptionBytes);
+        }
+        catch (SourceException exception)
+        {
+            throw new IOException($"{path} can't be saved: {exception.Diagnostic.Message}", exception);
+        }
+    }
+
+    /// <summary>
+    /// UTF-16 is what its byte order mark says. All others are read byte by byte: what the window writes is ASCII in all of them, and
+    /// every other byte comes back as it was.
+    /// </summary>
+    private static Encoding EncodingOf(byte[] bytes) => Utf16Text.FindEncoding(bytes) ?? Encoding.Latin1;
+
+    /// <summary>Decodes the text as the parser would see it; a file that is no text stays as its bytes.</summary>
+    private static string DecodeForReaders(byte[] bytes, string path)
+    {
+        try
+        {
+            return SourceText.Decode(bytes, path, acceptLatin1: true).Text;
+        }
+        catch (SourceException)
+        {
+            return Encoding.Latin1.GetString(bytes);
+        }
+    }
+}

@@ -1,0 +1,97 @@
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes.Lights;
+using FractalEngine.Parsing.Text;
+using FractalEngine.Parsing.Text.Grammar;
+
+namespace FractalEngine.Parsing.Sdo;
+
+/// <content>Parses the declarations of lights.</content>
+public sealed partial class SceneParser
+{
+    // Largest exposure, and intensity of a light: their product, and its square, stay within what the shaders compute with.
+    private const double MaxFactor = 1e9;
+
+    private bool ParseLight(Cursor cursor, out Cursor rest)
+    {
+        if (ParseKeyword(cursor, "ambient", out rest))
+        {
+            return ParseColourAndIntensity(rest, out var colour, out var intensity, out rest)
+                && AddLight(new AmbientLight(colour, intensity));
+        }
+
+        if (ParseKeyword(cursor, "directional", out rest))
+        {
+            return ParseDirection(rest, out var direction, out rest)
+                && ParseColourAndIntensity(rest, out var colour, out var intensity, out rest)
+                && AddLight(new DirectionalLight(direction, colour, intensity));
+        }
+
+        if (ParseKeyword(cursor, "point", out rest))
+        {
+            return ParseVectorAndSeparator(rest, out var position, out rest)
+                && ParseColourIntensityAndRange(rest, out var colour, out var intensity, out var range, out rest)
+                && AddLight(new PointLight(position, colour, intensity, range));
+        }
+
+        if (ParseKeyword(cursor, "spot", out rest))
+        {
+            return ParseVectorAndSeparator(rest, out var position, out rest)
+                && ParseDirection(rest, out var direction, out rest) && ParseAngle(rest, out var angle, out rest)
+                && ParseColourIntensityAndRange(rest, out var colour, out var intensity, out var range, out rest)
+                && AddLight(new SpotLight(position, direction, angle, colour, intensity, range));
+        }
+
+        return false;
+    }
+
+    private bool AddLight(Light light)
+    {
+        _lights.Add(light);
+        return true;
+    }
+
+    private bool ParseDirection(Cursor cursor, out Vector direction, out Cursor rest)
+    {
+        var success = ParseVectorAndSeparator(cursor, out direction, out rest);
+        Require(!success || direction != Vector.Zero, cursor, "a direction must not be (0, 0, 0)");
+        return success;
+    }
+
+    private bool ParseAngle(Cursor cursor, out double angle, out Cursor rest)
+    {
+        const string fault = "the angle of the cone must lie between 0 and 180 degrees";
+        return ParseNumber(cursor, static number => number is > 0 and < 180, fault, out angle, out rest)
+            && ParseOptionalSeparator(rest, out rest);
+    }
+
+    /// <summary>Parses a colour and an optional intensity, 1 by default.</summary>
+    private bool ParseColourAndIntensity(Cursor cursor, out Colour colour, out double intensity, out Cursor rest)
+    {
+        intensity = 1;
+        if (!ParseColour(cursor, out colour, out rest))
+        {
+            return false;
+        }
+
+        ParseOptionalSeparator(rest, out var intensityStart);
+        return IsAtEndOfLine(intensityStart) || Fail(intensityStart, SyntaxFailure.EndOfLine)
+            || ParseIntensity(intensityStart, out intensity, out rest);
+    }
+
+    private bool ParseColourIntensityAndRange(Cursor cursor, out Colour colour, out double intensity, out double range, out Cursor rest)
+    {
+        intensity = 0;
+        range = 0;
+        return ParseColour(cursor, out colour, out rest) && ParseOptionalSeparator(rest, out rest)
+            && ParseIntensity(rest, out intensity, out rest) && ParseSeparator(rest, out rest)
+            && ParseNumber(rest, static number => number > 0, "the range of a light must be positive", out range, out rest);
+    }
+
+    private bool ParseIntensity(Cursor cursor, out double intensity, out Cursor rest)
+    {
+        var success = ParseNonNegative(cursor, "the intensity of a light", out intensity, out rest);
+        Require(!success || intensity <= MaxFactor, cursor, "the intensity of a light must not exceed 1e9");
+        return success;
+    }
+}

@@ -1,0 +1,55 @@
+using FractalEngine.Core.Images;
+using FractalEngine.Render.Gl;
+using FractalEngine.Render.Gl.State;
+using FractalEngine.Render.Views;
+using OpenTK.Graphics.OpenGL4;
+
+namespace FractalEngine.Render.Frame;
+
+/// <summary>Blends an image over a frame in linear light. It is uploaded again only when it is another one.</summary>
+internal sealed class ImagePass : IDisposable
+{
+    private readonly GlResources _resources;
+    private readonly ShaderProgram _program;
+    private readonly VertexArray _vertexArray;
+    private SrgbTexture? _texture;
+    private PixelImage? _image;
+
+    /// <summary>Builds the program that draws images.</summary>
+    public ImagePass(GlResources resources)
+    {
+        _resources = resources;
+        _program = ShaderProgram.Load(resources, "image");
+        _program.Use();
+        _program.Set("image", 0);
+        // The vertices have no attributes, but OpenGL requires an array.
+        _vertexArray = new(resources, "image");
+    }
+
+    /// <summary>Draws an image into the bound framebuffer, which has its size.</summary>
+    /// <exception cref="GlException">The GPU's memory does not suffice.</exception>
+    public void Draw(ImageLayer layer)
+    {
+        if (layer.Image != _image)
+        {
+            _texture?.Dispose();
+            _texture = null;
+            _image = null;
+            _texture = new(_resources, "image over the frame", layer.Image);
+            _image = layer.Image;
+        }
+
+        _program.Use();
+        _program.Set("opacity", layer.Opacity);
+        _texture!.Bind(isClamped: true);
+        _resources.State.Cull(CullFace.None);
+        GL.Enable(EnableCap.FramebufferSrgb);
+        GlState.BeginBlending(BlendingFactorSrc.SrcAlpha);
+        _vertexArray.Bind();
+        GL.DrawArrays(PrimitiveType.Triangles, 0, 3);
+        GL.Disable(EnableCap.Blend);
+    }
+
+    /// <inheritdoc/>
+    public void Dispose() => GlObject.DisposeAll(_texture, _vertexArray, _program);
+}

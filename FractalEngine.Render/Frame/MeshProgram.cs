@@ -1,0 +1,93 @@
+using System.Text.Json;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Render.Drawables;
+using FractalEngine.Render.Gl;
+using FractalEngine.Render.Gl.State;
+using FractalEngine.Render.Lights;
+using FractalEngine.Render.Upload;
+using FractalEngine.Render.Windowing;
+
+namespace FractalEngine.Render.Frame;
+
+/// <summary>The program for one combination of <see cref="MeshFeatures"/>, with its uniforms.</summary>
+internal sealed class MeshProgram : IDisposable
+{
+    private readonly RedundancyFilter _filter;
+    private readonly ShaderProgram _program;
+    private readonly MaterialUniforms _materialUniforms;
+    private readonly int _sectionLocation;
+    private bool? _lastWireframe;
+    private SectionPlane? _lastSection;
+    private CullFace? _lastInnerFace;
+
+    /// <summary>Compiles and links the program.</summary>
+    /// <param name="context">Current context.</param>
+    /// <param name="features">What the program shows.</param>
+    /// <param name="lightSymbols">Number and kinds of the lights: <see cref="LightBlock.SymbolsOf"/>.</param>
+    /// <exception cref="GlException">The driver refuses the program.</exception>
+    public MeshProgram(RenderContext context, MeshFeatures features, IReadOnlyList<string> lightSymbols)
+    {
+        _filter = context.Resources.State.Filter;
+        _program = ShaderProgram.Load(context.Resources, "mesh", [.. SymbolsOf(features), .. lightSymbols]);
+        _program.BindBlock("ObjectBlock", GlState.ObjectBinding);
+        _program.BindBlock("LightBlock", GlState.LightBinding);
+        if (features.HasFlag(MeshFeatures.Shadows))
+        {
+            _program.BindBlock("ShadowBlock", GlState.ShadowBinding);
+        }
+
+        View = new(_program, _filter, context.HasReversedDepth);
+        _sectionLocation = _program.UniformLocation("section");
+        _program.Use();
+        _program.Set("surfaceTexture", 0);
+        _program.Set("shadowMap", GlState.ShadowTextureUnit);
+        _materialUniforms = new(_program, _filter);
+    }
+
+    /// <summary>The camera uniforms of this program.</summary>
+    public ViewUniforms View { get; }
+
+    /// <summary>Returns the symbols that switch features on in mesh.vert and mesh.frag: their names, as in <c>PER_PIXEL</c>.</summary>
+    public static IEnumerable<string> SymbolsOf(MeshFeatures features) => Enum.GetValues<MeshFeatures>()
+        .Where(feature => feature != MeshFeatures.None && features.HasFlag(feature))
+        .Select(static feature => JsonNamingPolicy.SnakeCaseUpper.ConvertName(feature.ToString()));
+
+    /// <summary>Makes this the current program.</summary>
+    public void Use() => _program.Use();
+
+    /// <summary>Sets the colour of wireframe edges, or lit surfaces. The program must be in use.</summary>
+    public void SetWireframe(bool wireframe, Colour colour)
+    {
+        if (_filter.Update(ref _lastWireframe, wireframe))
+        {
+            var (red, green, blue) = colour.ToLinear();
+            _program.Set("flatColour", red, green, blue, wireframe ? 1 : 0);
+        }
+    }
+
+    /// <summary>Sets the plane that cuts the scene open, in world axes about the camera. The program must be in use.</summary>
+    public void SetSection(SectionPlane section)
+    {
+        if (_filter.Update(ref _lastSection, section))
+        {
+            ViewUniforms.SetSection(_sectionLocation, section);
+        }
+    }
+
+    /// <summary>Sets which face of triangles is inside a solid; none to leave sections hollow. The program must be in use.</summary>
+    public void SetInnerFace(CullFace face)
+    {
+        if (_filter.Update(ref _lastInnerFace, face))
+        {
+            _program.Set("innerFace", face == CullFace.None ? 0.0 : face == CullFace.Back ? -1.0 : 1.0);
+        }
+    }
+
+    /// <summary>Sets the material of the next draw calls. The program must be in use.</summary>
+    /// <param name="material">Null for the object's own colour.</param>
+    /// <param name="tint">Colour that multiplies the material's own, sRGB.</param>
+    public void SetMaterial(DrawableMaterial? material, Colour tint) => _materialUniforms.Set(material?.Material, tint);
+
+    /// <inheritdoc/>
+    public void Dispose() => _program.Dispose();
+}

@@ -1,0 +1,196 @@
+using System.Collections.Immutable;
+using System.Runtime.InteropServices;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Scenes.Cameras;
+using FractalEngine.Core.Scenes.Lights;
+using FractalEngine.Render.Gl;
+using FractalEngine.Render.Gl.State;
+using FractalEngine.Render.Views;
+using OpenTK.Graphics.OpenGL4;
+
+namespace FractalEngine.Render.Lights;
+
+/// <summary>The lights of a scene in a uniform buffer, laid out as <c>LightBlock</c> in lighting.glsl (std140).</summary>
+internal sealed class LightBlock : IDisposable
+{
+    /// <summary>Maximum number of directional, point and spot lights. Ambient lights are added up and don't count.</summary>
+    public const int MaxLights = 16;
+
+    // Programs grow with the number of lights that have constant indices.
+    private const int MaxUnrolledLights = 4;
+
+    // The widest cone whose shadows have one depth map, degrees. Wider ones have sides of a cube.
+    private const double MaxSpotAngle = 110;
+
+    private const int HeaderFloats = 24;
+    private const int FloatsPerLight = 16;
+
+    private readonly Scene _scene;
+    private readonly ImmutableArray<Light> _lights;
+    private readonly double _fogDensity;
+    private readonly RedundancyFilter _uploadFilter;
+    private readonly GlBuffer _buffer;
+    private readonly float[] _data = new float[HeaderFloats + (MaxLights * FloatsPerLight)];
+    private (Vector, double, Colour)? _lastKey;
+
+    /// <summary>Creates the buffer for the lights of a scene, or for the default ones where it declares none.</summary>
+    /// <param name="resources">Resources of the current context.</param>
+    /// <param name="scene">Scene that declares lights, or whose bounds place the default ones.</param>
+    public LightBlock(GlResources resources, LoadedScene scene)
+    {
+        _uploadFilter = resources.UploadFilter;
+        _scene = scene.Scene;
+        _lights = LightsOf(scene);
+        _buffer = new(resources, "lights", BufferTarget.UniformBuffer);
+        _fogDensity = scene.Scene.Fog?.Density ?? 0;
+        var display = DisplayTransform.Of(scene.Scene);
+        WriteAmbient(SceneAmbient.Of(scene.Scene));
+        WriteVector(new(display.Exposure, display.Tone == Tone.Filmic ? 1 : 0, _fogDensity), 0, _data.AsSpan(16));
+        HasAtmosphere = !display.IsIdentity || _fogDensity > 0;
+        MemoryMarshal.Cast<float, int>(_data.AsSpan(8))[0] = _lights.Length;
+    }
+
+    /// <summary>Whether surfaces are shown through haze, an exposure or a tone curve.</summary>
+    public bool HasAtmosphere { get; }
+
+    /// <summary>
+    /// Returns the lights of a scene that shine from somewhere, the first <see cref="MaxLights"/> of them: those that it declares, or the
+    /// default ones.
+    /// </summary>
+    public static ImmutableArray<Light> LightsOf(LoadedScene scene)
+    {
+        var lights = SceneAmbient.UsesDefaultLights(scene.Scene)
+            ? DefaultLights(scene.Bounds, scene.Scene.Handedness)
+            : scene.Scene.Lights;
+        return [.. lights.Where(static light => light is not AmbientLight).Take(MaxLights)];
+    }
+
+    /// <summary>Whether shadows of a light have the sides of a cube, unless it is so far away that it is parallel.</summary>
+    public static bool HasCube(Light light) => light is PointLight and not SpotLight { Angle: < MaxSpotAngle };
+
+    /// <summary>
+    /// Returns a loop over the lights, and the kinds of their shadows, as symbols of a shader. The loop over few lights has constant
+    /// indices: without a GPU, reading a block at others takes a tenth to a fifth of a frame.
+    /// </summary>
+    /// <param name="lights">Lights of the scene.</param>
+    /// <param name="distantLights">Lights that have a position, but are parallel for the scene: bit i for light i.</param>
+    public static string[] SymbolsOf(ImmutableArray<Light> lights, int distantLights = 0)
+    {
+        // Of one element at least, as there are no arrays of none.
+        var kinds = string.Join(", ", lights.Select(KindOfShadow).DefaultIfEmpty('0'));
+        var loop = lights.Length <= MaxUnrolledLights
+            ? string.Concat(Enumerable.Range(0, lights.Length).Select(static i => FormattableString.Invariant($" DO({i})")))
+            : FormattableString.Invariant($" for (int i = 0; i < {lights.Length}; i++) {{ DO(i) }}");
+        return [$"EACH_LIGHT(DO){loop}", $"LIGHT_KINDS int[]({kinds})"];
+
+        char KindOfShadow(Light light, int index) =>
+            light is not PointLight || (distantLights & (1 << index)) != 0 ? '0' : HasCube(light) ? '1' : '2';
+    }
+
+    /// <summary>Returns the linear light that haze shines with: its own colour, or what stands at the horizon.</summary>
+    /// <param name="scene">A scene.</param>
+    /// <param name="background">Colour of the background where it declares none.</param>
+    public static Vector FogColour(Scene scene, Colour background)
+    {
+        if (scene is { Fog.Colour: null, Sky: { } sky })
+        {
+            return sky.HorizonRadiance;
+        }
+
+        var (red, green, blue) = (scene.Fog?.Colour ?? scene.Background ?? background).ToLinear();
+        var colour = new Vector(red, green, blue);
+        return scene.Fog?.Colour is null ? DisplayTransform.Of(scene).Invert(colour) : colour;
+    }
+
+    /// <summary>
+    /// Returns a warm key light from the upper left and a weak cool one from the right, so that three sides of a cube differ.
+    /// </summary>
+    /// <param name="bounds">Bounds of the scene, world space.</param>
+    /// <param name="handedness">How the scene is shown: the lights stand on the same sides of the image in both.</param>
+    /// <remarks>The key light is near enough for its falloff to show, so that a large flat face does not look like paper.</remarks>
+    public static ImmutableArray<Light> DefaultLights(BoundingBox bounds, Handedness handedness = Handedness.Left)
+    {
+        var key = handedness.Mirror(new Vector(-0.42, 0.80, -0.62)).UnitVector();
+        var distance = 1.8 * bounds.FiniteDiagonalOr(1);
+        return
+        [
+            // At a tenth of its range, which is the scene's centre, it has its full intensity.
+            new PointLight(bounds.Centre + (distance * key), new(1, 0.975, 0.93), 0.80, 10 * distance),
+            new DirectionalLight(handedness.Mirror(new(-0.85, -0.2, 0.35)), new(0.86, 0.89, 1), 0.24),
+        ];
+    }
+
+    /// <summary>
+    /// Binds the block, uploading it at first and, with haze or a light that has a position, when one of these has changed.
+    /// </summary>
+    /// <param name="bindingPoint">Binding point of the program's block.</param>
+    /// <param name="cameraPosition">Position of the camera in world space. Light positions are written relative to it.</param>
+    /// <param name="unitsPerSceneUnit">1, or more where the frame is drawn in a smaller unit.</param>
+    /// <param name="background">Colour of the background where the scene declares none.</param>
+    public void Bind(int bindingPoint, Vector cameraPosition, double unitsPerSceneUnit, Colour background)
+    {
+        var key = (cameraPosition, unitsPerSceneUnit, _fogDensity > 0 ? background : default);
+        var isRedundant = _lastKey is { } last
+            && (last == key || !(_fogDensity > 0 || _lights.Any(static light => light is PointLight)));
+        if (_uploadFilter.ShouldPerform(isRedundant))
+        {
+            for (var i = 0; i < _lights.Length; i++)
+            {
+                var target = _data.AsSpan(HeaderFloats + (i * FloatsPerLight), FloatsPerLight);
+                WriteLight(_lights[i], cameraPosition, unitsPerSceneUnit, target);
+            }
+
+            _data[18] = (float)(_fogDensity / unitsPerSceneUnit);
+            WriteVector(FogColour(_scene, background), 0, _data.AsSpan(20));
+            _buffer.Upload<float>(_data, BufferUsageHint.DynamicDraw);
+            _lastKey = key;
+        }
+
+        _buffer.BindTo(bindingPoint);
+    }
+
+    /// <inheritdoc/>
+    public void Dispose() => _buffer.Dispose();
+
+    private static void WriteLight(Light light, Vector cameraPosition, double unitsPerSceneUnit, Span<float> target)
+    {
+        var (red, green, blue) = light.Colour.ToLinear();
+        WriteVector(light.Intensity * new Vector(red, green, blue), KindOf(light), target);
+        if (light is PointLight point)
+        {
+            WriteVector(unitsPerSceneUnit * (point.Position - cameraPosition), unitsPerSceneUnit * point.Range, target[4..]);
+        }
+        else if (light is DirectionalLight directional)
+        {
+            WriteVector(-directional.Direction.UnitVector(), 0, target[4..]);
+        }
+
+        if (light is SpotLight spot)
+        {
+            var halfAngle = 0.5 * spot.Angle * Math.PI / 180;
+            WriteVector(spot.Direction.UnitVector(), Math.Cos(0.9 * halfAngle), target[8..]);
+            target[12] = (float)Math.Cos(halfAngle);
+        }
+    }
+
+    private static double KindOf(Light light) => light switch
+    {
+        DirectionalLight => 0,
+        SpotLight => 2,
+        PointLight => 1,
+        _ => throw new ArgumentException($"a light of an unknown kind: {light}", nameof(light)),
+    };
+
+    /// <summary>Writes a vector and a fourth number into the data of a uniform block.</summary>
+    internal static void WriteVector(Vector v, double w, Span<float> target) =>
+        (target[0], target[1], target[2], target[3]) = ((float)v.X, (float)v.Y, (float)v.Z, (float)w);
+
+    private void WriteAmbient(SceneAmbient ambient)
+    {
+        WriteVector(ambient.Above, 0, _data);
+        WriteVector(ambient.Below, 0, _data.AsSpan(4));
+        WriteVector(ambient.Curvature, 0, _data.AsSpan(12));
+    }
+}

@@ -1,0 +1,49 @@
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Scenes.Lights;
+
+namespace FractalEngine.Render.Lights;
+
+/// <summary>
+/// The light of a scene that comes from all around: its ambient lights and its sky, or the default of a scene without lights.
+/// </summary>
+/// <param name="Above">Linear light on a surface that faces upwards, less the curvature.</param>
+/// <param name="Below">Likewise of one that faces downwards.</param>
+/// <param name="Curvature">
+/// A surface whose normal has the height c is lit by (1 + c)/2 of the one, (1 − c)/2 of the other, and c² of this.
+/// </param>
+internal readonly record struct SceneAmbient(Vector Above, Vector Below, Vector Curvature)
+{
+    /// <summary>Adds up what a scene declares, its sky included.</summary>
+    public static SceneAmbient Of(Scene scene)
+    {
+        var lights = OfLights(scene);
+        if (scene.Sky is not { } sky)
+        {
+            return lights;
+        }
+
+        var (constant, linear, quadratic) = sky.Irradiance();
+        return new(lights.Above + constant + linear, lights.Below + constant - linear, quadratic);
+    }
+
+    /// <summary>Adds up the ambient lights. A scene without any light has the light of a sky over dry ground.</summary>
+    public static SceneAmbient OfLights(Scene scene)
+    {
+        if (UsesDefaultLights(scene))
+        {
+            return new(new(0.23, 0.245, 0.28), new(0.11, 0.10, 0.095), Vector.Zero);
+        }
+
+        var sum = Vector.Zero;
+        foreach (var light in scene.Lights.OfType<AmbientLight>())
+        {
+            sum += light.Intensity * light.Colour.ToLinearVector();
+        }
+
+        return new(sum, sum, Vector.Zero);
+    }
+
+    /// <summary>Whether a scene is lit by the default lights, since it declares none of any kind.</summary>
+    public static bool UsesDefaultLights(Scene scene) => scene.Lights.IsEmpty && scene.Sky is null;
+}

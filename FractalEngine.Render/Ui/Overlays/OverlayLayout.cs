@@ -1,0 +1,229 @@
+namespace FractalEngine.Render.Ui.Overlays;
+
+/// <summary>Lays panels out as rectangles in whole pixels: font size, wrapping, columns and stacking.</summary>
+/// <param name="atlas">Glyphs of the font.</param>
+/// <param name="sheetIndex">Index of the sheet that the glyphs are taken from.</param>
+/// <param name="width">Width of the frame in pixels.</param>
+/// <param name="height">Height of the frame in pixels.</param>
+internal sealed class OverlayLayout(GlyphAtlas atlas, int sheetIndex, int width, int height)
+{
+    // Lines of text that fit a frame: in 720 rows of pixels the text is 16 pixels high, and it grows with the frame.
+    private const double TextRows = 45;
+    private const double TextColumns = 78;
+
+    // Stands between the parts of a line, and is dropped where a line breaks.
+    private const string PartSeparator = " · ";
+
+    // So dark over a white scene, too, that all texts contrast with it by 4.5:1.
+    internal static readonly (float Red, float Green, float Blue, float Alpha) PanelColour = (0.055f, 0.065f, 0.085f, 0.85f);
+    private static readonly (float, float, float, float) TrackColour = (1, 1, 1, 0.14f);
+    private static readonly (float, float, float, float) BarColour = (0.42f, 0.71f, 0.93f, 1);
+
+    private readonly (int Width, int Height) _frameSize = (width, height);
+    private readonly List<(int X, int Y, int Width, int Height)> _panels = [];
+
+    /// <summary>Index of the sheet that the glyphs are taken from.</summary>
+    public int SheetIndex { get; } = sheetIndex;
+
+    /// <summary>Rectangles in drawing order.</summary>
+    public List<OverlayQuad> Quads { get; } = [];
+
+    /// <summary>Where a click answers something, and what.</summary>
+    public List<(UiRect Area, int Answer)> Answers { get; } = [];
+
+    private GlyphSheet Sheet => atlas.Sheets[SheetIndex];
+
+    private int Margin => Sheet.CellHeight / 2;
+
+    private int Padding => Sheet.CellWidth;
+
+    /// <summary>Lays panels out at the preferred font size, or at a smaller one where they do not fit.</summary>
+    /// <param name="atlas">Glyphs of the font.</param>
+    /// <param name="panels">Panels in the order in which they are stacked, away from their anchor.</param>
+    /// <param name="width">Width of the frame in pixels.</param>
+    /// <param name="height">Height of the frame in pixels.</param>
+    /// <param name="preferredLineHeight">Wanted height of a line in pixels; null for one that follows the frame.</param>
+    public static OverlayLayout Create(
+        GlyphAtlas atlas, IReadOnlyList<OverlayPanel> panels, int width, int height, int? preferredLineHeight = null)
+    {
+        var lineHeight = preferredLineHeight ?? 1.2 * Math.Min(height / TextRows, width / TextColumns);
+        for (var sheet = ClosestSheet(atlas, lineHeight); ; sheet--)
+        {
+            var layout = new OverlayLayout(atlas, sheet, width, height);
+            var fits = true;
+            foreach (var panel in panels)
+            {
+                fits &= layout.AddPanel(panel);
+            }
+
+            // A panel that does not even fit at the smallest size is cut off by the edge of the frame.
+            if (fits || sheet == 0)
+            {
+                return layout;
+            }
+        }
+    }
+
+    private static int ClosestSheet(GlyphAtlas atlas, double lineHeight)
+    {
+        var closest = 0;
+        for (var i = 1; i < atlas.Sheets.Count; i++)
+        {
+            if (Math.Abs(atlas.Sheets[i].CellHeight - lineHeight) < Math.Abs(atlas.Sheets[closest].CellHeight - lineHeight))
+            {
+                closest = i;
+            }
+        }
+
+        return closest;
+    }
+
+    /// <summary>Returns the colour of a text, sRGB with its opacity.</summary>
+    internal static (float Red, float Green, float Blue, float Alpha) ColourOf(OverlayTone tone)
+    {
+        var colour = tone switch
+        {
+            OverlayTone.Dim => UiTheme.Dark.DimText,
+            OverlayTone.Accent => UiTheme.Dark.Accent,
+            OverlayTone.Warning => UiTheme.Dark.Warning,
+            _ => UiTheme.Dark.Text,
+        };
+        return ((float)colour.Red, (float)colour.Green, (float)colour.Blue, 1);
+    }
+
+    /// <summary>Adds the rectangles of a panel.</summary>
+    /// <returns>False when the panel does not fit the frame.</returns>
+    private bool AddPanel(OverlayPanel panel)
+    {
+        var (cellWidth, lineHeight) = (Sheet.CellWidth, Sheet.CellHeight);
+        var lines = Wrap(panel.Lines);
+        var firstColumn = lines.Where(row => row.SecondColumn is not null).Select(row => row.Text.Length + 2).DefaultIfEmpty(0).Max();
+        var columns = lines.Select(row => row.SecondColumn is null ? row.Text.Length : firstColumn + row.SecondColumn.Length)
+            .Append(panel.Title?.Length ?? 0).Append(panel.Progress is null ? 0 : 32).Max();
+        var width = (columns * cellWidth) + (2 * Padding);
+        var titleHeight = panel.Title is null ? 0 : lineHeight + (lineHeight / 3);
+        var barHeight = panel.Progress is null ? 0 : lineHeight;
+        var height = titleHeight + (lines.Count * lineHeight) + barHeight + (2 * Padding * 3 / 4);
+
+        var (x, y) = AllocatePosition(panel.Anchor, width, height);
+        var fits = x >= 0 && y >= 0 && x + width <= _frameSize.Width && y + height <= _frameSize.Height;
+        // Without room left, a message covers others rather than being cut off.
+        y = Math.Max(0, Math.Min(y, _frameSize.Height - height));
+        // What lies behind a question may be text, too.
+        var ground = panel.IsQuestion ? PanelColour with { Alpha = 1 } : PanelColour;
+        Quads.Add(new(x, y, width, height, ground, -1, 0.4f * lineHeight));
+        var left = x + Padding;
+        var top = y + (Padding * 3 / 4);
+        if (panel.Title is not null)
+        {
+            AddText(panel.Title, left, top, OverlayTone.Accent);
+            top += titleHeight;
+        }
+
+        foreach (var row in lines)
+        {
+            if (row.Answer is { } answer)
+            {
+                Answers.Add((new(x, top, width, lineHeight), answer));
+            }
+
+            AddText(row.Text, left, top, row.SecondColumn is null ? row.Tone : OverlayTone.Accent);
+            AddText(row.SecondColumn ?? "", left + (firstColumn * cellWidth), top, row.Tone);
+            top += lineHeight;
+        }
+
+        if (panel.Progress is { } progress)
+        {
+            AddBar(left, top + (lineHeight / 2), width - (2 * Padding), Math.Max(3, lineHeight / 4), progress);
+        }
+
+        return fits;
+    }
+
+    private void AddBar(int x, int y, int width, int height, double progress)
+    {
+        var filled = (int)Math.Round(width * (progress >= 0 ? Math.Min(progress, 1) : 0));
+        Quads.Add(new(x, y, width, height, TrackColour, -1, 0.5f * height));
+        if (filled > 0)
+        {
+            Quads.Add(new(x, y, Math.Max(filled, height), height, BarColour, -1, 0.5f * height));
+        }
+    }
+
+    /// <summary>
+    /// Returns the upper left corner of the next panel at an anchor: the first place from there that covers no other panel.
+    /// </summary>
+    private (int X, int Y) AllocatePosition(OverlayAnchor anchor, int width, int height)
+    {
+        var gap = Margin / 2;
+        var x = anchor switch
+        {
+            OverlayAnchor.TopLeft or OverlayAnchor.BottomLeft => Margin,
+            OverlayAnchor.TopRight or OverlayAnchor.BottomRight => _frameSize.Width - width - Margin,
+            _ => (_frameSize.Width - width) / 2,
+        };
+        var growsDown = anchor is OverlayAnchor.TopLeft or OverlayAnchor.TopRight or OverlayAnchor.Centre;
+        var y = anchor switch
+        {
+            OverlayAnchor.TopLeft or OverlayAnchor.TopRight => Margin,
+            OverlayAnchor.Centre => (_frameSize.Height - height) / 2,
+            _ => _frameSize.Height - height - Margin,
+        };
+        // The nearest edges first, so that one pass finds the place.
+        var ordered = growsDown
+            ? _panels.OrderBy(static panel => panel.Y)
+            : _panels.OrderByDescending(static panel => panel.Y + panel.Height);
+        foreach (var other in ordered)
+        {
+            var isBeside = x >= other.X + other.Width || other.X >= x + width;
+            if (!isBeside && y < other.Y + other.Height + gap && other.Y < y + height + gap)
+            {
+                y = growsDown ? other.Y + other.Height + gap : other.Y - height - gap;
+            }
+        }
+
+        _panels.Add((x, y, width, height));
+        return (x, y);
+    }
+
+    /// <summary>
+    /// Breaks lines of one column so that they fit the frame: between their parts, else at blanks. A word that is too long is broken
+    /// anywhere.
+    /// </summary>
+    private List<OverlayLine> Wrap(IReadOnlyList<OverlayLine> lines)
+    {
+        var columns = Math.Max(8, (_frameSize.Width - (2 * Margin) - (2 * Padding)) / Sheet.CellWidth);
+        var wrapped = new List<OverlayLine>();
+        foreach (var line in lines.SelectMany(line => line.SecondColumn is null
+            ? line.Text.Split('\n').Select(textLine => line with { Text = textLine })
+            : [line]))
+        {
+            var rest = line.Text;
+            while (line.SecondColumn is null && rest.Length > columns)
+            {
+                var end = rest.LastIndexOf(PartSeparator, columns, StringComparison.Ordinal) is > 0 and var part ? part
+                    : rest.LastIndexOf(' ', columns) is > 0 and var blank ? blank
+                    : columns;
+                wrapped.Add(line with { Text = rest[..end] });
+                rest = rest[end..];
+                rest = rest.StartsWith(PartSeparator, StringComparison.Ordinal) ? rest[PartSeparator.Length..] : rest.TrimStart();
+            }
+
+            wrapped.Add(line with { Text = rest });
+        }
+
+        return wrapped;
+    }
+
+    private void AddText(string text, int x, int y, OverlayTone tone)
+    {
+        for (var i = 0; i < text.Length; i++)
+        {
+            if (text[i] != ' ')
+            {
+                Quads.Add(new(
+                    x + (i * Sheet.CellWidth), y, Sheet.CellWidth, Sheet.CellHeight, ColourOf(tone), atlas.GlyphOf(text[i]), 0));
+            }
+        }
+    }
+}

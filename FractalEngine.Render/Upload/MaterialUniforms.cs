@@ -1,0 +1,61 @@
+using FractalEngine.Core.Geometry;
+using FractalEngine.Render.Gl;
+using FractalEngine.Render.Gl.State;
+using OpenTK.Graphics.OpenGL4;
+
+namespace FractalEngine.Render.Upload;
+
+/// <summary>
+/// Sets a material as the uniform <c>material</c> of material.glsl, where it differs from the last one of the program.
+/// </summary>
+internal sealed class MaterialUniforms(ShaderProgram program, RedundancyFilter filter)
+{
+    private const int VectorCount = 5;
+
+    // 0 to the power of 0 is not defined, and with a greater exponent a highlight is smaller than any pixel.
+    private const double MinSpecularExponent = 1;
+    private const double MaxSpecularExponent = 10_000;
+
+    private readonly float[] _data = new float[4 * VectorCount];
+    private (Material? Material, Colour Tint)? _lastKey;
+
+    /// <summary>Sets the material of the next draw calls. The program must be in use.</summary>
+    /// <param name="material">Null for the object's own colour, matt and opaque.</param>
+    /// <param name="tint">Colour that multiplies the material's own, sRGB.</param>
+    public void Set(Material? material, Colour tint)
+    {
+        if (!filter.ShouldPerform(_lastKey is { } last && ReferenceEquals(last.Material, material) && last.Tint == tint))
+        {
+            return;
+        }
+
+        _lastKey = (material, tint);
+        var diffuse = ClampNegative(material?.Diffuse ?? Colour.White).ToLinear();
+        var linearTint = tint.ToLinear();
+        var tinted = new Colour(diffuse.Red * linearTint.Red, diffuse.Green * linearTint.Green, diffuse.Blue * linearTint.Blue);
+        var exponent = Math.Clamp(material?.SpecularExponent ?? 1, MinSpecularExponent, MaxSpecularExponent);
+        WriteVector(0, tinted, material?.Opacity ?? 1);
+        WriteVector(4, ClampNegative(material?.Specular ?? Colour.Black), exponent);
+        WriteVector(8, ClampNegative(material?.Ambient ?? Colour.White), material is null ? 0 : 1);
+        if (material?.Texture is { } texture)
+        {
+            _data[12] = (float)texture.Scale.U;
+            _data[13] = (float)texture.Scale.V;
+            _data[14] = (float)texture.Offset.U;
+            _data[15] = (float)texture.Offset.V;
+        }
+
+        WriteVector(16, ClampNegative(material?.Emission ?? Colour.Black), 0);
+        GL.Uniform4(program.UniformLocation("material"), VectorCount, _data);
+    }
+
+    private static Colour ClampNegative(Colour colour) => new(Math.Max(colour.Red, 0), Math.Max(colour.Green, 0), Math.Max(colour.Blue, 0));
+
+    private void WriteVector(int start, Colour colour, double w)
+    {
+        _data[start] = (float)colour.Red;
+        _data[start + 1] = (float)colour.Green;
+        _data[start + 2] = (float)colour.Blue;
+        _data[start + 3] = (float)w;
+    }
+}

@@ -1,0 +1,45 @@
+using FractalEngine.Render.Drawables;
+using FractalEngine.Render.Gl;
+using FractalEngine.Render.Gl.State;
+
+namespace FractalEngine.Render.Upload;
+
+/// <summary>Holds the textures of a scene on the GPU, each once.</summary>
+internal sealed class TextureSet : IDisposable
+{
+    private readonly Dictionary<DrawableTexture, SrgbTexture> _textures = new(ReferenceEqualityComparer.Instance);
+
+    /// <summary>Deletes all textures but some.</summary>
+    public void KeepOnly(IReadOnlyCollection<DrawableTexture> textures)
+    {
+        foreach (var unused in _textures.Keys.Except(textures, ReferenceEqualityComparer.Instance).Cast<DrawableTexture>().ToArray())
+        {
+            _textures[unused].Dispose();
+            _textures.Remove(unused);
+        }
+    }
+
+    /// <summary>Uploads the textures that are not on the GPU yet.</summary>
+    /// <exception cref="GlException">
+    /// A texture exceeds the driver's limits, or the memory does not suffice. Those before it stay.
+    /// </exception>
+    public void Add(GlResources resources, IReadOnlyCollection<DrawableTexture> textures)
+    {
+        foreach (var texture in textures.Where(texture => !_textures.ContainsKey(texture)))
+        {
+            _textures.Add(texture, new(resources, texture.Name, texture.Image));
+        }
+    }
+
+    /// <summary>Binds the texture of a material, if it has one.</summary>
+    public void Bind(DrawableMaterial? material)
+    {
+        if (material?.Texture is { } texture)
+        {
+            _textures[texture].Bind(material.Material.Texture is { IsClamped: true });
+        }
+    }
+
+    /// <inheritdoc/>
+    public void Dispose() => GlObject.DisposeAll([.. _textures.Values]);
+}

@@ -1,0 +1,88 @@
+using FractalEngine.Core.Visibility.Frames;
+
+namespace FractalEngine.Render.Views;
+
+/// <summary>
+/// Adapts render settings to a moving camera: no multisampling, at most 150,000 instances, kept shadow maps, and
+/// coarser detail while frames are slow.
+/// </summary>
+/// <remarks>
+/// The minimum projected size stays between 3 and 24 pixels, 8 with shadows, and follows the frame time so that ten frames a second are
+/// drawn. It changes at most every fourth frame, since each change discards what was culled ahead. Draw with
+/// <see cref="Adapt(RenderSettings)"/> and pass the time taken to <see cref="RecordFrameTime"/>. When the camera stops, draw once more with
+/// the full settings.
+/// </remarks>
+public sealed class AdaptiveQuality
+{
+    // Limits of the minimum projected size, pixels.
+    private const double FinestProjectedSize = 3;
+    private const double CoarsestProjectedSize = 24;
+
+    // Shadow maps have their own, finer detail. Larger proxies lie so far below what maps show, as tiles of a mountain do, that their
+    // surface is full of stripes and dots of shadow.
+    private const double CoarsestShadedSize = 8;
+    private const int MaxInstances = 150_000;
+
+    // Frame times between the two leave the size as it is.
+    private static readonly TimeSpan SlowFrameTime = TimeSpan.FromSeconds(0.09);
+    private static readonly TimeSpan FastFrameTime = TimeSpan.FromSeconds(0.05);
+
+    // Each change discards what was culled ahead.
+    private const int FramesBetweenChanges = 4;
+    private const double CoarseningFactor = 1.4;
+    private const double RefinementFactor = 1.15;
+
+    private double _minProjectedSize = FinestProjectedSize;
+    private double _coarsestSize = CoarsestProjectedSize;
+    private int _framesSinceChange;
+    private (RenderSettings Source, double MinProjectedSize, RenderSettings Adapted)? _lastAdapted;
+
+    /// <summary>Returns the settings for frames of a moving camera.</summary>
+    /// <param name="settings">Settings of a camera at rest.</param>
+    /// <returns>The same object for as long as nothing has changed.</returns>
+    public RenderSettings Adapt(RenderSettings settings)
+    {
+        var hasShadows = settings is { Shadows: true, Shading: Shading.PerPixel, Wireframe: false };
+        _coarsestSize = hasShadows ? CoarsestShadedSize : CoarsestProjectedSize;
+        _minProjectedSize = Math.Min(_minProjectedSize, _coarsestSize);
+        if (_lastAdapted is not { } last || last.Source != settings || last.MinProjectedSize != _minProjectedSize)
+        {
+            var culling = settings.Culling is null ? null : Adapt(settings.Culling);
+            last = (settings, _minProjectedSize, settings with { Samples = 0, FitShadowsToView = false, Culling = culling });
+            _lastAdapted = last;
+        }
+
+        return last.Adapted;
+    }
+
+    /// <summary>Adjusts the detail to the time that a frame took: above 90 ms it gets coarser, below 50 ms finer.</summary>
+    /// <param name="frameTime">Time from the first step of drawing until the window showed the frame.</param>
+    public void RecordFrameTime(TimeSpan frameTime)
+    {
+        if (++_framesSinceChange < FramesBetweenChanges)
+        {
+            return;
+        }
+
+        var previousSize = _minProjectedSize;
+        if (frameTime > SlowFrameTime)
+        {
+            _minProjectedSize = Math.Min(CoarseningFactor * _minProjectedSize, _coarsestSize);
+        }
+        else if (frameTime < FastFrameTime)
+        {
+            _minProjectedSize = Math.Max(_minProjectedSize / RefinementFactor, FinestProjectedSize);
+        }
+
+        if (!previousSize.Equals(_minProjectedSize))
+        {
+            _framesSinceChange = 0;
+        }
+    }
+
+    private CullingSettings Adapt(CullingSettings culling) => culling with
+    {
+        MinProjectedSize = Math.Max(culling.MinProjectedSize, _minProjectedSize),
+        InstanceBudget = Math.Min(culling.InstanceBudget, MaxInstances),
+    };
+}

@@ -1,0 +1,40 @@
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Scenes.Cameras;
+using FractalEngine.Core.Visibility.Frames;
+
+namespace FractalEngine.Render.Views;
+
+/// <summary>A view resolved for one frame: its viewport, aspect ratio and clip planes.</summary>
+/// <param name="View">Camera and projection.</param>
+/// <param name="X">Left edge of the viewport, pixels from the left of the frame.</param>
+/// <param name="Y">Top edge of the viewport, pixels from the top of the frame.</param>
+/// <param name="Width">Width of the viewport in pixels.</param>
+/// <param name="Height">Height of the viewport in pixels.</param>
+/// <param name="Aspect">Width divided by height of the viewport, before rounding to pixels.</param>
+/// <param name="Near">Depth of the near clip plane, scene units.</param>
+/// <param name="Far">Depth of the far clip plane, scene units.</param>
+internal readonly record struct FrameView(View View, int X, int Y, int Width, int Height, double Aspect, double Near, double Far)
+{
+    /// <summary>Resolves a view for a frame.</summary>
+    /// <param name="view">Camera and projection.</param>
+    /// <param name="width">Width of the frame in pixels.</param>
+    /// <param name="height">Height of the frame in pixels.</param>
+    /// <param name="planes">Depths of the clip planes, scene units; null where nothing is drawn.</param>
+    public static FrameView Create(View view, int width, int height, (double Near, double Far)? planes)
+    {
+        var viewport = view.Viewport(width, height);
+        var (near, far) = planes ?? view.ClipPlanes(BoundingBox.Empty);
+        return new(view, viewport.X, viewport.Y, viewport.Width, viewport.Height, view.EffectiveAspect(width, height), near, far);
+    }
+
+    /// <summary>Plane that cuts the scene open, in world axes about the camera; null for none.</summary>
+    public SectionPlane? Section { get; } = View.RelativeSection;
+
+    /// <summary>Returns the same view in the form that culling takes.</summary>
+    public CullingView ToCullingView() => new(
+        View.Camera.Position, View.Camera.LocalAxes, View.Projection == Projection.Perspective, View.HalfHeight, Width, Height, Aspect,
+        Near, Far)
+    {
+        Section = Section,
+    };
+}

@@ -1,4 +1,0 @@
-namespace FractalEngine.Render.Windowing;
-
-/// <summary>The user asked to close the window. It stays open until it is disposed.</summary>
-public sealed record CloseRequested : WindowEvent;

@@ -1,5 +1,0 @@
-namespace FractalEngine.Render.Windowing;
-
-/// <summary>The window was hidden or minimised, or became visible again.</summary>
-/// <param name="IsVisible">Whether the window is visible now.</param>
-public sealed record VisibilityChanged(bool IsVisible) : WindowEvent;

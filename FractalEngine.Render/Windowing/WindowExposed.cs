@@ -1,4 +1,0 @@
-namespace FractalEngine.Render.Windowing;
-
-/// <summary>A part of the window's contents was lost and must be presented again.</summary>
-public sealed record WindowExposed : WindowEvent;

@@ -1,0 +1,175 @@
+using System.Diagnostics;
+using FractalEngine.App.Shell;
+using FractalEngine.Tests.Support;
+
+namespace FractalEngine.Tests.App.Shell;
+
+/// <summary>Tests that outputs are whole or not there, whatever ends a command or is full.</summary>
+public sealed class OutputFileTests : IDisposable
+{
+    private readonly TemporaryFolder _folder = new();
+
+    public OutputFileTests() => _folder.Write("cube.obj", SampleFiles.Cube);
+
+    public void Dispose() => _folder.Dispose();
+
+    [SkippableTheory]
+    [InlineData("TERM")]
+    [InlineData("HUP")]
+    public void Export_EndedByASignalWhileWriting_LeavesNoFile(string signal)
+    {
+        Signals.Require(signal);
+        _folder.Write("row.fdo", SampleFiles.Row("21"));
+        using var process = AppProcess.Start(_folder.Path, [], "export", "row.fdo", "--output", "t.obj");
+        try
+        {
+            Polling.WaitUntil(() => Directory.GetFiles(_folder.Path, "*.tmp").Length > 0, "output file");
+            Signals.Send(process, signal);
+            Assert.True(process.WaitForExit(Polling.Deadline), "the process does not end");
+        }
+        finally
+        {
+            process.Kill();
+        }
+
+        Assert.Equal((130, "error: interrupted"), (process.ExitCode, process.StandardError.ReadToEnd().Trim()));
+        Assert.Equal(["cube.obj", "row.fdo"], Directory.GetFiles(_folder.Path).Select(Path.GetFileName).Order());
+    }
+
+    [SkippableTheory]
+    [InlineData("INT")]
+    [InlineData("TERM")]
+    public void Trace_EndedByASignal_SaysSoAndLeavesNoFile(string signal)
+    {
+        Signals.Require(signal);
+        using var process = AppProcess.Start(
+            _folder.Path, [], "render", "cube.obj", "--output", "t.png", "--trace", "1000000", "--resolution", "200x200", "--verbose");
+        try
+        {
+            // Its time is told when the preparation is done; then samples are added.
+            for (var line = ""; !line.StartsWith("prepare", StringComparison.Ordinal);)
+            {
+                line = process.StandardError.ReadLine() ?? throw new EndOfStreamException("the process has ended");
+            }
+
+            Thread.Sleep(TimeSpan.FromMilliseconds(100));
+            Signals.Send(process, signal);
+            Assert.True(process.WaitForExit(Polling.Deadline), "the process does not end");
+        }
+        finally
+        {
+            process.Kill();
+        }
+
+        Assert.Equal((130, "error: interrupted"), (process.ExitCode, process.StandardError.ReadToEnd().Trim()));
+        Assert.Equal(["cube.obj"], Directory.GetFiles(_folder.Path).Select(Path.GetFileName));
+    }
+
+    [SkippableTheory]
+    [InlineData("INT")]
+    [InlineData("TERM")]
+    public void Query_EndedByASignal_ExitsWith130AtOnce(string signal)
+    {
+        Signals.Require(signal);
+        File.WriteAllLines(_folder["points.txt"], Enumerable.Repeat("1 2 3", 5_000_000));
+        using var process = AppProcess.Start(_folder.Path, [], "query", "cube.obj", "--points", "points.txt", "--collider", "simple");
+        try
+        {
+            Thread.Sleep(TimeSpan.FromSeconds(1));
+            Signals.Send(process, signal);
+            Assert.True(process.WaitForExit(Polling.Deadline), "the process does not end");
+        }
+        finally
+        {
+            process.Kill();
+        }
+
+        Assert.Equal((130, ""), (process.ExitCode, process.StandardError.ReadToEnd()));
+    }
+
+    [SkippableTheory]
+    [InlineData("cube.obj")]
+    [InlineData("link.obj")]
+    public void Export_OntoAFileThatWasRead_IsRefusedAndReplacesNothing(string output)
+    {
+        Elsewhere.SkipOnWindows("links need rights there");
+        _folder.Write("row.fdo", SampleFiles.Row("3"));
+        File.CreateSymbolicLink(_folder["link.obj"], _folder["cube.obj"]);
+        var (exitCode, _, error) = AppProcess.Run(_folder.Path, "export", "row.fdo", "--output", output);
+        Assert.Equal((2, $"error: {output} is one of the files that are read, and is not overwritten"), (exitCode, error.Trim()));
+        Assert.Equal(SampleFiles.Cube, File.ReadAllText(_folder["cube.obj"]));
+    }
+
+    [SkippableFact]
+    public void Export_OntoAFileThatWasReadThroughALinkedFolder_IsRefused()
+    {
+        Elsewhere.SkipOnWindows("links need rights there");
+        Directory.CreateSymbolicLink(_folder["elsewhere"], _folder.Path);
+        var (exitCode, _, error) = AppProcess.Run(_folder.Path, "export", "cube.obj", "--output", "elsewhere/cube.obj");
+        Assert.Equal((2, "error: elsewhere/cube.obj is one of the files that are read, and is not overwritten"), (exitCode, error.Trim()));
+        Assert.Equal(SampleFiles.Cube, File.ReadAllText(_folder["cube.obj"]));
+    }
+
+    [SkippableFact]
+    public void Export_IntoAPipeThatNothingReads_IsAnErrorInsteadOfAWait()
+    {
+        Elsewhere.SkipIf(OperatingSystem.IsWindows() || Shell("mkfifo pipe.obj").ExitCode != 0, "there are no named pipes");
+        var (exitCode, _, error) = AppProcess.Run(_folder.Path, "export", "cube.obj", "--output", "pipe.obj");
+        Assert.Equal((2, "error: pipe.obj can't be written: it is a pipe that nothing reads"), (exitCode, error.Trim()));
+    }
+
+    [SkippableFact]
+    public void Export_IntoAPipe_WritesIntoIt()
+    {
+        Elsewhere.SkipIf(OperatingSystem.IsWindows() || Shell("mkfifo pipe.obj").ExitCode != 0, "there are no named pipes");
+        var app = Path.ChangeExtension(typeof(OutputFile).Assembly.Location, ".dll");
+        var result = Shell($"cat pipe.obj >copy.obj & dotnet exec '{app}' export cube.obj --output pipe.obj; wait; test -p pipe.obj");
+        Assert.Equal(0, result.ExitCode);
+        Assert.Equal(12, File.ReadLines(_folder["copy.obj"]).Count(line => line.StartsWith('f')));
+    }
+
+    [Theory]
+    [InlineData("a\u001B[31m.obj", "a\\u001B[31m.obj:1:1: error: file not found")]
+    [InlineData("a\u202Egpj.obj", "a\\u202Egpj.obj:1:1: error: file not found")]
+    public void Messages_WithControlCharacters_ShowThemEscaped(string file, string message) =>
+        Assert.Equal(message, AppProcess.Run(_folder.Path, "info", file).Error.Trim());
+
+    [SkippableTheory]
+    [InlineData("info nope.obj 2>FULL", 1, "")]
+    [InlineData("info nope.obj 2>&-", 1, "")]
+    [InlineData("count cube.obj 2>FULL", 0, "12\n")]
+    [InlineData("query cube.obj --points points.txt 2>FULL", 0, "1 0.5 ")]
+    [InlineData("query cube.obj --wrong 2>FULL", 2, "")]
+    [InlineData("count cube.obj >FULL", 2, "error: the standard output can't be written: ")]
+    [InlineData("--help >FULL", 2, "error: the standard output can't be written: ")]
+    [InlineData("simulate scene.sdo >FULL", 2, "error: the standard output can't be written: ")]
+    public void Streams_ThatAreFullOrClosed_DoNotChangeTheRest(string command, int exitCode, string output)
+    {
+        // A node of its own instead of /dev/full: an error here must not harm the machine's.
+        Elsewhere.SkipIf(OperatingSystem.IsWindows() || Shell("mknod full c 1 7").ExitCode != 0, "this user can't make device nodes");
+        _folder.Write("points.txt", "1.5 0.1 0.2\n");
+        _folder.Write("scene.sdo", "p \"cube.obj\" # 0.5\n");
+        var app = Path.ChangeExtension(typeof(OutputFile).Assembly.Location, ".dll");
+        var result = Shell($"dotnet exec '{app}' {command.Replace("FULL", "full", StringComparison.Ordinal)}");
+        Assert.Equal(exitCode, result.ExitCode);
+        if (output.Length == 0)
+        {
+            Assert.Equal("", result.Output + result.Error);
+        }
+
+        Assert.StartsWith(output, result.Output + result.Error, StringComparison.Ordinal);
+    }
+
+    private AppResult Shell(string command)
+    {
+        var start = new ProcessStartInfo("sh", ["-c", command])
+        {
+            WorkingDirectory = _folder.Path, RedirectStandardOutput = true, RedirectStandardError = true,
+        };
+        using var process = Process.Start(start)!;
+        var output = process.StandardOutput.ReadToEndAsync();
+        var error = process.StandardError.ReadToEndAsync();
+        Assert.True(process.WaitForExit(Polling.Deadline), $"{command} does not end");
+        return new(process.ExitCode, output.GetAwaiter().GetResult(), error.GetAwaiter().GetResult());
+    }
+}

@@ -1,0 +1,166 @@
+using FractalEngine.Core;
+using FractalEngine.Core.Fractals.Descriptions;
+using FractalEngine.Parsing.Fdo;
+using FractalEngine.Parsing.Fdo.Writing;
+using FractalEngine.Parsing.Text;
+using FractalEngine.Tests.Recorded;
+using FractalEngine.Tests.Support;
+
+namespace FractalEngine.Tests.Parsing.Fdo;
+
+/// <summary>Compares what the parser makes of fractals, right and faulty, with what is recorded.</summary>
+[Collection(ConsoleTests.Name)]
+public class RecordedFractalTests
+{
+    private const string Small = "v 1 2 3\nv .5 .5 .5\nt.a.b. (a, #, b)\nu. (1, 2, #)\nx. \"b.obj\"\ny. [t.1.2, #] x\nz<x>. [u., #] "
+        + "y\n<$>. [t.2.2] z 3\n";
+
+    private static readonly string[] Texts =
+    [
+        Small, "composition componentwise\nv 1 1 1\nt.a.b.c. (c, b, a)\nx. \"b.ply\"\nz<x>. [t.1.1.1] x\nw<x>. z 2\n<$>. w 3\n",
+        "<$>. \"a.obj\"", "v 0.5, 0.5, 0.5\nt.a. (#, #, a)\nx. \"b.stl\"\nz<x>. [t.1] x\n<$>. z\n",
+        "composition affine\n# c\n\nx. \"a.obj.gz\"\nmy-y. [] x\n<$>. my-y",
+    ];
+
+    [Fact]
+    public void Fractals_WithEverySmallFault_AreAsRecorded()
+    {
+        var sweep = new FaultSweep();
+        foreach (string line in Texts)
+        {
+            sweep.Run(line, static text =>
+            {
+                var parsed = FractalParser.Parse(new("t.fdo", text));
+                string written = parsed.Description.IsInfinite ? "" : FractalWriter.Write(parsed.Description, parsed.BaseFile);
+                return ((parsed.BaseFile, parsed.BaseFileNameOffset, parsed.ResultOffset, written, FractalNumber.FindAll(parsed.Source)),
+                    parsed.Warnings);
+            });
+        }
+
+        RecordedText.Check("fractals-faults.txt", sweep.Lines());
+    }
+
+    [Fact]
+    public void Fractals_WithTypicalMistakes_AreAsRecorded()
+    {
+        string[] cases =
+        [
+            "", "# a\n", "v 1 2 3", "v (1, 2, 3)", "v 1 2", "v 1 2 3 4", "v 1,5 2 3", "V 1 2 3", "vec 1 2 3", "vector 1 2 3", "v1 1 2 3",
+            "v1 2 3",
+            "compositon affine", "composition x", "composition affine\ncomposition affine", "x \"b.obj\"", "x. b.obj", "x. b.obj.gz",
+            "x. models\\b.ply", "x. \"b.fdo\"", "x. \"b\"",
+            "x. \"b.obj", "x. \"b.obj\"\nx. \"c.obj\"", "x. y", "x. \"b.obj\"\n<$>. X", "x. \"b.obj\"\nz<x>. [#] x\n<$>. z 3.5",
+            "x. \"b.obj\"\nz<x>. [#] x\n<$>. z3",
+            "x. \"b.obj\"\nz<x>. [#] x\n<$>. z.3", "x. \"b.obj\"\nz<x>. [#] x\n<$>. z -3", "x. \"b.obj\"\nz<x>. [#] x\n<$>. 6",
+            "x. \"b.obj\"\nz<x>. [#] x\n<$> z 6",
+            "x. \"b.obj\"\n<$>. x 6", "x. \"b.obj\"\nz<x>. x\n<$>. z 2", "x. \"b.obj\"\ny. \"c.obj\"\nz<x>. [#] y\n<$>. z 2",
+            "x. \"b.obj\"\nz<x>. [#] x\nw<z>. [#] z\n<$>. w 2",
+            "x. \"b.obj\"\nz<x>. [#] x\nw<x>. z\n<$>. w 2", "t.a (a, #, #)", "t.a. (b, #, #)", "t.a. (a, #, 0.5)",
+            "t. ((1, 2, 3), #, #)", "t.a. (a, #, -1)", "t.a.a. (a, #, #)",
+            "t.a.b.c.d. (a, b, c)", "t. (0, #, #)", "t. (#, #)", "t. (#, #, #, #)", "t. (#, #, #)\nt. (#, #, #)", Small + "<$>. x",
+            "v 1 1 1\nt.a. (a, #, #)\nx. \"b.obj\"\n<$>. [t] x",
+            "v 1 1 1\nt.a. (a, #, #)\nx. \"b.obj\"\n<$>. [t.1 1] x", "v 1 1 1\nt.a. (a, #, #)\nx. \"b.obj\"\n<$>. [1, 2] x",
+            "v 1 1 1\nt.a. (a, #, #)\nx. \"b.obj\"\n<$>. t.1 x",
+            "v 1 1 1\nt.a. (a, #, #)\nx. \"b.obj\"\n<$>. [t1] x", "v 1 1 1\nt.a. (a, #, #)\nx. \"b.obj\"\n<$>. [t.2] x",
+            "v 1 1 1\nt.a. (a, #, #)\nx. \"b.obj\"\n<$>. [t.0] x",
+            "v 1 1 1\nt.a. (a, #, #)\nx. \"b.obj\"\n<$>. [t.1.1] x", "v 1 1 1\nt.a. (a, #, #)\nx. \"b.obj\"\n<$>. [x.1] x",
+            "v 1 1 1\nt.a. (a, #, #)\nx. \"b.obj\"\n<$>. t",
+            "v 1 1 1\ntree.a. (a, #, #)\nx. \"b.obj\"\n<$>. [tre.1] x", "v 1 1 1\nt.a. (a, #, #)\nbase. \"b.obj\"\n<$>. [t.1] bass",
+            "v 0 1 1\nt.a. (#, #, a)\nx. \"b.obj\"\n<$>. [t.1] x",
+            "v 1e-300 1 1\nt.a. (#, #, a)\nx. \"b.obj\"\n<$>. [t.1] x", "v 0.5 0.2 0\nt.a. (#, a, #)\nx. \"b.obj\"\n<$>. [t.1] x",
+            "composition componentwise\nx. \"b.obj\"\nz<x>. [#] x\n<$>. z",
+            "v 1 1 1 # c", "x. \"b.obj\" # c", "<$>. \"a.obj\"\n<$>. \"b.obj\"", "x. \"b.obj\"\nz<x>. [#] x\n<$>. z 1000001",
+            "x. \"b.obj\"\nz<x>. [#] x\n<$>. z 99999999999",
+            "t.a. (2, #, a)\nv 1 1 1\nx. \"b.obj\"\n<$>. [t.1] x", "t.a. (2, #, a)\nx. \"b.obj\"\n<$>. x",
+            "x. \"b.obj\"\nz<x>. [#] x\nw<x>. z\n", "x<$>. \"a.obj\"", "<$>. [#] [#] \"a.obj\"", "<$>. [#,] \"a.obj\"",
+            "<$>. [# #] \"a.obj\"", "<$>. [#", "<$>.", "<$>", "<$", "a.b.c", "a<b", "a<b>", "a<b>. ", "1. \"b.obj\"", "x.. \"b.obj\"",
+            "t.a.(a, #, #)\nx. \"b.obj\"\n<$>. x", "ü. \"b.obj\"\n<$>. ü", "_a. \"b.obj\"\n<$>. _a",
+        ];
+        RecordedText.Check("fractals-mistakes.txt", cases.Select(Outcome));
+    }
+
+    [Fact]
+    public void Fractals_AtTheirLimits_AreAsRecorded()
+    {
+        const string nested = "x. \"b.obj\"\nz<x>. [#, #] x\ny<x>. z 2\nw<x>. y 2\n<$>. w 2\n";
+        (Limit Limit, long Value)[] limits =
+        [
+            (FractalLimits.Depth, 1), (FractalLimits.Depth, 2), (FractalLimits.Levels, 7), (FractalLimits.Levels, 8),
+            (FractalLimits.Steps, 1),
+            (FractalLimits.Nesting, 2), (FractalLimits.Nesting, 3), (FractalLimits.Digits, 2), (FractalLimits.Digits, 3),
+            (ParsingLimits.Maps, 1), (ParsingLimits.Maps, 2),
+            (ParsingLimits.Names, 3), (ParsingLimits.Names, 4), (ParsingLimits.RepeatedSteps, 2), (ParsingLimits.RepeatedSteps, 3),
+        ];
+        var lines = new List<string>();
+        foreach (var (limit, value) in limits)
+        {
+            limit.Value = value;
+            try
+            {
+                lines.Add($"{limit.Name}={value} {Outcome(nested)}");
+                lines.Add($"{limit.Name}={value} {Outcome("x. \"b.obj\"\nt. (#, #, #)\ny. [#] x\n<$>. [#] [#] [t., #] y\n")}");
+            }
+            finally
+            {
+                limit.Value = limit.Default;
+            }
+        }
+
+        RecordedText.Check("fractals-limits.txt", lines);
+    }
+
+    [Fact]
+    public void Fractals_OfTheAssets_ReadAndWriteAsRecorded()
+    {
+        var lines = Directory.EnumerateFiles(Repository.Full("assets/fractals"), "*.fdo").Order(StringComparer.Ordinal).Select(file =>
+        {
+            var parsed = FractalParser.Parse(SourceText.Read(file, file, 1 << 24));
+            string text = FractalWriter.Write(parsed.Description, parsed.BaseFile);
+            Assert.Equal(parsed.Description, FractalParser.Parse(new("written.fdo", text)).Description);
+            var numbers = FractalNumber.FindAll(parsed.Source);
+            return $"{Path.GetFileName(file)} {parsed.BaseFile} {parsed.BaseFileNameOffset} {parsed.ResultOffset} {numbers.Length} "
+                + Description.OfNumbers([.. numbers.Select(number => number.Value)])
+                + Description.OfNumbers([.. numbers.Select(number => number.Offset + (100.0 * number.Length) + (1e4 * (int)number.Role)
+                    + (1e5 * number.Component))])
+                + $" {Kinds(text)} {text.Length}";
+        });
+        RecordedText.Check("fractals-assets.txt", lines);
+    }
+
+    [Fact]
+    public void Writer_OfSmallFractals_WritesAsRecorded() => RecordedText.Check("fractals-written.txt", Texts.Concat(
+    [
+        "v 1 0 0\nv 0 1 0\nv .5 .5 .5\nv 10 0 0\nx. \"b.obj\"\nt.a.b. (a, b, 3)\ns.a. (#, #, a)\nr.a. (#, a, #)\nz<x>. [t.1.4, t.2.4, "
+            + "#] [s.3] [r.4, r.4] x\n<$>. [s.3] z 4",
+        "v -0 0 0\nv 1 1 1\nx. \"b.obj\"\nt.a.b. (a, #, b)\n<$>. [t.1.2] [#] [] x",
+    ]).SelectMany(text =>
+    {
+        var parsed = FractalParser.Parse(new("t.fdo", text));
+        return new[] { $"$ {text.Split('\n')[0]}" }.Concat(FractalWriter.Write(parsed.Description, parsed.BaseFile).Split('\n'))
+            .Concat(FractalNumber.FindAll(parsed.Source).Take(12).Select(number => Description.Of(number)));
+    }));
+
+    [Fact]
+    public void Numbers_ThatAreReplaced_AreAsRecorded() => RecordedText.Check(
+        "fractals-replaced.txt", FractalNumber.FindAll(new("t.fdo", Small)).SelectMany(number => ((double[])[-3, 0.25, 2.5, 7.75]).Select(
+            value => number.Replace(Small, value).Replace("\n", "⏎", StringComparison.Ordinal))).Distinct());
+
+    // First letters of the lines, with how often each comes.
+    private static string Kinds(string text) => string.Join(
+        '/', text.Split('\n').GroupBy(line => line.Length > 0 ? line[0] : '-').Select(group => $"{group.Key}{group.Count()}"));
+
+    private static string Outcome(string text)
+    {
+        string shown = text.Replace("\n", "⏎", StringComparison.Ordinal);
+        try
+        {
+            var parsed = FractalParser.Parse(new("t.fdo", text));
+            string warnings = string.Join(' ', parsed.Warnings.Select(warning => warning.ToString().Split('\n')[0]));
+            return $"{shown} → {parsed.BaseFile} {parsed.Description.IsInfinite} {parsed.Description.Steps.Length} {warnings}";
+        }
+        catch (SourceException exception)
+        {
+            return $"{shown} → {(exception.Kind == ErrorKind.Limit ? "limit " : "")}{exception.Diagnostic.ToString().Split('\n')[0]}";
+        }
+    }
+}

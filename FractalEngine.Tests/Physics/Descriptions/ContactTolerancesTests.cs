@@ -1,0 +1,85 @@
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics.Descriptions;
+using FractalEngine.Core.Physics.Islands;
+using FractalEngine.Core.Physics.Rows;
+using FractalEngine.Core.Physics.Separation;
+using FractalEngine.Tests.Support;
+
+namespace FractalEngine.Tests.Physics.Descriptions;
+
+/// <summary>The distances and numbers of rounds that all solves go by, as they are documented.</summary>
+public class ContactTolerancesTests
+{
+    // A rounding or two.
+    private const double Tolerance = 1e-24;
+
+    [Fact]
+    public void Distances_OfARadiusAtAPlace_AreSharesOfBoth()
+    {
+        var place = new Vector(1, -30, 2);
+        Near.Equal(2e-9 + 3e-13, ContactTolerances.Touch(2, place), Tolerance);
+        Near.Equal(2e-6 + 3e-13, ContactTolerances.Slop(2, place), 1e-21);
+        Near.Equal(2e-6 + 0.5, ContactTolerances.TouchDistance(2, 0.5, keepsMargin: false), 3e-16);
+        Near.Equal(2e-6 + 2e-3 + 0.5, ContactTolerances.TouchDistance(2, 0.5, keepsMargin: true), 3e-16);
+        Near.Equal(1.000001, ContactTolerances.NeighbourRadiusFactor, 1e-15);
+        Near.Equal(1.001001, ContactTolerances.SupportRadiusFactor, 1e-15);
+    }
+
+    [Theory]
+    [InlineData(1, 250, 250)]
+    [InlineData(500, 250, 50)]
+    [InlineData(501, 119, 49)]
+    [InlineData(2000, 30, 12)]
+    [InlineData(4000, 15, 8)]
+    [InlineData(4999, 12, 8)]
+    [InlineData(100_000, 12, 8)]
+    public void Rounds_OfAnIsland_FallWithItsContacts(int contacts, int expected, int expectedOfLarge)
+    {
+        Assert.Equal(expected, RoundLimits.For(contacts));
+        Assert.Equal(expectedOfLarge, RoundLimits.ForLarge(contacts));
+        Assert.Equal(Math.Min(expected, 20), RoundLimits.For(contacts, 20));
+        Assert.Equal((32, 250), (RoundLimits.First, RoundLimits.Many));
+    }
+
+    [Theory]
+    [InlineData(299, 1, false, false, 1e-7, 1.3, 0.01)]
+    [InlineData(300, 1, true, false, 1e-7, 1.3, 0.01)]
+    [InlineData(300, 1, false, false, -3e-4, 1.3, 0.01)]
+    [InlineData(300, 1, false, true, -3e-4, 1.3, 0.25)]
+    [InlineData(3000, 2, false, false, -6e-4, 1.6, 0.01)]
+    [InlineData(3, 1, false, true, 1e-7, 1.3, 0.25)]
+    public void Aim_OfASeparation_DependsOnTheSizeOfItsIsland(
+        int rows, int parts, bool hasCompound, bool isPushed, double overlap, double relaxation, double maxGap)
+    {
+        var island = new Island(0, rows, 0, 2) { PartCount = parts, HasCompound = hasCompound, IsPushed = isPushed };
+        var aim = SeparationAim.Of(in island);
+        Near.Equal(overlap, aim.Overlap, 1e-18);
+        Assert.Equal((relaxation, maxGap), (aim.Relaxation, aim.MaxGap));
+    }
+
+    /// <summary>Two things meet when the mask of each has the other's layer.</summary>
+    [Fact]
+    public void Layers_OfAnyTwo_MeetWhereBothMasksSaySo()
+    {
+        for (var layer = 0; layer < 32; layer++)
+        {
+            for (var other = 0; other < 32; other++)
+            {
+                Assert.True(Layers.CanMeet(layer, 1u << other, other, 1u << layer));
+                Assert.False(Layers.CanMeet(layer, ~(1u << other), other, Layers.All));
+                Assert.False(Layers.CanMeet(layer, Layers.All, other, ~(1u << layer)));
+            }
+        }
+    }
+
+    [Fact]
+    public void Key_OfAContact_IsAnotherForEachPairAndFeature()
+    {
+        var keys = from first in Enumerable.Range(0, 6)
+                   from second in Enumerable.Range(-1, 6)
+                   from feature in Enumerable.Range(0, 6)
+                   select new ContactRow { First = first, Second = second, FeatureId = feature }.Key;
+        Assert.Equal(216, keys.Distinct().Count());
+        Assert.Equal((3L << 32) | 5 | (2L << 52), new ContactRow { First = 3, Second = 4, FeatureId = 2 }.Key);
+    }
+}

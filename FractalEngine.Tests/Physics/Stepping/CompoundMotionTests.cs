@@ -1,0 +1,172 @@
+using FractalEngine.Core.Colliders;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics;
+using FractalEngine.Core.Physics.Bodies;
+using FractalEngine.Core.Physics.Descriptions;
+using FractalEngine.Core.Physics.Movement;
+using FractalEngine.Core.Physics.Statics;
+using FractalEngine.Core.Physics.Stepping;
+using FractalEngine.Core.Queries;
+using FractalEngine.Tests.Support;
+
+namespace FractalEngine.Tests.Physics.Stepping;
+
+/// <summary>
+/// How compounds turn freely, and when a dumbbell of two balls meets a floor or a ball, in closed form.
+/// </summary>
+public sealed class CompoundMotionTests
+{
+    // Impacts are found to 1e-10 of the radius, and the touch tolerance is 1e-9 of it.
+    private const double Tolerance = 2e-9;
+
+    private static readonly CompoundShape Dumbbell = CompoundShape.OfBalls([new(-Vector.I, 0.5), new(Vector.I, 0.5)]);
+
+    [Fact]
+    public void Plan_OfABodyThatTurnsAboutItsAxis_GoesOn()
+    {
+        var body = new Body(new(Vector.Zero, Dumbbell) { AngularVelocity = 3 * Vector.J }, 0, Vector.Zero);
+        FreeTurn.Plan(body, 0.25);
+        Near.Equal(3 * Vector.J, body.FreeSpin, 1e-12);
+        Near.Equal(3 * Vector.J, body.SpinBase, 1e-12);
+        body.AngularVelocity = Vector.Zero;
+        FreeTurn.Plan(body, 0.25);
+        Assert.Equal((Vector.Zero, Vector.Zero), (body.FreeSpin, body.SpinBase));
+        // Several turns at once.
+        body.AngularVelocity = 40 * Vector.K;
+        FreeTurn.Plan(body, 0.25);
+        Near.Equal(40 * Vector.K, body.FreeSpin, 1e-9);
+        Near.Equal(40 * Vector.K, body.SpinBase, 1e-9);
+    }
+
+    /// <summary>
+    /// The axis of a symmetric body goes round its angular momentum, as fast as that over the inertia across
+    /// the axis.
+    /// </summary>
+    [Fact]
+    public void Plan_OfASymmetricTop_PrecessesAboutItsMomentum() => Seeded.Run(20, random =>
+    {
+        var spin = random.Vector(4);
+        var capsule = CompoundShape.Capsule(-Vector.I, Vector.I, 0.5);
+        var body = new Body(new(Vector.Zero, capsule) { AngularVelocity = spin, Mass = 3 }, 0, Vector.Zero);
+        const double Duration = 0.125;
+        FreeTurn.Plan(body, Duration);
+        var momentum = body.InertiaTensor * spin;
+        var turned = Orientation.Identity.TurnedBy(0.5 * Duration * (body.SpinBase + body.FreeSpin));
+        var expected = Orientation.Identity.TurnedBy(Duration / body.InertiaTensor.V2.Y * momentum);
+        Near.Equal(expected.Rotate(Vector.I), turned.Rotate(Vector.I), 1e-8);
+        // Momentum and energy stay.
+        var energy = Vector.Dot(spin, momentum);
+        body.SetOrientation(turned);
+        Near.Equal(momentum, body.InertiaTensor * body.FreeSpin, 1e-11);
+        Near.Equal(energy, Vector.Dot(body.FreeSpin, momentum), 1e-6);
+    });
+
+    /// <summary>
+    /// Bodies of three different moments have no closed form, but keep momentum and energy all the same.
+    /// </summary>
+    [Fact]
+    public void Plan_OfAnyBody_KeepsMomentumAndEnergy() => Seeded.Run(20, random =>
+    {
+        var shape = CompoundShape.OfBalls(Enumerable.Range(0, 4).Select(_ => new CompoundBall(random.Vector(), random.Between(0.2, 0.6))));
+        var body = new Body(new(Vector.Zero, shape) { AngularVelocity = random.Vector(5) }, 0, Vector.Zero);
+        var momentum = body.InertiaTensor * body.AngularVelocity;
+        var energy = Vector.Dot(momentum, body.AngularVelocity);
+        FreeTurn.Plan(body, 0.1);
+        body.SetOrientation(Orientation.Identity.TurnedBy(0.05 * (body.SpinBase + body.FreeSpin)));
+        Near.Equal(momentum, body.InertiaTensor * body.FreeSpin, 1e-11);
+        Near.Equal(energy, Vector.Dot(momentum, body.FreeSpin), 1e-6);
+    });
+
+    [Fact]
+    public void RigidPath_OfAMotion_BoundsItsWay()
+    {
+        var path = new RigidPath(new(new(9, 9, 9), new(3, 0, 0), new(1, 0, 0)), new(0, 0.5, 0));
+        // (0.5·2)²/8 of the arm.
+        Assert.Equal(0.25, path.Sagitta(2, 2));
+        // From 1 on the velocity is 4: 4·2 + 1·2²/2, and the ball goes 3·0.5·2 round.
+        Near.Equal(10 + 3, path.MaxTravelDistance(1, 3, 2), 1e-14);
+        // Backwards: as fast as 4 + 1.5 + 0.5 it takes t with 6·t + t²/2 = 14 for a way of 14.
+        Near.Equal(2, path.MinTimeToTravel(1, 3, 0.5, 14), 1e-14);
+        Near.Equal(Orientation.Identity.TurnedBy(new(0, 1, 0)).Rotate(Vector.I), path.TurnAt(2).Rotate(Vector.I), 1e-15);
+    }
+
+    [Theory]
+    [InlineData(2, 4, 0, 0.375)]
+    [InlineData(1.2, 0, 2, 0.3876987483053765)]
+    [InlineData(1.2, 0, -2, 0.3876987483053765)]
+    public void TryFindImpact_WithAFloor_IsWhenTheLowerBallTouchesIt(double height, double speed, double spin, double expected)
+    {
+        var (sweep, body, obstacles) = Create(new(0.25, height, 0));
+        var path = new RigidPath(new(body.Position, new(0, -speed, 0), Vector.Zero), spin * Vector.K);
+        sweep.ResetStepBudget();
+        Assert.True(sweep.TryFindImpact(body, in path, 1, 0, out var hit, out var ball, out var elapsed));
+        // Level, or where sin(2·t) is 0.7.
+        Near.Equal(expected, elapsed, Tolerance);
+        Assert.Equal((spin > 0 ? 0 : spin < 0 ? 1 : ball, false), (ball, hit.IsBody));
+        Near.Equal(0, hit.Point.Y, 1e-12);
+        var centre = CompoundSweep.CentreAt(body, ball, in path, elapsed);
+        Near.Equal(0.5, centre.Y, 1e-8);
+        Near.Equal(0.25 + ((ball == 0 ? -1 : 1) * Math.Cos(spin * elapsed)), centre.X, 1e-12);
+        Assert.False(sweep.TryFindImpact(body, in path, expected - 1e-6, 0, out _, out _, out elapsed));
+        Assert.Equal(expected - 1e-6, elapsed);
+        Assert.Equal(0, obstacles.Time);
+    }
+
+    [Fact]
+    public void TryFindImpact_WithABall_IsWhenTheyTouch()
+    {
+        var (sweep, body, obstacles) = Create(new(0, 5, 0), new BodyDescription(new(1, 8, 0.6), 0.5));
+        var path = new RigidPath(new(body.Position, new(0, 4, 0), Vector.Zero), Vector.Zero);
+        obstacles.SelectBall(body.Radius, body.SafeDistance);
+        obstacles.CollectNearbyBodies(path.Motion, 1, body.Index);
+        Assert.True(sweep.TryFindImpact(body, in path, 1, 0, out var hit, out var ball, out var elapsed));
+        // 0.8 below its centre.
+        Near.Equal(2.2 / 4, elapsed, Tolerance);
+        Assert.Equal((1, 1), (ball, hit.BodyIndex));
+    }
+
+    /// <summary>An allowed depth is that of a curve between both ends: all of it in the middle.</summary>
+    [Theory]
+    [InlineData(0.01)]
+    [InlineData(0)]
+    public void TryFindImpact_WithAnAllowance_LetsItSinkInBetween(double allowance)
+    {
+        var (sweep, body, _) = Create(new(0, 2.5, 0));
+        // At the middle of one second it has come to the floor.
+        var path = new RigidPath(new(body.Position, new(0, -4, 0), Vector.Zero), Vector.Zero);
+        Assert.True(sweep.TryFindImpact(body, in path, 1, allowance, out _, out _, out var elapsed));
+        Near.Equal(0.5 + (allowance / 4), elapsed, 1e-5);
+    }
+
+    [Fact]
+    public void TryResolve_OfADumbbellInAFloor_LiftsItAsFarAsItIsIn()
+    {
+        var (_, body, obstacles) = Create(new(0, 0.25, 0));
+        Assert.True(new CompoundOverlapResolver(obstacles).TryResolve(body));
+        Near.Equal(new(0, 0.5, 0), body.Position, 1e-8);
+    }
+
+    /// <summary>On its way up it comes to overlap a ball, and gives way to the side.</summary>
+    [Fact]
+    public void TryResolve_BelowABall_GivesWayToTheSide()
+    {
+        var other = new Vector(-1.3, 0.9, 0);
+        var (_, body, obstacles) = Create(new(0, 0.25, 0), new BodyDescription(other, 0.125));
+        Assert.True(new CompoundOverlapResolver(obstacles).TryResolve(body));
+        Near.Equal(0.5, body.Position.Y, 1e-8);
+        Assert.InRange((body.BallCentre(0) - other).Length(), 0.625 - 1e-8, 0.7);
+    }
+
+    private static (CompoundSweep Sweep, Body Body, Obstacles Obstacles) Create(Vector position, params BodyDescription[] others)
+    {
+        BodyDescription[] all = [new(position, Dumbbell), .. others];
+        List<Body> bodies = [.. all.Select(static (one, i) => new Body(one, i, Vector.Zero))];
+        var grid = new BodyGrid();
+        grid.Build(bodies);
+        var obstacles = new Obstacles(bodies, new NearbyBodies(grid, bodies), new QueryContext(), new KinematicSet());
+        var statics = new StaticObjectSet(new(), new(), static _ => { }, null);
+        statics.Add(new PhysicsWorld().AddStatic(PhysicsMeshes.FloorMesh()));
+        obstacles.SetMover(statics.CollidersOf(ColliderKind.Exact), [Vector.Zero], bodies[0].Radius, bodies[0].SafeDistance, 0);
+        return (new(obstacles), bodies[0], obstacles);
+    }
+}
