@@ -13,7 +13,6 @@ using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Parsing.Text;
 using FractalEngine.Render.Windowing;
 
-
 // Commands are for what BenchmarkDotNet can't measure: rows that take turns, and frames. Everything else is a class of it.
 var commands = new Dictionary<string, Func<string[], int>>
 {

@@ -59,7 +59,8 @@ public sealed class NullArgumentTests : IDisposable
             ("MeshFile", "Write(path)"), ("MeshFile", "Read(path)"), ("SceneFile", "Write(scene)"), ("SceneFile", "Write(path)"),
             ("SceneFile", "Read(path)"), ("PhysicsWorld", "Add(description)"), ("Mesh", ".ctor(positions)"),
             ("Mesh", ".ctor(vertexIndices)"), ("Mesh", "WithNormals(normals)"), ("Mesh", "WithColours(colours)"),
-            ("Mesh", "WithTextureCoordinates(coordinates)"), ("Repetition", ".ctor(round)"), ("TransformationSet", ".ctor(transformations)"),
+            ("Mesh", "WithTextureCoordinates(coordinates)"), ("Repetition", ".ctor(round)"),
+            ("TransformationSet", ".ctor(transformations)"),
             ("LoadedScene", "Of(scene)"), ("SceneCollider", ".ctor(scene)"), ("SceneRayCaster", ".ctor(scene)"),
             ("FractalGenerator", "Expand(fractal)"), ("FractalGenerator", "Flatten(fractal)"), ("BoundingBoxCollider", ".ctor(mesh)"),
         };

@@ -7,7 +7,6 @@ using FractalEngine.Core.Generation;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.SceneQueries;
 
-
 var tetrahedron = Shapes.Tetrahedron();
 var maps = Enumerable.Range(0, 4).Select(vertex => Transformation.At(0.5 * tetrahedron.Vertex(vertex), scale: 0.5));
 var fractal = Fractal.Of(tetrahedron).Repeat(maps, depth: 30);

@@ -6,7 +6,6 @@ using FractalEngine.Core.Generation;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
 
-
 var maps = from x in Enumerable.Range(-1, 3) from y in Enumerable.Range(-1, 3) from z in Enumerable.Range(-1, 3)
            where Math.Abs(x) + Math.Abs(y) + Math.Abs(z) > 1
            select Transformation.At(new Vector(x, y, z) / 3, scale: 1 / 3.0);

@@ -7,7 +7,6 @@ using FractalEngine.Core.Maths;
 using FractalEngine.Core.Queries;
 using FractalEngine.Core.Rays;
 
-
 var maps = from x in Enumerable.Range(-1, 3)
            from y in Enumerable.Range(-1, 3)
            from z in Enumerable.Range(-1, 3)

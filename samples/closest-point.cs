@@ -7,7 +7,6 @@ using FractalEngine.Core.Generation;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Queries;
 
-
 // The 20 of 27 small cubes that are not in the middle of a side or of the whole.
 var maps = from x in Enumerable.Range(-1, 3)
            from y in Enumerable.Range(-1, 3)

@@ -7,7 +7,6 @@ using FractalEngine.Core.Physics;
 using FractalEngine.Core.Physics.Descriptions;
 using FractalEngine.Core.Physics.Events;
 
-
 var world = new PhysicsWorld(new PhysicsSettings { ReportsContacts = true });
 var lift = world.AddStatic(Shapes.Cube(), Transformation.At(new(0, -0.5, 0)));
 var gate = world.AddStatic(Shapes.Cube(), Transformation.At(new(0, 2, 0)));

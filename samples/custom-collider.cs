@@ -7,7 +7,6 @@ using FractalEngine.Core.Geometry.Triangles;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Queries;
 
-
 var smooth = new SphereCollider(radius: 1);
 foreach (var subdivisions in (int[])[1, 3, 5])
 {
@@ -23,7 +22,6 @@ foreach (var subdivisions in (int[])[1, 3, 5])
 internal sealed class SphereCollider(double radius) : Collider
 {
     public override bool IsExact => true;
-
     public override long StorageBytes => sizeof(double);
 
     protected override bool FindClosestCore(

@@ -11,7 +11,6 @@ using FractalEngine.Render;
 using FractalEngine.Render.Images;
 using FractalEngine.Render.Views;
 
-
 Transformation[] twigs =
 [
     Transformation.Identity,

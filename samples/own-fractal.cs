@@ -6,7 +6,6 @@ using FractalEngine.Core.Generation;
 using FractalEngine.Core.Maths;
 using FractalEngine.Parsing;
 
-
 var branch = Shapes.Box(new(new(-0.05, 0, -0.05), new(0.05, 1, 0.05)));
 Transformation[] twigs =
 [

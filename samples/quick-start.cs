@@ -13,7 +13,6 @@ using FractalEngine.Parsing;
 using FractalEngine.Render;
 using FractalEngine.Render.Images;
 
-
 var maps = from x in Enumerable.Range(-1, 3) from y in Enumerable.Range(-1, 3) from z in Enumerable.Range(-1, 3)
            where Math.Abs(x) + Math.Abs(y) + Math.Abs(z) > 1
            select Transformation.At(new Vector(x, y, z) / 3, scale: 1 / 3.0);

@@ -6,7 +6,6 @@ using FractalEngine.Core.Views;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Parsing.Text;
 
-
 var file = AssetLoader.Load("assets/scenes/menger.sdo");
 foreach (var placed in file.Scene.Objects)
 {

@@ -4,8 +4,8 @@ using System.Runtime.CompilerServices;
 namespace FractalEngine.Benchmarks.Precision;
 
 /// <summary>
-/// Computes the squared distance of <see cref="Core.Geometry.Triangles.TriangleKernel"/> by the same operations in the same order, in float or in
-/// double, to compare the two. The engine itself has no floats before the GPU.
+/// Computes the squared distance of <see cref="Core.Geometry.Triangles.TriangleKernel"/> by the same operations in the same order, in
+/// float or in double, to compare the two. The engine itself has no floats before the GPU.
 /// </summary>
 /// <typeparam name="T">Type of the numbers.</typeparam>
 internal static class GenericTriangleKernel<T>

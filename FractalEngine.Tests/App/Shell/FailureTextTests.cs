@@ -15,7 +15,8 @@ public sealed class FailureTextTests
     public void Of_AnErrorOfTheProgramItself_NamesItsPlaceOnOneLine() => Assert.Equal(
         new Failure(
             70,
-            "error: internal error, please report it: FormatException: two lines (in FractalEngine.Tests.App.Shell.FailureTextTests.Throw)"),
+            "error: internal error, please report it: "
+            + "FormatException: two lines (in FractalEngine.Tests.App.Shell.FailureTextTests.Throw)"),
         Failure.Of(Record.Exception(Throw)!));
 
     [Fact]
