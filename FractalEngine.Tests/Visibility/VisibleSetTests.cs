@@ -22,12 +22,13 @@ public class VisibleSetTests
 
     [Theory]
     [MemberData(nameof(LodHierarchyTests.Assets), MemberType = typeof(LodHierarchyTests))]
-    public void Cull_OfAnAssetWithoutCulling_SelectsEveryInstanceOnce(string name, int depth) =>
-        CheckWithoutCulling(new(1), depth < 0 ? AssetFractals.Load(name) : AssetFractals.Load(name, depth), AffineMap.Identity);
+    public void Cull_OfAnAssetWithoutCulling_SelectsEveryInstanceOnce(string name, int depth) => CheckWithoutCulling(
+        new(1), depth < 0 ? AssetFractals.Load(name) : AssetFractals.Load(name, depth), AffineMap.Identity, HasNestedRepetitions);
 
     [Fact]
     public void Cull_OfRandomFractalsWithoutCulling_SelectsEveryInstanceOnce() =>
-        Seeded.Run(30, random => CheckWithoutCulling(random, RandomFractal(random), random.Transformation(0.5, 2).ToAffineMap()));
+        Seeded.Run(30, random => CheckWithoutCulling(
+            random, RandomFractal(random), random.Transformation(0.5, 2).ToAffineMap(), MayHoldEqualInstances));
 
     [Fact]
     public void Cull_WithFrustumCullingOnly_CullsWhatIsOutside() => Seeded.Run(60, random =>
@@ -359,7 +360,7 @@ public class VisibleSetTests
         }
     }
 
-    private static void CheckWithoutCulling(Random random, Fractal fractal, AffineMap map)
+    private static void CheckWithoutCulling(Random random, Fractal fractal, AffineMap map, Func<Fractal, bool> mayHoldEqualInstances)
     {
         var item = CullingViews.CreateObject(fractal, map);
         var set = new VisibleSet();
@@ -370,7 +371,7 @@ public class VisibleSetTests
             var visible = CullingViews.VisibleMaps(set, item);
             Assert.Equal((set.InstanceCount, set.InstanceCountOf(0)), (visible.Count, visible.Count));
             var expected = CullingViews.ExpectedMaps(fractal, map, in view);
-            if (MayHoldEqualInstances(fractal))
+            if (mayHoldEqualInstances(fractal))
             {
                 Assert.All(CullingViews.CountSameImages(fractal.BaseMesh, expected, visible), count => Assert.True(count > 0));
             }
@@ -381,12 +382,11 @@ public class VisibleSetTests
         }
     }
 
-    /// <summary>
-    /// Tells whether the hierarchy may hold an instance more than once, see <see cref="LodHierarchyTests"/>, or instances that single
-    /// precision can't tell apart.
-    /// </summary>
-    private static bool MayHoldEqualInstances(Fractal fractal) =>
-        fractal.Description.Steps.Any(step => step.NestingDepth > 1) || !IsPlain(fractal.BaseMesh);
+    /// <summary>Tells whether the hierarchy may hold an instance more than once, see <see cref="LodHierarchyTests"/>.</summary>
+    private static bool HasNestedRepetitions(Fractal fractal) => fractal.Description.Steps.Any(step => step.NestingDepth > 1);
+
+    /// <summary>Tells the same of a random fractal, or whether it may have instances that single precision can't tell apart.</summary>
+    private static bool MayHoldEqualInstances(Fractal fractal) => HasNestedRepetitions(fractal) || !IsPlain(fractal.BaseMesh);
 
     /// <summary>True for a base mesh of the tests' own, false for one of <see cref="RandomShapes"/>.</summary>
     private static bool IsPlain(Mesh mesh) => mesh == Samples.Tetrahedron || mesh == CullingViews.Cube;
