@@ -1,4 +1,5 @@
 using System.Globalization;
+using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Geometry;
 
@@ -17,6 +18,9 @@ public readonly record struct Colour(double Red, double Green, double Blue)
     /// <summary>Converts the components to linear light by the curve of IEC 61966-2-1.</summary>
     /// <remarks>It is the inverse of the curve that the screen applies.</remarks>
     public Colour ToLinear() => new(Linear(Red), Linear(Green), Linear(Blue));
+
+    /// <summary>Converts the colour to linear light as a vector, so that lights can be added and scaled: red, green, blue.</summary>
+    public Vector ToLinearVector() => new(Linear(Red), Linear(Green), Linear(Blue));
 
     /// <summary>Converts components of linear light to sRGB, the inverse of <see cref="ToLinear"/>.</summary>
     public Colour FromLinear() => new(Curve(Red), Curve(Green), Curve(Blue));

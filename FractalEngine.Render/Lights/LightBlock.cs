@@ -99,8 +99,7 @@ internal sealed class LightBlock : IDisposable
             return sky.HorizonRadiance;
         }
 
-        var (red, green, blue) = (scene.Fog?.Colour ?? scene.Background ?? background).ToLinear();
-        var colour = new Vector(red, green, blue);
+        var colour = (scene.Fog?.Colour ?? scene.Background ?? background).ToLinearVector();
         return scene.Fog?.Colour is null ? DisplayTransform.Of(scene).Invert(colour) : colour;
     }
 
@@ -156,8 +155,7 @@ internal sealed class LightBlock : IDisposable
 
     private static void WriteLight(Light light, Vector cameraPosition, double unitsPerSceneUnit, Span<float> target)
     {
-        var (red, green, blue) = light.Colour.ToLinear();
-        WriteVector(light.Intensity * new Vector(red, green, blue), KindOf(light), target);
+        WriteVector(light.Intensity * light.Colour.ToLinearVector(), KindOf(light), target);
         if (light is PointLight point)
         {
             WriteVector(unitsPerSceneUnit * (point.Position - cameraPosition), unitsPerSceneUnit * point.Range, target[4..]);

@@ -2,7 +2,6 @@ using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Geometry.Surfaces;
 using FractalEngine.Core.Maths;
 using FractalEngine.Render.Drawables;
-using FractalEngine.Render.Lights;
 
 namespace FractalEngine.Render.Preparation;
 

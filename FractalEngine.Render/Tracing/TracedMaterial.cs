@@ -1,7 +1,6 @@
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Render.Drawables;
-using FractalEngine.Render.Lights;
 using FractalEngine.Render.Preparation;
 
 namespace FractalEngine.Render.Tracing;

@@ -8,7 +8,6 @@ using FractalEngine.Core.Rays;
 using FractalEngine.Core.SceneQueries;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Visibility.Levels;
-using FractalEngine.Render.Lights;
 using FractalEngine.Render.Preparation;
 using FractalEngine.Render.Views;
 

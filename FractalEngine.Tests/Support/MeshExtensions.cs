@@ -3,7 +3,7 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Tests.Support;
 
-/// <summary>Makes meshes of others.</summary>
+/// <summary>Moves the vertices of meshes by functions that tests give.</summary>
 internal static class MeshExtensions
 {
     /// <summary>

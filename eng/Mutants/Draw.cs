@@ -8,8 +8,9 @@ internal sealed record Group(string Name, Func<string, bool> Contains)
     /// <summary>The five groups of the ordinary draw.</summary>
     public static IReadOnlyList<Group> All { get; } =
     [
-        new("Collision, Fractals", path => IsInAny(path, "Bvh", "Colliders", "Fractals", "Queries", "SceneQueries") && !IsOfRays(path)),
-        new("Rays", path => IsInAny(path, "DeepZoom", "Geometry/Rays", "Rays") || IsOfRays(path)),
+        new("Collision, Fractals", path => !IsOfRays(path) && IsInAny(
+            path, "Bvh", "Colliders", "Fractals", "Geometry/Hulls", "Geometry/Triangles", "Queries", "SceneQueries")),
+        new("Rays", IsOfRays),
         new("Physics", path => IsIn(path, "FractalEngine.Core/Physics")),
         new("Parsing", path => IsIn(path, "FractalEngine.Parsing")),
         new("Commands", path => IsIn(path, "FractalEngine.App") && !IsIn(path, "FractalEngine.App/Window")),
@@ -18,7 +19,7 @@ internal sealed record Group(string Name, Func<string, bool> Contains)
     /// <summary>Makes the group of one folder.</summary>
     public static Group Of(string folder) => new(folder, path => IsIn(path, folder));
 
-    private static bool IsOfRays(string path) => IsInAny(path, "Fractals/Levels/Rays");
+    private static bool IsOfRays(string path) => IsInAny(path, "DeepZoom", "Fractals/Levels/Rays", "Geometry/Rays", "Rays");
 
     private static bool IsInAny(string path, params string[] rooms) => rooms.Any(room => IsIn(path, $"FractalEngine.Core/{room}"));
 

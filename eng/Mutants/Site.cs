@@ -54,8 +54,8 @@ internal sealed class Site
     /// <summary>Number of sites before it in the same member with the same text.</summary>
     public int Occurrence { get; set; }
 
-    /// <summary>Name of the site that stays when lines move.</summary>
-    public string Key => $"{Path}|{Member}|{OneLine}|{Occurrence}";
+    /// <summary>Name of the site that stays when lines move, and when the file moves to another folder.</summary>
+    public string Key => $"{Path[(Path.LastIndexOf('/') + 1)..]}|{Member}|{OneLine}|{Occurrence}";
 
     /// <summary>The replaced text with single spaces only.</summary>
     public string OneLine => string.Join(' ', Original.Split((char[]?)null, StringSplitOptions.RemoveEmptyEntries));

@@ -16,13 +16,13 @@ public sealed record Sky(Colour Zenith, Colour Horizon, Colour? Ground = null)
     private static readonly Vector DefaultGroundAlbedo = new(0.34, 0.31, 0.28);
 
     /// <summary>Radiance straight below, linear light: red, green, blue.</summary>
-    public Vector GroundRadiance => Ground is { } ground ? ToVector(ground) : DefaultGroundAlbedo.Stretch(ToVector(Horizon));
+    public Vector GroundRadiance => Ground is { } ground ? ground.ToLinearVector() : DefaultGroundAlbedo.Stretch(Horizon.ToLinearVector());
 
     /// <summary>Radiance straight above, linear light.</summary>
-    public Vector ZenithRadiance => ToVector(Zenith);
+    public Vector ZenithRadiance => Zenith.ToLinearVector();
 
     /// <summary>Radiance at the horizon, linear light.</summary>
-    public Vector HorizonRadiance => ToVector(Horizon);
+    public Vector HorizonRadiance => Horizon.ToLinearVector();
 
     /// <summary>The sky as a function of directions, for many of them.</summary>
     public SkyRadiance ToRadiance() => new(ZenithRadiance, HorizonRadiance, GroundRadiance);
@@ -45,11 +45,5 @@ public sealed record Sky(Colour Zenith, Colour Horizon, Colour? Ground = null)
         // The cosine lobe weighs them by 1, 2/3, 1/4 (Ramamoorthi and Hanrahan, SIGGRAPH 2001); (2l + 1)/2 is the norm of Pl.
         var (c0, c1, c2) = (0.5 * l0, 3.0 / 2 * (2.0 / 3) * l1, 5.0 / 2 * (1.0 / 4) * l2);
         return (c0 - (0.5 * c2), c1, 1.5 * c2);
-    }
-
-    private static Vector ToVector(Colour colour)
-    {
-        var (red, green, blue) = colour.ToLinear();
-        return new(red, green, blue);
     }
 }

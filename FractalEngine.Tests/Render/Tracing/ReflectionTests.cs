@@ -3,7 +3,6 @@ using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Scenes.Cameras;
 using FractalEngine.Core.Scenes.Lights;
-using FractalEngine.Render.Lights;
 using FractalEngine.Render.Tracing;
 
 namespace FractalEngine.Tests.Render.Tracing;

@@ -4,7 +4,6 @@ using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Scenes.Cameras;
 using FractalEngine.Parsing.Mtl;
-using FractalEngine.Render.Lights;
 using FractalEngine.Render.Preparation;
 using FractalEngine.Render.Tracing;
 using FractalEngine.Render.Views;
