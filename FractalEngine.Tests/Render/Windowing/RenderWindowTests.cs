@@ -16,11 +16,20 @@ public sealed class RenderWindowTests
     public void WaitEvents_NothingHappens_SleepsUntilTheTimeoutWithoutWork()
     {
         using var window = Open();
-        Drain(window);
         var timeout = TimeSpan.FromSeconds(1);
-        var clock = Stopwatch.StartNew();
-        // A loop that polls would take the processor all the time, or the share of it that a busy machine leaves.
-        ProcessorTime.RunWithin(0.1, () => Assert.Empty(window.WaitEvents(timeout)));
+        Stopwatch clock;
+        IReadOnlyList<WindowEvent> events;
+        var deadline = Stopwatch.StartNew();
+        do
+        {
+            // A window that was closed before this one opened may take the focus away late: then the silence begins anew.
+            Drain(window);
+            clock = Stopwatch.StartNew();
+            // A loop that polls would take the processor all the time, or the share of it that a busy machine leaves.
+            events = ProcessorTime.RunWithin(0.1, () => window.WaitEvents(timeout));
+        }
+        while (events is [FocusLost] && deadline.Elapsed < Polling.Deadline);
+        Assert.Empty(events);
         // On a busy machine it may sleep longer, but never less, up to the rounding of the system's clocks.
         Assert.True(clock.Elapsed >= 0.9 * timeout, $"it slept for {clock.Elapsed} only");
     }
