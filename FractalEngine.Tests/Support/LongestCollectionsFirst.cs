@@ -13,11 +13,11 @@ public sealed class LongestCollectionsFirst : ITestCollectionOrderer
     // The longest one first. A class without a collection of its own is one.
     private static readonly string[] Longest =
     [
-        Render.GlTests.Name, NameOf<App.CommandLineTests>(), NameOf<App.ImageCommandTests>(), NameOf<App.ExampleImageTests>(),
-        NameOf<App.Commands.AnimateCommandTests>(), NameOf<Physics.MovingObjectTests>(), NameOf<App.Commands.SimulateCommandTests>(),
-        NameOf<App.ShellTests>(), NameOf<Physics.CompoundTests>(), NameOf<Robustness.MemoryTests>(),
-        NameOf<Generation.MeshGeneratorTests>(), NameOf<Visibility.VisibleSetLimitTests>(), NameOf<App.Commands.QueryCommandTests>(),
-        NameOf<App.TracedAnimationTests>(),
+        App.Window.DrivenWindow.Collection, Render.GlTests.Name, NameOf<App.CommandLineTests>(), NameOf<App.ImageCommandTests>(),
+        NameOf<App.ExampleImageTests>(), NameOf<App.Commands.AnimateCommandTests>(), NameOf<Physics.MovingObjectTests>(),
+        NameOf<App.Commands.SimulateCommandTests>(), NameOf<App.ShellTests>(), NameOf<Physics.CompoundTests>(),
+        NameOf<Robustness.MemoryTests>(), NameOf<Generation.MeshGeneratorTests>(), NameOf<Visibility.VisibleSetLimitTests>(),
+        NameOf<App.Commands.QueryCommandTests>(), NameOf<App.TracedAnimationTests>(),
     ];
 
     /// <inheritdoc/>

@@ -13,6 +13,7 @@ internal sealed partial class DrivenWindow : IDisposable
     /// <summary>The collection of all tests that drive windows: one window at a time has the keyboard.</summary>
     public const string Collection = "driven windows";
 
+    private readonly IDisposable _focus;
     private readonly Process _process;
     private readonly List<string> _errorLines = [];
     private readonly string _folder;
@@ -30,6 +31,7 @@ internal sealed partial class DrivenWindow : IDisposable
         // What converges would change the pixels that a test looks at.
         string[] trace = isTraced || options.Contains("--trace") ? [] : ["--no-trace"];
         string[] size = options.Contains("--resolution") ? [] : ["--resolution", "640x480"];
+        _focus = Display.TakeFocus(Collection);
         _process = AppProcess.Start(folder, environment, ["view", file, .. size, .. trace, .. options]);
         _process.ErrorDataReceived += (_, line) =>
         {
@@ -39,12 +41,20 @@ internal sealed partial class DrivenWindow : IDisposable
             }
         };
         _process.BeginErrorReadLine();
-        _window = WaitFor(
-            // Of this process: the window of an earlier one may still be there.
-            () => RunXdotool($"search --all --pid {_process.Id} --name {Path.GetFileName(file)}.*FractalEngine")
-                .Split('\n', StringSplitOptions.RemoveEmptyEntries).LastOrDefault(),
-            "window");
-        Send("windowfocus --sync {window}");
+        try
+        {
+            _window = WaitFor(
+                // The window has to be of this process: that of an earlier one may still be there.
+                () => RunXdotool($"search --all --pid {_process.Id} --name {Path.GetFileName(file)}.*FractalEngine")
+                    .Split('\n', StringSplitOptions.RemoveEmptyEntries).LastOrDefault(),
+                "window");
+            Send("windowfocus --sync {window}");
+        }
+        catch
+        {
+            Dispose();
+            throw;
+        }
     }
 
     /// <summary>Opens a window on a file. Skips the test where no window can be driven.</summary>
@@ -198,6 +208,7 @@ internal sealed partial class DrivenWindow : IDisposable
         }
 
         _process.Dispose();
+        _focus.Dispose();
     }
 
     private T WaitFor<T>(Func<T?> get, string description)

@@ -238,7 +238,7 @@ public sealed class ReloadTests : IDisposable
         return window;
     }
 
-    /// <summary>Waits until the frame is another one, and stays the same for a second: a busy machine may draw a falling body late.</summary>
+    /// <summary>Waits for another frame that stays the same for a second: a busy machine may draw a falling body late.</summary>
     private static PixelImage WaitUntilStill(DrivenWindow window, PixelImage start)
     {
         var last = start;

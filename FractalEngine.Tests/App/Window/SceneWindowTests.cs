@@ -177,11 +177,11 @@ public sealed class SceneWindowTests : IDisposable
             light ambient (1, 1, 1) 0.2
 
             """);
-        using var window = DrivenWindow.Open(_folder, "shadow.sdo", "--trace", "2");
+        using var window = DrivenWindow.Open(_folder, "shadow.sdo", "--trace", "2", "--resolution", "320x240");
         window.WaitForTitle("shadow.sdo, traced 2 of 2 - FractalEngine");
         var traced = window.Screenshot();
         var scene = AssetLoader.Load(_folder["shadow.sdo"]).Scene;
-        var tracer = new PathTracer(scene, View.Of(scene, 640.0 / 480), 640, 480);
+        var tracer = new PathTracer(scene, View.Of(scene, 320.0 / 240), 320, 240);
         for (var i = 0; i < 2; i++)
         {
             tracer.AddSample();

@@ -9,8 +9,12 @@ using FractalEngine.Tests.Support;
 namespace FractalEngine.Tests.Render.Windowing;
 
 [Collection(GlTests.Name)]
-public sealed class RenderWindowTests
+public sealed class RenderWindowTests : IDisposable
 {
+    private readonly IDisposable _focus = Display.TakeFocus(GlTests.Name);
+
+    public void Dispose() => _focus.Dispose();
+
     /// <summary>That nothing happens can't be waited for: this test waits, and measures the processor time of its own thread.</summary>
     [SkippableFact]
     public void WaitEvents_NothingHappens_SleepsUntilTheTimeoutWithoutWork()

@@ -24,8 +24,13 @@ public sealed class WindowRendererTests : IDisposable
     private static readonly TimeSpan Time = TimeSpan.FromSeconds(0.1);
 
     private readonly TemporaryFolder _folder = new();
+    private readonly IDisposable _focus = Display.TakeFocus(GlTests.Name);
 
-    public void Dispose() => _folder.Dispose();
+    public void Dispose()
+    {
+        _focus.Dispose();
+        _folder.Dispose();
+    }
 
     [SkippableFact]
     public void Capture_WhileMoving_IsTheViewOnTheScreenInFullQuality()
