@@ -22,7 +22,7 @@ public sealed class NullArgumentTests : IDisposable
     private readonly TemporaryFolder _folder = new();
     private readonly NullabilityInfoContext _nullability = new();
 
-    // Of the names of files, so that a member comes to the argument after the name.
+    // They stand for names of files, so that a member comes to the argument after the name.
     private string _ending = ".obj";
 
     public void Dispose() => _folder.Dispose();

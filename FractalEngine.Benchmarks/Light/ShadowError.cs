@@ -22,7 +22,7 @@ internal sealed class ShadowError
     private const double ShadowSpread = 1e-3;
     private const double SurfaceOffset = 1e-9;
 
-    // Of 255: pixels that are darker without any shadow are not judged.
+    // Out of 255: pixels that are darker without any shadow are not judged.
     private const int MinValue = 24;
 
     private readonly LoadedScene _scene;

@@ -30,7 +30,7 @@ public abstract class Collider
     internal virtual bool SupportsTransformedQueries => false;
 
     /// <summary>Builds the collider of a fractal.</summary>
-    /// <param name="fractal">Of any size for the kinds that search its levels; others expand it.</param>
+    /// <param name="fractal">The fractal, of any size for the kinds that search its levels; others expand it.</param>
     /// <param name="kind">How to search; exact unless stated.</param>
     /// <exception cref="ArgumentOutOfRangeException">There is no such kind.</exception>
     /// <exception cref="ColliderMismatchException">The kind does not fit; the message says which kinds do.</exception>

@@ -25,7 +25,7 @@ internal sealed class CameraFrame(LodHierarchy hierarchy, FractalPath path, Affi
     // The closest surface may belong to any ancestor, up to where ancestors are too large for it to matter.
     private const int MaxSearchedAncestors = 30;
 
-    // Of sub-fractals larger than this, in the present unit, nothing is visible beyond what smaller ones show.
+    // Sub-fractals larger than this, in the present unit, show nothing beyond what smaller ones show.
     private const double MaxFrameScale = 1e15;
 
     // A move tells the position to about this part of its length and of the distance before: what is smaller can't be entered by it.

@@ -6,17 +6,17 @@ namespace FractalEngine.Core.Files;
 /// <summary>Tells regular files from devices, pipes and sockets, which .NET does not.</summary>
 public static class FileTypes
 {
-    // Of <sys/stat.h>, with the same values on Linux and macOS.
+    // These are from <sys/stat.h>, with the same values on Linux and macOS.
     private const int TypeMask = 0xF000;
     private const int RegularFile = 0x8000;
     private const int FolderType = 0x4000;
     private const int PipeType = 0x1000;
 
-    // Of <fcntl.h>: O_WRONLY with O_NONBLOCK.
+    // From <fcntl.h>: O_WRONLY with O_NONBLOCK.
     private const int LinuxWriteWithoutWaiting = 0x801;
     private const int MacWriteWithoutWaiting = 0x5;
 
-    // Of <errno.h>, ENXIO, with the same value on Linux and macOS.
+    // From <errno.h>: ENXIO, with the same value on Linux and macOS.
     private const int NoReaderError = 6;
 
     private static readonly TimeSpan ReaderTimeout = TimeSpan.FromSeconds(2);

@@ -6,7 +6,7 @@ namespace FractalEngine.Core.Files;
 /// <summary>The temporary files of writes that have not ended yet.</summary>
 internal static class TemporaryFiles
 {
-    // Of a name within a folder, as nearly all file systems have it.
+    // The longest name within a folder that nearly all file systems allow.
     private const int MaxNameBytes = 255;
 
     private static readonly ConcurrentDictionary<string, bool> Unfinished = new();

@@ -21,7 +21,7 @@ internal static class DistinctMaps
     private const double UnitsPerLevel = 4;
     private const double MaxUnits = 64;
 
-    // Of chains that go on: those that differ by more may be told apart when they have come back from afar.
+    // Chains that go on and differ by more may be told apart when they have come back from afar.
     private const double ChainTolerance = 8 * UnitInLastPlace;
 
     private const double DegreesPerRadian = 180 / Math.PI;

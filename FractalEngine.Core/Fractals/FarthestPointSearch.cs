@@ -68,7 +68,7 @@ internal sealed class FarthestPointSearch(FractalHierarchy hierarchy)
         _seen.Clear();
         var scale = Math.Max(Math.Abs(measure.UpperBound(hierarchy.Root, in map)), hierarchy.Root.Radius * map.Linear.MaxAbsEntry());
         var tolerance = relativeTolerance * scale;
-        // Of the instances of the base mesh only the first in the order of the queue counts: its bound is the value itself.
+        // Only the first instance of the base mesh in the order of the queue counts: its bound is the value itself.
         var leaf = (Priority: (double.PositiveInfinity, 0), Value: double.NegativeInfinity);
         var largestLeaf = double.NegativeInfinity;
         var node = (Parent: -1, Child: default(ChildInstance), Bound: double.PositiveInfinity);

@@ -10,7 +10,7 @@ namespace FractalEngine.Core.Geometry;
 /// <remarks>Points of the plane itself are kept.</remarks>
 public readonly record struct SectionPlane(Vector Normal, double Distance)
 {
-    // Of distances in another unit: nothing is so far away in single precision.
+    // Distances in another unit stop here: nothing is so far away in single precision.
     private const double MaxDistance = 1e30;
 
     /// <summary>Whether solids are shown filled where the plane cuts them, instead of hollow.</summary>

@@ -14,7 +14,7 @@ internal static class BodyStateHash
     // Position, orientation, velocity, angular velocity and belt.
     private const int NumbersPerKinematic = 16;
 
-    // Of the 32 bytes of a SHA-256.
+    // The hash is shown as its first bytes, of the 32 of a SHA-256.
     private const int HashBytes = 8;
 
     /// <summary>Hashes positions, velocities, scales and sleep of all bodies, and the motions of all objects that move.</summary>

@@ -30,7 +30,7 @@ public static class PhysicsLimits
     /// </summary>
     public const double MinRadiusShare = 1e-12;
 
-    // Of the radius: bodies that touch do not overlap.
+    // Relative to the radius: bodies that touch do not overlap.
     private const double NegligibleOverlap = 1e-6;
 
     /// <summary>All limits of physics, in the order of a listing.</summary>

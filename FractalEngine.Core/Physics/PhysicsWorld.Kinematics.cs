@@ -8,7 +8,7 @@ public sealed partial class PhysicsWorld
 {
     private readonly List<int> _nearKinematic = new(InitialNeighbourCapacity);
 
-    // Of the radius of a body: how far an object goes in a part of a step at most.
+    // Relative to the radius of a body: how far an object goes in a part of a step at most.
     private const double MaxKinematicTravel = 0.25;
 
     // Parts of a step at most: what is so fast still passes no body that is free.

@@ -15,7 +15,7 @@ namespace FractalEngine.Core.Physics;
 /// <content>What callers ask of the world, and how they act on bodies.</content>
 public sealed partial class PhysicsWorld
 {
-    // Of the radius: how far a surface may be from where a body has touched it.
+    // Relative to the radius: how far a surface may be from where a body has touched it.
     private const double SurfaceSearchFraction = 0.01;
 
     /// <summary>

@@ -16,7 +16,7 @@ namespace FractalEngine.Core.Physics;
 internal sealed class WorldQueries(
     List<Body> bodies, StaticObjectSet statics, Obstacles obstacles, KinematicSet kinematics, QueryContext queryContext)
 {
-    // Of the radius: contacts that a sphere begins with.
+    // Relative to the radius: contacts that a sphere begins with.
     private const double TouchFraction = 1e-9;
 
     private readonly SafeDistance _safeDistance = new();

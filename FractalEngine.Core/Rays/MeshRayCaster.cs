@@ -14,7 +14,7 @@ namespace FractalEngine.Core.Rays;
 /// <summary>Casts rays at a mesh, or at all faces of a fractal that has no levels to search.</summary>
 internal sealed class MeshRayCaster(Mesh mesh, Mesh faces) : RayCaster
 {
-    // Of an expanded fractal, in the order of their faces; none for a mesh.
+    // The instances of an expanded fractal, in the order of their faces; none for a mesh.
     private readonly AffineMap[] _instances = [];
     private readonly TriangleBvh _bvh = TriangleBvh.For(faces);
 

@@ -22,7 +22,7 @@ internal static class RayInstanceSearch
     {
         var queue = context.ObjectQueue;
         var boxRay = new ObjectRay(in ray, search.Error);
-        // Of nearly all nodes a ray enters one child, which needs no place in the queue.
+        // In nearly all nodes a ray enters one child, which needs no place in the queue.
         object? next = root;
         while (next is not null)
         {

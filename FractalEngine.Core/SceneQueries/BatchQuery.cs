@@ -12,7 +12,7 @@ public static class BatchQuery
     private const int PositionsPerTask = 256;
 
     /// <summary>Finds the point of a shape closest to each position.</summary>
-    /// <param name="collider">Of any kind; its results do not depend on the number of threads.</param>
+    /// <param name="collider">A collider of any kind; its results do not depend on the number of threads.</param>
     /// <param name="positions">In the shape's frame, scene units, finite.</param>
     /// <param name="maxDistance">Search radius, scene units, not negative; may be infinite.</param>
     /// <param name="epsilon">Allowed relative error, not negative.</param>
@@ -34,7 +34,7 @@ public static class BatchQuery
     }
 
     /// <summary>Finds the point of a shape closest to each position, and adds up what that costs.</summary>
-    /// <param name="collider">Of any kind; its results do not depend on the number of threads.</param>
+    /// <param name="collider">A collider of any kind; its results do not depend on the number of threads.</param>
     /// <param name="positions">In the shape's frame, scene units, finite.</param>
     /// <param name="results">As many as positions; receives the results in the same order.</param>
     /// <param name="context">Receives the sum of the costs. Its instance path is emptied: there is one for each position.</param>

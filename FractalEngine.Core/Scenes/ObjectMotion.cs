@@ -5,7 +5,7 @@ namespace FractalEngine.Core.Scenes;
 /// <summary>How an object of a scene moves by itself, whatever is in its way: straight on, to and fro, turning, or all of it.</summary>
 public sealed record ObjectMotion
 {
-    // Of the length of a path: how far the position of an object on it may lie beside it.
+    // Relative to the length of a path: how far the position of an object on it may lie beside it.
     private const double PathTolerance = 1e-6;
 
     /// <summary>Velocity in units a second. On a path its length is the speed, and its direction that of the beginning.</summary>

@@ -12,7 +12,7 @@ namespace FractalEngine.Core.Scenes;
 /// <param name="model">Shared by all objects of the same file.</param>
 public sealed class PlacedModel(SceneObject declaration, Model model)
 {
-    // Of a class, so that it is set in one write. Computed twice at worst, with the same result.
+    // It is an object of a class, so that it is set in one write. Computed twice at worst, with the same result.
     private StrongBox<BoundingBox>? _bounds;
 
     /// <summary>Places the model of an object.</summary>

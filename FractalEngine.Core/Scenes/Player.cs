@@ -22,7 +22,7 @@ public sealed record Player(Vector Position, double Radius, double Height)
     /// <summary>The most that <see cref="MaxSlopeAngle"/> may be, degrees: on a wall nobody walks.</summary>
     public const double MaxSlopeAngleLimit = 89;
 
-    // Of the height: how fast, how high and over what people of that size go.
+    // Relative to the height: how fast, how high and over what people of that size go.
     private const double WalkingSpeedPerHeight = 2.5;
     private const double JumpHeightPerHeight = 0.6;
     private const double StepHeightPerHeight = 0.25;

@@ -134,7 +134,7 @@ public static class CameraFraming
             FindCentre(local.Select(static point => (point.X, point.Z)), depth),
             FindCentre(local.Select(static point => (point.Y, point.Z)), depth), depth);
         position = box.Centre + (camera.LocalAxes * position);
-        // Of a box that is nearly as large as a double can be, no position shows all.
+        // No position shows all of a box that is nearly as large as a double can be.
         return camera with { Position = position.IsFinite() ? position : box.Centre };
     }
 

@@ -80,7 +80,7 @@ internal sealed class FramingPoints(Vector centre)
     private void AddParts(LodHierarchy hierarchy, AffineMap objectToWorld)
     {
         var parts = new Queue<(long Levels, AffineMap Map)>([(hierarchy.LevelCount, objectToWorld)]);
-        // Of an infinite fractal every part has children: after enough parts, none is opened any more.
+        // Every part of an infinite fractal has children: after enough parts, none is opened any more.
         var isFull = false;
         var openedCount = 0;
         while (parts.TryDequeue(out var part))

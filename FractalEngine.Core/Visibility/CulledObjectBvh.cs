@@ -17,7 +17,7 @@ internal sealed class CulledObjectBvh
     // Refitting more than one object in so many costs as much as building the hierarchy.
     private const int MaxRefittedShare = 8;
 
-    // Of coordinates: more than the rounding of the maps from objects to the view.
+    // Relative to coordinates: more than the rounding of the maps from objects to the view.
     private const double RoundingMargin = 1e-12;
 
     private CulledObject[] _objects = [];

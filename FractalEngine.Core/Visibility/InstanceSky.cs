@@ -26,7 +26,7 @@ internal static class InstanceSky
     {
         ref readonly var frame = ref context.Frame;
         var visibleSides = context.Hierarchy.VisibleSides;
-        // Of what is transparent or cut, inner sides are seen as well.
+        // Where something is transparent or cut, inner sides are seen as well.
         var showsOuterSides = context.CanOcclude && footprint is { IsBeyondNearPlane: true, IsSectioned: false };
         var visible = visibleSides.FindVisible(
             in meshToView, frame.IsPerspective, frame.IsMirrored, showsOuterSides ? context.WindingSign : 0);

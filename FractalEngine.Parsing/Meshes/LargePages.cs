@@ -10,7 +10,7 @@ internal static class LargePages
 {
     private const int PageBytes = 1 << 21;
 
-    // Of <sys/mman.h> on Linux.
+    // From <sys/mman.h> on Linux.
     private const int AdviseHugePages = 14;
 
     /// <summary>Allocates an array without clearing it.</summary>

@@ -13,7 +13,7 @@ internal static class CompressedFile
     private const int MinLength = 18;
     private const int TrailerLength = 8;
 
-    // Of the deflate format: a trailer that says more is not one.
+    // The deflate format compresses no further: a trailer that says more is not one.
     private const int MaxCompressionRatio = 1032;
 
     /// <summary>Decompresses a whole file into memory.</summary>
@@ -57,7 +57,7 @@ internal static class CompressedFile
         }
 
         using var decompressor = new GZipStream(stream, CompressionMode.Decompress, leaveOpen: true);
-        // Of the size that the file states, since a stream that grows holds up to three times its contents.
+        // The buffer has the size that the file states, since a stream that grows holds up to three times its contents.
         var contents = new MemoryStream((int)Math.Min(size, Array.MaxLength));
         var buffer = new byte[BufferSize];
         int count;

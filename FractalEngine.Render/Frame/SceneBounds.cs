@@ -45,7 +45,7 @@ internal static class SceneBounds
             bounds = BoundingBox.Union(bounds, Enlarge(sceneBounds));
         }
 
-        // Of the diagonal: flat scenes have no height, but balls above them.
+        // Relative to the diagonal: flat scenes have no height, but balls above them.
         var margin = SphereLimit * sceneBounds.Diagonal * Vector.One;
         var sphereLimits = new BoundingBox(sceneBounds.Minimum - margin, sceneBounds.Maximum + margin);
         var grid = GridOf(scene);

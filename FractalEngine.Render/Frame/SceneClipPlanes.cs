@@ -11,7 +11,7 @@ namespace FractalEngine.Render.Frame;
 /// </summary>
 internal static class SceneClipPlanes
 {
-    // Of a depth: how much nearer or farther the plane is.
+    // Relative to a depth: how much nearer or farther the plane is.
     private const double DepthMargin = 0.01;
 
     /// <summary>
@@ -20,10 +20,10 @@ internal static class SceneClipPlanes
     /// </summary>
     private const double MinNearToFarRatio = 1e-12;
 
-    // Of an object's far depth: surfaces that are nearer end at the plane.
+    // Relative to an object's far depth: surfaces that are nearer end at the plane.
     private const double MinNearOfObject = 1e-7;
 
-    // Of half the image's height: what appears smaller covers no sample.
+    // Relative to half the image's height: what appears smaller covers no sample.
     private const double MinVisibleSize = 1e-5;
 
     /// <summary>Returns the depths of the near and far clip planes.</summary>
@@ -99,7 +99,7 @@ internal static class SceneClipPlanes
     /// <param name="near">Depth of interest: nearer ones are looked for.</param>
     private ref struct VisibleDepths(View view, double aspect, double near)
     {
-        // Of a point in view: the smallest depth divided by the distance, at the corners of the frame.
+        // The smallest depth of a point in view, divided by its distance, is found at the corners of the frame.
         private readonly double _cornerCosine = 1 / Math.Sqrt(1 + (view.HalfHeight * view.HalfHeight * (1 + (aspect * aspect))));
 
         /// <summary>The smallest depth that is needed to show what is in view.</summary>

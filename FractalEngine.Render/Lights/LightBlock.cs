@@ -78,7 +78,7 @@ internal sealed class LightBlock : IDisposable
     /// <param name="distantLights">Lights that have a position, but are parallel for the scene: bit i for light i.</param>
     public static string[] SymbolsOf(ImmutableArray<Light> lights, int distantLights = 0)
     {
-        // Of one element at least, as there are no arrays of none.
+        // It has one element at least, as GLSL has no arrays of none.
         var kinds = string.Join(", ", lights.Select(KindOfShadow).DefaultIfEmpty('0'));
         var loop = lights.Length <= MaxUnrolledLights
             ? string.Concat(Enumerable.Range(0, lights.Length).Select(static i => FormattableString.Invariant($" DO({i})")))

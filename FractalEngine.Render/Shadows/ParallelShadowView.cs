@@ -6,7 +6,7 @@ namespace FractalEngine.Render.Shadows;
 /// <summary>Fits views of parallel light.</summary>
 internal static class ParallelShadowView
 {
-    // Of the size of the region: how far beyond it depths are told apart.
+    // Relative to the size of the region: how far beyond it depths are told apart.
     private const double MaxReach = 200;
 
     /// <summary>Returns a view that shows a convex region, with all that may cast a shadow onto it. Its size is left open.</summary>

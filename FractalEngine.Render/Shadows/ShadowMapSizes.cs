@@ -13,7 +13,7 @@ internal static class ShadowMapSizes
     private const int MinSize = 512;
     private const int MaxSize = 4096;
 
-    // Of the largest map, by the longer side of the frame.
+    // The side of the largest map, relative to the longer side of the frame.
     private const double TexelsPerPixel = 3;
 
     // All maps together, texels.

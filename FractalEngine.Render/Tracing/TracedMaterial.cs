@@ -93,7 +93,7 @@ internal sealed class TracedMaterial
     }
 
     /// <summary>Divides light between what the surface scatters and what it mirrors.</summary>
-    /// <param name="colour">Of the point, with texture and all else that multiplies it, linear light.</param>
+    /// <param name="colour">The point's colour in linear light, with texture and all else that multiplies it.</param>
     /// <param name="specular">The part that is mirrored where light falls straight onto the surface.</param>
     /// <returns>The part that is scattered.</returns>
     public Vector Divide(Vector colour, out Vector specular)

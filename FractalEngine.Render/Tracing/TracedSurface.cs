@@ -4,7 +4,7 @@ namespace FractalEngine.Render.Tracing;
 
 /// <summary>A point of a surface that a ray has hit. Both normals are unit vectors on the side that the ray comes from.</summary>
 /// <param name="Position">World space.</param>
-/// <param name="FaceNormal">Of the triangle.</param>
+/// <param name="FaceNormal">The normal of the triangle.</param>
 /// <param name="Normal">For shading: interpolated, with bumps.</param>
 /// <param name="Diffuse">The part of light that is scattered, linear light.</param>
 /// <param name="Specular">The part of light that is mirrored where it falls straight onto the surface.</param>

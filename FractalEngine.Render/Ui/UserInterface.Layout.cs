@@ -14,7 +14,7 @@ public sealed partial class UserInterface
     private int RowPitch => RowHeight + Gap;
 
     /// <summary>Divides the next row. Further rows are divided likewise, until the next call.</summary>
-    /// <param name="widths">Of each column: its number of characters, or its share of what is left where it is 1 or less.</param>
+    /// <param name="widths">Width of each column: its number of characters, or its share of what is left where it is 1 or less.</param>
     public void Row(params ReadOnlySpan<double> widths)
     {
         FinishRow();

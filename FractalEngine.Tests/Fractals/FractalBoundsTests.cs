@@ -9,7 +9,7 @@ namespace FractalEngine.Tests.Fractals;
 
 public class FractalBoundsTests
 {
-    // Of the vertices of 4⁹ tiles: deeper levels add less than 0.55⁹ of the terrain's height, 1.4.
+    // The bounds are those of the vertices of 4⁹ tiles: deeper levels add less than 0.55⁹ of the terrain's height, 1.4.
     private static readonly Lazy<BoundingBox> TerrainAtDepth9 =
         new(static () => FractalGenerator.Flatten(AssetFractals.Load("terrain", 9), 10_000_000).Bounds);
 

@@ -142,7 +142,7 @@ public class FractalExpansionTests
     [Fact]
     public void Expand_ComponentwiseWithFewSums_EnumeratesOnlyThose()
     {
-        // Of 3¹⁰⁰ chains only (102 choose 2) differ: by how often each of the three maps occurs.
+        // Among 3¹⁰⁰ chains only (102 choose 2) differ: by how often each of the three maps occurs.
         var description = Samples.Repeated(100, Samples.Move(1, 0, 0), Samples.Move(0, 1, 0), Samples.Move(0, 0, 1)).Description;
         var fractal = new Fractal(description with { Composition = Composition.Componentwise }, Samples.Triangle);
         Assert.Equal(5151, FractalGenerator.Expand(fractal, 6000).Length);

@@ -40,7 +40,7 @@ public sealed class CastTests
         Assert.False(world.TryCastRay(new(new(2.001, 0, 0), Vector.I), out _));
     }
 
-    /// <summary>Of several balls the nearest is met, in whichever order they are.</summary>
+    /// <summary>The nearest of several balls is met, in whichever order they are.</summary>
     [Theory]
     [InlineData(false)]
     [InlineData(true)]
@@ -94,7 +94,7 @@ public sealed class CastTests
         Assert.Equal(world.StaticObjects[0], hit.StaticObject);
     }
 
-    /// <summary>Of two objects the nearer one is told, and the faces of its back look to the ray too.</summary>
+    /// <summary>The nearer one of two objects is told, and the faces of its back look to the ray too.</summary>
     [Fact]
     public void TryCastRay_ThroughTwoCubes_MeetsTheNearerFromEitherSide()
     {

@@ -29,7 +29,7 @@ public class CompoundWorldTests
             for (var ball = 0; ball < body.BallCount; ball++)
             {
                 var gap = body.BallCentre(ball).X - body.BallRadius(ball) - face;
-                // Of the radius, and the digits of a place so far from the origin.
+                // Relative to the radius, and to the digits of a place so far from the origin.
                 Assert.True(gap > (-1e-6 * Radius) - (1e-13 * face), $"ball {ball} overlaps by {-gap:R} after {world.StepCount} steps");
             }
         });

@@ -8,7 +8,7 @@ namespace FractalEngine.Tests.Physics;
 /// <summary>Bodies that touch several surfaces at once.</summary>
 public class CornerTests
 {
-    // Of the radius.
+    // Relative to the radius.
     private const double MaxOverlap = 1e-6;
 
     // Scene units. Some grooves lead away downwards, but in the 30 s of the longest run no body comes so far.

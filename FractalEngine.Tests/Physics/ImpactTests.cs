@@ -6,7 +6,7 @@ namespace FractalEngine.Tests.Physics;
 /// <summary>Impacts of two or more spheres: formulas along a line, and conservation laws for all others.</summary>
 public class ImpactTests
 {
-    // Of sums and products of a few numbers about 10.
+    // The rounding of sums and products of a few numbers about 10.
     private const double Rounding = 1e-11;
 
     [Fact]

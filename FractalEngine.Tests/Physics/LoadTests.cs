@@ -36,7 +36,7 @@ public sealed class LoadTests
         Near.Equal(new(0, -fallen, 0), lower.Position, 9.8 / 60);
     }
 
-    /// <summary>Of a row of balls on a floor one is pressed down. The floor stops it at once, whatever its impulse is.</summary>
+    /// <summary>One of a row of balls on a floor is pressed down. The floor stops it at once, whatever its impulse is.</summary>
     [Theory]
     [InlineData(1, 1)]
     [InlineData(0.5, 2)]

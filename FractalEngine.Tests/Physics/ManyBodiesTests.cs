@@ -8,7 +8,7 @@ namespace FractalEngine.Tests.Physics;
 /// <summary>Many spheres that meet each other.</summary>
 public class ManyBodiesTests
 {
-    // Of the smaller radius.
+    // Relative to the smaller radius.
     private const double MaxOverlap = 1e-6;
 
     [Fact]

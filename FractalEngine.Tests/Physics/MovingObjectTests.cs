@@ -12,7 +12,7 @@ namespace FractalEngine.Tests.Physics;
 /// <summary>Objects that move by themselves: what they push, what they carry, and that they pass nothing.</summary>
 public class MovingObjectTests
 {
-    // Of a radius: the moment of an impact is found to 1e-10 of it, and some more is rounding at speed.
+    // Relative to a radius: the moment of an impact is found to 1e-10 of it, and some more is rounding at speed.
     private const double Overlap = 1e-9;
 
     /// <summary>

@@ -11,7 +11,7 @@ namespace FractalEngine.Tests.Physics;
 /// </summary>
 public class PairLawTests
 {
-    // Of velocities and spins of some tens: the moment of an impact is found to 1e-10 of a radius.
+    // Relative to velocities and spins of some tens: the moment of an impact is found to 1e-10 of a radius.
     private const double Tolerance = 1e-7;
 
     [Fact]
@@ -196,7 +196,7 @@ public class PairLawTests
             var relative = Velocity - other.Velocity;
             var approach = -Vector.Dot(relative, normal);
             var along = (1 + Math.Min(Restitution, other.Restitution)) * approach / ((1 / Mass) + (1 / other.Mass));
-            // Of the touching points, each of which is a radius from its centre.
+            // The velocities of the touching points, each of which is a radius from its centre.
             var slip = relative + (approach * normal)
                 + Vector.Cross(Spin, -Radius * normal) - Vector.Cross(other.Spin, other.Radius * normal);
             var across = -1 / ((1 / Mass) + (1 / other.Mass)

@@ -11,7 +11,7 @@ internal sealed class PileOracle
 {
     private const int MaxRounds = 2000;
 
-    // Of the radius: by how much a distance may be violated.
+    // Relative to the radius: by how much a distance may be violated.
     private const double Tolerance = 1e-13;
 
     private readonly double _radius;

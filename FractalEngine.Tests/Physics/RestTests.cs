@@ -231,7 +231,7 @@ public class RestTests
     {
         var world = TestWorlds.Create(TestWorlds.Gravity, 1 / 60.0, TestWorlds.Place(PhysicsMeshes.FloorMesh()));
         body = world.Add(new(new(0, 0.5, 0), 0.5) { Mass = 2 });
-        // Of the mass of the body that hits it.
+        // Relative to the mass of the body that hits it.
         body = world.Add(new(new(0, 0.6, 10), 0.5));
         world.Run(240);
         Assert.True(body.IsAsleep);

@@ -164,7 +164,7 @@ public class SleepTests
         Assert.Equal(wakes, !sleeper.IsAsleep);
     }
 
-    /// <summary>Of two rows of balls that touch, all those of one are woken, and none of the other.</summary>
+    /// <summary>All balls of one of two rows that touch are woken, and none of the other.</summary>
     [Theory]
     [InlineData(1)]
     [InlineData(40)]

@@ -10,7 +10,7 @@ namespace FractalEngine.Tests.Physics;
 /// <summary>Bodies slide over flat surfaces without feeling the edges between faces.</summary>
 public class SlidingTests
 {
-    // Of the radius, and of the speed: a normal that is off by 1e-9 at one seam would show.
+    // Relative to the radius, and to the speed: a normal that is off by 1e-9 at one seam would show.
     private const double HeightTolerance = 1e-7;
     private const double SpeedTolerance = 1e-9;
 

@@ -9,7 +9,7 @@ namespace FractalEngine.Tests.Physics;
 /// <summary>Balls that roll, slide and spin, against their formulas.</summary>
 public class SpinTests
 {
-    // Of the result.
+    // Relative to the result.
     private const double Tolerance = 1e-5;
 
     private static readonly double Sine = Math.Sin(20 * Math.PI / 180);

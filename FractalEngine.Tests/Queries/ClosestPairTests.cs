@@ -18,7 +18,7 @@ public class ClosestPairTests
 {
     private const int MaxTriangles = 400;
 
-    // Of the largest coordinate on the way to a triangle.
+    // Relative to the largest coordinate on the way to a triangle.
     private const double Tolerance = 1e-13;
     private const long MaxBoundTests = 1_100_000;
 

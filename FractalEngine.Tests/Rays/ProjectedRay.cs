@@ -33,7 +33,7 @@ internal readonly struct ProjectedRay
 
     public Vector Origin { get; }
 
-    /// <summary>Of length 1.</summary>
+    /// <summary>The direction, of length 1.</summary>
     public Vector Direction { get; }
 
     /// <summary>Moves the ray sideways.</summary>

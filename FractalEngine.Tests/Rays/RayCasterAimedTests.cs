@@ -15,7 +15,7 @@ public class RayCasterAimedTests
 {
     private const int MaxDrawsPerRay = 4;
 
-    // Of a shape that a far outlier or a needle makes too small, hardly any ray hits with certainty.
+    // Hardly any ray hits with certainty a shape that a far outlier or a needle makes too small.
     private const double MinCertainShare = 0.67;
 
     [Fact]

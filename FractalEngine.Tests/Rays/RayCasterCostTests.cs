@@ -115,7 +115,7 @@ public class RayCasterCostTests
             caster.TryFindNearest(ray, context, out _);
         }
 
-        // Of 38,400,000 faces.
+        // The hierarchy stands for 38,400,000 faces.
         Assert.InRange(context.Statistics.FaceTests, 1000, 200 * 1000);
         Assert.InRange(context.Statistics.BoundTests, 1000, 2000 * 1000);
     }

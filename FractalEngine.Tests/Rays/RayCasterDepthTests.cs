@@ -19,7 +19,7 @@ namespace FractalEngine.Tests.Rays;
 /// </summary>
 public class RayCasterDepthTests
 {
-    // Of the size: closer to the surface than this, a step tells nothing.
+    // Relative to the size: closer to the surface than this, a step tells nothing.
     private const double Precision = 1e-11;
     private const int MaxSteps = 400;
 

@@ -10,7 +10,7 @@ namespace FractalEngine.Tests.Rays;
 /// </summary>
 public class RayCasterSliverTests
 {
-    // Of coordinates of some units: what the ray casters promise.
+    // For coordinates of some units: what the ray casters promise.
     private const double Tolerance = 1e-11;
 
     private static readonly Matrix Rotation = new Vector(17, 29, 41).LocalAxesFromDegrees();

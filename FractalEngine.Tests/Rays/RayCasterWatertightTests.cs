@@ -150,7 +150,7 @@ public class RayCasterWatertightTests
                 var x = (double)random.Next(1, cells) / cells;
                 var y = random.Next(2) == 0 ? (double)random.Next(1, cells) / cells : random.Between(0.001, 0.999);
                 var target = map * (random.Next(2) == 0 ? new Vector(x, y, 0) : new Vector(y, x, 0)).Stretch(stretch);
-                // Of needles, rounding turns the plane by more than the slope of a grazing ray.
+                // Rounding turns the plane of needles by more than the slope of a grazing ray.
                 var isSteep = name == "needles" || random.Next(2) == 0;
                 var height = isSteep ? random.Between(0.1, 2) : Math.Pow(10, -random.Next(7));
                 var origin = map * new Vector(random.Between(-1, 2), random.Between(-1, 2), height);

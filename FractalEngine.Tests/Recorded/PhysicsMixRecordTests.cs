@@ -14,7 +14,7 @@ namespace FractalEngine.Tests.Recorded;
 /// <summary>Crowded worlds for a few steps, in which much happens at once: swarms, overlaps, parallel work, and something of all.</summary>
 public class PhysicsMixRecordTests
 {
-    // Of which 1e-4 is a power of two.
+    // 1e-4 is a power of two of it.
     private const double CornerRadius = 10_000 / 16384.0;
 
     private static readonly int[] Few = [1, 2, 4, 8];

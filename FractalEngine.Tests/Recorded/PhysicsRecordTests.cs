@@ -12,7 +12,7 @@ namespace FractalEngine.Tests.Recorded;
 /// <summary>Small worlds of all kinds for some steps: where all is, and what it cost to find that.</summary>
 public class PhysicsRecordTests
 {
-    // Of steps that are looked at: so few that last digits don't grow to more than the tolerance.
+    // The number of steps that are looked at: so few that last digits don't grow to more than the tolerance.
     private static readonly int[] Few = [1, 2, 10, 40];
     private static readonly int[] Fewer = [1, 3, 12];
 

@@ -185,7 +185,7 @@ public class QueryRecordTests
         var (points, paths, errors) = (new Digest(), new Digest(), new Digest());
         for (int i = 0; i < 2 && context.Statistics.FaceTests < 5_000; i++)
         {
-            // Of about the same size, beside each other.
+            // These are of about the same size, beside each other.
             double scale = first.Box.Diagonal / second.Box.Diagonal;
             var turned = scale * random.Transformation().ToAffineMap().Linear;
             var place = first.Target(random) + (first.Box.Diagonal * random.Between(0, 0.3) * random.Direction());

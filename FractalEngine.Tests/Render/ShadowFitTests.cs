@@ -34,7 +34,7 @@ public class ShadowFitTests
     [InlineData(5, 0)]
     public void Fit_OfALampWithoutReach_HasNoMap(double range, int count)
     {
-        // Of the sides of the cube around it, one sees what it lights, unless its range ends before that.
+        // One of the sides of the cube around it sees what it lights, unless its range ends before that.
         var fit = Fit([new PointLight(new(0, 8, 0), Colour.White, 1, range)]);
         Assert.Equal(count, fit.Views.Count);
         Assert.Equal(6 - count, fit.SkippedCount);

@@ -12,7 +12,7 @@ namespace FractalEngine.Tests.Stability;
 /// </summary>
 public class KernelStabilityTests(ITestOutputHelper output)
 {
-    // Of the largest coordinate. The requirement is 1e-9; this is what TriangleKernelTests promise.
+    // Relative to the largest coordinate. The requirement is 1e-9; this is what TriangleKernelTests promise.
     private const double Tolerance = 1e-12;
 
     // The largest coordinate that the kernel is for.

@@ -8,7 +8,7 @@ namespace FractalEngine.Mutants;
 /// <summary>The mutation operators: the ordinary ones of the literature and of Stryker.</summary>
 internal static class Operators
 {
-    // Of each operator what stands in its place, one mutant each.
+    // What stands in the place of each operator, one mutant each.
     private static readonly Dictionary<string, string[]> Tokens = new()
     {
         ["+"] = ["-"],

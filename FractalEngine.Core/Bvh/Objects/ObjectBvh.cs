@@ -14,7 +14,7 @@ internal sealed class ObjectBvh
     // Boxes twice as large in all are visited about twice as often, which a new hierarchy costs less than.
     private const double MaxGrowth = 2;
 
-    // Of the path to a leaf, from the root: the slot at each node.
+    // The path to a leaf, from the root: the slot at each node.
     private const int BitsPerLevel = 2;
 
     // By index of the object; refitted hierarchies share them, since the shape stays.

@@ -22,7 +22,7 @@ internal sealed class HullBound
     // In half sizes: from there on a facet's plane bounds hardly better than the support.
     private const double FarFactor = 4;
 
-    // Of the square of that: a plane under a map costs the search for it alone, since the support of the box was computed before.
+    // Relative to the square of that: a plane under a map costs the search for it alone, since the support of the box was computed before.
     private const double TransformedFarRatio = 10;
 
     private const double AxisParallelCosine = 1 - 1e-12;

@@ -256,7 +256,7 @@ internal sealed class QuickHull(Vector[] points, int pointCount, double toleranc
             }
             else
             {
-                // Of parallel facets the larger one has the better normal.
+                // Among parallel facets the larger one has the better normal.
                 var plane = planes[match];
                 var normal = plane.DoubledArea >= area ? plane.Normal : facet.Normal;
                 planes[match] = new(normal, Math.Max(plane.Offset, facet.Offset), plane.DoubledArea + area);

@@ -80,7 +80,7 @@ internal readonly struct FloatRay
         (float)((distance - start) * perDistance * LimitFactor) + Margin;
 
     /// <summary>Replaces components of a direction that are nearly 0, so that all have an inverse. Signs stay.</summary>
-    /// <param name="direction">Of about the length 1.</param>
+    /// <param name="direction">The direction, of about the length 1.</param>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static Vector128<float> WithoutZeros(Vector128<float> direction)
     {

@@ -36,7 +36,7 @@ internal readonly struct LocalRay(Vector256<double> origin, Vector256<double> di
 
     /// <summary>Creates the ray of a query.</summary>
     /// <param name="origin">In the frame of the query.</param>
-    /// <param name="unitDirection">Of length 1.</param>
+    /// <param name="unitDirection">The direction, of length 1.</param>
     /// <param name="start">Distance at which it starts.</param>
     public static LocalRay Of(Vector origin, Vector unitDirection, double start) =>
         new(SimdAffineMap.ToVector256(origin + (start * unitDirection)), SimdAffineMap.ToVector256(unitDirection), start, 1, 1);

@@ -22,7 +22,7 @@ internal readonly struct TriangleRay
     private const double QueryDirectionError = 1e-15;
     private const double MappedDirectionError = 1.6e-14;
 
-    // Of an area that is a smaller part of the squared extent, rounding is too large a part.
+    // Rounding is too large a part of an area that is a smaller part of the squared extent.
     private const double UncertainArea = 1e-3;
 
     // Largest area of an edge and a ray beside it, as a part of the triangle's. Lower triangles are seen nearly edge on.

@@ -12,7 +12,7 @@ public sealed partial class Body
 {
     private double _scale;
 
-    // Of a ball; those of compounds change as they turn.
+    // These are of a ball; those of compounds change as they turn.
     private double _inverseInertia;
 
     /// <summary>Creates a body in its initial state.</summary>

@@ -16,7 +16,7 @@ internal sealed class BodyGrid
     private const int BucketsPerBody = 8;
     private const int MinBuckets = 16;
 
-    // Of the radius of the body that is larger than nine tenths of all: what falls fast crosses few cells in a step.
+    // Relative to the radius of the body that is larger than nine tenths of all: what falls fast crosses few cells in a step.
     private const double CellSizeFactor = 4;
 
     // Beyond it, cell coordinates saturate: bodies so far away share a cell.

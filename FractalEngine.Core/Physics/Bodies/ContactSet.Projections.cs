@@ -5,7 +5,7 @@ namespace FractalEngine.Core.Physics.Bodies;
 /// <content>What contacts leave of velocities and accelerations.</content>
 internal sealed partial class ContactSet
 {
-    // Of the speed: what rounding leaves of a velocity along the normal.
+    // Relative to the speed: what rounding leaves of a velocity along the normal.
     private const double RelativeTolerance = 1e-13;
 
     // Squared sine of the angle below which two normals count as parallel.

@@ -15,7 +15,7 @@ internal sealed class HalfSpaces
     /// <summary>Maximum number of half-spaces.</summary>
     public const int Capacity = 8;
 
-    // Of the largest number involved: by how much rounding may violate a plane.
+    // Relative to the largest number involved: by how much rounding may violate a plane.
     private const double RelativeTolerance = 1e-13;
 
     // Sine of the angle, or volume of the normals, below which planes count as parallel.

@@ -12,7 +12,7 @@ namespace FractalEngine.Core.Physics.Descriptions;
 /// </summary>
 internal static class BodyRadius
 {
-    // Of the radius: fractals are searched until no remaining part can add more.
+    // Relative to the radius: fractals are searched until no remaining part can add more.
     private const double RelativeTolerance = 1e-13;
     private const int MaxNodes = 50_000;
 

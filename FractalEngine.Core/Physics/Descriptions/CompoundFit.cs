@@ -15,7 +15,7 @@ internal static class CompoundFit
     // Rounds of Lloyd's method: each moves the centres to the middle of the points that they are closest to.
     private const int MaxRounds = 50;
 
-    // Of more points only so many tell where the centres are; the balls contain all of them.
+    // Only so many points tell where the centres are; the balls contain all of them.
     private const int MaxFittedPoints = 50_000;
 
     /// <summary>Fits a shape to a placed model.</summary>

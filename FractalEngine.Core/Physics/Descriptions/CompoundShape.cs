@@ -11,7 +11,7 @@ public sealed class CompoundShape
     /// <summary>Maximum number of balls of a shape.</summary>
     public const int MaxBalls = Scenes.BodyShape.MaxBallCount;
 
-    // Of the radius: distance between the balls of a capsule. In between, they lie 1/32 of the radius deeper than its surface.
+    // Relative to the radius: distance between the balls of a capsule. In between, they lie 1/32 of the radius deeper than its surface.
     private const double CapsuleSpacing = 0.5;
 
     private CompoundShape(IEnumerable<CompoundBall> balls, Vector centre, Matrix inertia)
@@ -46,7 +46,7 @@ public sealed class CompoundShape
         Require(all.Length is > 0 and <= MaxBalls, $"expected 1 to {MaxBalls} balls");
         Require(all.All(static ball => ball.Offset.IsFinite()), "the offsets of balls must be finite");
         Require(all.All(static ball => ball.Radius > 0 && double.IsFinite(ball.Radius)), "the radii of balls must be positive");
-        // Of the largest radius, so that no volume is too small or large for a double.
+        // Relative to the largest radius, so that no volume is too small or large for a double.
         var unit = all.Max(static ball => ball.Radius);
         var volume = all.Sum(ball => Cube(ball.Radius / unit));
         var centre = Vector.Zero;
@@ -58,7 +58,7 @@ public sealed class CompoundShape
         var inertia = 0 * Matrix.Identity;
         foreach (var ball in all)
         {
-            // Of a ball, moved by the theorem of parallel axes.
+            // The inertia of a ball, moved by the theorem of parallel axes.
             var offset = ball.Offset - centre;
             var own = (0.4 * ball.Radius * ball.Radius) + offset.LengthSquared();
             inertia += Cube(ball.Radius / unit) / volume * ((own * Matrix.Identity) + (-1 * Matrix.Outer(offset, offset)));

@@ -9,21 +9,21 @@ internal static class ContactTolerances
     public const double NeighbourRadiusFactor = 1 + 1e-6;
 
     /// <summary>
-    /// Of the smaller radius: balls of large islands stay up to so far apart where they touch. What their solve leaves of an approach uses
-    /// that up first, so that they rarely overlap.
+    /// Relative to the smaller radius: balls of large islands stay up to so far apart where they touch. What their solve leaves of an
+    /// approach uses that up first, so that they rarely overlap.
     /// </summary>
     public const double HeapMargin = 1e-3;
 
     /// <summary>Factor on a radius that finds all that may rest on a body, or support it.</summary>
     public const double SupportRadiusFactor = NeighbourRadiusFactor + HeapMargin;
 
-    // Of the radius: ten times the tolerance to which the moment of an impact is found.
+    // Relative to the radius: ten times the tolerance to which the moment of an impact is found.
     private const double TouchFraction = 1e-9;
 
-    // Of the radius: large enough that a body on several edges is not passed from one to the next by the curve of its path.
+    // Relative to the radius: large enough that a body on several edges is not passed from one to the next by the curve of its path.
     private const double SlopFraction = 1e-6;
 
-    // Of the largest coordinate: about 45 roundings of a double.
+    // Relative to the largest coordinate: about 45 roundings of a double.
     private const double RoundingFraction = 1e-14;
 
     /// <summary>Largest gap that rounding cannot tell from 0, in scene units.</summary>

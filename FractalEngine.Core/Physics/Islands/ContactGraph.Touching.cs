@@ -126,7 +126,7 @@ internal sealed partial class ContactGraph
             var isInOrder = isImmovable || index < neighbour;
             var gap = GapOf(index, neighbour, isInOrder);
             var isTouching = gap <= maxTouchGap && AreTouching(index, neighbour, isInOrder, gap);
-            // Of two that search, the first one finds the pair that touches, and stores the one that both find near.
+            // When both search, the first one finds the pair that touches, and stores the one that both find near.
             if (isTouching && (isInOrder || !other.MaySearch))
             {
                 search.Pairs.Add(isInOrder ? new(index, neighbour, isImmovable, true) : new(neighbour, index, false, true));

@@ -13,10 +13,10 @@ namespace FractalEngine.Core.Physics.Islands;
 /// </summary>
 internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearbyBodies, int maxThreads)
 {
-    // Of the radius: how much farther than its free path a body is expected to get, pushed by others.
+    // Relative to the radius: how much farther than its free path a body is expected to get, pushed by others.
     private const double ReachMargin = 0.1;
 
-    // Of the radius: bodies that get farther do not search for all that they may meet before it is known that they touch anything.
+    // Relative to the radius: bodies that get farther do not search for all that they may meet before it is known that they touch anything.
     private const double MaxEarlyDistance = 4;
 
     private readonly List<int> _neighbours = [];

@@ -10,7 +10,7 @@ namespace FractalEngine.Core.Physics.Islands;
 /// </summary>
 internal sealed class NeighbourGrid
 {
-    // Of the largest radius: cells are short along x, since those of one line are read as one range.
+    // Relative to the largest radius: cells are short along x, since those of one line are read as one range.
     private const double CellLength = 1;
     private const double CellWidth = 3;
 

@@ -7,7 +7,7 @@ namespace FractalEngine.Core.Physics.Movement;
 /// <param name="capsule">Is moved.</param>
 internal sealed class AirMovement(CharacterCapsule capsule)
 {
-    // Of the squared gravity: less of it remaining between two steep walls means that they carry the capsule.
+    // Relative to the squared gravity: less of it remaining between two steep walls means that they carry the capsule.
     private const double RestingAccelerationSquared = 1e-12;
 
     /// <summary>Falls or jumps for one step.</summary>

@@ -15,17 +15,17 @@ internal sealed class CharacterCapsule
     /// <summary>Maximum number of obstacles that one move slides along.</summary>
     public const int MaxHits = 6;
 
-    // Of the radius.
+    // Relative to the radius.
     private const double SphereSpacing = 0.5;
 
-    // Of the radius: how far behind an edge the ground is probed, and how much farther than that the probe searches.
+    // Relative to the radius: how far behind an edge the ground is probed, and how much farther than that the probe searches.
     private const double EdgeProbeDistance = 1e-3;
     private const double EdgeProbeMargin = 1.01;
 
-    // Of the radius: more than rounding.
+    // Relative to the radius: more than rounding.
     private const double MaxKinematicOverlap = 1e-6;
 
-    // Of the radius: a shorter move counts as none, so that a standing character stands.
+    // Relative to the radius: a shorter move counts as none, so that a standing character stands.
     private const double MinMoveFraction = 1e-7;
 
     private readonly List<Body> _bodies;

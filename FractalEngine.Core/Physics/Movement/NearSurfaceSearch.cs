@@ -7,7 +7,7 @@ namespace FractalEngine.Core.Physics.Movement;
 /// <summary>Finds faces that a ball touches or may meet, from several places near it: one query knows only the closest.</summary>
 internal sealed class NearSurfaceSearch(Obstacles obstacles)
 {
-    // Of the radius.
+    // Relative to the radius.
     private const double MaxLift = 0.5;
 
     // Cosine of an angle that rounding cannot tell from 0.

@@ -9,11 +9,11 @@ namespace FractalEngine.Core.Physics.Movement;
 /// <content>Where surfaces are.</content>
 internal sealed partial class Obstacles
 {
-    // Of the radius: how far from the centre towards a contact the search for its present closest point begins, and how far it goes.
+    // Relative to the radius: where from the centre towards a contact the search for its present closest point begins, and how far it goes.
     private const double UpdateDepth = 0.5;
     private const double UpdateSearchRadius = 0.6;
 
-    // Of the combined radius: a gap within it needs no other closest point.
+    // Relative to the combined radius: a gap within it needs no other closest point.
     private const double GapTolerance = 1e-13;
 
     /// <summary>Finds the closest surface.</summary>

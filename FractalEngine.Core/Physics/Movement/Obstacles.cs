@@ -14,7 +14,7 @@ namespace FractalEngine.Core.Physics.Movement;
 internal sealed partial class Obstacles(
     List<Body> bodies, NearbyBodies nearbyBodies, QueryContext queryContext, KinematicSet kinematics)
 {
-    // Of the radius: so far from where a query was made, its result is as good as another one.
+    // Relative to the radius: so far from where a query was made, its result is as good as another one.
     private const double NegligibleDistance = 0.01;
 
     private readonly List<int> _candidates = [];

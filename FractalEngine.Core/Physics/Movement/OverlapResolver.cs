@@ -9,13 +9,13 @@ internal sealed class OverlapResolver(Obstacles obstacles)
     private const int MaxPushes = 32;
     private const int MaxSteps = 64;
 
-    // Of the free distance: how much of it a step towards a free position uses, so that rounding crosses no surface.
+    // Relative to the free distance: how much of it a step towards a free position uses, so that rounding crosses no surface.
     private const double StepFraction = 0.9;
 
-    // Of the radius: how far in front of a surface a centre is put that was on it or behind it.
+    // Relative to the radius: how far in front of a surface a centre is put that was on it or behind it.
     private const double SurfaceOffset = 1e-6;
 
-    // Of the radius: a centre this close to a surface is taken to be on it.
+    // Relative to the radius: a centre this close to a surface is taken to be on it.
     private const double OnSurfaceTolerance = 1e-9;
 
     private readonly HalfSpaces _planes = new();
@@ -44,7 +44,7 @@ internal sealed class OverlapResolver(Obstacles obstacles)
                 return true;
             }
 
-            // Of two centres at one position, neither is to any side of the other.
+            // With two centres at one position, neither is to any side of the other.
             var normal = overlap.PointToCentre(current).Length() > OnSurfaceTolerance * obstacles.Radius
                 ? overlap.Normal(current)
                 : Vector.J;

@@ -11,16 +11,16 @@ namespace FractalEngine.Core.Physics.Movement;
 /// </summary>
 internal sealed class SphereSweep(Obstacles obstacles)
 {
-    // Of the radius. An obstacle grazed by less than 1/128 of it (the sagitta of an advance, 0.25²/8) may be missed.
+    // Relative to the radius. An obstacle grazed by less than 1/128 of it (the sagitta of an advance, 0.25²/8) may be missed.
     private const double MaxOverstep = 0.25;
 
-    // Of the way that is left: where so much of it is known to be free, a query at its end tells more than one at its beginning.
+    // Relative to the way that is left: where so much of it is known to be free, a query at its end tells more than one at its beginning.
     private const double SufficientPart = 0.5;
 
-    // Of the radius: how close to touching the moment of an impact is found.
+    // Relative to the radius: how close to touching the moment of an impact is found.
     private const double ImpactTolerance = 1e-10;
 
-    // Of the largest coordinate: about four roundings of a double.
+    // Relative to the largest coordinate: about four roundings of a double.
     private const double RoundingFraction = 1e-15;
 
     // Sine of the angle to a surface below which a path leads along it.

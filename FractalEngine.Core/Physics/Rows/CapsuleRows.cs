@@ -11,7 +11,7 @@ internal static class CapsuleRows
     // Squared difference of unit normals below which two planes are parallel.
     private const double SameNormal = 1e-16;
 
-    // Of the radius: by how much a plane may lie lower than the line between two others and still be the same one.
+    // Relative to the radius: by how much a plane may lie lower than the line between two others and still be the same one.
     private const double SamePlane = 1e-9;
 
     /// <summary>Moves the contacts that are needed to the front, in their order.</summary>

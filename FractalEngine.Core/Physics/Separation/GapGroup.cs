@@ -11,7 +11,7 @@ internal sealed class GapGroup
     // Squares of shorter offsets lose digits.
     private const double MinDistance = 1e-140;
 
-    // Of the distance at which two touch: a shorter displacement makes no others overlap.
+    // Relative to the distance at which two touch: a shorter displacement makes no others overlap.
     private const double NegligibleShift = 0.1 * OverlapSeparator.NegligibleOverlap;
 
     private readonly GapQueue _queue = new();

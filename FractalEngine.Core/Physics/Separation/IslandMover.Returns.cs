@@ -9,7 +9,7 @@ namespace FractalEngine.Core.Physics.Separation;
 /// <content>How bodies return to where their step began, which overlap others.</content>
 internal sealed partial class IslandMover
 {
-    // Of the smaller radius: overlaps for which bodies return.
+    // Relative to the smaller radius: overlaps for which bodies return.
     private const double MaxOverlap = 9e-7;
 
     private const int PairsPerJob = 1024;
@@ -138,7 +138,7 @@ internal sealed partial class IslandMover
         var pairs = _graph.Pairs;
         foreach (ref readonly var pair in pairs[(job * PairsPerJob)..Math.Min(pairs.Length, (job + 1) * PairsPerJob)])
         {
-            // Of compounds, it is not known before their balls are compared.
+            // For compounds, it is not known before their balls are compared.
             if (!AreApart(in _places[pair.First], in _places[pair.Second])
                 && BallPairs.AreOverlapping(_bodies[pair.First], _bodies[pair.Second], MaxOverlap))
             {

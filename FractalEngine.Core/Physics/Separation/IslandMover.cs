@@ -13,10 +13,10 @@ namespace FractalEngine.Core.Physics.Separation;
 /// </summary>
 internal sealed partial class IslandMover
 {
-    // Of the radius: how far others may have moved to where a body unexpectedly goes.
+    // Relative to the radius: how far others may have moved to where a body unexpectedly goes.
     private const double SearchMargin = 0.5;
 
-    // Of the way that the speed tells: a body that gets less far is held up, and for how many steps it may be.
+    // Relative to the way that the speed tells: a body that gets less far is held up, and for how many steps it may be.
     private const double JamFraction = 0.5;
     private const int MaxJammedSteps = 8;
 

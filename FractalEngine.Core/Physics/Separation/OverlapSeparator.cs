@@ -12,7 +12,7 @@ namespace FractalEngine.Core.Physics.Separation;
 /// </summary>
 internal sealed class OverlapSeparator
 {
-    /// <summary>Of the smaller radius: overlaps that are left.</summary>
+    /// <summary>Relative to the smaller radius: overlaps that are left.</summary>
     public const double NegligibleOverlap = 3e-7;
 
     // Rounds over the contacts that are near touching, and times that these are chosen anew.
@@ -134,7 +134,7 @@ internal sealed class OverlapSeparator
             }
         }
 
-        // Of two bodies, each may have come nearer by so much.
+        // Each of the two bodies may have come nearer by so much.
         return maxShiftSquared < _reach * _reach;
     }
 

@@ -5,8 +5,8 @@ namespace FractalEngine.Core.Physics.Separation;
 
 /// <summary>How far the bodies of an island are moved apart where they overlap.</summary>
 /// <param name="Overlap">Overlap at which a displacement ends, of the smaller radius; negative for a gap.</param>
-/// <param name="Relaxation">Of an overlap: how much of it is taken back at once, since others will push in again.</param>
-/// <param name="MaxGap">Of the distance at which two touch: those farther apart are not near touching.</param>
+/// <param name="Relaxation">How much of an overlap is taken back at once, relative to it, since others will push in again.</param>
+/// <param name="MaxGap">Gap, relative to the distance at which two touch, beyond which they are not near touching.</param>
 internal readonly record struct SeparationAim(double Overlap, double Relaxation, double MaxGap)
 {
     private const double Near = 0.01;

@@ -15,20 +15,20 @@ namespace FractalEngine.Core.Physics.Solving;
 /// </remarks>
 internal sealed partial class ContactSolver(int maxThreads = 1)
 {
-    // Of the largest impulse: a round that changes less has converged.
+    // Relative to the largest impulse: a round that changes less has converged.
     private const double Tolerance = 1e-9;
 
     // Small islands converge to rounding in a few rounds, and large ones need not.
     private const double FineTolerance = 1e-13;
     private const int FineRounds = 32;
 
-    // Of a change of friction, in late rounds: where balls pass their slip to and fro, smaller changes come to an end.
+    // Relative to a change of friction, in late rounds: where balls pass their slip to and fro, smaller changes come to an end.
     private const double LateFrictionShare = 0.5;
 
-    // Of the momentum of a contact's bodies.
+    // Relative to the momentum of a contact's bodies.
     private const double RelativeRounding = 1e-14;
 
-    // Of so many rounds of a large island, one tests the contacts that do not push.
+    // One of so many rounds of a large island tests the contacts that do not push.
     private const int FullRoundPeriod = 4;
     private const int MaxContactsOfFullRounds = 300;
 

@@ -40,7 +40,7 @@ internal sealed class ImpulseCache
         row.NormalImpulse = 0;
         row.FrictionImpulse = Vector.Zero;
         row.TurnImpulse = Vector.Zero;
-        // Of two that count as the same, the first one of the step before, whichever place it has found.
+        // When two count as the same, the first one of the step before is taken, whichever place it has found.
         var found = int.MaxValue;
         for (var slot = SlotOf(row.Key); _slots[slot] != None; slot = (slot + 1) & _mask)
         {

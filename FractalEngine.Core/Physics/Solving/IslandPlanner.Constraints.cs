@@ -7,13 +7,13 @@ namespace FractalEngine.Core.Physics.Solving;
 /// <content>What the solve demands of each contact in a step.</content>
 internal sealed partial class IslandPlanner
 {
-    // Of the distance at which balls touch: on a longer way the mean line of contact may be far from that of the impact.
+    // Relative to the distance at which balls touch: on a longer way the mean line of contact may be far from that of the impact.
     private const double MaxShortWay = 0.25;
 
-    // Of the restitution threshold: what is met more slowly is met at the end of the time, wherever that is known to a small part of it.
+    // Relative to the restitution threshold: what is met more slowly is met at the end of the time, where that is known to a small part of it.
     private const double SlowFraction = 0.01;
 
-    // Of the touch tolerance: smaller gaps are rounding, and stay.
+    // Relative to the touch tolerance: smaller gaps are rounding, and stay.
     private const double NegligibleGap = 1e-9;
 
     /// <summary>Demands that two bodies be at least as far apart after the step as when they touch.</summary>

@@ -25,10 +25,10 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
     // Radians: lines of contact that turn by less need no further correction.
     private const double TurnTolerance = 1e-10;
 
-    // Of the speed: what rounding leaves of a velocity along a normal.
+    // Relative to the speed: what rounding leaves of a velocity along a normal.
     private const double RelativeTolerance = 1e-13;
 
-    // Of what gravity and forces add to the speed: less is what the solve leaves of it, and the body rests.
+    // Relative to what gravity and forces add to the speed: less is what the solve leaves of it, and the body rests.
     private const double RestFraction = 1e-10;
 
     private readonly ContactSolver _solver = new(maxThreads);
@@ -149,7 +149,7 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
         var members = Graph.BodiesOf(in island);
         var rows = Graph.RowsOf(in island);
         Load(members, rows);
-        // Of bodies that have joined without touching another: they may run into surfaces.
+        // Bodies that have joined without touching another may run into surfaces.
         var isConverged = StopApproaches(rows);
         StoreVelocities(members);
         return FindForces(members, rows, stepLength) && isConverged;
@@ -296,7 +296,7 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
             }
 
             body.NetAcceleration = change / stepLength;
-            // Of a large island, what touches nothing follows its parabola too.
+            // In a large island, what touches nothing follows its parabola too.
             var isStraight = isLarge && change != Vector.Zero
                 && _solver.Bodies[index].Velocity != body.Velocity + (stepLength * body.FreeAcceleration);
             body.PlannedDisplacement = stepLength * (body.Velocity + (isStraight ? change : 0.5 * stepLength * body.NetAcceleration));

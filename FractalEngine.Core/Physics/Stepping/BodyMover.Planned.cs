@@ -7,10 +7,10 @@ namespace FractalEngine.Core.Physics.Stepping;
 /// <content>What comes before and after the joint solve of islands: the surfaces that bodies may meet, and their planned motion.</content>
 internal sealed partial class BodyMover
 {
-    // Of the radius: what is met on a shorter way is met on the planned way.
+    // Relative to the radius: what is met on a shorter way is met on the planned way.
     private const double NegligibleWay = 0.01;
 
-    // Of the radius: more than the solve leaves, and less than can be seen.
+    // Relative to the radius: more than the solve leaves, and less than can be seen.
     private const double MaxKinematicOverlap = 2e-6;
 
     /// <summary>

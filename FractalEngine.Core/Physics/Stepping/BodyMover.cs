@@ -17,19 +17,19 @@ internal sealed partial class BodyMover
     // Impacts without time in between: more of them are a corner that leaves no path.
     private const int MaxSimultaneousImpacts = 16;
 
-    // Of the step: an advance shorter than this makes no progress.
+    // Relative to the step: an advance shorter than this makes no progress.
     private const double NegligibleTimeFraction = 1e-3;
 
-    // Of the speed: a body that leads more into another, which will give way, waits until it has.
+    // Relative to the speed: a body that leads more into another, which will give way, waits until it has.
     private const double MaxBlockedSpeedRatio = 0.01;
 
-    // Of the restitution threshold: a body that leaves more slowly does not leave.
+    // Relative to the restitution threshold: a body that leaves more slowly does not leave.
     private const double NegligibleSpeedFraction = 1e-4;
 
-    // Of the touch tolerance: overlaps up to this are taken back as rounding.
+    // Relative to the touch tolerance: overlaps up to this are taken back as rounding.
     private const double MaxRoundingOverlap = 10;
 
-    // Of the squared speeds: what rounding adds.
+    // Relative to the squared speeds: what rounding adds.
     private const double EnergyRounding = 1e-12;
 
     private readonly List<Body> _bodies;

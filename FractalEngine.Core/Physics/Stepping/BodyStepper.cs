@@ -13,13 +13,13 @@ namespace FractalEngine.Core.Physics.Stepping;
 /// <summary>Takes one body through one step: shrinking, damping, forces, motion and sleep.</summary>
 internal sealed class BodyStepper
 {
-    // Of the speed that the acceleration adds in a step.
+    // Relative to the speed that the acceleration adds in a step.
     private const double RestitutionThresholdFraction = 0.5;
 
-    // Of √(acceleration · radius), the speed that a body reaches by falling half its radius.
+    // Relative to √(acceleration · radius), the speed that a body reaches by falling half its radius.
     private const double SleepSpeedFraction = 0.02;
 
-    // Of the radius: how much farther than a body goes in two steps its queries search, so that the next ones need none.
+    // Relative to the radius: how much farther than a body goes in two steps its queries search, so that the next ones need none.
     private const double SearchMargin = 0.5;
 
     /// <summary>The offset of the only sphere of a body.</summary>

@@ -8,14 +8,14 @@ namespace FractalEngine.Core.Physics.Stepping;
 /// <summary>Finds and keeps what the balls of a compound touch. Obstacles must be set up for the compound.</summary>
 internal sealed class CompoundContacts(Obstacles obstacles)
 {
-    // Of a ball's radius: overlaps up to this are taken back as rounding.
+    // Relative to a ball's radius: overlaps up to this are taken back as rounding.
     private const double MaxRoundingOverlap = 1e-6;
 
-    // Of a ball's radius: an edge or corner within it is met in the next moment, and acts as a plane till then. Without it a body that lies
-    // on the dust of an infinite fractal would fall on one corner after the other.
+    // Relative to a ball's radius: an edge or corner within it is met in the next moment, and acts as a plane till then. Without it a body that
+    // lies on the dust of an infinite fractal would fall on one corner after the other.
     private const double MaxEdgeGap = 1e-4;
 
-    // Of a ball's radius: more than the solve leaves, and less than can be seen.
+    // Relative to a ball's radius: more than the solve leaves, and less than can be seen.
     private const double MaxKinematicOverlap = 2e-6;
 
     private readonly NearSurfaceSearch _search = new(obstacles);
@@ -133,7 +133,7 @@ internal sealed class CompoundContacts(Obstacles obstacles)
                 var gap = contact.Gap(body.Position + ball.Offset);
                 if (gap < 0 && gap >= -MaxRoundingOverlap * ball.Radius)
                 {
-                    // Of the way of the whole body.
+                    // Relative to the way of the whole body.
                     _planes.Add(contact.Normal(body.Position + ball.Offset), -gap);
                 }
             }

@@ -22,14 +22,14 @@ internal sealed partial class CompoundMover
     // Radians: a turn that is planned at once.
     private const double MaxTurn = 0.25;
 
-    // Of the speed that gravity gives: a plan that leaves no more is rest.
+    // Relative to the speed that gravity gives: a plan that leaves no more is rest.
     private const double RestFraction = 1e-10;
 
-    // Of the smallest radius: how deep the body may be in something at an impact. A shorter plan finds the impact more exactly.
+    // Relative to the smallest radius: how deep the body may be in something at an impact. A shorter plan finds the impact more exactly.
     private const double MaxDip = 1e-7;
     private const int MaxPlans = 12;
 
-    // Of the squared speeds: what rounding adds.
+    // Relative to the squared speeds: what rounding adds.
     private const double EnergyRounding = 1e-12;
 
     private const int InitialCapacity = 64;

@@ -10,10 +10,10 @@ namespace FractalEngine.Core.Physics.Stepping;
 /// </summary>
 internal sealed class CompoundSweep(Obstacles obstacles)
 {
-    // Of a ball's radius, as for one ball.
+    // Relative to a ball's radius, as for one ball.
     private const double MaxOverstep = 0.25;
 
-    // Of a ball's radius: how close to touching the moment of an impact is found.
+    // Relative to a ball's radius: how close to touching the moment of an impact is found.
     private const double ImpactTolerance = 1e-10;
 
     private const int MaxSteps = 100_000;

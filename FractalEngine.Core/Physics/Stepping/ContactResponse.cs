@@ -12,7 +12,7 @@ internal sealed class ContactResponse(List<Body> bodies, SleepIslands islands, C
     // Bounces at the same moment, one after the other: more of them are a corner that leaves no path.
     private const int MaxBounces = 16;
 
-    // Of the speed: what rounding leaves along a normal.
+    // Relative to the speed: what rounding leaves along a normal.
     private const double RelativeTolerance = 1e-13;
 
     private readonly HalfSpaces _planes = new();

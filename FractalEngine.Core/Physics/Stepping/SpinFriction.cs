@@ -11,10 +11,10 @@ namespace FractalEngine.Core.Physics.Stepping;
 /// </summary>
 internal sealed class SpinFriction(List<Body> bodies)
 {
-    // Of the acceleration: less is rounding, and the body rests.
+    // Relative to the acceleration: less is rounding, and the body rests.
     private const double RestFraction = 1e-12;
 
-    // Of the duration: a shorter time makes no progress.
+    // Relative to the duration: a shorter time makes no progress.
     private const double MinFraction = 1e-9;
 
     // Seconds: in a shorter time friction does nothing that rounding does not.

@@ -14,7 +14,7 @@ namespace FractalEngine.Core.Queries.Closest;
 /// <param name="bvh">The hierarchy of the base mesh.</param>
 internal sealed class ExpandedLevelSelector(FractalHierarchy hierarchy, TriangleBvh bvh)
 {
-    // Of all expanded levels of a fractal.
+    // The total of all expanded levels of a fractal.
     private const long MaxBytes = 100_000;
 
     // What a face and a vertex of an expanded level take, at most.

@@ -130,7 +130,7 @@ internal sealed class ClosestPairSearch
             var closestKey = (double.PositiveInfinity, double.PositiveInfinity);
             for (var i = 0; i < _children.Count; i++)
             {
-                // Of several at the same distance, such as 0, the one whose middles are closest.
+                // Among several at the same distance, such as 0, the one whose middles are closest is taken.
                 var key = (_children[i].BoundSquared, MiddlesDistanceSquared(_children[i]));
                 if (key.CompareTo(closestKey) < 0)
                 {

@@ -95,7 +95,7 @@ internal sealed class OccluderRasterizer
             var (ax, ay) = (Unsafe.Add(ref screenX, a), Unsafe.Add(ref screenY, a));
             var (bx, by) = (Unsafe.Add(ref screenX, b), Unsafe.Add(ref screenY, b));
             var (cx, cy) = (Unsafe.Add(ref screenX, c), Unsafe.Add(ref screenY, c));
-            // Of a solid only front faces are visible: on the screen, y downwards, they are wound clockwise.
+            // Only front faces of a solid are visible: on the screen, y downwards, they are wound clockwise.
             var area = ((bx - ax) * (cy - ay)) - ((by - ay) * (cx - ax));
             if (windingSign == 0 || area * windingSign > 0)
             {

@@ -18,17 +18,17 @@ internal readonly struct StripFrame
 {
     private const int MultisampleFactor = 2;
 
-    // Of a pixel: more than the rounding of single precision.
+    // In pixels: more than the rounding of single precision.
     private const float PixelPadding = 1f / 256;
 
-    // Of a pixel: how far beyond the edges of the strip a box of several objects must be.
+    // In pixels: how far beyond the edges of the strip a box of several objects must be.
     private const double GroupPadding = 1.0 / 64;
 
     // A strip gives up after so many nodes for each instance of the budget, or of this many.
     private const int MaxNodesPerInstance = 4;
     private const int MinInstancesForNodeLimit = 20_000;
 
-    // Of coordinates: more than the rounding of the maps from objects to the view.
+    // Relative to coordinates: more than the rounding of the maps from objects to the view.
     private const double SectionMargin = 1e-12;
 
     private readonly Vector256<double> _sectionNormal;

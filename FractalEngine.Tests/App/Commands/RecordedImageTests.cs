@@ -7,7 +7,7 @@ namespace FractalEngine.Tests.App.Commands;
 [Collection(ConsoleTests.Name)]
 public sealed class RecordedImageTests : IDisposable
 {
-    // Of colours that another library of mathematics rounds to the next of 256 values.
+    // Colours may differ where another library of mathematics rounds to the next of 256 values.
     private const double ColourTolerance = 1e-3;
 
     private readonly Transcript _transcript = new();

@@ -135,7 +135,7 @@ internal sealed partial class Transcript : IDisposable
         return Encoding.UTF8.GetString(bytes);
     }
 
-    // Of the four channels, with a weight for the place.
+    // The sum of the four channels, with a weight for the place.
     private static string Means(PixelImage image) => string.Join(' ', Enumerable.Range(0, 4).Select(channel => RecordedText.Text(
         Enumerable.Range(0, image.Pixels.Length / 4).Average(i => (1 + (i % 7)) * (double)image.Pixels[(4 * i) + channel]))));
 

@@ -18,7 +18,7 @@ public sealed class ReloadTimeTests : IDisposable
     // A busy machine takes longer sometimes, but not each time.
     private const int Attempts = 3;
 
-    // Of files that are opened alone, each of so many is tried in the default run.
+    // One of so many files that are opened alone is tried in the default run.
     private const int SampleStride = 5;
 
     private static readonly TimeSpan Limit = TimeSpan.FromSeconds(0.5);

@@ -23,7 +23,7 @@ public class BodyGridTests
     [Fact]
     public void Cells_OfBodiesOfManySizes_AreAsWideAsMostNeed()
     {
-        // Of eleven radii from 0.1 to 1.1 the tenth counts: cells of 4. Bodies of more than half of that are large.
+        // The tenth of eleven radii from 0.1 to 1.1 counts: cells of 4. Bodies of more than half of that are large.
         var grid = Build([.. Enumerable.Range(1, 10).Select(static i => (new Vector(i, 0, 0), 0.1 * i)), (new(11, 0, 0), 2.5)]);
         Assert.Equal([10], grid.LargeBodies);
         var cells = grid.CellsAround(new(new(-0.5, 3.5, 8), new(0.5, 3.5, 9)), 0.25);

@@ -99,7 +99,7 @@ public sealed class ContactSetTests
     }
 
     /// <summary>
-    /// Of bodies the relative velocity counts; as long as they are as good as walls, their own does not drive
+    /// The relative velocity of bodies counts; as long as they are as good as walls, their own does not drive
     /// away.
     /// </summary>
     [Theory]

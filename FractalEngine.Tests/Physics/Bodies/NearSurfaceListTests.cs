@@ -45,7 +45,7 @@ public sealed class NearSurfaceListTests
         var contacts = new ContactSet();
         list.Add(Surface(-Vector.J), Vector.J, contacts, Vector.Zero);
         Assert.False(list.HasMovingSurface);
-        // Of another object, which may go away from the first one.
+        // This one is of another object, which may go away from the first one.
         list.Add(Surface(-Vector.J) with { Kinematic = plate.Kinematic }, Vector.J, contacts, Vector.Zero);
         list.Add(Surface(-Vector.I), Vector.I, contacts, Vector.Zero);
         Assert.Equal((3, true), (list.Count, list.HasMovingSurface));

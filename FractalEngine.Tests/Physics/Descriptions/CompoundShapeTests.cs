@@ -63,7 +63,7 @@ public class CompoundShapeTests
     {
         var shape = CompoundShape.Capsule(-1 * Vector.J, Vector.J, 0.5);
         var along = (0.75 * 0.125) + (0.25 * 0.1);
-        // Of a half ball about its own centre 0.4·r² − (3/8·r)², and that is 1 + 3/8·r away.
+        // A half ball has 0.4·r² − (3/8·r)² about its own centre, which is 1 + 3/8·r away.
         var across = (0.75 * ((4 / 12.0) + 0.0625)) + (0.25 * (0.1 - (0.1875 * 0.1875) + (1.1875 * 1.1875)));
         Near.Equal(Matrix.Diagonal(new(across, along, across)), shape.Inertia, 1e-15);
         Assert.Equal((1.5, 9, true), (shape.Radius, shape.Balls.Length, shape.IsCapsule));

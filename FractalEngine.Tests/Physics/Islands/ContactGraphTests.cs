@@ -136,7 +136,7 @@ public sealed class ContactGraphTests
         Assert.Equal(3, island.RowCount);
     }
 
-    /// <summary>Of what pushes a body, a neighbour gets what is left after the gap.</summary>
+    /// <summary>A neighbour gets what is left, after the gap, of what pushes a body.</summary>
     [Fact]
     public void CollectTouching_OfOneThatIsPushed_PassesThePushOn()
     {

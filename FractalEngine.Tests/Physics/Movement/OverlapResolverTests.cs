@@ -16,7 +16,7 @@ namespace FractalEngine.Tests.Physics.Movement;
 /// <summary>Bodies that begin where they overlap something.</summary>
 public class OverlapResolverTests
 {
-    // Of the radius: what rounding may leave.
+    // Relative to the radius: what rounding may leave.
     private const double MaxOverlap = 1e-6;
 
     /// <summary>The centre is on a face, an edge or a corner, or in front of one that is overlapped.</summary>

@@ -22,7 +22,7 @@ public sealed class IslandMoverTests
         Assert.False(setup.Bodies[0].IsHeld);
         Assert.Equal((Vector.Zero, new(-0.25, 0.5, 0)), (setup.Bodies[0].PlannedStart, setup.Bodies[0].Target));
         Assert.Equal((Vector.I, Vector.I), (setup.Bodies[1].PlannedStart, setup.Bodies[1].Target));
-        // Of no island.
+        // This one belongs to no island.
         Assert.Equal((Vector.Zero, Vector.Zero), (setup.Bodies[2].PlannedStart, setup.Bodies[2].Target));
     }
 

@@ -22,7 +22,7 @@ public sealed class ContactSolverTests
     private const double Mass = 2;
     private const double Radius = 0.5;
 
-    // Of a solid ball: 2/5·m·r².
+    // The moment of inertia of a solid ball: 2/5·m·r².
     private const double Inertia = 0.4 * Mass * Radius * Radius;
 
     [Theory]
@@ -126,7 +126,7 @@ public sealed class ContactSolverTests
     }
 
     /// <summary>
-    /// Of two balls that spin against each other, friction stops the slip: both points of contact are as fast.
+    /// Friction stops the slip of two balls that spin against each other: both points of contact are as fast.
     /// </summary>
     [Theory]
     [InlineData(1)]

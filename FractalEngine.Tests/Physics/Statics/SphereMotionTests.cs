@@ -7,7 +7,7 @@ namespace FractalEngine.Tests.Physics.Statics;
 /// <summary>Paths of constant acceleration, and the clock that steps tick.</summary>
 public class SphereMotionTests
 {
-    // Of numbers of some units.
+    // The rounding of numbers of some units.
     private const double Tolerance = 1e-14;
 
     [Fact]

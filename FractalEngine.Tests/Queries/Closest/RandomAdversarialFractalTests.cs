@@ -11,7 +11,7 @@ public class RandomAdversarialFractalTests
 {
     private const int PositionsPerFractal = 12;
 
-    // Of the reach, the largest absolute coordinate on the way to the closest triangle.
+    // Relative to the reach, the largest absolute coordinate on the way to the closest triangle.
     private const double Tolerance = 1e-12;
     private const double LooseBound = 1e-9;
     private const double MaxLooseShare = 0.01;

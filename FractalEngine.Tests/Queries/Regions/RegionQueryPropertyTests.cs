@@ -10,7 +10,7 @@ public class RegionQueryPropertyTests
 {
     private const int QueriesPerShape = 6;
 
-    // Of the reach: rounding along a chain of up to a dozen maps, each 1e-15 or so.
+    // Relative to the reach: rounding along a chain of up to a dozen maps, each 1e-15 or so.
     private const double Tolerance = 1e-13;
 
     [Fact]

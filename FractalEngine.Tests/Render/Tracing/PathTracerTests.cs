@@ -145,7 +145,7 @@ public class PathTracerTests
     {
         var tracer = Trace(FogBehindGlass(), new(Vector.Zero, Vector.Zero, 1), 8, 256);
 
-        // Of 16,384 paths, a quarter end at the glass.
+        // A quarter of 16,384 paths end at the glass.
         Assert.Equal(LightOfFogBehindGlass, Mean(tracer), 0.005);
     }
 

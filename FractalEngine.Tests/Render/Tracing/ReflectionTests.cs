@@ -29,7 +29,7 @@ public class ReflectionTests
             {
                 var expected = Integrate(surface, toEye, weight);
                 var found = MeanOfSamples(surface, toEye, weight);
-                // Of 16,384 points that are spread evenly.
+                // The mean of 16,384 points that are spread evenly.
                 Assert.True(
                     Math.Abs(found - expected) < 0.004, $"diffuse {diffuse}, specular {specular}: {found} instead of {expected}");
             }
@@ -51,7 +51,7 @@ public class ReflectionTests
             var expected = AlbedoOfFacets(roughness, degrees);
             // Both quadratures have steps of a 400th and a 200th of a turn.
             Assert.Equal(expected, Integrate(surface, Direction(degrees), static _ => 1), 0.001);
-            // Of 16,384 points that are spread evenly.
+            // The mean of 16,384 points that are spread evenly.
             Assert.Equal(expected, MeanOfSamples(surface, Direction(degrees), static _ => 1), 0.004);
         }
     }

@@ -145,7 +145,7 @@ internal static class CullingViews
                 var difference = Math.Max(
                     Near.Difference(map.Translation, other.Translation) / lengthTolerance,
                     Near.Difference(map.Linear, other.Linear) / factorTolerance);
-                // Of several that are equal within rounding (overlapping instances) the one that has the fewest matches so far.
+                // Among several that are equal within rounding (overlapping instances), the one that has the fewest matches so far.
                 if (difference <= 1
                     && (counts[order[index]], difference).CompareTo((best < 0 ? int.MaxValue : counts[best], minDifference)) < 0)
                 {

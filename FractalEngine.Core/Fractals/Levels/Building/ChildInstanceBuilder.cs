@@ -240,7 +240,7 @@ internal sealed class ChildInstanceBuilder(int baseCount)
     /// <param name="levelsDown">Number of levels from the parent to the children.</param>
     private static void AddEdges(List<ChildEdge> edges, HashSet<AffineMap> offeredMaps, MapSet set, long levelsDown)
     {
-        // Of the indices, since maps of wide sets are many bytes.
+        // The order of the indices is sorted, since maps of wide sets are many bytes.
         var mapsOfThisLevel = new HashSet<int>(set.Maps.Length, new MapIndexComparer(set.Maps));
         for (var i = 0; i < set.Maps.Length; i++)
         {

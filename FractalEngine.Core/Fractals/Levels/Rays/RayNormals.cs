@@ -12,7 +12,7 @@ internal sealed class RayNormals
     // Tests of eight children and one plane; more cost more than the planes of each child that a ray visits. No more planes than lanes.
     private const int MaxTests = RayBounds.LaneCount;
 
-    // Of normals that are the same but for rounding, as the squared distance.
+    // The squared distance up to which two normals differ by rounding alone.
     private const double MaxDistanceSquared = 1e-20;
 
     private readonly Vector[] _normals;

@@ -10,7 +10,7 @@ internal sealed partial class Scenario : IDisposable
     private const int Width = 900;
     private const int Height = 700;
 
-    // Of a panel at scale 1.
+    // The height of a row of a panel at scale 1.
     private const int PanelWidth = 297;
 
     private readonly TemporaryFolder _folder = new();

@@ -220,7 +220,7 @@ public sealed class HierarchyPrimitivesTests
         Near.Equal(scale * Math.Max(0, Math.Max(far, Math.Max(height, separation))), Distance(all, out var fromCentre), 1e-5);
         Near.Equal(position.Length(), fromCentre, 1e-5);
         Assert.Equal((4 * ((4 * 8) + (3 * 6))) + 256, all.StorageBytes);
-        // Of more than eight planes or sixteen vertices none is kept.
+        // A hull of more than eight planes or sixteen vertices is not kept.
         Assert.Equal(256, new FloatBound(box, [.. hull.Planes, hull.Planes[0]], vertices, Margin).StorageBytes);
         Vector[] many = [.. Enumerable.Repeat(Vector.I, 17)];
         Assert.Equal((4 * 4 * 8) + 256, new FloatBound(box, hull.Planes, many, Margin).StorageBytes);
