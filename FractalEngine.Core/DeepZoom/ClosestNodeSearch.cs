@@ -14,7 +14,7 @@ internal sealed class ClosestNodeSearch(LodHierarchy hierarchy)
     private const int MaxExpandedNodes = 2000;
 
     private readonly PriorityQueue<int, double> _open = new();
-    private readonly List<SearchNode> _nodes = [];
+    private readonly List<PathNode> _nodes = [];
 
     /// <summary>Begins a new search, without any start.</summary>
     public void Clear()
@@ -100,5 +100,5 @@ internal sealed class ClosestNodeSearch(LodHierarchy hierarchy)
         public bool IsFound => Index >= 0;
     }
 
-    private readonly record struct SearchNode(int Parent, int Child, int LevelsUp, long RemainingLevels, AffineMap FrameToCamera);
+    private readonly record struct PathNode(int Parent, int Child, int LevelsUp, long RemainingLevels, AffineMap FrameToCamera);
 }

@@ -46,7 +46,7 @@ public sealed partial class PhysicsWorld
                 _stepper.FinishPlanned(_bodies[index], CollidersOf(_bodies[index]), seconds, StepCount);
             }
 
-            _stepper.Settle(_bodies[index]);
+            _stepper.CommitPosition(_bodies[index]);
         }
     }
 

@@ -211,7 +211,7 @@ public sealed partial class PhysicsWorld
         }
 
         stepper.FinishPlanned(body, _sharedColliders, _sharedSeconds, StepCount);
-        if (!stepper.TrySettle(body))
+        if (!stepper.TryCommitPosition(body))
         {
             _hasOthers = true;
         }

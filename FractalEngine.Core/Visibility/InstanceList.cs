@@ -33,7 +33,7 @@ internal sealed class InstanceList(bool hasPathHashes)
 
     /// <summary>Parts of the sky that the six sides of instances see, [at most <see cref="Count"/> × 6].</summary>
     /// <remarks>Only those of objects with masks have a meaning; the list ends with the last of these.</remarks>
-    public ReadOnlySpan<float> SkyParts => _skyParts.AsSpan(0, Math.Min(Count * SkySides.Count, _skyParts.Length));
+    public ReadOnlySpan<float> SkyParts => _skyParts.AsSpan(0, Math.Min(Count * AmbientCube.Count, _skyParts.Length));
 
     /// <summary>Hashes that tell the instances of one object apart, [<see cref="Count"/>].</summary>
     public ReadOnlySpan<ulong> PathHashes => _pathHashes.AsSpan(0, Count);
@@ -83,9 +83,9 @@ internal sealed class InstanceList(bool hasPathHashes)
             SetGradientFactor(other._gradientFactors[index]);
         }
 
-        if (index * SkySides.Count < other._skyParts.Length)
+        if (index * AmbientCube.Count < other._skyParts.Length)
         {
-            other._skyParts.AsSpan(index * SkySides.Count, SkySides.Count).CopyTo(LastSkyParts());
+            other._skyParts.AsSpan(index * AmbientCube.Count, AmbientCube.Count).CopyTo(LastSkyParts());
         }
     }
 
@@ -103,12 +103,12 @@ internal sealed class InstanceList(bool hasPathHashes)
     /// <summary>Returns the place of the last instance's parts of the sky.</summary>
     public Span<float> LastSkyParts()
     {
-        if (_skyParts.Length < Count * SkySides.Count)
+        if (_skyParts.Length < Count * AmbientCube.Count)
         {
-            Array.Resize(ref _skyParts, _rows.Length / FloatsPerInstance * SkySides.Count);
+            Array.Resize(ref _skyParts, _rows.Length / FloatsPerInstance * AmbientCube.Count);
         }
 
-        return _skyParts.AsSpan((Count - 1) * SkySides.Count, SkySides.Count);
+        return _skyParts.AsSpan((Count - 1) * AmbientCube.Count, AmbientCube.Count);
     }
 
     private void EnsureCapacity()

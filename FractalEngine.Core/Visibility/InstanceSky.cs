@@ -45,12 +45,12 @@ internal static class InstanceSky
     private static void FillRest(int sides, Span<float> parts)
     {
         var sum = 0f;
-        for (var side = 0; side < SkySides.Count; side++)
+        for (var side = 0; side < AmbientCube.Count; side++)
         {
             sum += (sides & (1 << side)) != 0 ? parts[side] : 0;
         }
 
-        for (var side = 0; side < SkySides.Count; side++)
+        for (var side = 0; side < AmbientCube.Count; side++)
         {
             parts[side] = (sides & (1 << side)) != 0 ? parts[side] : sum / BitOperations.PopCount((uint)sides);
         }

@@ -138,7 +138,7 @@ public sealed class VisibleSet
     public ReadOnlySpan<float> SkyParts(int objectIndex, int chunk)
     {
         var (start, count) = RangeOf(objectIndex, chunk);
-        return count == 0 ? [] : ListOf(chunk).SkyParts.Slice(start * SkySides.Count, count * SkySides.Count);
+        return count == 0 ? [] : ListOf(chunk).SkyParts.Slice(start * AmbientCube.Count, count * AmbientCube.Count);
     }
 
     /// <summary>Counts the visible instances of an object.</summary>

@@ -168,7 +168,8 @@ public class StructureRecordTests
             subFractals++;
             boxes.Add(subFractal.Box).Add(subFractal.RadiusSquared).Add(subFractal.Centre[0]).Add(subFractal.Centre[2]);
             Array.ForEach(subFractal.ChildBounds, value => bounds.Add(value));
-            hulls.Add(subFractal.Clusters is null ? 0 : 1).Add(subFractal.Lanes is null ? 0 : 1).Add(subFractal.Floats is null ? 0 : 1);
+            hulls.Add(subFractal.Clusters is null ? 0 : 1).Add(subFractal.ChildBoundsX8 is null ? 0 : 1)
+                .Add(subFractal.Floats is null ? 0 : 1);
             if (subFractal.Hull is { } hull)
             {
                 hulls.AddBound(hull.Margin);

@@ -162,7 +162,7 @@ public class SkyVisibilityTests
         SkyMaskBaker.Bake(hierarchy, 1);
         var occluder = new SkyOccluder(hierarchy, 1);
         var (node, levels) = occluder.Nodes[0];
-        var (random, sample, path, parts) = (new Random(1), new SkySample(), new SkyPath(), new float[SkySides.Count]);
+        var (random, sample, path, parts) = (new Random(1), new SkySample(), new SkyPath(), new float[AmbientCube.Count]);
         var (blackened, open) = (0, 0);
         for (var i = 0; i < 3000; i++)
         {
@@ -176,7 +176,7 @@ public class SkyVisibilityTests
             {
                 path.Set(sample.Steps);
                 path.ComputeParts(hierarchy, sample.Leaf!, sample.Steps.Count, VisibleSides.All, parts);
-                var part = SkySides.Blend(parts, (sample.FromMesh.Linear.Transpose() * sample.Normal).UnitVector());
+                var part = AmbientCube.Blend(parts, (sample.FromMesh.Linear.Transpose() * sample.Normal).UnitVector());
                 blackened += part < 0.05 ? 1 : 0;
                 open++;
             }
@@ -205,7 +205,7 @@ public class SkyVisibilityTests
         SkyMaskBaker.Bake(first, 1);
         SkyMaskBaker.Bake(second, 1);
         var root = first.NodeAt(first.LevelCount);
-        var (parts1, parts2) = (new float[SkySides.Count], new float[SkySides.Count]);
+        var (parts1, parts2) = (new float[AmbientCube.Count], new float[AmbientCube.Count]);
         var path = new SkyPath();
         for (var child = 0; child < root.ChildMaps.Length; child++)
         {

@@ -47,8 +47,8 @@ internal sealed class SubFractal
             : new(Box, Hull.Planes, Hull.CopyVertices(), Hull.Margin);
         var boxWithBase = BoundingBox.Union(Box, description.BaseBox);
         var childBoxes = description.ChildBoxes;
-        Lanes = description.HasOnlySimilarities && Clusters is null
-            ? ChildLanes.CreateOrNull(Children, childBoxes, description.ChildHull, boxWithBase)
+        ChildBoundsX8 = description.HasOnlySimilarities && Clusters is null
+            ? ChildBoundsX8.CreateOrNull(Children, childBoxes, description.ChildHull, boxWithBase)
             : null;
         PaddedCount = VectorX4.PaddedCount(Children.Length);
         ChildBounds = new double[ValuesPerChild * PaddedCount];
@@ -96,7 +96,7 @@ internal sealed class SubFractal
     public bool HasRotatedChildren { get; }
 
     /// <summary>The children in single precision; null where that would not bound them well.</summary>
-    public ChildLanes? Lanes { get; }
+    public ChildBoundsX8? ChildBoundsX8 { get; }
 
     /// <summary>The bounds in single precision; null for groups, and where not all maps of the fractal are similarities.</summary>
     public FloatBound? Floats { get; }
@@ -125,7 +125,8 @@ internal sealed class SubFractal
     /// <summary>Number of bytes of the arrays.</summary>
     public long StorageBytes => Children.Sum(child => child.Group?.StorageBytes ?? 0)
         + (sizeof(double) * ChildBounds.Length) + (UnrotatedBounds?.StorageBytes ?? 0) + (Children.Length * 24) + (Hull?.StorageBytes ?? 0)
-        + (_solid?.StorageBytes ?? 0) + (Lanes?.StorageBytes ?? 0) + (Floats?.StorageBytes ?? 0) + (Clusters?.StorageBytes ?? 0) + 160;
+        + (_solid?.StorageBytes ?? 0) + (ChildBoundsX8?.StorageBytes ?? 0)
+        + (Floats?.StorageBytes ?? 0) + (Clusters?.StorageBytes ?? 0) + 160;
 
     /// <summary>Lists the children, and those of groups among them, each behind its group.</summary>
     public IEnumerable<ChildInstance> AllChildren()

@@ -42,7 +42,7 @@ internal sealed class GapGroup
     /// <param name="rows">Contacts.</param>
     /// <param name="movers">Bodies by their index.</param>
     /// <param name="aim">Tells what is near, and what separations aim at.</param>
-    public void AddNear(ReadOnlySpan<ContactRow> rows, ReadOnlySpan<DisplacedBody> movers, in SeparationAim aim)
+    public void AddNear(ReadOnlySpan<ContactRow> rows, ReadOnlySpan<DisplacedBody> movers, in SeparationSettings aim)
     {
         foreach (ref readonly var row in rows)
         {

@@ -29,7 +29,7 @@ internal sealed class OverlapSeparator
     private readonly GapGroup[] _groups = [.. Enumerable.Range(0, IslandParts.MaxCount + 1).Select(static _ => new GapGroup())];
     private DisplacedBody[] _movers = [];
     private Island _island;
-    private SeparationAim _aim;
+    private SeparationSettings _aim;
     private double _reach;
     private bool _isFirstRound;
 
@@ -71,7 +71,7 @@ internal sealed class OverlapSeparator
     public void Separate(in Island island, ReadOnlySpan<ContactRow> others)
     {
         _island = island;
-        _aim = SeparationAim.Of(in island);
+        _aim = SeparationSettings.Of(in island);
         _reach = 0.5 * _aim.MaxGap * _graph.MinRadiusOf(in island);
         // Chosen anew as long as what was not near touching comes to overlap.
         var hasMoved = true;

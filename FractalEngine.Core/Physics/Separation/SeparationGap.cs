@@ -39,7 +39,7 @@ internal readonly struct SeparationGap
     /// <summary>Takes from a contact what a separation needs.</summary>
     /// <param name="row">The contact.</param>
     /// <param name="aim">What separations aim at.</param>
-    public SeparationGap(in ContactRow row, in SeparationAim aim)
+    public SeparationGap(in ContactRow row, in SeparationSettings aim)
     {
         First = row.First;
         Second = row.Second;

@@ -170,7 +170,7 @@ internal sealed class BodyStepper
 
         EndCount(body, faceTests, boundTests);
         Finish(body, stepLength, stepIndex);
-        Settle(body);
+        CommitPosition(body);
     }
 
     /// <summary>Moves a body of an island, before it is known whether all of them have room.</summary>
@@ -197,7 +197,7 @@ internal sealed class BodyStepper
         EndCount(body, faceTests, boundTests);
     }
 
-    /// <summary>Ends the step of a body of an island, whose position is known. It has to settle then.</summary>
+    /// <summary>Ends the step of a body of an island, whose position is known. Its position has to be committed then.</summary>
     /// <inheritdoc cref="Step"/>
     public void FinishPlanned(Body body, StaticColliders? staticColliders, double stepLength, long stepIndex)
     {
@@ -222,7 +222,7 @@ internal sealed class BodyStepper
     }
 
     /// <summary>Tells others where a body is that has ended its step: it wakes what may have lain on it. One thread at a time.</summary>
-    public void Settle(Body body)
+    public void CommitPosition(Body body)
     {
         _islands.WakeLeft(body);
         // Last, so that what was collected for this body serves its islands too.
@@ -230,8 +230,8 @@ internal sealed class BodyStepper
     }
 
     /// <summary>Does so unless others may have to be told: many threads may do so at once.</summary>
-    /// <returns>False where it has to settle.</returns>
-    public bool TrySettle(Body body) => !_islands.HasSleeping && _grid.TryUpdateWithinCell(body.Index);
+    /// <returns>False where <see cref="CommitPosition"/> has to be called.</returns>
+    public bool TryCommitPosition(Body body) => !_islands.HasSleeping && _grid.TryUpdateWithinCell(body.Index);
 
     /// <summary>Moves a body on that a kinematic object has overrun, at the end of the step.</summary>
     /// <param name="body">Must have been moved.</param>

@@ -61,7 +61,7 @@ internal sealed class DepthFirstSearch<TFrame, TBaseMeshes>(
         var cutoffSquared = frame.ChildCutoffSquared(in search);
         if (frame.IsNear(subFractal))
         {
-            var lanes = subFractal.Lanes!;
+            var lanes = subFractal.ChildBoundsX8!;
             var position = frame.LocalPosition;
             var queue = new FloatChildQueue(search.ScratchSlice(offset, lanes.PaddedCount), lanes.DistanceError(position));
             lanes.FillQueue(hierarchy, remainingLevels, position, cutoffSquared, in queue);

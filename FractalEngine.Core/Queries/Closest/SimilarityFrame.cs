@@ -48,7 +48,7 @@ internal readonly struct SimilarityFrame(
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public bool IsNear(SubFractal subFractal) =>
-        subFractal.Lanes is not null && subFractal.IsWithinRadii(_position, ChildLanes.MaxDistanceFactor);
+        subFractal.ChildBoundsX8 is not null && subFractal.IsWithinRadii(_position, ChildBoundsX8.MaxDistanceFactor);
 
     /// <inheritdoc/>
     public void FillQueue(SubFractal subFractal, in ChildQueue queue, ref FractalSearchState search)

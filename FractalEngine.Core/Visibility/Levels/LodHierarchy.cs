@@ -16,7 +16,7 @@ public sealed class LodHierarchy
 {
     private readonly LodNode[] _nodes;
     private readonly LevelRegion[] _regions;
-    private SkySides? _sides;
+    private AmbientCube? _sides;
     private VisibleSides? _visibleSides;
     private SkyMasks?[] _lastSkyMasks = [];
 
@@ -40,7 +40,7 @@ public sealed class LodHierarchy
     internal OccluderMesh Occluder { get; }
 
     /// <summary>Points of the base mesh that stand for its sides.</summary>
-    internal SkySides Sides => _sides ??= new(Mesh);
+    internal AmbientCube Sides => _sides ??= new(Mesh);
 
     /// <summary>Tells which of these an eye sees.</summary>
     internal VisibleSides VisibleSides => _visibleSides ??= new(Mesh);

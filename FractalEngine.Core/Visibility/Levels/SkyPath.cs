@@ -35,36 +35,36 @@ internal sealed class SkyPath
     /// <param name="parts">Receives a number from 0 to 1 for each side; 1 for those that don't count.</param>
     public void ComputeParts(LodHierarchy hierarchy, LodNode node, int depth, int sides, Span<float> parts)
     {
-        Span<SkySight> sights = stackalloc SkySight[SkySides.Count];
+        Span<SideVisibility> visibilities = stackalloc SideVisibility[AmbientCube.Count];
         var count = 0;
-        for (var side = 0; side < SkySides.Count; side++)
+        for (var side = 0; side < AmbientCube.Count; side++)
         {
             parts[side] = 1;
             if ((sides & (1 << side)) != 0)
             {
                 var point = hierarchy.Sides[side];
-                sights[count] = new(side, node.IsProxyIdentity ? point : node.ProxyMap.Apply(point));
+                visibilities[count] = new(side, node.IsProxyIdentity ? point : node.ProxyMap.Apply(point));
                 count++;
             }
         }
 
-        sights = sights[..count];
+        visibilities = visibilities[..count];
         for (var i = depth - 1; i >= 0; i--)
         {
             ref readonly var step = ref _steps[i];
-            hierarchy.SkyMasksAt(step.Node, step.Levels)?.Apply(step.Child, sights);
+            hierarchy.SkyMasksAt(step.Node, step.Levels)?.Apply(step.Child, visibilities);
             ref readonly var map = ref step.Node.ChildMaps[step.Child];
-            for (var j = 0; i > 0 && j < sights.Length; j++)
+            for (var j = 0; i > 0 && j < visibilities.Length; j++)
             {
-                sights[j].Point = map.Apply(sights[j].Point);
+                visibilities[j].Point = map.Apply(visibilities[j].Point);
             }
         }
 
-        foreach (ref readonly var sight in sights)
+        foreach (ref readonly var visibility in visibilities)
         {
-            parts[sight.Side] = sight.IsTurned
-                ? SkyDirections.VisiblePart(sight.Mask, sight.Normal)
-                : SkyDirections.VisiblePart(sight.Mask, sight.Side);
+            parts[visibility.Side] = visibility.IsTurned
+                ? SkyDirections.VisiblePart(visibility.Mask, visibility.Normal)
+                : SkyDirections.VisiblePart(visibility.Mask, visibility.Side);
         }
     }
 }

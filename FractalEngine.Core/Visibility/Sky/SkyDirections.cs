@@ -21,7 +21,7 @@ internal static class SkyDirections
     ];
 
     // For each side, the part of the light that comes from each direction: [6 × 64].
-    private static readonly float[] Weights = [.. Enumerable.Range(0, SkySides.Count).SelectMany(WeightsOf)];
+    private static readonly float[] Weights = [.. Enumerable.Range(0, AmbientCube.Count).SelectMany(WeightsOf)];
 
     /// <summary>Returns the direction that belongs to a bit.</summary>
     /// <param name="index">Index of its bit.</param>
@@ -120,7 +120,7 @@ internal static class SkyDirections
 
     private static IEnumerable<float> WeightsOf(int side)
     {
-        var normal = SkySides.NormalOf(side);
+        var normal = AmbientCube.NormalOf(side);
         var whole = Directions.Sum(direction => Math.Max(0, Vector.Dot(direction, normal)));
         return Directions.Select(direction => (float)(Math.Max(0, Vector.Dot(direction, normal)) / whole));
     }

@@ -24,7 +24,7 @@ internal sealed class SkyMasks(ulong[][]? masks, SkyMasks.Child[] children)
     public const int CellCount = GridSize * GridSize * GridSize;
 
     /// <summary>Number of masks of a child.</summary>
-    public const int MaskCount = CellCount * SkySides.Count;
+    public const int MaskCount = CellCount * AmbientCube.Count;
 
     // Thickness of the outermost cells, by the size of the box.
     private const double ThinCell = 0.01;
@@ -40,40 +40,40 @@ internal sealed class SkyMasks(ulong[][]? masks, SkyMasks.Child[] children)
 
     /// <summary>Size of the tables in bytes.</summary>
     public int ByteCount =>
-        (_masks?.Sum(static masks => sizeof(ulong) * masks.Length) ?? 0) + children.Sum(static child => child.Turns?.ByteCount ?? 0);
+        (_masks?.Sum(static masks => sizeof(ulong) * masks.Length) ?? 0) + children.Sum(static child => child.Rotation?.ByteCount ?? 0);
 
     /// <summary>Returns what is left when siblings are taken to hide nothing: how frames are turned.</summary>
     public SkyMasks WithoutMasks() => new(null, children);
 
     /// <summary>Maps what sides see from a child's frame to the node's; their points stay in the child's.</summary>
     /// <param name="child">Index of the child that the sides are part of.</param>
-    /// <param name="sights">What they see.</param>
-    public void Apply(int child, Span<SkySight> sights)
+    /// <param name="visibilities">What they see.</param>
+    public void Apply(int child, Span<SideVisibility> visibilities)
     {
         ref readonly var data = ref children[child];
         var masks = _masks?[child];
-        var turns = data.Turns;
-        foreach (ref var sight in sights)
+        var rotation = data.Rotation;
+        foreach (ref var visibility in visibilities)
         {
-            if (turns is not null && sight.Mask != ulong.MaxValue)
+            if (rotation is not null && visibility.Mask != ulong.MaxValue)
             {
-                sight.Mask = turns.Apply(sight.Mask);
+                visibility.Mask = rotation.Apply(visibility.Mask);
             }
 
             if (masks is not null)
             {
-                var side = sight.IsTurned ? SkySides.Of(sight.Normal) : sight.Side;
-                sight.Mask &= masks[(CellOf(in data, sight.Point) * SkySides.Count) + side];
+                var side = visibility.IsTurned ? AmbientCube.Of(visibility.Normal) : visibility.Side;
+                visibility.Mask &= masks[(CellOf(in data, visibility.Point) * AmbientCube.Count) + side];
             }
 
         }
 
         if (data.NormalMap is { } normalMap)
         {
-            foreach (ref var sight in sights)
+            foreach (ref var visibility in visibilities)
             {
-                sight.Normal = normalMap.ApplyLinear(sight.Normal);
-                sight.IsTurned = true;
+                visibility.Normal = normalMap.ApplyLinear(visibility.Normal);
+                visibility.IsTurned = true;
             }
         }
     }
@@ -108,15 +108,15 @@ internal sealed class SkyMasks(ulong[][]? masks, SkyMasks.Child[] children)
         /// <summary>Divides a child's box evenly, and notes how its frame is turned.</summary>
         /// <param name="box">Box in the child's frame.</param>
         /// <param name="linear">Linear part of the map to the node's frame.</param>
-        /// <param name="turns">
+        /// <param name="rotation">
         /// From directions of the node's frame to those of the frame in which masks are known next below; null where they are parallel.
         /// </param>
-        public Child(BoundingBox box, Matrix linear, SkyTurns? turns)
+        public Child(BoundingBox box, Matrix linear, SkyMaskRotation? rotation)
         {
             var (x, y, z) = box.Size;
             Origin = SimdAffineMap.ToVector256(box.Minimum);
             Scale = Vector256.Create(x > 0 ? 1 / x : 0, y > 0 ? 1 / y : 0, z > 0 ? 1 / z : 0, 0);
-            Turns = turns;
+            Rotation = rotation;
             // The inverse transpose keeps normals upright. Their length does not matter, but must not overflow.
             var cofactors = linear.Inverse().Transpose();
             NormalMap = SkyDirections.AreParallel(linear)
@@ -131,7 +131,7 @@ internal sealed class SkyMasks(ulong[][]? masks, SkyMasks.Child[] children)
         public Vector256<double> Scale { get; }
 
         /// <summary>Directions of the frame below; null where it is parallel.</summary>
-        public SkyTurns? Turns { get; }
+        public SkyMaskRotation? Rotation { get; }
 
         /// <summary>Map of normals to the node's frame; null where the frames are parallel.</summary>
         public SimdAffineMap? NormalMap { get; }

@@ -8,7 +8,7 @@ namespace FractalEngine.Core.Visibility.Sky;
 internal sealed class VisibleSides
 {
     /// <summary>The bits of all six sides of an instance, seen or not.</summary>
-    public const int All = (1 << SkySides.Count) - 1;
+    public const int All = (1 << AmbientCube.Count) - 1;
 
     // Meshes with more planes, such as balls, show nearly all of their sides.
     private const int MaxPlanes = 12;
@@ -112,9 +112,9 @@ internal sealed class VisibleSides
     private static int SidesOf(Vector normal)
     {
         var sides = 0;
-        for (var side = 0; side < SkySides.Count; side++)
+        for (var side = 0; side < AmbientCube.Count; side++)
         {
-            sides |= Vector.Dot(normal, SkySides.NormalOf(side)) > 1e-6 ? 1 << side : 0;
+            sides |= Vector.Dot(normal, AmbientCube.NormalOf(side)) > 1e-6 ? 1 << side : 0;
         }
 
         return sides;

@@ -233,8 +233,8 @@ public sealed class SkyMaskBaker
         var data = new SkyMasks.Child[node.ChildMaps.Length];
         for (var i = 0; i < data.Length; i++)
         {
-            var turns = data.Length > 1 ? TurnsOf(ToNextMasks(node, levels, i)) : null;
-            data[i] = new(_occluder.ChildOf(node, levels, i).Node.Box, node.ChildMaps[i].ToAffineMap().Linear, turns);
+            var rotation = data.Length > 1 ? RotationOf(ToNextMasks(node, levels, i)) : null;
+            data[i] = new(_occluder.ChildOf(node, levels, i).Node.Box, node.ChildMaps[i].ToAffineMap().Linear, rotation);
         }
 
         if (data.Length == 1)
@@ -243,7 +243,7 @@ public sealed class SkyMaskBaker
         }
 
         // Rounds with sources of their own, so that the result does not depend on the number of threads.
-        SkyVotes[] votes = [.. data.Select(static _ => new SkyVotes())];
+        SkyMaskAccumulator[] votes = [.. data.Select(static _ => new SkyMaskAccumulator())];
 
         Parallel.For(0, RoundCount, new() { CancellationToken = cancellation }, round => Vote(node, levels, data, new(round), votes));
         return new([.. votes.Select(static child => child.ToMasks())], data);
@@ -252,7 +252,7 @@ public sealed class SkyMaskBaker
     /// <summary>
     /// Lets the points of the surface that are seen from outside vote about the directions that are free for their child, cell and side.
     /// </summary>
-    private void Vote(LodNode node, long levels, SkyMasks.Child[] data, Random random, SkyVotes[] votes)
+    private void Vote(LodNode node, long levels, SkyMasks.Child[] data, Random random, SkyMaskAccumulator[] votes)
     {
         var sample = new SkySample();
         var hasVoted = new HashSet<(int Child, int Place)>();
@@ -267,7 +267,7 @@ public sealed class SkyMaskBaker
             var inverse = node.ChildMaps[child].ToAffineMap().Inverse();
             var normalInChild = node.ChildMaps[child].ToAffineMap().Linear.Transpose() * sample.Normal;
             var cell = SkyMasks.CellOf(in data[child], SimdAffineMap.ToVector256(inverse * sample.Point));
-            var place = (cell * SkySides.Count) + SkySides.Of(SimdAffineMap.ToVector256(normalInChild));
+            var place = (cell * AmbientCube.Count) + AmbientCube.Of(SimdAffineMap.ToVector256(normalInChild));
             if (!hasVoted.Add((child, place)))
             {
                 continue;
@@ -296,7 +296,7 @@ public sealed class SkyMaskBaker
     }
 
     /// <summary>Tells for each direction which one it is under a map; null where it is the same.</summary>
-    private static SkyTurns? TurnsOf(Matrix map)
+    private static SkyMaskRotation? RotationOf(Matrix map)
     {
         if (SkyDirections.AreParallel(map))
         {

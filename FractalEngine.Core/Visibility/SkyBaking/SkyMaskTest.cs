@@ -24,9 +24,9 @@ internal static class SkyMaskTest
         var random = new Random(0);
         var path = new SkyPath();
         var sample = new SkySample();
-        Span<float> parts = stackalloc float[SkySides.Count];
+        Span<float> parts = stackalloc float[AmbientCube.Count];
         // By the side that the lines come from: what is right on the whole may be wrong on the one side that an image shows.
-        Span<double> gains = stackalloc double[SkySides.Count];
+        Span<double> gains = stackalloc double[AmbientCube.Count];
         var (error, errorWithout) = (0.0, 0.0);
         for (var i = 0; i < TestedLines; i++)
         {
@@ -36,12 +36,12 @@ internal static class SkyMaskTest
                 var truth = SkyDirections.VisiblePart(free, SimdAffineMap.ToVector256(sample.Normal));
                 path.Set(sample.Steps);
                 path.ComputeParts(hierarchy, sample.Leaf!, sample.Steps.Count, VisibleSides.All, parts);
-                var part = SkySides.Blend(parts, (sample.FromMesh.Linear.Transpose() * sample.Normal).UnitVector());
+                var part = AmbientCube.Blend(parts, (sample.FromMesh.Linear.Transpose() * sample.Normal).UnitVector());
                 // As far apart as the values of an image are.
                 var (shown, shownTruth) = (Math.Sqrt(part), Math.Sqrt(truth));
                 error += (shown - shownTruth) * (shown - shownTruth);
                 errorWithout += (1 - shownTruth) * (1 - shownTruth);
-                gains[SkySides.Of(SimdAffineMap.ToVector256(-sample.Direction))] +=
+                gains[AmbientCube.Of(SimdAffineMap.ToVector256(-sample.Direction))] +=
                     ((1 - shownTruth) * (1 - shownTruth)) - ((shown - shownTruth) * (shown - shownTruth));
             }
         }

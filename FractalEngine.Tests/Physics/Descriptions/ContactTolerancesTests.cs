@@ -52,7 +52,7 @@ public class ContactTolerancesTests
         int rows, int parts, bool hasCompound, bool isPushed, double overlap, double relaxation, double maxGap)
     {
         var island = new Island(0, rows, 0, 2) { PartCount = parts, HasCompound = hasCompound, IsPushed = isPushed };
-        var aim = SeparationAim.Of(in island);
+        var aim = SeparationSettings.Of(in island);
         Near.Equal(overlap, aim.Overlap, 1e-18);
         Assert.Equal((relaxation, maxGap), (aim.Relaxation, aim.MaxGap));
     }

@@ -41,11 +41,11 @@ public sealed class IslandTests
     [Fact]
     public void Of_AnIsland_AimsAtSoMuchRoom()
     {
-        Assert.Equal(new(1e-7, 1.3, 0.01), SeparationAim.Of(new Island(0, 299, 0, 100)));
-        Assert.Equal(new(1e-7, 1.3, 0.25), SeparationAim.Of(new Island(0, 299, 0, 100) { IsPushed = true }));
-        Assert.Equal(new(-3e-4, 1.3, 0.01), SeparationAim.Of(new Island(0, 300, 0, 100)));
-        Assert.Equal(new(-6e-4, 1.6, 0.01), SeparationAim.Of(new Island(0, 300, 0, 100) { PartCount = 2 }));
-        Assert.Equal(new(-6e-4, 1.6, 0.25), SeparationAim.Of(new Island(0, 300, 0, 100) { PartCount = 3, IsPushed = true }));
+        Assert.Equal(new(1e-7, 1.3, 0.01), SeparationSettings.Of(new Island(0, 299, 0, 100)));
+        Assert.Equal(new(1e-7, 1.3, 0.25), SeparationSettings.Of(new Island(0, 299, 0, 100) { IsPushed = true }));
+        Assert.Equal(new(-3e-4, 1.3, 0.01), SeparationSettings.Of(new Island(0, 300, 0, 100)));
+        Assert.Equal(new(-6e-4, 1.6, 0.01), SeparationSettings.Of(new Island(0, 300, 0, 100) { PartCount = 2 }));
+        Assert.Equal(new(-6e-4, 1.6, 0.25), SeparationSettings.Of(new Island(0, 300, 0, 100) { PartCount = 3, IsPushed = true }));
     }
 
     [Fact]

@@ -11,7 +11,7 @@ public sealed class GapGroupTests
     // Rounding of numbers about 1.
     private const double Rounding = 1e-15;
 
-    private static readonly SeparationAim Plain = new(0, 1, 0.01);
+    private static readonly SeparationSettings Plain = new(0, 1, 0.01);
 
     [Fact]
     public void TakeBack_OfTwoBalls_SharesTheOverlapByTheirInverseMasses()
@@ -44,7 +44,7 @@ public sealed class GapGroupTests
     {
         DisplacedBody[] movers = [new() { InverseMass = 1 }, new() { InverseMass = 1 }];
         var row = Balls(0, 1, new(0, 0, 0.9)) with { IsAhead = isAhead };
-        Assert.True(GapGroup.TakeBack(new(row, new SeparationAim(0.002, 1.5, 0.01)), movers));
+        Assert.True(GapGroup.TakeBack(new(row, new SeparationSettings(0.002, 1.5, 0.01)), movers));
         // The aimed overlap is a share of the smaller radius, 0.4.
         Near.Equal(new(0, 0, 0.5 * ((relaxation * 0.1) - 0.0008)), movers[0].Displacement, Rounding);
         Near.Equal(-movers[0].Displacement, movers[1].Displacement, Rounding);
@@ -80,7 +80,7 @@ public sealed class GapGroupTests
         {
             First = 0, Second = ContactRow.Immovable, Offset = new(3, height, -4), Normal = Vector.J, MinDistance = 1, FirstRadius = 1,
         };
-        Assert.Equal(way > 0, GapGroup.TakeBack(new(row, new SeparationAim(0.1, 1.5, 0.01)), movers));
+        Assert.Equal(way > 0, GapGroup.TakeBack(new(row, new SeparationSettings(0.1, 1.5, 0.01)), movers));
         Near.Equal(new(0, way, 0), movers[0].Displacement, Rounding);
         Assert.Equal(way > 0, movers[0].HasMoved);
     }

@@ -7,7 +7,7 @@ namespace FractalEngine.Tests.Physics.Separation;
 /// <summary>What a gap takes from its contact.</summary>
 public sealed class SeparationGapTests
 {
-    private static readonly SeparationAim Aim = new(0.25, 1.5, 0.01);
+    private static readonly SeparationSettings Aim = new(0.25, 1.5, 0.01);
 
     [Theory]
     [InlineData(false, false, false, 1.5, false, false)]

@@ -5,7 +5,7 @@ namespace FractalEngine.Core.Visibility.Sky;
 /// <summary>What one side of an instance sees of the sky, on the way from its own frame to the root's.</summary>
 /// <param name="side">Index of the side.</param>
 /// <param name="point">Point just before it: x, y, z, 0.</param>
-internal struct SkySight(int side, Vector256<double> point)
+internal struct SideVisibility(int side, Vector256<double> point)
 {
     /// <summary>Index of the side of the instance.</summary>
     public int Side { get; } = side;
@@ -14,7 +14,7 @@ internal struct SkySight(int side, Vector256<double> point)
     public Vector256<double> Point { get; set; } = point;
 
     /// <summary>Normal of the side in the current frame, of any length: x, y, z, 0.</summary>
-    public Vector256<double> Normal { get; set; } = SkySides.AxisOf(side);
+    public Vector256<double> Normal { get; set; } = AmbientCube.AxisOf(side);
 
     /// <summary>Whether the normal is another one than in the instance's frame.</summary>
     public bool IsTurned { get; set; }

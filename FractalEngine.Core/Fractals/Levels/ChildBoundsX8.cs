@@ -13,7 +13,7 @@ namespace FractalEngine.Core.Fractals.Levels;
 /// and the planes of the solid. Others are bounded by boxes in the frame of the parent. For similarities only, and for positions no farther
 /// away than <see cref="MaxDistanceFactor"/>. Why the bounds hold in spite of rounding is proved in docs/colliders.md.
 /// </remarks>
-internal sealed class ChildLanes(float[] rows, int groupCount, int rowCount, double reach, LevelStep levelStep)
+internal sealed class ChildBoundsX8(float[] rows, int groupCount, int rowCount, double reach, LevelStep levelStep)
 {
     /// <summary>Positions so many radii of the parent away are left to double precision, where bounds tell small children apart.</summary>
     public const double MaxDistanceFactor = 24;
@@ -60,7 +60,7 @@ internal sealed class ChildLanes(float[] rows, int groupCount, int rowCount, dou
     /// <param name="childBoxes">Boxes around them in the frame of the parent.</param>
     /// <param name="childHull">The hull of the sub-fractal that the first child is an instance of.</param>
     /// <param name="box">A box around the parent and the base mesh.</param>
-    public static ChildLanes? CreateOrNull(
+    public static ChildBoundsX8? CreateOrNull(
         ChildInstance[] children, ReadOnlySpan<BoundingBox> childBoxes, HullBound? childHull, BoundingBox box)
     {
         if (children.Length == 0 || !IsInRange(children, box))

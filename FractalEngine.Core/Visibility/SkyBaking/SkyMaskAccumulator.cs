@@ -4,7 +4,7 @@ using FractalEngine.Core.Visibility.Sky;
 namespace FractalEngine.Core.Visibility.SkyBaking;
 
 /// <summary>Votes of points of one child about the directions that its siblings leave free, for each cell and side.</summary>
-internal sealed class SkyVotes
+internal sealed class SkyMaskAccumulator
 {
     // By place, which is a cell and a side, then by direction.
     private readonly int[] _votes = new int[SkyMasks.MaskCount * SkyDirections.Count];
@@ -28,14 +28,14 @@ internal sealed class SkyVotes
         var masks = new ulong[SkyMasks.MaskCount];
         for (var place = 0; place < masks.Length; place++)
         {
-            var (cell, side) = (place / SkySides.Count, place % SkySides.Count);
+            var (cell, side) = (place / AmbientCube.Count, place % AmbientCube.Count);
             var sameSide = VotesAt(FindNearestCell(cell, other => HasVotes(other, side)), side);
             // A side that no surface faces is blended with others, and sees about what they see.
-            var nearestCell = FindNearestCell(cell, other => Enumerable.Range(0, SkySides.Count).Any(any => HasVotes(other, any)));
+            var nearestCell = FindNearestCell(cell, other => Enumerable.Range(0, AmbientCube.Count).Any(any => HasVotes(other, any)));
             for (var direction = 0; direction < SkyDirections.Count; direction++)
             {
                 var sum = sameSide.IsEmpty ? 0 : sameSide[direction];
-                for (var any = 0; sum == 0 && any < SkySides.Count && nearestCell >= 0; any++)
+                for (var any = 0; sum == 0 && any < AmbientCube.Count && nearestCell >= 0; any++)
                 {
                     sum = VotesAt(nearestCell, any)[direction];
                 }
@@ -48,7 +48,7 @@ internal sealed class SkyVotes
     }
 
     private ReadOnlySpan<int> VotesAt(int cell, int side) =>
-        cell < 0 ? [] : _votes.AsSpan(((cell * SkySides.Count) + side) * SkyDirections.Count, SkyDirections.Count);
+        cell < 0 ? [] : _votes.AsSpan(((cell * AmbientCube.Count) + side) * SkyDirections.Count, SkyDirections.Count);
 
     private bool HasVotes(int cell, int side) => VotesAt(cell, side).ContainsAnyExcept(0);
 

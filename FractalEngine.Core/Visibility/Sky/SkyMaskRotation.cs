@@ -1,7 +1,7 @@
 namespace FractalEngine.Core.Visibility.Sky;
 
 /// <summary>Takes masks from one frame to another, whose directions lie closest to directions of the first.</summary>
-internal sealed class SkyTurns
+internal sealed class SkyMaskRotation
 {
     private const int BitsPerDigit = 4;
     private const int DigitCount = SkyDirections.Count / BitsPerDigit;
@@ -12,7 +12,7 @@ internal sealed class SkyTurns
 
     /// <summary>Prepares for masks of a frame.</summary>
     /// <param name="sources">For each direction of the frame that masks are taken to, the one of the frame that they come from.</param>
-    public SkyTurns(ReadOnlySpan<byte> sources)
+    public SkyMaskRotation(ReadOnlySpan<byte> sources)
     {
         for (var target = 0; target < sources.Length; target++)
         {

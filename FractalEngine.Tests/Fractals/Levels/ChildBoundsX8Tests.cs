@@ -8,7 +8,7 @@ using FractalEngine.Tests.Support;
 namespace FractalEngine.Tests.Fractals.Levels;
 
 /// <summary>Bounds in single precision exclude no child that is close enough, however they round.</summary>
-public class ChildLanesTests
+public class ChildBoundsX8Tests
 {
     private const int PointsPerChild = 20;
 
@@ -24,7 +24,7 @@ public class ChildLanesTests
         var fractal = CreateFractal(random);
         var hierarchy = fractal.Hierarchy;
         var root = hierarchy.Root;
-        if (root.Lanes is not { } lanes)
+        if (root.ChildBoundsX8 is not { } lanes)
         {
             return false;
         }
@@ -35,7 +35,7 @@ public class ChildLanesTests
             var points = childPoints[random.Next(childPoints.Length)];
             var position = points[random.Next(points.Length)] + (Distance(random, root.Radius) * random.Direction());
             var simdPosition = SimdAffineMap.ToVector256(position);
-            if ((position - root.Box.Centre).Length() > ChildLanes.MaxDistanceFactor * root.Radius)
+            if ((position - root.Box.Centre).Length() > ChildBoundsX8.MaxDistanceFactor * root.Radius)
             {
                 continue;
             }

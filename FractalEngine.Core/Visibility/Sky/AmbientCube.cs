@@ -7,7 +7,7 @@ namespace FractalEngine.Core.Visibility.Sky;
 /// <summary>
 /// The six sides that a surface may face: towards +x, +y, +z, then −x, −y, −z. Each has a point of the base mesh that stands for it.
 /// </summary>
-internal sealed class SkySides
+internal sealed class AmbientCube
 {
     /// <summary>Number of sides of a box.</summary>
     public const int Count = 6;
@@ -21,7 +21,7 @@ internal sealed class SkySides
     private readonly Vector256<double>[] _points = new Vector256<double>[Count];
 
     /// <summary>Finds the middle of the surfaces of each side; that of the box's side where there are none.</summary>
-    public SkySides(Mesh mesh)
+    public AmbientCube(Mesh mesh)
     {
         if (mesh.FaceCount == 0)
         {
