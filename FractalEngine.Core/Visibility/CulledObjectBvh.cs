@@ -58,10 +58,9 @@ internal sealed class CulledObjectBvh
     /// <summary>Collects the objects whose boxes may be in the frustum of a strip.</summary>
     /// <param name="frame">Parameters of the strip.</param>
     /// <param name="ranks">Rank of each object in the order of culling.</param>
-    /// <param name="candidates">Receives the ranks of the objects, sorted. Objects without instances are left out.</param>
+    /// <param name="candidates">An empty list that receives the ranks of the objects, sorted. Objects without instances are left out.</param>
     public void CollectCandidates(in StripFrame frame, ReadOnlySpan<int> ranks, List<int> candidates)
     {
-        candidates.Clear();
         Collect(in frame, frame.Axes.Inverse(), _bvh!.Root, ranks, candidates);
         candidates.Sort();
     }

@@ -37,36 +37,27 @@ internal sealed class StripCuller
     /// <param name="frame">Parameters of the strip.</param>
     /// <param name="objects">Objects of the scene.</param>
     /// <param name="order">Indices of the objects, the closest first: close objects occlude others.</param>
-    public void Cull(in StripFrame frame, IReadOnlyList<CulledObject> objects, ReadOnlySpan<int> order)
-    {
-        Output.Clear(order.Length);
-        _rasterizer.Clear(in frame);
-        foreach (var index in order)
-        {
-            CullObject(new StripContext(in frame, objects[index], Output), objects[index]);
-            Output.EndObject();
-        }
-    }
-
-    /// <summary>Finds the visible instances of all objects, of which a hierarchy tells those that may be visible.</summary>
-    /// <param name="frame">Parameters of the strip, with frustum culling.</param>
-    /// <param name="objects">Objects of the scene, none with roots.</param>
-    /// <param name="order">Indices of the objects, the closest first.</param>
     /// <param name="ranks">Position of each object in that order.</param>
-    /// <param name="bvh">Hierarchy over the objects.</param>
+    /// <param name="bvh">
+    /// Tells with frustum culling which of the objects, none with roots, may be visible; null to test each of them.
+    /// </param>
     /// <remarks>The output is that of a run without the hierarchy: objects that it skips count as tested.</remarks>
     public void Cull(
-        in StripFrame frame, IReadOnlyList<CulledObject> objects, ReadOnlySpan<int> order, ReadOnlySpan<int> ranks, CulledObjectBvh bvh)
+        in StripFrame frame, IReadOnlyList<CulledObject> objects, ReadOnlySpan<int> order, ReadOnlySpan<int> ranks, CulledObjectBvh? bvh)
     {
         Output.Clear(order.Length);
         _rasterizer.Clear(in frame);
-        if (frame.Left < frame.Right)
+        _candidates.Clear();
+        if (bvh is null)
+        {
+            for (var rank = 0; rank < order.Length; rank++)
+            {
+                _candidates.Add(rank);
+            }
+        }
+        else if (frame.Left < frame.Right)
         {
             bvh.CollectCandidates(in frame, ranks, _candidates);
-        }
-        else
-        {
-            _candidates.Clear();
         }
 
         var nextRank = 0;

@@ -258,16 +258,8 @@ public sealed class VisibleSet
         var right = (stripIndex + 1) * _view.Width / StripCount;
         var frame = new StripFrame(in _view, _settings, MinProjectedSize, _instanceBudget, left, right);
         var strip = _strips[stripIndex];
-        var order = _order.AsSpan(0, _objects.Count);
-        if (_usesObjectBvh)
-        {
-            strip.Cull(in frame, _objects, order, _ranks.AsSpan(0, _objects.Count), _objectBvh);
-        }
-        else
-        {
-            strip.Cull(in frame, _objects, order);
-        }
-
+        strip.Cull(
+            in frame, _objects, _order.AsSpan(0, _objects.Count), _ranks.AsSpan(0, _objects.Count), _usesObjectBvh ? _objectBvh : null);
         if (Interlocked.Add(ref _foundCount, strip.Output.Instances.Count) > _instanceBudget || strip.Output.IsOverBudget)
         {
             _isOverBudget = true;

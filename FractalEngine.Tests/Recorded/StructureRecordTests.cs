@@ -194,7 +194,7 @@ public class StructureRecordTests
             }
         }
 
-        foreach (var region in hierarchy.Regions)
+        foreach (var region in hierarchy.AllLevels.Regions)
         {
             for (long level = region.FirstLevel; level < region.FirstLevel + Math.Min(region.LevelCount, 40); level++)
             {
@@ -205,7 +205,7 @@ public class StructureRecordTests
             }
         }
 
-        return $"{hierarchy.Levels} levels in {hierarchy.AllLevels.Length}, {hierarchy.HasOnlySimilarities} {hierarchy.HasDoubledPowers}, "
+        return $"{hierarchy.Levels} levels in {hierarchy.AllLevels.Items.Length}, {hierarchy.HasOnlySimilarities} {hierarchy.HasDoubledPowers}, "
             + $"{hierarchy.StorageBytes} bytes, {subFractals} with {children} children, {groups} groups {boxes} {bounds} {hulls}";
     }
 }

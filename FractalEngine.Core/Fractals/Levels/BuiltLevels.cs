@@ -6,40 +6,35 @@ namespace FractalEngine.Core.Fractals.Levels;
 /// <summary>The levels of a hierarchy that were built so far, from the base mesh upwards.</summary>
 internal sealed class BuiltLevels
 {
-    private readonly List<SubFractal> _subFractals = [];
-    private readonly List<BoundingVolume> _volumes = [];
-    private readonly List<HierarchyLevel> _levels = [];
+    private readonly List<Entry> _entries = [];
     private readonly List<LevelRegion> _regions = [];
 
     /// <summary>Remaining levels at the top; −1 before the base mesh is added.</summary>
     public long Top { get; private set; } = -1;
 
-    /// <summary>The sub-fractals, in the order of <see cref="Regions"/>.</summary>
-    public IReadOnlyList<SubFractal> SubFractals => _subFractals;
+    /// <summary>Number of levels that were built.</summary>
+    public int Count => _entries.Count;
 
-    /// <summary>What is known of the levels, in the order of <see cref="Regions"/>.</summary>
-    public IReadOnlyList<HierarchyLevel> Levels => _levels;
-
-    /// <summary>The runs of levels that were built, the lowest first.</summary>
-    public IReadOnlyList<LevelRegion> Regions => _regions;
+    /// <summary>What was built so far, without the bounds.</summary>
+    public LevelTable<HierarchyLevel> ToTable() => new([.. _entries.Select(static entry => entry.Level)], [.. _regions]);
 
     /// <summary>The bounds of the sub-fractal with a number of remaining levels.</summary>
-    public BoundingVolume VolumeAt(long remainingLevels) => _volumes[FindIndex(remainingLevels)];
+    public BoundingVolume VolumeAt(long remainingLevels) => EntryAt(remainingLevels).Volume;
 
     /// <summary>
     /// The edges of the sub-fractal with a number of remaining levels: one for each map that leads down, to the next level or, where
     /// identities let levels be skipped, further.
     /// </summary>
-    public ChildEdge[] EdgesAt(long remainingLevels) => _levels[FindIndex(remainingLevels)].Edges;
+    public ChildEdge[] EdgesAt(long remainingLevels) => EntryAt(remainingLevels).Level.Edges;
 
     /// <summary>The set of the level with a number of remaining levels, at least 1.</summary>
-    public MapSet MapSetAt(long remainingLevels) => _levels[FindIndex(remainingLevels)].Set!;
+    public MapSet MapSetAt(long remainingLevels) => EntryAt(remainingLevels).Level.Set!;
 
     /// <summary>Index of the base mesh of the level with a number of remaining levels, see <see cref="SubFractal.BaseIndex"/>.</summary>
-    public int BaseIndexAt(long remainingLevels) => _levels[FindIndex(remainingLevels)].BaseIndex;
+    public int BaseIndexAt(long remainingLevels) => EntryAt(remainingLevels).Level.BaseIndex;
 
     /// <summary>Adds one level above all others; levels that don't recur form one run.</summary>
-    public void Add(SubFractal subFractal, BoundingVolume volume, HierarchyLevel level) => Add(1, new Entry(subFractal, volume, level));
+    public void Add(BoundingVolume volume, HierarchyLevel level) => Add(1, new Entry(volume, level));
 
     /// <summary>Adds a run of levels on top, which recur with the period of those given.</summary>
     public void Add(long count, params ReadOnlySpan<Entry> round)
@@ -51,21 +46,16 @@ internal sealed class BuiltLevels
         }
         else
         {
-            _regions.Add(new(Top + 1, count, _subFractals.Count, round.Length));
+            _regions.Add(new(Top + 1, count, _entries.Count, round.Length));
         }
 
-        foreach (var (subFractal, volume, level) in round)
-        {
-            _subFractals.Add(subFractal);
-            _volumes.Add(volume);
-            _levels.Add(level);
-        }
-
+        _entries.AddRange(round);
         Top += count;
     }
 
-    private int FindIndex(long remainingLevels) => LevelRegion.FindIndex(CollectionsMarshal.AsSpan(_regions), remainingLevels);
+    private Entry EntryAt(long remainingLevels) =>
+        _entries[LevelRegion.FindIndex(CollectionsMarshal.AsSpan(_regions), remainingLevels)];
 
-    /// <summary>One level of a run: its sub-fractal, bounds and edges.</summary>
-    internal readonly record struct Entry(SubFractal SubFractal, BoundingVolume Volume, HierarchyLevel Level);
+    /// <summary>One level of a run, and its bounds, which only levels above it need.</summary>
+    internal readonly record struct Entry(BoundingVolume Volume, HierarchyLevel Level);
 }

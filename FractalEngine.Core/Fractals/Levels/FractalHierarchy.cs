@@ -18,32 +18,27 @@ internal sealed class FractalHierarchy
     // Up to here sub-fractals are found without a search.
     private const int MaxLowestLevel = 63;
 
-    private readonly SubFractal?[] _subFractals;
-    private readonly HierarchyLevel[] _levels;
-    private readonly LevelRegion[] _regions;
     private readonly SubFractal?[] _lowest;
     private readonly int _rootRecursive;
     private readonly long _recursiveTop;
 
     /// <summary>Takes over the levels that were built.</summary>
     /// <param name="baseMeshes">That of each recursive.</param>
-    /// <param name="built">The levels.</param>
-    /// <param name="subFractals">Their sub-fractals, in the order of the regions; null where no search visits them.</param>
+    /// <param name="levels">The levels.</param>
+    /// <param name="top">Number of levels of the whole fractal.</param>
     /// <param name="rootRecursive">Index of the recursive that the steps are applied to.</param>
     /// <param name="recursiveTop">Level of that recursive.</param>
-    public FractalHierarchy(Mesh[] baseMeshes, BuiltLevels built, SubFractal?[] subFractals, int rootRecursive, long recursiveTop)
+    public FractalHierarchy(Mesh[] baseMeshes, LevelTable<HierarchyLevel> levels, long top, int rootRecursive, long recursiveTop)
     {
         BaseMeshes = baseMeshes;
         _rootRecursive = rootRecursive;
         _recursiveTop = recursiveTop;
-        _regions = [.. built.Regions];
-        _levels = [.. built.Levels];
-        Levels = built.Top;
-        _subFractals = subFractals;
+        AllLevels = levels;
+        Levels = top;
         _lowest = new SubFractal?[Math.Min(Levels, MaxLowestLevel) + 1];
         for (var level = 0; level < _lowest.Length; level++)
         {
-            _lowest[level] = _subFractals[LevelRegion.FindIndex(_regions, level)];
+            _lowest[level] = FindOrNull(level);
         }
 
         Root = At(Levels);
@@ -68,18 +63,22 @@ internal sealed class FractalHierarchy
     /// <summary>True when levels stand for doubled powers of one map, so that there is not one for each set.</summary>
     public bool HasDoubledPowers { get; init; }
 
-    /// <summary>The runs of levels, the lowest first.</summary>
-    public ReadOnlySpan<LevelRegion> Regions => _regions;
-
-    /// <summary>All levels in the order of <see cref="Regions"/>, also those that searches skip.</summary>
-    public ReadOnlySpan<HierarchyLevel> AllLevels => _levels;
+    /// <summary>All levels, also those that searches skip.</summary>
+    public LevelTable<HierarchyLevel> AllLevels { get; }
 
     /// <summary>Number of bytes of everything in the hierarchy.</summary>
-    public long StorageBytes => _subFractals.Sum(subFractal => subFractal?.StorageBytes ?? 0)
-        + MeasureChildren()
-        + _levels.Sum(level => level.StorageBytes) + _levels.Select(level => level.Edges).Distinct().Sum(edges => 24L * edges.Length)
-        + _levels.Select(level => level.Set).Distinct().Sum(set => set?.StorageBytes ?? 0) + (16 * (long)_subFractals.Length)
-        + (8 * _lowest.Length);
+    public long StorageBytes
+    {
+        get
+        {
+            var levels = AllLevels.Items.ToArray();
+            return levels.Sum(static level => (level.SubFractal?.StorageBytes ?? 0) + level.StorageBytes)
+                + MeasureChildren()
+                + levels.Select(static level => level.Edges).Distinct().Sum(static edges => 24L * edges.Length)
+                + levels.Select(static level => level.Set).Distinct().Sum(static set => set?.StorageBytes ?? 0)
+                + (16 * (long)levels.Length) + (8 * _lowest.Length);
+        }
+    }
 
     /// <summary>True for the number of a state without levels, which is a base mesh.</summary>
     public bool IsBase(long remainingLevels) => remainingLevels < BaseMeshes.Length;
@@ -97,7 +96,7 @@ internal sealed class FractalHierarchy
     private SubFractal AtHighLevel(long remainingLevels) => FindOrNull(remainingLevels)!;
 
     /// <summary>The sub-fractal with a number of remaining levels; null where no search visits it.</summary>
-    public SubFractal? FindOrNull(long remainingLevels) => _subFractals[LevelRegion.FindIndex(_regions, remainingLevels)];
+    public SubFractal? FindOrNull(long remainingLevels) => AllLevels.At(remainingLevels).SubFractal;
 
     /// <summary>The sub-fractal, or the group of children, that a child is an instance of.</summary>
     /// <param name="child">The child.</param>
@@ -105,7 +104,7 @@ internal sealed class FractalHierarchy
     public SubFractal At(ChildInstance child, long remainingLevels) => child.Group ?? At(remainingLevels);
 
     /// <summary>The set on top of the sub-fractal with a number of remaining levels, visited or not; null for the base.</summary>
-    public MapSet? MapSetAt(long remainingLevels) => _levels[LevelRegion.FindIndex(_regions, remainingLevels)].Set;
+    public MapSet? MapSetAt(long remainingLevels) => AllLevels.At(remainingLevels).Set;
 
     /// <summary>The base mesh of the instance that a path leads to.</summary>
     /// <param name="path">Indices of child instances from the root.</param>
@@ -129,11 +128,10 @@ internal sealed class FractalHierarchy
         // A set of all children of a wide level would take megabytes itself.
         var seenWideEdges = new HashSet<ChildEdge[]>(ReferenceEqualityComparer.Instance);
         var bytes = 0L;
-        for (var i = 0; i < _subFractals.Length; i++)
+        foreach (var level in AllLevels.Items)
         {
-            var edges = _levels[i].Edges;
-            var isWide = edges.Length > SubFractal.MaxUngroupedChildren;
-            bytes += Measure(_subFractals[i], isWide, countsChildren: !isWide || seenWideEdges.Add(edges));
+            var isWide = level.Edges.Length > SubFractal.MaxUngroupedChildren;
+            bytes += Measure(level.SubFractal, isWide, countsChildren: !isWide || seenWideEdges.Add(level.Edges));
         }
 
         return bytes;

@@ -14,8 +14,7 @@ namespace FractalEngine.Core.Visibility.Levels;
 /// </summary>
 public sealed class LodHierarchy
 {
-    private readonly LodNode[] _nodes;
-    private readonly LevelRegion[] _regions;
+    private readonly LevelTable<LodNode> _nodes;
     private AmbientCube? _sides;
     private VisibleSides? _visibleSides;
     private SkyMasks?[] _lastSkyMasks = [];
@@ -24,10 +23,9 @@ public sealed class LodHierarchy
     private volatile bool _hasSkyMasks;
     private volatile bool _isSkyBaked;
 
-    internal LodHierarchy(LodNode[] nodes, LevelRegion[] regions, long levelCount, Mesh mesh)
+    internal LodHierarchy(LevelTable<LodNode> nodes, long levelCount, Mesh mesh)
     {
         _nodes = nodes;
-        _regions = regions;
         LevelCount = levelCount;
         Mesh = mesh;
         Occluder = new(mesh);
@@ -62,7 +60,7 @@ public sealed class LodHierarchy
 
     /// <summary>Builds the hierarchy of a mesh that is drawn once.</summary>
     public static LodHierarchy Build(Mesh mesh) =>
-        new([new(mesh.FaceCount == 0 ? BoundingBox.Empty : mesh.Bounds, AffineMap.Identity, [])], [new(0, 1, 0, 1)], 0, mesh)
+        new(new([new(mesh.FaceCount == 0 ? BoundingBox.Empty : mesh.Bounds, AffineMap.Identity, [])], [new(0, 1, 0, 1)]), 0, mesh)
         {
             IsSkyBaked = true,
         };
@@ -88,14 +86,14 @@ public sealed class LodHierarchy
     /// Whether no part of the fractal can hide another one's sky, so that <c>SkyMaskBaker.Bake</c> would find nothing: it is one part, or
     /// lies in a plane. Costs a pass over the base mesh and the nodes; false proves nothing.
     /// </summary>
-    public bool HasOpenSky() => OpenSky.IsSinglePath(_nodes) || IsFlat();
+    public bool HasOpenSky() => OpenSky.IsSinglePath(_nodes.Items) || IsFlat();
 
     /// <summary>Whether all instances of the base mesh certainly lie in one plane.</summary>
-    public bool IsFlat() => OpenSky.IsFlat(Mesh, _nodes);
+    public bool IsFlat() => OpenSky.IsFlat(Mesh, _nodes.Items);
 
     /// <summary>Bytes of the tables that <c>SkyMaskBaker.Bake</c> has made.</summary>
     public int SkyMaskBytes => HasSkyMasks
-        ? _nodes.Select(static node => node.SkyMasks).Concat(_lastSkyMasks).OfType<SkyMasks>().Distinct()
+        ? _nodes.Items.ToArray().Select(static node => node.SkyMasks).Concat(_lastSkyMasks).OfType<SkyMasks>().Distinct()
             .Sum(static masks => masks.ByteCount)
         : 0;
 
@@ -107,5 +105,5 @@ public sealed class LodHierarchy
         remainingLevels < _lastSkyMasks.Length ? _lastSkyMasks[remainingLevels] : node.SkyMasks;
 
     /// <summary>Finds the node of a number of remaining levels.</summary>
-    internal LodNode NodeAt(long remainingLevels) => _nodes[LevelRegion.FindIndex(_regions, remainingLevels)];
+    internal LodNode NodeAt(long remainingLevels) => _nodes.At(remainingLevels);
 }

@@ -19,15 +19,9 @@ internal static class LodHierarchyBuilder
     private static LodHierarchy BuildAffine(Fractal fractal)
     {
         var hierarchy = fractal.HierarchyBySets;
-        var levels = hierarchy.AllLevels;
-        var nodes = new LodNode[levels.Length];
-        for (var i = 0; i < nodes.Length; i++)
-        {
-            // The first level is the base mesh.
-            nodes[i] = BuildNode(levels[i], levels[0].Box);
-        }
-
-        return new(nodes, hierarchy.Regions.ToArray(), hierarchy.Levels, fractal.BaseMesh);
+        // The first level is the base mesh.
+        var baseBox = hierarchy.AllLevels.Items[0].Box;
+        return new(hierarchy.AllLevels.Select(level => BuildNode(level, baseBox)), hierarchy.Levels, fractal.BaseMesh);
     }
 
     private static LodNode BuildNode(HierarchyLevel level, BoundingBox baseBox)
@@ -60,6 +54,6 @@ internal static class LodHierarchyBuilder
         var mesh = fractal.BaseMesh;
         var maps = mesh.FaceCount == 0 ? [] : FractalGenerator.Expand(fractal, FractalLimits.MaxComponentwiseSums);
         var bvh = new InstanceBvh(mesh.Bounds, [.. maps]);
-        return new(bvh.Nodes, [new(0, bvh.Nodes.Length, 0, bvh.Nodes.Length)], bvh.RootIndex, mesh);
+        return new(new(bvh.Nodes, [new(0, bvh.Nodes.Length, 0, bvh.Nodes.Length)]), bvh.RootIndex, mesh);
     }
 }

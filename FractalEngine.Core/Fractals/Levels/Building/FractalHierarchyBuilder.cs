@@ -50,7 +50,7 @@ internal sealed partial class FractalHierarchyBuilder
         for (var i = 0; i < _recursives.Period; i++)
         {
             var volume = _subFractalFactory.BaseVolumes[i];
-            Built.Add(_subFractalFactory.CreateBase(i), volume, new(null, volume.Box, [], static () => [], i));
+            Built.Add(volume, new(null, volume.Box, [], static () => [], _subFractalFactory.CreateBase(i)));
         }
     }
 
@@ -80,13 +80,14 @@ internal sealed partial class FractalHierarchyBuilder
             AddStep(step);
         }
 
-        var isReachable = ReachableLevels.Find(Built.SubFractals, [.. Built.Regions], Built.Top);
+        var levels = Built.ToTable();
+        if (!keepsAllLevels)
+        {
+            ReachableLevels.RemoveOthers(levels, Built.Top);
+        }
+
         return new(
-            [.. _description.Recursives.Select(static recursive => recursive.BaseMesh)],
-            Built,
-            [.. Built.SubFractals.Select((subFractal, i) => keepsAllLevels || isReachable[i] ? subFractal : null)],
-            _description.Root,
-            recursiveTop)
+            [.. _description.Recursives.Select(static recursive => recursive.BaseMesh)], levels, Built.Top, _description.Root, recursiveTop)
         {
             HasOnlySimilarities = HasOnlySimilarities,
             HasDoubledPowers = HasDoubledPowers,
@@ -190,13 +191,13 @@ internal sealed partial class FractalHierarchyBuilder
         }
 
         var subFractal = _subFractalFactory.Create(mapSet, children, childVolumes, volume, _baseIndex);
-        Built.Add(subFractal, volume, new(mapSet, volume.Box, edges, EdgeBoxesOf(edges, level, Built.VolumeAt), _baseIndex));
+        Built.Add(volume, new(mapSet, volume.Box, edges, EdgeBoxesOf(edges, level, Built.VolumeAt), subFractal));
     }
 
     /// <summary>Refuses a level on top of those before, if they or their children are too many.</summary>
     private void RequireAllowedLevel(int childCount)
     {
-        if (Built.Levels.Count > MaxSubFractals)
+        if (Built.Count > MaxSubFractals)
         {
             throw new FractalLimitException(
                 "exact search needs transformations that shrink, or less depth: "
@@ -258,11 +259,8 @@ internal sealed partial class FractalHierarchyBuilder
             var set = Built.MapSetAt(level);
             var edges = Built.EdgesAt(level);
             var edgeBoxes = EdgeBoxesOf(edges, parentLevels, RepeatedVolumeAt);
-            var baseIndex = Built.BaseIndexAt(level);
-            round[phase] = new(
-                _subFractalFactory.Create(set, children[phase], childVolumes, volumes[phase], baseIndex),
-                volumes[phase],
-                new(set, volumes[phase].Box, edges, edgeBoxes, baseIndex));
+            var subFractal = _subFractalFactory.Create(set, children[phase], childVolumes, volumes[phase], Built.BaseIndexAt(level));
+            round[phase] = new(volumes[phase], new(set, volumes[phase].Box, edges, edgeBoxes, subFractal));
         }
 
         Built.Add(levelCount, round);

@@ -6,33 +6,29 @@ internal static class ReachableLevels
     // The levels of deeper fractals are not followed one by one.
     private const int MaxFollowedLevels = 256;
 
-    /// <summary>Finds the sub-fractals that paths from the whole fractal lead to, and few others.</summary>
-    /// <param name="subFractals">All sub-fractals, in the order of the regions.</param>
-    /// <param name="regions">All runs of levels, the lowest first.</param>
-    /// <param name="levels">Number of levels of the whole fractal.</param>
-    /// <returns>One value for each sub-fractal.</returns>
-    public static bool[] Find(IReadOnlyList<SubFractal> subFractals, LevelRegion[] regions, long levels)
+    /// <summary>Removes the sub-fractals that no path from the whole fractal leads to, but for a few.</summary>
+    /// <param name="levels">All levels.</param>
+    /// <param name="top">Number of levels of the whole fractal.</param>
+    public static void RemoveOthers(LevelTable<HierarchyLevel> levels, long top)
     {
-        var isReachable = new bool[subFractals.Count];
-        if (!TryFollowLevels(subFractals, regions, levels, isReachable))
+        var reachable = FollowLevels(levels, top) ?? FollowPhases(levels, top);
+        foreach (var level in levels.Items)
         {
-            Array.Clear(isReachable);
-            FollowPhases(subFractals, regions, levels, isReachable);
+            level.SubFractal = reachable.Contains(level) ? level.SubFractal : null;
         }
-
-        return isReachable;
     }
 
-    /// <summary>Visits level after level; gives up where they are many.</summary>
-    private static bool TryFollowLevels(IReadOnlyList<SubFractal> subFractals, LevelRegion[] regions, long levels, bool[] isReachable)
+    /// <summary>Visits level after level; null where they are many.</summary>
+    private static HashSet<HierarchyLevel>? FollowLevels(LevelTable<HierarchyLevel> levels, long top)
     {
-        var seen = new HashSet<long> { levels };
+        var reachable = new HashSet<HierarchyLevel>();
+        var seen = new HashSet<long> { top };
         var open = new Stack<long>(seen);
         while (open.TryPop(out var level))
         {
-            var index = LevelRegion.FindIndex(regions, level);
-            isReachable[index] = true;
-            foreach (var child in subFractals[index].AllChildren())
+            var reached = levels.At(level);
+            reachable.Add(reached);
+            foreach (var child in reached.SubFractal!.AllChildren())
             {
                 var childLevel = child.RemainingLevels(level);
                 if (child.Group is null && seen.Add(childLevel))
@@ -43,29 +39,25 @@ internal static class ReachableLevels
 
             if (seen.Count > MaxFollowedLevels)
             {
-                return false;
+                return null;
             }
         }
 
-        return true;
+        return reachable;
     }
 
     /// <summary>Visits each sub-fractal once, as if paths met it in all rounds of its run.</summary>
-    private static void FollowPhases(IReadOnlyList<SubFractal> subFractals, LevelRegion[] regions, long levels, bool[] isReachable)
+    private static HashSet<HierarchyLevel> FollowPhases(LevelTable<HierarchyLevel> levels, long top)
     {
-        var open = new Stack<long>([levels]);
+        var reachable = new HashSet<HierarchyLevel>();
+        var regions = levels.Regions.ToArray();
+        var open = new Stack<long>([top]);
         while (open.TryPop(out var level))
         {
             var region = Array.FindLast(regions, region => region.FirstLevel <= level);
             var phase = (level - region.FirstLevel) % region.Period;
-            var index = region.FirstIndex + (int)phase;
-            if (isReachable[index])
-            {
-                continue;
-            }
-
-            isReachable[index] = true;
-            foreach (var child in subFractals[index].AllChildren())
+            var reached = levels.Items[region.FirstIndex + (int)phase];
+            foreach (var child in reachable.Add(reached) ? reached.SubFractal!.AllChildren() : [])
             {
                 if (region.LevelCount >= FractalHierarchyBuilder.EndlessRounds)
                 {
@@ -90,5 +82,7 @@ internal static class ReachableLevels
                 }
             }
         }
+
+        return reachable;
     }
 }

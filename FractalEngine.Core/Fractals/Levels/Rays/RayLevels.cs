@@ -22,8 +22,8 @@ internal sealed class RayLevels
     public RayLevels(FractalHierarchy hierarchy)
     {
         _hierarchy = hierarchy;
-        _baseBox = hierarchy.AllLevels[0].Box;
-        var regions = hierarchy.Regions;
+        _baseBox = hierarchy.AllLevels.Items[0].Box;
+        var regions = hierarchy.AllLevels.Regions;
         _slotsOfRegions = new int[regions.Length];
         _sharedOffsets = new int[regions.Length];
         var slotCount = 0;
@@ -52,7 +52,7 @@ internal sealed class RayLevels
     [MethodImpl(MethodImplOptions.NoInlining)]
     private RayBounds Find(long level)
     {
-        var regions = _hierarchy.Regions;
+        var regions = _hierarchy.AllLevels.Regions;
         var region = regions.Length - 1;
         while (regions[region].FirstLevel > level)
         {

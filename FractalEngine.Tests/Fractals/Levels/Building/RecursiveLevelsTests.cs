@@ -189,7 +189,7 @@ public class RecursiveLevelsTests
         var (hierarchy, _) = Create(Similar, 1, 4);
         Assert.Equal(new(1, 4), hierarchy.StateAt(hierarchy.Levels));
         Assert.Equal([new(0, 0), new(1, 0), new(2, 0), new(0, 1)], Enumerable.Range(0, 4).Select(level => hierarchy.StateAt(level)));
-        Assert.Equal([0, 1, 2], Enumerable.Range(0, 3).Select(level => hierarchy.AllLevels[level].BaseIndex));
+        Assert.Equal([0, 1, 2], Enumerable.Range(0, 3).Select(level => hierarchy.AllLevels.Items[level].BaseIndex));
         Assert.Equal([true, true, true, false], Enumerable.Range(0, 4).Select(level => hierarchy.IsBase(level)));
     }
 
