@@ -64,8 +64,8 @@ internal static class RenderCommand
 
         using var notice = new SlowWorkNotice("drawing", report.IsQuiet);
         view = Zoom(drawable, view, job);
-        using var renderer = new ImageRenderer(drawable, job);
-        var image = report.Measure("draw", () => renderer.Draw(view));
+        using var frames = new DrawnFrames(drawable, job);
+        var image = report.Measure("draw", () => frames.CreateFrame(view, CancellationToken.None));
         Write(image, output, report);
     }
 
@@ -77,8 +77,9 @@ internal static class RenderCommand
             view = Zoom(DrawableScene.Prepare(scene, job.Settings with { AmbientOcclusion = false }), view, job);
         }
 
-        var image = trace.Draw(scene, view, job, report, out var isComplete);
-        Write(image, output, report);
+        var tracer = trace.Prepare(scene, view, job, report);
+        var isComplete = report.Measure("trace", () => trace.TryAddSamples(tracer, report.IsQuiet));
+        Write(tracer.ToImage(), output, report);
         if (!isComplete)
         {
             throw new OperationCanceledException("interrupted");
