@@ -22,6 +22,7 @@ var commands = new Dictionary<string, Func<string[], int>>
     ["frames"] = arguments => FramesCommand.Run(arguments),
     ["skips"] = arguments => OptimisationsCommand.Run(arguments),
     ["window"] = arguments => WindowCommand.Run(arguments),
+    ["compare"] = arguments => CompareCommand.Run(arguments),
     ["rays"] = arguments => RaysCommand.Run(arguments),
     ["trace"] = arguments => TraceCommand.Run(arguments),
     ["light"] = arguments => LightCommand.Run(arguments),

@@ -1,22 +1,28 @@
 using FractalEngine.App.Jobs;
+using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Images;
+using FractalEngine.Render;
 using FractalEngine.Render.Preparation;
 using FractalEngine.Render.Views;
+using FractalEngine.Render.Windowing;
 
 namespace FractalEngine.App.Animation;
 
-/// <summary>Draws the frames of an animation with OpenGL.</summary>
+/// <summary>Draws an image, or the frames of an animation, with OpenGL, before the background of a command.</summary>
 /// <param name="drawable">The prepared scene.</param>
-/// <param name="job">Size, background and settings of the frames.</param>
+/// <param name="job">Size, background and settings of the images.</param>
+/// <exception cref="GraphicsUnavailableException">There is no display, or no OpenGL 3.3.</exception>
 internal sealed class DrawnFrames(DrawableScene drawable, RenderJob job) : FrameSource
 {
-    private readonly ImageRenderer _renderer = new(drawable, job);
+    private readonly Renderer _renderer = Renderer.Offscreen(job.Size.Width, job.Size.Height, job.Settings);
 
     /// <inheritdoc/>
     public override PixelImage CreateFrame(View view, CancellationToken cancellation)
     {
         cancellation.ThrowIfCancellationRequested();
-        return _renderer.Draw(view);
+        return job.Background.IsTransparent
+            ? Matting.Combine(DrawOn(view, Colour.Black), DrawOn(view, Colour.White))
+            : DrawOn(view, job.Background.Colour);
     }
 
     /// <inheritdoc/>
@@ -24,7 +30,7 @@ internal sealed class DrawnFrames(DrawableScene drawable, RenderJob job) : Frame
     {
         foreach (var (index, map) in bodies.Maps)
         {
-            _renderer.Move(index, map);
+            _renderer.Move(drawable, index, map);
         }
     }
 
@@ -34,4 +40,7 @@ internal sealed class DrawnFrames(DrawableScene drawable, RenderJob job) : Frame
         _renderer.Dispose();
         base.Dispose();
     }
+
+    private PixelImage DrawOn(View view, Colour? background) =>
+        _renderer.Draw(drawable, background is null ? view : view with { Background = background });
 }

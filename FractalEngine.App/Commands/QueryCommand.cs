@@ -2,7 +2,6 @@ using System.CommandLine;
 using System.Diagnostics;
 using System.Globalization;
 using System.Text;
-using FractalEngine.App.Jobs;
 using FractalEngine.App.Options;
 using FractalEngine.App.Shell;
 using FractalEngine.App.Shell.Reports;
@@ -177,8 +176,8 @@ internal static class QueryCommand
     private static void WriteReport(
         LoadedFile file, SceneCollider collider, int queryCount, QueryContext context, TimeSpan buildTime, TimeSpan queryTime)
     {
-        var faceCount = FileSummary.CountFaces(file);
-        WriteReportLine($"faces {(faceCount is { } count ? DecimalText.Format(count) : "infinite")}");
+        var faces = file.Scene.Sum(static model => model.FaceCount) is { } count ? DecimalText.Format(count) : "infinite";
+        WriteReportLine($"faces {faces}");
         WriteReportLine($"build {buildTime.TotalMilliseconds:F3} ms");
         WriteReportLine($"memory {collider.StorageBytes} bytes");
         if (queryCount > 0)

@@ -19,7 +19,6 @@ internal static class RenderCommand
     public static Command Create()
     {
         var images = new ImageOptions(canKeepPartial: true);
-        var reference = new ReferenceOptions();
         var report = new ReportOptions();
         var output = SharedOptions.OutputOption(".png", "Image to write.", isText: false);
         var command = new DocumentedCommand(
@@ -30,15 +29,12 @@ internal static class RenderCommand
             output,
         };
         images.AddTo(command);
-        reference.AddTo(command);
         report.AddTo(command);
         command.SetAction(result =>
         {
-            var compare = reference.Load(result);
-            var path = result.GetRequiredValue(output);
             var (job, trace) = images.Read(result);
-            var image = Run(job, trace, path, report.Begin(result));
-            return compare?.Invoke(image, path) ?? ExitCode.Done;
+            Run(job, trace, result.GetRequiredValue(output), report.Begin(result));
+            return ExitCode.Done;
         });
         return command;
     }
@@ -48,9 +44,8 @@ internal static class RenderCommand
     /// <param name="trace">How it is traced; null to draw it.</param>
     /// <param name="output">Path of the PNG to write.</param>
     /// <param name="report">Tells what was written.</param>
-    /// <returns>The image.</returns>
     /// <exception cref="OperationCanceledException">A traced image was interrupted; it may be written as far as it was.</exception>
-    public static PixelImage Run(RenderJob job, TracedImage? trace, string output, WrittenReport report)
+    public static void Run(RenderJob job, TracedImage? trace, string output, WrittenReport report)
     {
         var file = report.Measure("load", () => ConsoleLoader.Load(job.Path, job.Load, isTraced: trace is not null));
         InputFiles.Protect(output);
@@ -60,7 +55,8 @@ internal static class RenderCommand
         scene = AnimatedBodies.SceneAfter(job.Path, file, scene, job.Time);
         if (trace is not null)
         {
-            return Trace(scene, view, job, trace, output, report);
+            Trace(scene, view, job, trace, output, report);
+            return;
         }
 
         var drawable = report.Measure("prepare", () => DrawableScene.Prepare(job.Background.ApplyTo(scene), job.Settings));
@@ -68,14 +64,12 @@ internal static class RenderCommand
 
         using var notice = new SlowWorkNotice("drawing", report.IsQuiet);
         view = Zoom(drawable, view, job);
-        using var renderer = new ImageRenderer(drawable, job);
-        var image = report.Measure("draw", () => renderer.Draw(view));
+        using var frames = new DrawnFrames(drawable, job);
+        var image = report.Measure("draw", () => frames.CreateFrame(view, CancellationToken.None));
         Write(image, output, report);
-        return image;
     }
 
-    private static PixelImage Trace(
-        LoadedScene scene, View view, RenderJob job, TracedImage trace, string output, WrittenReport report)
+    private static void Trace(LoadedScene scene, View view, RenderJob job, TracedImage trace, string output, WrittenReport report)
     {
         if (job.ZoomLevels > 0)
         {
@@ -83,9 +77,13 @@ internal static class RenderCommand
             view = Zoom(DrawableScene.Prepare(scene, job.Settings with { AmbientOcclusion = false }), view, job);
         }
 
-        var image = trace.Draw(scene, view, job, report, out var isComplete);
-        Write(image, output, report);
-        return isComplete ? image : throw new OperationCanceledException("interrupted");
+        var tracer = trace.Prepare(scene, view, job, report);
+        var isComplete = report.Measure("trace", () => trace.TryAddSamples(tracer, report.IsQuiet));
+        Write(tracer.ToImage(), output, report);
+        if (!isComplete)
+        {
+            throw new OperationCanceledException("interrupted");
+        }
     }
 
     private static View Zoom(DrawableScene drawable, View view, RenderJob job)

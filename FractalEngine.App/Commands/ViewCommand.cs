@@ -57,7 +57,7 @@ internal static class ViewCommand
             draw.RequireEffect(result, hasWindow: true);
             return Run(result.GetValue(shared.File) ?? FindGallery(), new()
             {
-                Load = draw.WithLoadOptions(result, shared.LoadOptions(result)),
+                Load = shared.LoadOptions(result),
                 Settings = draw.Settings(result),
                 Projection = draw.Projection(result),
                 Section = draw.Section(result),
@@ -68,7 +68,6 @@ internal static class ViewCommand
                 WatchesFiles = !result.GetValue(noWatch),
                 SettingsPath = WindowSettings.DefaultPath,
                 RecentFilesPath = RecentFiles.DefaultPath,
-                IdleWhenUnchanged = draw.IsEnabled(result, Optimisation.Idle),
             });
         });
         return command;

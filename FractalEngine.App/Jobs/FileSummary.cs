@@ -38,24 +38,19 @@ internal sealed record FileSummary(
     /// <summary>Counts the contents of a loaded file. A model counts once per object that shows it.</summary>
     public static FileSummary Of(LoadedFile file, TimeSpan loadTime, TimeSpan? prepareTime)
     {
-        var models = file.Scene.Objects.Select(placed => placed.Model).ToArray();
         var distinctCounts = file.Scene.Models.ToDictionary(model => model, CountDistinctInstances);
         return new(
             file.Kind.ToString().ToLowerInvariant(),
             file.Scene.Scene.Handedness,
-            Sum(models, model => model.VertexCount),
-            CountFaces(file),
-            Sum(models, model => model.InstanceCount),
-            Sum(models, model => distinctCounts[model]),
+            file.Scene.Sum(static model => model.VertexCount),
+            file.Scene.Sum(static model => model.FaceCount),
+            file.Scene.Sum(static model => model.InstanceCount),
+            file.Scene.Sum(model => distinctCounts[model]),
             file.Scene.Bounds,
             file.StorageBytes,
             loadTime,
             prepareTime);
     }
-
-    /// <summary>Counts the faces of a loaded file, null for infinitely many. Unlike the whole summary it enumerates nothing.</summary>
-    public static BigInteger? CountFaces(LoadedFile file) =>
-        Sum(file.Scene.Objects.Select(placed => placed.Model), model => model.FaceCount);
 
     /// <summary>Formats the summary as one JSON object, in which numbers of any length are written out.</summary>
     public string ToJson() => "{" + string.Join(", ", Fields(FormatJson).Select(field => $"\"{field.Name}\": {field.Value}")) + "}";
@@ -110,7 +105,4 @@ internal sealed record FileSummary(
         FractalModel { Fractal: var fractal } => Core.Fractals.DistinctInstances.Count(fractal),
         _ => BigInteger.One,
     };
-
-    private static BigInteger? Sum(IEnumerable<Model> models, Func<Model, BigInteger?> count) =>
-        models.Aggregate((BigInteger?)BigInteger.Zero, (sum, model) => sum + count(model));
 }

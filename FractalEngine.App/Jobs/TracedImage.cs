@@ -1,7 +1,6 @@
 using FractalEngine.App.Shell;
 using FractalEngine.App.Shell.Reports;
 using FractalEngine.Core;
-using FractalEngine.Core.Images;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Render.Tracing;
 using FractalEngine.Render.Views;
@@ -17,20 +16,6 @@ internal sealed record TracedImage(int Samples, int Seed, bool KeepsPartial)
     // Sums take 24 bytes each, the image 4: 1.75 GiB.
     /// <summary>Largest number of pixels.</summary>
     public const long MaxPixels = 1L << 26;
-
-    /// <summary>Traces a scene, with its progress on a terminal.</summary>
-    /// <param name="scene">With its models loaded.</param>
-    /// <param name="view">Camera and projection.</param>
-    /// <param name="job">Size, background and settings of the image.</param>
-    /// <param name="report">Tells nothing on the terminal where it is quiet.</param>
-    /// <param name="isComplete">False where the user interrupted it, and what is there shall be written.</param>
-    /// <exception cref="OperationCanceledException">The user interrupted it, and nothing shall be written.</exception>
-    public PixelImage Draw(LoadedScene scene, View view, RenderJob job, WrittenReport report, out bool isComplete)
-    {
-        var tracer = Prepare(scene, view, job, report);
-        isComplete = report.Measure("trace", () => TryAddSamples(tracer, report.IsQuiet));
-        return tracer.ToImage();
-    }
 
     /// <summary>Prepares an image without samples, and tells about textures that can't be decoded.</summary>
     /// <param name="scene">With its models loaded.</param>
@@ -88,7 +73,12 @@ internal sealed record TracedImage(int Samples, int Seed, bool KeepsPartial)
         }
     }
 
-    private bool TryAddSamples(PathTracer tracer, bool isQuiet)
+    /// <summary>Adds all samples to an image, with its progress on a terminal.</summary>
+    /// <param name="tracer">An image without samples.</param>
+    /// <param name="isQuiet">Whether nothing is told on a terminal either.</param>
+    /// <returns>False where the user interrupted it, and what is there shall be written.</returns>
+    /// <exception cref="OperationCanceledException">The user interrupted it, and nothing shall be written.</exception>
+    public bool TryAddSamples(PathTracer tracer, bool isQuiet)
     {
         var progress = new TerminalProgress("sample", Samples, isQuiet);
         using var signal = new InterruptSignal();

@@ -6,7 +6,6 @@ using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Scenes.Cameras;
 using FractalEngine.Core.Visibility.Frames;
-using FractalEngine.Parsing.Assets;
 using FractalEngine.Render.Views;
 
 namespace FractalEngine.App.Options;
@@ -22,22 +21,6 @@ internal sealed class DrawOptions
 
     /// <summary>Largest number of samples of each pixel against jagged edges.</summary>
     public const int MaxSamples = 32;
-
-    private static readonly (string Word, Optimisation Value)[] OptimisationWords =
-    [
-        ("backface-culling", Optimisation.BackFaceCulling),
-        ("frustum-culling", Optimisation.FrustumCulling),
-        ("occlusion-culling", Optimisation.OcclusionCulling),
-        ("light-culling", Optimisation.LightCulling),
-        ("caster-culling", Optimisation.CasterCulling),
-        ("bake-skipping", Optimisation.BakeSkipping),
-        ("degenerate-removal", Optimisation.DegenerateRemoval),
-        ("state-filtering", Optimisation.StateFiltering),
-        ("buffer-reuse", Optimisation.BufferReuse),
-        ("mesh-sharing", Optimisation.MeshSharing),
-        ("lazy-loading", Optimisation.LazyLoading),
-        ("idle", Optimisation.Idle),
-    ];
 
     private static readonly RenderSettings DefaultSettings = new();
     private static readonly CullingSettings DefaultCulling = new();
@@ -73,19 +56,13 @@ internal sealed class DrawOptions
         Description = "Light the holes of fractals as if they were open to the sky.",
     };
 
-    private readonly Option<Optimisation[]> _disabled = WordOption.Repeatable(
-        "--without", "OPTIMISATION",
-        "Disable one optimisation, for comparison; repeatable. "
-        + $"One of {string.Join(", ", OptimisationWords.Select(static word => word.Word))}.",
-        OptimisationWords);
-
     private readonly Option<Projection?> _projection = SharedOptions.ProjectionOption();
     private readonly Option<(int Width, int Height)?> _resolution = SharedOptions.ResolutionOption();
 
     /// <summary>Adds the options to a command.</summary>
     public void AddTo(Command command) => SharedOptions.AddAll(
         command, _resolution, _projection, _shading, _noShadows, _noAmbientOcclusion, _wireframe, _grid, _section, _minProjectedSize,
-        _maxInstances, _sampleCount, _disabled);
+        _maxInstances, _sampleCount);
 
     /// <summary>Returns width and height of the frame in pixels.</summary>
     public (int Width, int Height) Resolution(ParseResult result) => result.GetValue(_resolution) ?? SharedOptions.DefaultResolution;
@@ -96,9 +73,6 @@ internal sealed class DrawOptions
     /// <summary>Returns the plane that cuts the scene open; null for none.</summary>
     /// <exception cref="UsageException">The value of the option is no plane.</exception>
     public SectionPlane? Section(ParseResult result) => result.GetValue(_section) is { } text ? SectionText.Parse("--section", text) : null;
-
-    /// <summary>Returns true unless <c>--without</c> names the optimisation.</summary>
-    public bool IsEnabled(ParseResult result, Optimisation optimisation) => !(result.GetValue(_disabled) ?? []).Contains(optimisation);
 
     /// <summary>Refuses options that change nothing.</summary>
     /// <param name="result">The command line.</param>
@@ -125,32 +99,14 @@ internal sealed class DrawOptions
     private IEnumerable<(bool IsGiven, string Words, string? Obstacle)> FindObstacles(ParseResult result, bool hasWindow)
     {
         var settings = Settings(result);
-        var wholeDetail = settings.Culling is null ? "with --detail 0" : null;
-        var image = hasWindow ? null : "without a window";
         var wireframe = !hasWindow && settings.Wireframe ? "with --wireframe" : null;
         var plainLight = wireframe ?? (!hasWindow && settings.Shading == Shading.PerVertex ? "with --shading vertex" : null);
-        var noShadows = plainLight ?? (!hasWindow && !settings.Shadows ? "with --no-shadows" : null);
-        var noOcclusion = wholeDetail ?? plainLight;
         return
         [
             (settings.Shading == Shading.PerVertex, "--shading vertex", wireframe),
             (!settings.Shadows, "--no-shadows", plainLight),
-            (!settings.AmbientOcclusion, "--no-ambient-occlusion", noOcclusion),
-            Without(Optimisation.BackFaceCulling, wireframe),
-            Without(Optimisation.FrustumCulling, wholeDetail),
-            Without(Optimisation.OcclusionCulling, wholeDetail ?? wireframe),
-            Without(Optimisation.LightCulling, noShadows),
-            Without(Optimisation.CasterCulling, noShadows),
-            Without(
-                Optimisation.BakeSkipping,
-                noOcclusion ?? (!hasWindow && !settings.AmbientOcclusion ? "with --no-ambient-occlusion" : null)),
-            Without(Optimisation.LazyLoading, image),
-            Without(Optimisation.Idle, image),
+            (!settings.AmbientOcclusion, "--no-ambient-occlusion", settings.Culling is null ? "with --detail 0" : plainLight),
         ];
-
-        (bool IsGiven, string Words, string? Obstacle) Without(Optimisation optimisation, string? obstacle) => (
-            !IsEnabled(result, optimisation),
-            $"--without {Array.Find(OptimisationWords, known => known.Value == optimisation).Word}", obstacle);
     }
 
     private string? FindDrawnOnly(ParseResult result) =>
@@ -162,14 +118,7 @@ internal sealed class DrawOptions
         : result.GetValue(_sampleCount) is not null ? "--samples"
         : result.GetValue(_minProjectedSize) is not null ? "--detail"
         : result.GetValue(_maxInstances) is not null ? "--instances"
-        : result.GetValue(_disabled) is { Length: > 0 } ? "--without"
         : null;
-
-    /// <summary>Applies the drawing options that concern loading.</summary>
-    /// <param name="result">The parsed command line.</param>
-    /// <param name="options">The load options of a command that does not draw.</param>
-    public LoadOptions WithLoadOptions(ParseResult result, LoadOptions options) =>
-        options with { ShareModels = IsEnabled(result, Optimisation.MeshSharing) };
 
     /// <summary>Returns the render settings that the command line asks for.</summary>
     public RenderSettings Settings(ParseResult result)
@@ -180,8 +129,6 @@ internal sealed class DrawOptions
         {
             MinProjectedSize = minProjectedSize,
             InstanceBudget = maxInstances ?? DefaultCulling.InstanceBudget,
-            FrustumCulling = IsEnabled(result, Optimisation.FrustumCulling),
-            OcclusionCulling = IsEnabled(result, Optimisation.OcclusionCulling),
         };
         return DefaultSettings with
         {
@@ -194,15 +141,6 @@ internal sealed class DrawOptions
             Shading = result.GetValue(_shading) ?? DefaultSettings.Shading,
             Shadows = !result.GetValue(_noShadows),
             AmbientOcclusion = !result.GetValue(_noAmbientOcclusion),
-            BackFaceCulling = IsEnabled(result, Optimisation.BackFaceCulling),
-            RemoveDegenerateTriangles = IsEnabled(result, Optimisation.DegenerateRemoval),
-            LightCulling = IsEnabled(result, Optimisation.LightCulling),
-            CasterCulling = IsEnabled(result, Optimisation.CasterCulling),
-            BakeSkipping = IsEnabled(result, Optimisation.BakeSkipping),
-            FilterRedundantState = IsEnabled(result, Optimisation.StateFiltering),
-            ReuseBuffers = IsEnabled(result, Optimisation.BufferReuse),
-            ShareTextures = IsEnabled(result, Optimisation.MeshSharing),
-            LazyLoading = IsEnabled(result, Optimisation.LazyLoading),
         };
     }
 }

@@ -15,19 +15,6 @@ internal static class WordOption
         {
             Description = description,
             HelpName = Join(words, "|"),
-            CustomParser = result => Parse(result, name, words) is [var value] ? value : null,
-        };
-
-    /// <summary>Creates an option that can be repeated, with one word each time.</summary>
-    /// <param name="name">The name with its dashes.</param>
-    /// <param name="helpName">The placeholder of a word in the help text.</param>
-    /// <param name="description">The sentence in the help text, which must list the words.</param>
-    /// <param name="words">The words with their values.</param>
-    public static Option<T[]> Repeatable<T>(string name, string helpName, string description, params (string Word, T Value)[] words) =>
-        new(name)
-        {
-            Description = description,
-            HelpName = helpName,
             CustomParser = result => Parse(result, name, words),
         };
 
@@ -43,21 +30,17 @@ internal static class WordOption
         return string.Join(separator, names);
     }
 
-    private static T[] Parse<T>(ArgumentResult result, string name, (string Word, T Value)[] words)
+    private static T? Parse<T>(ArgumentResult result, string name, (string Word, T Value)[] words)
+        where T : struct
     {
-        var values = new List<T>();
-        foreach (var token in result.Tokens)
+        var word = result.Tokens[0].Value;
+        var index = Array.FindIndex(words, known => known.Word == word);
+        if (index >= 0)
         {
-            var index = Array.FindIndex(words, word => word.Word == token.Value);
-            if (index < 0)
-            {
-                result.AddError($"{name}: expected one of {Join(words, ", ")}, not '{token.Value}'");
-                return [];
-            }
-
-            values.Add(words[index].Value);
+            return words[index].Value;
         }
 
-        return [.. values];
+        result.AddError($"{name}: expected one of {Join(words, ", ")}, not '{word}'");
+        return null;
     }
 }

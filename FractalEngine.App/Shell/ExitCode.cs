@@ -20,9 +20,6 @@ internal static class ExitCode
     /// <summary>There is no display, or no OpenGL on the display.</summary>
     public const int NoGraphics = 4;
 
-    /// <summary>An image differs from its reference by more than the threshold.</summary>
-    public const int Different = 5;
-
     /// <summary>The program itself has failed (EX_SOFTWARE of sysexits.h).</summary>
     public const int Internal = 70;
 

@@ -59,7 +59,7 @@ internal sealed partial class SceneWindow
     {
         var version = _panels.Ui.Version;
         var isTaken = _panels.Ui.Handle(windowEvent);
-        while (_interface.TakeChosen() is { } action)
+        while (_actions.TakeChosen() is { } action)
         {
             _redraw |= _actions.Run(action) | Redraw.Overlay;
         }

@@ -27,7 +27,6 @@ internal sealed partial class SceneWindow : IDisposable
     // After a frame that took long, camera and bodies must not jump.
     private static readonly TimeSpan MaxTimeStep = TimeSpan.FromSeconds(0.1);
 
-    private readonly WindowOptions _options;
     private readonly RenderWindow _window;
     private readonly FrameRenderer _frameRenderer;
     private readonly WindowRenderer _windowRenderer;
@@ -42,7 +41,6 @@ internal sealed partial class SceneWindow : IDisposable
     private readonly FileCommands _files;
     private readonly Stopwatch _clock = Stopwatch.StartNew();
     private TimeSpan _lastAdvance;
-    private TimeSpan _lastRefresh;
     private TimeSpan _refreshTime;
     private Redraw _redraw = Redraw.Overlay | Redraw.Scene;
     private bool _isClosing;
@@ -54,7 +52,6 @@ internal sealed partial class SceneWindow : IDisposable
 
     private SceneWindow(string path, WindowOptions options)
     {
-        _options = options;
         _window = new("FractalEngine", options.Size.Width, options.Size.Height);
         _frameRenderer = new(_window);
         _windowRenderer = new(_frameRenderer);
@@ -96,8 +93,7 @@ internal sealed partial class SceneWindow : IDisposable
     private bool NeedsFullFrame => _windowRenderer.IsReducedQuality && Document?.IsMoving != true;
 
     private bool NeedsRefresh =>
-        (_isVisible || !_options.IdleWhenUnchanged) && _redraw != Redraw.None && _window is { Width: > 0, Height: > 0 }
-        && Size != _refusedSize;
+        _isVisible && _redraw != Redraw.None && _window is { Width: > 0, Height: > 0 } && Size != _refusedSize;
 
     private (int Width, int Height) Size => (_window.Width, _window.Height);
 
@@ -135,11 +131,6 @@ internal sealed partial class SceneWindow : IDisposable
         if (NeedsRefresh)
         {
             return TimeSpan.Zero;
-        }
-
-        if (!_options.IdleWhenUnchanged)
-        {
-            return TimeUntil(_lastRefresh + FrameTime);
         }
 
         if (Document?.IsMoving == true)
@@ -195,8 +186,7 @@ internal sealed partial class SceneWindow : IDisposable
         }
 
         // The last frame of a movement was coarse and one view behind, so a full one follows it.
-        var isFrameDue = !_options.IdleWhenUnchanged && now - _lastRefresh >= FrameTime;
-        if (NeedsFullFrame || isFrameDue)
+        if (NeedsFullFrame)
         {
             _redraw |= Redraw.Scene;
         }
@@ -224,7 +214,6 @@ internal sealed partial class SceneWindow : IDisposable
     private void ShowFrame()
     {
         var start = _clock.Elapsed;
-        _lastRefresh = start;
         var needsDraw = _redraw.HasFlag(Redraw.Scene) | _area.Update(_panels.Ui);
         _redraw = Redraw.None;
         if (needsDraw)

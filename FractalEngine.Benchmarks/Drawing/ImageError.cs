@@ -6,7 +6,8 @@ namespace FractalEngine.Benchmarks.Drawing;
 internal static class ImageError
 {
     /// <summary>
-    /// Computes the peak signal-to-noise ratio in decibels: 20·log₁₀(255 / root of the mean square). It is infinite for equal images.
+    /// Computes the peak signal-to-noise ratio in decibels: 10·log₁₀(255² / mean square). It is infinite for equal images. Opacity is
+    /// ignored.
     /// </summary>
     /// <exception cref="ArgumentException">The images are not of one size.</exception>
     public static double PeakSignalToNoiseRatio(PixelImage image1, PixelImage image2)
@@ -17,15 +18,20 @@ internal static class ImageError
                 nameof(image2));
         }
 
-        var sum = 0.0;
+        var squares = 0L;
         for (var i = 0; i < image1.Pixels.Length; i++)
         {
             var difference = i % 4 == 3 ? 0 : image1.Pixels[i] - image2.Pixels[i];
-            sum += difference * difference;
+            squares += difference * difference;
         }
 
-        return 20 * Math.Log10(255 / Math.Sqrt(sum / (0.75 * image1.Pixels.Length)));
+        var meanSquare = squares / (0.75 * image1.Pixels.Length);
+        return 10 * Math.Log10(255.0 * 255.0 / meanSquare);
     }
+
+    /// <summary>Creates an image of the absolute difference of each value, opaque.</summary>
+    public static PixelImage AbsoluteDifference(PixelImage image, PixelImage reference) => new(image.Width, image.Height,
+        [.. image.Pixels.Select((value, i) => i % 4 == 3 ? byte.MaxValue : (byte)Math.Abs(value - reference.Pixels[i]))]);
 
     /// <summary>Creates an image of a difference: grey where there is none, brighter and darker by some times what there is.</summary>
     public static PixelImage Difference(PixelImage image, PixelImage reference, int factor)

@@ -5,7 +5,7 @@ using FractalEngine.Render.Views;
 namespace FractalEngine.Benchmarks.Drawing;
 
 /// <summary>Settings with one optimisation switched off.</summary>
-/// <param name="Name">The word behind <c>--without</c> after a dash; of the first case, which has all on, a description.</param>
+/// <param name="Name">A dash and the name of the optimisation; of the first case, which has all on, a description.</param>
 /// <param name="Load">Options for loading files.</param>
 /// <param name="Settings">Settings for preparing and drawing.</param>
 /// <param name="Unit">What <paramref name="CounterOf"/> counts; empty for the first case.</param>

@@ -43,7 +43,7 @@ internal static class FirstFrameTable
     }
 
     private static BigInteger? CountFaces(string file) =>
-        AssetLoader.Load(file).Scene.Objects.Aggregate((BigInteger?)0, (sum, item) => sum + item.Model.FaceCount);
+        AssetLoader.Load(file).Scene.Sum(static model => model.FaceCount);
 
     private static double RoundMilliseconds(double milliseconds) => Math.Round(milliseconds, 3);
 

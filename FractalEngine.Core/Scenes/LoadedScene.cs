@@ -1,4 +1,5 @@
 using System.Collections.Immutable;
+using System.Numerics;
 using FractalEngine.Core.Geometry;
 
 namespace FractalEngine.Core.Scenes;
@@ -18,6 +19,15 @@ public sealed record LoadedScene(Scene Scene, ImmutableArray<PlacedModel> Object
     /// <summary>The models of the objects that no physics moves, each once.</summary>
     public IEnumerable<Model> StaticModels =>
         Objects.Where(static placed => placed.Declaration is not PhysicsObject).Select(static placed => placed.Model).Distinct();
+
+    /// <summary>Adds up a number of the models of all objects, such as <see cref="Model.FaceCount"/>.</summary>
+    /// <param name="count">Returns the number of a model; null where it is infinite.</param>
+    /// <returns>Null where that of one object is infinite.</returns>
+    public BigInteger? Sum(Func<Model, BigInteger?> count)
+    {
+        ArgumentNullException.ThrowIfNull(count);
+        return Objects.Aggregate((BigInteger?)BigInteger.Zero, (sum, placed) => sum + count(placed.Model));
+    }
 
     /// <summary>Places the models of a scene made in code, or loaded from a file.</summary>
     /// <exception cref="FractalEngineException">An object names a file that is not loaded.</exception>

@@ -394,20 +394,6 @@ public sealed class CommandLineTests : IDisposable
     }
 
     [Theory]
-    [InlineData("render", "cube.obj", "--output", "a.png")]
-    [InlineData("view", "cube.obj")]
-    public void Without_AnUnknownWord_NamesItAndTheKnownOnes(params string[] arguments)
-    {
-        var (exitCode, _, error) = Run([.. arguments, "--without", "backface-culling", "--without", "nonsense"]);
-        Assert.Equal(2, exitCode);
-        Assert.StartsWith(
-            "error: --without: expected one of backface-culling, frustum-culling, occlusion-culling, light-culling, "
-            + "caster-culling, bake-skipping, degenerate-removal, state-filtering, buffer-reuse, mesh-sharing, lazy-loading, idle, "
-            + "not 'nonsense'\n",
-            error, StringComparison.Ordinal);
-    }
-
-    [Theory]
     [InlineData("missing.obj")]
     [InlineData("missing.sdo")]
     [InlineData(".")]

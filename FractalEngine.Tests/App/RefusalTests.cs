@@ -93,39 +93,23 @@ public sealed class RefusalTests : IDisposable
     [InlineData("render cube.obj -o a.png --up (0,1,0)", "--up needs --look-from or --look-at")]
     [InlineData("render cube.obj -o a.png --view top --up (0,1,0)", "--up needs --look-from or --look-at")]
     [InlineData("render cube.obj -o a.png --keep-partial", "--seed and --keep-partial need --trace")]
-    [InlineData("render cube.obj -o a.png --threshold 30", "--threshold needs --reference IMAGE")]
     [InlineData("render cube.obj -o a.png --trace 1 --samples 8", "--samples draws triangles, and has no effect with --trace")]
     [InlineData("render cube.obj -o a.png --trace 1 --detail 0", "--detail draws triangles, and has no effect with --trace")]
     [InlineData("render cube.obj -o a.png --trace 1 --instances 1", "--instances draws triangles, and has no effect with --trace")]
     [InlineData("render cube.obj -o a.png --trace 1 --grid", "--grid draws triangles, and has no effect with --trace")]
     [InlineData("render cube.obj -o a.png --trace 1 --no-shadows", "--no-shadows draws triangles, and has no effect with --trace")]
     [InlineData("render cube.obj -o a.png --trace 1 --shading vertex", "--shading vertex draws triangles, and has no effect with --trace")]
-    [InlineData("render cube.obj -o a.png --trace 1 --without idle", "--without draws triangles, and has no effect with --trace")]
     [InlineData("render cube.obj -o a.png --trace 1 --no-ambient-occlusion",
         "--no-ambient-occlusion draws triangles, and has no effect with --trace")]
     [InlineData("render --no-ambient-occlusion --trace 1 cube.obj -o a.png",
         "--no-ambient-occlusion draws triangles, and has no effect with --trace")]
     [InlineData("animate cube.obj -o a.apng --turntable --trace 1 --wireframe",
         "--wireframe draws triangles, and has no effect with --trace")]
-    [InlineData("render cube.obj -o a.png --without idle", "--without idle has no effect without a window")]
-    [InlineData("animate cube.obj -o a.apng --turntable --without lazy-loading", "--without lazy-loading has no effect without a window")]
-    [InlineData("render cube.obj -o a.png --detail 0 --without frustum-culling", "--without frustum-culling has no effect with --detail 0")]
-    [InlineData("view cube.obj --detail 0 --without occlusion-culling", "--without occlusion-culling has no effect with --detail 0")]
     [InlineData("view --detail 0 --no-ambient-occlusion cube.obj", "--no-ambient-occlusion has no effect with --detail 0")]
-    [InlineData("view cube.obj --detail 0 --without bake-skipping", "--without bake-skipping has no effect with --detail 0")]
-    [InlineData("render cube.obj -o a.png --no-shadows --without caster-culling",
-        "--without caster-culling has no effect with --no-shadows")]
-    [InlineData("render cube.obj -o a.png --no-shadows --without light-culling", "--without light-culling has no effect with --no-shadows")]
-    [InlineData("render cube.obj -o a.png --no-ambient-occlusion --without bake-skipping",
-        "--without bake-skipping has no effect with --no-ambient-occlusion")]
     [InlineData("render cube.obj -o a.png --wireframe --shading vertex", "--shading vertex has no effect with --wireframe")]
     [InlineData("render cube.obj -o a.png --wireframe --no-shadows", "--no-shadows has no effect with --wireframe")]
     [InlineData("render cube.obj -o a.png --wireframe --no-ambient-occlusion",
         "--no-ambient-occlusion has no effect with --wireframe")]
-    [InlineData("render cube.obj -o a.png --wireframe --without backface-culling",
-        "--without backface-culling has no effect with --wireframe")]
-    [InlineData("render cube.obj -o a.png --wireframe --without occlusion-culling",
-        "--without occlusion-culling has no effect with --wireframe")]
     [InlineData("render cube.obj -o a.png --shading vertex --no-shadows", "--no-shadows has no effect with --shading vertex")]
     [InlineData("render cube.obj -o a.png --shading vertex --no-ambient-occlusion",
         "--no-ambient-occlusion has no effect with --shading vertex")]

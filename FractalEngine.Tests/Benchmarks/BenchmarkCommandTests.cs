@@ -9,7 +9,10 @@ public sealed class BenchmarkCommandTests : IDisposable
     private readonly TemporaryFolder _folder = new();
 
     private static readonly string[] Names =
-        ["front", "growth", "loading", "frames", "skips", "window", "rays", "trace", "light", "physics", "precision", "paper", "merge"];
+    [
+        "front", "growth", "loading", "frames", "skips", "window", "compare", "rays", "trace", "light", "physics", "precision", "paper",
+        "merge",
+    ];
 
     public static TheoryData<string> Commands => [.. Names];
 
@@ -50,6 +53,7 @@ public sealed class BenchmarkCommandTests : IDisposable
     [InlineData("physics --collider best", "--collider")]
     [InlineData("physics --balls none", "--balls")]
     [InlineData("window nothing.sdo", "nothing.sdo")]
+    [InlineData("compare --threshold -1", "--threshold")]
     [InlineData("paper --quick", "--quick")]
     [Trait("Category", "Soak")]
     public void Run_OfOtherWordsThatMakeNoSense_NamesTheFirst(string words, string unexpected) => CheckNoSense(words, unexpected);

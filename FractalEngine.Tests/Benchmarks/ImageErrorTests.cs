@@ -38,6 +38,23 @@ public class ImageErrorTests
         Assert.Equal(double.PositiveInfinity, ImageError.PeakSignalToNoiseRatio(Grey(2, 2, 50), image));
     }
 
+    /// <summary>The mean of the squares is that of the three colours alone: 6 components here.</summary>
+    [Theory]
+    [InlineData(new byte[] { 40, 20, 30, 255, 40, 50, 60, 7 }, new byte[] { 30, 0, 0, 255, 0, 0, 0, 255 }, 900 / 6.0)]
+    [InlineData(new byte[] { 13, 20, 26, 9, 40, 50, 60, 77 }, new byte[] { 3, 0, 4, 255, 0, 0, 0, 255 }, 25 / 6.0)]
+    [InlineData(new byte[] { 10, 20, 30, 9, 36, 53, 60, 200 }, new byte[] { 0, 0, 0, 255, 4, 3, 0, 255 }, 25 / 6.0)]
+    [InlineData(new byte[] { 5, 25, 25, 255, 45, 45, 65, 7 }, new byte[] { 5, 5, 5, 255, 5, 5, 5, 255 }, 25)]
+    [InlineData(new byte[] { 255, 20, 30, 255, 40, 50, 60, 7 }, new byte[] { 245, 0, 0, 255, 0, 0, 0, 255 }, 60_025 / 6.0)]
+    public void AbsoluteDifference_OfTwoImages_IsThatOfTheirColours(byte[] reference, byte[] differences, double meanSquare)
+    {
+        var image = new PixelImage(2, 1, [10, 20, 30, 255, 40, 50, 60, 7]);
+        Assert.Equal(
+            10 * Math.Log10(255 * 255 / meanSquare), ImageError.PeakSignalToNoiseRatio(image, new(2, 1, reference)), 1e-12);
+        var difference = ImageError.AbsoluteDifference(image, new(2, 1, reference));
+        Assert.Equal((2, 1), (difference.Width, difference.Height));
+        Assert.Equal(differences, difference.Pixels);
+    }
+
     [Theory]
     [InlineData(3, 2)]
     [InlineData(2, 3)]

@@ -47,7 +47,7 @@ internal static partial class ActionTable
     private static WindowAction Gesture(string id, string gesture, string help) => new(id, "Go", "", help) { Gesture = gesture };
 
     private static WindowAction Setting(
-        string id, string name, string help, Key? key, string flag, Func<RenderSettings, bool> isOn,
+        string id, string name, string help, Key? key, string? flag, Func<RenderSettings, bool> isOn,
         Func<RenderSettings, bool, RenderSettings> set, string? onMessage = null, string? offMessage = null) => new(id, "View", name, help)
         {
             Keys = key is { } pressed ? [new(pressed)] : [],

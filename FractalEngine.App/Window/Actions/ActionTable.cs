@@ -105,7 +105,7 @@ internal static partial class ActionTable
         Setting("ambient-occlusion", "Ambient occlusion",
             "less light within the holes of fractals, where lighting is computed at every pixel", null, "--no-ambient-occlusion",
             static settings => settings.AmbientOcclusion, static (settings, on) => settings with { AmbientOcclusion = on }),
-        Setting("occlusion-culling", "Occlusion culling", "leave out what other parts hide; the image is the same", null, "--without",
+        Setting("occlusion-culling", "Occlusion culling", "leave out what other parts hide; the image is the same", null, null,
             static settings => settings.Culling?.OcclusionCulling == true,
             static (settings, on) => settings.Culling is not { } culling ? settings
                 : settings with { Culling = culling with { OcclusionCulling = on } }),

@@ -24,6 +24,7 @@ internal sealed class WindowActions(
     RenderWindow window, WindowRenderer renderer, WindowOverlay overlay, WindowTracing tracing, PanelLayout panels,
     RenderSettings settings, Func<TimeSpan> clock)
 {
+    private readonly Queue<WindowAction> _chosen = [];
     private Redraw _requested;
 
     /// <summary>The present render settings.</summary>
@@ -43,6 +44,12 @@ internal sealed class WindowActions(
 
     /// <summary>Traces the view of the window.</summary>
     public WindowTracing Tracing => tracing;
+
+    /// <summary>Lets the window run an action that was chosen in a menu or a panel.</summary>
+    public void Choose(WindowAction action) => _chosen.Enqueue(action);
+
+    /// <summary>Returns the next action that was chosen in a menu or a panel; null for none.</summary>
+    public WindowAction? TakeChosen() => _chosen.TryDequeue(out var action) ? action : null;
 
     /// <summary>Runs the command of a key. Keys of the camera are those of <see cref="CameraControls"/>, and ignored here.</summary>
     /// <param name="pressed">The key that was pressed.</param>

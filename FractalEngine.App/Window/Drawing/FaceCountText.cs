@@ -17,7 +17,7 @@ internal static class FaceCountText
     /// <summary>Returns the number of faces with its unit. Of a fractal whose instances coincide, different ones are counted.</summary>
     public static string Of(LoadedScene scene)
     {
-        var faces = scene.Objects.Aggregate((BigInteger?)BigInteger.Zero, static (sum, placed) => sum + CountFaces(placed.Model));
+        var faces = scene.Sum(CountFaces);
         return faces == BigInteger.One ? "1 face" : $"{DecimalText.FormatApproximately(faces)} faces";
     }
 

@@ -1,7 +1,5 @@
 using System.Globalization;
-using System.Numerics;
 using FractalEngine.App.Window.Simulation;
-using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Visibility.Frames;
 using FractalEngine.Render;
 using static System.FormattableString;
@@ -29,9 +27,7 @@ internal readonly record struct FrameReport(
     }
 
     /// <summary>Number of instances of all objects together, for people.</summary>
-    private string AllInstances => Renderer.Scene.Source.Objects
-        .Aggregate((BigInteger?)BigInteger.Zero, static (sum, placed) => sum + ((placed.Model as FractalModel)?.InstanceCount
-            ?? (placed.Model is FractalModel ? null : BigInteger.One))) is not { } count ? "infinitely many"
+    private string AllInstances => Renderer.Scene.Source.Sum(static model => model.InstanceCount) is not { } count ? "infinitely many"
         : count.ToString(count < 1_000_000_000_000 ? "N0" : "E1", CultureInfo.InvariantCulture);
 
     private (string Name, string Value)[] CostRows(FrameStatistics statistics)

@@ -1,4 +1,5 @@
 using FractalEngine.App.Window.Actions;
+using FractalEngine.App.Window.State;
 using FractalEngine.App.Window.Widgets;
 using FractalEngine.Render.Ui;
 
@@ -6,20 +7,13 @@ namespace FractalEngine.App.Window.Panels;
 
 /// <summary>The panel of bodies and their collider.</summary>
 /// <param name="actions">The window with the document.</param>
-/// <param name="choose">Runs an action.</param>
-internal sealed class PhysicsPanel(WindowActions actions, Action<WindowAction> choose)
+internal sealed class PhysicsPanel(WindowActions actions)
 {
     /// <summary>Adds the widgets of the panel.</summary>
-    public void Build(UserInterface ui)
+    public void Build(UserInterface ui, Document document)
     {
-        if (actions.Document is not { } document)
-        {
-            ui.Label("no scene", isDim: true);
-            return;
-        }
-
-        ui.Actions(actions, choose, 2, "pause", "step", "drop-ball", "throw-ball", "reset-bodies", "walk");
-        ui.Actions(actions, choose, 1, "shrinking", "closest-points", "next-collider");
+        ui.Actions(actions, 2, "pause", "step", "drop-ball", "throw-ball", "reset-bodies", "walk");
+        ui.Actions(actions, 1, "shrinking", "closest-points", "next-collider");
         var speed = document.Physics.Speed;
         if (ui.Slider("speed", ref speed, 0, 4, 0.05))
         {

@@ -27,14 +27,8 @@ internal sealed class ScenePanel(WindowActions actions)
     private string _addedFile = "";
 
     /// <summary>Adds the widgets of the panel.</summary>
-    public void Build(UserInterface ui)
+    public void Build(UserInterface ui, Document document)
     {
-        if (actions.Document is not { } document)
-        {
-            ui.Label("no scene", isDim: true);
-            return;
-        }
-
         if (document.File.Kind != FileKind.Scene || document.File.ParsedScene is null)
         {
             ui.Paragraph("This is a single model. As a scene it can have more objects, lights and colours.");

@@ -9,20 +9,13 @@ namespace FractalEngine.App.Window.Panels;
 
 /// <summary>The panel of what was clicked and measured.</summary>
 /// <param name="actions">The window with the document.</param>
-/// <param name="choose">Runs an action.</param>
-internal sealed class SelectionPanel(WindowActions actions, Action<WindowAction> choose)
+internal sealed class SelectionPanel(WindowActions actions)
 {
     private readonly PlacementFields _placement = new(actions);
 
     /// <summary>Adds the widgets of the panel.</summary>
-    public void Build(UserInterface ui)
+    public void Build(UserInterface ui, Document document)
     {
-        if (actions.Document is not { } document)
-        {
-            ui.Label("no scene", isDim: true);
-            return;
-        }
-
         if (document.Tool.Selected is { } selected)
         {
             foreach (var (name, value) in selected.Facts)
@@ -32,7 +25,7 @@ internal sealed class SelectionPanel(WindowActions actions, Action<WindowAction>
                 ui.Paragraph(value);
             }
 
-            ui.Actions(actions, choose, 2, "select-up", "copy-selection");
+            ui.Actions(actions, 2, "select-up", "copy-selection");
             if (selected is { Depth: > 0, Object.Model.SourcePath: { } path } && path.EndsWith(".fdo", StringComparison.OrdinalIgnoreCase))
             {
                 ui.Row(1);
@@ -64,7 +57,7 @@ internal sealed class SelectionPanel(WindowActions actions, Action<WindowAction>
         }
 
         ui.Heading("Handles");
-        ui.Actions(actions, choose, 3, "handles-move", "handles-turn", "handles-scale");
+        ui.Actions(actions, 3, "handles-move", "handles-turn", "handles-scale");
         if (document.Tool.Handles != HandleKind.None)
         {
             ui.Scope($"object {index}", () => _placement.Build(ui, objects[index], index));
@@ -74,7 +67,7 @@ internal sealed class SelectionPanel(WindowActions actions, Action<WindowAction>
     private void BuildMeasuring(UserInterface ui, MeasureTool measure)
     {
         ui.Heading("Distances");
-        ui.Actions(actions, choose, 1, "measure");
+        ui.Actions(actions, 1, "measure");
         foreach (var (kind, name) in ((MeasureKind, string)[])
             [(MeasureKind.Points, "two points"), (MeasureKind.PointToObject, "point to object"), (MeasureKind.Objects, "two objects")])
         {

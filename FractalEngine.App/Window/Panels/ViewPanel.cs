@@ -8,19 +8,18 @@ namespace FractalEngine.App.Window.Panels;
 
 /// <summary>The panel of the camera, and of how the scene is drawn.</summary>
 /// <param name="actions">The window with the document.</param>
-/// <param name="choose">Runs an action.</param>
-internal sealed class ViewPanel(WindowActions actions, Action<WindowAction> choose)
+internal sealed class ViewPanel(WindowActions actions)
 {
     private readonly List<(string Name, CameraState State)> _bookmarks = [];
-    private readonly SectionFields _section = new(actions, choose);
+    private readonly SectionFields _section = new(actions);
     private readonly ClipFields _clip = new(actions);
 
     /// <summary>Adds the widgets of the panel.</summary>
     public void Build(UserInterface ui)
     {
-        ui.Actions(actions, choose, 3, "view-front", "view-right", "view-top");
-        ui.Actions(actions, choose, 2, "frame-scene", "reset-camera");
-        ui.Actions(actions, choose, 1, "projection");
+        ui.Actions(actions, 3, "view-front", "view-right", "view-top");
+        ui.Actions(actions, 2, "frame-scene", "reset-camera");
+        ui.Actions(actions, 1, "projection");
         if (actions.Document is { } document)
         {
             BuildCamera(ui, document);
@@ -28,7 +27,7 @@ internal sealed class ViewPanel(WindowActions actions, Action<WindowAction> choo
         }
 
         ui.Heading("Drawing");
-        ui.Actions(actions, choose, 2, "wireframe", "grid", "pixel-light", "trace");
+        ui.Actions(actions, 2, "wireframe", "grid", "pixel-light", "trace");
         BuildDetail(ui);
         if (actions.Document is { } shown)
         {
@@ -41,7 +40,7 @@ internal sealed class ViewPanel(WindowActions actions, Action<WindowAction> choo
             }
 
             ui.Tooltip("bounding boxes of the sub-fractals at a level; 0 for whole objects, -1 for none");
-            ui.Actions(actions, choose, 1, "normals");
+            ui.Actions(actions, 1, "normals");
             _section.Build(ui, shown);
             BuildBookmarks(ui, shown);
         }
@@ -71,7 +70,7 @@ internal sealed class ViewPanel(WindowActions actions, Action<WindowAction> choo
         }
 
         ui.Tooltip("pixels below which a sub-fractal is drawn as one instance of its base mesh (--detail)");
-        ui.Actions(actions, choose, 1, "occlusion-culling", "shadows", "ambient-occlusion");
+        ui.Actions(actions, 1, "occlusion-culling", "shadows", "ambient-occlusion");
     }
 
     private void BuildBookmarks(UserInterface ui, Document document)

@@ -1,4 +1,5 @@
 using FractalEngine.App.Window.Actions;
+using FractalEngine.App.Window.State;
 using FractalEngine.App.Window.Widgets;
 using FractalEngine.Core.Maths;
 using FractalEngine.Render.Ui;
@@ -13,7 +14,6 @@ internal sealed class WindowInterface
 
     private readonly WindowActions _actions;
     private readonly PanelLayout _panels;
-    private readonly Queue<WindowAction> _chosen = [];
     private readonly KeyList _keyList;
     private readonly AxisGizmo _gizmo;
     private readonly TransformHandles _handles;
@@ -25,20 +25,17 @@ internal sealed class WindowInterface
     {
         _actions = actions;
         _panels = actions.Panels;
-        _keyList = new(_panels, Choose);
+        _keyList = new(actions);
         _gizmo = new(actions);
         _handles = new(actions);
         _sectionHandle = new(actions);
-        _panels.Add("scene", new("Scene", new ScenePanel(actions).Build) { Dock = UiDock.Left });
+        _panels.Add("scene", new("Scene", OfDocument(new ScenePanel(actions).Build)) { Dock = UiDock.Left });
         _panels.Add("fractal", new("Fractal", new FractalPanel(actions).Build) { Dock = UiDock.Left });
-        _panels.Add("view", new("View", new ViewPanel(actions, Choose).Build) { Dock = UiDock.Right });
-        _panels.Add("selection", new("Selection", new SelectionPanel(actions, Choose).Build) { Dock = UiDock.Right });
-        _panels.Add("physics", new("Physics", new PhysicsPanel(actions, Choose).Build) { Dock = UiDock.Right });
+        _panels.Add("view", new("View", new ViewPanel(actions).Build) { Dock = UiDock.Right });
+        _panels.Add("selection", new("Selection", OfDocument(new SelectionPanel(actions).Build)) { Dock = UiDock.Right });
+        _panels.Add("physics", new("Physics", OfDocument(new PhysicsPanel(actions).Build)) { Dock = UiDock.Right });
         _panels.Add("statistics", new("Statistics", new StatisticsPanel(actions).Build) { Dock = UiDock.Right });
     }
-
-    /// <summary>Returns the next action that was chosen in a menu or a panel; null for none.</summary>
-    public WindowAction? TakeChosen() => _chosen.TryDequeue(out var action) ? action : null;
 
     /// <summary>Adds the menu bar, panels and handles while they are shown, and the list of keys.</summary>
     public void Build(UserInterface ui)
@@ -57,7 +54,17 @@ internal sealed class WindowInterface
         _keyList.Build(ui);
     }
 
-    private void Choose(WindowAction action) => _chosen.Enqueue(action);
+    /// <summary>Builds a panel of the document, or says that there is none.</summary>
+    private Action<UserInterface> OfDocument(Action<UserInterface, Document> build) => ui =>
+    {
+        if (_actions.Document is { } document)
+        {
+            build(ui, document);
+            return;
+        }
+
+        ui.Label("no scene", isDim: true);
+    };
 
     /// <summary>Writes the measured lengths beside their lines.</summary>
     private void MarkDimensions(UserInterface ui)
@@ -96,7 +103,7 @@ internal sealed class WindowInterface
             var isOn = action.IsOn?.Invoke(_actions) == true;
             if (ui.MenuItem(action.Name, _panels.Bindings.TextOf(action), isOn, action.IsAvailable(_actions)))
             {
-                Choose(action);
+                _actions.Choose(action);
             }
 
             ui.Tooltip(action.PlainHelp);

@@ -1,6 +1,7 @@
 using System.Diagnostics.CodeAnalysis;
 using FractalEngine.Core;
 using FractalEngine.Core.Colliders;
+using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
 using FractalEngine.Core.Scenes;
@@ -23,11 +24,6 @@ internal static class BodySpawner
 
     // Radii of a dropped sphere that are free around it.
     private const double FreeRadii = 1.5;
-
-    // Fraction of the scene's size by which rounding may miss a wanted distance.
-    private const double Rounding = 1e-9;
-
-    private const int MaxSearchSteps = 256;
 
     private const double SphereRestitution = 0.6;
     private const double SphereFriction = 0.3;
@@ -56,17 +52,7 @@ internal static class BodySpawner
             distance = 2 * radius;
         }
 
-        if (!(radius > 0))
-        {
-            return "there is no room for a ball";
-        }
-
-        world.Add(new(camera.Position + (distance * camera.LocalAxes.V3), radius)
-        {
-            Restitution = SphereRestitution,
-            Friction = SphereFriction,
-        });
-        return "dropped a ball";
+        return AddBall(world, camera.Position + (distance * camera.LocalAxes.V3), radius, Vector.Zero) ?? "dropped a ball";
     }
 
     /// <summary>Throws a sphere from the camera straight ahead, fast enough to cross half of the scene in a second.</summary>
@@ -79,18 +65,21 @@ internal static class BodySpawner
         }
 
         var radius = Math.Min(SphereRadiusFraction * sceneSize, FreeDistanceFraction * freeDistance);
+        var velocity = 0.5 * sceneSize * camera.LocalAxes.V3;
+        return AddBall(world, camera.Position + (2 * radius * camera.LocalAxes.V3), radius, velocity) ?? "threw a ball";
+    }
+
+    /// <summary>Adds a ball, if it has a size.</summary>
+    /// <returns>The reason why there is none; null on success.</returns>
+    private static string? AddBall(PhysicsWorld world, Vector position, double radius, Vector velocity)
+    {
         if (!(radius > 0))
         {
             return "there is no room for a ball";
         }
 
-        world.Add(new(camera.Position + (2 * radius * camera.LocalAxes.V3), radius)
-        {
-            Velocity = 0.5 * sceneSize * camera.LocalAxes.V3,
-            Restitution = SphereRestitution,
-            Friction = SphereFriction,
-        });
-        return "threw a ball";
+        world.Add(new(position, radius) { Velocity = velocity, Restitution = SphereRestitution, Friction = SphereFriction });
+        return null;
     }
 
     /// <summary>Tells whether a falling player meets something.</summary>
@@ -98,32 +87,7 @@ internal static class BodySpawner
     public static bool HasGround(PhysicsWorld world)
     {
         var player = world.Character!;
-        var direction = -player.Up;
-        var position = player.Position;
-        var kind = world.ColliderOverride ?? ColliderKind.Exact;
-        for (var i = 0; i < MaxSearchSteps; i++)
-        {
-            if (!world.TryFindClosest(position, kind, out var closest))
-            {
-                return false;
-            }
-
-            // Nothing is closer than this, so that nothing is passed by.
-            var step = Math.Max(closest.Distance, 0.1 * player.Description.Radius);
-            if (closest.Distance <= player.Description.Radius)
-            {
-                return true;
-            }
-
-            if (Vector.Dot(closest.Point - position, direction) < 0 && IsBeyondAll(world, position, direction))
-            {
-                return false;
-            }
-
-            position += step * direction;
-        }
-
-        return true;
+        return world.TryCastSphere(player.Position, player.Description.Radius, WayThrough(world, player.Position, -player.Up), out _);
     }
 
     /// <summary>Activates the player: that of the scene, or else a new one at the camera.</summary>
@@ -157,57 +121,29 @@ internal static class BodySpawner
         return true;
     }
 
-    /// <summary>Finds how far the line of sight has some room around it, before it meets a surface or passes everything.</summary>
+    /// <summary>
+    /// Finds how far the line of sight has some room around it, before it meets something, or else to where it passes the middle of all
+    /// objects.
+    /// </summary>
     /// <returns>A distance from the camera in scene units; 0 where there is no room.</returns>
     private static double FindVisibleDistance(PhysicsWorld world, Camera camera, double room, double sceneSize)
     {
         var direction = camera.LocalAxes.V3;
-        var kind = world.ColliderOverride ?? ColliderKind.Exact;
-        var closestDistance = double.PositiveInfinity;
-        var found = 0.0;
-        var travelled = 0.0;
-        for (var i = 0; i < MaxSearchSteps; i++)
-        {
-            var position = camera.Position + (travelled * direction);
-            if (!world.TryFindClosest(position, kind, out var closest))
-            {
-                return sceneSize;
-            }
-
-            // A step straight at a surface ends where the room does.
-            if (closest.Distance < room - (Rounding * sceneSize))
-            {
-                return found;
-            }
-
-            // Where the line of sight passes everything, the ball falls at the place closest to it.
-            if (closest.Distance < closestDistance)
-            {
-                closestDistance = closest.Distance;
-                found = travelled;
-            }
-            else if (IsBeyondAll(world, position, direction))
-            {
-                return found;
-            }
-
-            // The surface may be as near as this, so that the room ends here at the earliest.
-            travelled += Math.Max(closest.Distance - room, 0.1 * room);
-        }
-
-        return found;
+        var bounds = BoundsOf(world);
+        return bounds.IsEmpty || !(room > 0) ? sceneSize
+            : world.TryCastSphere(camera.Position, room, WayThrough(world, camera.Position, direction), out var hit) ? hit.Distance
+            : Math.Max(0, Vector.Dot(bounds.Centre - camera.Position, direction));
     }
 
-    /// <summary>Tells whether all static objects lie behind a position.</summary>
-    private static bool IsBeyondAll(PhysicsWorld world, Vector position, Vector direction) =>
-        world.StaticObjects.All(placed =>
-        {
-            var box = placed.Bounds;
-            var farthest = new Vector(
-                direction.X > 0 ? box.Maximum.X : box.Minimum.X, direction.Y > 0 ? box.Maximum.Y : box.Minimum.Y,
-                direction.Z > 0 ? box.Maximum.Z : box.Minimum.Z);
-            return box.IsEmpty || Vector.Dot(farthest - position, direction) < 0;
-        });
+    /// <summary>Returns a way that ends beyond all objects.</summary>
+    private static Vector WayThrough(PhysicsWorld world, Vector position, Vector direction)
+    {
+        var bounds = BoundsOf(world);
+        return ((bounds.Centre - position).Length() + bounds.Diagonal) * direction;
+    }
+
+    private static BoundingBox BoundsOf(PhysicsWorld world) =>
+        world.StaticObjects.Aggregate(BoundingBox.Empty, static (box, placed) => BoundingBox.Union(box, placed.Bounds));
 
     /// <summary>Computes the distance from a position to the closest surface. The first call builds the colliders.</summary>
     private static bool TryFindFreeDistance(
@@ -217,7 +153,7 @@ internal static class BodySpawner
         problem = null;
         try
         {
-            if (world.TryFindClosest(position, world.ColliderOverride ?? ColliderKind.Exact, out var closest))
+            if (world.TryFindClosest(position, ColliderKind.Exact, out var closest))
             {
                 distance = closest.Distance;
             }

@@ -44,10 +44,4 @@ internal sealed record WindowOptions
 
     /// <summary>Full path of the list of recent files; null to keep none.</summary>
     public string? RecentFilesPath { get; init; }
-
-    /// <summary>
-    /// Whether the window draws nothing while nothing has changed or while it is hidden. Otherwise it draws 60 frames a second, for
-    /// comparison.
-    /// </summary>
-    public bool IdleWhenUnchanged { get; init; } = true;
 }

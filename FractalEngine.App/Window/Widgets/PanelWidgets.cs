@@ -13,8 +13,7 @@ internal static class PanelWidgets
     /// <param name="ui">The interface that is being built.</param>
     /// <param name="actions">The window with the document.</param>
     /// <param name="id">Id of the action in the table.</param>
-    /// <param name="choose">Runs the action.</param>
-    public static void Action(this UserInterface ui, WindowActions actions, string id, Action<WindowAction> choose)
+    public static void Action(this UserInterface ui, WindowActions actions, string id)
     {
         var action = ActionTable.Get(id);
         var isAvailable = action.IsAvailable(actions);
@@ -23,12 +22,12 @@ internal static class PanelWidgets
             var isChecked = isOn(actions);
             if (ui.CheckBox(action.Name, ref isChecked))
             {
-                choose(action);
+                actions.Choose(action);
             }
         }
         else if (ui.Button(action.Name, isAvailable))
         {
-            choose(action);
+            actions.Choose(action);
         }
 
         ui.Tooltip(action.KeyText.Length > 0 ? $"{action.PlainHelp} ({action.KeyText})" : action.PlainHelp);
@@ -37,16 +36,14 @@ internal static class PanelWidgets
     /// <summary>Adds rows of check boxes and buttons for actions, in columns of equal width.</summary>
     /// <param name="ui">The interface that is being built.</param>
     /// <param name="actions">The window with the document.</param>
-    /// <param name="choose">Runs an action.</param>
     /// <param name="columns">Number of actions in a row.</param>
     /// <param name="ids">Ids of the actions in the table.</param>
-    public static void Actions(
-        this UserInterface ui, WindowActions actions, Action<WindowAction> choose, int columns, params ReadOnlySpan<string> ids)
+    public static void Actions(this UserInterface ui, WindowActions actions, int columns, params ReadOnlySpan<string> ids)
     {
         ui.Row([.. Enumerable.Repeat(1.0, columns)]);
         foreach (var id in ids)
         {
-            ui.Action(actions, id, choose);
+            ui.Action(actions, id);
         }
     }
 

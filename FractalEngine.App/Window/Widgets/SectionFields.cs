@@ -9,8 +9,7 @@ namespace FractalEngine.App.Window.Widgets;
 
 /// <summary>The section plane as numbers, in the panel of the view.</summary>
 /// <param name="actions">The window with the document.</param>
-/// <param name="choose">Runs an action.</param>
-internal sealed class SectionFields(WindowActions actions, Action<WindowAction> choose)
+internal sealed class SectionFields(WindowActions actions)
 {
     // The plane at the beginning of a drag, around which the sliders reach.
     private int _startInteraction = -1;
@@ -20,7 +19,7 @@ internal sealed class SectionFields(WindowActions actions, Action<WindowAction> 
     public void Build(UserInterface ui, Document document)
     {
         ui.Heading("Section");
-        ui.Actions(actions, choose, 2, "section", "section-cap");
+        ui.Actions(actions, 2, "section", "section-cap");
         if (document.Section.Shown is not { } plane)
         {
             return;
@@ -45,7 +44,7 @@ internal sealed class SectionFields(WindowActions actions, Action<WindowAction> 
             ui.Tooltip($"across the axis {label}");
         }
 
-        ui.Action(actions, "flip-section", choose);
+        ui.Action(actions, "flip-section");
         changed = BuildSliders(ui, document, changed);
         if (changed != plane)
         {

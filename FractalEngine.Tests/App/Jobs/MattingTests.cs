@@ -1,5 +1,4 @@
 using FractalEngine.App.Jobs;
-using FractalEngine.App.Shell;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Images;
 
@@ -83,22 +82,6 @@ public class MattingTests
             int nearest = Enumerable.Range(0, 256).MinBy(value => Math.Abs(Linear(value) - light));
             Assert.Equal((level, nearest), (level, combined[0]));
         }
-    }
-
-    [Fact]
-    public void Difference_OfImages_IsThatOfTheirValues()
-    {
-        var image = new PixelImage(2, 1, [10, 20, 30, 255, 40, 50, 60, 0]);
-        var reference = new PixelImage(2, 1, [13, 20, 26, 9, 40, 50, 60, 77]);
-        var (ratio, difference) = ImageDifference.Between(image, reference);
-        Assert.Equal([3, 0, 4, 255, 0, 0, 0, 255], difference.Pixels);
-        Assert.Equal((2, 1), (difference.Width, difference.Height));
-        // 25 is the sum of the squares of six values.
-        Assert.Equal(10 * Math.Log10(65025 / (25 / 6.0)), ratio, 1e-12);
-        Assert.Equal(double.PositiveInfinity, ImageDifference.Between(image, image).PeakSignalToNoise);
-        var error = Assert.Throws<UsageException>(() => ImageDifference.Between(image, new(1, 2, new byte[8])));
-        Assert.Equal("the reference has 1×2 pixels, and the image 2×1", error.Message);
-        Assert.Throws<UsageException>(() => ImageDifference.Between(image, new(2, 2, new byte[16])));
     }
 
     private static double Linear(int level) => new Colour(level / 255.0, 0, 0).ToLinear().Red;

@@ -97,6 +97,20 @@ public class OverlayWordsTests
         }
     }
 
+    /// <summary>No ball begins within another one, and beside all objects it falls beside their middle.</summary>
+    [Fact]
+    public void DropSphere_TowardsABallOrBesideAll_IsBeforeTheBallOrBesideTheMiddle()
+    {
+        var world = new PhysicsWorld(new Scene { Objects = [new SceneObject(Shapes.Cube())] });
+        var camera = new Camera(new(0, 0, -8), Vector.Zero, 60);
+        world.Add(new(new(0, 0, -3), 0.25));
+        BodySpawner.DropSphere(world, 5.2, camera);
+        var ball = world.Bodies[^1];
+        Assert.InRange(ball.Position.Z, -4, -3.25 - ball.Radius);
+        BodySpawner.DropSphere(world, 5.2, camera with { Position = new(2, 1, -8) });
+        Near.Equal(new(2, 1, 0), world.Bodies[^1].Position, 1e-12);
+    }
+
     [Fact]
     public void IsRunning_AtSpeedZero_IsFalse()
     {

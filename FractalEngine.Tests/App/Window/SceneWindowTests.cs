@@ -1,4 +1,4 @@
-using FractalEngine.App.Jobs;
+using FractalEngine.Benchmarks.Drawing;
 using FractalEngine.Core.Images;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Parsing.Sdo;
@@ -187,7 +187,7 @@ public sealed class SceneWindowTests : IDisposable
             tracer.AddSample();
         }
 
-        Assert.InRange(ImageDifference.Between(traced, tracer.ToImage()).PeakSignalToNoise, 40, double.PositiveInfinity);
+        Assert.InRange(ImageError.PeakSignalToNoiseRatio(traced, tracer.ToImage()), 40, double.PositiveInfinity);
         // The message of the screenshot is shown for four seconds, then one more frame is presented.
         Thread.Sleep(TimeSpan.FromSeconds(4.5));
         AssertSleeps(window, TimeSpan.FromSeconds(2));

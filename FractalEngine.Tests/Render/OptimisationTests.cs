@@ -6,10 +6,9 @@ using FractalEngine.Render.Images;
 using FractalEngine.Render.Preparation;
 using FractalEngine.Render.Views;
 using FractalEngine.Tests.Colliders;
-using FractalEngine.Tests.Render;
 using FractalEngine.Tests.Support;
 
-namespace FractalEngine.Tests.App.Options;
+namespace FractalEngine.Tests.Render;
 
 /// <summary>Optimisations: each disabled alone gives the same image, and the counters show how much it saves.</summary>
 [Collection(GlTests.Name)]
