@@ -17,11 +17,7 @@ internal readonly record struct BvhChild
     public static BvhChild Root => new(0);
 
     /// <summary>True for a child that is a node.</summary>
-    public bool IsNode
-    {
-        [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        get => _code >= 0;
-    }
+    public bool IsNode => _code >= 0;
 
     /// <summary>Index of the node; meaningless for a leaf.</summary>
     public int NodeIndex => _code;
@@ -50,7 +46,6 @@ internal readonly record struct BvhChild
         new(~((firstTriangle * BvhLayout.MaxLeafTriangles) + triangleCount - 1));
 
     /// <summary>Restores a reference from its 32 bits, as entries of a traversal stack hold them.</summary>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static BvhChild FromBits(uint bits) => new((int)bits);
 
     /// <summary>Adjusts a reference of a subtree whose nodes are appended to those of another tree.</summary>

@@ -46,7 +46,6 @@ internal sealed class PrecomputedTriangles
 
     /// <summary>The index of the four that a leaf consists of.</summary>
     /// <param name="leaf">A leaf of at most four triangles.</param>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public int QuadOf(BvhChild leaf) => _quadIndices[leaf.FirstTriangle];
 
     /// <summary>Tests four triangles in the mesh's own frame.</summary>

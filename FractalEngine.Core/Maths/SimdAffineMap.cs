@@ -40,7 +40,6 @@ internal readonly struct SimdAffineMap(Vector256<double> v1, Vector256<double> v
         new(map1.ApplyLinear(map2.V1), map1.ApplyLinear(map2.V2), map1.ApplyLinear(map2.V3), map1.Apply(map2.Translation));
 
     /// <summary>Maps a point x, y, z, 0.</summary>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public Vector256<double> Apply(Vector256<double> point) => ApplyLinear(point) + Translation;
 
     /// <summary>Maps a point as the <see cref="AffineMap"/> does.</summary>

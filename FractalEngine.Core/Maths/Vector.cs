@@ -45,7 +45,6 @@ public readonly record struct Vector(double X, double Y, double Z)
     public static Vector operator *(double factor, Vector v) => new(factor * v.X, factor * v.Y, factor * v.Z);
 
     /// <summary>Multiplies every component by a number.</summary>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static Vector operator *(Vector v, double factor) => factor * v;
 
     /// <summary>Divides every component by a number.</summary>

@@ -87,7 +87,6 @@ internal readonly ref struct ChildQueue(Span<double> values) : IChildQueue
     public double KeyOf(int child) => Unsafe.Add(ref _values, _paddedCount + child);
 
     /// <inheritdoc/>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public void Remove(int child) => Unsafe.Add(ref _values, child) = double.PositiveInfinity;
 
     /// <inheritdoc/>

@@ -77,7 +77,6 @@ internal readonly ref struct FloatChildQueue(Span<double> values, float error) :
     public bool MayContain(int child) => Unsafe.Add(ref _values, child) <= _error * _error;
 
     /// <inheritdoc/>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public void Remove(int child) => Unsafe.Add(ref _values, child) = float.PositiveInfinity;
 
     /// <inheritdoc/>

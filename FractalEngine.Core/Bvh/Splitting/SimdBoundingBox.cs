@@ -24,18 +24,10 @@ internal readonly record struct SimdBoundingBox(Vector256<float> Extents)
     }
 
     /// <summary>The smallest coordinates: x, y, z and an unused lane.</summary>
-    public Vector128<float> Minimum
-    {
-        [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        get => Extents.GetLower();
-    }
+    public Vector128<float> Minimum => Extents.GetLower();
 
     /// <summary>The largest coordinates: x, y, z and an unused lane.</summary>
-    public Vector128<float> Maximum
-    {
-        [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        get => -Extents.GetUpper();
-    }
+    public Vector128<float> Maximum => -Extents.GetUpper();
 
     /// <summary>Twice the centre of the box: x, y, z and an unused lane.</summary>
     public Vector128<float> DoubledCentre
@@ -63,6 +55,5 @@ internal readonly record struct SimdBoundingBox(Vector256<float> Extents)
     public static SimdBoundingBox Of(Vector128<float> point) => new(Vector256.Create(point, -point));
 
     /// <summary>Computes the smallest box that contains this box and another one.</summary>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public SimdBoundingBox Including(SimdBoundingBox box) => new(Vector256.MinNative(Extents, box.Extents));
 }

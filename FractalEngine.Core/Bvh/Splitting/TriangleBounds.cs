@@ -1,4 +1,3 @@
-using System.Runtime.CompilerServices;
 using System.Runtime.Intrinsics;
 
 namespace FractalEngine.Core.Bvh.Splitting;
@@ -11,9 +10,5 @@ internal readonly record struct TriangleBounds(SimdBoundingBox Box)
     public int FaceIndex => Box.Minimum.AsInt32()[3];
 
     /// <summary>Twice the centre of the box: x, y, z and a meaningless lane.</summary>
-    public Vector128<float> DoubledCentre
-    {
-        [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        get => Box.DoubledCentre;
-    }
+    public Vector128<float> DoubledCentre => Box.DoubledCentre;
 }

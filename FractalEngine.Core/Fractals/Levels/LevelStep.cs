@@ -17,11 +17,7 @@ internal readonly record struct LevelStep
     private LevelStep(long code) => _code = code;
 
     /// <summary>True for a step whose target does not depend on the level of the parent.</summary>
-    public bool IsAbsolute
-    {
-        [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        get => _code < 0;
-    }
+    public bool IsAbsolute => _code < 0;
 
     /// <summary>Creates a step that goes down a number of levels.</summary>
     /// <param name="levels">Number of levels, at least 0.</param>

@@ -68,7 +68,6 @@ internal readonly struct FloatRay
     /// <param name="ray">The ray.</param>
     /// <param name="perDistance">See <see cref="PerDistance"/>.</param>
     /// <param name="distance">The distance.</param>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static float LimitFor(in LocalRay ray, double perDistance, double distance) => LimitFor(ray.Start, perDistance, distance);
 
     /// <summary>Converts a distance along the ray of the query to an upper bound of the parameter.</summary>

@@ -50,15 +50,12 @@ internal readonly struct AffineFrame : ISearchFrame<AffineFrame>
     }
 
     /// <inheritdoc/>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public double RadiusSquared(SubFractal subFractal) => subFractal.RadiusSquared * _map.FrobeniusNormSquared();
 
     /// <inheritdoc/>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public double ChildCutoffSquared(in FractalSearchState search) => search.BoundCutoffSquared;
 
     /// <inheritdoc/>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public double ChildCutoff(in FractalSearchState search) => search.BoundCutoff;
 
     /// <inheritdoc/>

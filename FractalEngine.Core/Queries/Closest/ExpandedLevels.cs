@@ -32,6 +32,5 @@ internal sealed class ExpandedLevels(ExpandedSubFractal?[] levels)
             : Shared.GetValue(hierarchy, key => ExpandedLevelSelector.Select(key, bvh));
 
     /// <summary>The mesh of the sub-fractal with fewer than <see cref="Count"/> remaining levels; null where there is none.</summary>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public ExpandedSubFractal? At(long remainingLevels) => levels[remainingLevels];
 }

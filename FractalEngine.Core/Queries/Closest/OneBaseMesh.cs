@@ -1,4 +1,3 @@
-using System.Runtime.CompilerServices;
 using FractalEngine.Core.Bvh;
 
 namespace FractalEngine.Core.Queries.Closest;
@@ -14,6 +13,5 @@ internal readonly struct OneBaseMesh(TriangleBvh bvh) : IBaseMeshes
     public int MaxFaceCount { get; } = bvh.Mesh.FaceCount;
 
     /// <inheritdoc/>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public TriangleBvh At(int index) => bvh;
 }

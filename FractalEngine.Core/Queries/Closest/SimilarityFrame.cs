@@ -31,15 +31,12 @@ internal readonly struct SimilarityFrame(
     }
 
     /// <inheritdoc/>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public double RadiusSquared(SubFractal subFractal) => subFractal.RadiusSquared * _scaleSquared;
 
     /// <inheritdoc/>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public double ChildCutoffSquared(in FractalSearchState search) => search.BoundCutoffSquared * _inverseScaleSquared;
 
     /// <inheritdoc/>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public double ChildCutoff(in FractalSearchState search) => search.BoundCutoff * _inverseScale;
 
     /// <inheritdoc/>

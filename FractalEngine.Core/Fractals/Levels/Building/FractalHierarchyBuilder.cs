@@ -1,6 +1,6 @@
 using FractalEngine.Core.Fractals.Descriptions;
-using FractalEngine.Core.Geometry.Hulls;
 using FractalEngine.Core.Geometry.Triangles;
+using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Fractals.Levels.Building;
 
@@ -9,26 +9,22 @@ namespace FractalEngine.Core.Fractals.Levels.Building;
 /// The identity is not a child like the others. Where all levels below have it, the base mesh belongs to the level itself, and a child may
 /// skip levels that have it. Each chain of the other maps is then reached by one path, on its earliest levels (docs/colliders.md).
 /// </remarks>
-internal sealed partial class FractalHierarchyBuilder
+internal sealed class FractalHierarchyBuilder
 {
     /// <summary>Stands for infinitely many rounds: no search descends so many levels.</summary>
     public const long EndlessRounds = 1L << 40;
 
-    // More mean that the bounds grow or shrink too slowly to converge.
-    private const int MaxSubFractals = 4000;
+    // More are not compared, though a cycle of calls may take as many.
+    private const int MaxPeriodInRounds = 16;
 
     private readonly HierarchyDescription _description;
     private readonly bool _doublesPowers;
 
     // A set without maps on any level leaves nothing, however often it is repeated.
     private readonly bool _isEmpty;
-    private readonly LevelUnion _union;
-    private readonly SubFractalFactory _subFractalFactory;
     private readonly Dictionary<TransformationSet, MapSet> _sets = new(ReferenceEqualityComparer.Instance);
-    private long _childCount;
-    private readonly ChildInstanceBuilder _childBuilder;
+    private readonly LevelBuilder _levels;
     private readonly RecursiveLevels _recursives;
-    private int _baseIndex;
 
     /// <summary>Begins with the base meshes, which have no remaining levels.</summary>
     /// <param name="description">What the hierarchy is built from.</param>
@@ -41,20 +37,13 @@ internal sealed partial class FractalHierarchyBuilder
         _doublesPowers = doublesPowers;
         _isEmpty = FractalSteps.CountUpTo(description.Steps, 1).IsZero;
         _recursives = new(description.Recursives);
-        _childBuilder = new(_recursives.Period);
         // A search by similarities computes in the units of base meshes.
         HasOnlySimilarities = description.Steps.All(HasOnlySimilarMaps) && _recursives.HaveOnlySimilarities
             && !description.Recursives.Any(static recursive => QueryScale.IsNeeded(QueryScale.Magnitude(recursive.BaseMesh)));
-        _union = new(Built, new(description));
-        _subFractalFactory = new([.. description.Recursives.Select(static recursive => recursive.BaseMesh)], HasOnlySimilarities);
-        for (var i = 0; i < _recursives.Period; i++)
-        {
-            var volume = _subFractalFactory.BaseVolumes[i];
-            Built.Add(volume, new(null, volume.Box, [], static () => [], _subFractalFactory.CreateBase(i)));
-        }
+        _levels = new(description, HasOnlySimilarities);
     }
 
-    private BuiltLevels Built { get; } = new();
+    private BuiltLevels Built => _levels.Built;
 
     private bool HasOnlySimilarities { get; }
 
@@ -71,13 +60,13 @@ internal sealed partial class FractalHierarchyBuilder
     /// <summary>Adds the levels of the recursives, and those of all steps, the innermost first.</summary>
     private FractalHierarchy Build(bool keepsAllLevels)
     {
-        RequireAllowedChildren(_description.Steps.Sum(CountWideChildren));
+        LevelBuilder.RequireAllowedChildren(_description.Steps.Sum(CountWideChildren));
         AddRecursives();
         var recursiveTop = Built.Top;
-        _baseIndex = _recursives.BaseIndexAt(recursiveTop);
+        var baseIndex = _recursives.BaseIndexAt(recursiveTop);
         foreach (var step in _description.Steps.Reverse())
         {
-            AddStep(step);
+            AddStep(step, baseIndex);
         }
 
         var levels = Built.ToTable();
@@ -86,8 +75,7 @@ internal sealed partial class FractalHierarchyBuilder
             ReachableLevels.RemoveOthers(levels, Built.Top);
         }
 
-        return new(
-            [.. _description.Recursives.Select(static recursive => recursive.BaseMesh)], levels, Built.Top, _description.Root, recursiveTop)
+        return new(_levels.BaseMeshes, levels, Built.Top, _description.Root, recursiveTop)
         {
             HasOnlySimilarities = HasOnlySimilarities,
             HasDoubledPowers = HasDoubledPowers,
@@ -106,22 +94,13 @@ internal sealed partial class FractalHierarchyBuilder
         _ => 0,
     };
 
-    private static void RequireAllowedChildren(long count)
-    {
-        if (count > FractalLimits.MaxHierarchyChildren)
-        {
-            throw new FractalLimitException(
-                $"exact search needs more than the limit of {FractalLimits.MaxHierarchyChildren} transformations on all levels together");
-        }
-    }
-
-    private void AddStep(FractalStep step)
+    private void AddStep(FractalStep step, int baseIndex)
     {
         var repetition = step as Repetition ?? new([step], 1);
         if (_doublesPowers && MapPowers.TryCreate(repetition) is { } powers)
         {
             HasDoubledPowers = true;
-            powers.AddLevels(Built.Top, AddLevel);
+            powers.AddLevels(Built.Top, (edges, set) => _levels.Add(edges, set, baseIndex));
             return;
         }
 
@@ -135,8 +114,8 @@ internal sealed partial class FractalHierarchyBuilder
             if (hasOnlySets && round >= nextAttempt)
             {
                 var remainingRounds = repetition.Count - round ?? EndlessRounds;
-                var bound = CreatePeriodicBound(period, round, ChildInstanceBuilder.MaxExpandedLevels);
-                if (TryRepeatRound(bound, level => EdgesOfRepetition(bound, level, levelsBelowRepetition), remainingRounds * period))
+                var bound = _levels.CreatePeriodicBound(period, round, ChildInstanceBuilder.MaxExpandedLevels);
+                if (_levels.TryRepeatRound(bound, level => EdgesOfRepetition(bound, level, levelsBelowRepetition), remainingRounds * period))
                 {
                     return;
                 }
@@ -148,11 +127,11 @@ internal sealed partial class FractalHierarchyBuilder
             {
                 if (inner is TransformationSet set)
                 {
-                    AddLevel(levelsBelowRepetition, period, set);
+                    AddLevel(levelsBelowRepetition, period, set, baseIndex);
                 }
                 else
                 {
-                    AddStep(inner);
+                    AddStep(inner, baseIndex);
                     levelsBelowRepetition = Built.Top;
                 }
             }
@@ -165,9 +144,10 @@ internal sealed partial class FractalHierarchyBuilder
     /// <param name="levelsBelowRepetition">Remaining levels below the repetition that the level belongs to.</param>
     /// <param name="period">Number of levels after which the sets of the repetition recur.</param>
     /// <param name="set">The set of the level.</param>
-    private void AddLevel(long levelsBelowRepetition, int period, TransformationSet set)
+    /// <param name="baseIndex">Index of the base mesh.</param>
+    private void AddLevel(long levelsBelowRepetition, int period, TransformationSet set, int baseIndex)
     {
-        RequireAllowedLevel(set.Maps.Length);
+        _levels.RequireAllowedLevel(set.Maps.Length);
         if (!_sets.TryGetValue(set, out var mapSet))
         {
             mapSet = new(set);
@@ -175,41 +155,8 @@ internal sealed partial class FractalHierarchyBuilder
         }
 
         var edges = ChildInstanceBuilder.EdgesAt(Built.Top + 1, levelsBelowRepetition, period, mapSet, Built.MapSetAt);
-        AddLevel(_childBuilder.Share(edges), mapSet);
+        _levels.Add(edges, mapSet, baseIndex);
     }
-
-    /// <summary>Adds one level with given edges to the chain.</summary>
-    private void AddLevel(ChildEdge[] edges, MapSet mapSet)
-    {
-        var level = Built.Top + 1;
-        var volume = _union.Compute(edges, level);
-        var children = _childBuilder.ExpandChildren(level, edges, Built.EdgesAt);
-        var childVolumes = new BoundingVolume[children.Length];
-        for (var i = 0; i < children.Length; i++)
-        {
-            childVolumes[i] = Built.VolumeAt(children[i].RemainingLevels(level));
-        }
-
-        var subFractal = _subFractalFactory.Create(mapSet, children, childVolumes, volume, _baseIndex);
-        Built.Add(volume, new(mapSet, volume.Box, edges, EdgeBoxesOf(edges, level, Built.VolumeAt), subFractal));
-    }
-
-    /// <summary>Refuses a level on top of those before, if they or their children are too many.</summary>
-    private void RequireAllowedLevel(int childCount)
-    {
-        if (Built.Count > MaxSubFractals)
-        {
-            throw new FractalLimitException(
-                "exact search needs transformations that shrink, or less depth: "
-                + $"{Built.Top} levels above the base the fractal's bounds still change");
-        }
-
-        _childCount += childCount;
-        RequireAllowedChildren(_childCount);
-    }
-
-    private PeriodicBound CreatePeriodicBound(int period, long round, int maxRoundsDown, bool arePhasesAlike = true) =>
-        new(Built.Top, period, Built.VolumeAt, Built.EdgesAt, Math.Max(1, 0.125 * round), maxRoundsDown, arePhasesAlike);
 
     /// <summary>The edges of a level of a repetition, built or above the last round.</summary>
     private ChildEdge[] EdgesOfRepetition(PeriodicBound bound, long level, long levelsBelowRepetition) => ChildInstanceBuilder.EdgesAt(
@@ -219,51 +166,72 @@ internal sealed partial class FractalHierarchyBuilder
         Built.MapSetAt(bound.EquivalentLevel(level)),
         lower => Built.MapSetAt(bound.EquivalentLevel(lower)));
 
-    /// <summary>Replaces all remaining rounds by one that is inflated a little, if it can be proved to contain them.</summary>
-    /// <param name="periodicBound">Proves that.</param>
-    /// <param name="edgesAt">Gives the edges of levels above the last round.</param>
-    /// <param name="levelCount">Number of levels in the remaining rounds.</param>
-    private bool TryRepeatRound(PeriodicBound periodicBound, Func<long, ChildEdge[]> edgesAt, long levelCount)
+    /// <summary>Adds the levels of the recursives in turns, up to that of the one that the steps are applied to.</summary>
+    private void AddRecursives()
     {
-        if (!periodicBound.HasConverged())
+        var period = _recursives.Period;
+        var nextAttempt = 0L;
+        for (var round = 0L; round < (_description.Levels ?? EndlessRounds); round++)
         {
-            return false;
+            // The last round ends with the turn of the root.
+            var levelCount = ((_description.Levels - 1 - round ?? EndlessRounds) * period) + _description.Root + 1;
+            if (round >= nextAttempt)
+            {
+                // Recursives that call only each other alternate: they may have faces only as often as a cycle of calls comes round.
+                var maxPeriod = Math.Min(period * Math.Max(1, _recursives.MaxRoundsDown), MaxPeriodInRounds);
+                for (var rounds = 1; rounds <= maxPeriod; rounds++)
+                {
+                    if (TryRepeatRounds(rounds, round, levelCount))
+                    {
+                        return;
+                    }
+                }
+
+                nextAttempt = round + 1 + (round / 8);
+            }
+
+            for (var turn = 0; turn < Math.Min(levelCount, period); turn++)
+            {
+                var level = Built.Top + 1;
+                var set = _recursives.SetAt(level);
+                _levels.RequireAllowedLevel(set.Maps.Length);
+                _levels.Add(_recursives.EdgesAt(level), set, _recursives.BaseIndexAt(level));
+            }
         }
+    }
 
-        // The children must be the same in rounds so far up that theirs lie in rounds like the last one, and in those between.
-        ChildInstance[] ChildrenAt(long level) =>
-            _childBuilder.ExpandChildren(level, edgesAt(level), lower => Built.EdgesAt(periodicBound.EquivalentLevel(lower)));
+    /// <summary>Replaces all remaining levels of the recursives by rounds that are inflated a little, if that can be proved.</summary>
+    /// <param name="rounds">After so many rounds the bounds recur.</param>
+    /// <param name="builtRounds">Number of rounds that were built.</param>
+    /// <param name="levelCount">Number of the remaining levels.</param>
+    private bool TryRepeatRounds(int rounds, long builtRounds, long levelCount)
+    {
+        var period = rounds * _recursives.Period;
+        // Two periods are compared, and in the last one calls lead down by as many levels as further up.
+        return builtRounds >= Math.Max(2 * rounds, _recursives.MaxRoundsDown + rounds) && levelCount >= period
+            && _levels.TryRepeatRound(
+                _levels.CreatePeriodicBound(period, builtRounds, _recursives.MaxExpandedRounds, arePhasesAlike: false),
+                _recursives.EdgesAt,
+                levelCount);
+    }
 
-        var period = periodicBound.Period;
-        var children = Enumerable.Range(0, period).Select(phase => ChildrenAt(periodicBound.InductionLevel + phase)).ToArray();
-        for (var level = Built.Top + 1; level < periodicBound.InductionLevel; level++)
+    private static bool HasOnlySimilarMaps(FractalStep step) => step switch
+    {
+        Repetition repetition => repetition.Round.All(HasOnlySimilarMaps),
+        TransformationSet set => HasOnlySimilarMaps(set.Maps.AsSpan()),
+        _ => throw new ArgumentException($"{step.GetType().Name} is no step of a fractal", nameof(step)),
+    };
+
+    private static bool HasOnlySimilarMaps(ReadOnlySpan<AffineMap> maps)
+    {
+        foreach (ref readonly var map in maps)
         {
-            if (!ChildrenAt(level).SequenceEqual(children[periodicBound.PhaseOf(level)]))
+            if (!map.Linear.IsChainableSimilarity())
             {
                 return false;
             }
         }
 
-        if (periodicBound.TryProveInvariant(children) is not { } volumes)
-        {
-            return false;
-        }
-
-        var round = new BuiltLevels.Entry[period];
-        for (var phase = 0; phase < period; phase++)
-        {
-            var level = periodicBound.FirstLevel + phase;
-            var parentLevels = periodicBound.InductionLevel + phase;
-            BoundingVolume RepeatedVolumeAt(long remainingLevels) => periodicBound.VolumeAt(volumes, remainingLevels);
-            var childVolumes = children[phase].Select(child => RepeatedVolumeAt(child.RemainingLevels(parentLevels))).ToArray();
-            var set = Built.MapSetAt(level);
-            var edges = Built.EdgesAt(level);
-            var edgeBoxes = EdgeBoxesOf(edges, parentLevels, RepeatedVolumeAt);
-            var subFractal = _subFractalFactory.Create(set, children[phase], childVolumes, volumes[phase], Built.BaseIndexAt(level));
-            round[phase] = new(volumes[phase], new(set, volumes[phase].Box, edges, edgeBoxes, subFractal));
-        }
-
-        Built.Add(levelCount, round);
         return true;
     }
 }

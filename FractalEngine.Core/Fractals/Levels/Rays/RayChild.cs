@@ -1,4 +1,3 @@
-using System.Runtime.CompilerServices;
 using FractalEngine.Core.Geometry.Rays;
 using FractalEngine.Core.Maths;
 
@@ -73,7 +72,6 @@ internal readonly struct RayChild
 
     /// <summary>Computes the remaining levels of the sub-fractal.</summary>
     /// <param name="parentLevels">Remaining levels of the parent.</param>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public long RemainingLevels(long parentLevels) => _levelStep.RemainingLevels(parentLevels);
 
     /// <summary>Writes the indices of the child instances that lead to the sub-fractal, the outermost first.</summary>

@@ -65,11 +65,7 @@ internal struct RayFrame
     public double InverseScale;
 
     /// <summary>The origin in single precision.</summary>
-    public readonly Vector128<float> FloatOrigin
-    {
-        [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        get => ToFloats(Origin);
-    }
+    public readonly Vector128<float> FloatOrigin => ToFloats(Origin);
 
     /// <summary>What bounds are widened by on all sides: more than rounding.</summary>
     /// <param name="search">The search.</param>
@@ -77,7 +73,6 @@ internal struct RayFrame
     public readonly float Widening(in RaySearch search) => FloatRay.Margin + (float)(InverseScale * search.Error);
 
     /// <summary>Converts a distance along the ray of the query to an upper bound of the parameter.</summary>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public readonly float LimitFor(double distance) => FloatRay.LimitFor(Start, PerDistance, distance);
 
     /// <summary>Tells whether a ray that enters a child's box is near what the child is an instance of.</summary>

@@ -1,0 +1,162 @@
+using FractalEngine.Core.Fractals.Descriptions;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Geometry.Hulls;
+
+namespace FractalEngine.Core.Fractals.Levels.Building;
+
+/// <summary>
+/// Adds levels on top of those that were built, and replaces the rounds of a repetition by one that is proved to contain them.
+/// </summary>
+internal sealed class LevelBuilder
+{
+    // More mean that the bounds grow or shrink too slowly to converge.
+    private const int MaxSubFractals = 4000;
+
+    private readonly ChildInstanceBuilder _childBuilder;
+    private readonly LevelUnion _union;
+    private readonly SubFractalFactory _subFractalFactory;
+    private long _childCount;
+
+    /// <summary>Begins with the base meshes, which have no remaining levels.</summary>
+    /// <param name="description">What the levels are of.</param>
+    /// <param name="hasOnlySimilarities">True when all maps are similarities.</param>
+    public LevelBuilder(HierarchyDescription description, bool hasOnlySimilarities)
+    {
+        BaseMeshes = [.. description.Recursives.Select(static recursive => recursive.BaseMesh)];
+        _childBuilder = new(BaseMeshes.Length);
+        _union = new(Built, new(description));
+        _subFractalFactory = new(BaseMeshes, hasOnlySimilarities);
+        for (var i = 0; i < BaseMeshes.Length; i++)
+        {
+            var volume = _subFractalFactory.BaseVolumes[i];
+            Built.Add(volume, new(null, volume.Box, [], static () => [], _subFractalFactory.CreateBase(i)));
+        }
+    }
+
+    /// <summary>The base meshes: that of each recursive.</summary>
+    public Mesh[] BaseMeshes { get; }
+
+    /// <summary>What was built so far.</summary>
+    public BuiltLevels Built { get; } = new();
+
+    /// <summary>Refuses more children on all levels together than the limit.</summary>
+    public static void RequireAllowedChildren(long count)
+    {
+        if (count > FractalLimits.MaxHierarchyChildren)
+        {
+            throw new FractalLimitException(
+                $"exact search needs more than the limit of {FractalLimits.MaxHierarchyChildren} transformations on all levels together");
+        }
+    }
+
+    /// <summary>Refuses a level on top of those before, if they or their children are too many.</summary>
+    public void RequireAllowedLevel(int childCount)
+    {
+        if (Built.Count > MaxSubFractals)
+        {
+            throw new FractalLimitException(
+                "exact search needs transformations that shrink, or less depth: "
+                + $"{Built.Top} levels above the base the fractal's bounds still change");
+        }
+
+        _childCount += childCount;
+        RequireAllowedChildren(_childCount);
+    }
+
+    /// <summary>Adds one level.</summary>
+    /// <param name="edges">Its edges to lower levels.</param>
+    /// <param name="mapSet">Its set.</param>
+    /// <param name="baseIndex">Index of its base mesh, see <see cref="SubFractal.BaseIndex"/>.</param>
+    public void Add(ChildEdge[] edges, MapSet mapSet, int baseIndex)
+    {
+        edges = _childBuilder.Share(edges);
+        var level = Built.Top + 1;
+        var volume = _union.Compute(edges, level);
+        var children = _childBuilder.ExpandChildren(level, edges, Built.EdgesAt);
+        var childVolumes = Array.ConvertAll(children, child => Built.VolumeAt(child.RemainingLevels(level)));
+        var subFractal = _subFractalFactory.Create(mapSet, children, childVolumes, volume, baseIndex);
+        Built.Add(volume, new(mapSet, volume.Box, edges, EdgeBoxesOf(edges, level, Built.VolumeAt), subFractal));
+    }
+
+    /// <summary>Begins a proof that the rounds of a repetition can be replaced by the last one.</summary>
+    /// <param name="period">Number of levels of a round.</param>
+    /// <param name="round">Number of rounds that were built.</param>
+    /// <param name="maxRoundsDown">Largest number of rounds between a sub-fractal and its children.</param>
+    /// <param name="arePhasesAlike">Whether the levels of a round may be compared with each other.</param>
+    public PeriodicBound CreatePeriodicBound(int period, long round, int maxRoundsDown, bool arePhasesAlike = true) =>
+        new(Built.Top, period, Built.VolumeAt, Built.EdgesAt, Math.Max(1, 0.125 * round), maxRoundsDown, arePhasesAlike);
+
+    /// <summary>Replaces all remaining rounds by one that is inflated a little, if it can be proved to contain them.</summary>
+    /// <param name="periodicBound">Proves that.</param>
+    /// <param name="edgesAt">Gives the edges of levels above the last round.</param>
+    /// <param name="levelCount">Number of levels in the remaining rounds.</param>
+    public bool TryRepeatRound(PeriodicBound periodicBound, Func<long, ChildEdge[]> edgesAt, long levelCount)
+    {
+        if (!periodicBound.HasConverged())
+        {
+            return false;
+        }
+
+        // The children must be the same in rounds so far up that theirs lie in rounds like the last one, and in those between.
+        ChildInstance[] ChildrenAt(long level) =>
+            _childBuilder.ExpandChildren(level, edgesAt(level), lower => Built.EdgesAt(periodicBound.EquivalentLevel(lower)));
+
+        var period = periodicBound.Period;
+        var children = Enumerable.Range(0, period).Select(phase => ChildrenAt(periodicBound.InductionLevel + phase)).ToArray();
+        for (var level = Built.Top + 1; level < periodicBound.InductionLevel; level++)
+        {
+            if (!ChildrenAt(level).SequenceEqual(children[periodicBound.PhaseOf(level)]))
+            {
+                return false;
+            }
+        }
+
+        if (periodicBound.TryProveInvariant(children) is not { } volumes)
+        {
+            return false;
+        }
+
+        var round = new BuiltLevels.Entry[period];
+        for (var phase = 0; phase < period; phase++)
+        {
+            var level = periodicBound.FirstLevel + phase;
+            var parentLevels = periodicBound.InductionLevel + phase;
+            BoundingVolume RepeatedVolumeAt(long remainingLevels) => periodicBound.VolumeAt(volumes, remainingLevels);
+            var childVolumes = children[phase].Select(child => RepeatedVolumeAt(child.RemainingLevels(parentLevels))).ToArray();
+            var set = Built.MapSetAt(level);
+            var edges = Built.EdgesAt(level);
+            var edgeBoxes = EdgeBoxesOf(edges, parentLevels, RepeatedVolumeAt);
+            var subFractal = _subFractalFactory.Create(set, children[phase], childVolumes, volumes[phase], Built.BaseIndexAt(level));
+            round[phase] = new(volumes[phase], new(set, volumes[phase].Box, edges, edgeBoxes, subFractal));
+        }
+
+        Built.Add(levelCount, round);
+        return true;
+    }
+
+    /// <summary>
+    /// Makes the boxes of edges. Those of wide levels are computed at their use: they take much memory, and only drawing needs them.
+    /// </summary>
+    private static Func<BoundingBox[]> EdgeBoxesOf(ChildEdge[] edges, long level, Func<long, BoundingVolume> volumeAt)
+    {
+        if (edges.Length > SubFractal.MaxUngroupedChildren)
+        {
+            return () => ComputeEdgeBoxes(edges, level, volumeAt);
+        }
+
+        var boxes = ComputeEdgeBoxes(edges, level, volumeAt);
+        return () => boxes;
+    }
+
+    private static BoundingBox[] ComputeEdgeBoxes(ChildEdge[] edges, long level, Func<long, BoundingVolume> volumeAt)
+    {
+        var boxes = new BoundingBox[edges.Length];
+        for (var i = 0; i < boxes.Length; i++)
+        {
+            var volume = volumeAt(edges[i].RemainingLevels(level));
+            boxes[i] = volume.Box.IsEmpty ? BoundingBox.Empty : volume.TransformedBox(edges[i].Map, edges[i].OperatorNormBound);
+        }
+
+        return boxes;
+    }
+}
