@@ -24,11 +24,11 @@ internal static partial class ActionTable
         new("open", "File", "Open…", "open a file") { Keys = [KeyChord.Control(Key.O)], Run = OverlayOf(static a => a.Files.AskForFile()) },
         new("save", "File", "Save", "save the changed numbers into their files, and the view into the scene's file")
         {
-            Keys = [KeyChord.Control(Key.S)], Run = OverlayOf(static a => a.Files.Save()), IsAvailable = HasDocument,
+            Keys = [KeyChord.Control(Key.S)], Run = OverlayOf(static a => a.Saver.Save()), IsAvailable = HasDocument,
         },
         new("save-as", "File", "Save as…", "save as a new scene")
         {
-            Keys = [KeyChord.ControlShift(Key.S)], Run = OverlayOf(static a => a.Files.SaveAs()), IsAvailable = HasDocument,
+            Keys = [KeyChord.ControlShift(Key.S)], Run = OverlayOf(static a => a.Saver.SaveAs()), IsAvailable = HasDocument,
         },
         new("screenshot", "File", "Screenshot", "save a screenshot into `out/`")
         {

@@ -18,11 +18,14 @@ namespace FractalEngine.App.Window.Actions;
 /// <param name="overlay">The overlay of the window, which shows messages.</param>
 /// <param name="tracing">Traces the view of the window.</param>
 /// <param name="panels">The panels of the window.</param>
+/// <param name="loader">Loads files, and owns the document.</param>
+/// <param name="files">Opens files, and asks before changes are lost.</param>
+/// <param name="saver">Edits and saves files.</param>
 /// <param name="settings">The initial render settings.</param>
 /// <param name="clock">Tells the present time.</param>
 internal sealed class WindowActions(
     RenderWindow window, WindowRenderer renderer, WindowOverlay overlay, WindowTracing tracing, PanelLayout panels,
-    RenderSettings settings, Func<TimeSpan> clock)
+    DocumentLoader loader, FileCommands files, DocumentSaver saver, RenderSettings settings, Func<TimeSpan> clock)
 {
     private Redraw _requested;
 
@@ -30,10 +33,13 @@ internal sealed class WindowActions(
     public RenderSettings Settings { get; set; } = settings;
 
     /// <summary>The document shown; null for none.</summary>
-    public Document? Document { get; set; }
+    public Document? Document => loader.Document;
 
-    /// <summary>Opens, edits and saves files, and asks before changes are lost.</summary>
-    public required FileCommands Files { get; set; }
+    /// <summary>Opens files, and asks before changes are lost.</summary>
+    public FileCommands Files => files;
+
+    /// <summary>Edits and saves files.</summary>
+    public DocumentSaver Saver => saver;
 
     /// <summary>The panels of the window.</summary>
     public PanelLayout Panels => panels;
@@ -99,7 +105,7 @@ internal sealed class WindowActions(
         var message = Document.Undo(isRedo);
         if (!edits.Equals(Document.Edits))
         {
-            Files.ShowEdits();
+            loader.State = loader.State.Reload();
         }
 
         return Show(message) | Redraw.Scene;

@@ -1,4 +1,5 @@
 using System.Diagnostics;
+using FractalEngine.App.Jobs;
 using FractalEngine.Core;
 using FractalEngine.Core.Colliders;
 using FractalEngine.Core.Maths;
@@ -23,8 +24,7 @@ internal sealed partial class ScenePhysics : IDisposable
 
     private readonly LoadedScene _scene;
     private readonly MovedScene _movedScene;
-    private readonly Task<PhysicsWorld> _worldTask;
-    private readonly CancellationTokenSource _cancellation = new();
+    private readonly BackgroundJob<PhysicsWorld> _job;
     private readonly ColliderCache _colliders;
 
     // The bodies where an earlier scene left them, drawn until the colliders are built; null for none.
@@ -34,7 +34,6 @@ internal sealed partial class ScenePhysics : IDisposable
     private TimeSpan _stepTime;
     private string? _problem;
     private bool _isBuildProblemReported;
-    private bool _isDisposed;
 
     // True while a body is out of range: no step can be made until the next reset.
     private bool _isBroken;
@@ -52,21 +51,21 @@ internal sealed partial class ScenePhysics : IDisposable
         _colliderCount = scene.StaticModels.Count();
         _colliders = previous?._colliders ?? new();
         _continued = previous is null ? null : Continue(previous);
-        var cancellation = _cancellation.Token;
-        _worldTask = Task.Run(() =>
-        {
-            PhysicsLimits.RequireRange(scene);
-            var world = _continued ?? new PhysicsWorld(scene, null, _colliders);
-            PhysicsLimits.Require(world.Bodies);
-            PhysicsLimits.RequireRange(world);
-            if (world.Bodies.Count > 0 || world.Character is { IsActive: true } || alwaysBuild)
+        _job = new(
+            cancellation =>
             {
-                BuildColliders(world, cancellation);
-            }
+                PhysicsLimits.RequireRange(scene);
+                var world = _continued ?? new PhysicsWorld(scene, null, _colliders);
+                PhysicsLimits.Require(world.Bodies);
+                PhysicsLimits.RequireRange(world);
+                if (world.Bodies.Count > 0 || world.Character is { IsActive: true } || alwaysBuild)
+                {
+                    BuildColliders(world, cancellation);
+                }
 
-            return world;
-        });
-        _worldTask.ContinueWith(_ => completed(), TaskScheduler.Default);
+                return world;
+            },
+            completed);
     }
 
     /// <summary>True while bodies, objects or the player move, so that <see cref="Advance"/> must be called.</summary>
@@ -83,7 +82,7 @@ internal sealed partial class ScenePhysics : IDisposable
     /// have to be.
     /// </summary>
     public bool HasMovers => (World ?? _continued) is { } world ? world.Bodies.Count > 0 || world.MovingObjects.Any() || IsWalking
-        : !_worldTask.IsCompleted;
+        : !_job.Result.IsCompleted;
 
     /// <summary>The player; null where there is none.</summary>
     public CharacterController? Character => (World ?? _continued)?.Character;
@@ -133,29 +132,21 @@ internal sealed partial class ScenePhysics : IDisposable
     public (int Built, int All) ColliderCounts => World?.ColliderCounts ?? (0, _colliderCount);
 
     /// <summary>The world, once its colliders are built; null until then, and where it can't be made.</summary>
-    public PhysicsWorld? World => _worldTask.IsCompletedSuccessfully ? _worldTask.Result : null;
+    public PhysicsWorld? World => _job.Result.IsCompletedSuccessfully ? _job.Result.Result : null;
 
     private string NotReadyMessage =>
-        _worldTask.IsFaulted ? $"no physics: {_worldTask.Exception.InnerException!.Message}" : "the colliders are being built";
+        _job.Result.IsFaulted ? $"no physics: {_job.Result.Exception.InnerException!.Message}" : "the colliders are being built";
 
     /// <summary>Ends the building of colliders after the one in progress. Those that are built stay for the next scene.</summary>
-    public void Dispose()
-    {
-        if (!_isDisposed)
-        {
-            _isDisposed = true;
-            _cancellation.Cancel();
-            _cancellation.Dispose();
-        }
-    }
+    public void Dispose() => _job.Cancel();
 
     /// <summary>Returns the reason why the physics has failed, only once for each failure; null otherwise.</summary>
     public string? TakeProblem()
     {
-        if (_worldTask.IsFaulted && !_isBuildProblemReported)
+        if (_job.Result.IsFaulted && !_isBuildProblemReported)
         {
             _isBuildProblemReported = true;
-            return $"error: no physics: {_worldTask.Exception.InnerException!.Message}";
+            return $"error: no physics: {_job.Result.Exception.InnerException!.Message}";
         }
 
         var problem = _problem;
