@@ -17,26 +17,19 @@ namespace FractalEngine.App.Window.Simulation;
 /// <summary>
 /// The physics of a scene in a window. Colliders are built in the background; until then the commands answer that they are not ready.
 /// </summary>
-/// <remarks>Commands return a message for the user.</remarks>
-internal sealed partial class ScenePhysics : IDisposable
+/// <remarks><see cref="PhysicsCommands"/> are what the user does with it.</remarks>
+internal sealed class ScenePhysics : IDisposable
 {
-    private const string OutOfRangeMessage = "a body has left the range of numbers: R resets all bodies";
-
-    private readonly LoadedScene _scene;
     private readonly MovedScene _movedScene;
     private readonly BackgroundJob<PhysicsWorld> _job;
     private readonly ColliderCache _colliders;
 
     // The bodies where an earlier scene left them, drawn until the colliders are built; null for none.
     private readonly PhysicsWorld? _continued;
-    private readonly double _sceneSize;
     private readonly int _colliderCount;
     private TimeSpan _stepTime;
     private string? _problem;
     private bool _isBuildProblemReported;
-
-    // True while a body is out of range: no step can be made until the next reset.
-    private bool _isBroken;
 
     /// <summary>Starts to build the colliders in the background, if the scene has bodies that need them.</summary>
     /// <param name="scene">The loaded scene.</param>
@@ -45,9 +38,9 @@ internal sealed partial class ScenePhysics : IDisposable
     /// <param name="alwaysBuild">Builds the colliders even without bodies, for comparison.</param>
     public ScenePhysics(LoadedScene scene, Action completed, ScenePhysics? previous = null, bool alwaysBuild = false)
     {
-        _scene = scene;
+        Scene = scene;
         _movedScene = new(scene);
-        _sceneSize = scene.Bounds.IsEmpty ? 1 : scene.Bounds.Diagonal;
+        SceneExtent = scene.Bounds.IsEmpty ? 1 : scene.Bounds.Diagonal;
         _colliderCount = scene.StaticModels.Count();
         _colliders = previous?._colliders ?? new();
         _continued = previous is null ? null : Continue(previous);
@@ -71,8 +64,17 @@ internal sealed partial class ScenePhysics : IDisposable
     /// <summary>True while bodies, objects or the player move, so that <see cref="Advance"/> must be called.</summary>
     public bool IsRunning => !IsPaused && Speed > 0 && World is { } world && (world.IsMoving || IsWalking);
 
+    /// <summary>The loaded scene.</summary>
+    public LoadedScene Scene { get; }
+
+    /// <summary>The diagonal of the scene in scene units.</summary>
+    public double SceneExtent { get; }
+
     /// <summary>Whether the simulation is paused.</summary>
-    public bool IsPaused { get; private set; }
+    public bool IsPaused { get; set; }
+
+    /// <summary>True while a body is out of range: no step can be made until the next reset.</summary>
+    public bool IsBroken { get; set; }
 
     /// <summary>Whether the player walks, so that the camera is at the player's eyes.</summary>
     public bool IsWalking => Character is { IsActive: true };
@@ -154,6 +156,9 @@ internal sealed partial class ScenePhysics : IDisposable
         return problem;
     }
 
+    /// <summary>Runs a command of the world, or answers that it is not ready.</summary>
+    public string WhenReady(Func<PhysicsWorld, string> command) => World is { } world ? command(world) : NotReadyMessage;
+
     /// <summary>Advances the simulation by a time.</summary>
     /// <returns>True when something may have moved.</returns>
     public bool Advance(TimeSpan time)
@@ -203,7 +208,7 @@ internal sealed partial class ScenePhysics : IDisposable
         }
 
         renderer.Spheres = spheres;
-        renderer.Lines = ShowsClosestPoints && !_isBroken && World is not null ? ClosestPointLines.Create(world, alpha) : [];
+        renderer.Lines = ShowsClosestPoints && !IsBroken && World is not null ? ClosestPointLines.Create(world, alpha) : [];
     }
 
     private static string Count(long number, string one, string many) =>
@@ -228,18 +233,18 @@ internal sealed partial class ScenePhysics : IDisposable
     private PhysicsWorld? Continue(ScenePhysics previous)
     {
         previous.Dispose();
-        _colliders.Retain(_scene);
+        _colliders.Retain(Scene);
         IsPaused = previous.IsPaused;
         Speed = previous.Speed;
         ShowsClosestPoints = previous.ShowsClosestPoints;
-        if (previous._isBroken || (previous.World ?? previous._continued) is not { } earlier)
+        if (previous.IsBroken || (previous.World ?? previous._continued) is not { } earlier)
         {
             return null;
         }
 
         try
         {
-            var world = new PhysicsWorld(_scene, null, _colliders);
+            var world = new PhysicsWorld(Scene, null, _colliders);
             world.Continue(earlier);
             world.ColliderOverride = earlier.ColliderOverride;
             world.ShrinkageOverride = earlier.ShrinkageOverride;
@@ -255,7 +260,7 @@ internal sealed partial class ScenePhysics : IDisposable
     /// <summary>Makes and times steps. Pauses the simulation when a body goes beyond the limit of physics.</summary>
     /// <param name="world">The world that makes them.</param>
     /// <param name="advance">Makes the steps, and returns their number.</param>
-    private void MakeSteps(PhysicsWorld world, Func<int> advance)
+    public void MakeSteps(PhysicsWorld world, Func<int> advance)
     {
         var start = Stopwatch.GetTimestamp();
         try
@@ -271,7 +276,7 @@ internal sealed partial class ScenePhysics : IDisposable
         {
             _problem = $"error: {exception.Message}";
             IsPaused = true;
-            _isBroken = true;
+            IsBroken = true;
         }
     }
 }
