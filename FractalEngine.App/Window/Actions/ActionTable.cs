@@ -1,15 +1,17 @@
 using System.Collections.Immutable;
+using FractalEngine.App.Window.Simulation;
 using FractalEngine.App.Window.State;
 using FractalEngine.App.Window.Tools;
 using FractalEngine.Core.Maths;
 using FractalEngine.Render.Views;
 using FractalEngine.Render.Windowing.Events;
 using FractalEngine.Render.Windowing.Keyboard;
+using static FractalEngine.App.Window.Actions.ActionKinds;
 
 namespace FractalEngine.App.Window.Actions;
 
 /// <summary>All actions of the window. Key bindings, menus, the list of keys and the manual's table follow from it.</summary>
-internal static partial class ActionTable
+internal static class ActionTable
 {
     /// <summary>Menus in the order in which they are shown.</summary>
     public static readonly ImmutableArray<string> Menus = ["File", "Edit", "View", "Go", "Physics", "Window"];
