@@ -259,7 +259,7 @@ internal sealed class SceneWindow : IDisposable
 
         _overlay.FrameCounts = _windowRenderer.CountFrames((long)(start / FrameTime));
         _overlay.TraceText = _tracing.StatusText;
-        _loader.TitleNote = _overlay.TraceText;
+        _loader.ShowTitle();
         _panels.Update(_window.Width, _window.Height);
         // By the panels as they are now.
         _overlay.HidesPhysics = _panels.IsShown && !_panels.HasRoomForPhysics;

@@ -27,7 +27,8 @@ internal sealed class BackgroundLoad
     /// <param name="previous">The document whose models are used further where their files are unchanged; null for none.</param>
     /// <param name="ended">Called on the other thread when the load has succeeded or failed.</param>
     public BackgroundLoad(
-        LoadRequest request, LoadOptions options, RenderSettings settings, double aspect, AssetCache cache, Document? previous, Action ended)
+        LoadRequest request, LoadOptions options, RenderSettings settings, double aspect, AssetCache cache, Document? previous,
+        Action ended)
     {
         Request = request;
         _cache = cache;

@@ -41,17 +41,6 @@ internal sealed class DocumentLoader(
     /// <summary>The document shown; null until the first file is loaded.</summary>
     public Document? Document { get; private set; }
 
-    /// <summary>What the title tells beside the name of the file; null for nothing.</summary>
-    public string? TitleNote
-    {
-        get;
-        set
-        {
-            field = value;
-            ShowTitle();
-        }
-    }
-
     /// <summary>Whether files may refer to others outside their folder.</summary>
     public bool AllowsOutsideFiles => options.Load.AllowOutsideFiles;
 
@@ -83,6 +72,13 @@ internal sealed class DocumentLoader(
         }
 
         return redraw;
+    }
+
+    /// <summary>Shows in the title which file is shown, whether it is edited, and how far its trace is.</summary>
+    public void ShowTitle()
+    {
+        var trace = overlay.TraceText is { } text ? $", {text}" : "";
+        window.Title = $"{Path.GetFileName(State.FilePath)}{(State.Edits.IsEmpty ? "" : "*")}{trace} - FractalEngine";
     }
 
     /// <inheritdoc/>
@@ -126,12 +122,6 @@ internal sealed class DocumentLoader(
         ShowTitle();
         overlay.Error = State.Error;
         return effects.IsEmpty ? Redraw.None : Redraw.Overlay;
-    }
-
-    private void ShowTitle()
-    {
-        var note = TitleNote is { } text ? $", {text}" : "";
-        window.Title = $"{Path.GetFileName(State.FilePath)}{(State.Edits.IsEmpty ? "" : "*")}{note} - FractalEngine";
     }
 
     private Redraw PollLoad()

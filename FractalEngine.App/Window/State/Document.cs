@@ -44,7 +44,7 @@ internal sealed class Document : IDisposable
         Area = area;
         IsReload = previous is not null;
         _store = store;
-        Tool = new(this);
+        Tool = previous?.Tool ?? new(this);
         Section = previous?.Section ?? new(options.Section);
         FirstSightLoader = new(preparation, window.Wake);
         var scene = file.Scene.Scene;
@@ -151,7 +151,7 @@ internal sealed class Document : IDisposable
         var (state, followsCamera, followsProjection) = State.Continue(File, fileView, view);
         if (!followsCamera)
         {
-            FlyingCamera.ContinueFrom(previous.FlyingCamera);
+            FlyingCamera.Restore(viewBefore);
         }
 
         var projectionView = followsProjection ? fileView : view;
@@ -163,7 +163,7 @@ internal sealed class Document : IDisposable
 
         CameraControls.Camera = FlyingCamera;
         IsTrailEnabled = Trail is not null && previous.IsTrailEnabled;
-        Tool.ContinueFrom(previous.Tool);
+        Tool.ContinueIn(this);
         return new UndoStep(viewBefore, state.Edits).Equals(state.History.Present) ? state.WithPresentView(FlyingCamera.State) : state;
     }
 
