@@ -168,11 +168,13 @@ internal sealed record WindowState
         : NeedsReload ? Start(new(FilePath, Document is not null, Edits))
         : this;
 
-    private WindowState Start(LoadRequest request)
+    private WindowState Start(LoadRequest request) => this with
     {
-        var path = Document is null ? request.Path : FilePath;
-        return this with { FilePath = path, NeedsReload = NeedsReload && request.Path != path, Loading = request };
-    }
+        FilePath = Document is null ? request.Path : FilePath,
+        // The same file opened anew has nothing of an edit that is to be loaded, and may yet be refused.
+        NeedsReload = NeedsReload && Document is not null && !IsReload(request),
+        Loading = request,
+    };
 
     /// <summary>Drops the last edit of the scene if that loads without it, and else shows what is wrong.</summary>
     private WindowState TrialEnded(LoadRequest request, LoadFault fault, string? error, TimeSpan now)

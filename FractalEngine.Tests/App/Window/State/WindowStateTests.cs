@@ -110,6 +110,17 @@ public sealed class WindowStateTests : IDisposable
     }
 
     [Fact]
+    public void Open_OfTheSameFileBehindAnEdit_IsReportedAndShowsTheEdit()
+    {
+        var state = Edit(Begin(Shown().Reload()).Open(Path), Red);
+        var opening = Show(state.Ended(null, Start));
+        Assert.Equal((Path, false, true), (opening.Loading!.Path, opening.Loading.Continues, opening.NeedsReload));
+        var kept = End(opening);
+        Assert.Equal(WindowEffect.Report, kept.Effects[^1].Effect);
+        Assert.False(Show(End(kept)).Document!.HasUnshownEdit);
+    }
+
+    [Fact]
     public void Shown_OfAnotherFile_DropsWhatWaitsForTheDocumentBefore()
     {
         var state = (Shown().Open(Other) with { AfterLoad = static () => { } }).Reload();
