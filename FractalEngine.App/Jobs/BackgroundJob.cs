@@ -4,7 +4,7 @@ namespace FractalEngine.App.Jobs;
 /// <typeparam name="T">The result.</typeparam>
 internal sealed class BackgroundJob<T>
 {
-    /// <summary>Starts the work.</summary>
+    /// <summary>Starts the work at once.</summary>
     /// <param name="work">Computes the result.</param>
     /// <param name="ended">Called on another thread when the work has succeeded or failed.</param>
     public BackgroundJob(Func<CancellationToken, T> work, Action ended)

@@ -23,7 +23,7 @@ public static class AtomicFile
     /// <summary>
     /// Replaces a file by what is made of it. Where another program has written it meanwhile, what that has left is changed instead.
     /// </summary>
-    /// <param name="path">Path of the file, as <see cref="Write"/> expects it. It may be missing. Devices and pipes are written as they stand.</param>
+    /// <param name="path">Path of the file, as <see cref="Write"/> expects it. It may be missing.</param>
     /// <param name="make">Reads the file of this stamp, and returns its new contents; null to leave it as it is.</param>
     /// <exception cref="IOException">The file can't be written, or another program changes it all the time.</exception>
     /// <remarks>

@@ -64,7 +64,7 @@ internal sealed class ScenePhysics : IDisposable
     /// <summary>True while bodies, objects or the player move, so that <see cref="Advance"/> must be called.</summary>
     public bool IsRunning => !IsPaused && Speed > 0 && World is { } world && (world.IsMoving || IsWalking);
 
-    /// <summary>The loaded scene.</summary>
+    /// <summary>The scene as it was loaded.</summary>
     public LoadedScene Scene { get; }
 
     /// <summary>The diagonal of the scene in scene units.</summary>
