@@ -79,7 +79,7 @@ internal sealed class EventDispatch(
             redraw |= actions.Run(action) | Redraw.Overlay;
         }
 
-        redraw |= actions.TakeRequested() | (ui.Version != version ? Redraw.Overlay : Redraw.None);
+        redraw |= ui.Version != version ? Redraw.Overlay : Redraw.None;
         // A drag of a panel is saved when it ends.
         if (isTaken && windowEvent is not MouseMoved)
         {

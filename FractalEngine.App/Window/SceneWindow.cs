@@ -66,7 +66,8 @@ internal sealed class SceneWindow : IDisposable
         var files = new FileCommands(_loader, saver, prompts, recent, Report, () => _isClosing = true);
         _panels = new(_window, options.SettingsPath, Report, ui => _interface!.Build(ui));
         _actions = new(
-            _window, _windowRenderer, _overlay, _tracing, _panels, _loader, files, saver, options.Settings, () => _clock.Elapsed);
+            _window, _windowRenderer, _overlay, _tracing, _panels, _loader, files, saver, options.Settings, () => _clock.Elapsed,
+            () => _redraw |= Redraw.Scene);
         _interface = new(_actions);
         _events = new(_window, _frameRenderer, _interface, _actions, prompts);
         _tracing.IsEnabled = options.IsTraced ?? _panels.IsTraced;
@@ -140,7 +141,8 @@ internal sealed class SceneWindow : IDisposable
 
         var wasMoving = Document?.IsMoving == true;
         // A slow frame between two clicks does not part a double click.
-        _redraw |= _events.Dispatch(windowEvent, _clock.Elapsed - _refreshTime);
+        var redraw = _events.Dispatch(windowEvent, _clock.Elapsed - _refreshTime);
+        _redraw |= redraw;
         if (!wasMoving)
         {
             // Time begins to count with the event that starts a movement.
@@ -179,7 +181,9 @@ internal sealed class SceneWindow : IDisposable
     private void PollLoader()
     {
         var previousDocument = Document;
-        _redraw |= _loader.Poll();
+        // Messages ask for frames meanwhile.
+        var redraw = _loader.Poll();
+        _redraw |= redraw;
         if (Document != previousDocument)
         {
             _windowRenderer.Reset();
@@ -264,7 +268,6 @@ internal sealed class SceneWindow : IDisposable
         // By the panels as they are now.
         _overlay.HidesPhysics = _panels.IsShown && !_panels.HasRoomForPhysics;
         _overlay.MessageReplacesStatus = _panels.IsShown && !_panels.HasRoomForTexts;
-        _redraw |= _actions.TakeRequested();
         if (_area.Update(_panels.Ui) && Document is not null)
         {
             _redraw |= Redraw.Scene;

@@ -23,12 +23,11 @@ namespace FractalEngine.App.Window.Actions;
 /// <param name="saver">Edits and saves files.</param>
 /// <param name="settings">The initial render settings.</param>
 /// <param name="clock">Tells the present time.</param>
+/// <param name="requestDraw">Lets the window draw a new frame.</param>
 internal sealed class WindowActions(
     RenderWindow window, WindowRenderer renderer, WindowOverlay overlay, WindowTracing tracing, PanelLayout panels,
-    DocumentLoader loader, FileCommands files, DocumentSaver saver, RenderSettings settings, Func<TimeSpan> clock)
+    DocumentLoader loader, FileCommands files, DocumentSaver saver, RenderSettings settings, Func<TimeSpan> clock, Action requestDraw)
 {
-    private Redraw _requested;
-
     /// <summary>The present render settings.</summary>
     public RenderSettings Settings { get; set; } = settings;
 
@@ -74,15 +73,7 @@ internal sealed class WindowActions(
     }
 
     /// <summary>Asks for a new frame, since a panel has changed what it shows.</summary>
-    public void RequestDraw() => _requested |= Redraw.Scene;
-
-    /// <summary>Returns what panels have asked for since the last call.</summary>
-    public Redraw TakeRequested()
-    {
-        var requested = _requested;
-        _requested = Redraw.None;
-        return requested;
-    }
+    public void RequestDraw() => requestDraw();
 
     /// <summary>Shows a message for a few seconds.</summary>
     public Redraw Show(string message)
