@@ -21,19 +21,21 @@ namespace FractalEngine.App.Window.Simulation;
 internal sealed class ScenePhysics : IDisposable
 {
     private readonly MovedScene _movedScene;
-    private readonly BackgroundJob<PhysicsWorld> _job;
+    private readonly Action _completed;
     private readonly ColliderCache _colliders;
 
     // The bodies where an earlier scene left them, drawn until the colliders are built; null for none.
     private readonly PhysicsWorld? _continued;
     private readonly int _colliderCount;
+    // Null until something needs the world: a scene that stands still may do without.
+    private BackgroundJob<PhysicsWorld>? _job;
     private TimeSpan _stepTime;
     private string? _problem;
     private bool _isBuildProblemReported;
 
-    /// <summary>Starts to build the colliders in the background, if the scene has bodies that need them.</summary>
+    /// <summary>Starts to build the world and its colliders in the background, if something in the scene moves.</summary>
     /// <param name="scene">The loaded scene.</param>
-    /// <param name="completed">Called on another thread when the colliders are built.</param>
+    /// <param name="completed">Called on another thread when they are built.</param>
     /// <param name="previous">The physics of the scene before it was changed, which ends here; null for none.</param>
     /// <param name="alwaysBuild">Builds the colliders even without bodies, for comparison.</param>
     public ScenePhysics(LoadedScene scene, Action completed, ScenePhysics? previous = null, bool alwaysBuild = false)
@@ -41,24 +43,15 @@ internal sealed class ScenePhysics : IDisposable
         Scene = scene;
         _movedScene = new(scene);
         SceneExtent = scene.Bounds.IsEmpty ? 1 : scene.Bounds.Diagonal;
+        _completed = completed;
         _colliderCount = scene.StaticModels.Count();
         _colliders = previous?._colliders ?? new();
         _continued = previous is null ? null : Continue(previous);
-        _job = new(
-            cancellation =>
-            {
-                PhysicsLimits.RequireRange(scene);
-                var world = _continued ?? new PhysicsWorld(scene, null, _colliders);
-                PhysicsLimits.Require(world.Bodies);
-                PhysicsLimits.RequireRange(world);
-                if (world.Bodies.Count > 0 || world.Character is { IsActive: true } || alwaysBuild)
-                {
-                    BuildColliders(world, cancellation);
-                }
-
-                return world;
-            },
-            completed);
+        if (alwaysBuild || _continued is not null
+            || scene.Scene.Objects.Any(static item => item is PhysicsObject || item.Motion is not null || item.Belt != Vector.Zero))
+        {
+            _job = CreateJob(alwaysBuild);
+        }
     }
 
     /// <summary>True while bodies, objects or the player move, so that <see cref="Advance"/> must be called.</summary>
@@ -84,7 +77,7 @@ internal sealed class ScenePhysics : IDisposable
     /// have to be.
     /// </summary>
     public bool HasMovers => (World ?? _continued) is { } world ? world.Bodies.Count > 0 || world.MovingObjects.Any() || IsWalking
-        : !_job.Result.IsCompleted;
+        : _job is { Result.IsCompleted: false };
 
     /// <summary>The player; null where there is none.</summary>
     public CharacterController? Character => (World ?? _continued)?.Character;
@@ -107,25 +100,16 @@ internal sealed class ScenePhysics : IDisposable
         World is { } world && _stepTime > TimeSpan.Zero ? world.LastStepCost.FaceTests / _stepTime.TotalSeconds : null;
 
     /// <summary>Two lines about the bodies, their collider and the cost of the last step.</summary>
-    public string StatusText
+    public string StatusText => WhenReady(world =>
     {
-        get
-        {
-            if (World is not { } world)
-            {
-                return NotReadyMessage;
-            }
-
-            var awakeCount = world.Bodies.Count(static body => !body.IsAsleep);
-            var collider = world.ColliderOverride is { } kind ? ColliderNames.Of(kind) : "each body's own";
-            var (faceTests, boundTests) = world.LastStepCost;
-            var paused = IsPaused ? " · paused" : "";
-            var bodies = Invariant($"{Count(world.Bodies.Count, "body", "bodies")}, {awakeCount:N0} awake · collider: {collider}{paused}");
-            var tests = $"last step: {Count(faceTests, "face test", "face tests")}";
-            var cost = Invariant($"{tests}, {Count(boundTests, "bound test", "bound tests")}, {_stepTime.TotalMilliseconds:F2} ms");
-            return $"{bodies}\n{cost}";
-        }
-    }
+        var awakeCount = world.Bodies.Count(static body => !body.IsAsleep);
+        var collider = world.ColliderOverride is { } kind ? ColliderNames.Of(kind) : "each body's own";
+        var (faceTests, boundTests) = world.LastStepCost;
+        var paused = IsPaused ? " · paused" : "";
+        var bodies = Invariant($"{Count(world.Bodies.Count, "body", "bodies")}, {awakeCount:N0} awake · collider: {collider}{paused}");
+        var tests = $"last step: {Count(faceTests, "face test", "face tests")}";
+        return Invariant($"{bodies}\n{tests}, {Count(boundTests, "bound test", "bound tests")}, {_stepTime.TotalMilliseconds:F2} ms");
+    });
 
     /// <summary>The scene with its bodies where they are, the same object until one of them moves.</summary>
     public LoadedScene CurrentScene => _movedScene.With(World ?? _continued);
@@ -133,22 +117,21 @@ internal sealed class ScenePhysics : IDisposable
     /// <summary>Number of colliders built so far, and number of all colliders.</summary>
     public (int Built, int All) ColliderCounts => World?.ColliderCounts ?? (0, _colliderCount);
 
-    /// <summary>The world, once its colliders are built; null until then, and where it can't be made.</summary>
-    public PhysicsWorld? World => _job.Result.IsCompletedSuccessfully ? _job.Result.Result : null;
+    /// <summary>The world, once its colliders are built; null until then, and where it can't be made or nothing has needed it.</summary>
+    public PhysicsWorld? World => _job is { Result: { IsCompletedSuccessfully: true } built } ? built.Result : null;
 
-    private string NotReadyMessage =>
-        _job.Result.IsFaulted ? $"no physics: {_job.Result.Exception.InnerException!.Message}" : "the colliders are being built";
+    private string? Failure => _job?.Result.Exception is { } failure ? $"no physics: {failure.InnerException!.Message}" : null;
 
     /// <summary>Ends the building of colliders after the one in progress. Those that are built stay for the next scene.</summary>
-    public void Dispose() => _job.Cancel();
+    public void Dispose() => _job?.Cancel();
 
     /// <summary>Returns the reason why the physics has failed, only once for each failure; null otherwise.</summary>
     public string? TakeProblem()
     {
-        if (_job.Result.IsFaulted && !_isBuildProblemReported)
+        if (!_isBuildProblemReported && Failure is { } failure)
         {
             _isBuildProblemReported = true;
-            return $"error: no physics: {_job.Result.Exception.InnerException!.Message}";
+            return $"error: {failure}";
         }
 
         var problem = _problem;
@@ -156,8 +139,20 @@ internal sealed class ScenePhysics : IDisposable
         return problem;
     }
 
-    /// <summary>Runs a command of the world, or answers that it is not ready.</summary>
-    public string WhenReady(Func<PhysicsWorld, string> command) => World is { } world ? command(world) : NotReadyMessage;
+    /// <summary>
+    /// Runs a command of the world, or answers that it is not ready. The first one makes the world of a scene that stands still.
+    /// </summary>
+    public string WhenReady(Func<PhysicsWorld, string> command)
+    {
+        if (_job is null)
+        {
+            _job = CreateJob(alwaysBuild: false);
+            // It builds no collider, and is made at once. A failure is told as that of any other world.
+            Task.WaitAny(_job.Result);
+        }
+
+        return World is { } world ? command(world) : Failure ?? "the colliders are being built";
+    }
 
     /// <summary>Advances the simulation by a time.</summary>
     /// <returns>True when something may have moved.</returns>
@@ -213,6 +208,22 @@ internal sealed class ScenePhysics : IDisposable
 
     private static string Count(long number, string one, string many) =>
         Invariant($"{number:N0} {(number == 1 ? one : many)}");
+
+    private BackgroundJob<PhysicsWorld> CreateJob(bool alwaysBuild) => new(
+        cancellation =>
+        {
+            PhysicsLimits.RequireRange(Scene);
+            var world = _continued ?? new PhysicsWorld(Scene, null, _colliders);
+            PhysicsLimits.Require(world.Bodies);
+            PhysicsLimits.RequireRange(world);
+            if (world.Bodies.Count > 0 || world.Character is { IsActive: true } || alwaysBuild)
+            {
+                BuildColliders(world, cancellation);
+            }
+
+            return world;
+        },
+        _completed);
 
     private static void BuildColliders(PhysicsWorld world, CancellationToken cancellation)
     {
