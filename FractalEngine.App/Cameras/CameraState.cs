@@ -1,6 +1,5 @@
 using FractalEngine.Core.DeepZoom;
 using FractalEngine.Core.Scenes.Cameras;
-using FractalEngine.Core.Visibility.Levels;
 
 namespace FractalEngine.App.Cameras;
 
@@ -11,8 +10,8 @@ namespace FractalEngine.App.Cameras;
 /// <param name="Address">The address in the fractal, which nobody moves; null outside of fractals.</param>
 internal sealed record CameraState(CameraPose Pose, Camera WorldCamera, double FocusDistance, FractalAddress? Address)
 {
-    /// <summary>The levels of the fractal that the address is in; null outside of fractals.</summary>
-    public LodHierarchy? Hierarchy { get; init; }
+    /// <summary>The fractal that the address is in; null outside of fractals.</summary>
+    public FractalLocation? Fractal { get; init; }
 
     /// <inheritdoc/>
     public bool Equals(CameraState? other) => other is not null && Pose == other.Pose;

@@ -12,7 +12,7 @@ namespace FractalEngine.App.Cameras;
 /// A camera that moves freely through a scene, and into a fractal to any depth. Within a fractal its position is a
 /// <see cref="FractalAddress"/>, and distances are in a unit that changes with the depth.
 /// </summary>
-internal sealed partial class FlyingCamera
+internal sealed class FlyingCamera
 {
     // Sizes of the scene per second: the scene is crossed in about three seconds.
     private const double SceneSizesPerSecond = 0.35;
@@ -36,9 +36,10 @@ internal sealed partial class FlyingCamera
     // Limits the roots that are drawn around the camera. Maps that hardly shrink lead to many ancestors of a similar size.
     private const int MaxAncestors = 1000;
 
-    private readonly LoadedScene? _scene;
-    private readonly double _sceneSize;
-    private readonly BoundingBox _sceneBounds;
+    // The addresses of states would fill the memory in deeper zooms. Such a state returns as exactly as a world position can.
+    private const int MaxStateDepth = 10_000;
+
+    private readonly SceneFraming _framing;
     private readonly CameraPose _initialPose;
     private readonly FractalLocation? _fractal;
     private FractalAddress? _address;
@@ -55,13 +56,11 @@ internal sealed partial class FlyingCamera
         BoundingBox bounds, Camera camera, Projection projection, double? orthographicHeight, FractalLocation? fractal = null,
         LoadedScene? scene = null, double? framedAspect = null)
     {
-        _scene = scene;
         _fractal = fractal;
-        _sceneBounds = bounds.IsEmpty ? new(-Vector.One, Vector.One) : bounds;
-        _sceneSize = Math.Max(_sceneBounds.Diagonal, 1e-9 * (1 + _sceneBounds.Centre.MaxAbsComponent()));
+        _framing = new(bounds, scene);
         _initialPose = new(camera, projection, orthographicHeight, 0) { FramedAspect = framedAspect };
         Pose = _initialPose;
-        FocusDistance = DistanceToCentre(camera);
+        FocusDistance = _framing.DistanceToCentre(camera);
         ResetFractalAddress();
     }
 
@@ -92,7 +91,7 @@ internal sealed partial class FlyingCamera
     {
         get
         {
-            var sceneSpeed = SceneSizesPerSecond * _sceneSize;
+            var sceneSpeed = SceneSizesPerSecond * _framing.Extent;
             if (_address is null)
             {
                 return sceneSpeed;
@@ -273,9 +272,103 @@ internal sealed partial class FlyingCamera
         };
     }
 
-    private double DistanceToCentre(Camera camera)
+    /// <summary>Moves the camera so that the whole scene is visible in the present direction.</summary>
+    /// <param name="aspect">Width divided by height of the frame.</param>
+    public void FrameScene(double aspect) => FrameScene(Camera, aspect);
+
+    /// <summary>Moves the camera so that the whole scene is visible in another direction.</summary>
+    /// <param name="direction">The direction in which the camera looks, in the axes of a camera without rotation.</param>
+    /// <param name="aspect">Width divided by height of the frame.</param>
+    public void LookAlong(Vector direction, double aspect) =>
+        FrameScene(Camera with { Rotation = CameraFraming.LookRotation(direction) }, aspect);
+
+    /// <summary>
+    /// Frames the scene again after its shape has changed, if that is where the camera stands, and if it would stand elsewhere by a fifth
+    /// of its distance: what grows out of the frame or becomes small is followed, and all else leaves the view as it is.
+    /// </summary>
+    /// <param name="aspect">Width divided by height of the frame.</param>
+    public void FollowShape(double aspect)
     {
-        var depth = camera.ToCameraSpace(_sceneBounds.Centre).Z;
-        return depth > 1e-3 * _sceneSize ? depth : _sceneSize;
+        if (Pose.FramedAspect is not { } framedAspect || Depth > 0)
+        {
+            return;
+        }
+
+        // For the frame as it was then: its own shape may have changed, too, which alone moves no camera.
+        if (_framing.HasDrifted(Camera, Projection, OrthographicHeight, framedAspect))
+        {
+            FrameScene(Camera, aspect);
+        }
+    }
+
+    private void FrameScene(Camera camera, double aspect)
+    {
+        var (framed, height) = _framing.Frame(camera, Projection, aspect);
+        Pose = Pose with { Camera = framed, OrthographicHeight = height };
+        FocusDistance = _framing.DistanceToCentre(Pose.Camera);
+        ResetFractalAddress();
+        Pose = Pose with { FramedAspect = aspect };
+    }
+
+    /// <summary>The present state, for <see cref="Restore"/>.</summary>
+    public CameraState State =>
+        new(Pose, Camera, FocusDistance, _address is { Depth: > 0 and <= MaxStateDepth } ? _address.Clone() : null)
+        {
+            Fractal = _fractal,
+        };
+
+    /// <summary>Returns to the initial camera and projection.</summary>
+    public void Reset()
+    {
+        Pose = _initialPose;
+        FocusDistance = _framing.DistanceToCentre(Pose.Camera);
+        ResetFractalAddress();
+    }
+
+    /// <summary>Returns to a state of this camera, or of one for another scene, as exactly as a world position can.</summary>
+    public void Restore(CameraState state)
+    {
+        Pose = state.Pose;
+        if (!ReferenceEquals(state.Fractal?.Hierarchy, _fractal?.Hierarchy) || state.Fractal?.ObjectToWorld != _fractal?.ObjectToWorld)
+        {
+            // The fractal has been changed since.
+            Place(state.WorldCamera);
+        }
+        else if (_fractal is null || state.Address is not null)
+        {
+            _address = state.Address?.Clone();
+            FocusDistance = state.FocusDistance;
+        }
+        else
+        {
+            Place(state.WorldCamera);
+            Pose = state.Pose;
+        }
+    }
+
+    /// <summary>Continues from another camera in world space.</summary>
+    public void MoveTo(Camera camera)
+    {
+        Place(camera);
+        Pose = Pose with { FramedAspect = null };
+    }
+
+    private void Place(Camera camera)
+    {
+        Pose = Pose with { Camera = camera };
+        FocusDistance = _framing.DistanceToCentre(camera);
+        ResetFractalAddress();
+    }
+
+    /// <summary>Computes the address of the present camera in the fractal, if the scene has one.</summary>
+    private void ResetFractalAddress()
+    {
+        if (_fractal is not null)
+        {
+            _address = new(_fractal.Hierarchy, _fractal.ObjectToWorld, Pose.Camera.Position);
+            _address.Move(Vector.Zero);
+            FocusDistance *= Math.Exp(-_address.LogUnit);
+            Pose = Pose with { Camera = Pose.Camera with { Position = Vector.Zero }, MoveCount = Pose.MoveCount + 1 };
+        }
     }
 }

@@ -9,6 +9,7 @@ using FractalEngine.App.Window.State;
 using FractalEngine.Core;
 using FractalEngine.Render;
 using FractalEngine.Render.Windowing;
+using FractalEngine.Render.Windowing.Events;
 
 namespace FractalEngine.App.Window;
 
@@ -16,10 +17,9 @@ namespace FractalEngine.App.Window;
 /// The event loop of a window: passes events on, advances time, draws when something has changed, and sleeps otherwise.
 /// </summary>
 /// <remarks>
-/// <see cref="DocumentLoader"/> loads files, <see cref="WindowActions"/> and <see cref="CameraControls"/> handle keys and mouse, and
-/// <see cref="WindowRenderer"/> draws frames.
+/// <see cref="EventDispatch"/> passes events on, <see cref="DocumentLoader"/> loads files, and <see cref="WindowRenderer"/> draws frames.
 /// </remarks>
-internal sealed partial class SceneWindow : IDisposable
+internal sealed class SceneWindow : IDisposable
 {
     private static readonly TimeSpan FrameTime = TimeSpan.FromSeconds(1 / 60.0);
     private static readonly TimeSpan ProgressInterval = TimeSpan.FromSeconds(0.1);
@@ -37,8 +37,7 @@ internal sealed partial class SceneWindow : IDisposable
     private readonly PanelLayout _panels;
     private readonly WindowActions _actions;
     private readonly WindowInterface _interface;
-    private readonly PromptHost _prompts;
-    private readonly FileCommands _files;
+    private readonly EventDispatch _events;
     private readonly Stopwatch _clock = Stopwatch.StartNew();
     private TimeSpan _lastAdvance;
     private TimeSpan _refreshTime;
@@ -55,17 +54,21 @@ internal sealed partial class SceneWindow : IDisposable
         _window = new("FractalEngine", options.Size.Width, options.Size.Height);
         _frameRenderer = new(_window);
         _windowRenderer = new(_frameRenderer);
-        _prompts = new(() => _window.ClipboardText);
+        var prompts = new PromptHost(() => _window.ClipboardText);
         var recent = new RecentFiles(options.RecentFilesPath, Report);
         _area = new(_window);
-        _loader = new(_window, _area, _overlay, options, recent.Add, Report);
+        _loader = new(_window, _area, _overlay, options, recent.Add, Report, () => _actions!.Settings, () => _clock.Elapsed);
         _tracing = new(options, _window.Wake);
-        _files = new(_loader, _prompts, recent, Report, () => _actions!.Settings, () => _isClosing = true);
+        var saver = new DocumentSaver(_loader, prompts, Report);
+        var files = new FileCommands(_loader, saver, prompts, recent, Report, () => _isClosing = true);
         _panels = new(_window, options.SettingsPath, Report, ui => _interface!.Build(ui));
-        _actions = new(_window, _windowRenderer, _overlay, _tracing, _panels, options.Settings, () => _clock.Elapsed) { Files = _files };
+        _actions = new(
+            _window, _windowRenderer, _overlay, _tracing, _panels, _loader, files, saver, options.Settings, () => _clock.Elapsed,
+            () => _redraw |= Redraw.Scene);
         _interface = new(_actions);
+        _events = new(_window, _frameRenderer, _actions, prompts);
         _tracing.IsEnabled = options.IsTraced ?? _panels.IsTraced;
-        _loader.Open(path, options.Settings);
+        _loader.State = _loader.State.Open(path);
     }
 
     /// <summary>Opens a window on a file, and returns when the user closes it.</summary>
@@ -103,7 +106,7 @@ internal sealed partial class SceneWindow : IDisposable
         {
             foreach (var windowEvent in _window.WaitEvents(WaitTimeout()))
             {
-                Dispatch(windowEvent);
+                Handle(windowEvent);
             }
 
             PollLoader();
@@ -125,10 +128,28 @@ internal sealed partial class SceneWindow : IDisposable
         }
     }
 
+    private void Handle(WindowEvent windowEvent)
+    {
+        if (windowEvent is VisibilityChanged visibility)
+        {
+            _isVisible = visibility.IsVisible;
+        }
+
+        var wasMoving = Document?.IsMoving == true;
+        // A slow frame between two clicks does not part a double click.
+        var redraw = _events.Dispatch(windowEvent, _clock.Elapsed - _refreshTime);
+        _redraw |= redraw;
+        if (!wasMoving)
+        {
+            // Time begins to count with the event that starts a movement.
+            _lastAdvance = _clock.Elapsed;
+        }
+    }
+
     /// <summary>Returns the time until the loop must run again, even if no event arrives.</summary>
     private TimeSpan WaitTimeout()
     {
-        if (NeedsRefresh)
+        if (NeedsRefresh || _loader.IsDue)
         {
             return TimeSpan.Zero;
         }
@@ -151,7 +172,9 @@ internal sealed partial class SceneWindow : IDisposable
     private void PollLoader()
     {
         var previousDocument = Document;
-        _redraw |= _loader.Poll(_actions.Settings, _clock.Elapsed);
+        // Messages ask for frames meanwhile.
+        var redraw = _loader.Poll();
+        _redraw |= redraw;
         if (Document != previousDocument)
         {
             _windowRenderer.Reset();
@@ -229,13 +252,11 @@ internal sealed partial class SceneWindow : IDisposable
 
         _overlay.FrameCounts = _windowRenderer.CountFrames((long)(start / FrameTime));
         _overlay.TraceText = _tracing.StatusText;
-        _loader.TitleNote = _overlay.TraceText;
-        _actions.Document = Document;
+        _loader.ShowTitle();
         _panels.Update(_window.Width, _window.Height);
         // By the panels as they are now.
         _overlay.HidesPhysics = _panels.IsShown && !_panels.HasRoomForPhysics;
         _overlay.MessageReplacesStatus = _panels.IsShown && !_panels.HasRoomForTexts;
-        _redraw |= _actions.TakeRequested();
         if (_area.Update(_panels.Ui) && Document is not null)
         {
             _redraw |= Redraw.Scene;

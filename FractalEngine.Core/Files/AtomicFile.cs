@@ -6,6 +6,9 @@ public static class AtomicFile
     // More files of one name in a folder are an accident.
     private const int MaxNumberedNames = 10_000;
 
+    // So many times a file may change while it is being written before the write is given up.
+    private const int MaxUpdateAttempts = 20;
+
     private const int BufferBytes = 1 << 16;
 
     /// <summary>Creates or replaces a file; its folder is created if it is missing.</summary>
@@ -17,21 +20,42 @@ public static class AtomicFile
     /// <exception cref="IOException">The file can't be written.</exception>
     public static void Write(string path, Action<Stream> write) => WriteThen(path, write, static move => move());
 
-    /// <summary>Creates or replaces a file if a condition holds once all is written, such as that nobody else has replaced it.</summary>
-    /// <param name="path">Path of the file, as <see cref="Write"/> expects it. Devices and pipes are written unconditionally.</param>
-    /// <param name="write">Writes the contents. If it throws, the previous contents remain.</param>
-    /// <param name="condition">Asked just before the file takes its name. The previous contents remain where it is false.</param>
-    /// <exception cref="IOException">The file can't be written.</exception>
-    public static void WriteIf(string path, Action<Stream> write, Func<bool> condition)
+    /// <summary>
+    /// Replaces a file by what is made of it. Where another program has written it meanwhile, what that has left is changed instead.
+    /// </summary>
+    /// <param name="path">Path of the file, as <see cref="Write"/> expects it. It may be missing.</param>
+    /// <param name="make">Reads the file of this stamp, and returns its new contents; null to leave it as it is.</param>
+    /// <exception cref="IOException">The file can't be written, or another program changes it all the time.</exception>
+    /// <remarks>
+    /// The stamp is compared just before the new file takes its name: what another program writes within the microseconds between is lost.
+    /// </remarks>
+    public static void Update(string path, Func<FileStamp, byte[]?> make)
     {
-        ArgumentNullException.ThrowIfNull(condition);
-        WriteThen(path, write, move =>
+        ArgumentNullException.ThrowIfNull(make);
+        for (var attempt = 0; attempt < MaxUpdateAttempts; attempt++)
         {
-            if (condition())
+            var stamp = FileStamp.Of(path);
+            if (make(stamp) is not { } bytes)
             {
-                move();
+                return;
             }
-        });
+
+            var isUnchanged = true;
+            WriteThen(path, stream => stream.Write(bytes), move =>
+            {
+                isUnchanged = FileStamp.Of(path) == stamp;
+                if (isUnchanged)
+                {
+                    move();
+                }
+            });
+            if (isUnchanged)
+            {
+                return;
+            }
+        }
+
+        throw new IOException($"{path} can't be written: another program changes it all the time");
     }
 
     // The last argument calls the one that it is given, which moves the file to its name.

@@ -156,6 +156,40 @@ public sealed class AtomicFileTests : IDisposable
     }
 
     [Fact]
+    public void Update_OfAFileThatChangesMeanwhile_ChangesWhatThatHasLeft()
+    {
+        var path = _folder.Write("a", "old");
+        var count = 0;
+        AtomicFile.Update(path, stamp =>
+        {
+            Assert.Equal(FileStamp.Of(path), stamp);
+            var text = File.ReadAllText(path);
+            if (++count < 3)
+            {
+                File.WriteAllText(path, text + count);
+            }
+
+            return System.Text.Encoding.UTF8.GetBytes(text + " new");
+        });
+        Assert.Equal((3, "old12 new"), (count, File.ReadAllText(path)));
+        AtomicFile.Update(path, static _ => null);
+        Assert.Equal("old12 new", File.ReadAllText(path));
+    }
+
+    [Fact]
+    public void Update_OfAFileThatChangesAllTheTime_IsGivenUp()
+    {
+        var path = _folder.Write("a", "");
+        var error = Assert.Throws<IOException>(() => AtomicFile.Update(path, _ =>
+        {
+            File.AppendAllText(path, "x");
+            return "new"u8.ToArray();
+        }));
+        Assert.EndsWith("another program changes it all the time", error.Message, StringComparison.Ordinal);
+        Assert.DoesNotContain("new", File.ReadAllText(path), StringComparison.Ordinal);
+    }
+
+    [Fact]
     public void Write_BelowAFile_NamesTheFileThatIsNoFolder()
     {
         _folder.Write("a", "old");

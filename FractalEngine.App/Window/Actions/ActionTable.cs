@@ -1,15 +1,17 @@
 using System.Collections.Immutable;
+using FractalEngine.App.Window.Simulation;
 using FractalEngine.App.Window.State;
 using FractalEngine.App.Window.Tools;
 using FractalEngine.Core.Maths;
 using FractalEngine.Render.Views;
 using FractalEngine.Render.Windowing.Events;
 using FractalEngine.Render.Windowing.Keyboard;
+using static FractalEngine.App.Window.Actions.ActionKinds;
 
 namespace FractalEngine.App.Window.Actions;
 
 /// <summary>All actions of the window. Key bindings, menus, the list of keys and the manual's table follow from it.</summary>
-internal static partial class ActionTable
+internal static class ActionTable
 {
     /// <summary>Menus in the order in which they are shown.</summary>
     public static readonly ImmutableArray<string> Menus = ["File", "Edit", "View", "Go", "Physics", "Window"];
@@ -24,11 +26,11 @@ internal static partial class ActionTable
         new("open", "File", "Open…", "open a file") { Keys = [KeyChord.Control(Key.O)], Run = OverlayOf(static a => a.Files.AskForFile()) },
         new("save", "File", "Save", "save the changed numbers into their files, and the view into the scene's file")
         {
-            Keys = [KeyChord.Control(Key.S)], Run = OverlayOf(static a => a.Files.Save()), IsAvailable = HasDocument,
+            Keys = [KeyChord.Control(Key.S)], Run = OverlayOf(static a => a.Saver.Save()), IsAvailable = HasDocument,
         },
         new("save-as", "File", "Save as…", "save as a new scene")
         {
-            Keys = [KeyChord.ControlShift(Key.S)], Run = OverlayOf(static a => a.Files.SaveAs()), IsAvailable = HasDocument,
+            Keys = [KeyChord.ControlShift(Key.S)], Run = OverlayOf(static a => a.Saver.SaveAs()), IsAvailable = HasDocument,
         },
         new("screenshot", "File", "Screenshot", "save a screenshot into `out/`")
         {

@@ -64,7 +64,7 @@ internal static class SceneEdits
         {
             var text = edit(document.Edits.TextOf(path));
             SceneEditor.Parse(text);
-            actions.Files.Edit(path, text, actions.Panels.Ui.Interaction);
+            actions.Saver.Edit(path, text, actions.Panels.Ui.Interaction);
             return true;
         }
         catch (SourceException exception)

@@ -18,23 +18,29 @@ namespace FractalEngine.App.Window.Actions;
 /// <param name="overlay">The overlay of the window, which shows messages.</param>
 /// <param name="tracing">Traces the view of the window.</param>
 /// <param name="panels">The panels of the window.</param>
+/// <param name="loader">Loads files, and owns the document.</param>
+/// <param name="files">Opens files, and asks before changes are lost.</param>
+/// <param name="saver">Edits and saves files.</param>
 /// <param name="settings">The initial render settings.</param>
 /// <param name="clock">Tells the present time.</param>
+/// <param name="requestDraw">Lets the window draw a new frame.</param>
 internal sealed class WindowActions(
     RenderWindow window, WindowRenderer renderer, WindowOverlay overlay, WindowTracing tracing, PanelLayout panels,
-    RenderSettings settings, Func<TimeSpan> clock)
+    DocumentLoader loader, FileCommands files, DocumentSaver saver, RenderSettings settings, Func<TimeSpan> clock, Action requestDraw)
 {
     private readonly Queue<WindowAction> _chosen = [];
-    private Redraw _requested;
 
     /// <summary>The present render settings.</summary>
     public RenderSettings Settings { get; set; } = settings;
 
     /// <summary>The document shown; null for none.</summary>
-    public Document? Document { get; set; }
+    public Document? Document => loader.Document;
 
-    /// <summary>Opens, edits and saves files, and asks before changes are lost.</summary>
-    public required FileCommands Files { get; set; }
+    /// <summary>Opens files, and asks before changes are lost.</summary>
+    public FileCommands Files => files;
+
+    /// <summary>Edits and saves files.</summary>
+    public DocumentSaver Saver => saver;
 
     /// <summary>The panels of the window.</summary>
     public PanelLayout Panels => panels;
@@ -75,15 +81,7 @@ internal sealed class WindowActions(
     }
 
     /// <summary>Asks for a new frame, since a panel has changed what it shows.</summary>
-    public void RequestDraw() => _requested |= Redraw.Scene;
-
-    /// <summary>Returns what panels have asked for since the last call.</summary>
-    public Redraw TakeRequested()
-    {
-        var requested = _requested;
-        _requested = Redraw.None;
-        return requested;
-    }
+    public void RequestDraw() => requestDraw();
 
     /// <summary>Shows a message for a few seconds.</summary>
     public Redraw Show(string message)
@@ -106,7 +104,7 @@ internal sealed class WindowActions(
         var message = Document.Undo(isRedo);
         if (!edits.Equals(Document.Edits))
         {
-            Files.ShowEdits();
+            loader.State = loader.State.Reload();
         }
 
         return Show(message) | Redraw.Scene;

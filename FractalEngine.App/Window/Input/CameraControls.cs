@@ -9,7 +9,7 @@ namespace FractalEngine.App.Window.Input;
 /// Translates keys and mouse into movements of a camera: flying, orbiting, panning, zooming and fixed views. Takes events and time as
 /// arguments, so it needs neither a window nor a clock.
 /// </summary>
-/// <param name="camera">The camera to move.</param>
+/// <param name="camera">The camera to move at first.</param>
 internal sealed class CameraControls(FlyingCamera camera)
 {
     /// <summary>Angle in radians by which the mouse turns a camera per pixel: about 220° across 1280 pixels.</summary>
@@ -25,6 +25,9 @@ internal sealed class CameraControls(FlyingCamera camera)
     private MouseButton? _draggedButton;
     private (double X, double Y)? _pointer;
     private KeyModifiers _modifiers;
+
+    /// <summary>The camera to move. Keys and buttons that are held go on with another one.</summary>
+    public FlyingCamera Camera { get; set; } = camera;
 
     /// <summary>
     /// The part of the frame that shows the scene, in pixels; null until it is known. The wheel zooms to the pointer in it.
@@ -43,7 +46,7 @@ internal sealed class CameraControls(FlyingCamera camera)
     /// <returns>True when the view has changed.</returns>
     public bool Handle(WindowEvent windowEvent, double aspect, Action<FlyingCamera, double>? move = null)
     {
-        var poseBefore = camera.Pose;
+        var poseBefore = Camera.Pose;
         // A letter of a command such as Ctrl+S does not move the camera, even if Ctrl is released before it.
         if (windowEvent is not KeyPressed { Modifiers: var modifiers } || !modifiers.HasFlag(KeyModifiers.Control))
         {
@@ -59,7 +62,7 @@ internal sealed class CameraControls(FlyingCamera camera)
         {
             case KeyPressed pressed:
                 _modifiers = pressed.Modifiers;
-                move?.Invoke(camera, aspect);
+                move?.Invoke(Camera, aspect);
                 if (!pressed.IsRepeat)
                 {
                     Advance(TapDuration);
@@ -88,16 +91,7 @@ internal sealed class CameraControls(FlyingCamera camera)
                 break;
         }
 
-        return camera.Pose != poseBefore;
-    }
-
-    /// <summary>Goes on with the keys and buttons that are held.</summary>
-    public void ContinueFrom(CameraControls other)
-    {
-        _heldKeys.CopyFrom(other._heldKeys);
-        _draggedButton = other._draggedButton;
-        _pointer = other._pointer;
-        _modifiers = other._modifiers;
+        return Camera.Pose != poseBefore;
     }
 
     /// <summary>Releases all held keys.</summary>
@@ -112,10 +106,10 @@ internal sealed class CameraControls(FlyingCamera camera)
             return false;
         }
 
-        var distancePerSecond = camera.Speed
+        var distancePerSecond = Camera.Speed
             * (_modifiers.HasFlag(KeyModifiers.Shift) ? SpeedModifierFactor : 1)
             / (_modifiers.HasFlag(KeyModifiers.Alt) ? SpeedModifierFactor : 1);
-        camera.Move(time.TotalSeconds * distancePerSecond * Direction.UnitVector());
+        Camera.Move(time.TotalSeconds * distancePerSecond * Direction.UnitVector());
         return true;
     }
 
@@ -124,13 +118,13 @@ internal sealed class CameraControls(FlyingCamera camera)
     {
         if (_pointer is not var (x, y) || Viewport is not { Height: > 0 } viewport)
         {
-            camera.Zoom(factor);
+            Camera.Zoom(factor);
             return;
         }
 
         var right = (x - viewport.X - (0.5 * viewport.Width)) / (0.5 * viewport.Height);
         var down = (y - viewport.Y - (0.5 * viewport.Height)) / (0.5 * viewport.Height);
-        camera.Zoom(factor, right, -down);
+        Camera.Zoom(factor, right, -down);
     }
 
     private void Drag(MouseButton button, double deltaX, double deltaY, double aspect)
@@ -140,16 +134,16 @@ internal sealed class CameraControls(FlyingCamera camera)
         if (button == MouseButton.Middle || (button == MouseButton.Left && _modifiers.HasFlag(KeyModifiers.Shift)))
         {
             // The point in focus follows the pointer: this is the width of a pixel at its distance.
-            var distancePerPixel = RadiansPerPixel * camera.FocusDistance * Math.Min(1, aspect);
-            camera.Move(new(-distancePerPixel * deltaX, distancePerPixel * deltaY, 0));
+            var distancePerPixel = RadiansPerPixel * Camera.FocusDistance * Math.Min(1, aspect);
+            Camera.Move(new(-distancePerPixel * deltaX, distancePerPixel * deltaY, 0));
         }
         else if (button == MouseButton.Left)
         {
-            camera.Orbit(yaw, pitch);
+            Camera.Orbit(yaw, pitch);
         }
         else
         {
-            camera.Turn(yaw, pitch);
+            Camera.Turn(yaw, pitch);
         }
     }
 }

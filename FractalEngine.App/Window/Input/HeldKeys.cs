@@ -36,13 +36,6 @@ internal sealed class HeldKeys
         }
     }
 
-    /// <summary>Holds the keys that another object holds.</summary>
-    public void CopyFrom(HeldKeys other)
-    {
-        _keys.Clear();
-        _keys.UnionWith(other._keys);
-    }
-
     /// <summary>Releases all keys, as if none were held.</summary>
     public void Clear() => _keys.Clear();
 

@@ -33,15 +33,6 @@ internal sealed class WalkControls
         _carriedAngle = CarriedAngle(controller, alpha);
     }
 
-    /// <summary>Goes on with the gaze and the keys that are held.</summary>
-    public void ContinueFrom(WalkControls other)
-    {
-        Direction = other.Direction;
-        _heldKeys.CopyFrom(other._heldKeys);
-        _isLooking = other._isLooking;
-        _carriedAngle = other._carriedAngle;
-    }
-
     /// <summary>Releases all keys and mouse buttons.</summary>
     public void ReleaseKeys()
     {

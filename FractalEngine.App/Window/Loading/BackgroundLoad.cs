@@ -1,4 +1,5 @@
 using System.Collections.Immutable;
+using FractalEngine.App.Jobs;
 using FractalEngine.App.Shell;
 using FractalEngine.App.Shell.Reports;
 using FractalEngine.App.Window.State;
@@ -15,52 +16,50 @@ internal sealed class BackgroundLoad
 {
     private readonly ThrottledProgress _progress = new();
     private readonly AssetCache _cache;
-    private readonly Task<(LoadedFile File, ScenePreparation Preparation)> _task;
+    private readonly BackgroundJob<(LoadedFile File, ScenePreparation Preparation)> _job;
 
     /// <summary>Starts to load a file.</summary>
-    /// <param name="path">Path of the mesh, fractal or scene.</param>
+    /// <param name="request">The file.</param>
     /// <param name="options">What overrides the files.</param>
     /// <param name="settings">The render settings to prepare the scene for.</param>
     /// <param name="aspect">Width divided by height of the window. Only models visible at first are prepared.</param>
     /// <param name="cache">What was read before. No other load may use it meanwhile.</param>
     /// <param name="previous">The document whose models are used further where their files are unchanged; null for none.</param>
-    /// <param name="completed">Called on the other thread when the load has succeeded or failed.</param>
+    /// <param name="ended">Called on the other thread when the load has succeeded or failed.</param>
     public BackgroundLoad(
-        string path, LoadOptions options, RenderSettings settings, double aspect, AssetCache cache, Document? previous, Action completed)
+        LoadRequest request, LoadOptions options, RenderSettings settings, double aspect, AssetCache cache, Document? previous,
+        Action ended)
     {
-        Path = path;
-        Previous = previous;
+        Request = request;
         _cache = cache;
         // The camera may be elsewhere by the end of the load. What it sees then is prepared at first sight.
         var view = previous?.LatestView;
-        _task = Task.Run(() =>
-        {
-            var file = AssetLoader.Load(path, options, _progress, cache);
-            var models = file.Scene.Models.ToHashSet();
-            var preparation = new ScenePreparation(file.Scene, settings, previous?.FirstSightLoader.Stop(models.Contains));
-            if (file.Scene.Objects.Length == 1 || !settings.LazyLoading)
+        _job = new(
+            cancellation =>
             {
-                // A single object is prepared even if it is out of view, since there is nothing else to show.
-                preparation.PrepareAll(_progress, CancellationToken.None);
-            }
-            else
-            {
-                preparation.PrepareVisible(view ?? View.Of(file.Scene, aspect), aspect, _progress);
-            }
+                var file = AssetLoader.Load(request.Path, options with { EditedTexts = request.Edits.Texts }, _progress, cache);
+                var models = file.Scene.Models.ToHashSet();
+                var preparation = new ScenePreparation(file.Scene, settings, previous?.FirstSightLoader.Stop(models.Contains));
+                if (file.Scene.Objects.Length == 1 || !settings.LazyLoading)
+                {
+                    // A single object is prepared even if it is out of view, since there is nothing else to show.
+                    preparation.PrepareAll(_progress, cancellation);
+                }
+                else
+                {
+                    preparation.PrepareVisible(view ?? View.Of(file.Scene, aspect), aspect, _progress, cancellation);
+                }
 
-            return (file, preparation);
-        });
-        _task.ContinueWith(_ => completed(), TaskScheduler.Default);
+                return (file, preparation);
+            },
+            ended);
     }
 
-    /// <summary>The mesh, fractal or scene that is loaded, by the path under which it was opened.</summary>
-    public string Path { get; }
-
-    /// <summary>The document that the loaded one continues; null for none.</summary>
-    public Document? Previous { get; }
+    /// <summary>What is loaded, and why.</summary>
+    public LoadRequest Request { get; }
 
     /// <summary>True when the load has succeeded or failed.</summary>
-    public bool IsCompleted => _task.IsCompleted;
+    public bool IsCompleted => _job.Result.IsCompleted;
 
     /// <summary>The file being loaded, and the completed fraction from 0 to 1.</summary>
     public (string Text, double Fraction) Progress => _progress.Latest;
@@ -69,21 +68,17 @@ internal sealed class BackgroundLoad
     public ImmutableDictionary<string, FileStamp> Files => _cache.Files;
 
     /// <summary>Waits for the load and returns its result; null if the file can't be loaded.</summary>
-    /// <param name="exitCode">The exit code of a program that only loads this file.</param>
-    /// <param name="error">The reason why the file can't be loaded; null if it can.</param>
-    public (LoadedFile File, ScenePreparation Preparation)? TakeResult(out int exitCode, out string? error)
+    /// <param name="failure">The reason why the file can't be loaded; null if it can.</param>
+    public (LoadedFile File, ScenePreparation Preparation)? TakeResult(out Failure? failure)
     {
-        exitCode = ExitCode.Done;
-        error = null;
+        failure = null;
         try
         {
-            return _task.GetAwaiter().GetResult();
+            return _job.Result.GetAwaiter().GetResult();
         }
         catch (Exception exception) when (exception is FractalEngineException or OutOfMemoryException)
         {
-            var failure = Failure.Of(exception);
-            exitCode = failure.ExitCode;
-            error = failure.Text;
+            failure = Failure.Of(exception);
             return null;
         }
     }

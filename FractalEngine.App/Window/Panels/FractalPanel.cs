@@ -267,7 +267,7 @@ internal sealed class FractalPanel(WindowActions actions)
         try
         {
             FindNumbers(_path!, text);
-            actions.Files.Edit(_path!, text, interaction);
+            actions.Saver.Edit(_path!, text, interaction);
             // The places of all numbers behind it have moved.
             TryRead(_path!);
         }

@@ -34,7 +34,7 @@ internal sealed class ScenePanel(WindowActions actions)
             ui.Paragraph("This is a single model. As a scene it can have more objects, lights and colours.");
             if (ui.Button("Save as a scene…"))
             {
-                actions.Files.SaveAs();
+                actions.Saver.SaveAs();
             }
 
             return;

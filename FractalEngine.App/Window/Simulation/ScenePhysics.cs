@@ -1,4 +1,5 @@
 using System.Diagnostics;
+using FractalEngine.App.Jobs;
 using FractalEngine.Core;
 using FractalEngine.Core.Colliders;
 using FractalEngine.Core.Maths;
@@ -16,64 +17,57 @@ namespace FractalEngine.App.Window.Simulation;
 /// <summary>
 /// The physics of a scene in a window. Colliders are built in the background; until then the commands answer that they are not ready.
 /// </summary>
-/// <remarks>Commands return a message for the user.</remarks>
-internal sealed partial class ScenePhysics : IDisposable
+/// <remarks><see cref="PhysicsCommands"/> are what the user does with it.</remarks>
+internal sealed class ScenePhysics : IDisposable
 {
-    private const string OutOfRangeMessage = "a body has left the range of numbers: R resets all bodies";
-
-    private readonly LoadedScene _scene;
     private readonly MovedScene _movedScene;
-    private readonly Task<PhysicsWorld> _worldTask;
-    private readonly CancellationTokenSource _cancellation = new();
+    private readonly Action _completed;
     private readonly ColliderCache _colliders;
 
     // The bodies where an earlier scene left them, drawn until the colliders are built; null for none.
     private readonly PhysicsWorld? _continued;
-    private readonly double _sceneSize;
     private readonly int _colliderCount;
+    // Null until something needs the world: a scene that stands still may do without.
+    private BackgroundJob<PhysicsWorld>? _job;
     private TimeSpan _stepTime;
     private string? _problem;
     private bool _isBuildProblemReported;
-    private bool _isDisposed;
 
-    // True while a body is out of range: no step can be made until the next reset.
-    private bool _isBroken;
-
-    /// <summary>Starts to build the colliders in the background, if the scene has bodies that need them.</summary>
+    /// <summary>Starts to build the world and its colliders in the background, if something in the scene moves.</summary>
     /// <param name="scene">The loaded scene.</param>
-    /// <param name="completed">Called on another thread when the colliders are built.</param>
+    /// <param name="completed">Called on another thread when they are built.</param>
     /// <param name="previous">The physics of the scene before it was changed, which ends here; null for none.</param>
     /// <param name="alwaysBuild">Builds the colliders even without bodies, for comparison.</param>
     public ScenePhysics(LoadedScene scene, Action completed, ScenePhysics? previous = null, bool alwaysBuild = false)
     {
-        _scene = scene;
+        Scene = scene;
         _movedScene = new(scene);
-        _sceneSize = scene.Bounds.IsEmpty ? 1 : scene.Bounds.Diagonal;
+        SceneExtent = scene.Bounds.IsEmpty ? 1 : scene.Bounds.Diagonal;
+        _completed = completed;
         _colliderCount = scene.StaticModels.Count();
         _colliders = previous?._colliders ?? new();
         _continued = previous is null ? null : Continue(previous);
-        var cancellation = _cancellation.Token;
-        _worldTask = Task.Run(() =>
+        if (alwaysBuild || _continued is not null
+            || scene.Scene.Objects.Any(static item => item is PhysicsObject || item.Motion is not null || item.Belt != Vector.Zero))
         {
-            PhysicsLimits.RequireRange(scene);
-            var world = _continued ?? new PhysicsWorld(scene, null, _colliders);
-            PhysicsLimits.Require(world.Bodies);
-            PhysicsLimits.RequireRange(world);
-            if (world.Bodies.Count > 0 || world.Character is { IsActive: true } || alwaysBuild)
-            {
-                BuildColliders(world, cancellation);
-            }
-
-            return world;
-        });
-        _worldTask.ContinueWith(_ => completed(), TaskScheduler.Default);
+            _job = CreateJob(alwaysBuild);
+        }
     }
 
     /// <summary>True while bodies, objects or the player move, so that <see cref="Advance"/> must be called.</summary>
     public bool IsRunning => !IsPaused && Speed > 0 && World is { } world && (world.IsMoving || IsWalking);
 
+    /// <summary>The scene as it was loaded.</summary>
+    public LoadedScene Scene { get; }
+
+    /// <summary>The diagonal of the scene in scene units.</summary>
+    public double SceneExtent { get; }
+
     /// <summary>Whether the simulation is paused.</summary>
-    public bool IsPaused { get; private set; }
+    public bool IsPaused { get; set; }
+
+    /// <summary>True while a body is out of range: no step can be made until the next reset.</summary>
+    public bool IsBroken { get; set; }
 
     /// <summary>Whether the player walks, so that the camera is at the player's eyes.</summary>
     public bool IsWalking => Character is { IsActive: true };
@@ -83,7 +77,7 @@ internal sealed partial class ScenePhysics : IDisposable
     /// have to be.
     /// </summary>
     public bool HasMovers => (World ?? _continued) is { } world ? world.Bodies.Count > 0 || world.MovingObjects.Any() || IsWalking
-        : !_worldTask.IsCompleted;
+        : _job is { Result.IsCompleted: false };
 
     /// <summary>The player; null where there is none.</summary>
     public CharacterController? Character => (World ?? _continued)?.Character;
@@ -106,25 +100,16 @@ internal sealed partial class ScenePhysics : IDisposable
         World is { } world && _stepTime > TimeSpan.Zero ? world.LastStepCost.FaceTests / _stepTime.TotalSeconds : null;
 
     /// <summary>Two lines about the bodies, their collider and the cost of the last step.</summary>
-    public string StatusText
+    public string StatusText => WhenReady(world =>
     {
-        get
-        {
-            if (World is not { } world)
-            {
-                return NotReadyMessage;
-            }
-
-            var awakeCount = world.Bodies.Count(static body => !body.IsAsleep);
-            var collider = world.ColliderOverride is { } kind ? ColliderNames.Of(kind) : "each body's own";
-            var (faceTests, boundTests) = world.LastStepCost;
-            var paused = IsPaused ? " · paused" : "";
-            var bodies = Invariant($"{Count(world.Bodies.Count, "body", "bodies")}, {awakeCount:N0} awake · collider: {collider}{paused}");
-            var tests = $"last step: {Count(faceTests, "face test", "face tests")}";
-            var cost = Invariant($"{tests}, {Count(boundTests, "bound test", "bound tests")}, {_stepTime.TotalMilliseconds:F2} ms");
-            return $"{bodies}\n{cost}";
-        }
-    }
+        var awakeCount = world.Bodies.Count(static body => !body.IsAsleep);
+        var collider = world.ColliderOverride is { } kind ? ColliderNames.Of(kind) : "each body's own";
+        var (faceTests, boundTests) = world.LastStepCost;
+        var paused = IsPaused ? " · paused" : "";
+        var bodies = Invariant($"{Count(world.Bodies.Count, "body", "bodies")}, {awakeCount:N0} awake · collider: {collider}{paused}");
+        var tests = $"last step: {Count(faceTests, "face test", "face tests")}";
+        return Invariant($"{bodies}\n{tests}, {Count(boundTests, "bound test", "bound tests")}, {_stepTime.TotalMilliseconds:F2} ms");
+    });
 
     /// <summary>The scene with its bodies where they are, the same object until one of them moves.</summary>
     public LoadedScene CurrentScene => _movedScene.With(World ?? _continued);
@@ -132,35 +117,41 @@ internal sealed partial class ScenePhysics : IDisposable
     /// <summary>Number of colliders built so far, and number of all colliders.</summary>
     public (int Built, int All) ColliderCounts => World?.ColliderCounts ?? (0, _colliderCount);
 
-    /// <summary>The world, once its colliders are built; null until then, and where it can't be made.</summary>
-    public PhysicsWorld? World => _worldTask.IsCompletedSuccessfully ? _worldTask.Result : null;
+    /// <summary>The world, once its colliders are built; null until then, and where it can't be made or nothing has needed it.</summary>
+    public PhysicsWorld? World => _job is { Result: { IsCompletedSuccessfully: true } built } ? built.Result : null;
 
-    private string NotReadyMessage =>
-        _worldTask.IsFaulted ? $"no physics: {_worldTask.Exception.InnerException!.Message}" : "the colliders are being built";
+    private string? Failure => _job?.Result.Exception is { } failure ? $"no physics: {failure.InnerException!.Message}" : null;
 
     /// <summary>Ends the building of colliders after the one in progress. Those that are built stay for the next scene.</summary>
-    public void Dispose()
-    {
-        if (!_isDisposed)
-        {
-            _isDisposed = true;
-            _cancellation.Cancel();
-            _cancellation.Dispose();
-        }
-    }
+    public void Dispose() => _job?.Cancel();
 
     /// <summary>Returns the reason why the physics has failed, only once for each failure; null otherwise.</summary>
     public string? TakeProblem()
     {
-        if (_worldTask.IsFaulted && !_isBuildProblemReported)
+        if (!_isBuildProblemReported && Failure is { } failure)
         {
             _isBuildProblemReported = true;
-            return $"error: no physics: {_worldTask.Exception.InnerException!.Message}";
+            return $"error: {failure}";
         }
 
         var problem = _problem;
         _problem = null;
         return problem;
+    }
+
+    /// <summary>
+    /// Runs a command of the world, or answers that it is not ready. The first one makes the world of a scene that stands still.
+    /// </summary>
+    public string WhenReady(Func<PhysicsWorld, string> command)
+    {
+        if (_job is null)
+        {
+            _job = CreateJob(alwaysBuild: false);
+            // It builds no collider, and is made at once. A failure is told as that of any other world.
+            Task.WaitAny(_job.Result);
+        }
+
+        return World is { } world ? command(world) : Failure ?? "the colliders are being built";
     }
 
     /// <summary>Advances the simulation by a time.</summary>
@@ -212,11 +203,27 @@ internal sealed partial class ScenePhysics : IDisposable
         }
 
         renderer.Spheres = spheres;
-        renderer.Lines = ShowsClosestPoints && !_isBroken && World is not null ? ClosestPointLines.Create(world, alpha) : [];
+        renderer.Lines = ShowsClosestPoints && !IsBroken && World is not null ? ClosestPointLines.Create(world, alpha) : [];
     }
 
     private static string Count(long number, string one, string many) =>
         Invariant($"{number:N0} {(number == 1 ? one : many)}");
+
+    private BackgroundJob<PhysicsWorld> CreateJob(bool alwaysBuild) => new(
+        cancellation =>
+        {
+            PhysicsLimits.RequireRange(Scene);
+            var world = _continued ?? new PhysicsWorld(Scene, null, _colliders);
+            PhysicsLimits.Require(world.Bodies);
+            PhysicsLimits.RequireRange(world);
+            if (world.Bodies.Count > 0 || world.Character is { IsActive: true } || alwaysBuild)
+            {
+                BuildColliders(world, cancellation);
+            }
+
+            return world;
+        },
+        _completed);
 
     private static void BuildColliders(PhysicsWorld world, CancellationToken cancellation)
     {
@@ -237,18 +244,18 @@ internal sealed partial class ScenePhysics : IDisposable
     private PhysicsWorld? Continue(ScenePhysics previous)
     {
         previous.Dispose();
-        _colliders.Retain(_scene);
+        _colliders.Retain(Scene);
         IsPaused = previous.IsPaused;
         Speed = previous.Speed;
         ShowsClosestPoints = previous.ShowsClosestPoints;
-        if (previous._isBroken || (previous.World ?? previous._continued) is not { } earlier)
+        if (previous.IsBroken || (previous.World ?? previous._continued) is not { } earlier)
         {
             return null;
         }
 
         try
         {
-            var world = new PhysicsWorld(_scene, null, _colliders);
+            var world = new PhysicsWorld(Scene, null, _colliders);
             world.Continue(earlier);
             world.ColliderOverride = earlier.ColliderOverride;
             world.ShrinkageOverride = earlier.ShrinkageOverride;
@@ -264,7 +271,7 @@ internal sealed partial class ScenePhysics : IDisposable
     /// <summary>Makes and times steps. Pauses the simulation when a body goes beyond the limit of physics.</summary>
     /// <param name="world">The world that makes them.</param>
     /// <param name="advance">Makes the steps, and returns their number.</param>
-    private void MakeSteps(PhysicsWorld world, Func<int> advance)
+    public void MakeSteps(PhysicsWorld world, Func<int> advance)
     {
         var start = Stopwatch.GetTimestamp();
         try
@@ -280,7 +287,7 @@ internal sealed partial class ScenePhysics : IDisposable
         {
             _problem = $"error: {exception.Message}";
             IsPaused = true;
-            _isBroken = true;
+            IsBroken = true;
         }
     }
 }

@@ -3,10 +3,13 @@ using FractalEngine.App.Window.Files;
 using FractalEngine.App.Window.Input;
 using FractalEngine.App.Window.Simulation;
 using FractalEngine.App.Window.Tools;
+using FractalEngine.Core.DeepZoom;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Scenes.Cameras;
 using FractalEngine.Parsing.Assets;
+using FractalEngine.Parsing.Text;
 using FractalEngine.Render;
 using FractalEngine.Render.Preparation;
 using FractalEngine.Render.Views;
@@ -15,28 +18,33 @@ using FractalEngine.Render.Windowing.Events;
 
 namespace FractalEngine.App.Window.State;
 
-/// <summary>The file that a window shows, with its camera, its physics and its renderer.</summary>
-internal sealed partial class Document : IDisposable
+/// <summary>
+/// The file that a window shows, with its camera, its physics and its renderer. What was changed of it is in the
+/// <see cref="DocumentState"/>.
+/// </summary>
+internal sealed class Document : IDisposable
 {
+    private readonly WindowStore _store;
+
     /// <summary>Uploads the prepared models. Must be called on the window's thread.</summary>
     /// <param name="window">The window that shows the file.</param>
     /// <param name="area">The part of the window that panels leave free.</param>
     /// <param name="file">The loaded file.</param>
     /// <param name="preparation">The preparation of the file's scene, with the visible models prepared.</param>
     /// <param name="options">The options of the window.</param>
+    /// <param name="store">The state of the window.</param>
     /// <param name="previous">
     /// The same document before its files were changed, which is replaced by this one; null for none. Its renderer is used further.
     /// </param>
-    /// <param name="edits">The files that were edited and not saved; null for none.</param>
     public Document(
-        RenderWindow window, ViewArea area, LoadedFile file, ScenePreparation preparation, WindowOptions options,
-        Document? previous = null, FileEdits? edits = null)
+        RenderWindow window, ViewArea area, LoadedFile file, ScenePreparation preparation, WindowOptions options, WindowStore store,
+        Document? previous = null)
     {
         File = file;
         Area = area;
         IsReload = previous is not null;
-        Edits = edits ?? FileEdits.None;
-        Tool = new(this);
+        _store = store;
+        Tool = previous?.Tool ?? new(this);
         Section = previous?.Section ?? new(options.Section);
         FirstSightLoader = new(preparation, window.Wake);
         var scene = file.Scene.Scene;
@@ -44,28 +52,16 @@ internal sealed partial class Document : IDisposable
         FlyingCamera = new(
             file.Scene.Bounds, camera, options.Projection ?? scene.Projection, scene.OrthographicHeight, FindFractal(preparation.Scene),
             file.Scene, scene.Camera is null ? area.Aspect : null);
-        CameraControls = new(FlyingCamera);
         Trail = file.Scene.Objects is [{ Model: FractalModel { Fractal: var fractal } }] ? new(fractal, options.TrailLength) : null;
         // Before anything of the previous document ends, since the driver may refuse the new one.
         previous?.Renderer.Replace(preparation.Scene);
+        Renderer = previous?.Renderer ?? new(window, preparation.Scene);
         Physics = new(file.Scene, window.Wake, previous?.Physics, alwaysBuild: !options.Settings.LazyLoading);
-        if (previous is null)
-        {
-            Renderer = new(window, preparation.Scene);
-            Draft = new(file, SceneView);
-            History = new(State);
-        }
-        else
-        {
-            previous.FirstSightLoader.Dispose();
-            Renderer = previous.Renderer;
-            // Until the first frame, which shows nearly the same: handles that are dragged need a view.
-            LatestView = previous.LatestView;
-            // A drag goes on, and stays one step.
-            _lastInteraction = previous._lastInteraction;
-            (Draft, History) = ContinueView(previous);
-            Tool.ContinueFrom(previous.Tool);
-        }
+        CameraControls = previous?.CameraControls ?? new(FlyingCamera);
+        WalkControls = previous?.WalkControls ?? new();
+        // Until the first frame, which shows nearly the same: handles that are dragged need a view.
+        LatestView = previous?.LatestView;
+        previous?.FirstSightLoader.Dispose();
     }
 
     /// <summary>The loaded file with its scene.</summary>
@@ -93,25 +89,31 @@ internal sealed partial class Document : IDisposable
     public CameraControls CameraControls { get; }
 
     /// <summary>The controls of the player.</summary>
-    public WalkControls WalkControls { get; } = new();
+    public WalkControls WalkControls { get; }
 
     /// <summary>Selects and measures what is clicked.</summary>
     public SelectionTool Tool { get; }
 
     /// <summary>The plane that cuts the scene open.</summary>
-    public SectionTool Section { get; private set; }
+    public SectionTool Section { get; }
 
     /// <summary>The paper's zoom into the fractal; null unless the scene is one fractal.</summary>
     public FractalTrail? Trail { get; }
 
-    /// <summary>What the window has changed of the scene.</summary>
-    public SceneDraft Draft { get; }
+    /// <summary>The files that were edited and not saved.</summary>
+    public FileEdits Edits => State.Edits;
+
+    /// <summary>The view of the last frame; null before the first.</summary>
+    public View? LatestView { get; private set; }
+
+    /// <summary>The view that an undo returns to; null while a player walks.</summary>
+    public CameraState? UndoView => Physics.IsWalking ? null : FlyingCamera.State;
 
     /// <summary>The part of the scene that the window changes, as it is now.</summary>
     public SceneView SceneView => new(WithoutNegativeZeros(Camera), FlyingCamera.Projection, FlyingCamera.OrthographicHeight);
 
     /// <summary>True when the view differs from the one that was loaded or saved.</summary>
-    public bool HasChanges => Draft.IsChanged(SceneView);
+    public bool HasChanges => State.Draft.IsChanged(SceneView);
 
     /// <summary>Whether the paper's zoom replaces that of the engine.</summary>
     public bool IsTrailEnabled { get; private set; }
@@ -127,6 +129,66 @@ internal sealed partial class Document : IDisposable
     /// <summary>Number of levels of the fractal that the present view is in; 0 outside, and for views that show the whole.</summary>
     public int VisibleDepth =>
         Physics.IsWalking || IsTrailEnabled || FlyingCamera.Projection != Projection.Perspective ? 0 : FlyingCamera.Depth;
+
+    private DocumentState State
+    {
+        get => _store.State.Document!;
+        set => _store.State = _store.State with { Document = value };
+    }
+
+    /// <summary>Begins with the view of the file, or continues that of the previous document.</summary>
+    /// <param name="previous">The same document before its files were changed; null for none.</param>
+    /// <returns>The state of the document.</returns>
+    public DocumentState Begin(Document? previous)
+    {
+        if (previous is null)
+        {
+            return new(new(File, SceneView), new(new(FlyingCamera.State, FileEdits.None)));
+        }
+
+        var (view, viewBefore) = (previous.SceneView, previous.FlyingCamera.State);
+        var fileView = new SceneView(FlyingCamera.Camera, FlyingCamera.Projection, FlyingCamera.OrthographicHeight);
+        var (state, followsCamera, followsProjection) = State.Continue(File, fileView, view);
+        if (!followsCamera)
+        {
+            FlyingCamera.Restore(viewBefore);
+        }
+
+        var projectionView = followsProjection ? fileView : view;
+        FlyingCamera.SetProjection(projectionView.Projection, projectionView.OrthographicHeight);
+        if (File.Kind == FileKind.Fractal && !Physics.IsWalking && state.FollowsShape)
+        {
+            FlyingCamera.FollowShape(Area.Aspect);
+        }
+
+        CameraControls.Camera = FlyingCamera;
+        IsTrailEnabled = Trail is not null && previous.IsTrailEnabled;
+        Tool.ContinueIn(this);
+        return new UndoStep(viewBefore, state.Edits).Equals(state.History.Present) ? state.WithPresentView(FlyingCamera.State) : state;
+    }
+
+    /// <summary>Returns to the view before the last change, or makes it again. Edits of files must be loaded then.</summary>
+    /// <param name="isRedo">True to make a change again that was undone.</param>
+    /// <returns>A message for the user.</returns>
+    public string Undo(bool isRedo)
+    {
+        if (Physics.IsWalking)
+        {
+            ToggleWalking();
+        }
+
+        State = State.Record(UndoView);
+        if (State.Undo(isRedo) is not { } undone)
+        {
+            return isRedo ? "nothing to redo" : "nothing to undo";
+        }
+
+        CameraControls.ReleaseKeys();
+        FlyingCamera.Restore(undone.History.Present.Camera);
+        // In a fractal that has been changed since, the same view has another address.
+        State = undone.WithPresentView(FlyingCamera.State);
+        return isRedo ? "redone" : "undone";
+    }
 
     /// <summary>Switches between the paper's zoom into the fractal and that of the engine.</summary>
     public void ToggleTrail()
@@ -147,7 +209,7 @@ internal sealed partial class Document : IDisposable
         if (windowEvent is KeyPressed { IsRepeat: false } or MousePressed or WheelTurned)
         {
             // A key, a drag and a turn of the wheel each begin a step that can be undone.
-            RecordView();
+            State = State.Record(UndoView);
         }
 
         return Physics.IsWalking
@@ -163,12 +225,7 @@ internal sealed partial class Document : IDisposable
     {
         if (!Physics.IsWalking)
         {
-            if (interaction is null || interaction != _lastInteraction)
-            {
-                RecordView();
-            }
-
-            _lastInteraction = interaction;
+            State = State.BeginStep(UndoView, interaction);
             move(FlyingCamera, aspect);
         }
     }
@@ -203,7 +260,7 @@ internal sealed partial class Document : IDisposable
     public string ToggleWalking()
     {
         // A walk may end anywhere, so the view before it is a step that can be undone.
-        RecordView();
+        State = State.Record(UndoView);
         var camera = Camera;
         var wasWalking = Physics.IsWalking;
         var message = Physics.ToggleWalking(camera);
@@ -219,6 +276,48 @@ internal sealed partial class Document : IDisposable
 
         return message;
     }
+
+    /// <summary>Moves what is drawn to its present place, and returns the view of the present camera.</summary>
+    /// <remarks>Bodies move to their interpolated positions, and the fractal to that of the paper's zoom where it is enabled.</remarks>
+    /// <param name="aspect">Width divided by height of the frame.</param>
+    /// <param name="isBesidePanels">False for a view in the middle of the frame, as if there were no panels.</param>
+    public View UpdateView(double aspect, bool isBesidePanels = true)
+    {
+        Physics.ApplyTo(Renderer);
+        Tool.Measure.Follow(Physics.CurrentScene, Physics.IsRunning);
+        Tool.Follow(Physics.CurrentScene);
+        var view = View.Of(File.Scene with { Scene = GetCurrentScene() }, aspect) with
+        {
+            Section = Section.Shown,
+            HorizontalShift = isBesidePanels ? Area.HorizontalShift : 0,
+        };
+        DocumentLines.Update(this, view);
+        if (!Physics.IsWalking && IsTrailEnabled)
+        {
+            Renderer.Move(0, Trail!.Update(File.Scene.Objects[0].ObjectToWorld, view.Camera.Position));
+        }
+
+        LatestView = Physics.IsWalking || IsTrailEnabled ? view : FlyingCamera.WithDeepZoom(view);
+        return LatestView;
+    }
+
+    /// <summary>Returns the map from points of the world, or about another camera in the fractal, to the frame that is drawn.</summary>
+    /// <param name="viewpoint">Address of that other camera, in whose unit the points are; null for points in world space.</param>
+    /// <returns>Null where a double can't tell both places.</returns>
+    public Func<Vector, Vector>? MapToDrawnFrame(FractalAddress? viewpoint) =>
+        FlyingCamera.MapToDrawnFrame(viewpoint, isDeep: VisibleDepth > 0);
+
+    /// <summary>Returns a camera as it is saved and shown: without the negative zeros that mirroring and turning leave.</summary>
+    public static Camera WithoutNegativeZeros(Camera camera) =>
+        camera with { Position = camera.Position + Vector.Zero, Rotation = camera.Rotation + Vector.Zero };
+
+    /// <summary>Returns the scene with the present camera and projection.</summary>
+    public Scene GetCurrentScene() => File.Scene.Scene with
+    {
+        Camera = Camera,
+        Projection = FlyingCamera.Projection,
+        OrthographicHeight = FlyingCamera.OrthographicHeight,
+    };
 
     /// <inheritdoc/>
     public void Dispose()

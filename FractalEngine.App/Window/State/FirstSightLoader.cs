@@ -1,3 +1,4 @@
+using FractalEngine.App.Jobs;
 using FractalEngine.App.Shell.Reports;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Render.Preparation;
@@ -7,22 +8,19 @@ namespace FractalEngine.App.Window.State;
 
 /// <summary>Prepares models in the background when their objects first become visible, and then the light within fractals.</summary>
 /// <param name="preparation">The preparation of the scene.</param>
-/// <param name="completed">Called on the other thread when models have been prepared.</param>
-internal sealed class FirstSightLoader(ScenePreparation preparation, Action completed) : IDisposable
+/// <param name="ended">Called on the other thread when models have been prepared, or could not be.</param>
+internal sealed class FirstSightLoader(ScenePreparation preparation, Action ended) : IDisposable
 {
     private readonly ThrottledProgress _progress = new();
-    private readonly Lock _lock = new();
-    private CancellationTokenSource _cancellation = new();
-    private volatile Task? _task;
-    private bool _isDisposed;
+    private volatile BackgroundJob<DrawableScene>? _job;
     private bool _isBaking;
     private bool _hasFailed;
 
     /// <summary>True from <see cref="Start"/> until <see cref="TakeScene"/> has returned the new scene.</summary>
-    public bool IsRunning => _task is not null;
+    public bool IsRunning => _job is not null;
 
     /// <summary>The model being prepared, and the completed fraction from 0 to 1; null while nothing is prepared.</summary>
-    public (string Text, double Fraction)? Progress => _task is null || _isBaking ? null : _progress.Latest;
+    public (string Text, double Fraction)? Progress => _job is null || _isBaking ? null : _progress.Latest;
 
     /// <summary>Starts to prepare the visible models that are still placeholders, unless a preparation is running.</summary>
     /// <param name="view">Camera and projection of the frame.</param>
@@ -30,7 +28,7 @@ internal sealed class FirstSightLoader(ScenePreparation preparation, Action comp
     /// <param name="settings">Settings of the frame, which may need no light within fractals.</param>
     public void Start(View view, double aspect, RenderSettings settings)
     {
-        if (_task is not null || _hasFailed)
+        if (_job is not null || _hasFailed)
         {
             return;
         }
@@ -47,17 +45,8 @@ internal sealed class FirstSightLoader(ScenePreparation preparation, Action comp
         }
     }
 
-    private void Run(Action<CancellationToken> work)
-    {
-        CancellationToken token;
-        lock (_lock)
-        {
-            _cancellation.Dispose();
-            _cancellation = new();
-            token = _cancellation.Token;
-        }
-
-        _task = Task.Run(() =>
+    private void Run(Action<CancellationToken> work) => _job = new(
+        token =>
         {
             try
             {
@@ -68,23 +57,22 @@ internal sealed class FirstSightLoader(ScenePreparation preparation, Action comp
                 // What was prepared before stays.
             }
 
-            completed();
-        });
-    }
+            return preparation.Scene;
+        },
+        ended);
 
     /// <summary>Returns the scene with newly prepared models, or null while there are none.</summary>
     /// <remarks>Throws the exception of a preparation that has failed. Nothing more is prepared then.</remarks>
     public DrawableScene? TakeScene()
     {
-        if (_task is not { IsCompleted: true } task)
+        if (_job is not { Result: { IsCompleted: true } result })
         {
             return null;
         }
 
-        _task = null;
-        _hasFailed = task.IsFaulted;
-        task.GetAwaiter().GetResult();
-        return preparation.Scene;
+        _job = null;
+        _hasFailed = result.IsFaulted;
+        return result.GetAwaiter().GetResult();
     }
 
     /// <summary>
@@ -94,33 +82,18 @@ internal sealed class FirstSightLoader(ScenePreparation preparation, Action comp
     /// <param name="isNeeded">Tells whether a model is needed further on.</param>
     public DrawableScene Stop(Func<Model, bool> isNeeded)
     {
-        lock (_lock)
+        if (_job is { } job)
         {
-            if (!_isDisposed)
+            job.Cancel();
+            if (preparation.Current is { } current && isNeeded(current))
             {
-                _cancellation.Cancel();
+                job.Result.ContinueWith(static _ => { }, TaskScheduler.Default).Wait();
             }
-        }
-
-        if (_task is { } task && preparation.Current is { } current && isNeeded(current))
-        {
-            task.ContinueWith(static _ => { }, TaskScheduler.Default).Wait();
         }
 
         return preparation.Scene;
     }
 
     /// <summary>Ends the preparation after the model in progress, whose result is dropped.</summary>
-    public void Dispose()
-    {
-        lock (_lock)
-        {
-            if (!_isDisposed)
-            {
-                _isDisposed = true;
-                _cancellation.Cancel();
-                _cancellation.Dispose();
-            }
-        }
-    }
+    public void Dispose() => _job?.Cancel();
 }

@@ -5,26 +5,21 @@ using FractalEngine.Parsing.Sdo.Merging;
 namespace FractalEngine.App.Window.State;
 
 /// <summary>What the window has changed of a scene since it was loaded or saved, as the text that would be saved.</summary>
-/// <param name="file">The loaded file.</param>
-/// <param name="view">The view that the window shows of it, which need not be that of the file.</param>
-internal sealed class SceneDraft(LoadedFile file, SceneView view)
+/// <param name="File">The loaded file.</param>
+/// <param name="LayoutView">The view that the lines of the loaded text stand for.</param>
+internal sealed record SceneDraft(LoadedFile File, SceneView LayoutView)
 {
-    private readonly ParsedScene? _layout = file.ParsedScene;
-
-    /// <summary>The view that the lines of the loaded text stand for.</summary>
-    public SceneView LayoutView { get; } = view;
-
     /// <summary>The view that was loaded or saved last. What differs from it is a change.</summary>
-    public SceneView SavedView { get; private set; } = view;
+    public SceneView SavedView { get; init; } = LayoutView;
 
     /// <summary>
     /// The text of the file, with what is edited in it, when the lines of the view in the window and the file last agreed: what a merge of
     /// these lines begins with.
     /// </summary>
-    public string SavedText { get; private set; } = file.ParsedScene?.Source.Text ?? "";
+    public string SavedText { get; init; } = File.ParsedScene?.Source.Text ?? "";
 
     /// <summary>Tells whether a view differs from the one that was loaded or saved. A model that is no scene has nothing to save.</summary>
-    public bool IsChanged(SceneView view) => _layout is not null && view != SavedView;
+    public bool IsChanged(SceneView view) => File.ParsedScene is not null && view != SavedView;
 
     /// <summary>Returns the saved text with a view. Only lines of the view can differ.</summary>
     /// <remarks>
@@ -49,26 +44,8 @@ internal sealed class SceneDraft(LoadedFile file, SceneView view)
     public string Carry(SceneView view, string text) =>
         view == SavedView ? text : SceneMerge.Merge(WriteLayout(SavedView), WriteLayout(view), text, MergePreference.Mine).Text;
 
-    private string WriteLayout(SceneView view)
-    {
-        var scene = _layout!.Scene;
-        return SceneWriter.Write(
-            scene with
-            {
-                Camera = view.Camera == LayoutView.Camera ? scene.Camera : view.Camera,
-                Projection = view.Projection == LayoutView.Projection ? scene.Projection : view.Projection,
-                OrthographicHeight =
-                    view.OrthographicHeight.Equals(LayoutView.OrthographicHeight) ? scene.OrthographicHeight : view.OrthographicHeight,
-            },
-            _layout);
-    }
-
-    /// <summary>Records that the file has a text that contains the view.</summary>
-    public void MarkSaved(string text, SceneView view)
-    {
-        SavedText = text;
-        SavedView = view;
-    }
+    /// <summary>Takes over that the file has a text that contains a view.</summary>
+    public SceneDraft Saved(string text, SceneView view) => this with { SavedText = text, SavedView = view };
 
     /// <summary>Continues with the same changes after the file has been loaded again.</summary>
     /// <param name="file">The file as it is now.</param>
@@ -77,13 +54,23 @@ internal sealed class SceneDraft(LoadedFile file, SceneView view)
     public SceneDraft Rebase(LoadedFile file, SceneView layoutView, SceneView view)
     {
         var rebased = new SceneDraft(file, layoutView);
-        if (IsChanged(view) && file.ParsedScene is { } parsed
-            && SceneMerge.Merge(SavedText, Write(view), parsed.Source.Text).Conflicts.Length > 0)
-        {
-            // Both sides have changed the same line. The next save begins where they last agreed, and asks.
-            rebased.SavedText = SavedText;
-        }
+        // Where both sides have changed the same line, the next save begins where they last agreed, and asks.
+        return IsChanged(view) && file.ParsedScene is { } parsed && TryWriteInto(view, parsed.Source.Text) is null
+            ? rebased with { SavedText = SavedText }
+            : rebased;
+    }
 
-        return rebased;
+    private string WriteLayout(SceneView view)
+    {
+        var scene = File.ParsedScene!.Scene;
+        return SceneWriter.Write(
+            scene with
+            {
+                Camera = view.Camera == LayoutView.Camera ? scene.Camera : view.Camera,
+                Projection = view.Projection == LayoutView.Projection ? scene.Projection : view.Projection,
+                OrthographicHeight =
+                    view.OrthographicHeight.Equals(LayoutView.OrthographicHeight) ? scene.OrthographicHeight : view.OrthographicHeight,
+            },
+            File.ParsedScene);
     }
 }

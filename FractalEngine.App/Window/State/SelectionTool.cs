@@ -17,7 +17,8 @@ internal sealed class SelectionTool(Document document)
 
     private static readonly TimeSpan DoubleClickTime = TimeSpan.FromSeconds(0.4);
 
-    private readonly Picker _picker = new();
+    private Picker _picker = new();
+    private Document _document = document;
     private (double X, double Y)? _press;
     private (double X, double Y, TimeSpan Time)? _lastClick;
 
@@ -25,13 +26,13 @@ internal sealed class SelectionTool(Document document)
     public Selection? Selected { get; set; }
 
     /// <summary>Measures distances between clicks.</summary>
-    public MeasureTool Measure { get; private set; } = new();
+    public MeasureTool Measure { get; } = new();
 
     /// <summary>The bounding boxes that are shown.</summary>
-    public BoxesOfLevel Boxes { get; private set; } = new();
+    public BoxesOfLevel Boxes { get; } = new();
 
     /// <summary>The normals that are shown.</summary>
-    public NormalLines Normals { get; private set; } = new();
+    public NormalLines Normals { get; } = new();
 
     /// <summary>The handles of the selected object.</summary>
     public HandleKind Handles { get; private set; }
@@ -45,24 +46,20 @@ internal sealed class SelectionTool(Document document)
     {
         Handles = Handles == kind ? HandleKind.None : kind;
         return Handles == HandleKind.None ? "no handles"
-            : document.File.Kind != FileKind.Scene ? "save this as a scene first: then its objects can be moved"
+            : _document.File.Kind != FileKind.Scene ? "save this as a scene first: then its objects can be moved"
             : Selected is null ? "click an object: its handles appear"
             : "drag a handle; Ctrl snaps, and the panel of the selection takes numbers";
     }
 
-    /// <summary>Takes over what was selected and measured in the same scene before it was loaded again.</summary>
-    public void ContinueFrom(SelectionTool other)
+    /// <summary>Goes on in the same document after its files were changed.</summary>
+    public void ContinueIn(Document next)
     {
-        Measure = other.Measure;
-        Boxes = other.Boxes;
-        Normals = other.Normals;
-        Handles = other.Handles;
-        HandleReach = other.HandleReach;
-        var objects = document.File.Scene.Objects;
-        if (other.Selected is { } selected && selected.ObjectIndex < objects.Length)
-        {
-            Selected = selected.ContinueIn(objects[selected.ObjectIndex]);
-        }
+        _document = next;
+        // The one before holds what it has searched.
+        _picker = new();
+        var objects = next.File.Scene.Objects;
+        Selected = Selected is { } selected && selected.ObjectIndex < objects.Length
+            ? selected.ContinueIn(objects[selected.ObjectIndex]) : null;
     }
 
     /// <summary>Moves what is selected with its object.</summary>
@@ -86,7 +83,7 @@ internal sealed class SelectionTool(Document document)
     {
         switch (windowEvent)
         {
-            case MousePressed { Button: MouseButton.Left, Modifiers: KeyModifiers.None } pressed when !document.Physics.IsWalking:
+            case MousePressed { Button: MouseButton.Left, Modifiers: KeyModifiers.None } pressed when !_document.Physics.IsWalking:
                 _press = (pressed.X, pressed.Y);
                 return null;
             case MousePressed:
@@ -115,7 +112,7 @@ internal sealed class SelectionTool(Document document)
     public List<LineSegment> WorldLines()
     {
         var lines = new List<LineSegment>();
-        var scene = document.Physics.CurrentScene;
+        var scene = _document.Physics.CurrentScene;
         Boxes.AddTo(scene, lines);
         if (Selected is not { Viewpoint: not null })
         {
@@ -128,19 +125,19 @@ internal sealed class SelectionTool(Document document)
     /// <summary>Adds the lines around the selection and those of the distances, in the frame that is drawn.</summary>
     public void AddDrawnLines(List<LineSegment> lines)
     {
-        if (Selected is { } selected && document.MapToDrawnFrame(selected.Viewpoint) is { } map)
+        if (Selected is { } selected && _document.MapToDrawnFrame(selected.Viewpoint) is { } map)
         {
             var own = new List<LineSegment>();
             selected.AddLines(own);
             if (selected.Viewpoint is not null)
             {
-                Normals.AddTo(document.File.Scene, selected, own);
+                Normals.AddTo(_document.File.Scene, selected, own);
             }
 
             lines.AddRange(own.Select(line => line with { From = map(line.From), To = map(line.To) }));
         }
 
-        Measure.AddLines(lines, document.MapToDrawnFrame);
+        Measure.AddLines(lines, _document.MapToDrawnFrame);
     }
 
     private string Click((double X, double Y) pixel, (int Width, int Height) size, TimeSpan now)
@@ -148,7 +145,7 @@ internal sealed class SelectionTool(Document document)
         var isDouble = _lastClick is var (x, y, time) && now - time < DoubleClickTime
             && Math.Abs(pixel.X - x) + Math.Abs(pixel.Y - y) <= MaxClickDistance;
         _lastClick = isDouble ? null : (pixel.X, pixel.Y, now);
-        var scene = document.Physics.CurrentScene;
+        var scene = _document.Physics.CurrentScene;
         Selection? clicked;
         try
         {
@@ -169,9 +166,9 @@ internal sealed class SelectionTool(Document document)
             return exception.Message;
         }
 
-        if (document.FlyingCamera.ToCameraFrame(clicked.Point, clicked.Viewpoint) is { } point)
+        if (_document.FlyingCamera.ToCameraFrame(clicked.Point, clicked.Viewpoint) is { } point)
         {
-            document.MoveCamera((camera, _) => camera.FocusOn(point), 1);
+            _document.MoveCamera((camera, _) => camera.FocusOn(point), 1);
         }
 
         return "orbiting around the point";
@@ -179,15 +176,15 @@ internal sealed class SelectionTool(Document document)
 
     private Selection? Pick(LoadedScene scene, (double X, double Y) pixel, (int Width, int Height) size)
     {
-        var view = View.Of(scene with { Scene = document.GetCurrentScene() }, (double)size.Width / size.Height) with
+        var view = View.Of(scene with { Scene = _document.GetCurrentScene() }, (double)size.Width / size.Height) with
         {
-            Section = document.Section.Shown,
-            HorizontalShift = document.Area.HorizontalShift,
+            Section = _document.Section.Shown,
+            HorizontalShift = _document.Area.HorizontalShift,
             // Within a fractal, the frame has clip planes by what is around the camera.
-            FixedClipPlanes = document.VisibleDepth > 0 ? null : document.File.Scene.Scene.Clip,
+            FixedClipPlanes = _document.VisibleDepth > 0 ? null : _document.File.Scene.Scene.Clip,
         };
-        var camera = document.FlyingCamera;
-        return document.VisibleDepth > 0 && !Picker.IsExactAt(camera.Log10Magnification)
+        var camera = _document.FlyingCamera;
+        return _document.VisibleDepth > 0 && !Picker.IsExactAt(camera.Log10Magnification)
             ? _picker.PickDeep(scene, camera.WithDeepZoom(view), camera.Address!, pixel, size)
             : _picker.Pick(scene, view, pixel, size);
     }

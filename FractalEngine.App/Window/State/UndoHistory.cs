@@ -1,81 +1,34 @@
+using System.Collections.Immutable;
+
 namespace FractalEngine.App.Window.State;
 
-/// <summary>A line of states with a present one. Each step back can be made again until another state is recorded.</summary>
-/// <param name="first">The first state.</param>
+/// <summary>An immutable line of states with a present one. Each step back can be made again until another state is recorded.</summary>
+/// <param name="Present">The state that is shown at present.</param>
 /// <typeparam name="T">Immutable states that are equal where nothing has changed.</typeparam>
-internal sealed class UndoHistory<T>(T first)
+internal sealed record UndoHistory<T>(T Present)
     where T : IEquatable<T>
 {
     /// <summary>Maximum number of steps that can be undone.</summary>
     public const int MaxSteps = 100;
 
-    private readonly LinkedList<T> _earlier = [];
-    private readonly Stack<T> _later = [];
+    // The last of each is the next to return to.
+    private ImmutableList<T> Earlier { get; init; } = [];
 
-    /// <summary>The state that is shown at present.</summary>
-    public T Present { get; private set; } = first;
+    private ImmutableList<T> Later { get; init; } = [];
 
     /// <summary>Makes a state the present one. A state that equals the present one is no step.</summary>
-    public void Record(T state)
-    {
-        if (state.Equals(Present))
-        {
-            return;
-        }
-
-        _earlier.AddLast(Present);
-        if (_earlier.Count > MaxSteps)
-        {
-            _earlier.RemoveFirst();
-        }
-
-        _later.Clear();
-        Present = state;
-    }
-
-    /// <summary>Replaces the present state by one that looks the same. That is no step.</summary>
-    public void ReplacePresent(T state) => Present = state;
+    public UndoHistory<T> Record(T state) => state.Equals(Present) ? this
+        : new(state) { Earlier = (Earlier.Count < MaxSteps ? Earlier : Earlier.RemoveAt(0)).Add(Present) };
 
     /// <summary>Replaces all states, since what they refer to has changed.</summary>
-    public void Transform(Func<T, T> transform)
-    {
-        Present = transform(Present);
-        for (var node = _earlier.First; node is not null; node = node.Next)
-        {
-            node.Value = transform(node.Value);
-        }
+    public UndoHistory<T> Transform(Func<T, T> transform) =>
+        new(transform(Present)) { Earlier = Earlier.ConvertAll(transform), Later = Later.ConvertAll(transform) };
 
-        var later = _later.Reverse().Select(transform).ToArray();
-        _later.Clear();
-        Array.ForEach(later, _later.Push);
-    }
+    /// <summary>Returns to the state before the present one; null where there is none.</summary>
+    public UndoHistory<T>? Undo() => Earlier is not [.., var last] ? null
+        : new(last) { Earlier = Earlier.RemoveAt(Earlier.Count - 1), Later = Later.Add(Present) };
 
-    /// <summary>Returns to the state before the present one.</summary>
-    /// <returns>False when there is none.</returns>
-    public bool TryUndo()
-    {
-        if (_earlier.Last is not { } last)
-        {
-            return false;
-        }
-
-        _later.Push(Present);
-        Present = last.Value;
-        _earlier.RemoveLast();
-        return true;
-    }
-
-    /// <summary>Returns to the state that the last <see cref="TryUndo"/> left.</summary>
-    /// <returns>False when there is none.</returns>
-    public bool TryRedo()
-    {
-        if (!_later.TryPop(out var next))
-        {
-            return false;
-        }
-
-        _earlier.AddLast(Present);
-        Present = next;
-        return true;
-    }
+    /// <summary>Returns to the state that the last <see cref="Undo"/> left; null where there is none.</summary>
+    public UndoHistory<T>? Redo() => Later is not [.., var next] ? null
+        : new(next) { Earlier = Earlier.Add(Present), Later = Later.RemoveAt(Later.Count - 1) };
 }

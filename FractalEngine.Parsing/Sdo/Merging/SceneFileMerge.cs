@@ -7,9 +7,6 @@ namespace FractalEngine.Parsing.Sdo.Merging;
 /// <summary>Writes changes of a scene into its file as it is on the disk, see <see cref="SceneMerge"/>.</summary>
 public static class SceneFileMerge
 {
-    // So many times the file may change while it is being written before the write is given up.
-    private const int MaxAttempts = 20;
-
     /// <summary>Merges the changes from one text to another into a file. Nothing is written where a conflict is left to decide.</summary>
     /// <param name="path">Path of the scene. A missing file is written with the changed text; its folder must exist.</param>
     /// <param name="original">Text that both sides began with.</param>
@@ -18,49 +15,27 @@ public static class SceneFileMerge
     /// <returns>The text that the file has now, and the conflicts for which nothing was written.</returns>
     /// <exception cref="IOException">The file can't be read or written, or its folder is missing. It is unchanged then.</exception>
     /// <remarks>
-    /// The file is replaced whole, and only if it is still the one that was merged. That is asked just before the new file takes
-    /// its name; what another program writes within the microseconds between is lost. Its encoding stays: UTF-8 with or
-    /// without a byte order mark, UTF-16, or bytes that are no text at all.
+    /// The file is replaced whole, and only if it is still the one that was merged, see <see cref="AtomicFile.Update"/>. Its encoding
+    /// stays: UTF-8 with or without a byte order mark, UTF-16, or bytes that are no text at all.
     /// </remarks>
     public static MergedScene Write(string path, string original, string mine, MergePreference preference = MergePreference.None)
     {
-        for (var attempt = 0; ; attempt++)
+        MergedScene? result = null;
+        AtomicFile.Update(path, stamp =>
         {
             if (Path.GetDirectoryName(Path.GetFullPath(path)) is { } folder && !Directory.Exists(folder))
             {
                 throw new IOException($"{path} can't be written: the folder {folder} is gone");
             }
 
-            var stamp = FileStamp.Of(path);
-            var theirs = stamp.Exists ? ReadBytes(path) : null;
-            var encoding = theirs is null ? Encoding.UTF8 : EncodingOf(theirs);
-            var merged = theirs is null ? new(mine, []) : SceneMerge.Merge(original, mine, encoding.GetString(theirs), preference);
-            if (merged.Conflicts.Length == 0 && !TryWrite(path, stamp, theirs, encoding.GetBytes(merged.Text)))
-            {
-                if (attempt < MaxAttempts)
-                {
-                    continue;
-                }
-
-                throw new IOException($"{path} can't be written: another program changes it all the time");
-            }
-
-            return merged with { Text = theirs is null ? mine : DecodeForReaders(encoding.GetBytes(merged.Text), path) };
-        }
-    }
-
-    /// <summary>Replaces the file unless it has changed meanwhile.</summary>
-    private static bool TryWrite(string path, FileStamp stamp, byte[]? before, byte[] after)
-    {
-        if (before.AsSpan().SequenceEqual(after) && before is not null)
-        {
-            return true;
-        }
-
-        // Asked last, when the file has only to take its name: between the two no more than the rename lies.
-        var isUnchanged = true;
-        AtomicFile.WriteIf(path, stream => stream.Write(after), () => isUnchanged = FileStamp.Of(path) == stamp);
-        return isUnchanged;
+            var before = stamp.Exists ? ReadBytes(path) : null;
+            var encoding = before is null ? Encoding.UTF8 : EncodingOf(before);
+            var merged = before is null ? new(mine, []) : SceneMerge.Merge(original, mine, encoding.GetString(before), preference);
+            var after = encoding.GetBytes(merged.Text);
+            result = merged with { Text = before is null ? mine : DecodeForReaders(after, path) };
+            return merged.Conflicts.Length > 0 || (before is not null && before.AsSpan().SequenceEqual(after)) ? null : after;
+        });
+        return result!;
     }
 
     private static byte[] ReadBytes(string path)

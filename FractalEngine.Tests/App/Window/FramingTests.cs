@@ -24,7 +24,7 @@ public class FramingTests
     {
         var camera = CreateCamera(1);
         var grown = CreateCamera(scale);
-        grown.ContinueFrom(camera);
+        grown.Restore(camera.State);
         var before = grown.Camera;
         grown.FollowShape(Aspect);
         Assert.Equal(follows, before != grown.Camera);
@@ -41,14 +41,14 @@ public class FramingTests
         var camera = CreateCamera(1);
         camera.Orbit(0.2, 0.1);
         var grown = CreateCamera(5);
-        grown.ContinueFrom(camera);
+        grown.Restore(camera.State);
         var before = grown.Camera;
         grown.FollowShape(Aspect);
         Assert.Equal(before, grown.Camera);
         // Framed by hand, it is followed again.
         grown.FrameScene(Aspect);
         var larger = CreateCamera(20);
-        larger.ContinueFrom(grown);
+        larger.Restore(grown.State);
         larger.FollowShape(Aspect);
         Assert.NotEqual(grown.Camera, larger.Camera);
     }
@@ -59,7 +59,7 @@ public class FramingTests
     {
         var camera = CreateCamera(1);
         var same = CreateCamera(1);
-        same.ContinueFrom(camera);
+        same.Restore(camera.State);
         same.FollowShape(0.4);
         Assert.Equal(camera.Camera, same.Camera);
     }

@@ -32,10 +32,10 @@ public sealed class SliderTimeTests : IDisposable
         using var window = Open();
         var overlay = new WindowOverlay();
         using var loader = new DocumentLoader(
-            window, new(window), overlay, new() { WatchesFiles = false }, static _ => { }, static _ => { });
-        var settings = new RenderSettings();
-        loader.Open(path, settings);
-        WaitForLoad(loader, settings, window);
+            window, new(window), overlay, new() { WatchesFiles = false }, static _ => { }, static _ => { },
+            static () => new RenderSettings(), static () => TimeSpan.Zero);
+        loader.State = loader.State.Open(path);
+        WaitForLoad(loader, window);
         Assert.True(loader.Document!.File.Scene.Objects[0].Model.FaceCount > 1_000_000);
         var text = File.ReadAllText(path);
         var times = new List<double>();
@@ -44,9 +44,8 @@ public sealed class SliderTimeTests : IDisposable
             var number = FractalNumber.FindAll(new("tree.fdo", text)).First(number => number.Role == FractalNumberRole.Rotation);
             text = number.Replace(text, i);
             var clock = Stopwatch.StartNew();
-            loader.Document.Edit(loader.Document.Edits.With(path, text), 1);
-            loader.Edit(loader.Document.Edits, settings);
-            WaitForLoad(loader, settings, window);
+            loader.State = loader.State.Edit(loader.Document.UndoView, loader.Document.Edits.With(path, text), 1);
+            WaitForLoad(loader, window);
             times.Add(clock.Elapsed.TotalMilliseconds);
         }
 
@@ -62,13 +61,13 @@ public sealed class SliderTimeTests : IDisposable
         return new("slider", 640, 480);
     }
 
-    private static void WaitForLoad(DocumentLoader loader, RenderSettings settings, RenderWindow window)
+    private static void WaitForLoad(DocumentLoader loader, RenderWindow window)
     {
         var before = loader.Document;
         while (loader.Document == before)
         {
-            window.WaitEvents(TimeSpan.FromSeconds(1));
-            loader.Poll(settings, TimeSpan.Zero);
+            loader.Poll();
+            window.WaitEvents(TimeSpan.FromSeconds(loader.Document == before ? 1 : 0));
         }
     }
 }

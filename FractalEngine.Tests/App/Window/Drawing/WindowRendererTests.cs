@@ -154,6 +154,6 @@ public sealed class WindowRendererTests : IDisposable
                 _folder.Write("scene.sdo", "c (0.6, 0.9, -3) (-0.2, -0.2, 0) 60\no \"near.obj\" #\no \"far.obj\" ((0, 0, -9), #, #)\n"));
         var preparation = new ScenePreparation(file.Scene, Settings);
         preparation.PrepareVisible(View.Of(file.Scene, window.Aspect), window.Aspect);
-        return new(window, new(window), file, preparation, new() { Settings = Settings }, previous);
+        return new(window, new(window), file, preparation, new() { Settings = Settings }, new(), previous);
     }
 }

@@ -264,23 +264,14 @@ public sealed class EditingTests : IDisposable
     [Fact]
     public void History_Transformed_KeepsItsSteps()
     {
-        var history = new UndoHistory<int>(0);
-        history.Record(1);
-        history.Record(2);
-        history.Record(3);
-        history.TryUndo();
-        history.TryUndo();
-        history.Transform(static state => 10 * state);
+        var history = new UndoHistory<int>(0).Record(1).Record(2).Record(3).Undo()!.Undo()!.Transform(static state => 10 * state);
         Assert.Equal(10, history.Present);
-        Assert.True(history.TryRedo());
+        history = history.Redo()!;
         Assert.Equal(20, history.Present);
-        Assert.True(history.TryRedo());
+        history = history.Redo()!;
         Assert.Equal(30, history.Present);
-        Assert.False(history.TryRedo());
-        history.ReplacePresent(31);
-        Assert.True(history.TryUndo());
-        Assert.True(history.TryUndo());
-        Assert.True(history.TryUndo());
+        Assert.Null(history.Redo());
+        history = (history with { Present = 31 }).Undo()!.Undo()!.Undo()!;
         Assert.Equal(0, history.Present);
     }
 

@@ -165,24 +165,20 @@ public sealed class PromptTests : IDisposable
         var history = new UndoHistory<int>(0);
         for (var i = 1; i <= 150; i++)
         {
-            history.Record(i);
-            history.Record(i);
+            history = history.Record(i).Record(i);
         }
 
         var count = 0;
-        while (history.TryUndo())
+        while (history.Undo() is { } undone)
         {
+            history = undone;
             count++;
         }
 
         Assert.Equal((100, 50), (count, history.Present));
-        Assert.True(history.TryRedo());
-        history.Record(51);
-        Assert.True(history.TryRedo());
-        history.Record(-1);
-        Assert.False(history.TryRedo());
-        Assert.True(history.TryUndo());
-        Assert.Equal(52, history.Present);
+        history = history.Redo()!.Record(51).Redo()!.Record(-1);
+        Assert.Null(history.Redo());
+        Assert.Equal(52, history.Undo()!.Present);
     }
 
     private static void Press(Prompt prompt, params Key[] keys)

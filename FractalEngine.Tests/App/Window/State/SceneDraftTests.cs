@@ -33,11 +33,11 @@ public sealed class SceneDraftTests : IDisposable
         var (draft, view) = Load();
         var numbers = Text.Replace(Red, Green, StringComparison.Ordinal);
         EditedFileWriter.Write(_path, new(Text, numbers));
-        draft.MarkSaved(numbers, view);
-        SaveView(draft, Moved(view, 1));
+        draft = draft.Saved(numbers, view);
+        draft = SaveView(draft, Moved(view, 1));
         Assert.Equal(numbers.Replace(CameraLine, "c (1, 0, -8) (0, 0, 0) 60", StringComparison.Ordinal), File.ReadAllText(_path));
         // Back to the camera of the loaded text, which the file does not have any more.
-        SaveView(draft, view);
+        draft = SaveView(draft, view);
         Assert.Equal(numbers, File.ReadAllText(_path));
     }
 
@@ -45,7 +45,7 @@ public sealed class SceneDraftTests : IDisposable
     public void Save_OfNumbersAfterTheView_WritesTheViewThatIsShown()
     {
         var (draft, view) = Load();
-        SaveView(draft, Moved(view, 1));
+        draft = SaveView(draft, Moved(view, 1));
         var text = File.ReadAllText(_path);
         Assert.Equal(Text, draft.TryWriteInto(view, text));
         Assert.Contains("c (2, 0, -8)", draft.TryWriteInto(Moved(view, 2), text), StringComparison.Ordinal);
@@ -68,11 +68,11 @@ public sealed class SceneDraftTests : IDisposable
                 {
                     case 0:
                         view = Moved(view, lastX = random.Next(5));
-                        SaveView(draft, view);
+                        draft = SaveView(draft, view);
                         break;
                     case 1:
                         lastBlue = random.Next(1, 9) / 10.0;
-                        SaveBlue(draft, view, lastBlue);
+                        draft = SaveBlue(draft, view, lastBlue);
                         lastX = (int)view.Camera.Position.X;
                         break;
                     case 2:
@@ -134,15 +134,15 @@ public sealed class SceneDraftTests : IDisposable
     private static SceneView Moved(SceneView view, double x) =>
         view with { Camera = view.Camera with { Position = new Vector(x, 0, -8) } };
 
-    private void SaveView(SceneDraft draft, SceneView view)
+    private SceneDraft SaveView(SceneDraft draft, SceneView view)
     {
         var merged = SceneFileMerge.Write(_path, draft.SavedText, draft.Write(view));
         Assert.Empty(merged.Conflicts);
-        draft.MarkSaved(merged.Text, view);
+        return draft.Saved(merged.Text, view);
     }
 
     /// <summary>Saves a number and the view, as Ctrl+S does after a number was changed.</summary>
-    private void SaveBlue(SceneDraft draft, SceneView view, double blue)
+    private SceneDraft SaveBlue(SceneDraft draft, SceneView view, double blue)
     {
         var before = File.ReadAllText(_path);
         var edited = SceneEditor.Change(before, scene => scene with { Background = new(1, 0, blue) });
@@ -152,6 +152,6 @@ public sealed class SceneDraftTests : IDisposable
             Assert.NotNull(written);
             return written;
         });
-        draft.MarkSaved(draft.Carry(view, edited), view);
+        return draft.Saved(draft.Carry(view, edited), view);
     }
 }

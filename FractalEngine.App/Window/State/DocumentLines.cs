@@ -1,0 +1,28 @@
+using FractalEngine.Render.Views;
+
+namespace FractalEngine.App.Window.State;
+
+/// <summary>The lines over the scene of a document.</summary>
+internal static class DocumentLines
+{
+    /// <summary>Adds the lines of what is selected, measured, cut and moved by handles to those of the bodies.</summary>
+    /// <param name="document">The document, whose renderer draws the lines.</param>
+    /// <param name="view">The present view in world space.</param>
+    public static void Update(Document document, View view)
+    {
+        var lines = document.Tool.WorldLines();
+        document.Section.AddLines(document.File.Scene.Bounds, lines);
+        HandleLines.AddLines(document, view, lines);
+        lines.AddRange(document.Renderer.Lines);
+        if (document.VisibleDepth > 0 && document.MapToDrawnFrame(null) is { } map)
+        {
+            lines = lines.ConvertAll(line => line with { From = map(line.From), To = map(line.To) });
+        }
+
+        document.Tool.AddDrawnLines(lines);
+        if (lines.Count > 0 || document.Renderer.Lines.Count > 0)
+        {
+            document.Renderer.Lines = lines;
+        }
+    }
+}
