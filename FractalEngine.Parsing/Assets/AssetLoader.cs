@@ -1,7 +1,5 @@
 using System.Collections.Immutable;
-using FractalEngine.Core.Files;
 using FractalEngine.Core.Fractals.Descriptions;
-using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Scenes.Cameras;
@@ -15,27 +13,16 @@ namespace FractalEngine.Parsing.Assets;
 /// Loads a mesh, fractal or scene with all files that it refers to. Each file is read once, however often it is named, unless the options
 /// say otherwise.
 /// </summary>
-public sealed partial class AssetLoader
+public sealed class AssetLoader
 {
     private readonly string _path;
     private readonly string _fullPath;
     private readonly LoadOptions _options;
-    private readonly IProgress<LoadProgress>? _progress;
-    private readonly AssetCache? _cache;
-    private readonly FileRecord _record = new();
-    private readonly FileReferenceResolver _references;
-    private readonly MaterialLoader _materials;
-    private readonly Dictionary<string, MeshContents> _meshes = [];
-    private readonly Dictionary<string, Model> _models = [];
-
-    // By the names in the scene: to find a file costs more than a line of the scene.
-    private readonly Dictionary<string, Model> _namedModels = [];
-    private readonly Dictionary<string, Diagnostic> _faults = [];
-    private readonly List<Diagnostic> _warnings = [];
+    private readonly ModelLoader _models;
+    private readonly bool _isCached;
     private readonly List<Diagnostic> _errors = [];
     private readonly HashSet<Diagnostic> _knownErrors = [];
     private readonly bool _findsAllFaults;
-    private long _textBytes;
 
     private AssetLoader(
         string path, LoadOptions? options, IProgress<LoadProgress>? progress, AssetCache? cache, bool findsAllFaults = false)
@@ -50,13 +37,9 @@ public sealed partial class AssetLoader
             ArgumentOutOfRangeException.ThrowIfGreaterThan(depth, FractalLimits.MaxDepth, nameof(options));
         }
 
-        _progress = progress;
-        _cache = _options.ShareModels ? cache : null;
-        _references = new(AssetFolder.ForFile(_fullPath), _options.AllowOutsideFiles, _record);
-        _materials = new(_references, _warnings, _record, _cache);
+        _isCached = cache is not null;
+        _models = new(_fullPath, _options, progress, cache);
     }
-
-    private long StorageBytes => _textBytes + _materials.StorageBytes;
 
     /// <summary>Loads a file and everything that it refers to.</summary>
     /// <param name="path">Path that ends in .obj, .obj.gz, .ply, .stl, .fdo or .sdo.</param>
@@ -79,7 +62,7 @@ public sealed partial class AssetLoader
         }
         finally
         {
-            cache?.Finish(loader._record.All, isSuccessful);
+            cache?.Finish(loader._models.Record.All, isSuccessful);
         }
     }
 
@@ -101,7 +84,7 @@ public sealed partial class AssetLoader
             loader._errors.Add(exception.Diagnostic);
         }
 
-        return [.. loader._errors, .. loader._warnings];
+        return [.. loader._errors, .. loader._models.Warnings];
     }
 
     private FileKind? Kind => _options.Text is { } text
@@ -113,20 +96,18 @@ public sealed partial class AssetLoader
         if (_options.Text is null && !Path.Exists(_fullPath))
         {
             // A missing file is reported as missing first, whatever its name is. The record has it, so that it can appear.
-            _record.Add(_fullPath);
+            _models.Record.Add(_fullPath);
             throw new SourceException(_path, $"file not found{NeighbourSuggestion.Ask(_fullPath)}");
         }
 
-        return LoadExistingFile();
+        return Kind switch
+        {
+            FileKind.Scene => LoadScene(),
+            { } kind => CreateSingleObjectFile(kind, _models.LoadModel(_fullPath, _path, kind)),
+            _ => throw new SourceException(
+                _path, $"the ending says nothing of the contents, expected {FileKinds.MeshEndings}, .fdo or .sdo"),
+        };
     }
-
-    private LoadedFile LoadExistingFile() => Kind switch
-    {
-        FileKind.Scene => LoadScene(),
-        FileKind.Fractal => CreateSingleObjectFile(FileKind.Fractal, LoadModel(_fullPath, _path, FileKind.Fractal)),
-        FileKind.Mesh => CreateSingleObjectFile(FileKind.Mesh, LoadModel(_fullPath, _path, FileKind.Mesh)),
-        _ => throw new SourceException(_path, $"the ending says nothing of the contents, expected {FileKinds.MeshEndings}, .fdo or .sdo"),
-    };
 
     private LoadedFile CreateSingleObjectFile(FileKind kind, Model model)
     {
@@ -137,20 +118,20 @@ public sealed partial class AssetLoader
     }
 
     private LoadedFile CreateLoadedFile(FileKind kind, LoadedScene scene, ParsedScene? parsedScene) =>
-        new(_fullPath, kind, scene, parsedScene, StorageBytes,
-            _options.ShareModels && _cache is null ? [.. _warnings] : [.. _warnings.Distinct()]);
+        new(_fullPath, kind, scene, parsedScene, _models.StorageBytes,
+            _options.ShareModels && !_isCached ? [.. _models.Warnings] : [.. _models.Warnings.Distinct()]);
 
     private LoadedFile LoadScene()
     {
-        var text = ReadText(_fullPath, _path, ParsingLimits.MaxDescriptionBytes);
+        var text = _models.ReadText(_fullPath, _path, ParsingLimits.MaxDescriptionBytes);
         var parsed = _findsAllFaults ? SceneParser.Parse(text, _errors) : SceneParser.Parse(text);
-        _warnings.AddRange(parsed.Warnings);
+        _models.Warnings.AddRange(parsed.Warnings);
         var objects = ImmutableArray.CreateBuilder<SceneObject>(parsed.Scene.Objects.Length);
         foreach (var (declared, offset) in parsed.Scene.Objects.Zip(parsed.FileNameOffsets))
         {
             try
             {
-                declared.AttachModel(LoadReferenced(parsed.Source, offset, declared.File!));
+                declared.AttachModel(_models.LoadReferenced(parsed.Source, offset, declared.File!));
                 objects.Add(declared);
             }
             catch (SourceException exception)
@@ -183,15 +164,5 @@ public sealed partial class AssetLoader
                     offset, "the placement takes the object beyond 1.8e308, the limit of a coordinate", isLimitExceeded: true);
             }
         }
-    }
-
-    private string? EditedText(string fullPath) => _options.EditedTexts.GetValueOrDefault(fullPath);
-
-    private sealed record MeshContents(
-        Mesh Mesh, ImmutableDictionary<string, Material> Materials, long ByteCount, ImmutableDictionary<string, FileStamp> Files);
-
-    private sealed class FileProgress(string file, IProgress<LoadProgress> progress) : IProgress<double>
-    {
-        public void Report(double value) => progress.Report(new(file, value));
     }
 }

@@ -16,23 +16,16 @@ namespace FractalEngine.Parsing.Assets;
 /// <param name="warnings">Receives the warnings.</param>
 /// <param name="record">Gives the stamps of the files.</param>
 /// <param name="cache">Holds files that were read before; null for none.</param>
-internal sealed partial class MaterialLoader(
+internal sealed class MaterialLoader(
     FileReferenceResolver references, List<Diagnostic> warnings, FileRecord record, AssetCache? cache)
 {
-    // Beyond so many missing textures, one more message helps nobody.
-    private const int MaxTextureWarnings = 20;
-
     private readonly Dictionary<string, ParsedMtl?> _materialFiles = [];
     private readonly Dictionary<(ParsedMtl File, string Name), ResolvedMaterial> _materials = [];
-
-    // Whether each image file that was tested is usable.
-    private readonly Dictionary<string, bool> _textureFiles = [];
-    private readonly HashSet<(string Referrer, string File)> _reportedTextures = [];
-    private long _totalPixels;
-    private int _textureWarningCount;
+    private readonly TextureFiles _textures = new(references, warnings);
+    private long _fileBytes;
 
     /// <summary>Total size of the files read so far, each counted once, in bytes.</summary>
-    public long StorageBytes { get; private set; }
+    public long StorageBytes => _fileBytes + _textures.StorageBytes;
 
     /// <summary>Loads the materials that the groups of a mesh name; missing ones are not in the result.</summary>
     /// <param name="mesh">Parsed mesh with names of material files.</param>
@@ -149,7 +142,7 @@ internal sealed partial class MaterialLoader(
         try
         {
             var file = ReadOrFind(fullPath, displayName);
-            StorageBytes += file.Source.ByteCount;
+            _fileBytes += file.Source.ByteCount;
             warnings.AddRange(file.Warnings);
             return _materialFiles[fullPath] = file;
         }
@@ -179,25 +172,15 @@ internal sealed partial class MaterialLoader(
 
         var filesBefore = record.Position;
         var material = file.Materials[name];
-        if (material.Texture is { } texture)
+        foreach (var slot in TextureSlot.All)
         {
-            material = FindTextureFile(file.Source, file.TextureNameOffsets[texture], fullPath, texture.Path, "drawn grey") is { } path
-                ? material with { Texture = texture with { Path = path } }
-                : material.WithoutTexture();
+            if (slot.Of(material) is { } texture)
+            {
+                var offset = file.TextureNameOffsets[texture];
+                material = slot.With(material, _textures.Find(file.Source, offset, fullPath, texture, slot.Consequence));
+            }
         }
 
-        MaterialTexture? Find(MaterialTexture? named, string consequence) =>
-            named is not null && FindTextureFile(file.Source, file.TextureNameOffsets[named], fullPath, named.Path, consequence) is { } path
-                ? named with { Path = path }
-                : null;
-
-        material = material with
-        {
-            OpacityTexture = Find(material.OpacityTexture, "drawn opaque"),
-            EmissionTexture = FindUnshownTexture(material.EmissionTexture, fullPath),
-            BumpTexture = Find(material.BumpTexture, "traced without it"),
-            NormalTexture = Find(material.NormalTexture, "traced without it"),
-        };
         _materials[(file, name)] = new(material, record.Since(filesBefore));
         return material;
     }

@@ -1,5 +1,5 @@
+using System.Collections.Immutable;
 using FractalEngine.Core.Fractals.Descriptions;
-using FractalEngine.Core.Maths;
 using FractalEngine.Parsing.Text;
 using FractalEngine.Parsing.Text.Grammar;
 
@@ -9,32 +9,33 @@ namespace FractalEngine.Parsing.Fdo;
 /// Reads fractal files (paper §4.2.2): vectors, transformation functions, objects and recursives, and the one result marked by
 /// <c>&lt;$&gt;</c>. The grammar is in docs/manual.md. Nothing is expanded, so the result is as small as the file.
 /// </summary>
-public sealed partial class FractalParser : Parser
+public sealed class FractalParser : TransformationParser
 {
     private static readonly DeclaredObject EmptyObject = new("", 0, DeclaredSteps.None);
 
-    private readonly List<Vector> _vectors = [];
-    private readonly Dictionary<string, TransformationFunction> _functions = [];
-    private readonly Dictionary<string, DeclaredObject> _objects = [];
-
-    // Where the name of an object or of a transformation is declared; keys of the latter end with a dot. A key with a blank is no name.
-    private readonly Dictionary<string, int> _declarationOffsets = [];
-    private Composition? _composition;
+    private (Composition Composition, int Offset)? _composition;
     private (DeclaredObject Object, int Offset)? _result;
     private bool _hasDeclaration;
-    private long _mapCount;
     private long _repeatedStepCount;
 
     private protected override string? Explain(SyntaxFailure failure) => FractalMistakes.Explain(failure);
 
-    private FractalParser(SourceText source)
-        : base(source)
+    private FractalParser(SourceText source, FractalNumberList? numbers)
+        : base(source, numbers)
     {
     }
 
     /// <summary>Parses a whole fractal file. The file of the base mesh is not read.</summary>
     /// <exception cref="SourceException">The text is not a fractal, or has no valid meaning.</exception>
-    public static ParsedFractal Parse(SourceText source) => new FractalParser(source).ParseFile();
+    public static ParsedFractal Parse(SourceText source) => new FractalParser(source, null).ParseFile();
+
+    /// <summary>Parses a file, and lists its numbers.</summary>
+    internal static ImmutableArray<FractalNumber> FindNumbers(SourceText source)
+    {
+        var numbers = new FractalNumberList();
+        new FractalParser(source, numbers).ParseFile();
+        return numbers.Complete();
+    }
 
     private ParsedFractal ParseFile()
     {
@@ -46,11 +47,7 @@ public sealed partial class FractalParser : Parser
             }
         }
 
-        if (_functions.Values.FirstOrDefault(function => function.Last.VectorNumber > _vectors.Count) is { } uncalled)
-        {
-            throw VectorError(uncalled.Last.Start, "");
-        }
-
+        RequireVectors();
         if (_result is not { } result)
         {
             throw _hasDeclaration
@@ -58,7 +55,8 @@ public sealed partial class FractalParser : Parser
                 : Source.Error(0, "the fractal declares nothing");
         }
 
-        var description = new FractalDescription(result.Object.Steps.Take(result.Object.Steps.Count), _composition ?? Composition.Affine);
+        var steps = result.Object.Steps;
+        var description = new FractalDescription(steps.Take(steps.Count), _composition?.Composition ?? Composition.Affine);
         if (!FractalCheck.IsComposable(description))
         {
             throw Source.Error(result.Offset, FractalCheck.NotComposableMessage);
@@ -85,20 +83,6 @@ public sealed partial class FractalParser : Parser
             || ParseObjectDeclaration(cursor, out rest);
     }
 
-    /// <summary>Parses a vector: <c>v x y z</c>.</summary>
-    private bool ParseVectorDeclaration(Cursor cursor, out Cursor rest)
-    {
-        if (!ParseWord(cursor, "v", out rest) || !ParseBlanks(rest, out var numbers) || numbers.Offset == rest.Offset
-            || !ParseComponents(numbers, out var vector, out rest))
-        {
-            return false;
-        }
-
-        _vectors.Add(vector);
-        ListVector(numbers, rest);
-        return true;
-    }
-
     /// <summary>Parses the choice <c>composition affine</c> or <c>composition componentwise</c>.</summary>
     private bool ParseComposition(Cursor cursor, out Cursor rest)
     {
@@ -108,13 +92,12 @@ public sealed partial class FractalParser : Parser
             return false;
         }
 
-        if (_composition is not null)
+        if (_composition is { } first)
         {
-            throw Error(cursor, $"the composition is declared twice, first in line {LineOfDeclaration("composition ")}");
+            throw Error(cursor, $"the composition is declared twice, first in line {Source.LineOf(first.Offset)}");
         }
 
-        _composition = composition;
-        _declarationOffsets["composition "] = cursor.Offset;
+        _composition = (composition, cursor.Offset);
         return true;
     }
 
@@ -149,8 +132,10 @@ public sealed partial class FractalParser : Parser
             throw Error(cursor, $"the result '<$>' is declared twice, first in line {Source.LineOf(first.Offset)}");
         }
 
-        RequireLevelLimit(value.Steps.LevelCount, cursor);
-        RequireDigitLimit(value.Steps, cursor);
+        RequireLimit(value.Steps.LevelCount, FractalLimits.MaxLevels, "the fractal", "levels", cursor);
+        RequireLimit(
+            FractalSteps.EstimateDigits(value.Steps.Take(value.Steps.Count)), FractalLimits.MaxDigits, "the number of instances", "digits",
+            cursor);
         _result = (value, cursor.Offset);
         return true;
     }
@@ -165,7 +150,7 @@ public sealed partial class FractalParser : Parser
             return false;
         }
 
-        var baseObject = FindObject(baseStart, baseName);
+        var baseObject = Names.FindObject(baseStart, baseName);
         RequireFinite(baseStart, baseName, baseObject);
         if (!body.IsDerivedFrom(baseObject))
         {
@@ -183,9 +168,106 @@ public sealed partial class FractalParser : Parser
             throw Error(bodyStart, $"the body of the recursive '{name}' is infinite: give the recursive in it a depth");
         }
 
-        RequireLevelLimit(body.Steps.LevelCount - baseObject.Steps.LevelCount, bodyStart);
-        RequireLimit(_repeatedStepCount += stepCount, ParsingLimits.MaxRepeatedSteps, "steps in all recursives", bodyStart);
-        DeclareObject(cursor, name, new DeclaredRecursive(baseObject, body.Steps.Take(stepCount)));
+        RequireLimit(
+            body.Steps.LevelCount - baseObject.Steps.LevelCount, FractalLimits.MaxLevels, "the fractal", "levels", bodyStart);
+        RequireLimit(_repeatedStepCount += stepCount, ParsingLimits.MaxRepeatedSteps, "the file", "steps in all recursives", bodyStart);
+        Names.Add(cursor, name, new DeclaredRecursive(baseObject, body.Steps.Take(stepCount)));
+        return true;
+    }
+
+    /// <summary>Parses a named object: <c>name. object</c>.</summary>
+    private bool ParseObjectDeclaration(Cursor cursor, out Cursor rest)
+    {
+        if (!ParseName(cursor, "a declaration", out var name, out rest) || !ParseChar(rest, '.', out rest)
+            || !ParseBlanks(rest, out rest) || !ParseObject(rest, out var value, out rest))
+        {
+            return false;
+        }
+
+        Names.Add(cursor, name, value);
+        return true;
+    }
+
+    /// <summary>
+    /// Parses <c>"file.obj"</c>, <c>name</c> or <c>name depth</c>, with any number of sets <c>[transformations]</c> before it. It is a
+    /// loop, not a recursion, so that no file can exhaust the stack.
+    /// </summary>
+    private bool ParseObject(Cursor cursor, out DeclaredObject value, out Cursor rest)
+    {
+        var sets = new List<FractalStep>();
+        TransformationSet set;
+        for (rest = cursor; rest.Current == '['; sets.Add(set))
+        {
+            if (!ParseSet(rest, out set, out rest) || !ParseBlanks(rest, out rest))
+            {
+                value = EmptyObject;
+                return false;
+            }
+        }
+
+        Fail(rest, "'['");
+        if (!ParseBaseFile(rest, out value, out rest) && !ParseReference(rest, out value, out rest))
+        {
+            return false;
+        }
+
+        if (sets.Count > 0)
+        {
+            var steps = sets.AsEnumerable().Reverse().Aggregate(value.Steps, (inner, step) => inner.Prepend(step));
+            value = new(value.BaseFile, value.BaseFileNameOffset, steps) { Origin = value };
+        }
+
+        RequireStepLimits(value.Steps, cursor);
+        return true;
+    }
+
+    private bool ParseBaseFile(Cursor cursor, out DeclaredObject value, out Cursor rest)
+    {
+        var success = ParseString(cursor, "the name of a mesh in quotes", out var file, out rest);
+        value = new(file, cursor.Offset, DeclaredSteps.None);
+        return success && FileKinds.FromName(file) != FileKind.Mesh
+            ? throw Error(cursor, $"expected the name of a mesh ({FileKinds.MeshEndings}): that is the base of a fractal")
+            : success;
+    }
+
+    private bool ParseReference(Cursor cursor, out DeclaredObject value, out Cursor rest)
+    {
+        value = EmptyObject;
+        if (!ParseName(cursor, FractalMistakes.ObjectName, out var name, out rest))
+        {
+            return false;
+        }
+
+        // The line may still be another kind of declaration, so names are resolved only once the syntax fits.
+        ParseBlanks(rest, out var depthStart);
+        if (IsAtEndOfLine(depthStart))
+        {
+            value = Names.FindObject(cursor, name);
+            return true;
+        }
+
+        if (depthStart.Current == '-' && char.IsAsciiDigit(depthStart.Peek(1)))
+        {
+            throw Error(depthStart, "the depth of a recursive must not be negative");
+        }
+
+        if (depthStart.Offset == rest.Offset || !ParseInteger(depthStart, "a depth", out var depth, out rest))
+        {
+            return Fail(depthStart, SyntaxFailure.EndOfLine);
+        }
+
+        if (Names.FindObject(cursor, name) is not DeclaredRecursive recursive)
+        {
+            throw Error(depthStart, $"'{name}' is no recursive, so it has no depth");
+        }
+
+        if (depth > FractalLimits.MaxDepth)
+        {
+            throw Error(depthStart, $"the depth is more than the limit of {FractalLimits.MaxDepth}", isLimitExceeded: true);
+        }
+
+        value = recursive.WithDepth(depth);
+        Numbers?.AddDepth(name, depthStart, rest, depth);
         return true;
     }
 
@@ -204,43 +286,5 @@ public sealed partial class FractalParser : Parser
             var limits = $"{FractalLimits.MaxSteps} steps, or of {FractalLimits.MaxNesting} recursives inside each other";
             throw Error(cursor, $"the object has more than the limit of {limits}", isLimitExceeded: true);
         }
-    }
-
-    private void RequireLevelLimit(long? levelCount, Cursor cursor)
-    {
-        if (levelCount > FractalLimits.MaxLevels)
-        {
-            throw Error(cursor, $"the fractal has more than the limit of {FractalLimits.MaxLevels} levels", isLimitExceeded: true);
-        }
-    }
-
-    private void RequireDigitLimit(DeclaredSteps steps, Cursor cursor)
-    {
-        if (FractalSteps.EstimateDigits(steps.Take(steps.Count)) > FractalLimits.MaxDigits)
-        {
-            throw Error(
-                cursor, $"the number of instances has more than the limit of {FractalLimits.MaxDigits} digits", isLimitExceeded: true);
-        }
-    }
-
-    private void RequireLimit(long count, long limit, string countedThings, Cursor cursor)
-    {
-        if (count > limit)
-        {
-            throw Error(cursor, $"the file has more than the limit of {limit} {countedThings}", isLimitExceeded: true);
-        }
-    }
-
-    private int LineOfDeclaration(string key) => Source.LineOf(_declarationOffsets[key]);
-
-    private void DeclareObject(Cursor cursor, string name, DeclaredObject value)
-    {
-        RequireLimit(_objects.Count + _functions.Count + 1, ParsingLimits.MaxNames, "names", cursor);
-        if (!_objects.TryAdd(name, value))
-        {
-            throw Error(cursor, $"the object '{name}' is declared twice, first in line {LineOfDeclaration(name)}");
-        }
-
-        _declarationOffsets[name] = cursor.Offset;
     }
 }

@@ -16,6 +16,10 @@ internal sealed record TransformationFunction(
     /// <summary>The output with the highest vector number, the first of several.</summary>
     public FunctionOutput Last { get; } = new[] { Position, Rotation, Scale }.MaxBy(static output => output.VectorNumber ?? 0);
 
+    /// <summary>The outputs with what each makes of a vector.</summary>
+    public IEnumerable<(FunctionOutput Output, FractalNumberRole Role)> Outputs =>
+        [(Position, FractalNumberRole.Position), (Rotation, FractalNumberRole.Rotation), (Scale, FractalNumberRole.Scale)];
+
     /// <summary>Returns the transformation for a call. Keeps no array.</summary>
     /// <param name="arguments">One a parameter, perhaps with room for more.</param>
     /// <param name="vectors">The vectors that are declared above the call.</param>

@@ -1,6 +1,5 @@
 using FractalEngine.Core.Geometry;
 using FractalEngine.Parsing.Text;
-using FractalEngine.Parsing.Text.Grammar;
 
 namespace FractalEngine.Parsing.Mtl;
 
@@ -12,20 +11,19 @@ namespace FractalEngine.Parsing.Mtl;
 /// <remarks>
 /// Other statements are ignored. Faulty ones are ignored with one warning per file: a surface of the wrong colour is better than none.
 /// </remarks>
-public sealed partial class MtlParser : Parser
+public sealed class MtlParser : MtlTextureParser
 {
     // Each fault costs a search through the text for its line. A file with more of them is not a material file.
     private const int MaxFaults = 100;
 
     // Immutable dictionaries took half of the time of large files.
     private readonly Dictionary<string, Material> _materials = [];
-    private readonly Dictionary<MaterialTexture, int> _textureNameOffsets = new(ReferenceEqualityComparer.Instance);
+    private readonly RepeatedWarning _tracedOnly = new("such statements");
+    private readonly RepeatedWarning _unshown = new("such statements");
     private Material? _current;
     private bool _hasOpacity;
     private Diagnostic? _firstFault;
     private int _faultCount;
-    private UnshownStatements _tracedOnly;
-    private UnshownStatements _unshown;
 
     private MtlParser(SourceText source)
         : base(source)
@@ -53,7 +51,7 @@ public sealed partial class MtlParser : Parser
         }
 
         CommitMaterial();
-        return new(Source, _materials, _textureNameOffsets, [.. CreateWarnings()]);
+        return new(Source, _materials, TextureNameOffsets, [.. CreateWarnings()]);
     }
 
     private IEnumerable<Diagnostic> CreateWarnings()
@@ -63,14 +61,14 @@ public sealed partial class MtlParser : Parser
             yield return CreateWarning(_firstFault);
         }
 
-        if (_tracedOnly.Count > 0)
+        if (_tracedOnly.ToDiagnostic() is { } tracedOnly)
         {
-            yield return CreateWarning(_tracedOnly, "is shown in traced images only") with { ConcernsDrawnFrames = true };
+            yield return tracedOnly with { ConcernsDrawnFrames = true };
         }
 
-        if (_unshown.Count > 0)
+        if (_unshown.ToDiagnostic() is { } unshown)
         {
-            yield return CreateWarning(_unshown, "is kept but not shown");
+            yield return unshown;
         }
     }
 
@@ -101,12 +99,6 @@ public sealed partial class MtlParser : Parser
         }
     }
 
-    private Diagnostic CreateWarning(UnshownStatements statements, string problem)
-    {
-        var totalNote = statements.Count == 1 ? "" : $" ({statements.Count} such statements in all)";
-        return Source.Diagnose(statements.First.Offset, $"{statements.Keyword} {problem}{totalNote}", DiagnosticSeverity.Warning);
-    }
-
     private bool ParseLine(Cursor cursor)
     {
         ParseBlanks(cursor, out var start);
@@ -127,18 +119,13 @@ public sealed partial class MtlParser : Parser
             "Ns" => ParseScalar(start, rest, static (material, number) => material with { SpecularExponent = number }),
             "d" => ParseOpacity(start, rest),
             "Tr" => ParseTransparency(start, rest),
-            "map_Kd" => ParseTexture(start, rest, static (material, texture) => material with { Texture = texture }),
-            "map_d" => ParseTexture(start, rest, static (material, texture) => material with { OpacityTexture = texture }),
-            "map_Ke" => ParseTexture(rest, out var emission)
-                && Keep(ref _unshown, start, keyword, material => material with { EmissionTexture = emission }),
-            "map_Bump" or "map_bump" or "bump" => ParseTexture(rest, out var bumps)
-                && Keep(ref _tracedOnly, start, keyword, material => material with { BumpTexture = bumps }),
-            "norm" => ParseTexture(rest, out var normals)
-                && Keep(ref _tracedOnly, start, keyword, material => material with { NormalTexture = normals }),
-            "Pr" => ParseScalar(rest, out var roughness)
-                && Keep(ref _tracedOnly, start, keyword, material => material with { Roughness = roughness }),
-            "Pm" => ParseScalar(rest, out var metalness)
-                && Keep(ref _tracedOnly, start, keyword, material => material with { Metalness = metalness }),
+            "map_Kd" or "map_d" => ParseTexture(start, rest, keyword),
+            "map_Ke" => ParseTexture(start, rest, keyword) && _unshown.Add(new(Source, start.Offset), "map_Ke is kept but not shown"),
+            "map_Bump" or "map_bump" or "bump" or "norm" => ParseTexture(start, rest, keyword) && KeepForTraces(start, keyword),
+            "Pr" => ParseScalar(start, rest, static (material, number) => material with { Roughness = number })
+                && KeepForTraces(start, keyword),
+            "Pm" => ParseScalar(start, rest, static (material, number) => material with { Metalness = number })
+                && KeepForTraces(start, keyword),
             _ => true,
         };
     }
@@ -182,18 +169,15 @@ public sealed partial class MtlParser : Parser
     }
 
     private bool ParseScalar(Cursor statement, Cursor cursor, Func<Material, double, Material> update) =>
-        ParseScalar(cursor, out var number) && UpdateMaterial(statement, material => update(material, number));
+        ParseNumber(cursor, out var number, out var rest) && ParseEndOfStatement(rest)
+        && UpdateMaterial(statement, material => update(material, number));
 
-    private bool ParseScalar(Cursor cursor, out double number) =>
-        ParseNumber(cursor, out number, out var rest) && ParseEndOfStatement(rest);
+    private bool ParseTexture(Cursor statement, Cursor cursor, string keyword) =>
+        ParseTexture(cursor, out var texture)
+        && UpdateMaterial(statement, material => TextureSlot.ByKeyword[keyword].With(material, texture));
 
-    /// <summary>Updates the material by a statement that makes no difference to some images.</summary>
-    private bool Keep(ref UnshownStatements statements, Cursor statement, string keyword, Func<Material, Material> update)
-    {
-        UpdateMaterial(statement, update);
-        statements = statements.Count == 0 ? new(statement, keyword, 1) : statements with { Count = statements.Count + 1 };
-        return true;
-    }
+    private bool KeepForTraces(Cursor statement, string keyword) =>
+        _tracedOnly.Add(new(Source, statement.Offset), $"{keyword} is shown in traced images only");
 
     /// <summary>
     /// Parses an opacity. <c>d</c> overrides <c>Tr</c> in any order, because programs disagree about the meaning of <c>Tr</c>.
@@ -219,7 +203,4 @@ public sealed partial class MtlParser : Parser
     private static bool IsAtEndOfStatement(Cursor cursor) => IsAtEndOfLine(cursor) || cursor.Current == '#';
 
     private bool ParseEndOfStatement(Cursor cursor) => ParseCommentAndEndOfLine(cursor, out _);
-
-    /// <summary>The first of some statements, for a warning about all of them.</summary>
-    private readonly record struct UnshownStatements(Cursor First, string Keyword, int Count);
 }

@@ -21,11 +21,10 @@ internal static class MtlWriter
             Require(isNameWritable, material, "its name is empty, or has a line break or a comment");
             text.Append(text.Length > 0 ? "\n" : "").Append("newmtl ").Append(material.Name).Append('\n');
             AppendSurface(text, material);
-            AppendTexture(text, "map_Kd", material, material.Texture, fullPath);
-            AppendTexture(text, "map_d", material, material.OpacityTexture, fullPath);
-            AppendTexture(text, "map_Ke", material, material.EmissionTexture, fullPath);
-            AppendTexture(text, "map_Bump", material, material.BumpTexture, fullPath);
-            AppendTexture(text, "norm", material, material.NormalTexture, fullPath);
+            foreach (var slot in TextureSlot.All)
+            {
+                AppendTexture(text, slot.Keywords[0], material, slot.Of(material), fullPath);
+            }
         }
 
         return text.ToString();

@@ -97,10 +97,7 @@ public sealed class SceneMaterials
 
     /// <summary>Returns the full paths of all textures, each once.</summary>
     public IEnumerable<string> Textures => _materials.Values
-        .SelectMany(static material => new[]
-        {
-            material.Texture, material.OpacityTexture, material.EmissionTexture, material.BumpTexture, material.NormalTexture,
-        })
+        .SelectMany(static material => TextureSlot.All.Select(slot => slot.Of(material)))
         .OfType<MaterialTexture>().Select(static texture => texture.Path).Distinct();
 
     private static IEnumerable<string> GroupMaterials(Mesh mesh) =>

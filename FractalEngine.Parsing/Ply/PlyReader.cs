@@ -152,7 +152,7 @@ public sealed class PlyReader
             _mesh.AddCorner((int)index);
         }
 
-        if (!_mesh.TryEndPolygon(cornerCount))
+        if (!_mesh.TryEndPolygon())
         {
             throw _values.Error("the file has more triangles than an array can hold", isLimitExceeded: true);
         }

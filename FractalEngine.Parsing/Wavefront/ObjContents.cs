@@ -12,9 +12,15 @@ internal sealed class ObjContents
     private readonly List<SourcePosition> _libraryPositions = [];
     private readonly HashSet<string> _knownLibraries = [];
     private readonly Dictionary<string, SourcePosition> _materialPositions = [];
-    private readonly RepeatedWarning _unknownLines = new("lines with unknown keywords");
-    private readonly RepeatedWarning _invalidIndices = new("such corners");
-    private readonly RepeatedWarning _shortFaces = new("such faces");
+
+    /// <summary>Lines with unknown keywords.</summary>
+    public RepeatedWarning UnknownLines { get; } = new("lines with unknown keywords");
+
+    /// <summary>Indices of normals or texture coordinates that don't exist.</summary>
+    public RepeatedWarning InvalidIndices { get; } = new("such corners");
+
+    /// <summary>Faces with fewer than three corners, which are skipped.</summary>
+    public RepeatedWarning ShortFaces { get; } = new("such faces");
 
     /// <summary>Numbers of elements in all blocks so far.</summary>
     public ObjCounts Counts { get; private set; }
@@ -46,33 +52,6 @@ internal sealed class ObjContents
         }
     }
 
-    /// <summary>Counts a line with an unknown keyword.</summary>
-    public void AddUnknownLine(SourcePosition position, string keyword)
-    {
-        if (_unknownLines.CountsFirst())
-        {
-            _unknownLines.Describe(position, $"unknown keyword {keyword} skipped");
-        }
-    }
-
-    /// <summary>Counts an index of a normal or texture coordinate that does not exist.</summary>
-    public void AddInvalidIndex(SourcePosition position, string message)
-    {
-        if (_invalidIndices.CountsFirst())
-        {
-            _invalidIndices.Describe(position, $"{message}: the index is ignored");
-        }
-    }
-
-    /// <summary>Counts a face with fewer than three corners, which is skipped.</summary>
-    public void AddShortFace(SourcePosition position, int cornerCount)
-    {
-        if (_shortFaces.CountsFirst())
-        {
-            _shortFaces.Describe(position, $"a face needs at least three corners, this one has {cornerCount}: skipped");
-        }
-    }
-
     /// <summary>Creates the mesh of all that was added.</summary>
     /// <param name="threadCount">Number of threads that merge the blocks, at least one.</param>
     /// <param name="byteCount">Size of the file in bytes.</param>
@@ -86,23 +65,5 @@ internal sealed class ObjContents
         };
 
     private ImmutableArray<Diagnostic> CreateWarnings() =>
-        [.. new[] { _unknownLines, _invalidIndices, _shortFaces }.Select(static warning => warning.ToDiagnostic()).OfType<Diagnostic>()];
-
-    /// <summary>A fault that many lines may have: one warning at the first of them tells their number.</summary>
-    /// <param name="plural">What is counted.</param>
-    private sealed class RepeatedWarning(string plural)
-    {
-        private int _count;
-        private SourcePosition? _first;
-        private string _message = "";
-
-        /// <summary>Counts one more of the faults.</summary>
-        /// <returns>True for the first, which needs a message.</returns>
-        public bool CountsFirst() => _count++ == 0;
-
-        public void Describe(SourcePosition position, string message) => (_first, _message) = (position, message);
-
-        public Diagnostic? ToDiagnostic() =>
-            _first?.Diagnose(_count == 1 ? _message : $"{_message} ({_count} {plural} in all)", DiagnosticSeverity.Warning);
-    }
+        [.. new[] { UnknownLines, InvalidIndices, ShortFaces }.Select(static warning => warning.ToDiagnostic()).OfType<Diagnostic>()];
 }

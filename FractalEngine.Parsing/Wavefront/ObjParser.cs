@@ -1,6 +1,5 @@
 using FractalEngine.Parsing.Meshes;
 using FractalEngine.Parsing.Text;
-using FractalEngine.Parsing.Text.Grammar;
 
 namespace FractalEngine.Parsing.Wavefront;
 
@@ -12,19 +11,14 @@ namespace FractalEngine.Parsing.Wavefront;
 /// Coordinates are used as written: no axis is flipped. Cost: about a second per 100 MB. For files there is <see cref="ObjReader"/>, whose
 /// kernel reads plain lines, and which calls this parser for all others.
 /// </remarks>
-public sealed partial class ObjParser : Parser
+public sealed class ObjParser : ObjElementParser
 {
     // Characters between two reports of progress, at least.
     private const int ProgressInterval = 1 << 20;
 
-    private readonly ObjContents _contents;
-    private readonly ObjElements _elements;
-
-    private ObjParser(SourceText source, ObjContents contents, ObjElements elements)
-        : base(source)
+    private ObjParser(SourceText source, ObjContents contents, ObjCounts before)
+        : base(source, contents, before)
     {
-        _contents = contents;
-        _elements = elements;
     }
 
     /// <summary>Parses a whole OBJ file.</summary>
@@ -42,35 +36,22 @@ public sealed partial class ObjParser : Parser
     /// <summary>Parses some lines and adds what they declare.</summary>
     internal static void ParseLines(SourceText source, ObjContents contents, IProgress<double>? progress = null)
     {
-        var elements = new ObjElements { Before = contents.Counts };
-        new ObjParser(source, contents, elements).ParseLines(progress);
-        contents.Add(elements.ToBlock());
+        var parser = new ObjParser(source, contents, contents.Counts);
+        parser.ParseLines(progress);
+        contents.Add(parser.Elements.ToBlock());
     }
 
     /// <summary>Parses a line that has no vertex, texture coordinate, normal or face.</summary>
     /// <param name="source">Text of the line.</param>
     /// <param name="contents">Receives what the line declares.</param>
-    /// <param name="elements">Has the number of faces before the line.</param>
-    internal static void ParseStatement(SourceText source, ObjContents contents, ObjElements elements) =>
-        new ObjParser(source, contents, elements).ParseLines(null);
+    /// <param name="before">Has the number of faces before the line.</param>
+    internal static void ParseStatement(SourceText source, ObjContents contents, ObjCounts before) =>
+        new ObjParser(source, contents, before).ParseLines(null);
 
     /// <summary>Creates the error of a file that declares nothing.</summary>
     /// <param name="source">The beginning of the file: at least its first line.</param>
     internal static SourceException EmptyError(SourceText source) =>
         source.Error(0, "the file declares nothing: it has no vertex, face, group or material");
-
-    /// <inheritdoc/>
-    /// <remarks>A backslash before a line break joins two lines.</remarks>
-    protected override bool ParseBlanks(Cursor cursor, out Cursor rest)
-    {
-        base.ParseBlanks(cursor, out rest);
-        while (rest.Current == '\\' && rest.Peek(1) is '\n' or '\r')
-        {
-            base.ParseBlanks(rest.Advance(rest.Peek(1) == '\r' && rest.Peek(2) == '\n' ? 3 : 2), out rest);
-        }
-
-        return true;
-    }
 
     private void ParseLines(IProgress<double>? progress)
     {
@@ -118,10 +99,10 @@ public sealed partial class ObjParser : Parser
 
         return keyword switch
         {
-            "o" => ParseDeclaredName(rest, (name, _) => _contents.Groups.ChangeObject(name, _elements.FaceCount), out rest),
-            "g" => ParseDeclaredName(rest, (name, _) => _contents.Groups.ChangeGroup(name, _elements.FaceCount), out rest),
+            "o" => ParseDeclaredName(rest, (name, _) => Contents.Groups.ChangeObject(name, Counts.Faces), out rest),
+            "g" => ParseDeclaredName(rest, (name, _) => Contents.Groups.ChangeGroup(name, Counts.Faces), out rest),
             "usemtl" => ParseDeclaredName(rest, UseMaterial, out rest),
-            "mtllib" => ParseDeclaredName(rest, (file, start) => _contents.AddMaterialLibrary(file, PositionOf(start)), out rest),
+            "mtllib" => ParseDeclaredName(rest, (file, start) => Contents.AddMaterialLibrary(file, PositionOf(start)), out rest),
             "s" => ParseSmoothingGroup(rest, out rest) && MarkDeclared(),
             "l" or "p" => ParseRestOfLine(rest, out _, out rest) && MarkDeclared(),
             // These keywords come here only without a blank behind them, since ParseLine handles all others.
@@ -146,17 +127,15 @@ public sealed partial class ObjParser : Parser
 
     private void UseMaterial(string name, Cursor start)
     {
-        _contents.AddMaterial(name, PositionOf(start));
-        _contents.Groups.ChangeMaterial(name, _elements.FaceCount);
+        Contents.AddMaterial(name, PositionOf(start));
+        Contents.Groups.ChangeMaterial(name, Counts.Faces);
     }
 
-    private bool MarkDeclared() => _contents.HasDeclaration = true;
-
-    private SourcePosition PositionOf(Cursor cursor) => new(Source, cursor.Offset);
+    private bool MarkDeclared() => Contents.HasDeclaration = true;
 
     private bool SkipUnknown(Cursor start, out Cursor rest)
     {
-        _contents.AddUnknownLine(PositionOf(start), Describe(start));
+        Contents.UnknownLines.Add(PositionOf(start), $"unknown keyword {Describe(start)} skipped");
         return ParseRestOfLine(start, out _, out rest);
     }
 
@@ -167,7 +146,7 @@ public sealed partial class ObjParser : Parser
             || ParseWord(rest, "on", out next))
         {
             var isOn = rest.Current == 'o' && rest.Peek(1) == 'n';
-            _contents.Groups.ChangeSmoothing(isOn ? 1 : number, _elements.FaceCount);
+            Contents.Groups.ChangeSmoothing(isOn ? 1 : number, Counts.Faces);
             return ParseCommentAndEndOfLine(next, out rest);
         }
 

@@ -37,7 +37,6 @@ public sealed class ObjReader
     private int _line = 1;
     private long _addedEnd;
     private SourceText _firstLine;
-    private ObjElements? _statementElements;
     private Exception? _failure;
     private bool _isStopped;
     private bool _isBinary;
@@ -224,9 +223,7 @@ public sealed class ObjReader
         foreach (var statement in scanner.Statements)
         {
             var source = Excerpt(buffer, statement.Start, statement.Length, _line + statement.Line);
-            _statementElements ??= new();
-            _statementElements.Before = _contents.Counts with { Faces = _contents.Counts.Faces + statement.FaceCount };
-            ObjParser.ParseStatement(source, _contents, _statementElements);
+            ObjParser.ParseStatement(source, _contents, _contents.Counts with { Faces = _contents.Counts.Faces + statement.FaceCount });
         }
 
         _contents.HasDeclaration |= scanner.HasDeclaration;

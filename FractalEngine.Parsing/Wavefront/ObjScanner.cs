@@ -1,6 +1,5 @@
 using System.Runtime.CompilerServices;
 using System.Runtime.InteropServices;
-using FractalEngine.Parsing.Meshes;
 using FractalEngine.Parsing.Text.Numbers;
 
 namespace FractalEngine.Parsing.Wavefront;
@@ -11,40 +10,11 @@ namespace FractalEngine.Parsing.Wavefront;
 /// </summary>
 /// <remarks>
 /// Plain are elements with finite numbers, in ASCII, without joined lines; comments; and all statements with names, which are only found
-/// here. What comes before the block need not be known: <see cref="Required"/> tells which indices exist. One instance is used for one
-/// block after the other.
+/// here. What comes before the block need not be known: <see cref="ObjElementScanner.Required"/> tells which indices exist. One
+/// instance is used for one block after the other.
 /// </remarks>
-internal sealed partial class ObjScanner
+internal sealed class ObjScanner : ObjElementScanner
 {
-    private double[] _positions = [];
-    private double[] _colours = [];
-    private double[] _textureCoordinates = [];
-    private double[] _normals = [];
-    private int[] _positionIndices = [];
-    private int[] _textureIndices = [];
-    private int[] _normalIndices = [];
-    private ushort[] _polygonSizes = [];
-
-    private int _end;
-    private int _positionCount;
-    private int _textureCoordinateCount;
-    private int _normalCount;
-    private int _cornerCount;
-    private int _polygonCount;
-    private int _faceCount;
-
-    // Vertices below have entries in the array of colours; 0 until a vertex has any.
-    private int _colourCount;
-
-    // Corners below have entries in the arrays of texture coordinates and normals; 0 until a corner has any.
-    private int _textureIndexCount;
-    private int _normalIndexCount;
-    private bool _hasPolygonSizes;
-    private bool _hasRelativeIndices;
-    private int _requiredPositions;
-    private int _requiredTextureCoordinates;
-    private int _requiredNormals;
-
     /// <summary>Offset of the first line that is not plain, or the length of the block.</summary>
     public int ScannedLength { get; private set; }
 
@@ -57,86 +27,24 @@ internal sealed partial class ObjScanner
     /// <summary>Number of line breaks before the end of the scanned lines.</summary>
     public int LineCount { get; private set; }
 
-    /// <summary>Numbers of elements that must come before the block, or some index does not exist.</summary>
-    public ObjCounts Required => new(_requiredPositions, _requiredTextureCoordinates, _requiredNormals, 0);
-
     /// <summary>Reads the plain lines at the beginning of a block.</summary>
     /// <param name="bytes">The block, and behind it a line feed and the padding of <see cref="Utf8NumberReader"/>.</param>
     /// <param name="length">Length of the block.</param>
     public void Scan(byte[] bytes, int length)
     {
         Restart(length);
+        Statements.Clear();
+        HasDeclaration = false;
+        LineCount = 0;
         ScannedLength = Math.Min((int)ScanLines(ref MemoryMarshal.GetArrayDataReference(bytes)), length);
         HasDeclaration |= _positionCount > 0 || _textureCoordinateCount > 0 || _normalCount > 0 || _polygonCount > 0;
-    }
-
-    /// <summary>Creates a block of all elements that were read.</summary>
-    public ObjBlock ToBlock()
-    {
-        FillColours();
-        FillIndices(_textureIndices, ref _textureIndexCount);
-        FillIndices(_normalIndices, ref _normalIndexCount);
-        return new()
-        {
-            Counts = new(_positionCount, _textureCoordinateCount, _normalCount, _faceCount),
-            Positions = Copy(_positions, 3 * _positionCount),
-            Colours = Copy(_colours, 3 * _colourCount),
-            TextureCoordinates = Copy(_textureCoordinates, 2 * _textureCoordinateCount),
-            Normals = Copy(_normals, 3 * _normalCount),
-            PositionIndices = Copy(_positionIndices, _cornerCount),
-            TextureIndices = Copy(_textureIndices, _textureIndexCount),
-            NormalIndices = Copy(_normalIndices, _normalIndexCount),
-            PolygonSizes = Copy(_polygonSizes, _hasPolygonSizes ? _polygonCount : 0),
-            HasRelativeIndices = _hasRelativeIndices,
-        };
-    }
-
-    private static T[] Copy<T>(T[] buffer, int length)
-    {
-        if (length == 0)
-        {
-            return [];
-        }
-
-        var array = GC.AllocateUninitializedArray<T>(length);
-        buffer.AsSpan(0, length).CopyTo(array);
-        return array;
-    }
-
-    /// <summary>Makes a buffer large enough; what it holds is lost.</summary>
-    private static void Resize<T>(ref T[] buffer, int length)
-    {
-        if (buffer.Length < length)
-        {
-            buffer = GC.AllocateUninitializedArray<T>(length);
-        }
-    }
-
-    /// <summary>Clears all counts, and makes room for the largest number of elements that so many bytes can hold.</summary>
-    private void Restart(int length)
-    {
-        // The shortest lines are "v 0 0 0", "vt 0", "vn 0 0 0" and "f 1 1 1" with a line break, the shortest corner " 1".
-        Resize(ref _positions, 3 * ((length / 8) + 2));
-        Resize(ref _textureCoordinates, 2 * ((length / 5) + 2));
-        Resize(ref _normals, 3 * ((length / 9) + 2));
-        Resize(ref _positionIndices, (length / 2) + 2);
-        Resize(ref _textureIndices, (length / 2) + 2);
-        Resize(ref _normalIndices, (length / 2) + 2);
-        Resize(ref _polygonSizes, (length / 8) + 2);
-        Statements.Clear();
-        _end = length;
-        HasDeclaration = _hasPolygonSizes = _hasRelativeIndices = false;
-        LineCount = 0;
-        _colourCount = _positionCount = _textureCoordinateCount = _normalCount = 0;
-        _cornerCount = _polygonCount = _faceCount = _textureIndexCount = _normalIndexCount = 0;
-        _requiredPositions = _requiredTextureCoordinates = _requiredNormals = 0;
     }
 
     /// <summary>Reads lines, and returns the position of the first that is not plain, or one that is not before the end.</summary>
     [MethodImpl(MethodImplOptions.AggressiveOptimization)]
     private nint ScanLines(ref byte text)
     {
-        nint end = _end;
+        nint end = End;
         nint line = 0;
         while (line < end)
         {
@@ -182,40 +90,6 @@ internal sealed partial class ObjScanner
         return line;
     }
 
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private static bool IsBlank(uint character) => character is ' ' or '\t';
-
-    /// <summary>Skips blanks, a comment and a line break, and returns the position of the next line or none.</summary>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private nint ScanEndOfLine(ref byte text, nint position) =>
-        Unsafe.Add(ref text, position) == '\n' ? position + 1 : ScanUnusualEndOfLine(ref text, position);
-
-    private nint ScanUnusualEndOfLine(ref byte text, nint position)
-    {
-        while (IsBlank(Unsafe.Add(ref text, position)))
-        {
-            position++;
-        }
-
-        return (char)Unsafe.Add(ref text, position) switch
-        {
-            '\n' => position + 1,
-            '\r' => SkipLineBreak(ref text, position),
-            '#' => SkipLineBreak(ref text, FindLineBreak(ref text, position)),
-            _ => Utf8NumberReader.None,
-        };
-    }
-
-    private nint FindLineBreak(ref byte text, nint position)
-    {
-        var rest = MemoryMarshal.CreateReadOnlySpan(ref Unsafe.Add(ref text, position), _end - (int)position);
-        var length = rest.IndexOfAny((byte)'\n', (byte)'\r');
-        return length < 0 ? _end : position + length;
-    }
-
-    private static nint SkipLineBreak(ref byte text, nint position) =>
-        position + (Unsafe.Add(ref text, position) == '\r' && Unsafe.Add(ref text, position + 1) == '\n' ? 2 : 1);
-
     /// <summary>Skips an empty line, a comment or a statement, and returns the position of the next line or none.</summary>
     private nint ScanOther(ref byte text, nint line, nint start)
     {
@@ -247,7 +121,7 @@ internal sealed partial class ObjScanner
                 HasDeclaration = true;
                 return next;
             default:
-                Statements.Add(new((int)line, (int)(Math.Min(next, _end) - line), LineCount, _faceCount));
+                Statements.Add(new((int)line, (int)(Math.Min(next, End) - line), LineCount, _faceCount));
                 return next;
         }
     }

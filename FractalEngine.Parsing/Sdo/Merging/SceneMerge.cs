@@ -14,8 +14,7 @@ namespace FractalEngine.Parsing.Sdo.Merging;
 /// </remarks>
 public static class SceneMerge
 {
-    private static readonly ImmutableHashSet<string> UniqueWords =
-        ["c", "projection", "aspect", "clip", "background", "sky", "exposure", "tone", "fog", "gravity", "player", "handed"];
+    private static readonly ImmutableHashSet<string> UniqueWords = [.. SceneParser.UniqueKeywords];
 
     /// <summary>Merges the changes from one text to another into a third.</summary>
     /// <param name="original">Text that both sides began with.</param>

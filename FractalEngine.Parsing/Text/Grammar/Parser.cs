@@ -5,21 +5,91 @@ using FractalEngine.Parsing.Text.Numbers;
 namespace FractalEngine.Parsing.Text.Grammar;
 
 /// <summary>
-/// Base class of all parsers (paper §4.1.5): white space, characters, numbers, names and vectors. It keeps the furthest failure and
-/// what was expected there, for the error message.
+/// Base class of all parsers (paper §4.1.5): white space, characters, numbers, names and vectors. The furthest failure and what was
+/// expected there are kept for the error message.
 /// </summary>
 /// <remarks>
 /// Every <c>Parse…</c> method takes a cursor and returns whether the text there matches. On success it yields the value and the
 /// cursor behind it; on failure the caller's cursor remains valid for another attempt.
 /// </remarks>
 /// <param name="source">Text that is parsed.</param>
-public abstract partial class Parser(SourceText source)
+public abstract class Parser(SourceText source)
 {
+    private readonly FailureLog _failures = new();
+    private Diagnostic? _hint;
+
     /// <summary>Parses one item of a list.</summary>
     private protected delegate bool ItemParser<T>(Cursor cursor, out T item, out Cursor rest);
 
     /// <summary>Text that is being parsed.</summary>
     protected SourceText Source { get; } = source;
+
+    /// <summary>
+    /// The first hint about text that is valid but hardly meant so, if there is any. It is enough: a mistake of units is in all lines of
+    /// a file.
+    /// </summary>
+    private protected ImmutableArray<Diagnostic> Hints => _hint is null ? [] : [_hint];
+
+    /// <inheritdoc cref="CommonMistakes.Explain"/>
+    private protected virtual string? Explain(SyntaxFailure failure) => CommonMistakes.Explain(failure);
+
+    /// <summary>Creates an exception for text that is well-formed but has no valid meaning.</summary>
+    /// <param name="cursor">Position of the faulty text.</param>
+    /// <param name="message">One line of text without a full stop.</param>
+    /// <param name="isLimitExceeded">True when the text is valid but exceeds a stated limit.</param>
+    protected SourceException Error(Cursor cursor, string message, bool isLimitExceeded = false) =>
+        Source.Error(cursor.Offset, message, isLimitExceeded);
+
+    /// <summary>
+    /// Creates the exception for the furthest failure: what was found there, and the mistake behind it, or else what was expected instead.
+    /// </summary>
+    protected SourceException SyntaxError()
+    {
+        var failure = _failures.Furthest(Source.Text);
+        var reason = Explain(failure) is { } explanation ? $": {explanation}" : failure.Expectation;
+        return Error(failure.Position, $"unexpected {Describe(failure.Position)}{reason}");
+    }
+
+    /// <summary>Records a hint about valid text, which becomes a warning.</summary>
+    private protected void Hint(Cursor cursor, string? message) =>
+        _hint ??= message is null ? null : Source.Diagnose(cursor.Offset, message, DiagnosticSeverity.Warning);
+
+    /// <summary>Records what was expected at a position, for the error message. Always returns false.</summary>
+    protected bool Fail(Cursor cursor, string expected) => _failures.Add(cursor, expected);
+
+    /// <summary>Describes the text at a position for a message: a word, a character or the end.</summary>
+    protected static string Describe(Cursor cursor)
+    {
+        if (cursor.IsAtEnd)
+        {
+            return "end of file";
+        }
+
+        if (IsAtEndOfLine(cursor))
+        {
+            return "end of line";
+        }
+
+        var length = 0;
+        if (cursor.Current != '.')
+        {
+            NumberReader.TryRead(cursor.Rest, out _, out length);
+        }
+
+        while (IsNameCharacter(cursor.Peek(length)))
+        {
+            length++;
+        }
+
+        if (char.IsControl(cursor.Current))
+        {
+            return $"character U+{(int)cursor.Current:X4}";
+        }
+
+        return char.IsHighSurrogate(cursor.Current)
+            ? $"'{cursor.Text.AsSpan(cursor.Offset, Math.Min(2, cursor.Rest.Length))}'"
+            : $"'{Truncate(cursor.Rest[..Math.Max(length, 1)])}'";
+    }
 
     /// <summary>Skips blanks and tabs, of which there may be none. Always returns true.</summary>
     protected virtual bool ParseBlanks(Cursor cursor, out Cursor rest)
@@ -171,14 +241,8 @@ public abstract partial class Parser(SourceText source)
     protected bool ParseComponents(Cursor cursor, out Vector vector, out Cursor rest)
     {
         vector = default;
-        if (ParseNumber(cursor, out var x, out rest) && ParseNextNumber(rest, out var y, out rest)
-            && ParseNextNumber(rest, out var z, out rest))
-        {
-            vector = new(x, y, z);
-            return true;
-        }
-
-        return false;
+        return ParseNumber(cursor, out var x, out rest) && ParseNextNumber(rest, out var y, out rest)
+            && ParseNextNumber(rest, out var z, out rest) && Set(ref vector, new(x, y, z));
     }
 
     /// <summary>Parses a vector in parentheses: <c>(x, y, z)</c>.</summary>
@@ -257,6 +321,13 @@ public abstract partial class Parser(SourceText source)
         }
 
         return items.ToImmutable();
+    }
+
+    /// <summary>Sets a variable, as the last step of a sequence. Always returns true.</summary>
+    private protected static bool Set<T>(ref T variable, T value)
+    {
+        variable = value;
+        return true;
     }
 
     /// <summary>Skips one line break of any system, if there is one.</summary>

@@ -41,6 +41,14 @@ internal sealed record SyntaxFailure(Cursor Position, IReadOnlyList<string> Expe
     /// <summary>Both, with a line feed between them.</summary>
     public string Line => $"{Before}\n{After}";
 
+    /// <summary>What was expected, as the end of a message.</summary>
+    public string Expectation => Expected.Count switch
+    {
+        0 => "",
+        1 => $", expected {Expected[0]}",
+        _ => $", expected {string.Join(", ", Expected.SkipLast(1))} or {Expected[^1]}",
+    };
+
     /// <summary>Returns whether something was expected at the position.</summary>
     public bool Expects(string expected) => Expected.Contains(expected);
 

@@ -44,6 +44,26 @@ public sealed class SceneMergeTests : IDisposable
     public void Merge_OfANewLine_AddsItAtTheEnd(string theirs, string expected) =>
         Assert.Equal(expected, SceneMerge.Merge("o \"a.obj\" #", "o \"a.obj\" #\nprojection orthographic\n", theirs).Text);
 
+    [Theory]
+    [InlineData("c # # 60", true)]
+    [InlineData("handed right", true)]
+    [InlineData("projection orthographic", true)]
+    [InlineData("aspect 2", true)]
+    [InlineData("clip 1 2", true)]
+    [InlineData("background (0, 0, 0)", true)]
+    [InlineData("sky (0, 0, 0) (1, 1, 1)", true)]
+    [InlineData("exposure 2", true)]
+    [InlineData("tone filmic", true)]
+    [InlineData("fog 0.1", true)]
+    [InlineData("gravity #", true)]
+    [InlineData("player (0, 0, 0) 1 2", true)]
+    [InlineData("o \"a.obj\" #", false)]
+    [InlineData("p \"a.obj\" # 1", false)]
+    [InlineData("light ambient (1, 1, 1)", false)]
+    [InlineData("sun (0, -1, 0) (1, 1, 1) 1", false)]
+    public void Merge_OfADeclaration_TakesWhatASceneHasOnce(string line, bool isTaken) =>
+        Assert.Equal(isTaken ? $"{line}\n" : "", SceneMerge.Merge("", line, "").Text);
+
     [Fact]
     public void Merge_OfARemovedLine_RemovesItOnly() => Assert.Equal(
         "# a\n# b\n", SceneMerge.Merge("projection orthographic\n", "", "# a\nprojection orthographic\n# b\n").Text);

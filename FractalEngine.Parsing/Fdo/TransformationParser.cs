@@ -7,36 +7,59 @@ using FractalEngine.Parsing.Text.Numbers;
 
 namespace FractalEngine.Parsing.Fdo;
 
-/// <content>Parses transformation functions and the sets that call them.</content>
-public sealed partial class FractalParser
+/// <summary>Parses the vectors and transformation functions of fractal files, and the sets that call these.</summary>
+public abstract class TransformationParser : Parser
 {
     private const int MaxParameters = 3;
 
+    private readonly List<Vector> _vectors = [];
+
     // The arguments of the call that is read.
     private readonly Vector[] _arguments = new Vector[MaxParameters];
+    private long _mapCount;
+
+    private protected TransformationParser(SourceText source, FractalNumberList? numbers)
+        : base(source)
+    {
+        Numbers = numbers;
+        Names = new(source);
+    }
+
+    /// <summary>The names that were declared so far.</summary>
+    private protected DeclaredNames Names { get; }
+
+    /// <summary>Receives the numbers of the file; null where nobody asks for them.</summary>
+    private protected FractalNumberList? Numbers { get; }
+
+    /// <summary>Parses a vector: <c>v x y z</c>.</summary>
+    private protected bool ParseVectorDeclaration(Cursor cursor, out Cursor rest)
+    {
+        if (!ParseWord(cursor, "v", out rest) || !ParseBlanks(rest, out var numbers) || numbers.Offset == rest.Offset
+            || !ParseComponents(numbers, out var vector, out rest))
+        {
+            return false;
+        }
+
+        _vectors.Add(vector);
+        Numbers?.AddVector(_vectors.Count, numbers, rest);
+        return true;
+    }
 
     /// <summary>Parses <c>t.a.b. (out, out, out)</c>; each output is a parameter, the number of a vector, or '#'.</summary>
-    private bool ParseFunction(Cursor cursor, out Cursor rest)
+    private protected bool ParseFunction(Cursor cursor, out Cursor rest)
     {
-        _outputCount = 0;
         if (!ParseName(cursor, "a declaration", out var name, out rest) || !ParseChar(rest, '.', out rest)
             || !ParseParameters(rest, out var parameters, out rest)
             || !ParseBlanks(rest, out rest) || !ParseChar(rest, '(', out rest)
-            || !ParseBlanks(rest, out rest) || !ParseOutput(rest, parameters, Vector.Zero, out var position, out rest)
-            || !ParseSeparator(rest, out rest) || !ParseOutput(rest, parameters, Vector.Zero, out var rotation, out rest)
-            || !ParseSeparator(rest, out rest) || !ParseOutput(rest, parameters, Vector.One, out var scale, out rest)
+            || !ParseBlanks(rest, out rest) || !ParseOutput(rest, parameters, FractalNumberRole.Position, out var position, out rest)
+            || !ParseSeparator(rest, out rest) || !ParseOutput(rest, parameters, FractalNumberRole.Rotation, out var rotation, out rest)
+            || !ParseSeparator(rest, out rest) || !ParseOutput(rest, parameters, FractalNumberRole.Scale, out var scale, out rest)
             || !ParseBlanks(rest, out rest) || !ParseChar(rest, ')', out rest))
         {
             return false;
         }
 
-        RequireLimit(_objects.Count + _functions.Count + 1, ParsingLimits.MaxNames, "names", cursor);
-        if (!_functions.TryAdd(name, new(parameters.Count, position, rotation, scale)))
-        {
-            throw Error(cursor, $"the transformation '{name}' is declared twice, first in line {LineOfDeclaration(name + '.')}");
-        }
-
-        _declarationOffsets[name + '.'] = cursor.Offset;
+        Names.Add(cursor, name, new TransformationFunction(parameters.Count, position, rotation, scale));
         return true;
     }
 
@@ -68,9 +91,9 @@ public sealed partial class FractalParser
     }
 
     private bool ParseOutput(
-        Cursor cursor, List<string> parameters, Vector defaultValue, out FunctionOutput output, out Cursor rest)
+        Cursor cursor, List<string> parameters, FractalNumberRole role, out FunctionOutput output, out Cursor rest)
     {
-        output = new(null, null, defaultValue, cursor);
+        output = new(null, null, role == FractalNumberRole.Scale ? Vector.One : Vector.Zero, cursor);
         rest = cursor;
         if (char.IsAsciiDigit(cursor.Current) && !IsDecimal(cursor))
         {
@@ -85,8 +108,7 @@ public sealed partial class FractalParser
             }
 
             output = output with { VectorNumber = number };
-            ListOutput(number);
-            _outputCount++;
+            Numbers?.AddRole(number, role);
             return true;
         }
 
@@ -94,14 +116,12 @@ public sealed partial class FractalParser
             && parameters.IndexOf(name) is >= 0 and var index)
         {
             output = output with { Parameter = index };
-            _outputCount++;
             rest = afterName;
             return true;
         }
 
         if (cursor.Current == '#')
         {
-            _outputCount++;
             rest = cursor.Advance(1);
             return true;
         }
@@ -143,7 +163,7 @@ public sealed partial class FractalParser
     }
 
     /// <summary>Parses a set of calls: <c>[#, t.1, u.6.10]</c>.</summary>
-    private bool ParseSet(Cursor cursor, out TransformationSet set, out Cursor rest)
+    private protected bool ParseSet(Cursor cursor, out TransformationSet set, out Cursor rest)
     {
         set = new([]);
         if (!ParseChar(cursor, '[', out rest) || !ParseBlanks(rest, out rest))
@@ -155,13 +175,12 @@ public sealed partial class FractalParser
 
         for (var first = true; rest.Current != ']'; first = false)
         {
-            _callIndex = transformations.Count;
-            if ((!first && !ParseSeparator(rest, out rest)) || !ParseCall(rest, out var transformation, out rest))
+            if ((!first && !ParseSeparator(rest, out rest)) || !ParseCall(rest, transformations.Count, out var transformation, out rest))
             {
                 return false;
             }
 
-            RequireLimit(++_mapCount, ParsingLimits.MaxMaps, "transformations in all sets", rest);
+            RequireLimit(++_mapCount, ParsingLimits.MaxMaps, "the file", "transformations in all sets", rest);
             transformations.Add(transformation);
             if (ParseBlanks(rest, out var next) && next.Current == ']')
             {
@@ -169,7 +188,7 @@ public sealed partial class FractalParser
             }
         }
 
-        ListSet(transformations.Count);
+        Numbers?.EndSet(transformations.Count);
         set = new(transformations.DrainToImmutable());
         return ParseChar(rest, ']', out rest);
     }
@@ -192,7 +211,7 @@ public sealed partial class FractalParser
     }
 
     /// <summary>Parses <c>#</c>, or a function with the numbers of its arguments: <c>t.4</c>, <c>u.6.10</c>, <c>r.</c></summary>
-    private bool ParseCall(Cursor cursor, out Transformation transformation, out Cursor rest)
+    private bool ParseCall(Cursor cursor, int index, out Transformation transformation, out Cursor rest)
     {
         transformation = Transformation.Identity;
         if (cursor.Current == '#')
@@ -207,7 +226,7 @@ public sealed partial class FractalParser
             return false;
         }
 
-        var function = FindFunction(cursor, name);
+        var function = Names.FindFunction(cursor, name);
         var argumentCount = 0;
         if (!ParseChar(rest, '.', out rest))
         {
@@ -222,7 +241,7 @@ public sealed partial class FractalParser
                 return false;
             }
 
-            ListArgument(name, start, rest, number, argumentCount, function);
+            Numbers?.AddArgument(name, start, rest, number, argumentCount, function, index);
             if (argumentCount < MaxParameters)
             {
                 _arguments[argumentCount] = argument;
@@ -256,4 +275,21 @@ public sealed partial class FractalParser
     }
 
     private static string ArgumentCountText(int count) => count == 1 ? "1 argument" : $"{count} arguments";
+
+    /// <summary>Requires all vectors to be declared that functions without a call use.</summary>
+    private protected void RequireVectors()
+    {
+        if (Names.Functions.FirstOrDefault(function => function.Last.VectorNumber > _vectors.Count) is { } uncalled)
+        {
+            throw VectorError(uncalled.Last.Start, "");
+        }
+    }
+
+    private protected void RequireLimit(double? count, long limit, string owner, string things, Cursor cursor)
+    {
+        if (count > limit)
+        {
+            throw Error(cursor, $"{owner} has more than the limit of {limit} {things}", isLimitExceeded: true);
+        }
+    }
 }

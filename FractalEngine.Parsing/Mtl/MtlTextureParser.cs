@@ -1,18 +1,20 @@
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Parsing.Text;
+using FractalEngine.Parsing.Text.Grammar;
 using FractalEngine.Parsing.Text.Numbers;
 
 namespace FractalEngine.Parsing.Mtl;
 
-/// <content>Parses the statements of textures: options, each with its arguments, then the name of an image file.</content>
-public sealed partial class MtlParser
+/// <summary>Parses the textures of material files: options, each with its arguments, then the name of an image file.</summary>
+/// <param name="source">Text that is parsed.</param>
+public abstract class MtlTextureParser(SourceText source) : Parser(source)
 {
-    private bool ParseTexture(Cursor statement, Cursor cursor, Func<Material, MaterialTexture, Material> update) =>
-        ParseTexture(cursor, out var texture) && UpdateMaterial(statement, material => update(material, texture));
+    /// <summary>Offset of the name of each texture. Equal textures differ by their places.</summary>
+    private protected Dictionary<MaterialTexture, int> TextureNameOffsets { get; } = new(ReferenceEqualityComparer.Instance);
 
     /// <summary>Parses a texture, and records where its name is.</summary>
-    private bool ParseTexture(Cursor cursor, out MaterialTexture texture)
+    private protected bool ParseTexture(Cursor cursor, out MaterialTexture texture)
     {
         texture = new("");
         var rest = cursor;
@@ -34,7 +36,7 @@ public sealed partial class MtlParser
         }
 
         texture = texture with { Path = file };
-        _textureNameOffsets[texture] = rest.Offset;
+        TextureNameOffsets[texture] = rest.Offset;
         return true;
     }
 
@@ -44,37 +46,21 @@ public sealed partial class MtlParser
         var length = cursor.Rest.IndexOfAny(" \t\r\n");
         var option = (length < 0 ? cursor.Rest : cursor.Rest[..length]).ToString();
         ParseBlanks(cursor.Advance(option.Length), out var arguments);
-        switch (option)
+        return option switch
         {
-            case "-clamp":
-                var isParsed = ParseOnOff(arguments, out var isOn, out rest);
-                texture = texture with { IsClamped = isOn };
-                return isParsed;
-            case "-blendu" or "-blendv" or "-cc":
-                return ParseOnOff(arguments, out _, out rest);
-            case "-s":
-                var isScaleParsed = ParseUpToThreeNumbers(arguments, Vector.One, out var scale, out rest);
-                texture = texture with { Scale = (scale.X, scale.Y) };
-                return isScaleParsed;
-            case "-o":
-                var isOffsetParsed = ParseUpToThreeNumbers(arguments, Vector.Zero, out var offset, out rest);
-                texture = texture with { Offset = (offset.X, offset.Y) };
-                return isOffsetParsed;
-            case "-t":
-                return ParseUpToThreeNumbers(arguments, Vector.Zero, out _, out rest);
-            case "-bm":
-                var isFactorParsed = ParseNumber(arguments, out var factor, out rest);
-                texture = texture with { BumpFactor = factor };
-                return isFactorParsed;
-            case "-boost" or "-texres":
-                return ParseNumber(arguments, out _, out rest);
-            case "-mm":
-                return ParseNumber(arguments, out _, out rest) && ParseBlanks(rest, out rest) && ParseNumber(rest, out _, out rest);
-            case "-imfchan" or "-type" or "-colorspace":
-                return ParseName(arguments, "a word", out _, out rest);
-            default:
-                return Fail(cursor, "an option of a texture or a file name");
-        }
+            "-clamp" => ParseOnOff(arguments, out var isOn, out rest) && Set(ref texture, texture with { IsClamped = isOn }),
+            "-blendu" or "-blendv" or "-cc" => ParseOnOff(arguments, out _, out rest),
+            "-s" => ParseUpToThreeNumbers(arguments, Vector.One, out var scale, out rest)
+                && Set(ref texture, texture with { Scale = (scale.X, scale.Y) }),
+            "-o" => ParseUpToThreeNumbers(arguments, Vector.Zero, out var offset, out rest)
+                && Set(ref texture, texture with { Offset = (offset.X, offset.Y) }),
+            "-t" => ParseUpToThreeNumbers(arguments, Vector.Zero, out _, out rest),
+            "-bm" => ParseNumber(arguments, out var factor, out rest) && Set(ref texture, texture with { BumpFactor = factor }),
+            "-boost" or "-texres" => ParseNumber(arguments, out _, out rest),
+            "-mm" => ParseNumber(arguments, out _, out rest) && ParseBlanks(rest, out rest) && ParseNumber(rest, out _, out rest),
+            "-imfchan" or "-type" or "-colorspace" => ParseName(arguments, "a word", out _, out rest),
+            _ => Fail(cursor, "an option of a texture or a file name"),
+        };
     }
 
     private bool ParseOnOff(Cursor cursor, out bool isOn, out Cursor rest)

@@ -1,18 +1,64 @@
+using System.Collections.Immutable;
+using FractalEngine.Core.Files;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Fractals.Descriptions;
+using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Parsing.Assets.References;
 using FractalEngine.Parsing.Fdo;
 using FractalEngine.Parsing.Meshes;
 using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.Parsing.Assets;
 
-/// <content>Loads meshes and fractals, each file once.</content>
-public sealed partial class AssetLoader
+/// <summary>Loads meshes and fractals, each file once unless the options say otherwise.</summary>
+internal sealed class ModelLoader
 {
-    private Model LoadReferenced(SourceText source, int offset, string file)
+    private readonly string _fullPath;
+    private readonly LoadOptions _options;
+    private readonly IProgress<LoadProgress>? _progress;
+    private readonly AssetCache? _cache;
+    private readonly FileReferenceResolver _references;
+    private readonly MaterialLoader _materials;
+    private readonly Dictionary<string, MeshContents> _meshes = [];
+
+    // By full paths, and by the names in the scene: to find a file costs more than a line of the scene.
+    private readonly Dictionary<string, Model> _models = [];
+    private readonly Dictionary<string, Diagnostic> _faults = [];
+    private long _textBytes;
+
+    /// <summary>Prepares for the models of one file.</summary>
+    /// <param name="fullPath">Full path of the file that is loaded.</param>
+    /// <param name="options">Options for loading.</param>
+    /// <param name="progress">Receives the progress of each large file.</param>
+    /// <param name="cache">What earlier loads have read; null for none.</param>
+    public ModelLoader(string fullPath, LoadOptions options, IProgress<LoadProgress>? progress, AssetCache? cache)
     {
-        if (_options.ShareModels && _namedModels.TryGetValue(file, out var named))
+        _fullPath = fullPath;
+        _options = options;
+        _progress = progress;
+        _cache = options.ShareModels ? cache : null;
+        _references = new(AssetFolder.ForFile(fullPath), options.AllowOutsideFiles, Record);
+        _materials = new(_references, Warnings, Record, _cache);
+    }
+
+    /// <summary>The files that were looked at.</summary>
+    public FileRecord Record { get; } = new();
+
+    /// <summary>Warnings about everything that was ignored. What is taken from a cache has its warnings as often as it is named.</summary>
+    public List<Diagnostic> Warnings { get; } = [];
+
+    /// <summary>Total size of all files read, each counted once, in bytes.</summary>
+    public long StorageBytes => _textBytes + _materials.StorageBytes;
+
+    /// <summary>Loads a model that a text names, each name once.</summary>
+    /// <param name="source">The text.</param>
+    /// <param name="offset">Offset of the name in the text.</param>
+    /// <param name="file">Name as written.</param>
+    /// <exception cref="SourceException">The file can't be loaded.</exception>
+    public Model LoadReferenced(SourceText source, int offset, string file)
+    {
+        if (_options.ShareModels && _models.TryGetValue(file, out var named))
         {
             return named;
         }
@@ -20,7 +66,7 @@ public sealed partial class AssetLoader
         var (fullPath, displayName) = _references.Resolve(source, offset, _fullPath, file);
         if (_options.ShareModels && _models.TryGetValue(fullPath, out var cached))
         {
-            return _namedModels[file] = cached;
+            return _models[file] = cached;
         }
 
         if (_faults.TryGetValue(fullPath, out var fault))
@@ -30,7 +76,7 @@ public sealed partial class AssetLoader
 
         try
         {
-            return _namedModels[file] = _models[fullPath] = LoadModel(fullPath, displayName, FileKinds.FromName(fullPath));
+            return _models[file] = _models[fullPath] = LoadModel(fullPath, displayName, FileKinds.FromName(fullPath));
         }
         catch (SourceException exception)
         {
@@ -40,22 +86,23 @@ public sealed partial class AssetLoader
     }
 
     /// <summary>Loads a model, or takes it from the cache if none of its files has changed.</summary>
-    private Model LoadModel(string fullPath, string displayName, FileKind? kind)
+    /// <exception cref="SourceException">The file can't be loaded.</exception>
+    public Model LoadModel(string fullPath, string displayName, FileKind? kind)
     {
         if (_cache?.FindModel(fullPath, EditedText(fullPath)) is { } cached)
         {
-            _record.AddRange(cached.Files);
-            _warnings.AddRange(cached.Warnings);
+            Record.AddRange(cached.Files);
+            Warnings.AddRange(cached.Warnings);
             _textBytes += cached.StorageBytes;
             return cached.Model;
         }
 
-        var filesBefore = _record.Position;
-        var warningsBefore = _warnings.Count;
+        var filesBefore = Record.Position;
+        var warningsBefore = Warnings.Count;
         var bytesBefore = StorageBytes;
         Model model = kind == FileKind.Fractal ? LoadFractal(fullPath, displayName) : LoadMesh(fullPath, displayName);
         _cache?.Store(fullPath, new(
-            model, _record.Since(filesBefore), [.. _warnings.Skip(warningsBefore)], StorageBytes - bytesBefore, EditedText(fullPath)));
+            model, Record.Since(filesBefore), [.. Warnings.Skip(warningsBefore)], StorageBytes - bytesBefore, EditedText(fullPath)));
         return model;
     }
 
@@ -68,7 +115,7 @@ public sealed partial class AssetLoader
     private FractalModel LoadFractal(string fullPath, string displayName)
     {
         var parsed = ReadOrFindFractal(fullPath, displayName);
-        _warnings.AddRange(parsed.Warnings);
+        Warnings.AddRange(parsed.Warnings);
         var (basePath, baseDisplayName) = _references.Resolve(parsed.Source, parsed.BaseFileNameOffset, fullPath, parsed.BaseFile);
         var description = ApplyOptions(parsed);
         var contents = ReadMesh(basePath, baseDisplayName);
@@ -100,27 +147,27 @@ public sealed partial class AssetLoader
     {
         if (_options.ShareModels && _meshes.TryGetValue(fullPath, out var cached))
         {
-            _record.AddRange(cached.Files);
+            Record.AddRange(cached.Files);
             return cached;
         }
 
-        var filesBefore = _record.Position;
+        var filesBefore = Record.Position;
         var bytesBefore = StorageBytes;
         var parsed = ReadOrFindMesh(fullPath, displayName);
         _textBytes += parsed.ByteCount;
-        _warnings.AddRange(parsed.Warnings);
+        Warnings.AddRange(parsed.Warnings);
         if (parsed.Mesh.FaceCount == 0)
         {
-            _warnings.Add(new(displayName, 1, 1, DiagnosticSeverity.Warning, "the file has no faces, so nothing of it is drawn"));
+            Warnings.Add(new(displayName, 1, 1, DiagnosticSeverity.Warning, "the file has no faces, so nothing of it is drawn"));
         }
 
         var materials = _materials.Load(parsed, fullPath);
-        return _meshes[fullPath] = new(parsed.Mesh, materials, StorageBytes - bytesBefore, _record.Since(filesBefore));
+        return _meshes[fullPath] = new(parsed.Mesh, materials, StorageBytes - bytesBefore, Record.Since(filesBefore));
     }
 
     private ParsedFractal ReadOrFindFractal(string fullPath, string displayName)
     {
-        var stamp = _record.Add(fullPath);
+        var stamp = Record.Add(fullPath);
         var bytesBefore = _textBytes;
         var parsed = EditedText(fullPath) is null ? AssetCache.ReadOrFind(_cache, fullPath, stamp, Read) : Read();
         _textBytes = bytesBefore + parsed.Source.ByteCount;
@@ -130,21 +177,33 @@ public sealed partial class AssetLoader
     }
 
     private ParsedObj ReadOrFindMesh(string fullPath, string displayName) =>
-        AssetCache.ReadOrFind(_cache, fullPath, _record.Add(fullPath), () =>
+        AssetCache.ReadOrFind(_cache, fullPath, Record.Add(fullPath), () =>
         {
             var parsed = MeshReader.Read(fullPath, displayName, _progress is null ? null : new FileProgress(displayName, _progress));
             _cache?.ReadCount += 1;
             return parsed;
         });
 
-    private SourceText ReadText(string fullPath, string displayName, long maxBytes)
+    /// <summary>Reads a text, or takes the one that the options have in its place.</summary>
+    /// <exception cref="SourceException">The file can't be read.</exception>
+    public SourceText ReadText(string fullPath, string displayName, long maxBytes)
     {
-        _record.Add(fullPath);
+        Record.Add(fullPath);
         var source = _options.Text is { } text && fullPath == _fullPath ? text
             : EditedText(fullPath) is { } edited ? new(displayName, edited)
             : SourceText.Read(fullPath, displayName, maxBytes);
         _textBytes += source.ByteCount;
         _cache?.ReadCount += 1;
         return source;
+    }
+
+    private string? EditedText(string fullPath) => _options.EditedTexts.GetValueOrDefault(fullPath);
+
+    private sealed record MeshContents(
+        Mesh Mesh, ImmutableDictionary<string, Material> Materials, long ByteCount, ImmutableDictionary<string, FileStamp> Files);
+
+    private sealed class FileProgress(string file, IProgress<LoadProgress> progress) : IProgress<double>
+    {
+        public void Report(double value) => progress.Report(new(file, value));
     }
 }

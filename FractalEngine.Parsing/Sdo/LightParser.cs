@@ -2,17 +2,18 @@ using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes.Lights;
 using FractalEngine.Parsing.Text;
-using FractalEngine.Parsing.Text.Grammar;
 
 namespace FractalEngine.Parsing.Sdo;
 
-/// <content>Parses the declarations of lights.</content>
-public sealed partial class SceneParser
+/// <summary>Parses the lights of scene files, the sun among them.</summary>
+/// <param name="source">Text that is parsed.</param>
+public abstract class LightParser(SourceText source) : SceneSettingParser(source)
 {
-    // Largest exposure, and intensity of a light: their product, and its square, stay within what the shaders compute with.
-    private const double MaxFactor = 1e9;
+    /// <summary>All lights that were declared so far.</summary>
+    private protected List<Light> Lights { get; } = [];
 
-    private bool ParseLight(Cursor cursor, out Cursor rest)
+    /// <summary>Parses a light behind the word that declares it.</summary>
+    private protected bool ParseLight(Cursor cursor, out Cursor rest)
     {
         if (ParseKeyword(cursor, "ambient", out rest))
         {
@@ -45,9 +46,22 @@ public sealed partial class SceneParser
         return false;
     }
 
+    /// <summary>Parses the sun behind its word.</summary>
+    private protected bool ParseSun(Cursor cursor, out Cursor rest)
+    {
+        const string fault = "the diameter of the sun must be at least 0 and less than 90 degrees";
+        var diameter = SunLight.DefaultDiameter;
+        return ParseDirection(cursor, out var direction, out rest) && ParseColour(rest, out var colour, out rest)
+            && ParseOptionalSeparator(rest, out rest) && ParseIntensity(rest, out var intensity, out rest)
+            && ParseOptionalSeparator(rest, out var diameterStart)
+            && (EndsAt(diameterStart)
+                || ParseNumber(diameterStart, static number => number is >= 0 and < 90, fault, out diameter, out rest))
+            && AddLight(new SunLight(direction, colour, intensity, diameter));
+    }
+
     private bool AddLight(Light light)
     {
-        _lights.Add(light);
+        Lights.Add(light);
         return true;
     }
 
@@ -69,14 +83,8 @@ public sealed partial class SceneParser
     private bool ParseColourAndIntensity(Cursor cursor, out Colour colour, out double intensity, out Cursor rest)
     {
         intensity = 1;
-        if (!ParseColour(cursor, out colour, out rest))
-        {
-            return false;
-        }
-
-        ParseOptionalSeparator(rest, out var intensityStart);
-        return IsAtEndOfLine(intensityStart) || Fail(intensityStart, SyntaxFailure.EndOfLine)
-            || ParseIntensity(intensityStart, out intensity, out rest);
+        return ParseColour(cursor, out colour, out rest) && ParseOptionalSeparator(rest, out var intensityStart)
+            && (EndsAt(intensityStart) || ParseIntensity(intensityStart, out intensity, out rest));
     }
 
     private bool ParseColourIntensityAndRange(Cursor cursor, out Colour colour, out double intensity, out double range, out Cursor rest)

@@ -1,18 +1,42 @@
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Images;
+using FractalEngine.Parsing.Assets.References;
 using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.Parsing.Assets;
 
-/// <content>Finds the files of textures, and tests that they may be decoded.</content>
-internal sealed partial class MaterialLoader
+/// <summary>Finds the files of textures, and tests that they may be decoded.</summary>
+/// <param name="references">Resolves the names of files.</param>
+/// <param name="warnings">Receives the warnings.</param>
+internal sealed class TextureFiles(FileReferenceResolver references, List<Diagnostic> warnings)
 {
-    /// <summary>Returns a texture with its full path; null if there is none. Never decoded, a missing file needs no message.</summary>
-    private MaterialTexture? FindUnshownTexture(MaterialTexture? texture, string fullPath) =>
-        texture is not null && references.FindForeign(fullPath, texture.Path) is { } path ? texture with { Path = path } : null;
+    // Beyond so many missing textures, one more message helps nobody.
+    private const int MaxTextureWarnings = 20;
 
-    /// <summary>Returns the full path of an image, or null, with a warning about the consequence, if it can't be used.</summary>
-    private string? FindTextureFile(SourceText source, int offset, string referrer, string file, string consequence)
+    // Whether each image file that was tested is usable.
+    private readonly Dictionary<string, bool> _textureFiles = [];
+    private readonly HashSet<(string Referrer, string File)> _reportedTextures = [];
+    private long _totalPixels;
+    private int _textureWarningCount;
+
+    /// <summary>Total size of the images found so far, each counted once, in bytes.</summary>
+    public long StorageBytes { get; private set; }
+
+    /// <summary>Returns a texture with the full path of its image; null, with a warning of the consequence, if it can't be used.</summary>
+    /// <param name="source">Text that names the image.</param>
+    /// <param name="offset">Offset of the name.</param>
+    /// <param name="referrer">Full path of the file with that text.</param>
+    /// <param name="texture">Texture with the name as written.</param>
+    /// <param name="consequence">What happens without it; null for an image that is never decoded, which needs no message.</param>
+    public MaterialTexture? Find(SourceText source, int offset, string referrer, MaterialTexture texture, string? consequence)
+    {
+        var path = consequence is null
+            ? references.FindForeign(referrer, texture.Path)
+            : FindUsable(source, offset, referrer, texture.Path, consequence);
+        return path is null ? null : texture with { Path = path };
+    }
+
+    private string? FindUsable(SourceText source, int offset, string referrer, string file, string consequence)
     {
         if (_textureWarningCount >= MaxTextureWarnings && references.FindForeign(referrer, file) is null)
         {
@@ -37,7 +61,8 @@ internal sealed partial class MaterialLoader
             if (_reportedTextures.Add((source.FileName, file)) && ++_textureWarningCount <= MaxTextureWarnings)
             {
                 var suffix = _textureWarningCount < MaxTextureWarnings ? "" : "; further unusable textures are not reported";
-                Warn(fault.Diagnostic with { Message = $"{fault.Diagnostic.Message}: {consequence}{suffix}" });
+                var message = $"{fault.Diagnostic.Message}: {consequence}{suffix}";
+                warnings.Add(fault.Diagnostic with { Severity = DiagnosticSeverity.Warning, Message = message });
             }
 
             return null;

@@ -1,0 +1,84 @@
+using FractalEngine.Core;
+using FractalEngine.Parsing.Text;
+
+namespace FractalEngine.Parsing.Fdo;
+
+/// <summary>The names that a fractal file has declared so far. An object and a transformation may have the same name.</summary>
+/// <param name="source">Text of the file.</param>
+internal sealed class DeclaredNames(SourceText source)
+{
+    private readonly Dictionary<string, (TransformationFunction Value, int Offset)> _functions = [];
+    private readonly Dictionary<string, (DeclaredObject Value, int Offset)> _objects = [];
+
+    /// <summary>The transformations, in the order of the file.</summary>
+    public IEnumerable<TransformationFunction> Functions => _functions.Values.Select(static declared => declared.Value);
+
+    /// <summary>Adds an object under its name.</summary>
+    /// <exception cref="SourceException">Another one has the name, or there are too many.</exception>
+    public void Add(Cursor cursor, string name, DeclaredObject value) => Add(_objects, "object", cursor, name, value);
+
+    /// <summary>Adds a transformation under its name.</summary>
+    /// <exception cref="SourceException">Another one has the name, or there are too many.</exception>
+    public void Add(Cursor cursor, string name, TransformationFunction function) =>
+        Add(_functions, "transformation", cursor, name, function);
+
+    /// <summary>Returns the object with a name.</summary>
+    /// <exception cref="SourceException">There is none above the cursor: the message proposes another name.</exception>
+    public DeclaredObject FindObject(Cursor cursor, string name) =>
+        _objects.TryGetValue(name, out var declared) ? declared.Value
+        : throw source.Error(cursor.Offset, $"the object '{name}' is not declared above{AskAboutObject(name)}");
+
+    /// <summary>Returns the transformation with a name.</summary>
+    /// <exception cref="SourceException">There is none above the cursor: the message proposes another name.</exception>
+    public TransformationFunction FindFunction(Cursor cursor, string name) =>
+        _functions.TryGetValue(name, out var declared) ? declared.Value
+        : throw source.Error(cursor.Offset, $"the transformation '{name}' is not declared above{AskAboutFunction(name)}");
+
+    private void Add<T>(Dictionary<string, (T Value, int Offset)> names, string kind, Cursor cursor, string name, T value)
+    {
+        if (_objects.Count + _functions.Count >= ParsingLimits.MaxNames)
+        {
+            throw source.Error(
+                cursor.Offset, $"the file has more than the limit of {ParsingLimits.MaxNames} names", isLimitExceeded: true);
+        }
+
+        if (!names.TryAdd(name, (value, cursor.Offset)))
+        {
+            throw source.Error(
+                cursor.Offset, $"the {kind} '{name}' is declared twice, first in line {source.LineOf(names[name].Offset)}");
+        }
+    }
+
+    private string AskAboutObject(string name)
+    {
+        if (_functions.ContainsKey(name))
+        {
+            return $": '{name}' is a transformation, and its calls stand in brackets";
+        }
+
+        var (stem, digits) = SplitDigits(name);
+        return digits.Length > 0 && _objects.GetValueOrDefault(stem).Value is DeclaredRecursive
+            ? $": did you mean '{stem} {digits}'?"
+            : NameSuggestion.Ask(name, _objects.Keys);
+    }
+
+    private string AskAboutFunction(string name)
+    {
+        if (_objects.ContainsKey(name))
+        {
+            return $": '{name}' is an object, and a set ends with ']' before it";
+        }
+
+        var (stem, digits) = SplitDigits(name);
+        return digits.Length > 0 && _functions.ContainsKey(stem)
+            ? $": did you mean '{stem}.{digits}'?"
+            : NameSuggestion.Ask(name, _functions.Keys);
+    }
+
+    /// <summary>Splits a name such as <c>t12</c> into its stem and the digits at its end.</summary>
+    private static (string Stem, string Digits) SplitDigits(string name)
+    {
+        var stem = name.TrimEnd(['0', '1', '2', '3', '4', '5', '6', '7', '8', '9']);
+        return (stem, name[stem.Length..]);
+    }
+}

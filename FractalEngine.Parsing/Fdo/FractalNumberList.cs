@@ -1,0 +1,89 @@
+using System.Collections.Immutable;
+using FractalEngine.Parsing.Text;
+using FractalEngine.Parsing.Text.Numbers;
+
+namespace FractalEngine.Parsing.Fdo;
+
+/// <summary>Lists the numbers of a fractal file with their places, for programs that turn them.</summary>
+internal sealed class FractalNumberList
+{
+    private readonly List<(FractalNumber Number, int Vector)> _numbers = [];
+    private readonly Dictionary<int, FractalNumberRole> _vectorRoles = [];
+    private int _callCount;
+    private int _setCount;
+
+    /// <summary>Returns the numbers of a file that was parsed whole: only then it is known what its vectors mean.</summary>
+    public ImmutableArray<FractalNumber> Complete() =>
+    [
+        .. _numbers.Select(listed => listed.Number.Role != FractalNumberRole.Vector ? listed.Number
+            : listed.Number with { Role = _vectorRoles.GetValueOrDefault(listed.Vector, FractalNumberRole.Vector) }),
+    ];
+
+    /// <summary>Lists the components of a vector.</summary>
+    /// <param name="vector">Number of the vector, from 1.</param>
+    /// <param name="start">Position of its first number.</param>
+    /// <param name="end">Position behind its last.</param>
+    public void AddVector(int vector, Cursor start, Cursor end)
+    {
+        for (var component = 0; component < 3; component++)
+        {
+            while (start.Current is ' ' or '\t' or ',')
+            {
+                start = start.Advance(1);
+            }
+
+            NumberReader.TryRead(start.Rest[..(end.Offset - start.Offset)], out var value, out var length);
+            var name = FormattableString.Invariant($"v{vector}");
+            _numbers.Add((new(FractalNumberRole.Vector, name, component, start.Offset, length, value), vector));
+            start = start.Advance(length);
+        }
+    }
+
+    /// <summary>Lists the depth of a recursive.</summary>
+    public void AddDepth(string name, Cursor start, Cursor end, int depth) =>
+        _numbers.Add((new(FractalNumberRole.Depth, name, 0, start.Offset, end.Offset - start.Offset, depth), 0));
+
+    /// <summary>Lists an argument of a call, and records what its vector means by what the function makes of it.</summary>
+    /// <param name="name">Name of the function.</param>
+    /// <param name="start">Position of the argument.</param>
+    /// <param name="end">Position behind it.</param>
+    /// <param name="vector">The argument: the number of a vector.</param>
+    /// <param name="index">Number of arguments before it.</param>
+    /// <param name="function">The function, which has too few parameters where the call is wrong.</param>
+    /// <param name="callIndex">Number of entries before the call in its set.</param>
+    public void AddArgument(string name, Cursor start, Cursor end, int vector, int index, TransformationFunction function, int callIndex)
+    {
+        if (index >= function.ParameterCount)
+        {
+            return;
+        }
+
+        _callCount += index == 0 ? 1 : 0;
+        var callName = FormattableString.Invariant($"{name} {_callCount}");
+        var number = new FractalNumber(FractalNumberRole.Argument, callName, index, start.Offset, end.Offset - start.Offset, vector);
+        _numbers.Add((number with { Call = (_setCount, callIndex, 0) }, vector));
+        foreach (var (output, role) in function.Outputs)
+        {
+            if (output.Parameter == index)
+            {
+                AddRole(vector, role);
+            }
+        }
+    }
+
+    /// <summary>Completes what is listed of the arguments of a set.</summary>
+    /// <param name="size">Number of entries of the set.</param>
+    public void EndSet(int size)
+    {
+        for (var i = _numbers.Count - 1; i >= 0 && _numbers[i].Number.Call is { SetSize: 0 } call; i--)
+        {
+            _numbers[i] = _numbers[i] with { Number = _numbers[i].Number with { Call = call with { SetSize = size } } };
+        }
+
+        _setCount++;
+    }
+
+    /// <summary>Records what a vector means that a function uses itself.</summary>
+    public void AddRole(int vector, FractalNumberRole role) =>
+        _vectorRoles[vector] = _vectorRoles.TryGetValue(vector, out var known) && known != role ? FractalNumberRole.Vector : role;
+}
