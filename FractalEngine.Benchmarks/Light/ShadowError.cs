@@ -126,7 +126,7 @@ internal sealed class ShadowError
         var direction = _view.Camera.LocalAxes * new Vector(right, up, 1);
         var footprint = new RayFootprint(0, FootprintPixels * 2 * halfHeight / _height / direction.Length());
         var ray = new Ray(_view.Camera.Position, direction.UnitVector());
-        return _caster.TryFindNearest(ray, context, out var hit, out _, 0, double.PositiveInfinity, footprint)
+        return _caster.TryFindNearest(ray, context, out var hit, 0, double.PositiveInfinity, footprint)
             ? (hit, footprint.RadiusAt((hit.Point - ray.Origin).Length()))
             : null;
     }
