@@ -71,7 +71,8 @@ public sealed class NullArgumentTests : IDisposable
     private static IEnumerable<MethodBase> Members() =>
         from type in new[] { typeof(Fractal).Assembly, typeof(AssetLoader).Assembly, typeof(View).Assembly }
             .SelectMany(assembly => assembly.GetExportedTypes())
-        where !type.ContainsGenericParameters && !type.IsSubclassOf(typeof(Delegate)) && !type.IsSubclassOf(typeof(Exception))
+        where !type.IsSpecialName && !type.ContainsGenericParameters
+            && !type.IsSubclassOf(typeof(Delegate)) && !type.IsSubclassOf(typeof(Exception))
         from member in type.GetMembers(BindingFlags.Public | BindingFlags.Instance | BindingFlags.Static | BindingFlags.DeclaredOnly)
             .OfType<MethodBase>()
         where !member.ContainsGenericParameters && !member.IsSpecialName | member.IsConstructor && !member.IsAbstract

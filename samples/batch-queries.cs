@@ -5,7 +5,7 @@ using FractalEngine.Core.Colliders;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Generation;
 using FractalEngine.Core.Maths;
-using FractalEngine.Core.SceneQueries;
+using FractalEngine.Core.Queries;
 
 var tetrahedron = Shapes.Tetrahedron();
 var maps = Enumerable.Range(0, 4).Select(vertex => Transformation.At(0.5 * tetrahedron.Vertex(vertex), scale: 0.5));
@@ -15,10 +15,12 @@ const int Side = 100;
 var grid = (from y in Enumerable.Range(0, Side)
             from x in Enumerable.Range(0, Side)
             select (new Vector(x, y, 0.6 * Side) / (0.5 * Side)) - Vector.One).ToArray();
-var results = BatchQuery.FindClosest(Collider.For(fractal), grid);
+var collider = Collider.For(fractal);
+var totals = new QueryContext();
+var hits = BatchQuery.Run(grid, (position, context) => collider.FindClosest(position, context), totals);
 
-Console.WriteLine(FormattableString.Invariant($"{results.Length} distances, mean {results.Average(result => result.Closest.Distance):F9}"));
-Console.WriteLine(FormattableString.Invariant($"{results.Average(result => result.FaceTests):F2} faces tested a query"));
+Console.WriteLine(FormattableString.Invariant($"{hits.Length} distances, mean {hits.Average(hit => hit.Distance):F9}"));
+Console.WriteLine(FormattableString.Invariant($"{(double)totals.Statistics.FaceTests / hits.Length:F2} faces tested a query"));
 
 // Output:
 // 10000 distances, mean 0.308090126

@@ -1,6 +1,7 @@
 #:project ../FractalEngine.Parsing/FractalEngine.Parsing.csproj
 #:property PublishAot=false
 // Loads a scene with all its files, lists its objects, and finds the one closest to the camera. Run from the folder of README.md.
+using FractalEngine.Core.Colliders;
 using FractalEngine.Core.SceneQueries;
 using FractalEngine.Core.Views;
 using FractalEngine.Parsing.Assets;
@@ -14,7 +15,7 @@ foreach (var placed in file.Scene.Objects)
 }
 
 var camera = file.Scene.Scene.Camera ?? CameraFraming.Default(file.Scene.Scene);
-var hit = new SceneCollider(file.Scene).FindClosest(camera.Position);
+var hit = Collider.For(file.Scene).FindClosest(camera.Position);
 var closest = file.Scene.Objects[hit.ObjectIndex].Declaration;
 Console.WriteLine(FormattableString.Invariant($"closest to the camera: {closest.DisplayName}, {hit.Distance:F9} away"));
 

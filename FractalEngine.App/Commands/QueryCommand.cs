@@ -92,9 +92,8 @@ internal static class QueryCommand
         var collider = BuildCollider(file, kind);
         var buildTime = clock.Elapsed;
         clock.Restart();
-        var results = new BatchResult[points.Length];
         var context = new QueryContext();
-        BatchQuery.FindClosest(collider, points.AsMemory(), results, context, maxDistance, epsilon);
+        var results = BatchQuery.Run(points, Find, context);
         WriteReport(file, collider, points.Length, context, buildTime, clock.Elapsed);
         if (kind == ColliderKind.Exact && epsilon == 0 && !format.ErrorBound && results.Count(IsUncertain) is > 0 and var count)
         {
@@ -107,9 +106,16 @@ internal static class QueryCommand
             result => result.IsFound ? FormatLine(result.Closest, result.FaceTests, format.ErrorBound) : "none",
             result => result.IsFound ? FormatJson(result.Closest, result.FaceTests, result.ObjectIndex, format.ErrorBound) : "null"));
         return ExitCode.Done;
+
+        PointResult Find(Vector position, QueryContext pointContext)
+        {
+            var faceTests = pointContext.Statistics.FaceTests;
+            var isFound = collider.TryFindClosest(position, maxDistance, pointContext, out var closest, epsilon);
+            return new(isFound, closest, pointContext.Statistics.FaceTests - faceTests, pointContext.ObjectIndex);
+        }
     }
 
-    private static bool IsUncertain(BatchResult result) => result.IsFound
+    private static bool IsUncertain(PointResult result) => result.IsFound
         && result.Closest.ErrorBound > MaxCertainError * (result.Closest.Distance + result.Closest.Point.MaxAbsComponent());
 
     /// <exception cref="FractalEngineException">The scene reaches beyond a limit.</exception>
@@ -187,6 +193,13 @@ internal static class QueryCommand
             WriteReportLine($"bound tests {(double)context.Statistics.BoundTests / queryCount:F2} a query");
         }
     }
+
+    /// <summary>What is found for one position.</summary>
+    /// <param name="IsFound">False when nothing lies within the distance; then the point means nothing.</param>
+    /// <param name="Closest">The closest point.</param>
+    /// <param name="FaceTests">Number of faces tested for this position.</param>
+    /// <param name="ObjectIndex">Index of the object in the scene.</param>
+    private readonly record struct PointResult(bool IsFound, ClosestPoint Closest, long FaceTests, int ObjectIndex);
 
     /// <summary>How results are printed.</summary>
     /// <param name="Json">True for a JSON array, false for lines.</param>

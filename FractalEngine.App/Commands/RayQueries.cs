@@ -31,7 +31,7 @@ internal static class RayQueries
         var clock = Stopwatch.StartNew();
         var caster = new SceneRayCaster(file.Scene);
         var context = new QueryContext();
-        var results = RayBatch.FindNearest(caster, rays.AsMemory(), context);
+        var results = BatchQuery.Run(rays, (ray, rayContext) => caster.FindNearest(ray, rayContext), context);
         if (rays.Length > 0)
         {
             WriteReportLine($"rays {rays.Length / clock.Elapsed.TotalSeconds:F0} a second");
@@ -40,22 +40,18 @@ internal static class RayQueries
         }
 
         Console.Out.Write(FormatResults(
-            results, json, header ? "distance x y z nx ny nz face\n" : "", static result => result.IsHit ? FormatLine(result.Hit) : "none",
-            static result => result.IsHit ? FormatJson(result) : "null"));
+            results, json, header ? "distance x y z nx ny nz face\n" : "", static result => result is { } hit ? FormatLine(hit) : "none",
+            static result => result is { } hit ? FormatJson(hit) : "null"));
         return ExitCode.Done;
     }
 
     private static string FormatLine(RayHit hit) => string.Create(
         CultureInfo.InvariantCulture, $"{hit.Distance:R} {FormatVector(hit.Point, " ")} {FormatVector(hit.Normal, " ")} {hit.FaceIndex}");
 
-    private static string FormatJson(RayResult result)
-    {
-        var (objectIndex, hit, path) = result;
-        return string.Create(
-            CultureInfo.InvariantCulture,
-            $"{{\"distance\": {hit.Distance:R}, \"point\": [{FormatVector(hit.Point, ", ")}], "
-            + $"\"normal\": [{FormatVector(hit.Normal, ", ")}], \"front\": {(hit.IsFrontFace ? "true" : "false")}, "
-            + $"\"face\": {hit.FaceIndex}, \"barycentrics\": [{FormatVector(hit.Barycentrics, ", ")}], \"object\": {objectIndex}, "
-            + $"\"instance\": [{string.Join(", ", path)}]}}");
-    }
+    private static string FormatJson(RayHit hit) => string.Create(
+        CultureInfo.InvariantCulture,
+        $"{{\"distance\": {hit.Distance:R}, \"point\": [{FormatVector(hit.Point, ", ")}], "
+        + $"\"normal\": [{FormatVector(hit.Normal, ", ")}], \"front\": {(hit.IsFrontFace ? "true" : "false")}, "
+        + $"\"face\": {hit.FaceIndex}, \"barycentrics\": [{FormatVector(hit.Barycentrics, ", ")}], \"object\": {hit.ObjectIndex}, "
+        + $"\"instance\": [{string.Join(", ", hit.InstancePath)}]}}");
 }

@@ -111,7 +111,7 @@ internal static class GrowthByObjects
         {
             foreach (var position in positions)
             {
-                _collider.TryFindClosest(position, double.PositiveInfinity, _context, out _, out _);
+                _collider.TryFindClosest(position, double.PositiveInfinity, _context, out _);
             }
         }
 

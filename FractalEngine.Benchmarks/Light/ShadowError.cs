@@ -5,7 +5,6 @@ using FractalEngine.Core.Queries;
 using FractalEngine.Core.Rays;
 using FractalEngine.Core.SceneQueries;
 using FractalEngine.Core.Scenes;
-using FractalEngine.Core.Scenes.Lights;
 using FractalEngine.Render;
 using FractalEngine.Render.Views;
 
@@ -58,7 +57,7 @@ internal sealed class ShadowError
         settings = settings with { Samples = 0, AmbientOcclusion = false };
         using var renderer = Renderer.Offscreen(_width, _height, settings);
         using var plainRenderer = Renderer.Offscreen(_width, _height, settings with { Shadows = false });
-        foreach (var light in _scene.Scene.Lights.Where(light => light is not AmbientLight && light.Intensity > 0))
+        foreach (var light in _scene.Scene.Lights.Where(light => light.ToEmitter() is not null && light.Intensity > 0))
         {
             var scene = LitBy(light);
             var (lightFacing, lightWrong) = Count(light, renderer.Draw(scene, _view), plainRenderer.Draw(scene, _view));
@@ -73,7 +72,7 @@ internal sealed class ShadowError
     {
         Scene = _scene.Scene with
         {
-            Lights = [light with { Colour = Colour.White, Intensity = light is PointLight ? light.Intensity : 1 }],
+            Lights = [light with { Colour = Colour.White, Intensity = light.ToEmitter()!.Position is null ? 1 : light.Intensity }],
             Sky = null,
             Fog = null,
             Tone = Tone.None,
@@ -126,7 +125,7 @@ internal sealed class ShadowError
         var direction = _view.Camera.LocalAxes * new Vector(right, up, 1);
         var footprint = new RayFootprint(0, FootprintPixels * 2 * halfHeight / _height / direction.Length());
         var ray = new Ray(_view.Camera.Position, direction.UnitVector());
-        return _caster.TryFindNearest(ray, context, out var hit, out _, 0, double.PositiveInfinity, footprint)
+        return _caster.TryFindNearest(ray, context, out var hit, 0, double.PositiveInfinity, footprint)
             ? (hit, footprint.RadiusAt((hit.Point - ray.Origin).Length()))
             : null;
     }
@@ -136,13 +135,12 @@ internal sealed class ShadowError
     {
         var normal = hit.IsFrontFace ? hit.Normal : -hit.Normal;
         var origin = hit.Point + (SurfaceOffset * _scene.Bounds.Diagonal * normal);
-        var toLight = light is DirectionalLight directional ? -directional.Direction : ((PointLight)light).Position - origin;
+        light.ToEmitter()!.Incoming(origin, out var toLight, out var distance);
         if (!(Vector.Dot(normal, toLight) > 0))
         {
             return null;
         }
 
-        var distance = light is DirectionalLight ? double.PositiveInfinity : toLight.Length();
-        return !_caster.HitsAny(new(origin, toLight.UnitVector()), context, 0, distance, new(radius, ShadowSpread));
+        return !_caster.HitsAny(new(origin, toLight), context, 0, distance, new(radius, ShadowSpread));
     }
 }

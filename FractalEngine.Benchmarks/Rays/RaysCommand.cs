@@ -75,9 +75,10 @@ internal static class RaysCommand
     private static double MeasureScaling(Fractal fractal, Ray[] rays, int rounds)
     {
         var scene = new SceneRayCaster(LoadedScene.Of(new Scene { Objects = [new SceneObject(fractal)] }));
-        var seconds = InterleavedTiming.MeasureBestSeconds(
-            [() => RayBatch.FindNearest(scene, rays, threads: 1), () => RayBatch.FindNearest(scene, rays)], rounds);
+        var seconds = InterleavedTiming.MeasureBestSeconds([() => FindAll(1), () => FindAll(null)], rounds);
         return seconds[0] / seconds[1];
+
+        void FindAll(int? threads) => BatchQuery.Run(rays, (ray, context) => scene.FindNearest(ray, context), threads: threads);
     }
 
     private static Action[] Actions(RayCaster caster, RaySets sets)

@@ -12,8 +12,8 @@ using FractalEngine.Core.Queries.Regions;
 namespace FractalEngine.Core.Colliders;
 
 /// <summary>
-/// Finds the point of a shape closest to a position (paper §4.4.2–4.4.3). Immutable: any number of threads may query at once, each with a
-/// context of its own. Queries with a context allocate nothing, see <see cref="QueryContext"/>.
+/// Finds the point of a mesh, a fractal or a scene closest to a position (paper §4.4.2–4.4.3), and what lies near it. Immutable: any number
+/// of threads may query at once, each with a context of its own. Queries with a context allocate nothing, see <see cref="QueryContext"/>.
 /// </summary>
 public abstract class Collider
 {
@@ -25,6 +25,9 @@ public abstract class Collider
 
     /// <summary>Bytes that the collider keeps beside the mesh or the fractal it was made from.</summary>
     public abstract long StorageBytes { get; }
+
+    /// <summary>What messages call the shape.</summary>
+    private protected virtual string Noun => "shape";
 
     /// <summary>True when <see cref="FindClosestTransformed"/> works.</summary>
     internal virtual bool SupportsTransformedQueries => false;
@@ -53,38 +56,34 @@ public abstract class Collider
     }
 
     /// <summary>Finds the point of the shape closest to a position.</summary>
-    /// <param name="position">In the shape's frame, scene units, finite.</param>
-    /// <returns>The closest point with its normal, face and instance.</returns>
+    /// <param name="position">In the shape's frame, or in world space; scene units, finite.</param>
+    /// <param name="context">Receives the costs; null where they don't matter.</param>
+    /// <returns>The closest point with its normal, face, instance and object.</returns>
     /// <exception cref="ArgumentOutOfRangeException">The position is not finite.</exception>
     /// <exception cref="InvalidOperationException">The shape has no faces.</exception>
     /// <exception cref="FractalLimitException">The distance, or a coordinate, is beyond the range of a double.</exception>
     /// <remarks>Allocates its result only. Many positions at once: <c>BatchQuery</c>.</remarks>
-    public ClosestHit FindClosest(Vector position) => TryFindClosest(position, double.PositiveInfinity, out var hit)
-        ? hit
-        : throw new InvalidOperationException(
-            $"no point of the shape is closest to {position}: it has no faces");
+    public ClosestHit FindClosest(Vector position, QueryContext? context = null) =>
+        TryFindWhole(position, double.PositiveInfinity, context, out var hit)
+            ? hit
+            : throw new InvalidOperationException($"no point of the {Noun} is closest to {position}: it has no faces");
 
     /// <summary>Finds the point of the shape closest to a position, if one is near enough.</summary>
-    /// <param name="position">In the shape's frame, scene units, finite.</param>
+    /// <param name="position">In the shape's frame, or in world space; scene units, finite.</param>
     /// <param name="maxDistance">Search radius, scene units, not negative; may be infinite.</param>
-    /// <param name="hit">The closest point with its normal, face and instance; null where there is none.</param>
+    /// <param name="hit">The closest point with its normal, face, instance and object; null where there is none.</param>
     /// <returns>False when no face lies within the radius.</returns>
     /// <exception cref="ArgumentOutOfRangeException">The position is not finite, or the radius is negative or NaN.</exception>
     /// <exception cref="FractalLimitException">
     /// The distance is beyond the range of a double, or a coordinate beyond that of a collider that is not exact, 1e40.
     /// </exception>
-    public bool TryFindClosest(Vector position, double maxDistance, [NotNullWhen(true)] out ClosestHit? hit)
-    {
-        var context = _spareContext.Take();
-        hit = TryFindClosest(position, maxDistance, context, out var closest) ? ClosestHit.Of(closest, context) : null;
-        _spareContext.Return(context);
-        return hit is not null;
-    }
+    public bool TryFindClosest(Vector position, double maxDistance, [NotNullWhen(true)] out ClosestHit? hit) =>
+        TryFindWhole(position, maxDistance, null, out hit);
 
     /// <summary>Finds the point of the shape closest to a position, and adds up what that costs.</summary>
     /// <param name="position">In the shape's frame, scene units, finite.</param>
     /// <param name="maxDistance">Search radius, scene units, not negative; may be infinite.</param>
-    /// <param name="context">Receives the costs and the instance; one for each thread.</param>
+    /// <param name="context">Receives the costs, the instance and the object; one for each thread.</param>
     /// <param name="closest">The closest point, if there is one.</param>
     /// <param name="epsilon">
     /// How much farther than the closest point the result may be: at most by the factor 1 + ε. Colliders that gain no speed by it answer
@@ -99,8 +98,10 @@ public abstract class Collider
     {
         ArgumentNullException.ThrowIfNull(context);
         ThrowIfInvalid(position, maxDistance, epsilon);
+        context.ObjectIndex = 0;
         if (!FindClosestCore(position, maxDistance, epsilon, context, out closest))
         {
+            context.ObjectIndex = -1;
             return false;
         }
 
@@ -132,7 +133,10 @@ public abstract class Collider
     {
         ThrowIfInvalid(position, radius, 0);
         ArgumentOutOfRangeException.ThrowIfNegative(maxFaces);
-        return RegionQuery.FindAllWithin(ShapeTree, position, radius, maxFaces, context ?? new());
+        var hits = new List<ClosestHit>();
+        CollectAllWithin(position, radius, maxFaces, context ?? new(), hits);
+        hits.Sort(RegionQuery.CompareHits);
+        return [.. hits];
     }
 
     /// <summary>Tells whether a face meets a closed ball.</summary>
@@ -140,7 +144,7 @@ public abstract class Collider
     /// <param name="radius">Scene units, not negative; may be infinite.</param>
     /// <param name="context">Receives the costs; null where they don't matter.</param>
     /// <returns>
-    /// True when the closest distance is at most the radius, as <see cref="FindClosest(Vector)"/> finds it. The inside of a closed shape
+    /// True when the closest distance is at most the radius, as <see cref="FindClosest"/> finds it. The inside of a closed shape
     /// has no faces.
     /// </returns>
     /// <exception cref="ArgumentOutOfRangeException">The centre is not finite, or the radius is negative or NaN.</exception>
@@ -149,7 +153,7 @@ public abstract class Collider
     public bool Overlaps(Vector centre, double radius, QueryContext? context = null)
     {
         ThrowIfInvalid(centre, radius, 0);
-        return !ShapeTree.IsEmpty && (double.IsPositiveInfinity(radius) || TryFindClosest(centre, radius, context ?? new(), out _));
+        return OverlapsCore(centre, radius, context ?? new());
     }
 
     /// <summary>Tells whether a face meets a closed box.</summary>
@@ -171,9 +175,7 @@ public abstract class Collider
             throw new ArgumentOutOfRangeException(nameof(box), box, "expected finite corners");
         }
 
-        // Colliders that are not exact refuse empty boxes, too.
-        var tree = ShapeTree;
-        return !isEmpty && RegionQuery.Overlaps(tree, box, context ?? new());
+        return OverlapsCore(box, context ?? new());
     }
 
     /// <summary>Finds the closest points of this shape and another one.</summary>
@@ -207,6 +209,19 @@ public abstract class Collider
     internal ClosestPair FindClosestPair(AffineMap placement, Collider other, AffineMap placementOfOther, QueryContext? context) =>
         ClosestPairSearch.Run(ShapeTree, placement, other.ShapeTree, placementOfOther, (context ?? new()).Statistics);
 
+    /// <summary>Adds all faces within a distance of a position, in any order.</summary>
+    private protected virtual void CollectAllWithin(
+        Vector position, double radius, int maxFaces, QueryContext context, List<ClosestHit> hits) =>
+        RegionQuery.CollectAllWithin(ShapeTree, AffineMap.Identity, 0, position, radius, maxFaces, context, hits);
+
+    /// <summary>Tells whether a face meets a closed ball.</summary>
+    private protected virtual bool OverlapsCore(Vector centre, double radius, QueryContext context) =>
+        !ShapeTree.IsEmpty && (double.IsPositiveInfinity(radius) || TryFindClosest(centre, radius, context, out _));
+
+    /// <summary>Tells whether a face meets a closed box, which may be empty.</summary>
+    private protected virtual bool OverlapsCore(BoundingBox box, QueryContext context) =>
+        RegionQuery.Overlaps(ShapeTree, AffineMap.Identity, box, context);
+
     /// <summary>The shape as a tree of nodes, made by the first who asks.</summary>
     /// <exception cref="NotSupportedException">The collider is not exact.</exception>
     internal ShapeTree ShapeTree => _shapeTree ??= CreateShapeTree();
@@ -217,7 +232,7 @@ public abstract class Collider
         $"{GetType().Name} finds closest points of positions only: expected an exact collider of a mesh or a fractal");
 
     /// <summary>Adds what holds for every collider to the error bound of a result.</summary>
-    internal double CompleteErrorBound(Vector position, in ClosestPoint closest, double epsilon)
+    internal virtual double CompleteErrorBound(Vector position, in ClosestPoint closest, double epsilon)
     {
         if (!IsExact)
         {
@@ -251,6 +266,15 @@ public abstract class Collider
     /// that are not exact refuse coordinates beyond 1e40.
     /// </summary>
     public const double MaxCoordinate = 1e150;
+
+    private bool TryFindWhole(
+        Vector position, double maxDistance, QueryContext? context, [NotNullWhen(true)] out ClosestHit? hit)
+    {
+        var lent = _spareContext.Take(context);
+        hit = TryFindClosest(position, maxDistance, lent, out var closest) ? ClosestHit.Of(closest, lent) : null;
+        _spareContext.Return(lent, context);
+        return hit is not null;
+    }
 
     /// <summary>Throws when a query's arguments are not allowed.</summary>
     /// <remarks>The last two parameters are the names of the caller's arguments, which the exception states.</remarks>

@@ -44,6 +44,9 @@ public sealed class DeepZoomRayCaster : InstanceRayCaster
         Roots = roots;
     }
 
+    /// <inheritdoc/>
+    public override long StorageBytes => _whole.StorageBytes;
+
     /// <summary>The sub-fractals that rays are cast at.</summary>
     public ImmutableArray<LodRoot> Roots { get; }
 

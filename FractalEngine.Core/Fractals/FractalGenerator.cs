@@ -23,7 +23,7 @@ public static class FractalGenerator
     /// Two instances are the same when their images of the base mesh differ by rounding only (see <see cref="DistinctMaps"/>); the first in
     /// the order of the file is kept. Time and memory are proportional to the instances, 120 bytes each.
     /// </remarks>
-    public static ImmutableArray<AffineMap> Expand(Fractal fractal, long maxInstances)
+    public static ImmutableArray<AffineMap> Expand(this Fractal fractal, long maxInstances)
     {
         ArgumentNullException.ThrowIfNull(fractal);
         if (FractalSteps.HasAtMostInstances(fractal.Description.Steps, 0))
@@ -57,7 +57,7 @@ public static class FractalGenerator
     /// Time is proportional to the distinct instances of all levels times the maps of a level, whatever the number of chains:
     /// <see cref="FractalLimits.MaxComparedProducts"/> at most.
     /// </remarks>
-    public static ImmutableArray<AffineMap> ExpandDistinct(Fractal fractal, long maxInstances)
+    public static ImmutableArray<AffineMap> ExpandDistinct(this Fractal fractal, long maxInstances)
     {
         if (fractal.Description.Composition == Composition.Componentwise
             || FractalSteps.HasAtMostInstances(fractal.Description.Steps, maxInstances)
@@ -156,7 +156,7 @@ public static class FractalGenerator
     /// The fractal has more faces, or more vertices or faces than an array holds. Nothing is expanded then.
     /// </exception>
     /// <remarks>Mirrored instances are inside out: the normal of a face is that of its image.</remarks>
-    public static Mesh Flatten(Fractal fractal, long maxFaces)
+    public static Mesh Flatten(this Fractal fractal, long maxFaces)
     {
         ArgumentNullException.ThrowIfNull(fractal);
         return Flatten(fractal.BaseMesh, Expand(fractal, Math.Min(
@@ -170,7 +170,7 @@ public static class FractalGenerator
     /// <exception cref="FractalLimitException">
     /// There are more vertices or faces than an array holds, or a vertex is beyond the range of a double.
     /// </exception>
-    public static Mesh Flatten(Mesh mesh, ImmutableArray<AffineMap> instances)
+    public static Mesh Flatten(this Mesh mesh, ImmutableArray<AffineMap> instances)
     {
         if ((long)instances.Length * Math.Max(mesh.Positions.Length, mesh.VertexIndices.Length) > Array.MaxLength)
         {
@@ -213,7 +213,7 @@ public static class FractalGenerator
     /// </param>
     /// <remarks>Since this composition commutes, the number of sums grows like a power of the depth only.</remarks>
     /// <exception cref="FractalLimitException">There are more than <paramref name="maxInstances"/>, or the fractal is infinite.</exception>
-    public static ImmutableArray<Transformation> ExpandComponentwise(Fractal fractal, long maxInstances) =>
+    public static ImmutableArray<Transformation> ExpandComponentwise(this Fractal fractal, long maxInstances) =>
         [.. ExpandSums(fractal, maxInstances).Span];
 
     private static ReadOnlyMemory<Transformation> ExpandSums(Fractal fractal, long maxInstances)

@@ -96,7 +96,7 @@ internal sealed class WorldQueries(
         var kinematic = target.Kinematic;
         var local = kinematic is null
             ? ray : new Ray(kinematic.ToReference(ray.Origin), kinematic.RotateBack(ray.Direction));
-        if (!CasterOf(target).TryFindNearest(local, queryContext, out var found, out _, 0, maxDistance))
+        if (!CasterOf(target).TryFindNearest(local, queryContext, out var found, 0, maxDistance))
         {
             return false;
         }

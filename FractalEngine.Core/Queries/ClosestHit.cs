@@ -4,7 +4,7 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Queries;
 
-/// <summary>The closest point of a shape together with the instance that it lies on, for callers that pass no context.</summary>
+/// <summary>The closest point of a shape or a scene together with the instance and the object that it lies on.</summary>
 /// <param name="Distance">Distance of the point from the position, scene units; 0 on the surface.</param>
 /// <param name="Point">The closest point, in the frame of the query.</param>
 /// <param name="Normal">The unit normal of the face, by its winding. Where several faces are equally close, that of one of them.</param>
@@ -18,8 +18,8 @@ namespace FractalEngine.Core.Queries;
 public sealed record ClosestHit(
     double Distance, Vector Point, Vector Normal, int FaceIndex, ImmutableArray<int> InstancePath, int ObjectIndex = 0)
 {
-    internal static ClosestHit Of(in ClosestPoint closest, QueryContext context, int objectIndex = 0) => new(
-        closest.Distance, closest.Point, closest.Normal, closest.FaceIndex, [.. context.InstancePath], objectIndex);
+    internal static ClosestHit Of(in ClosestPoint closest, QueryContext context) => new(
+        closest.Distance, closest.Point, closest.Normal, closest.FaceIndex, [.. context.InstancePath], context.ObjectIndex);
 
     /// <summary>Tells whether all numbers of both hits are equal, the paths included.</summary>
     public bool Equals(ClosestHit? other) =>

@@ -44,6 +44,12 @@ public sealed class QueryContext
     /// </summary>
     public ReadOnlySpan<int> InstancePath => CollectionsMarshal.AsSpan(_instancePath);
 
+    /// <summary>
+    /// Index of the object that the last query found in its scene, or in a deep zoom of the sub-fractal; 0 where a single shape was
+    /// queried, −1 where nothing was found.
+    /// </summary>
+    public int ObjectIndex { get; internal set; }
+
     /// <summary>Memory for the path of a search. It is kept for the next search with its contents.</summary>
     internal Span<int> PathBuffer(int length) => EnsureLength(ref _pathBuffer, length);
 

@@ -8,8 +8,17 @@ internal sealed class SpareContext
     private QueryContext? _context;
 
     /// <summary>Takes the context, or makes one while another thread has it.</summary>
-    public QueryContext Take() => Interlocked.Exchange(ref _context, null) ?? new();
+    /// <param name="own">The caller's own context, which is used instead; null for none.</param>
+    public QueryContext Take(QueryContext? own = null) => own ?? Interlocked.Exchange(ref _context, null) ?? new();
 
     /// <summary>Keeps a context for the next query.</summary>
-    public void Return(QueryContext context) => _context = context;
+    /// <param name="context">The one that was taken.</param>
+    /// <param name="own">The caller's own context, which is not kept; null for none.</param>
+    public void Return(QueryContext context, QueryContext? own = null)
+    {
+        if (own is null)
+        {
+            _context = context;
+        }
+    }
 }

@@ -20,7 +20,7 @@ namespace FractalEngine.Core.Rays;
 /// Sub-fractals smaller than <see cref="LevelPrecision.RelativePrecision"/> of the whole are replaced by the base mesh, and so is
 /// what a ray still has to visit after a million bounds. Why no hit is lost is explained in docs/rays.md.
 /// </remarks>
-internal sealed class FractalRayCaster : RayCaster
+internal sealed class FractalRayCaster : ShapeRayCaster
 {
     // About a fifth of a second.
     public const long MaxBoundTests = 1_000_000;

@@ -12,7 +12,7 @@ using FractalEngine.Core.Queries;
 namespace FractalEngine.Core.Rays;
 
 /// <summary>Casts rays at a mesh, or at all faces of a fractal that has no levels to search.</summary>
-internal sealed class MeshRayCaster(Mesh mesh, Mesh faces) : RayCaster
+internal sealed class MeshRayCaster(Mesh mesh, Mesh faces) : ShapeRayCaster
 {
     // The instances of an expanded fractal, in the order of their faces; none for a mesh.
     private readonly AffineMap[] _instances = [];

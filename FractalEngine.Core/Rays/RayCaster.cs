@@ -10,8 +10,9 @@ using FractalEngine.Core.Queries;
 namespace FractalEngine.Core.Rays;
 
 /// <summary>
-/// Finds where rays hit a shape, exactly. Immutable: any number of threads may cast rays at once, each with a context of its own. Rays with
-/// a context allocate nothing once the levels that they meet are prepared, but where maps flatten what they hit.
+/// Finds where rays hit a mesh, a fractal or the objects of a scene, exactly. Immutable: any number of threads may cast rays at once, each
+/// with a context of its own. Rays with a context allocate nothing once the levels that they meet are prepared, but where maps flatten what
+/// they hit.
 /// </summary>
 /// <remarks>
 /// Faces are hit from both sides. Where several faces are hit at the same distance, as on a common edge, one of them is found, the same
@@ -40,7 +41,7 @@ public abstract class RayCaster
     /// <summary>Bytes that the caster keeps beside the mesh or the fractal it was made from.</summary>
     public abstract long StorageBytes { get; }
 
-    /// <summary>The largest absolute coordinate of the shape.</summary>
+    /// <summary>The largest absolute coordinate whose rounding the bounds of the search do not contain.</summary>
     private protected abstract double ShapeMagnitude { get; }
 
     /// <summary>Makes the caster of a mesh.</summary>
@@ -66,15 +67,16 @@ public abstract class RayCaster
             : new MeshRayCaster(fractal);
     }
 
-    /// <summary>Finds the nearest face that a ray hits.</summary>
-    /// <param name="ray">In the shape's frame.</param>
-    /// <param name="context">Receives the costs and the instance; one for each thread.</param>
-    /// <param name="hit">The hit, if there is one.</param>
+    /// <summary>Finds the nearest face that a ray hits, and adds up what that costs.</summary>
+    /// <param name="ray">In the frame of the shape, or in world space.</param>
+    /// <param name="context">Receives the costs, the instance and the object; one for each thread.</param>
+    /// <param name="hit">The hit in the frame of the ray, if there is one.</param>
     /// <param name="minDistance">Smallest distance that counts, scene units, finite, not negative.</param>
     /// <param name="maxDistance">Largest distance that counts, scene units; may be infinite.</param>
     /// <param name="footprint">How wide the ray is; a line unless stated.</param>
     /// <returns>False when the ray hits no face between the two distances.</returns>
     /// <exception cref="ArgumentException">The ray is not finite, its direction is 0, or a distance is negative or NaN.</exception>
+    /// <exception cref="FractalLimitException">A model of a scene can't be prepared, see <see cref="For(Fractal)"/>.</exception>
     /// <remarks>
     /// A face at the origin of the ray counts, at a distance of 0; a ray that leaves a surface needs a smallest distance.
     /// </remarks>
@@ -86,66 +88,66 @@ public abstract class RayCaster
         var direction = CheckedUnitDirection(in ray, minDistance, maxDistance);
         var search = new RaySearch(
             minDistance, maxDistance, stopsAtFirst: false, RoundingError(ray.Origin, minDistance, ShapeMagnitude), footprint);
-        var pathLength = 0;
-        if (!TrySearch(ray.Origin, direction, minDistance, ref search, context, ref pathLength))
+        if (!Search(ray.Origin, direction, minDistance, ref search, context, out var found, out var pathLength))
         {
+            context.ObjectIndex = -1;
             hit = default;
             return false;
         }
 
+        var shape = found?.Caster.Value ?? (ShapeRayCaster)this;
+        ref readonly var map = ref found is null ? ref Identity : ref found.ObjectToWorld;
         hit = RayHitFactory.Create(
-            ray.Origin, direction, in search, minDistance, maxDistance, Mesh, ResolveInstance(in search, pathLength, in Identity, context));
+            ray.Origin, direction, in search, minDistance, maxDistance, shape.Mesh,
+            shape.ResolveInstance(in search, pathLength, in map, context));
+        context.ObjectIndex = found?.Index ?? 0;
         return true;
     }
 
-    /// <summary>Finds the nearest face that a ray hits; null for none.</summary>
-    /// <param name="ray">In the shape's frame.</param>
+    /// <summary>Finds the nearest face that a ray hits, with its instance and its object.</summary>
+    /// <inheritdoc cref="TryFindNearest(Ray, QueryContext, out RayHit, double, double, RayFootprint)"/>
+    public bool TryFindNearest(
+        Ray ray, out RayHit hit, double minDistance = 0, double maxDistance = double.PositiveInfinity, RayFootprint footprint = default) =>
+        TryFindWhole(ray, null, out hit, minDistance, maxDistance, footprint);
+
+    /// <summary>Finds the nearest face that a ray hits, with its instance and its object; null for none.</summary>
+    /// <param name="ray">In the frame of the shape, or in world space.</param>
+    /// <param name="context">Receives the costs; null where they don't matter.</param>
     /// <exception cref="ArgumentException">The ray is not finite, or its direction is 0.</exception>
-    public RayHit? FindNearest(Ray ray)
-    {
-        var context = _spareContext.Take();
-        RayHit? result = TryFindNearest(ray, context, out var hit) ? hit : null;
-        _spareContext.Return(context);
-        return result;
-    }
+    /// <exception cref="FractalLimitException">A model of a scene can't be prepared, see <see cref="For(Fractal)"/>.</exception>
+    public RayHit? FindNearest(Ray ray, QueryContext? context = null) =>
+        TryFindWhole(ray, context, out var hit, 0, double.PositiveInfinity, default) ? hit : null;
 
     /// <summary>Tells whether a ray hits any face, which is found sooner than the nearest.</summary>
-    /// <param name="ray">In the shape's frame.</param>
-    /// <param name="context">Receives the costs; one for each thread.</param>
+    /// <param name="ray">In the frame of the shape, or in world space.</param>
+    /// <param name="context">Receives the costs, one for each thread; null where they don't matter.</param>
     /// <param name="minDistance">Smallest distance that counts, scene units, finite, not negative.</param>
     /// <param name="maxDistance">Largest distance that counts, scene units; may be infinite.</param>
     /// <param name="footprint">How wide the ray is; a line unless stated.</param>
     /// <exception cref="ArgumentException">The ray is not finite, its direction is 0, or a distance is negative or NaN.</exception>
+    /// <exception cref="FractalLimitException">A model of a scene can't be prepared, see <see cref="For(Fractal)"/>.</exception>
     public bool HitsAny(
-        Ray ray, QueryContext context, double minDistance = 0, double maxDistance = double.PositiveInfinity,
+        Ray ray, QueryContext? context = null, double minDistance = 0, double maxDistance = double.PositiveInfinity,
         RayFootprint footprint = default)
     {
-        ArgumentNullException.ThrowIfNull(context);
         var direction = CheckedUnitDirection(in ray, minDistance, maxDistance);
         var search = new RaySearch(
             minDistance, maxDistance, stopsAtFirst: true, RoundingError(ray.Origin, minDistance, ShapeMagnitude), footprint);
-        var pathLength = 0;
-        return TrySearch(ray.Origin, direction, minDistance, ref search, context, ref pathLength);
+        var lent = _spareContext.Take(context);
+        var isHit = Search(ray.Origin, direction, minDistance, ref search, lent, out _, out _);
+        _spareContext.Return(lent, context);
+        return isHit;
     }
 
     /// <summary>Searches along a ray.</summary>
-    /// <param name="ray">In the shape's frame.</param>
+    /// <param name="ray">In the frame of the caster.</param>
     /// <param name="search">Receives the hit and the cost.</param>
     /// <param name="context">Receives the path to the instance of a hit in its buffer of the best path.</param>
+    /// <param name="found">The placed shape that is hit; null where the caster is of a single shape.</param>
     /// <param name="pathLength">Length of that path; unchanged where there is no nearer hit.</param>
-    /// <returns>True when there is a nearer hit than before.</returns>
-    internal abstract bool TryIntersect(in LocalRay ray, ref RaySearch search, QueryContext context, ref int pathLength);
-
-    /// <summary>The mesh that every instance of the shape shows.</summary>
-    internal abstract Mesh Mesh { get; }
-
-    /// <summary>Finds the map of the instance that a search has hit, and records its path.</summary>
-    /// <param name="search">The search with its hit.</param>
-    /// <param name="pathLength">Length of the path of the search.</param>
-    /// <param name="map">From the shape's frame to that of the result.</param>
-    /// <param name="context">Has the path, and receives the instance.</param>
-    internal abstract SimdAffineMap ResolveInstance(
-        in RaySearch search, int pathLength, in AffineMap map, QueryContext context);
+    /// <returns>True when there is a hit.</returns>
+    private protected abstract bool TrySearch(
+        in LocalRay ray, ref RaySearch search, QueryContext context, ref RayInstance? found, ref int pathLength);
 
     /// <summary>An upper bound of how far rounding moves a point of a ray or of a target.</summary>
     /// <param name="origin">Origin of the ray.</param>
@@ -200,13 +202,26 @@ public abstract class RayCaster
         return (1 / direction.Length()) * direction;
     }
 
+    private bool TryFindWhole(
+        Ray ray, QueryContext? context, out RayHit hit, double minDistance, double maxDistance, RayFootprint footprint)
+    {
+        var lent = _spareContext.Take(context);
+        var isHit = TryFindNearest(ray, lent, out hit, minDistance, maxDistance, footprint);
+        hit = isHit ? hit with { InstancePath = [.. lent.InstancePath], ObjectIndex = lent.ObjectIndex } : hit;
+        _spareContext.Return(lent, context);
+        return isHit;
+    }
+
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private bool TrySearch(
-        Vector origin, Vector unitDirection, double start, ref RaySearch search, QueryContext context, ref int pathLength)
+    private bool Search(
+        Vector origin, Vector unitDirection, double start, ref RaySearch search, QueryContext context, out RayInstance? found,
+        out int pathLength)
     {
         context.ClearPath();
+        found = null;
+        pathLength = 0;
         var ray = LocalRay.Of(origin, unitDirection, start);
-        var isHit = TryIntersect(in ray, ref search, context, ref pathLength);
+        var isHit = TrySearch(in ray, ref search, context, ref found, ref pathLength);
         context.Statistics.Add(in search);
         return isHit;
     }

@@ -1,5 +1,7 @@
+using System.Collections.Immutable;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Queries;
 
 namespace FractalEngine.Core.Rays;
 
@@ -15,6 +17,24 @@ public readonly record struct RayHit(
 {
     /// <summary>From the frame of the mesh, or of the fractal's base mesh, to that of the ray.</summary>
     public AffineMap InstanceMap { get; init; }
+
+    /// <summary>
+    /// The instance that is hit, as in <see cref="QueryContext.InstancePath"/>. Empty where <c>TryFindNearest</c> has a context: that holds
+    /// it then.
+    /// </summary>
+    public ImmutableArray<int> InstancePath { get; init; } = [];
+
+    /// <summary>Index of the object in its scene, as in <see cref="QueryContext.ObjectIndex"/>; 0 where that holds it.</summary>
+    public int ObjectIndex { get; init; }
+
+    /// <summary>Tells whether all numbers of both hits are equal, the paths included.</summary>
+    public bool Equals(RayHit other) =>
+        Distance.Equals(other.Distance) && Point == other.Point && Normal == other.Normal && IsFrontFace == other.IsFrontFace
+        && Barycentrics == other.Barycentrics && FaceIndex == other.FaceIndex && InstanceMap == other.InstanceMap
+        && ObjectIndex == other.ObjectIndex && InstancePath.AsSpan().SequenceEqual(other.InstancePath.AsSpan());
+
+    /// <inheritdoc/>
+    public override int GetHashCode() => HashCode.Combine(Distance, Point, FaceIndex, ObjectIndex);
 
     /// <summary>Interpolates the texture coordinates of the face at the point; null where it has none.</summary>
     /// <param name="mesh">The mesh that was hit, or the base mesh of the fractal.</param>

@@ -19,7 +19,7 @@ internal sealed class RayInstance : ObjectBvhLeaf
     /// <param name="objectToWorld">From that frame to world space.</param>
     /// <param name="bounds">In world space.</param>
     /// <exception cref="SingularMatrixException">The map has no inverse.</exception>
-    public RayInstance(int index, Lazy<RayCaster> caster, AffineMap objectToWorld, BoundingBox bounds)
+    public RayInstance(int index, Lazy<ShapeRayCaster> caster, AffineMap objectToWorld, BoundingBox bounds)
         : base(index, bounds)
     {
         Caster = caster;
@@ -32,7 +32,7 @@ internal sealed class RayInstance : ObjectBvhLeaf
     }
 
     /// <summary>In the frame of the model, made at the first ray.</summary>
-    public Lazy<RayCaster> Caster { get; }
+    public Lazy<ShapeRayCaster> Caster { get; }
 
     /// <summary>The largest absolute coordinate in world space.</summary>
     public double ShapeMagnitude { get; }

@@ -30,7 +30,7 @@ internal ref struct ClosestObjectSearch(Vector position, double maxDistance, Que
         var bounds = context.ObjectBoundsBuffer(objects.Count);
         for (var i = 0; i < objects.Count; i++)
         {
-            bounds[i] = i == excludedObject ? double.PositiveInfinity : BoundDistance(objects[i]);
+            bounds[i] = i == excludedObject ? double.PositiveInfinity : objects[i].BoundDistance(position);
         }
 
         context.Statistics.BoundTests += objects.Count;
@@ -61,7 +61,7 @@ internal ref struct ClosestObjectSearch(Vector position, double maxDistance, Que
         queue.Clear();
         foreach (var instance in loose)
         {
-            queue.Add(BoundDistance(instance), instance.Index, instance);
+            queue.Add(instance.BoundDistance(position), instance.Index, instance);
         }
 
         var boundTests = loose.Length + Expand(hierarchy.Root, queue);
@@ -77,7 +77,7 @@ internal ref struct ClosestObjectSearch(Vector position, double maxDistance, Que
             if (index == ObjectQueue.Untested)
             {
                 index = instance.Index;
-                bound = BoundDistance(instance);
+                bound = instance.BoundDistance(position);
                 boundTests++;
                 // Behind what is closer, or equally close and of a smaller index.
                 if (!(bound < queue.Bound && MayHoldCloser(bound)))
@@ -97,17 +97,16 @@ internal ref struct ClosestObjectSearch(Vector position, double maxDistance, Que
         queue.Clear();
     }
 
-    /// <summary>Gives the result of the search.</summary>
+    /// <summary>Gives the result of the search, and the instance and the object to the context.</summary>
     /// <param name="closest">The closest point in world space, if there is one.</param>
-    /// <param name="objectIndex">Index of the object in the scene, −1 for none.</param>
     /// <returns>False when no face lies within the radius.</returns>
-    public readonly bool TryGetResult(out ClosestPoint closest, out int objectIndex)
+    public readonly bool TryGetResult(out ClosestPoint closest)
     {
         context.RestorePath();
+        context.ObjectIndex = _objectIndex;
         var errorBound = Math.Min(_closest.Distance, Math.Max(_closest.ErrorBound, _closest.Distance - _lowerBound));
         closest = _closest with { ErrorBound = errorBound };
-        objectIndex = _objectIndex;
-        return objectIndex >= 0;
+        return _objectIndex >= 0;
     }
 
     /// <summary>Tells whether an object whose box is at a distance may be closer, or as close. ε counts once there is a point.</summary>
@@ -130,16 +129,6 @@ internal ref struct ClosestObjectSearch(Vector position, double maxDistance, Que
             _maxDistance = Math.Min(_maxDistance, candidate.Distance);
             context.SavePath();
         }
-    }
-
-    private readonly double BoundDistance(ColliderInstance instance)
-    {
-        var bounds = instance.Bounds;
-        var distance = Math.Sqrt(bounds.DistanceSquared(position));
-        // Where squares leave the range of a double, the distance along an axis is a bound too.
-        return double.IsPositiveInfinity(distance) && !bounds.IsEmpty
-            ? Vector.Max(bounds.Minimum - position, position - bounds.Maximum).MaxAbsComponent()
-            : distance;
     }
 
     /// <summary>

@@ -27,6 +27,17 @@ internal sealed class ColliderInstance(
     /// <summary>Maps the frame of the collider to world space.</summary>
     public AffineMap ObjectToWorld => _generalMap?.Value ?? similarity.Map;
 
+    /// <summary>Computes the distance of the object's box, which is no more than that of its faces.</summary>
+    public double BoundDistance(Vector position)
+    {
+        var bounds = Bounds;
+        var distance = Math.Sqrt(bounds.DistanceSquared(position));
+        // Where squares leave the range of a double, the distance along an axis is a bound too.
+        return double.IsPositiveInfinity(distance) && !bounds.IsEmpty
+            ? Vector.Max(bounds.Minimum - position, position - bounds.Maximum).MaxAbsComponent()
+            : distance;
+    }
+
     /// <summary>Finds the closest point of the object in world space.</summary>
     public bool TryFindClosest(Vector position, double maxDistance, QueryContext context, out ClosestPoint closest, double epsilon)
     {

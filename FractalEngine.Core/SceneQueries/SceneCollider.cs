@@ -1,4 +1,3 @@
-using System.Diagnostics.CodeAnalysis;
 using System.Runtime.InteropServices;
 using FractalEngine.Core.Colliders;
 using FractalEngine.Core.Fractals.Descriptions;
@@ -6,6 +5,7 @@ using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Geometry.Triangles;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Queries;
+using FractalEngine.Core.Queries.Regions;
 using FractalEngine.Core.Scenes;
 
 namespace FractalEngine.Core.SceneQueries;
@@ -20,14 +20,13 @@ namespace FractalEngine.Core.SceneQueries;
 /// A query finds its object in O(log n) for n objects that lie apart: the first one builds a hierarchy over their boxes. Objects are tested
 /// in the order of the distances of their boxes, equally close ones in the order of the scene. Of equally close points the first one wins.
 /// </remarks>
-public sealed class SceneCollider
+public sealed class SceneCollider : Collider
 {
     private readonly Dictionary<Model, Lazy<Collider>> _sharedColliders;
     private readonly ColliderKind _kind;
 
     // Differs for the paper's descent, which needs a fractal: meshes beside fractals take the hierarchy.
     private readonly ColliderKind _kindOfMeshes;
-    private readonly SpareContext _spareContext = new();
     private readonly Lock _hierarchyLock = new();
 
     // Replaced by the same objects in another hierarchy only.
@@ -170,8 +169,15 @@ public sealed class SceneCollider
         }
     }
 
-    /// <summary>Bytes of the colliders built so far, each once.</summary>
-    public long StorageBytes =>
+    /// <inheritdoc/>
+    public override bool IsExact => ColliderFactory.SupportsTransformedQueries(_kind);
+
+    /// <inheritdoc/>
+    private protected override string Noun => "scene";
+
+    /// <inheritdoc/>
+    /// <remarks>Counts the colliders built so far, each once.</remarks>
+    public override long StorageBytes =>
         _objects.ToArray().Select(instance => instance.Collider).Distinct().Where(collider => collider.IsValueCreated)
         .Sum(collider => collider.Value.StorageBytes);
 
@@ -200,52 +206,22 @@ public sealed class SceneCollider
         }
     }
 
-    /// <summary>Finds the point of the scene closest to a position.</summary>
-    /// <param name="position">World space, finite.</param>
-    /// <returns>The closest point with its normal, face, instance and object.</returns>
-    /// <exception cref="ArgumentOutOfRangeException">The position is not finite.</exception>
-    /// <exception cref="InvalidOperationException">The scene has no faces.</exception>
-    /// <exception cref="FractalLimitException">The distance is beyond the range of a double.</exception>
-    public ClosestHit FindClosest(Vector position) => TryFindClosest(position, double.PositiveInfinity, out var hit)
-        ? hit
-        : throw new InvalidOperationException(
-            $"no point of the scene is closest to {position}: it has no faces");
-
-    /// <summary>Finds the point of the scene closest to a position, if one is near enough.</summary>
+    /// <summary>Finds the point closest to a position of all objects but one, and adds up what that costs.</summary>
+    /// <inheritdoc cref="Collider.TryFindClosest(Vector, double, QueryContext, out ClosestPoint, double)"/>
     /// <param name="position">World space, finite.</param>
     /// <param name="maxDistance">Search radius, scene units, not negative; may be infinite.</param>
-    /// <param name="hit">The closest point with its normal, face, instance and object; null where there is none.</param>
-    /// <returns>False when no face lies within the radius.</returns>
-    /// <exception cref="ArgumentOutOfRangeException">The position is not finite, or the radius is negative or NaN.</exception>
-    public bool TryFindClosest(Vector position, double maxDistance, [NotNullWhen(true)] out ClosestHit? hit)
-    {
-        var context = _spareContext.Take();
-        hit = TryFindClosest(position, maxDistance, context, out var closest, out var objectIndex)
-            ? ClosestHit.Of(closest, context, objectIndex)
-            : null;
-        _spareContext.Return(context);
-        return hit is not null;
-    }
-
-    /// <summary>Finds the point of the scene closest to a position, and adds up what that costs.</summary>
-    /// <param name="position">World space, finite.</param>
-    /// <param name="maxDistance">Search radius, scene units, not negative; may be infinite.</param>
-    /// <param name="context">Receives the costs and the instance; one for each thread.</param>
+    /// <param name="context">Receives the costs, the instance and the object; one for each thread.</param>
     /// <param name="closest">The closest point in world space, if there is one.</param>
-    /// <param name="objectIndex">Index of the object in the scene, −1 for none.</param>
-    /// <param name="excludedObject">Index of an object that is not tested, such as the querying body's own; −1 for none.</param>
     /// <param name="epsilon">Allowed relative error, see <see cref="Collider"/>.</param>
-    /// <returns>False when no face lies within the radius.</returns>
-    /// <exception cref="ArgumentOutOfRangeException">The position is not finite, or the radius or ε is negative or NaN.</exception>
+    /// <param name="excludedObject">Index of the object that is not tested, such as the querying body's own; −1 for none.</param>
     public bool TryFindClosest(
-        Vector position, double maxDistance, QueryContext context, out ClosestPoint closest, out int objectIndex, int excludedObject = -1,
-        double epsilon = 0)
+        Vector position, double maxDistance, QueryContext context, out ClosestPoint closest, double epsilon, int excludedObject)
     {
         ArgumentNullException.ThrowIfNull(context);
-        Collider.ThrowIfInvalid(position, maxDistance, epsilon);
+        ThrowIfInvalid(position, maxDistance, epsilon);
         var objects = ReadyObjects();
         var search = new ClosestObjectSearch(position, maxDistance, context, excludedObject, epsilon);
-        if (objects.Hierarchy is { } hierarchy && !(position.MaxAbsComponent() > Collider.MaxCoordinate))
+        if (objects.Hierarchy is { } hierarchy && !(position.MaxAbsComponent() > MaxCoordinate))
         {
             search.RunAmongMany(hierarchy, objects.Loose.AsSpan());
         }
@@ -255,7 +231,7 @@ public sealed class SceneCollider
             search.RunAmongFew(objects);
         }
 
-        return search.TryGetResult(out closest, out objectIndex);
+        return search.TryGetResult(out closest);
     }
 
     /// <summary>Finds the closest points of two objects, as colliders do for two shapes.</summary>
@@ -281,6 +257,48 @@ public sealed class SceneCollider
             return objects[index];
         }
     }
+
+    /// <inheritdoc/>
+    protected override bool FindClosestCore(
+        Vector position, double maxDistance, double epsilon, QueryContext context, out ClosestPoint closest) =>
+        TryFindClosest(position, maxDistance, context, out closest, epsilon, excludedObject: -1);
+
+    /// <inheritdoc/>
+    internal override double CompleteErrorBound(Vector position, in ClosestPoint closest, double epsilon) => closest.ErrorBound;
+
+    /// <inheritdoc/>
+    private protected override void CollectAllWithin(
+        Vector position, double radius, int maxFaces, QueryContext context, List<ClosestHit> hits)
+    {
+        foreach (var instance in ExactObjects().ToArray())
+        {
+            if (instance.BoundDistance(position) <= radius)
+            {
+                RegionQuery.CollectAllWithin(
+                    instance.Collider.Value.ShapeTree, instance.ObjectToWorld, instance.Index, position, radius, maxFaces, context, hits);
+            }
+        }
+    }
+
+    /// <inheritdoc/>
+    private protected override bool OverlapsCore(Vector centre, double radius, QueryContext context) =>
+        double.IsPositiveInfinity(radius)
+            ? ExactObjects().ToArray().Any(static instance => !instance.Bounds.IsEmpty)
+            : ExactObjects().Count > 0 && TryFindClosest(centre, radius, context, out _);
+
+    /// <inheritdoc/>
+    private protected override bool OverlapsCore(BoundingBox box, QueryContext context) =>
+        ExactObjects().ToArray().Any(instance => TriangleBoxTest.Meets(instance.Bounds, box, 0)
+            && RegionQuery.Overlaps(instance.Collider.Value.ShapeTree, instance.ObjectToWorld, box, context));
+
+    /// <inheritdoc/>
+    private protected override ShapeTree CreateShapeTree() => throw new NotSupportedException(
+        "a scene is no shape with one frame: expected two of its objects, see SceneCollider.FindClosestPair");
+
+    /// <summary>All objects, for questions about regions: one after the other is asked, O(n) for n objects.</summary>
+    /// <exception cref="NotSupportedException">The colliders are not exact.</exception>
+    private SceneObjects ExactObjects() => IsExact ? ReadyObjects() : throw new NotSupportedException(
+        $"the collider '{ColliderNames.Of(_kind)}' finds closest points of positions only: expected an exact one");
 
     /// <summary>The objects with a hierarchy that is worth its cost, which the first query builds.</summary>
     private SceneObjects ReadyObjects()

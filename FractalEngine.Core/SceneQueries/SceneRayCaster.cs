@@ -13,7 +13,7 @@ namespace FractalEngine.Core.SceneQueries;
 /// </summary>
 public sealed class SceneRayCaster : InstanceRayCaster
 {
-    private readonly Dictionary<Model, Lazy<RayCaster>> _casters;
+    private readonly Dictionary<Model, Lazy<ShapeRayCaster>> _casters;
     private readonly BoundingBox _bounds;
 
     /// <summary>Prepares the objects of a scene made in code, or loaded from a file.</summary>
@@ -30,24 +30,29 @@ public sealed class SceneRayCaster : InstanceRayCaster
     public SceneRayCaster(LoadedScene scene)
         : this(
             (scene ?? throw new ArgumentNullException(nameof(scene))).Objects,
-            scene.Models.ToDictionary(model => model, model => new Lazy<RayCaster>(model.CreateRayCaster)), scene.Bounds)
+            scene.Models.ToDictionary(model => model, CasterOf), scene.Bounds)
     {
     }
 
     private SceneRayCaster(
-        ImmutableArray<PlacedModel> objects, Dictionary<Model, Lazy<RayCaster>> casters, BoundingBox bounds)
+        ImmutableArray<PlacedModel> objects, Dictionary<Model, Lazy<ShapeRayCaster>> casters, BoundingBox bounds)
         : this(
             objects.IsEmpty ? null : ObjectBvh.Build([.. objects.Select((placed, index) => CreateInstance(casters, index, placed))]),
             casters, bounds)
     {
     }
 
-    private SceneRayCaster(ObjectBvh? objects, Dictionary<Model, Lazy<RayCaster>> casters, BoundingBox bounds)
+    private SceneRayCaster(ObjectBvh? objects, Dictionary<Model, Lazy<ShapeRayCaster>> casters, BoundingBox bounds)
         : base(objects, bounds.MaxAbsCoordinate())
     {
         _casters = casters;
         _bounds = bounds;
     }
+
+    /// <inheritdoc/>
+    /// <remarks>Counts the casters that rays have needed so far, each once.</remarks>
+    public override long StorageBytes =>
+        _casters.Values.Where(static caster => caster.IsValueCreated).Sum(static caster => caster.Value.StorageBytes);
 
     /// <summary>Makes the caster of the same scene with one of its objects elsewhere, in O(log n) for n objects.</summary>
     /// <param name="index">Index of the object in the scene, from 0.</param>
@@ -88,10 +93,12 @@ public sealed class SceneRayCaster : InstanceRayCaster
         return new(
             scene.Objects,
             scene.Models.ToDictionary(
-                model => model, model => _casters.GetValueOrDefault(model) ?? new Lazy<RayCaster>(model.CreateRayCaster)),
+                model => model, model => _casters.GetValueOrDefault(model) ?? CasterOf(model)),
             scene.Bounds);
     }
 
-    private static RayInstance CreateInstance(Dictionary<Model, Lazy<RayCaster>> casters, int index, PlacedModel placed) =>
+    private static Lazy<ShapeRayCaster> CasterOf(Model model) => new(() => (ShapeRayCaster)model.CreateRayCaster());
+
+    private static RayInstance CreateInstance(Dictionary<Model, Lazy<ShapeRayCaster>> casters, int index, PlacedModel placed) =>
         new(index, casters[placed.Model], placed.ObjectToWorld, placed.Bounds);
 }

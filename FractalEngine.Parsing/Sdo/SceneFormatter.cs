@@ -47,16 +47,8 @@ internal static class SceneFormatter
         _ => throw new ArgumentOutOfRangeException(nameof(kind)),
     };
 
-    private static string Format(Light light) => light switch
-    {
-        AmbientLight => $"light ambient {light.Colour} {FormatNumber(light.Intensity)}",
-        SunLight sun => $"sun {sun.Direction} {sun.Colour} {FormatNumber(sun.Intensity)} {FormatNumber(sun.Diameter)}",
-        DirectionalLight directional => $"light directional {directional.Direction} {light.Colour} {FormatNumber(light.Intensity)}",
-        SpotLight spot => $"light spot {spot.Position} {spot.Direction} {FormatNumber(spot.Angle)} "
-            + $"{light.Colour} {FormatNumber(light.Intensity)} {FormatNumber(spot.Range)}",
-        PointLight point => $"light point {point.Position} {light.Colour} {FormatNumber(light.Intensity)} {FormatNumber(point.Range)}",
-        _ => throw new ArgumentOutOfRangeException(nameof(light)),
-    };
+    private static string Format(Light light) =>
+        string.Join(' ', light.Declaration.Select(static word => Convert.ToString(word, CultureInfo.InvariantCulture)));
 
     private static string Format(Player player) => Join(
         $"player {player.Position} {FormatNumber(player.Radius)} {FormatNumber(player.Height)}",

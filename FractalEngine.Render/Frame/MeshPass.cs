@@ -14,7 +14,7 @@ namespace FractalEngine.Render.Frame;
 /// <summary>Selects the program that a material needs, and sets its uniforms, to draw lit, instanced triangles.</summary>
 /// <param name="context">Current context.</param>
 /// <param name="lights">Lights of the scene.</param>
-internal sealed class MeshPass(RenderContext context, ImmutableArray<Light> lights) : IDisposable
+internal sealed class MeshPass(RenderContext context, ImmutableArray<Emitter> lights) : IDisposable
 {
     private const int FeatureCombinations = 16384;
     private static readonly Colour WireframeColour = new(0.80, 0.83, 0.87);

@@ -21,14 +21,11 @@ internal sealed class LightBlock : IDisposable
     // Programs grow with the number of lights that have constant indices.
     private const int MaxUnrolledLights = 4;
 
-    // The widest cone whose shadows have one depth map, degrees. Wider ones have sides of a cube.
-    private const double MaxSpotAngle = 110;
-
     private const int HeaderFloats = 24;
     private const int FloatsPerLight = 16;
 
     private readonly Scene _scene;
-    private readonly ImmutableArray<Light> _lights;
+    private readonly ImmutableArray<Emitter> _lights;
     private readonly double _fogDensity;
     private readonly RedundancyFilter _uploadFilter;
     private readonly GlBuffer _buffer;
@@ -59,16 +56,13 @@ internal sealed class LightBlock : IDisposable
     /// Returns the lights of a scene that shine from somewhere, the first <see cref="MaxLights"/> of them: those that it declares, or the
     /// default ones.
     /// </summary>
-    public static ImmutableArray<Light> LightsOf(LoadedScene scene)
+    public static ImmutableArray<Emitter> LightsOf(LoadedScene scene)
     {
         var lights = SceneAmbient.UsesDefaultLights(scene.Scene)
             ? DefaultLights(scene.Bounds, scene.Scene.Handedness)
             : scene.Scene.Lights;
-        return [.. lights.Where(static light => light is not AmbientLight).Take(MaxLights)];
+        return [.. lights.Select(static light => light.ToEmitter()).OfType<Emitter>().Take(MaxLights)];
     }
-
-    /// <summary>Whether shadows of a light have the sides of a cube, unless it is so far away that it is parallel.</summary>
-    public static bool HasCube(Light light) => light is PointLight and not SpotLight { Angle: < MaxSpotAngle };
 
     /// <summary>
     /// Returns a loop over the lights, and the kinds of their shadows, as symbols of a shader. The loop over few lights has constant
@@ -76,7 +70,7 @@ internal sealed class LightBlock : IDisposable
     /// </summary>
     /// <param name="lights">Lights of the scene.</param>
     /// <param name="distantLights">Lights that have a position, but are parallel for the scene: bit i for light i.</param>
-    public static string[] SymbolsOf(ImmutableArray<Light> lights, int distantLights = 0)
+    public static string[] SymbolsOf(ImmutableArray<Emitter> lights, int distantLights = 0)
     {
         // It has one element at least, as GLSL has no arrays of none.
         var kinds = string.Join(", ", lights.Select(KindOfShadow).DefaultIfEmpty('0'));
@@ -85,8 +79,8 @@ internal sealed class LightBlock : IDisposable
             : FormattableString.Invariant($" for (int i = 0; i < {lights.Length}; i++) {{ DO(i) }}");
         return [$"EACH_LIGHT(DO){loop}", $"LIGHT_KINDS int[]({kinds})"];
 
-        char KindOfShadow(Light light, int index) =>
-            light is not PointLight || (distantLights & (1 << index)) != 0 ? '0' : HasCube(light) ? '1' : '2';
+        char KindOfShadow(Emitter light, int index) =>
+            light.Position is null || (distantLights & (1 << index)) != 0 ? '0' : light.NeedsCube ? '1' : '2';
     }
 
     /// <summary>Returns the linear light that haze shines with: its own colour, or what stands at the horizon.</summary>
@@ -132,7 +126,7 @@ internal sealed class LightBlock : IDisposable
     {
         var key = (cameraPosition, unitsPerSceneUnit, _fogDensity > 0 ? background : default);
         var isRedundant = _lastKey is { } last
-            && (last == key || !(_fogDensity > 0 || _lights.Any(static light => light is PointLight)));
+            && (last == key || !(_fogDensity > 0 || _lights.Any(static light => light.Position is not null)));
         if (_uploadFilter.ShouldPerform(isRedundant))
         {
             for (var i = 0; i < _lights.Length; i++)
@@ -153,33 +147,21 @@ internal sealed class LightBlock : IDisposable
     /// <inheritdoc/>
     public void Dispose() => _buffer.Dispose();
 
-    private static void WriteLight(Light light, Vector cameraPosition, double unitsPerSceneUnit, Span<float> target)
+    private static void WriteLight(Emitter light, Vector cameraPosition, double unitsPerSceneUnit, Span<float> target)
     {
-        WriteVector(light.Intensity * light.Colour.ToLinearVector(), KindOf(light), target);
-        if (light is PointLight point)
+        WriteVector(light.Radiance, light.Position is null ? 0 : light.HasCone ? 2 : 1, target);
+        if (light.Position is { } position)
         {
-            WriteVector(unitsPerSceneUnit * (point.Position - cameraPosition), unitsPerSceneUnit * point.Range, target[4..]);
+            WriteVector(unitsPerSceneUnit * (position - cameraPosition), unitsPerSceneUnit * light.Range, target[4..]);
         }
-        else if (light is DirectionalLight directional)
+        else
         {
-            WriteVector(-directional.Direction.UnitVector(), 0, target[4..]);
+            WriteVector(-light.Axis, 0, target[4..]);
         }
 
-        if (light is SpotLight spot)
-        {
-            var halfAngle = 0.5 * spot.Angle * Math.PI / 180;
-            WriteVector(spot.Direction.UnitVector(), Math.Cos(0.9 * halfAngle), target[8..]);
-            target[12] = (float)Math.Cos(halfAngle);
-        }
+        WriteVector(light.Axis, light.BrightCosine, target[8..]);
+        target[12] = (float)light.EdgeCosine;
     }
-
-    private static double KindOf(Light light) => light switch
-    {
-        DirectionalLight => 0,
-        SpotLight => 2,
-        PointLight => 1,
-        _ => throw new ArgumentException($"a light of an unknown kind: {light}", nameof(light)),
-    };
 
     /// <summary>Writes a vector and a fourth number into the data of a uniform block.</summary>
     internal static void WriteVector(Vector v, double w, Span<float> target) =>

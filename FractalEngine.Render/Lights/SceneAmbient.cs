@@ -1,6 +1,5 @@
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
-using FractalEngine.Core.Scenes.Lights;
 
 namespace FractalEngine.Render.Lights;
 
@@ -36,9 +35,9 @@ internal readonly record struct SceneAmbient(Vector Above, Vector Below, Vector 
         }
 
         var sum = Vector.Zero;
-        foreach (var light in scene.Lights.OfType<AmbientLight>())
+        foreach (var light in scene.Lights.Where(static light => light.ToEmitter() is null))
         {
-            sum += light.Intensity * light.Colour.ToLinearVector();
+            sum += light.Radiance;
         }
 
         return new(sum, sum, Vector.Zero);

@@ -1,6 +1,5 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Scenes;
-using FractalEngine.Core.Scenes.Lights;
 using FractalEngine.Core.Visibility.SkyBaking;
 using FractalEngine.Render.Drawables;
 using FractalEngine.Render.Lights;
@@ -36,7 +35,7 @@ public sealed class ScenePreparation
         _hasAmbientLight = SceneAmbient.Of(scene.Scene) != default;
         _textures = new(_notices, settings.ShareTextures, previous?.Textures ?? []);
         _prepared = new DrawableModel?[_models.Length];
-        var lightCount = scene.Scene.Lights.Count(static light => light is not AmbientLight);
+        var lightCount = scene.Scene.Lights.Count(static light => light.ToEmitter() is not null);
         if (lightCount > LightBlock.MaxLights)
         {
             _notices.Add(FormattableString.Invariant(

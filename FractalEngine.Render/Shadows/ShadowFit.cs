@@ -3,7 +3,6 @@ using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes.Cameras;
 using FractalEngine.Core.Scenes.Lights;
-using FractalEngine.Render.Lights;
 using FractalEngine.Render.Views;
 
 namespace FractalEngine.Render.Shadows;
@@ -62,7 +61,7 @@ internal sealed class ShadowFit
     /// <param name="fitsToView">Whether maps show only what the frame shows.</param>
     /// <param name="cullsLights">Whether maps that are not needed have no view; otherwise they have idle ones.</param>
     public void Fit(
-        ImmutableArray<Light> lights, in FrameView frame, Vector origin, double unitsPerSceneUnit, BoundingBox receivers,
+        ImmutableArray<Emitter> lights, in FrameView frame, Vector origin, double unitsPerSceneUnit, BoundingBox receivers,
         BoundingBox casters, bool fitsToView, bool cullsLights = true)
     {
         _keepsIdleViews = !cullsLights;
@@ -129,29 +128,19 @@ internal sealed class ShadowFit
         return new(right, Vector.Cross(forward, right), forward);
     }
 
-    private static double WeightOf(Light light)
-    {
-        var (red, green, blue) = light.Colour.ToLinear();
-        return light.Intensity * Math.Max(red, Math.Max(green, blue));
-    }
-
     private void AddViews(
-        Light light, in FrameView frame, Vector origin, double unitsPerSceneUnit, BoundingBox receivers, BoundingBox casters,
+        Emitter light, in FrameView frame, Vector origin, double unitsPerSceneUnit, BoundingBox receivers, BoundingBox casters,
         bool fitsToView)
     {
-        var weight = WeightOf(light);
-        if (light is DirectionalLight directional)
+        var weight = Math.Max(light.Radiance.X, Math.Max(light.Radiance.Y, light.Radiance.Z));
+        if (light.Position is not { } place)
         {
-            AddParallelViews(directional.Direction.UnitVector(), in frame, origin, receivers, casters, fitsToView, weight);
+            AddParallelViews(light.Axis, in frame, origin, receivers, casters, fitsToView, weight);
             return;
         }
 
-        var point = (PointLight)light;
-        var position = frame.View.DeepZoom is null
-            ? point.Position
-            : unitsPerSceneUnit * (point.Position - frame.View.Camera.Position);
-
-        var range = unitsPerSceneUnit * point.Range;
+        var position = frame.View.DeepZoom is null ? place : unitsPerSceneUnit * (place - frame.View.Camera.Position);
+        var range = unitsPerSceneUnit * light.Range;
         var distance = Math.Sqrt(receivers.DistanceSquared(position));
         if (distance > 100 * receivers.Diagonal)
         {
@@ -169,12 +158,11 @@ internal sealed class ShadowFit
 
         SetRegion(in frame, origin, frame.Near, frame.Far, receivers, fitsToView);
         var near = NearByRange * Math.Min(range, receivers.Diagonal);
-        if (!LightBlock.HasCube(light) && light is SpotLight spot)
+        if (!light.NeedsCube)
         {
-            var direction = spot.Direction.UnitVector();
-            var halfSize = Math.Tan(0.5 * spot.Angle * Math.PI / 180) * 1.01;
-            var up = Math.Abs(direction.Y) > 0.9 ? Vector.K : Vector.J;
-            AddPerspectiveView(position, AxesAlong(direction, up), halfSize, near, far, weight, isCubeSide: false);
+            var halfSize = Math.Tan(0.5 * light.ConeAngle * Math.PI / 180) * 1.01;
+            var up = Math.Abs(light.Axis.Y) > 0.9 ? Vector.K : Vector.J;
+            AddPerspectiveView(position, AxesAlong(light.Axis, up), halfSize, near, far, weight, isCubeSide: false);
             return;
         }
 

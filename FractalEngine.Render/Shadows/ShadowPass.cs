@@ -27,7 +27,7 @@ internal sealed class ShadowPass : IDisposable
     private readonly GlResources _resources;
     private readonly SceneBuffers _buffers;
     private readonly ObjectTransforms _transforms;
-    private readonly ImmutableArray<Light> _lights;
+    private readonly ImmutableArray<Emitter> _lights;
     private readonly ShadowFit _fit = new();
     private readonly ShadowMaps _fittedMaps;
     private readonly ShadowMaps _wholeMaps;

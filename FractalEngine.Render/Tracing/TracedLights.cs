@@ -1,3 +1,4 @@
+using System.Collections.Immutable;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Queries;
 using FractalEngine.Core.Scenes;
@@ -16,7 +17,10 @@ internal sealed class TracedLights
     // How much wider rays towards a light become: what they meet may be far away.
     private const double ShadowSpread = 1e-3;
 
-    private readonly Emitter[] _emitters;
+    private readonly ImmutableArray<Emitter> _emitters;
+
+    // Around the direction towards each light that is parallel.
+    private readonly Matrix[] _axes;
     private readonly Vector _colourAtHorizon;
     private readonly Vector _colourSlope;
     private readonly SkyRadiance? _sky;
@@ -24,7 +28,8 @@ internal sealed class TracedLights
     /// <summary>Prepares the lights of a scene, or the default ones where it declares none.</summary>
     public TracedLights(LoadedScene scene)
     {
-        _emitters = [.. LightBlock.LightsOf(scene).Select(static light => new Emitter(light))];
+        _emitters = LightBlock.LightsOf(scene);
+        _axes = [.. _emitters.Select(static emitter => Reflection.AxesAround(-emitter.Axis))];
         var (sky, ground, _) = SceneAmbient.OfLights(scene.Scene);
         _sky = scene.Scene.Sky?.ToRadiance();
         // Irradiance on a surface that faces upwards by the cosine c is then that of the drawn mixture (1 + c)/2 of sky and ground.
@@ -51,23 +56,13 @@ internal sealed class TracedLights
     public Vector Incoming(int index, Vector position, ref SampleSequence samples, out Vector toLight, out double distance)
     {
         var emitter = _emitters[index];
-        if (emitter.Light is not PointLight point)
+        var incoming = emitter.Incoming(position, out toLight, out distance);
+        if (emitter.Diameter > 0)
         {
-            toLight = emitter.IsWide ? Reflection.SampleCone(in emitter.Axes, emitter.ConeCosine, samples.Next()) : emitter.Axis;
-            distance = double.PositiveInfinity;
-            return emitter.Colour;
+            toLight = Reflection.SampleCone(in _axes[index], emitter.DiscCosine, samples.Next());
         }
 
-        var difference = point.Position - position;
-        distance = difference.Length();
-        toLight = distance > 0 ? difference / distance : Vector.J;
-        var strength = Falloff(distance, point.Range);
-        if (point is SpotLight)
-        {
-            strength *= SmoothStep(emitter.ConeCosine, emitter.BrightConeCosine, Vector.Dot(toLight, emitter.Axis));
-        }
-
-        return strength * emitter.Colour;
+        return incoming;
     }
 
     /// <summary>Adds up the light that reaches a surface from all lights, and goes on towards the eye.</summary>
@@ -96,67 +91,5 @@ internal sealed class TracedLights
         }
 
         return sum;
-    }
-
-    /// <summary>As in lighting.glsl: by the inverse square, 1 at a tenth of the range, 0 from the range on.</summary>
-    private static double Falloff(double distance, double range)
-    {
-        var relative = Math.Max(distance / range, 1e-4);
-        var squared = relative * relative;
-        var window = Math.Clamp(1 - (squared * squared), 0, 1);
-        return 0.01 / squared * window * window / (0.9999 * 0.9999);
-    }
-
-    private static double SmoothStep(double start, double end, double value)
-    {
-        var t = Math.Clamp((value - start) / (end - start), 0, 1);
-        return t * t * (3 - (2 * t));
-    }
-
-    /// <summary>A light with what does not depend on the surface that it falls on.</summary>
-    private sealed class Emitter
-    {
-        private readonly Matrix _axes;
-
-        public Emitter(Light light)
-        {
-            Light = light;
-            Colour = light.Intensity * light.Colour.ToLinearVector();
-            if (light is DirectionalLight or SpotLight)
-            {
-                Axis = -(light is SpotLight narrow ? narrow.Direction : ((DirectionalLight)light).Direction).UnitVector();
-                _axes = Reflection.AxesAround(Axis);
-            }
-
-            if (light is SunLight { Diameter: > 0 and var diameter })
-            {
-                (IsWide, ConeCosine) = (true, Math.Cos(diameter * Math.PI / 360));
-            }
-            else if (light is SpotLight spot)
-            {
-                var halfAngle = 0.5 * spot.Angle * Math.PI / 180;
-                (ConeCosine, BrightConeCosine) = (Math.Cos(halfAngle), Math.Cos(0.9 * halfAngle));
-            }
-        }
-
-        public Light Light { get; }
-
-        /// <summary>With the intensity, linear light.</summary>
-        public Vector Colour { get; }
-
-        /// <summary>Unit direction against which the light travels; zero for a light that shines in all directions.</summary>
-        public Vector Axis { get; }
-
-        /// <summary>Orthonormal, the third of which is that.</summary>
-        public ref readonly Matrix Axes => ref _axes;
-
-        /// <summary>True where directions towards the light differ.</summary>
-        public bool IsWide { get; }
-
-        /// <summary>Cosine of the half angle of a sun, or of a spot light.</summary>
-        public double ConeCosine { get; }
-
-        /// <summary>Cosine of the half angle within which a spot light is not weakened.</summary>
-        public double BrightConeCosine { get; }
     }
 }

@@ -19,7 +19,7 @@ internal sealed class TracedScene
     // Rays leave a surface by this part of the scene's size: far more than rounding, far less than a pixel.
     private const double SurfaceOffset = 1e-9;
 
-    private readonly InstanceRayCaster _caster;
+    private readonly RayCaster _caster;
     private readonly TracedScene _whole;
     private readonly DeepZoom? _zoom;
     private readonly ConcurrentDictionary<Model, DeepZoomRayCaster> _zoomCasters;
@@ -121,11 +121,12 @@ internal sealed class TracedScene
         surface = default;
         var start = minDistance;
         if ((_section is { } section && !section.TryClip(in ray, ref start, ref maxDistance))
-            || !_caster.TryFindNearest(ray, context, out var hit, out var index, start, maxDistance, footprint))
+            || !_caster.TryFindNearest(ray, context, out var hit, start, maxDistance, footprint))
         {
             return false;
         }
 
+        var index = context.ObjectIndex;
         surface = CreateSurface(ray.Direction, in hit, index, context);
         if (start > minDistance && _section is { HasCap: true, Normal: var normal }
             && IsWithinSolid(in ray, in hit, index, footprint, context))
@@ -148,8 +149,8 @@ internal sealed class TracedScene
         // From the other side, the latter is then found first, and seen from outside.
         var offset = OffsetAt(hit.Point);
         var back = new Ray(hit.Point + (offset * ray.Direction), -ray.Direction);
-        return ModelOf(index).IsSolid && _caster.TryFindNearest(back, context, out var twin, out var twinIndex, 0, 2 * offset, footprint)
-            && ModelOf(twinIndex).IsSolid && !IsInnerSide(in twin, twinIndex);
+        return ModelOf(index).IsSolid && _caster.TryFindNearest(back, context, out var twin, 0, 2 * offset, footprint)
+            && ModelOf(context.ObjectIndex).IsSolid && !IsInnerSide(in twin, context.ObjectIndex);
     }
 
     private bool IsInnerSide(in RayHit hit, int index) =>

@@ -228,33 +228,6 @@ public sealed class QueryPrimitivesTests
         Assert.Equal((0L, 0L), (statistics.FaceTests, statistics.BoundTests));
     }
 
-    [Theory]
-    [InlineData(0, 0)]
-    [InlineData(1, 1)]
-    [InlineData(10, 1)]
-    [InlineData(11, 2)]
-    [InlineData(95, 10)]
-    public void Run_OfTasks_CoversEachNumberOnceAndAddsTheCosts(int count, int tasks)
-    {
-        var seen = new int[count];
-        var totals = new QueryContext();
-        totals.Statistics.FaceTests = 1000;
-        var runs = 0;
-        QueryTasks.Run(count, 10, 3, totals, (first, end, context) =>
-        {
-            Interlocked.Increment(ref runs);
-            for (var i = first; i < end; i++)
-            {
-                Interlocked.Increment(ref seen[i]);
-                context.Statistics.FaceTests++;
-                context.Statistics.BoundTests += 2;
-            }
-        });
-        Assert.All(seen, times => Assert.Equal(1, times));
-        Assert.Equal(tasks, runs);
-        Assert.Equal((1000L + count, 2L * count), (totals.Statistics.FaceTests, totals.Statistics.BoundTests));
-    }
-
     [Fact]
     public void FromRadius_OfAnyRadius_CountsWhatIsExactlyThere()
     {

@@ -18,6 +18,7 @@ internal static partial class ApiPages
         var summaries = XDocument.Load(Path.ChangeExtension(assembly.Location, ".xml")).Descendants("member")
             .ToDictionary(member => member.Attribute("name")!.Value, Documentation.Of);
         return from type in assembly.GetExportedTypes()
+               where !type.IsSpecialName
                group type by type.Namespace into types
                orderby types.Key
                select (types.Key!, Page(types.Key!, types.OrderBy(ApiSignatures.NameOf, StringComparer.Ordinal), summaries));

@@ -74,12 +74,11 @@ public class RefusalRecordTests
         say(() => nothing.FindClosest(Vector.One));
         say(() => scene.TryFindClosest(Vector.One, -1, out _));
         say(() => scene.TryFindClosest(Vector.One, 1, context, out _, out _, epsilon: -1));
-        say(() => BatchQuery.FindClosest(cube, new Vector[2], new BatchResult[1], context));
-        say(() => BatchQuery.FindClosest(cube, (Vector[])[Vector.One, Nowhere]));
-        say(() => BatchQuery.FindClosest(scene, (Vector[])[Vector.One, Vector.I, Nowhere], new BatchResult[3], context));
-        say(() => BatchQuery.FindClosest(cube, new Vector[1], threads: 0));
-        say(() => BatchQuery.FindClosest(cube, new Vector[1], maxDistance: -1));
-        say(() => BatchQuery.FindClosest(cube, new Vector[1], epsilon: NaN));
+        say(() => BatchQuery.Run([Vector.One, Nowhere], (position, own) => cube.FindClosest(position, own)));
+        say(() => BatchQuery.Run([Vector.One, Vector.I, Nowhere], (position, own) => scene.FindClosest(position, own)));
+        say(() => BatchQuery.Run([Vector.One], (position, own) => cube.FindClosest(position, own), threads: 0));
+        say(() => BatchQuery.Run([Vector.One], (position, own) => cube.TryFindClosest(position, -1, own, out _)));
+        say(() => BatchQuery.Run([Vector.One], (position, own) => cube.TryFindClosest(position, 1, own, out _, NaN)));
     });
 
     [Fact]
@@ -105,8 +104,8 @@ public class RefusalRecordTests
         say(() => scene.WithObject(-1, placed));
         say(() => scene.WithObject(0, new(new SceneObject(Samples.Triangle))));
         say(() => scene.TryFindNearest(new(Nowhere, Vector.I), context, out _, out _));
-        say(() => RayBatch.FindNearest(scene, new Ray[] { ray, new(Vector.One, Vector.Zero) }));
-        say(() => RayBatch.FindNearest(scene, new[] { ray }, threads: 0));
+        say(() => BatchQuery.Run([ray, new(Vector.One, Vector.Zero)], (one, own) => scene.FindNearest(one, own)));
+        say(() => BatchQuery.Run([ray], (one, own) => scene.FindNearest(one, own), threads: 0));
         say(() => _ = new DeepZoomRayCaster(Samples.AppendixBAt(2, Composition.Componentwise), []));
     });
 

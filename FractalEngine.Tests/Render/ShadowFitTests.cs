@@ -45,7 +45,8 @@ public class ShadowFitTests
         var fit = new ShadowFit();
         var view = new View(new(new(0, 1, -6), Vector.Zero, 50), Projection.Perspective);
         var frame = new FrameView(view, 0, 0, 640, 480, 640 / 480.0, 0.1, 20);
-        fit.Fit(lights, in frame, view.Camera.Position, 1, Bounds, Bounds, fitsToView: false);
+        ImmutableArray<Emitter> emitters = [.. lights.Select(static light => light.ToEmitter()!)];
+        fit.Fit(emitters, in frame, view.Camera.Position, 1, Bounds, Bounds, fitsToView: false);
         return fit;
     }
 }

@@ -175,14 +175,16 @@ public sealed class RangeTests
         Assert.Throws<ArgumentOutOfRangeException>(() => collider.Overlaps(position, 1));
         Assert.Throws<ArgumentOutOfRangeException>(() => collider.Overlaps(new BoundingBox(position, position)));
         Assert.Throws<ArgumentOutOfRangeException>(() => collider.FindClosestPair(collider, new(Matrix.Identity, position)));
-        Assert.Throws<ArgumentOutOfRangeException>(() => BatchQuery.FindClosest(collider, new[] { position }));
+        Assert.Throws<ArgumentOutOfRangeException>(() => BatchQuery.Run([position], (p, context) => collider.FindClosest(p, context)));
         Assert.Throws<ArgumentOutOfRangeException>(() => collider.Overlaps(Vector.Zero, double.NaN));
     }
 
     /// <summary>Errors of a query come as they are, not wrapped by the threads that ran them.</summary>
     [Fact]
     public void BatchQuery_OfPositionsThatAColliderRefuses_ThrowsItsError() => Assert.Throws<FractalLimitException>(
-        () => BatchQuery.FindClosest(Collider.For(CreateUnitMesh(4), ColliderKind.BoundingBox), new[] { 1e100 * Vector.One }));
+        () => BatchQuery.Run(
+            [1e100 * Vector.One],
+            (position, context) => Collider.For(CreateUnitMesh(4), ColliderKind.BoundingBox).FindClosest(position, context)));
 
     private static Mesh CreateUnitMesh(int faces)
     {

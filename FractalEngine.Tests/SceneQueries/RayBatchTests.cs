@@ -25,16 +25,17 @@ public class RayBatchTests
         var random = new Random(7);
         var rays = Enumerable.Range(0, 5000).Select(_ => new Ray(RandomVector(random), RandomVector(random))).ToArray();
         var totals = new QueryContext();
-        var results = RayBatch.FindNearest(caster, rays, totals, threads);
+        var results = BatchQuery.Run(rays, (ray, rayContext) => caster.FindNearest(ray, rayContext), totals, threads);
 
         var context = new QueryContext();
         var hits = 0;
         for (var i = 0; i < rays.Length; i++)
         {
-            var isHit = caster.TryFindNearest(rays[i], context, out var hit, out var objectIndex);
-            Assert.Equal((isHit, objectIndex, hit), (results[i].IsHit, results[i].ObjectIndex, results[i].Hit));
-            Assert.Equal(isHit ? context.InstancePath.ToArray() : [], results[i].InstancePath.ToArray());
-            hits += isHit ? 1 : 0;
+            RayHit? expected = caster.TryFindNearest(rays[i], context, out var hit)
+                ? hit with { InstancePath = [.. context.InstancePath], ObjectIndex = context.ObjectIndex }
+                : null;
+            Assert.Equal(expected, results[i]);
+            hits += expected is null ? 0 : 1;
         }
 
         Assert.InRange(hits, 500, 4500);
@@ -44,7 +45,7 @@ public class RayBatchTests
 
     [Fact]
     public void FindNearest_OfNoRays_IsEmpty() =>
-        Assert.Empty(RayBatch.FindNearest(new(new Scene { Objects = [new(Sponge)] }), ReadOnlyMemory<Ray>.Empty));
+        Assert.Empty(BatchQuery.Run(Array.Empty<Ray>(), (ray, context) => RayCaster.For(Sponge).FindNearest(ray, context)));
 
     [Fact]
     public void FindNearest_OfAFractalThatIsRefused_ThrowsItsOwnErrorOnAnyThread()
@@ -54,17 +55,16 @@ public class RayBatchTests
             Samples.Triangle);
         var caster = new SceneRayCaster(new Scene { Objects = [new(endless)] });
         var rays = Enumerable.Repeat(new Ray(Vector.Zero, Vector.K), 2000).ToArray();
-        Assert.Throws<FractalLimitException>(() => { RayBatch.FindNearest(caster, rays, threads: 2); });
+        Assert.Throws<FractalLimitException>(
+            () => { BatchQuery.Run(rays, (ray, context) => caster.FindNearest(ray, context), threads: 2); });
     }
 
     [Fact]
-    public void FindNearest_OfWrongArguments_IsRefusedBeforeAnyRay()
+    public void FindNearest_OfARayWithoutDirection_IsRefusedAsAlone()
     {
         var caster = new SceneRayCaster(new Scene { Objects = [new(Sponge)] });
         Ray[] rays = [new(Vector.Zero, Vector.K), new(Vector.Zero, Vector.Zero)];
-        Assert.Throws<ArgumentException>(() => { RayBatch.FindNearest(caster, rays); });
-        Assert.Throws<ArgumentNullException>(() => { RayBatch.FindNearest(null!, rays); });
-        Assert.Throws<ArgumentOutOfRangeException>(() => { RayBatch.FindNearest(caster, rays.AsMemory(0, 1), threads: 0); });
+        Assert.Throws<ArgumentException>(() => { BatchQuery.Run(rays, (ray, context) => caster.FindNearest(ray, context)); });
     }
 
     [Fact]

@@ -108,12 +108,11 @@ public class SceneColliderHierarchyTests
         Assert.Equal(expected, Find(2));
         Assert.Equal(expected, Find(8));
 
-        BatchResult[] Find(int threads)
+        ClosestHit[] Find(int threads)
         {
             // A new collider each time, so that threads build its hierarchy together.
-            var results = new BatchResult[positions.Length];
-            BatchQuery.FindClosest(new SceneCollider(Scene(objects)), positions, results, new(), threads: threads);
-            return results;
+            var collider = new SceneCollider(Scene(objects));
+            return [.. BatchQuery.Run(positions, (position, context) => collider.FindClosest(position, context), threads: threads)];
         }
     });
 

@@ -36,11 +36,12 @@ internal sealed class Picker
         var (near, far) = view.FixedClipPlanes ?? (0, double.PositiveInfinity);
         var (minDistance, maxDistance) = (near * ray.Direction.Length(), far * ray.Direction.Length());
         if ((view.Section is { } section && !section.TryClip(in ray, ref minDistance, ref maxDistance))
-            || !_caster!.TryFindNearest(ray, _context, out var hit, out var objectIndex, minDistance, maxDistance))
+            || !_caster!.TryFindNearest(ray, _context, out var hit, minDistance, maxDistance))
         {
             return null;
         }
 
+        var objectIndex = _context.ObjectIndex;
         var path = _context.InstancePath;
         return new(objectIndex, scene.Objects[objectIndex], [.. path], path.Length, hit);
     }
@@ -62,12 +63,12 @@ internal sealed class Picker
         // All is about the camera.
         var aboutCamera = view with { Camera = view.Camera with { Position = Vector.Zero } };
         var ray = aboutCamera.RayThrough(pixel.X, pixel.Y, size.Width, size.Height);
-        if (!_deepCaster.TryFindNearest(ray, _context, out var hit, out var rootIndex))
+        if (!_deepCaster.TryFindNearest(ray, _context, out var hit))
         {
             return null;
         }
 
-        var address = viewpoint.RelativeTo(roots[rootIndex]);
+        var address = viewpoint.RelativeTo(roots[_context.ObjectIndex]);
         ImmutableArray<int> path = [.. address.MapIndices, .. _context.InstancePath];
         return new(objectIndex, placed, path, path.Length, hit, address);
     }

@@ -31,7 +31,7 @@ internal sealed class LightList(WindowActions actions)
             ui.Scope($"light {i}", () =>
             {
                 ui.Row(1);
-                if (ui.Selectable(light.GetType().Name.Replace("Light", "", StringComparison.Ordinal), index == _light, depth: 1))
+                if (ui.Selectable(light.Kind, index == _light, depth: 1))
                 {
                     _light = index == _light ? -1 : index;
                 }

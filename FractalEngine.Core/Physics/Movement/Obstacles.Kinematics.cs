@@ -88,7 +88,7 @@ internal sealed partial class Obstacles
     }
 
     private bool TryFindStaticPoint(Vector point, double maxDistance, out ClosestPoint closest) =>
-        _staticColliders!.Scene.TryFindClosest(point, maxDistance, queryContext, out closest, out _);
+        _staticColliders!.Scene.TryFindClosest(point, maxDistance, queryContext, out closest);
 
     private bool TryFindOnKinematics(Vector point, double maxDistance, ref ClosestPoint closest, ref KinematicObject? found)
     {

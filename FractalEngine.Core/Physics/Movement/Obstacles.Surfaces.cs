@@ -149,7 +149,8 @@ internal sealed partial class Obstacles
             return false;
         }
 
-        var isFound = _staticColliders.Scene.TryFindClosest(point, maxDistance, queryContext, out closest, out objectIndex);
+        var isFound = _staticColliders.Scene.TryFindClosest(point, maxDistance, queryContext, out closest);
+        objectIndex = queryContext.ObjectIndex;
         maxDistance = isFound ? closest.Distance : maxDistance;
         if (TryFindOnKinematics(point, maxDistance, ref closest, ref kinematic))
         {

@@ -1,4 +1,3 @@
-using System.Collections.Immutable;
 using System.Globalization;
 using System.Runtime.InteropServices;
 using FractalEngine.Core.Fractals.Descriptions;
@@ -14,42 +13,54 @@ internal static class RegionQuery
     // About a second of work.
     private const long MaxBoundTests = 1_000_000;
 
-    /// <summary>Finds all faces within a distance of a position.</summary>
+    /// <summary>Finds all faces of a shape within a distance of a position.</summary>
     /// <param name="tree">The shape.</param>
-    /// <param name="position">In the shape's frame, scene units, finite.</param>
+    /// <param name="placement">Maps its frame to that of the query.</param>
+    /// <param name="objectIndex">Index of the object that the shape is.</param>
+    /// <param name="position">Scene units, finite.</param>
     /// <param name="radius">Scene units, not negative; may be infinite.</param>
     /// <param name="maxFaces">Number of faces beyond which the query is refused, not negative.</param>
     /// <param name="context">Receives the costs.</param>
-    /// <returns>The closest point of each face, by ascending distance; of equal distances by instance path, then by face.</returns>
+    /// <param name="hits">Receives the closest point of each face; may have those of other shapes, which count.</param>
     /// <exception cref="FractalLimitException">There are more faces, or finding out takes too many bounds.</exception>
-    public static ImmutableArray<ClosestHit> FindAllWithin(
-        ShapeTree tree, Vector position, double radius, int maxFaces, QueryContext context)
+    public static void CollectAllWithin(
+        ShapeTree tree, AffineMap placement, int objectIndex, Vector position, double radius, int maxFaces, QueryContext context,
+        List<ClosestHit> hits)
     {
-        var scale = PowerOfTwoScale(tree, position.MaxAbsComponent());
-        var hits = new List<BallHit>();
-        var policy = new BallPolicy(scale * position, scale * radius, MaxBoundTests, hits, maxFaces);
-        var end = ShapeTraversal.Run(tree, QueryScale.Scaling(scale), ref policy, context);
+        var scale = PowerOfTwoScale(tree, in placement, position.MaxAbsComponent());
+        var found = new List<BallHit>();
+        var policy = new BallPolicy(scale * position, scale * radius, MaxBoundTests, found, maxFaces - hits.Count);
+        var end = ShapeTraversal.Run(tree, QueryScale.Scaling(scale) * placement, ref policy, context);
         if (end == TraversalEnd.Completed)
         {
-            return CreateHits(tree, hits, scale, context);
+            AddHits(tree, found, objectIndex, scale, context, hits);
+            return;
         }
 
         var distance = radius.ToString("R", CultureInfo.InvariantCulture);
+        var count = hits.Count + found.Count;
         throw new FractalLimitException(end == TraversalEnd.Found
-            ? $"at least {hits.Count} faces lie within {distance}: expected at most {maxFaces}"
-            : $"more than {MaxBoundTests} bounds are needed to find the faces within {distance}: at least {hits.Count} lie there");
+            ? $"at least {count} faces lie within {distance}: expected at most {maxFaces}"
+            : $"more than {MaxBoundTests} bounds are needed to find the faces within {distance}: at least {count} lie there");
     }
 
     /// <summary>Tells whether a face meets a closed box.</summary>
     /// <param name="tree">The shape.</param>
-    /// <param name="box">In the shape's frame, scene units; finite and not empty.</param>
+    /// <param name="placement">Maps its frame to that of the query.</param>
+    /// <param name="box">Scene units; finite, or empty.</param>
     /// <param name="context">Receives the costs.</param>
     /// <exception cref="FractalLimitException">The answer takes too many bounds.</exception>
-    public static bool Overlaps(ShapeTree tree, BoundingBox box, QueryContext context)
+    public static bool Overlaps(ShapeTree tree, AffineMap placement, BoundingBox box, QueryContext context)
     {
-        var scale = PowerOfTwoScale(tree, box.MaxAbsCoordinate());
-        var policy = new BoxPolicy(new(scale * box.Minimum, scale * box.Maximum), tree.IsFractal, MaxBoundTests);
-        return ShapeTraversal.Run(tree, QueryScale.Scaling(scale), ref policy, context) switch
+        if (box.IsEmpty)
+        {
+            return false;
+        }
+
+        var scale = PowerOfTwoScale(tree, in placement, box.MaxAbsCoordinate());
+        var isRounded = tree.IsFractal || placement != AffineMap.Identity;
+        var policy = new BoxPolicy(new(scale * box.Minimum, scale * box.Maximum), isRounded, MaxBoundTests);
+        return ShapeTraversal.Run(tree, QueryScale.Scaling(scale) * placement, ref policy, context) switch
         {
             TraversalEnd.Found => true,
             TraversalEnd.Completed => false,
@@ -60,14 +71,24 @@ internal static class RegionQuery
     }
 
     /// <summary>The power of two by which a query is scaled, so that squares stay within the range of a double: mostly 1.</summary>
-    private static double PowerOfTwoScale(ShapeTree tree, double queryMagnitude) =>
-        tree.IsEmpty ? 1 : QueryScale.Of(Math.Max(queryMagnitude, tree.Box.MaxAbsCoordinate()));
+    private static double PowerOfTwoScale(ShapeTree tree, in AffineMap placement, double queryMagnitude) =>
+        tree.IsEmpty ? 1 : QueryScale.Of(Math.Max(queryMagnitude, tree.Box.Transform(placement).MaxAbsCoordinate()));
 
-    /// <summary>Describes faces in the frame of the shape, in the order of the query's result.</summary>
-    private static ImmutableArray<ClosestHit> CreateHits(ShapeTree tree, List<BallHit> hits, double scale, QueryContext context)
+    /// <summary>Orders hits by ascending distance; of equal distances by object, by instance path, then by face.</summary>
+    public static int CompareHits(ClosestHit hit1, ClosestHit hit2)
+    {
+        var byDistance = hit1.Distance.CompareTo(hit2.Distance);
+        var byObject = byDistance != 0 ? byDistance : hit1.ObjectIndex.CompareTo(hit2.ObjectIndex);
+        var byPath = byObject != 0 ? byObject : hit1.InstancePath.AsSpan().SequenceCompareTo(hit2.InstancePath.AsSpan());
+        return byPath != 0 ? byPath : hit1.FaceIndex.CompareTo(hit2.FaceIndex);
+    }
+
+    /// <summary>Describes faces in the frame of the query.</summary>
+    private static void AddHits(
+        ShapeTree tree, List<BallHit> found, int objectIndex, double scale, QueryContext context, List<ClosestHit> hits)
     {
         var instancePaths = new Dictionary<int[], int[]>(ReferenceEqualityComparer.Instance);
-        foreach (var hit in hits)
+        foreach (var hit in found)
         {
             if (!instancePaths.ContainsKey(hit.Path))
             {
@@ -76,25 +97,14 @@ internal static class RegionQuery
         }
 
         tree.RemoveRepeated(instancePaths, context);
-        var sorted = new List<ClosestHit>(hits.Count);
-        foreach (var hit in hits)
+        foreach (var hit in found)
         {
             if (instancePaths.TryGetValue(hit.Path, out var instancePath))
             {
-                sorted.Add(new(
+                hits.Add(new(
                     hit.Distance / scale, hit.Point / scale, hit.Normal, hit.FaceIndex,
-                    ImmutableCollectionsMarshal.AsImmutableArray(instancePath)));
+                    ImmutableCollectionsMarshal.AsImmutableArray(instancePath), objectIndex));
             }
         }
-
-        sorted.Sort(CompareHits);
-        return [.. sorted];
-    }
-
-    private static int CompareHits(ClosestHit hit1, ClosestHit hit2)
-    {
-        var byDistance = hit1.Distance.CompareTo(hit2.Distance);
-        var byPath = byDistance != 0 ? byDistance : hit1.InstancePath.AsSpan().SequenceCompareTo(hit2.InstancePath.AsSpan());
-        return byPath != 0 ? byPath : hit1.FaceIndex.CompareTo(hit2.FaceIndex);
     }
 }

@@ -16,4 +16,10 @@ public record DirectionalLight(Vector Direction, Colour Colour, double Intensity
         get;
         init => field = RequireDirection(value, nameof(Direction));
     } = RequireDirection(Direction, nameof(Direction));
+
+    /// <inheritdoc/>
+    public override IReadOnlyList<object> Declaration => ["light", "directional", Direction, Colour, Intensity];
+
+    /// <inheritdoc/>
+    public override Emitter? ToEmitter() => new(Radiance, axis: Direction.UnitVector());
 }

@@ -8,6 +8,18 @@ namespace FractalEngine.Core.Scenes.Lights;
 /// <param name="Intensity">Factor of the colour's linear components, not negative.</param>
 public abstract record Light(Colour Colour, double Intensity)
 {
+    /// <summary>What kind of light this is, as panels name it.</summary>
+    public string Kind => GetType().Name.Replace(nameof(Light), "", StringComparison.Ordinal);
+
+    /// <summary>Linear light: red, green, blue, with the intensity.</summary>
+    public Vector Radiance => Intensity * Colour.ToLinearVector();
+
+    /// <summary>The words and numbers that declare the light in a scene file, in their order.</summary>
+    public abstract IReadOnlyList<object> Declaration { get; }
+
+    /// <summary>Tells what the light brings to points; null where it comes from all around.</summary>
+    public abstract Emitter? ToEmitter();
+
     /// <summary>Throws for a vector that points nowhere.</summary>
     private protected static Vector RequireDirection(Vector direction, string parameterName) =>
         direction.IsFinite() && direction != Vector.Zero

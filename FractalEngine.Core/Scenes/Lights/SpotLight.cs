@@ -20,4 +20,10 @@ public sealed record SpotLight(Vector Position, Vector Direction, double Angle, 
         get;
         init => field = RequireDirection(value, nameof(Direction));
     } = RequireDirection(Direction, nameof(Direction));
+
+    /// <inheritdoc/>
+    public override IReadOnlyList<object> Declaration => ["light", "spot", Position, Direction, Angle, Colour, Intensity, Range];
+
+    /// <inheritdoc/>
+    public override Emitter? ToEmitter() => new(Radiance, Position, Range, Direction.UnitVector(), Angle);
 }

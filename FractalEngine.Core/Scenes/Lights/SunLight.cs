@@ -13,4 +13,10 @@ public sealed record SunLight(Vector Direction, Colour Colour, double Intensity,
 {
     /// <summary>The angle of our own sun, degrees.</summary>
     public const double DefaultDiameter = 0.53;
+
+    /// <inheritdoc/>
+    public override IReadOnlyList<object> Declaration => ["sun", Direction, Colour, Intensity, Diameter];
+
+    /// <inheritdoc/>
+    public override Emitter? ToEmitter() => new(Radiance, axis: Direction.UnitVector(), diameter: Diameter);
 }
