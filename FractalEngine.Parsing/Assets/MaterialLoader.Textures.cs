@@ -81,7 +81,7 @@ internal sealed partial class MaterialLoader
                     isLimitExceeded: true);
             }
 
-            if (header.FindFault(stream) is { } fault)
+            if (header.FindFault(stream.Length) is { } fault)
             {
                 throw source.Error(offset, $"the image \"{file}\" {fault}");
             }

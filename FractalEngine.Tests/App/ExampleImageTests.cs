@@ -1,4 +1,4 @@
-using FractalEngine.Core.Images;
+using FractalEngine.Render.Images;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.App;
@@ -32,8 +32,7 @@ public sealed class ExampleImageTests : IDisposable
     {
         Display.Require();
         var image = Repository.Full($"docs/images/{Path.GetFileNameWithoutExtension(file)}.png");
-        using var stream = File.OpenRead(image);
-        var size = PngReader.Read(stream);
+        var size = ImageFile.Load(image);
         // Where twigs are thinner than a pixel, a shift by a part of one gives 26 dB; another camera gives 15 to 24 dB.
         var (exitCode, _, error) = AppProcess.Run(
             _folder.Path,

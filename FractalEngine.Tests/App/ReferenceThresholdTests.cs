@@ -3,6 +3,7 @@ using System.Globalization;
 using FractalEngine.App.Jobs;
 using FractalEngine.App.Options;
 using FractalEngine.Core.Images;
+using FractalEngine.Render.Images;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.App;
@@ -41,8 +42,7 @@ public sealed class ReferenceThresholdTests : IDisposable
         Assert.Equal(
             (5, FormattableString.Invariant($"reference: 26.37 dB, less than {threshold:R} dB; {path} shows the difference\n")),
             (exitCode, text));
-        using var stream = File.OpenRead(path);
-        Assert.Equal((byte[])[30, 0, 0, 255, 0, 0, 0, 255], PngReader.Read(stream).Pixels);
+        Assert.Equal((byte[])[30, 0, 0, 255, 0, 0, 0, 255], ImageFile.Load(path).Pixels);
     }
 
     [Fact]
