@@ -6,8 +6,14 @@ namespace FractalEngine.Render.Images;
 /// <summary>Decodes images with StbImageSharp (docs/decisions/0021-decoding-images.md).</summary>
 internal static class ImageDecoder
 {
+    // What the library says of an image that is no PNG image; it may fail later without another reason.
+    private const string NoReason = "bad png sig";
+
     // The library keeps the reason of a failure in a static field.
     private static readonly Lock Gate = new();
+
+    // The marker EOI (T.81, §B.2.1). At a wrong marker the library stops reading, and shows what it has.
+    private static ReadOnlySpan<byte> EndOfJpeg => [0xFF, 0xD9];
 
     /// <summary>Decodes an image whose size, and whose chunks if it is a PNG image, were checked before.</summary>
     /// <param name="file">The whole file.</param>
@@ -18,20 +24,23 @@ internal static class ImageDecoder
         using var stream = new FileBytes(file);
         lock (Gate)
         {
-            StbImage.stbi__g_failure_reason = "wrong data";
+            StbImage.stbi__g_failure_reason = NoReason;
             try
             {
                 var image = ImageResult.FromStream(stream, ColorComponents.RedGreenBlueAlpha);
-                // What lies beyond the end was taken for zeros, or for whatever the memory held.
-                return stream.HasEnded ? throw new InvalidOperationException() : new PixelImage(image.Width, image.Height, image.Data);
+                // What is missing was taken for zeros, or for whatever the memory held.
+                var isWhole = !stream.HasEnded
+                    && (file is not [0xFF, 0xD8, ..] || file.AsSpan(0, (int)stream.Position).EndsWith(EndOfJpeg));
+                return isWhole ? new PixelImage(image.Width, image.Height, image.Data) : throw new InvalidOperationException();
             }
             catch (Exception exception) when (exception is InvalidOperationException or ArgumentException or IndexOutOfRangeException
                 or OverflowException or OutOfMemoryException)
             {
+                var reason = stream.HasEnded ? "the file ends within it"
+                    : StbImage.stbi__g_failure_reason == NoReason ? "wrong data"
+                    : StbImage.stbi__g_failure_reason;
                 // Unknown chunks are named by their bytes, whatever these are.
-                var reason = stream.HasEnded
-                    ? "the file ends within it"
-                    : string.Concat(StbImage.stbi__g_failure_reason.Where(static character => !char.IsControl(character)));
+                reason = string.Concat(reason.Where(static character => !char.IsControl(character)));
                 throw new IOException($"it is damaged, or of a kind that can't be decoded: {reason}", exception);
             }
         }

@@ -77,7 +77,9 @@ public class DamagedImageTests
         },
         { "filter 5", $"{Undecodable}invalid filter", File(Grey, Data([5, 10, 20]), End) },
         { "cut JPEG", $"{Undecodable}the file ends within it", ImageDecoderTests.Jpeg[..^2] },
-        { "JPEG with arithmetic coding", $"{Undecodable}unknown marker", Arithmetic(ImageDecoderTests.Jpeg) },
+        { "JPEG with arithmetic coding", $"{Undecodable}unknown marker", WithMarker(0xC0, 0xC9) },
+        { "JPEG that ends with a wrong marker", $"{Undecodable}unknown marker", WithMarker(0xD9, 0xC9) },
+        { "JPEG with a wrong marker before its pixels", $"{Undecodable}unknown marker", WithMarker(0xDA, 0xC9) },
         {
             "run-length encoded BMP", $"{Undecodable}BMP RLE",
             [.. "BM"u8, 62, 0, 0, 0, 0, 0, 0, 0, 54, 0, 0, 0, 40, 0, 0, 0, 2, 0, 0, 0, 1, 0, 0, 0, 1, 0, 8, 0, 1, .. new byte[31]]
@@ -121,10 +123,10 @@ public class DamagedImageTests
     private static void AssertGrey(byte[] file) =>
         Assert.Equal([10, 10, 10, 255, 20, 20, 20, 255], ImageFile.Load(new MemoryStream(file), isTga: false).Pixels);
 
-    private static byte[] Arithmetic(byte[] jpeg)
+    private static byte[] WithMarker(byte from, byte to)
     {
-        var marker = jpeg.AsSpan().IndexOf((ReadOnlySpan<byte>)[0xFF, 0xC0]);
-        jpeg[marker + 1] = 0xC9;
+        var jpeg = ImageDecoderTests.Jpeg;
+        jpeg[jpeg.AsSpan().LastIndexOf((ReadOnlySpan<byte>)[0xFF, from]) + 1] = to;
         return jpeg;
     }
 
