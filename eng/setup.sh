@@ -20,7 +20,6 @@ has_library() {
 # Prints the Debian packages that are missing; looks for files and commands, since asking apt takes a second.
 missing_packages() {
     [ -e /usr/lib/cli/OpenTK-1.1/OpenTK.dll ] || echo libopentk1.1-cil
-    has_library libSDL2_image-2.0.so.0 || echo libsdl2-image-2.0-0
     has_library libGL.so.1 || echo libgl1
     { ls /usr/lib/*/dri/swrast_dri.so || ls /usr/lib/*/libgallium*; } >/dev/null 2>&1 || echo libgl1-mesa-dri
     command -v Xvfb >/dev/null || echo xvfb

@@ -27,11 +27,17 @@ public readonly record struct ImageHeader(long Width, long Height, long MinFileB
     // TGA: a packet of one pixel stands for up to 128.
     private const int TgaPacketPixels = 128;
 
-    /// <summary>True for a TGA image whose pixels are indices of a palette.</summary>
-    private bool HasTgaPalette { get; init; }
+    /// <summary>The first colour of a TGA image's palette; 0 where it begins with the first, or there is none.</summary>
+    private int FirstColour { get; init; }
 
     /// <summary>Pixels of the whole image.</summary>
     public long PixelCount => PixelBytes(Width, Height, 8);
+
+    /// <summary>
+    /// The most bytes that the pixels of a PNG image take before they are compressed. Interlaced, it has less than two rows for each of its
+    /// own. A row begins with a byte that names its filter, and may end with one that is not full.
+    /// </summary>
+    internal long MaxPngDataBytes => ((MinFileBytes + 1) * DeflateRatio) + (4 * Height) + 14;
 
     /// <summary>Reads the header of a PNG, JPEG, BMP or TGA file; null for any other file.</summary>
     /// <param name="stream">Seekable stream at its beginning; afterwards anywhere. Left open.</param>
@@ -45,7 +51,8 @@ public readonly record struct ImageHeader(long Width, long Height, long MinFileB
         var count = stream.ReadAtLeast(header, HeaderBytes, throwOnEndOfStream: false);
         return header switch
         {
-            _ when PngReader.IsPng(header) => count < 24 ? null : ReadPng(header),
+            // Another chunk before the header could have a decoder take it for an image of another size.
+            _ when IsPng(header) => count < 24 || !header[12..].StartsWith("IHDR"u8) ? null : ReadPng(header),
             [0xFF, 0xD8, ..] => ReadJpeg(stream),
             [(byte)'B', (byte)'M', ..] => count < 26 ? null : ReadBmp(header),
             _ when isTga => count < 18 ? null : ReadTga(header),
@@ -53,23 +60,24 @@ public readonly record struct ImageHeader(long Width, long Height, long MinFileB
         };
     }
 
+    /// <summary>Whether a file that begins so is a PNG image.</summary>
+    /// <param name="head">The first eight bytes, or more.</param>
+    public static bool IsPng(ReadOnlySpan<byte> head) => head.StartsWith(PngChunk.Signature);
+
     /// <summary>Whether the name of a file says that it is a TGA image, which its contents can't.</summary>
     public static bool IsTga(string path) => Path.GetExtension(path).Equals(".tga", StringComparison.OrdinalIgnoreCase);
 
     /// <summary>
-    /// Tells whether a file is too short for the pixels that its header states, or has colours that its palette lacks: decoders show
-    /// whatever lies behind the palette.
+    /// Tells whether a file is too short for the pixels that its header states, or has a palette without its first colours: decoders
+    /// show others.
     /// </summary>
-    /// <param name="stream">The seekable stream that the header was read from; afterwards anywhere. Left open.</param>
+    /// <param name="fileBytes">The length of the file.</param>
     /// <returns>The rest of a sentence that begins with the name of the image; null where there is no such fault.</returns>
-    /// <exception cref="IOException">The stream can't be read.</exception>
-    public string? FindFault(Stream stream)
-    {
-        ArgumentNullException.ThrowIfNull(stream);
-        return stream.Length < MinFileBytes
-            ? $"is cut off: {Width}×{Height} pixels need at least {MinFileBytes} bytes, and it has {stream.Length}"
-            : HasTgaPalette ? TgaPalette.FindFault(stream, Width * Height) : null;
-    }
+    public string? FindFault(long fileBytes) =>
+        fileBytes < MinFileBytes
+            ? $"is cut off: {Width}×{Height} pixels need at least {MinFileBytes} bytes, and it has {fileBytes}"
+            : FirstColour > 0 ? $"has a palette that begins with colour {FirstColour}, expected 0"
+            : null;
 
     private static ImageHeader ReadPng(ReadOnlySpan<byte> header)
     {
@@ -124,7 +132,10 @@ public readonly record struct ImageHeader(long Width, long Height, long MinFileB
         var isCompressed = header[2] >= 9;
         var packets = (PixelBytes(width, height, 8) + TgaPacketPixels - 1) / TgaPacketPixels;
         var pixelBytes = isCompressed ? packets * (1 + bytesPerPixel) : PixelBytes(width, height, 8 * bytesPerPixel);
-        return new(width, height, start + pixelBytes) { HasTgaPalette = header[2] is 1 or 9 };
+        return new(width, height, start + pixelBytes)
+        {
+            FirstColour = header[2] is 1 or 9 ? BinaryPrimitives.ReadUInt16LittleEndian(header[3..]) : 0,
+        };
     }
 
     /// <summary>Reads the header of a JPEG image from its first frame segment (ITU-T T.81, §B.2).</summary>
@@ -160,5 +171,4 @@ public readonly record struct ImageHeader(long Width, long Height, long MinFileB
     /// <summary>Bytes of so many pixels without any compression. A depth of 0, which is damage, counts as one bit.</summary>
     private static long PixelBytes(long width, long height, int bits) =>
         (long)Int128.Min((Int128)width * height * Math.Max(1, bits) / 8, long.MaxValue / 2);
-
 }

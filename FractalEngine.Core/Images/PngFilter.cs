@@ -1,4 +1,5 @@
 using System.Diagnostics;
+using System.Runtime.InteropServices;
 using System.Runtime.Intrinsics;
 
 namespace FractalEngine.Core.Images;
@@ -86,13 +87,16 @@ internal sealed class PngFilter(int rowBytes)
 
         for (; i < rowBytes; i += Distance)
         {
-            var difference = PngFourBytes.Load(row[(i + Distance)..]) - TPredictor.Predict(
-                PngFourBytes.Load(row[i..]), PngFourBytes.Load(above[(i + Distance)..]), PngFourBytes.Load(above[i..]));
-            PngFourBytes.Store(target[i..], difference);
+            var difference = Load(row[(i + Distance)..]) - TPredictor.Predict(
+                Load(row[i..]), Load(above[(i + Distance)..]), Load(above[i..]));
+            MemoryMarshal.Write(target[i..], difference.AsUInt32().ToScalar());
             var (low, _) = Vector128.Widen(Vector128.Min(difference, -difference));
             total += Vector128.Sum(low);
         }
 
         return total;
     }
+
+    /// <summary>Loads a pixel into the first bytes of a vector; the others are 0.</summary>
+    private static Vector128<byte> Load(ReadOnlySpan<byte> pixel) => Vector128.CreateScalar(MemoryMarshal.Read<uint>(pixel)).AsByte();
 }

@@ -3,8 +3,7 @@ using System.Runtime.Intrinsics;
 namespace FractalEngine.Core.Images;
 
 /// <summary>
-/// What a filter expects of a byte, from its neighbours (PNG, third edition, §9.2). All bytes of a vector are independent. The writer takes
-/// 16 bytes of a row at a time, the reader those of one pixel, since the next pixel needs its result.
+/// What a filter expects of a byte, from its neighbours (PNG, third edition, §9.2). All bytes of a vector are independent.
 /// </summary>
 internal interface IPngPredictor
 {

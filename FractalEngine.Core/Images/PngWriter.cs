@@ -7,6 +7,10 @@ namespace FractalEngine.Core.Images;
 public static class PngWriter
 {
     private const int DataChunkBytes = 1 << 16;
+    private const int HeaderBytes = 13;
+
+    // The colour type of pixels with samples of red, green, blue and alpha (table 8).
+    private const byte Rgba = 6;
 
     /// <summary>Writes an image as RGBA of 8 bits, not interlaced, without any chunk that is not needed.</summary>
     /// <param name="image">At least one pixel.</param>
@@ -56,11 +60,11 @@ public static class PngWriter
     /// <summary>Writes the chunk with the size and the format of an image.</summary>
     internal static void WriteHeader(PixelImage image, PngChunkWriter chunks)
     {
-        Span<byte> header = stackalloc byte[PngHeader.Bytes];
+        Span<byte> header = stackalloc byte[HeaderBytes];
         BinaryPrimitives.WriteInt32BigEndian(header, image.Width);
         BinaryPrimitives.WriteInt32BigEndian(header[4..], image.Height);
         header[8] = 8;
-        header[9] = (byte)PngColourType.Rgba;
+        header[9] = Rgba;
         // The methods of compression and filtering, of which there is one each, and no interlacing.
         header[10..].Clear();
         chunks.Write(PngChunk.Header, header);

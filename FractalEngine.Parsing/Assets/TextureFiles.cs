@@ -106,7 +106,7 @@ internal sealed class TextureFiles(FileReferenceResolver references, List<Diagno
                     isLimitExceeded: true);
             }
 
-            if (header.FindFault(stream) is { } fault)
+            if (header.FindFault(stream.Length) is { } fault)
             {
                 throw source.Error(offset, $"the image \"{file}\" {fault}");
             }

@@ -1,4 +1,5 @@
 using FractalEngine.Core.Images;
+using FractalEngine.Render.Images;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.App;
@@ -30,11 +31,7 @@ public abstract class DrawingCommandTests : IDisposable
 
     private protected byte[] Pixels(string file) => ReadImage(file).Pixels;
 
-    private protected PixelImage ReadImage(string file)
-    {
-        using var stream = File.OpenRead(Folder[file]);
-        return PngReader.Read(stream);
-    }
+    private protected PixelImage ReadImage(string file) => ImageFile.Load(Folder[file]);
 
     private protected AppResult Run(params string[] arguments) => AppProcess.Run(Folder.Path, arguments);
 }

@@ -151,8 +151,8 @@ public sealed class RefusalTests : IDisposable
         var (exitCode, _, error) = Run("render", "m.obj", "--output", "a.png", "--trace", "1", "--resolution", "8x8", "--quiet");
         Assert.Equal(
             (0, FormattableString.Invariant(
-                $"textures/a.png:1:1: warning: the texture can't be decoded, drawn grey: byte {png.Length / 2}: the file ends within ")
-                + "the chunk IDAT\n"),
+                $"textures/a.png:1:1: warning: the texture can't be decoded, drawn grey: byte {png.Length / 2}: the file ends before ")
+                + "the chunk IEND\n"),
             (exitCode, error));
     }
 

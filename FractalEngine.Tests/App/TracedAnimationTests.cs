@@ -1,7 +1,7 @@
 using FractalEngine.App.Animation;
 using FractalEngine.App.Jobs;
-using FractalEngine.Core.Images;
 using FractalEngine.Parsing.Assets;
+using FractalEngine.Render.Images;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.App;
@@ -164,9 +164,5 @@ public sealed class TracedAnimationTests : IDisposable
         Assert.True(exitCode == 0, error);
     }
 
-    private byte[] Pixels(string file)
-    {
-        using var stream = File.OpenRead(_folder[file]);
-        return PngReader.Read(stream).Pixels;
-    }
+    private byte[] Pixels(string file) => ImageFile.Load(_folder[file]).Pixels;
 }

@@ -1,6 +1,6 @@
 using System.Text.RegularExpressions;
-using FractalEngine.Core.Images;
 using FractalEngine.Parsing.Assets;
+using FractalEngine.Render.Images;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Documentation;
@@ -27,8 +27,7 @@ public partial class FirstTreeTests
         Assert.Contains($"`assets/examples/{file}`:\n\n```\n{text}```\n", Page, StringComparison.Ordinal);
         var image = $"images/{Path.GetFileNameWithoutExtension(file)}.png";
         Assert.Contains($"]({image})", Page, StringComparison.Ordinal);
-        using var stream = File.OpenRead(Repository.Full($"docs/{image}"));
-        Assert.True(PngReader.Read(stream).Width > 0);
+        Assert.True(ImageFile.Load(Repository.Full($"docs/{image}")).Width > 0);
     }
 
     [Theory]

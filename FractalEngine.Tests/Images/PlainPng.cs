@@ -4,8 +4,8 @@ using System.Text;
 namespace FractalEngine.Tests.Images;
 
 /// <summary>
-/// Writes PNG files of every kind that the standard knows, bit by bit as its sections say. It is the oracle of <see cref="PngReaderTests"/>
-/// and shares no code with what it judges.
+/// Writes PNG files of every kind that the standard knows, bit by bit as its sections say. It is the oracle of what is read
+/// and written, and shares no code with what it judges.
 /// </summary>
 internal static class PlainPng
 {
@@ -78,13 +78,13 @@ internal static class PlainPng
         return output.ToArray();
     }
 
-    /// <summary>The pixels as <c>IDAT</c> chunks of random lengths, some of them empty.</summary>
+    /// <summary>The pixels as <c>IDAT</c> chunks of random lengths.</summary>
     public static byte[] Split(byte[] data, Random random)
     {
         var chunks = new List<byte>();
         for (var start = 0; start < data.Length;)
         {
-            var count = random.Next(4) == 0 ? random.Next(3) : random.Next(2 * data.Length);
+            var count = random.Next(4) == 0 ? random.Next(1, 3) : random.Next(1, 2 * data.Length);
             count = Math.Min(count, data.Length - start);
             chunks.AddRange(Chunk("IDAT", data[start..(start + count)]));
             start += count;

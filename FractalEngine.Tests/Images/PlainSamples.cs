@@ -2,7 +2,7 @@ using FractalEngine.Core.Images;
 
 namespace FractalEngine.Tests.Images;
 
-/// <summary>The samples of an image as a PNG file holds them, and what they look like.</summary>
+/// <summary>The samples of an image as a PNG file holds them, and what they look like once decoded.</summary>
 /// <param name="Width">Pixels.</param>
 /// <param name="Height">Pixels.</param>
 /// <param name="ColourType">0, 2, 3, 4 or 6.</param>
@@ -57,7 +57,7 @@ internal sealed record PlainSamples(int Width, int Height, int ColourType, int D
 
     public ReadOnlySpan<ushort> Pixel(int x, int y) => Values.AsSpan(((y * Width) + x) * Channels, Channels);
 
-    /// <summary>What the standard says of each pixel.</summary>
+    /// <summary>What each pixel looks like.</summary>
     public PixelImage ToImage()
     {
         var pixels = new List<byte>();
@@ -81,7 +81,8 @@ internal sealed record PlainSamples(int Width, int Height, int ColourType, int D
         _ => [Scale(pixel[0]), Scale(pixel[1]), Scale(pixel[2]), Scale(pixel[3])],
     };
 
-    private byte Scale(ushort sample) => (byte)Math.Round(255m * sample / ((1 << Depth) - 1), MidpointRounding.AwayFromZero);
+    /// <summary>Spreads a sample over the whole range; of 16 bits, the upper 8 are left.</summary>
+    private byte Scale(ushort sample) => (byte)(Depth == 16 ? sample >> 8 : 255 * sample / ((1 << Depth) - 1));
 
     private byte Alpha(ReadOnlySpan<ushort> pixel)
     {

@@ -1,10 +1,12 @@
 using FractalEngine.Core.Images;
+using FractalEngine.Render.Images;
+using FractalEngine.Tests.Images;
 using FractalEngine.Tests.Support;
 
-namespace FractalEngine.Tests.Images;
+namespace FractalEngine.Tests.Render.Images;
 
 /// <summary>Files of every kind in the standard, written by <see cref="PlainPng"/> from random samples: each pixel is exact.</summary>
-public class PngReaderTests
+public class ImageDecoderTests
 {
     public static TheoryData<int, int, bool> Kinds
     {
@@ -58,33 +60,6 @@ public class PngReaderTests
         Seeded.Run(1, random => AssertRead(PlainSamples.Random(random, colourType, depth, isInterlaced: false, width, height), random));
 
     [Fact]
-    public void Reduce_OfEachSample_IsTheNearest()
-    {
-        for (var value = 0; value <= ushort.MaxValue; value++)
-        {
-            Assert.Equal(Math.Round(value * 255m / 65535m, MidpointRounding.AwayFromZero), PngRowConverter.Reduce((ushort)value));
-        }
-    }
-
-    [Fact]
-    public void Read_OfAStreamThatGivesAByteAtATime_IsTheSame() => Seeded.Run(20, random =>
-    {
-        var samples = PlainSamples.Random(random, 6, 8, isInterlaced: true, 9, 7);
-        Assert.Equal(samples.ToImage().Pixels, PngReader.Read(new SlowStream(PlainPng.Encode(samples, random))).Pixels);
-    });
-
-    [Fact]
-    public void Read_WithinALongerStream_EndsBehindTheImage()
-    {
-        var samples = PlainSamples.Random(new(1), 2, 8, isInterlaced: false, 5, 5);
-        var file = PlainPng.Encode(samples, new(1));
-        using var stream = new MemoryStream([1, 2, 3, .. file, 4, 5]);
-        stream.Position = 3;
-        Assert.Equal(samples.ToImage().Pixels, PngReader.Read(stream).Pixels);
-        Assert.Equal(3 + file.Length, stream.Position);
-    }
-
-    [Fact]
     public void Read_WithChunksThatSayNothingOfPixels_IgnoresThem()
     {
         var (samples, data) = Sample(new(1));
@@ -104,14 +79,6 @@ public class PngReaderTests
     }
 
     [Fact]
-    public void Read_WithATransparencyBesideAlpha_IgnoresIt()
-    {
-        var (samples, data) = Sample(new(1));
-        var head = PlainPng.Head(samples with { Transparency = [1, 2, 3] });
-        Assert.Equal(samples.ToImage().Pixels, Read(File(head, PlainPng.Chunk("IDAT", data))).Pixels);
-    }
-
-    [Fact]
     public void Read_WithAPaletteBeyondItsIndices_TakesItsBeginning()
     {
         var palette = Enumerable.Range(0, 768).Select(i => (byte)i).ToArray();
@@ -120,43 +87,72 @@ public class PngReaderTests
     }
 
     [Fact]
-    public void Read_OfUnusedBitsInTransparency_MasksThem()
+    public void Read_OfAnIndexBeyondThePalette_IsBlackAndInvisible()
     {
-        var samples = new PlainSamples(2, 1, 0, 2, false, [1, 2]) { Transparency = [0, 1] };
-        var file = PlainPng.Encode(samples with { Transparency = [0xFF, 0xFD] }, new(1));
-        Assert.Equal(samples.ToImage().Pixels, Read(file).Pixels);
-        Assert.Equal(0, samples.ToImage().Pixels[3]);
+        var samples = new PlainSamples(2, 1, 3, 8, false, [0, 1]) { Palette = [1, 2, 3] };
+        Assert.Equal([1, 2, 3, 255, 0, 0, 0, 0], Read(PlainPng.Encode(samples, new(1))).Pixels);
     }
 
     [Fact]
-    public void ReadHeader_SaysWhatTheImageIs()
+    public void Read_OfAnAnimation_GivesItsFirstImage()
     {
-        var file = PlainPng.Encode(PlainSamples.Random(new(1), 2, 16, isInterlaced: true, 7, 3), new(1));
-        var header = PngReader.ReadHeader(new MemoryStream(file, 0, 33));
-        Assert.Equal(new(7, 3, 16, PngColourType.Rgb, true), header);
-        Assert.Equal((3, 48), (header.Channels, header.BitsPerPixel));
+        var animation = new ApngAnimation(10);
+        animation.Add(new(1, 1, [1, 2, 3, 4]));
+        animation.Add(new(1, 1, [5, 6, 7, 8]));
+        using var file = new MemoryStream();
+        animation.Write(file);
+        Assert.Equal([1, 2, 3, 4], Read(file.ToArray()).Pixels);
     }
 
     [Fact]
-    public void IsPng_KnowsTheSignatureOnly()
+    public void Read_OfAJpeg_GivesItsColours()
     {
-        Assert.True(PngReader.IsPng([.. PlainPng.Signature, 1]));
-        Assert.False(PngReader.IsPng(PlainPng.Signature.AsSpan(0, 7)));
-        Assert.False(PngReader.IsPng([.. "\uFFFDPNG\r\n\x1a\n"u8]));
+        var image = Read(Jpeg);
+        Assert.Equal((8, 8), (image.Width, image.Height));
+        Assert.All(Enumerable.Range(0, 64), i =>
+        {
+            var (red, green, blue, alpha) = image[i % 8, i / 8];
+            Assert.InRange(red, 197, 203);
+            Assert.InRange(green, 97, 103);
+            Assert.InRange(blue, 47, 53);
+            Assert.Equal(255, alpha);
+        });
     }
 
-    [Fact]
-    public void Read_OfAStreamThatFails_PassesTheErrorOn() =>
-        Assert.Equal("the disk is gone", Assert.Throws<IOException>(() => PngReader.Read(new FailingStream(PlainPng.Signature))).Message);
+    [Theory]
+    [InlineData(24, new byte[] { 10, 20, 30, 40, 50, 60, 0, 0 }, new byte[] { 30, 20, 10, 255, 60, 50, 40, 255 })]
+    [InlineData(32, new byte[] { 10, 20, 30, 99, 40, 50, 60, 0 }, new byte[] { 30, 20, 10, 99, 60, 50, 40, 0 })]
+    [InlineData(16, new byte[] { 0x00, 0x7C, 0x1F, 0x00 }, new byte[] { 255, 0, 0, 255, 0, 0, 255, 255 })]
+    public void Read_OfABmp_GivesItsPixels(byte bits, byte[] row, byte[] pixels)
+    {
+        byte[] header = [.. "BM"u8, 62, 0, 0, 0, 0, 0, 0, 0, 54, 0, 0, 0, 40, 0, 0, 0, 2, 0, 0, 0, 1, 0, 0, 0, 1, 0, bits, 0];
+        Assert.Equal(pixels, Read([.. header, .. new byte[24], .. row]).Pixels);
+    }
+
+    [Theory]
+    [InlineData(2, 24, new byte[] { 1, 2, 3, 4, 5, 6 }, new byte[] { 3, 2, 1, 255, 6, 5, 4, 255 })]
+    [InlineData(2, 32, new byte[] { 1, 2, 3, 9, 4, 5, 6, 8 }, new byte[] { 3, 2, 1, 9, 6, 5, 4, 8 })]
+    [InlineData(3, 8, new byte[] { 7, 8 }, new byte[] { 7, 7, 7, 255, 8, 8, 8, 255 })]
+    [InlineData(10, 24, new byte[] { 0x81, 1, 2, 3 }, new byte[] { 3, 2, 1, 255, 3, 2, 1, 255 })]
+    public void Read_OfATga_GivesItsPixels(byte type, byte bits, byte[] data, byte[] pixels) =>
+        Assert.Equal(pixels, Read([0, 0, type, 0, 0, 0, 0, 0, 0, 0, 0, 0, 2, 0, 1, 0, bits, 0, .. data], isTga: true).Pixels);
 
     [Fact]
-    public void Read_WithALimitOfNothing_IsRefused() =>
-        Assert.Throws<ArgumentOutOfRangeException>(() => PngReader.Read(new MemoryStream(), 0));
+    public void Read_OfATgaWithAPalette_TakesItsFirstColourForThoseThatItLacks() => Assert.Equal(
+        [3, 2, 1, 255, 6, 5, 4, 255, 3, 2, 1, 255],
+        Read([0, 1, 1, 0, 0, 2, 0, 24, 0, 0, 0, 0, 3, 0, 1, 0, 8, 0, 1, 2, 3, 4, 5, 6, 0, 1, 2], isTga: true).Pixels);
+
+    /// <summary>An image of 8×8 pixels of one colour, (200, 100, 50), without subsampling.</summary>
+    internal static byte[] Jpeg => Convert.FromBase64String(
+        "/9j/4AAQSkZJRgABAQAAAQABAAD/2wBDAAMCAgMCAgMDAwMEAwMEBQgFBQQEBQoHBwYIDAoMDAsKCwsNDhIQDQ4RDgsLEBYQERMUFRUVDA8XGBYUGBIUFRT/"
+        + "2wBDAQMEBAUEBQkFBQkUDQsNFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBT/wAARCAAIAAgDAREAAhEBAxEB/8QA"
+        + "FAABAAAAAAAAAAAAAAAAAAAABP/EABQQAQAAAAAAAAAAAAAAAAAAAAD/xAAVAQEBAAAAAAAAAAAAAAAAAAAHCP/EABQRAQAAAAAAAAAAAAAAAAAAAAD/2gAM"
+        + "AwEAAhEDEQA/ACA9SD//2Q==");
 
     private static byte[] File(params byte[][] chunks) =>
         [.. PlainPng.Signature, .. chunks.SelectMany(chunk => chunk), .. PlainPng.Chunk("IEND")];
 
-    private static PixelImage Read(byte[] file) => PngReader.Read(new MemoryStream(file));
+    private static PixelImage Read(byte[] file, bool isTga = false) => ImageFile.Load(new MemoryStream(file), isTga);
 
     private static (PlainSamples Samples, byte[] Data) Sample(Random random)
     {
@@ -169,15 +165,5 @@ public class PngReaderTests
         var image = Read(PlainPng.Encode(samples, random, filter));
         Assert.Equal((samples.Width, samples.Height), (image.Width, image.Height));
         Assert.True(samples.ToImage().Pixels.AsSpan().SequenceEqual(image.Pixels), $"{samples}");
-    }
-
-    private sealed class SlowStream(byte[] bytes) : MemoryStream(bytes)
-    {
-        public override int Read(Span<byte> buffer) => base.Read(buffer[..Math.Min(1, buffer.Length)]);
-    }
-
-    private sealed class FailingStream(byte[] bytes) : MemoryStream(bytes)
-    {
-        public override int Read(Span<byte> buffer) => Position < Length ? base.Read(buffer) : throw new IOException("the disk is gone");
     }
 }

@@ -1,45 +1,37 @@
 using System.Buffers.Binary;
 using System.IO.Compression;
 using FractalEngine.Core.Images;
+using FractalEngine.Render.Images;
+using FractalEngine.Tests.Images;
 using FractalEngine.Tests.Support;
 
-namespace FractalEngine.Tests.Images;
+namespace FractalEngine.Tests.Render.Images;
 
-/// <summary>Damaged files and bombs: one kind of exception, and no more memory than the stated size.</summary>
-public class PngRobustnessTests
+/// <summary>Damaged files and bombs: one kind of exception, and memory for no more pixels than the file can hold.</summary>
+public class ImageRobustnessTests
 {
-    private const int MaxPixels = 10_000;
+    // The buffer of the check, the decompressor's, an exception.
+    private const long Overhead = 256 * 1024;
 
-    // A block of rows, the decompressor's buffer, an exception.
-    private const long Overhead = 128 * 1024;
-
-    // If all pixels are in one row, three rows of the file with 8 bytes a pixel, and a converted one with 4.
-    private const long Rows = ((3 * 8) + 4) * MaxPixels;
+    // A byte holds at most 1032 bytes of pixels, of which eight may share one, and each has four once it is decoded.
+    private const long MaxExpansion = 1032 * 8 * 4;
 
     [Fact]
     public void Read_OfAFileWithAnyBitFlipped_IsRefusedOrTheSame() => Seeded.Run(8, random =>
     {
-        // CRCs find every single bit. It may turn an empty IDAT into a chunk that is not used; were it a tRNS, transparency would be lost.
+        // CRCs find every single bit, but those that make a chunk one that is not used: were it a tRNS, transparency would be lost.
         var (colourType, _) = PlainSamples.Kinds[random.Next(PlainSamples.Kinds.Length)];
         var samples = PlainSamples.Random(random, colourType, 8, isInterlaced: false, 3, 4) with { Transparency = null };
         var file = PlainPng.Encode(samples, random);
-        var read = 0;
         for (var bit = 0; bit < 8 * file.Length; bit++)
         {
             var damaged = (byte[])file.Clone();
             damaged[bit / 8] ^= (byte)(1 << (bit % 8));
             if (Record.Exception(() => Assert.Equal(samples.ToImage().Pixels, Read(damaged).Pixels)) is { } exception)
             {
-                Assert.IsType<PngException>(exception);
-            }
-            else
-            {
-                read++;
+                Assert.IsType<IOException>(exception);
             }
         }
-
-        // One of the 32 bits of the type of each empty chunk, of which there are few.
-        Assert.InRange(read, 0, 3);
     });
 
     [Fact]
@@ -48,27 +40,38 @@ public class PngRobustnessTests
         var file = SmallFile(random);
         for (var length = 0; length < file.Length; length++)
         {
-            var error = Assert.Throws<PngException>(() => Read(file[..length]));
-            Assert.InRange(error.Offset, 0, length);
+            Assert.Throws<IOException>(() => Read(file[..length]));
         }
     });
 
     [Fact]
-    public void Read_OfDamagedFiles_GivesAnImageOrThrowsPngException() => Attack(firstSeed: 1, 10_000);
+    public void Read_OfEachBeginningOfAJpeg_IsRefused()
+    {
+        // Where it ends within a segment that is skipped, the library alone would wait for its end for ever.
+        byte[] file = [.. ImageDecoderTests.Jpeg[..2], 0xFF, 0xE1, 0, 40, .. new byte[38], .. ImageDecoderTests.Jpeg[2..]];
+        Assert.Equal(8, Read(file).Width);
+        for (var length = 0; length < file.Length; length++)
+        {
+            Assert.Throws<IOException>(() => Read(file[..length]));
+        }
+    }
+
+    [Fact]
+    public void Read_OfDamagedFiles_GivesAnImageOrThrowsIOException() => Attack(firstSeed: 1, 10_000);
 
     [Fact]
     [Trait("Category", "Soak")]
-    public void Read_OfAMillionDamagedFiles_GivesAnImageOrThrowsPngException() => Attack(firstSeed: 10_001, 1_000_000);
+    public void Read_OfAMillionDamagedFiles_GivesAnImageOrThrowsIOException() => Attack(firstSeed: 10_001, 1_000_000);
 
     [Fact]
     public void Read_OfAHugeHeader_AllocatesNothingForIt() => Assert.All((int[])[100_000, 1_000_000, int.MaxValue], side =>
     {
         var file = OfOneChunk(new(side, side, 6, 16, false, []), [1, 2, 3]);
-        Assert.InRange(Allocated(() => Assert.Throws<PngException>(() => PngReader.Read(new MemoryStream(file)))), 0, 50_000);
+        Assert.InRange(Allocated(() => Assert.Throws<IOException>(() => Read(file))), 0, 50_000);
     });
 
     [Fact]
-    public void Read_OfABomb_DecompressesNoMoreThanTheImage()
+    public void Read_OfABomb_StopsSoon()
     {
         // 100 MB of zeros in 100 kB, as the data of one pixel.
         using var zeros = new MemoryStream();
@@ -82,17 +85,11 @@ public class PngRobustnessTests
         }
 
         var file = OfOneChunk(new(1, 1, 0, 8, false, []), zeros.ToArray());
-        Assert.InRange(Allocated(() => Assert.Equal([0, 0, 0, 255], Read(file).Pixels)), 0, Overhead);
+        var error = default(IOException);
+        // The file, and its compressed pixels in a buffer that doubles.
+        Assert.InRange(Allocated(() => error = Assert.Throws<IOException>(() => Read(file))), 0, Overhead + (6 * file.Length));
+        Assert.Equal("there are more compressed pixels than the image has", error!.Message);
     }
-
-    [Fact]
-    public void Crc32_OfRandomBytesInPieces_IsThatOfTheBitwiseLoop() => Seeded.Run(200, random =>
-    {
-        var bytes = new byte[random.Next(200)];
-        random.NextBytes(bytes);
-        var cut = random.Next(bytes.Length + 1);
-        Assert.Equal(PlainPng.Crc(bytes), Crc32.Append(Crc32.Append(0, bytes.AsSpan(0, cut)), bytes.AsSpan(cut)));
-    });
 
     private static void Attack(int firstSeed, int count)
     {
@@ -108,13 +105,12 @@ public class PngRobustnessTests
                     Assert.Equal(4 * image.Width * image.Height, image.Pixels.Length);
                     Interlocked.Increment(ref read);
                 }
-                catch (PngException exception)
+                catch (IOException exception)
                 {
-                    Assert.InRange(exception.Offset, 0, file.Length);
-                    Assert.DoesNotContain('\n', exception.Message);
+                    Assert.DoesNotContain(exception.Message, char.IsControl);
                 }
             });
-            Assert.InRange(allocated, 0, (4 * MaxPixels) + Rows + Overhead);
+            Assert.InRange(allocated, 0, (MaxExpansion * file.Length) + Overhead);
         }));
         // Some repaired files are right: attacks that are all refused at the first checksum would test little.
         Assert.InRange(read, count / 50, count);
@@ -123,7 +119,7 @@ public class PngRobustnessTests
     private static byte[] OfOneChunk(PlainSamples samples, byte[] data) =>
         [.. PlainPng.Signature, .. PlainPng.Head(samples), .. PlainPng.Chunk("IDAT", data), .. PlainPng.Chunk("IEND")];
 
-    private static PixelImage Read(byte[] file) => PngReader.Read(new MemoryStream(file), MaxPixels);
+    private static PixelImage Read(byte[] file) => ImageFile.Load(new MemoryStream(file), isTga: false);
 
     private static long Allocated(Action action)
     {
