@@ -31,6 +31,7 @@ internal class ObjBlockBuilder
     // Vertices below have entries in the array of colours; 0 until a vertex has any.
     private int _colourCount;
     private bool _hasPolygonSizes;
+    private int _openCornerCount;
 
     /// <summary>Numbers of elements here.</summary>
     public ObjCounts Counts => new(_positionCount, _textureCoordinateCount, _normalCount, _faceCount);
@@ -64,7 +65,8 @@ internal class ObjBlockBuilder
     /// <summary>Adds a polygon of at least three corners.</summary>
     public void AddPolygon(ReadOnlySpan<ObjCorner> corners)
     {
-        ReservePolygon(corners.Length);
+        Reserve(ref _positionIndices, _cornerCount + corners.Length);
+        Reserve(ref _polygonSizes, _polygonCount + 1);
         for (var i = 0; i < corners.Length; i++)
         {
             _positionIndices[_cornerCount + i] = corners[i].PositionIndex;
@@ -75,12 +77,27 @@ internal class ObjBlockBuilder
         AddPolygon(corners.Length);
     }
 
-    /// <summary>Adds a polygon of at least three corners that have positions only.</summary>
-    public void AddPolygon(ReadOnlySpan<int> positionIndices)
+    /// <summary>Adds a corner that has a position only, to the polygon that <see cref="EndPolygon"/> ends.</summary>
+    public void AddCorner(int positionIndex)
     {
-        ReservePolygon(positionIndices.Length);
-        positionIndices.CopyTo(_positionIndices.AsSpan(_cornerCount));
-        AddPolygon(positionIndices.Length);
+        var corner = _cornerCount + _openCornerCount++;
+        Reserve(ref _positionIndices, corner + 1);
+        _positionIndices[corner] = positionIndex;
+    }
+
+    /// <summary>Ends a polygon. False for one of fewer than three corners, which is omitted.</summary>
+    public bool EndPolygon()
+    {
+        var size = _openCornerCount;
+        _openCornerCount = 0;
+        if (size < 3)
+        {
+            return false;
+        }
+
+        Reserve(ref _polygonSizes, _polygonCount + 1);
+        AddPolygon(size);
+        return true;
     }
 
     /// <summary>Creates a block of all elements.</summary>
@@ -175,12 +192,6 @@ internal class ObjBlockBuilder
             FillIndices(indices, ref count, _cornerCount);
             count = _cornerCount;
         }
-    }
-
-    private void ReservePolygon(int size)
-    {
-        Reserve(ref _positionIndices, _cornerCount + size);
-        Reserve(ref _polygonSizes, _polygonCount + 1);
     }
 
     private void FillColours()

@@ -1,4 +1,3 @@
-using System.Runtime.InteropServices;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Parsing.Meshes;
 
@@ -12,7 +11,6 @@ internal sealed class PlyMeshBuilder
     private readonly ObjBlockBuilder _block = new();
     private readonly List<double> _normals = [];
     private readonly List<double> _textureCoordinates = [];
-    private readonly List<int> _corners = [];
     private bool _hasNormals;
     private bool _hasTextureCoordinates;
     private bool _hasColours;
@@ -61,21 +59,12 @@ internal sealed class PlyMeshBuilder
 
     /// <summary>Adds a corner to the current polygon.</summary>
     /// <param name="vertex">Index of a vertex, from 0.</param>
-    public void AddCorner(int vertex) => _corners.Add(vertex);
+    public void AddCorner(int vertex) => _block.AddCorner(vertex);
 
     /// <summary>Ends the current polygon. False if there would be more triangles than an array can hold.</summary>
     public bool TryEndPolygon()
     {
-        if (_corners.Count < 3)
-        {
-            ShortFaceCount++;
-        }
-        else
-        {
-            _block.AddPolygon(CollectionsMarshal.AsSpan(_corners));
-        }
-
-        _corners.Clear();
+        ShortFaceCount += _block.EndPolygon() ? 0 : 1;
         return _block.Counts.Faces <= MaxFaces;
     }
 

@@ -1,6 +1,7 @@
 using System.Globalization;
 using FractalEngine.Benchmarks.Drawing;
 using FractalEngine.Core.Images;
+using FractalEngine.Render.Images;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Benchmarks;
@@ -37,8 +38,7 @@ public sealed class CompareCommandTests : IDisposable
         var (exitCode, text, _) = Compare(["--threshold", ratio, .. option, .. option.Select(_ => file)]);
         Assert.Equal(
             (5, $"26.37 dB, less than {ratio} dB; {file} shows the difference\n"), (exitCode, text));
-        using var stream = File.OpenRead(_folder[file]);
-        Assert.Equal((byte[])[30, 0, 0, 255, 0, 0, 0, 255], PngReader.Read(stream).Pixels);
+        Assert.Equal((byte[])[30, 0, 0, 255, 0, 0, 0, 255], ImageFile.Load(_folder[file]).Pixels);
     }
 
     [Fact]
