@@ -58,7 +58,7 @@ internal sealed class CulledObjectBvh
     /// <summary>Collects the objects whose boxes may be in the frustum of a strip.</summary>
     /// <param name="frame">Parameters of the strip.</param>
     /// <param name="ranks">Rank of each object in the order of culling.</param>
-    /// <param name="candidates">An empty list that receives the ranks of the objects, sorted. Objects without instances are left out.</param>
+    /// <param name="candidates">Empty; receives the ranks of the objects, sorted. Objects without instances are left out.</param>
     public void CollectCandidates(in StripFrame frame, ReadOnlySpan<int> ranks, List<int> candidates)
     {
         Collect(in frame, frame.Axes.Inverse(), _bvh!.Root, ranks, candidates);

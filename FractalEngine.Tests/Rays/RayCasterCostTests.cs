@@ -95,9 +95,9 @@ public class RayCasterCostTests
             Parallel.For(0, rays.Length, new() { MaxDegreeOfParallelism = threadCount }, () => new QueryContext(), (i, _, context) =>
             {
                 RayHit? hit = caster.TryFindNearest(rays[i], context, out var found) ? found : null;
-                var path = string.Join(' ', context.InstancePath.ToArray());
-                results[i] = (hit, caster.HitsAny(rays[i], context), path);
-                Assert.Equal(hit, caster.FindNearest(rays[i]));
+                var path = context.InstancePath.ToArray();
+                results[i] = (hit, caster.HitsAny(rays[i], context), string.Join(' ', path));
+                Assert.Equal(hit is { } nearest ? nearest with { InstancePath = [.. path] } : null, caster.FindNearest(rays[i]));
                 return context;
             }, _ => { });
             return results;

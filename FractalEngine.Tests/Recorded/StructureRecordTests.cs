@@ -205,7 +205,8 @@ public class StructureRecordTests
             }
         }
 
-        return $"{hierarchy.Levels} levels in {hierarchy.AllLevels.Items.Length}, {hierarchy.HasOnlySimilarities} {hierarchy.HasDoubledPowers}, "
+        return $"{hierarchy.Levels} levels in {hierarchy.AllLevels.Items.Length}, "
+            + $"{hierarchy.HasOnlySimilarities} {hierarchy.HasDoubledPowers}, "
             + $"{hierarchy.StorageBytes} bytes, {subFractals} with {children} children, {groups} groups {boxes} {bounds} {hulls}";
     }
 }

@@ -172,6 +172,7 @@ internal sealed class ScenePhysics : IDisposable
     {
         if ((World ?? _continued) is not { } world)
         {
+            renderer.Lines = [];
             return;
         }
 

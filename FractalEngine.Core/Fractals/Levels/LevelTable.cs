@@ -1,6 +1,6 @@
 namespace FractalEngine.Core.Fractals.Levels;
 
-/// <summary>What one use of a fractal's levels knows of each of them. Levels that recur share it: the table is small at any depth.</summary>
+/// <summary>What one use of a fractal's levels knows of each of them. Levels that recur share it: it is small at any depth.</summary>
 /// <param name="items">One item for each level that is not the repetition of another one.</param>
 /// <param name="regions">The runs of levels, the lowest first.</param>
 internal sealed class LevelTable<T>(T[] items, LevelRegion[] regions)

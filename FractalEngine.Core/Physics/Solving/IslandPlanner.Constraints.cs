@@ -10,7 +10,7 @@ internal sealed partial class IslandPlanner
     // Relative to the distance at which balls touch: on a longer way the mean line of contact may be far from that of the impact.
     private const double MaxShortWay = 0.25;
 
-    // Relative to the restitution threshold: what is met more slowly is met at the end of the time, where that is known to a small part of it.
+    // Relative to the restitution threshold: what is met more slowly is met at the end of the time, where that is known so far.
     private const double SlowFraction = 0.01;
 
     // Relative to the touch tolerance: smaller gaps are rounding, and stay.

@@ -11,8 +11,8 @@ internal sealed class CompoundContacts(Obstacles obstacles)
     // Relative to a ball's radius: overlaps up to this are taken back as rounding.
     private const double MaxRoundingOverlap = 1e-6;
 
-    // Relative to a ball's radius: an edge or corner within it is met in the next moment, and acts as a plane till then. Without it a body that
-    // lies on the dust of an infinite fractal would fall on one corner after the other.
+    // Relative to a ball's radius: an edge or corner within it is met in the next moment, and acts as a plane till then. Without it a body
+    // that lies on the dust of an infinite fractal would fall on one corner after the other.
     private const double MaxEdgeGap = 1e-4;
 
     // Relative to a ball's radius: more than the solve leaves, and less than can be seen.

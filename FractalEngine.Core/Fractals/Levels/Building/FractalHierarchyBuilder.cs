@@ -115,7 +115,8 @@ internal sealed class FractalHierarchyBuilder
             {
                 var remainingRounds = repetition.Count - round ?? EndlessRounds;
                 var bound = _levels.CreatePeriodicBound(period, round, ChildInstanceBuilder.MaxExpandedLevels);
-                if (_levels.TryRepeatRound(bound, level => EdgesOfRepetition(bound, level, levelsBelowRepetition), remainingRounds * period))
+                if (_levels.TryRepeatRound(
+                    bound, level => EdgesOfRepetition(bound, level, levelsBelowRepetition), remainingRounds * period))
                 {
                     return;
                 }

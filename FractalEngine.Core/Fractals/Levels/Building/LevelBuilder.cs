@@ -36,7 +36,7 @@ internal sealed class LevelBuilder
     /// <summary>The base meshes: that of each recursive.</summary>
     public Mesh[] BaseMeshes { get; }
 
-    /// <summary>What was built so far.</summary>
+    /// <summary>The levels that were built so far.</summary>
     public BuiltLevels Built { get; } = new();
 
     /// <summary>Refuses more children on all levels together than the limit.</summary>
@@ -63,7 +63,7 @@ internal sealed class LevelBuilder
         RequireAllowedChildren(_childCount);
     }
 
-    /// <summary>Adds one level.</summary>
+    /// <summary>Adds one level on top of those before.</summary>
     /// <param name="edges">Its edges to lower levels.</param>
     /// <param name="mapSet">Its set.</param>
     /// <param name="baseIndex">Index of its base mesh, see <see cref="SubFractal.BaseIndex"/>.</param>
