@@ -226,28 +226,7 @@ public sealed class FrameRenderer : IDisposable
             _imagePass.Draw(layer);
         }
 
-        DrawOverlay(_resolvedTarget, ui, overlay);
+        _overlayPass.Draw(ui, overlay, _resolvedTarget.Width, _resolvedTarget.Height);
         return _resolvedTarget;
-    }
-
-    private void DrawOverlay(Framebuffer target, UserInterface? ui, IReadOnlyList<OverlayPanel> overlay)
-    {
-        // An open menu, a dialog or a tooltip lies over texts, which lie over panels. A question lies over all of these.
-        var isInFront = ui is { IsModal: true } or { HasTooltip: true };
-        if (ui is not null && !isInFront)
-        {
-            _overlayPass.Draw(ui, target.Width, target.Height);
-        }
-
-        var frame = new UiRect(0, 0, target.Width, target.Height);
-        var texts = overlay.Where(static panel => !panel.IsQuestion).ToArray();
-        _overlayPass.DrawTexts(texts, ui?.OverlayArea ?? frame, ui?.Sheet.CellHeight, target.Width, target.Height);
-        if (ui is not null && isInFront)
-        {
-            _overlayPass.Draw(ui, target.Width, target.Height);
-        }
-
-        var questions = overlay.Where(static panel => panel.IsQuestion).ToArray();
-        _overlayPass.DrawQuestions(questions, frame, ui?.Sheet.CellHeight, target.Width, target.Height);
     }
 }

@@ -17,20 +17,8 @@ internal sealed class OverlayLayer(GlResources resources) : IDisposable
     public int? AnswerAt(OverlayPanel panel, double x, double y)
     {
         // Another question may have been drawn last.
-        if (_lastKey?.Panels.Contains(panel) != true)
-        {
-            return null;
-        }
-
-        foreach (var (area, answer) in _answers)
-        {
-            if (area.Contains(x, y))
-            {
-                return answer;
-            }
-        }
-
-        return null;
+        var answers = _lastKey?.Panels.Contains(panel) == true ? _answers : [];
+        return answers.Where(item => item.Area.Contains(x, y)).Select(static item => (int?)item.Answer).FirstOrDefault();
     }
 
     /// <summary>Draws panels into the bound framebuffer.</summary>

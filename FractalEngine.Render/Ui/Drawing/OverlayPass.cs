@@ -14,22 +14,33 @@ internal sealed class OverlayPass(GlResources resources) : IDisposable
     /// <inheritdoc cref="OverlayLayer.AnswerAt"/>
     public int? AnswerAt(OverlayPanel panel, double x, double y) => _questions.AnswerAt(panel, x, y);
 
-    /// <summary>Draws panels of text into the bound framebuffer.</summary>
-    /// <inheritdoc cref="OverlayLayer.Draw"/>
-    public void DrawTexts(IReadOnlyList<OverlayPanel> panels, UiRect area, int? lineHeight, int width, int height) =>
-        _texts.Draw(panels, area, lineHeight, width, height);
-
-    /// <summary>Draws questions, whose lines can be clicked, into the bound framebuffer.</summary>
-    /// <inheritdoc cref="OverlayLayer.Draw"/>
-    public void DrawQuestions(IReadOnlyList<OverlayPanel> panels, UiRect area, int? lineHeight, int width, int height) =>
-        _questions.Draw(panels, area, lineHeight, width, height);
-
-    /// <summary>Draws a user interface as it was built last into the bound framebuffer.</summary>
-    /// <param name="ui">The interface.</param>
+    /// <summary>Draws panels of text, and a user interface as it was built last, into the bound framebuffer.</summary>
+    /// <param name="ui">The interface; null for none.</param>
+    /// <param name="panels">Panels of text, of which questions have lines that can be clicked.</param>
     /// <param name="width">Width of the framebuffer in pixels.</param>
     /// <param name="height">Height of the framebuffer in pixels.</param>
-    public void Draw(UserInterface ui, int width, int height)
+    public void Draw(UserInterface? ui, IReadOnlyList<OverlayPanel> panels, int width, int height)
     {
+        // An open menu, a dialog or a tooltip lies over texts, which lie over panels. A question lies over all of these.
+        var isInFront = ui is { IsModal: true } or { HasTooltip: true };
+        var frame = new UiRect(0, 0, width, height);
+        var lineHeight = ui?.Sheet.CellHeight;
+        DrawInterface(isInFront ? null : ui, width, height);
+        _texts.Draw(panels.Where(static panel => !panel.IsQuestion).ToArray(), ui?.OverlayArea ?? frame, lineHeight, width, height);
+        DrawInterface(isInFront ? ui : null, width, height);
+        _questions.Draw(panels.Where(static panel => panel.IsQuestion).ToArray(), frame, lineHeight, width, height);
+    }
+
+    /// <inheritdoc/>
+    public void Dispose() => GlObject.DisposeAll(_texts, _questions, _interfaceBatch);
+
+    private void DrawInterface(UserInterface? ui, int width, int height)
+    {
+        if (ui is null)
+        {
+            return;
+        }
+
         _interfaceBatch ??= new(resources);
         if (_lastInterface != (ui, ui.Version, width, height))
         {
@@ -39,7 +50,4 @@ internal sealed class OverlayPass(GlResources resources) : IDisposable
 
         _interfaceBatch.Draw();
     }
-
-    /// <inheritdoc/>
-    public void Dispose() => GlObject.DisposeAll(_texts, _questions, _interfaceBatch);
 }

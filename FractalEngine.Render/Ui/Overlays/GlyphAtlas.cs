@@ -48,6 +48,10 @@ internal sealed class GlyphAtlas(char[] characters, GlyphSheet[] sheets)
         return new(characters, sheets);
     }
 
+    /// <summary>Returns the index of the sheet whose lines are closest to a height in pixels; the smaller one of two.</summary>
+    public int ClosestSheet(double lineHeight) =>
+        Enumerable.Range(0, Sheets.Count).MinBy(index => Math.Abs(Sheets[index].CellHeight - lineHeight));
+
     /// <summary>Returns the index of a character's glyph; that of the question mark for a character without one.</summary>
     public int GlyphOf(char character)
     {

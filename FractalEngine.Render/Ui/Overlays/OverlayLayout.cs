@@ -47,7 +47,7 @@ internal sealed class OverlayLayout(GlyphAtlas atlas, int sheetIndex, int width,
         GlyphAtlas atlas, IReadOnlyList<OverlayPanel> panels, int width, int height, int? preferredLineHeight = null)
     {
         var lineHeight = preferredLineHeight ?? 1.2 * Math.Min(height / TextRows, width / TextColumns);
-        for (var sheet = ClosestSheet(atlas, lineHeight); ; sheet--)
+        for (var sheet = atlas.ClosestSheet(lineHeight); ; sheet--)
         {
             var layout = new OverlayLayout(atlas, sheet, width, height);
             var fits = true;
@@ -64,32 +64,14 @@ internal sealed class OverlayLayout(GlyphAtlas atlas, int sheetIndex, int width,
         }
     }
 
-    private static int ClosestSheet(GlyphAtlas atlas, double lineHeight)
-    {
-        var closest = 0;
-        for (var i = 1; i < atlas.Sheets.Count; i++)
-        {
-            if (Math.Abs(atlas.Sheets[i].CellHeight - lineHeight) < Math.Abs(atlas.Sheets[closest].CellHeight - lineHeight))
-            {
-                closest = i;
-            }
-        }
-
-        return closest;
-    }
-
     /// <summary>Returns the colour of a text, sRGB with its opacity.</summary>
-    internal static (float Red, float Green, float Blue, float Alpha) ColourOf(OverlayTone tone)
+    internal static (float Red, float Green, float Blue, float Alpha) ColourOf(OverlayTone tone) => OverlayQuad.Tint(tone switch
     {
-        var colour = tone switch
-        {
-            OverlayTone.Dim => UiTheme.Dark.DimText,
-            OverlayTone.Accent => UiTheme.Dark.Accent,
-            OverlayTone.Warning => UiTheme.Dark.Warning,
-            _ => UiTheme.Dark.Text,
-        };
-        return ((float)colour.Red, (float)colour.Green, (float)colour.Blue, 1);
-    }
+        OverlayTone.Dim => UiTheme.Dark.DimText,
+        OverlayTone.Accent => UiTheme.Dark.Accent,
+        OverlayTone.Warning => UiTheme.Dark.Warning,
+        _ => UiTheme.Dark.Text,
+    });
 
     /// <summary>Adds the rectangles of a panel.</summary>
     /// <returns>False when the panel does not fit the frame.</returns>
@@ -186,33 +168,13 @@ internal sealed class OverlayLayout(GlyphAtlas atlas, int sheetIndex, int width,
         return (x, y);
     }
 
-    /// <summary>
-    /// Breaks lines of one column so that they fit the frame: between their parts, else at blanks. A word that is too long is broken
-    /// anywhere.
-    /// </summary>
+    /// <summary>Breaks lines of one column so that they fit the frame.</summary>
     private List<OverlayLine> Wrap(IReadOnlyList<OverlayLine> lines)
     {
         var columns = Math.Max(8, (_frameSize.Width - (2 * Margin) - (2 * Padding)) / Sheet.CellWidth);
-        var wrapped = new List<OverlayLine>();
-        foreach (var line in lines.SelectMany(line => line.SecondColumn is null
-            ? line.Text.Split('\n').Select(textLine => line with { Text = textLine })
-            : [line]))
-        {
-            var rest = line.Text;
-            while (line.SecondColumn is null && rest.Length > columns)
-            {
-                var end = rest.LastIndexOf(PartSeparator, columns, StringComparison.Ordinal) is > 0 and var part ? part
-                    : rest.LastIndexOf(' ', columns) is > 0 and var blank ? blank
-                    : columns;
-                wrapped.Add(line with { Text = rest[..end] });
-                rest = rest[end..];
-                rest = rest.StartsWith(PartSeparator, StringComparison.Ordinal) ? rest[PartSeparator.Length..] : rest.TrimStart();
-            }
-
-            wrapped.Add(line with { Text = rest });
-        }
-
-        return wrapped;
+        return [.. lines.SelectMany(line => line.SecondColumn is null
+            ? line.Text.Split('\n').SelectMany(row => TextLines.Wrap(row, columns, PartSeparator)).Select(row => line with { Text = row })
+            : [line])];
     }
 
     private void AddText(string text, int x, int y, OverlayTone tone)

@@ -1,4 +1,5 @@
 using System.Runtime.InteropServices;
+using FractalEngine.Core.Geometry;
 
 namespace FractalEngine.Render.Ui.Overlays;
 
@@ -18,4 +19,8 @@ internal readonly record struct OverlayQuad(
 {
     /// <summary>Number of floats of one quad.</summary>
     public const int FloatsPerQuad = 10;
+
+    /// <summary>Returns an opaque colour as a rectangle has it.</summary>
+    public static (float Red, float Green, float Blue, float Alpha) Tint(Colour colour) =>
+        ((float)colour.Red, (float)colour.Green, (float)colour.Blue, 1);
 }

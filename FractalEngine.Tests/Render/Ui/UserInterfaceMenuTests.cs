@@ -134,6 +134,23 @@ public class UserInterfaceMenuTests
         Assert.False(Press(Key.W));
     }
 
+    [Fact]
+    public void Dialog_NotBuiltAnyMore_GivesTheKeyboardBack()
+    {
+        var isBuilt = true;
+        var list = new UiPanel("list", static ui => ui.Label("entry"));
+        var ui = new UserInterface(ui => _ = isBuilt && ui.Dialog("Question", () => ui.TextField("search", ref _search, true), list));
+        ui.OpenDialog("Question");
+        ui.Update(640, 480);
+        ui.Handle(new KeyPressed(Key.X, KeyModifiers.None, IsRepeat: false));
+        Assert.True(ui.Handle(new TextEntered("x")));
+        isBuilt = false;
+        ui.Update(640, 480);
+        Assert.False(ui.IsModal);
+        Assert.False(ui.Handle(new TextEntered("y")));
+        Assert.Equal("x", _search);
+    }
+
     private void Open()
     {
         _isFirst = true;

@@ -1,9 +1,10 @@
+using FractalEngine.Render.Ui.Input;
 using FractalEngine.Render.Windowing.Keyboard;
 
-namespace FractalEngine.Render.Ui;
+namespace FractalEngine.Render.Ui.Widgets;
 
 /// <summary>A line of text with caret and selection, as the keyboard edits it.</summary>
-internal sealed class UiTextEdit
+internal sealed class UiTextEdit(Func<string> readClipboard, Action<string> writeClipboard)
 {
     public string Text { get; private set; } = "";
 
@@ -16,8 +17,6 @@ internal sealed class UiTextEdit
     public int SelectionStart => Math.Min(Caret, Anchor);
 
     public int SelectionEnd => Math.Max(Caret, Anchor);
-
-    private string Selected => Text[SelectionStart..SelectionEnd];
 
     /// <summary>Begins with a text, all of it selected.</summary>
     public void Begin(string text)
@@ -45,7 +44,7 @@ internal sealed class UiTextEdit
 
     /// <summary>Processes a key that was pressed.</summary>
     /// <returns>False for keys that a text field does not know.</returns>
-    public bool Handle(UiInput input, Func<string> readClipboard, Action<string> writeClipboard)
+    public bool Handle(UiInput input)
     {
         var leavesSelection = Caret != Anchor && !input.IsShiftHeld;
         int? target = input.Key switch
@@ -67,7 +66,7 @@ internal sealed class UiTextEdit
 
         if (input.IsControlHeld)
         {
-            return HandleControl(input, readClipboard, writeClipboard);
+            return HandleControl(input);
         }
 
         if (input.Key is Key.Backspace or Key.Delete)
@@ -81,7 +80,7 @@ internal sealed class UiTextEdit
             or Key.PageDown or (>= Key.F1 and <= Key.F12));
     }
 
-    private bool HandleControl(UiInput input, Func<string> readClipboard, Action<string> writeClipboard)
+    private bool HandleControl(UiInput input)
     {
         switch (input.Key)
         {
@@ -91,7 +90,7 @@ internal sealed class UiTextEdit
             case Key.C or Key.X:
                 if (Caret != Anchor)
                 {
-                    writeClipboard(Selected);
+                    writeClipboard(Text[SelectionStart..SelectionEnd]);
                 }
 
                 if (input.Key == Key.X)
