@@ -94,10 +94,7 @@ internal sealed class UiPainter
         }
     }
 
-    /// <summary>
-    /// Prints text into a rectangle, in its vertical middle, with a share of the free width before it: 0, 0.5 or 1. What does not fit
-    /// ends in an ellipsis.
-    /// </summary>
+    /// <summary>Prints text in the middle of a rectangle's height, after a share of the free width. An ellipsis ends what is cut.</summary>
     /// <returns>False when the text did not fit.</returns>
     public bool Print(string text, UiRect rect, Colour colour, double align = 0)
     {
