@@ -204,7 +204,7 @@ internal static class ClosestTriangleSearch
             current = BvhChild.FromBits((uint)Unsafe.Add(ref stackBase, stackCount));
         }
 
-        Done:
+    Done:
         closest.BoundTests += (long)visitedNodes * BvhLayout.BranchingFactor;
         closest.FaceTests += testedFaces;
         candidates.RemoveFrom(cutoffSquared);

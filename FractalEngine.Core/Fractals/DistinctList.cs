@@ -54,7 +54,7 @@ internal sealed class DistinctList<T>(EntryWriter<T> write, int capacity)
 
     /// <summary>Adds an item unless the same one was added before.</summary>
     /// <param name="item">The item.</param>
-        /// <param name="maxCount">Maximum number of distinct items.</param>
+    /// <param name="maxCount">Maximum number of distinct items.</param>
     /// <returns>False if there are more, or if telling them apart takes too long.</returns>
     public bool TryAdd(in T item, long maxCount)
     {

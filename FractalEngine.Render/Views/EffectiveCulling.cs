@@ -28,7 +28,9 @@ internal sealed class EffectiveCulling
         {
             var resolved = culling with
             {
-                IsMultisampled = isMultisampled, OcclusionCulling = occlusionCulling, SkyVisibility = skyVisibility,
+                IsMultisampled = isMultisampled,
+                OcclusionCulling = occlusionCulling,
+                SkyVisibility = skyVisibility,
             };
             last = (culling, resolved);
             _lastResolved = last;

@@ -30,7 +30,7 @@ public partial class RoomOrderTests
         var offences =
             from source in sources
             from use in source.Uses
-            // A name that several rooms define says nothing: it may be any of these.
+                // A name that several rooms define says nothing: it may be any of these.
             where definitions[use.Name].Select(definition => definition.Room).Distinct().Count() == 1
             let definition = definitions[use.Name].First()
             where Array.IndexOf(order, definition.Room) > Array.IndexOf(order, source.Room)

@@ -188,10 +188,10 @@ public class ExactFractalColliderTests
     private static Fractal CreateMenger(int? depth)
     {
         var offsets = from x in Enumerable.Range(-1, 3)
-                     from y in Enumerable.Range(-1, 3)
-                     from z in Enumerable.Range(-1, 3)
-                     where Math.Abs(x) + Math.Abs(y) + Math.Abs(z) > 1
-                     select Samples.MoveAndScale(x / 3.0, y / 3.0, z / 3.0, 1 / 3.0);
+                      from y in Enumerable.Range(-1, 3)
+                      from z in Enumerable.Range(-1, 3)
+                      where Math.Abs(x) + Math.Abs(y) + Math.Abs(z) > 1
+                      select Samples.MoveAndScale(x / 3.0, y / 3.0, z / 3.0, 1 / 3.0);
         return new(new([new Repetition([new TransformationSet([.. offsets])], depth)]), Samples.ParseObj(SampleFiles.Cube).Mesh);
     }
 

@@ -403,7 +403,9 @@ public class MovingObjectTests
         turntable.SetMotion(Vector.Zero, new(0, angularSpeed, 0));
         return world.Add(description with
         {
-            Position = new(1, 0.5, 0), Radius = 0.5, Velocity = Vector.Cross(new(0, angularSpeed, 0), Vector.I),
+            Position = new(1, 0.5, 0),
+            Radius = 0.5,
+            Velocity = Vector.Cross(new(0, angularSpeed, 0), Vector.I),
         });
     }
 

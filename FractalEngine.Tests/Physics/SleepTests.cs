@@ -174,7 +174,7 @@ public class SleepTests
         var world = TestWorlds.Create(TestWorlds.Gravity, Settings, TestWorlds.Place(Shapes.Box(new(new(-400, -1, -9), new(400, 0, 9)))));
         world.AddRange(from z in new[] { 0, 3 }
                        from i in Enumerable.Range(0, count)
-                       // Those of heaps rest up to a thousandth of a radius apart.
+                           // Those of heaps rest up to a thousandth of a radius apart.
                        let position = new Vector(1.0004 * (i - (0.5 * count)), 0.5, z)
                        select new BodyDescription(position, 0.5) { Friction = 0.5, RollingFriction = 0.1 });
         for (var step = 0; step < 300 && world.IsMoving; step++)

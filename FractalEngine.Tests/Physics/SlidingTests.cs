@@ -27,7 +27,9 @@ public class SlidingTests
         var mesh = CreateGrid(random, 20);
         var placement = Transformation.Identity with
         {
-            Rotation = random.Degrees(), Position = random.Vector(5), Scale = new(random.Between(0.5, 2), 1, random.Between(0.5, 2)),
+            Rotation = random.Degrees(),
+            Position = random.Vector(5),
+            Scale = new(random.Between(0.5, 2), 1, random.Between(0.5, 2)),
         };
         var placed = TestWorlds.Place(mesh, placement);
         var normal = placed.ObjectToWorld.Linear.Cofactors().V2.UnitVector();

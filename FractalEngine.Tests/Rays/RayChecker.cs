@@ -109,8 +109,7 @@ internal sealed class RayChecker(string name, RayCaster caster, RayOracle oracle
         {
             throw new XunitException(string.Create(
                 CultureInfo.InvariantCulture,
-                $"{name}, ray new(new{Format(ray.Origin)}, new{Format(ray.Direction)}) from {minDistance:R} to {maxDistance:R}: {
-                    message.ToString(CultureInfo.InvariantCulture)}"));
+                $"{name}, ray new(new{Format(ray.Origin)}, new{Format(ray.Direction)}) from {minDistance:R} to {maxDistance:R}: {message.ToString(CultureInfo.InvariantCulture)}"));
         }
     }
 

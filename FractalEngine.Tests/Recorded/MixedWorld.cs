@@ -154,10 +154,16 @@ internal sealed class MixedWorld
             ? Compound(place, i % 2 == 0 ? SmallBar : SmallOdd, i) : Ball(place, _random.Between(0.06, 0.22), i);
         return description with
         {
-            Velocity = _random.Vector(i % 5 == 0 ? 9 : 2), AngularVelocity = _random.Vector(6), RollingFriction = 0.02 * (i % 3),
-            SpinningFriction = 0.01 * (i % 4), Damping = i % 6 == 1 ? 0.4 : 0, IsRotationLocked = i % 7 == 3,
-            Shrinkage = Has(WorldParts.Shrinking) && i % 2 == 0 ? 0.7 : 0, MinScale = 0.9,
-            Layer = Has(WorldParts.Layers) ? i % 4 : 0, Mask = Has(WorldParts.Layers) && i % 3 == 0 ? 11 : Layers.All,
+            Velocity = _random.Vector(i % 5 == 0 ? 9 : 2),
+            AngularVelocity = _random.Vector(6),
+            RollingFriction = 0.02 * (i % 3),
+            SpinningFriction = 0.01 * (i % 4),
+            Damping = i % 6 == 1 ? 0.4 : 0,
+            IsRotationLocked = i % 7 == 3,
+            Shrinkage = Has(WorldParts.Shrinking) && i % 2 == 0 ? 0.7 : 0,
+            MinScale = 0.9,
+            Layer = Has(WorldParts.Layers) ? i % 4 : 0,
+            Mask = Has(WorldParts.Layers) && i % 3 == 0 ? 11 : Layers.All,
             Collider = Has(WorldParts.Kinds) ? KindsOfMeshes[i % KindsOfMeshes.Length] : ColliderKind.Exact,
         };
     }

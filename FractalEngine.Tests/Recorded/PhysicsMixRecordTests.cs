@@ -219,7 +219,9 @@ public class PhysicsMixRecordTests
                 var place = centre + (0.3 * new Vector((i % 3) - 1, (i / 3) - 1, random.Between(-0.3, 0.3)));
                 bodies.Add(Ball(place, random.Between(0.12, 0.15), i) with
                 {
-                    Velocity = velocity + random.Vector(0.5), Restitution = seed % 3 == 0 ? 0 : 0.2 * (i % 5), Mass = i == 4 ? 40 : 1,
+                    Velocity = velocity + random.Vector(0.5),
+                    Restitution = seed % 3 == 0 ? 0 : 0.2 * (i % 5),
+                    Mass = i == 4 ? 40 : 1,
                     RollingFriction = seed % 2 * 0.02,
                 });
             }
@@ -230,7 +232,8 @@ public class PhysicsMixRecordTests
         {
             bodies.AddRange(Enumerable.Range(0, 4).Select(i => Compound(random.Vector(1.5), Dumbbell, i) with
             {
-                Velocity = random.Vector(20), AngularVelocity = random.Vector(20),
+                Velocity = random.Vector(20),
+                AngularVelocity = random.Vector(20),
             }));
         }
 
@@ -258,7 +261,8 @@ public class PhysicsMixRecordTests
                        let place = 0.2 * new Vector(i - 1.5, j + 2.2, k - 1.5)
                        select Ball(place + random.Vector(0.0001), 0.0999, i + j + k) with
                        {
-                           Velocity = new(random.Between(-1, 1), -3 - (3 * seed), 0), Restitution = seed % 2 == 0 ? 0 : 0.3,
+                           Velocity = new(random.Between(-1, 1), -3 - (3 * seed), 0),
+                           Restitution = seed % 2 == 0 ? 0 : 0.3,
                            Friction = 0.3 * (seed % 3),
                        });
         return world;
@@ -299,7 +303,8 @@ public class PhysicsMixRecordTests
         world.AddRange(Enumerable.Range(0, 20).Select(i =>
             Ball(0.25 * new Vector((i % 3) - 1, (i / 9) - 1.1, (i / 3 % 3) - 1), random.Between(0.09, 0.12), i) with
             {
-                Restitution = seed == 2 ? 0.4 : 0, RollingFriction = 0.01 * seed,
+                Restitution = seed == 2 ? 0.4 : 0,
+                RollingFriction = 0.01 * seed,
             }));
         return world;
     }
@@ -337,7 +342,12 @@ public class PhysicsMixRecordTests
         world.AddStatic(PhysicsMeshes.FloorMesh(1000));
         var (x, y, z) = kind switch
         {
-            0 => (20, 6, 9), 1 => (9, 5, 8), 2 => (8, 5, 8), 3 => (12, 8, 10), 4 => (16, 3, 16), _ => (22, 2, 22),
+            0 => (20, 6, 9),
+            1 => (9, 5, 8),
+            2 => (8, 5, 8),
+            3 => (12, 8, 10),
+            4 => (16, 3, 16),
+            _ => (22, 2, 22),
         };
         var spacing = kind switch { 3 => 0.25, 4 => 0.5, 5 => 0.1962, _ => 0.199 };
         var bodies = from i in Enumerable.Range(0, x)
@@ -347,7 +357,8 @@ public class PhysicsMixRecordTests
                      let place = spacing * new Vector(i - (0.5 * x), 0, k - (0.5 * z)) + (height * Vector.J)
                      select Ball(place + random.Vector(kind > 3 ? 0 : 0.003), 0.098, i + j + k) with
                      {
-                         Restitution = kind == 3 ? 0.3 : 0, RollingFriction = kind == 4 ? 0.02 : 0,
+                         Restitution = kind == 3 ? 0.3 : 0,
+                         RollingFriction = kind == 4 ? 0.02 : 0,
                          Velocity = kind == 0 ? new(random.Between(-3, 3), -6, 0) : kind == 3 ? random.Vector(4)
                              // Each meets the next one while it lies on the floor.
                              : kind == 5 ? -0.2 * (place with { Y = 0 }) : Vector.Zero,

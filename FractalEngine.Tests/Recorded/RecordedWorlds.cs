@@ -87,7 +87,8 @@ internal static class RecordedWorlds
                      let place = (0.2 * centre) + ((kind == 2 ? -0.85 : 0.1) * Vector.J) + random.Vector(0.002)
                      select Ball(place, random.Between(0.095, 0.1), i + j + k) with
                      {
-                         RollingFriction = kind == 1 ? 0.02 : 0, SpinningFriction = kind == 1 ? 0.01 : 0,
+                         RollingFriction = kind == 1 ? 0.02 : 0,
+                         SpinningFriction = kind == 1 ? 0.01 : 0,
                          Velocity = kind == 2 ? random.Vector(1) : Vector.Zero,
                      };
         return world.Fill(meshes, [.. bodies]);

@@ -156,8 +156,11 @@ internal static class Operators
     {
         bool isRemovable = statement switch
         {
-            ExpressionStatementSyntax { Expression: InvocationExpressionSyntax or AssignmentExpressionSyntax or AwaitExpressionSyntax
-                or PostfixUnaryExpressionSyntax or PrefixUnaryExpressionSyntax or ConditionalAccessExpressionSyntax } => true,
+            ExpressionStatementSyntax
+            {
+                Expression: InvocationExpressionSyntax or AssignmentExpressionSyntax or AwaitExpressionSyntax
+                or PostfixUnaryExpressionSyntax or PrefixUnaryExpressionSyntax or ConditionalAccessExpressionSyntax
+            } => true,
             BreakStatementSyntax or ContinueStatementSyntax or ThrowStatementSyntax or YieldStatementSyntax => true,
             ReturnStatementSyntax { Expression: null } => true,
             _ => false,

@@ -42,7 +42,8 @@ internal sealed record Options(
                 // No draw but where one is asked for as well.
                 "--faults" => options with
                 {
-                    Faults = Path.GetFullPath(Value()), Sample = arguments.Contains("--sample") ? options.Sample : 0,
+                    Faults = Path.GetFullPath(Value()),
+                    Sample = arguments.Contains("--sample") ? options.Sample : 0,
                 },
                 "--report" => options with { Report = Path.GetFullPath(Value()) },
                 "--workers" => options with { Workers = Number(name, Value()) },

@@ -158,7 +158,7 @@ internal sealed class EarClipper
     private bool IsEar(int corner)
     {
         var (a, b, c) = (_points[_previous[corner]], _points[corner], _points[_next[corner]]);
-        for (var position = _reflex.PositionOf(_testStarts[corner]);; position++)
+        for (var position = _reflex.PositionOf(_testStarts[corner]); ; position++)
         {
             position = _reflex.FindInside(a, b, c, position);
             if (position < 0)

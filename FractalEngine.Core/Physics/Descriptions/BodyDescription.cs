@@ -98,24 +98,24 @@ public sealed record BodyDescription(Vector Position, double Radius)
 
     private static BodyDescription FromPhysicsObject(PlacedModel placed, PhysicsObject declared, int index, double radius, Vector centre) =>
         new(centre == Vector.Zero ? placed.ObjectToWorld.Translation : placed.ObjectToWorld.Translation + centre, radius)
-    {
-        ObjectOffset = Vector.Zero - centre,
-        Name = declared.Name,
-        Velocity = declared.Velocity,
-        Mass = declared.Mass,
-        Restitution = declared.Restitution,
-        Friction = declared.Friction,
-        InertiaFactor = declared.InertiaFactor,
-        IsRotationLocked = declared.IsRotationLocked,
-        RollingFriction = declared.RollingFriction,
-        SpinningFriction = declared.SpinningFriction,
-        Damping = declared.Damping,
-        Shrinkage = declared.Shrinkage,
-        MinScale = declared.MinScale,
-        Collider = declared.Collider,
-        ObjectIndex = index,
-        LinearPart = placed.ObjectToWorld.Linear,
-    };
+        {
+            ObjectOffset = Vector.Zero - centre,
+            Name = declared.Name,
+            Velocity = declared.Velocity,
+            Mass = declared.Mass,
+            Restitution = declared.Restitution,
+            Friction = declared.Friction,
+            InertiaFactor = declared.InertiaFactor,
+            IsRotationLocked = declared.IsRotationLocked,
+            RollingFriction = declared.RollingFriction,
+            SpinningFriction = declared.SpinningFriction,
+            Damping = declared.Damping,
+            Shrinkage = declared.Shrinkage,
+            MinScale = declared.MinScale,
+            Collider = declared.Collider,
+            ObjectIndex = index,
+            LinearPart = placed.ObjectToWorld.Linear,
+        };
 
     /// <summary>Throws for a description that no body can have.</summary>
     /// <exception cref="ArgumentException">A number is not finite, or outside its range; the message names it and the body.</exception>

@@ -83,7 +83,8 @@ internal sealed partial class ContactGraph
                 var island = _islands[_islandOf[i]];
                 _islands[_islandOf[i]] = island with
                 {
-                    BodyCount = island.BodyCount + 1, HasCompound = island.HasCompound || _states[i].IsCompound,
+                    BodyCount = island.BodyCount + 1,
+                    HasCompound = island.HasCompound || _states[i].IsCompound,
                 };
             }
         }

@@ -190,10 +190,16 @@ public sealed class RecordedAssetTests : IDisposable
         {
             Objects = [new SceneObject(bare)],
         }));
-        Note("quote", () => SceneFile.Write("w/quote.sdo", new() { Objects = [new("a\"b.obj", new(new(0, 0, 0), new(0, 0, 0), new(1, 1,
-            1)))] }));
-        Note("name", () => SceneFile.Write("w/name.sdo", new() { Objects = [new("a.obj", new(new(0, 0, 0), new(0, 0, 0), new(1, 1,
-            1))) { Name = "a\nb" }] }));
+        Note("quote", () => SceneFile.Write("w/quote.sdo", new()
+        {
+            Objects = [new("a\"b.obj", new(new(0, 0, 0), new(0, 0, 0), new(1, 1,
+            1)))]
+        }));
+        Note("name", () => SceneFile.Write("w/name.sdo", new()
+        {
+            Objects = [new("a.obj", new(new(0, 0, 0), new(0, 0, 0), new(1, 1,
+            1))) { Name = "a\nb" }]
+        }));
         Note("empty", () => SceneFile.Write("w/none.sdo", new()));
         Note("txt", () => SceneFile.Write("w/none.txt", new()));
         Note("count", () =>

@@ -72,8 +72,11 @@ public class MtlParserTests
 
     [Fact]
     public void Material_WithoutStatements_IsWhiteMattAndOpaque() => Assert.Equal(
-        new Material("m") { Diffuse = Colour.White, Ambient = Colour.White, Specular = Colour.Black, SpecularExponent = 1, Opacity = 1,
-        Texture = null },
+        new Material("m")
+        {
+            Diffuse = Colour.White, Ambient = Colour.White, Specular = Colour.Black, SpecularExponent = 1, Opacity = 1,
+            Texture = null
+        },
         SingleMaterial("newmtl m"));
 
     [Fact]

@@ -105,8 +105,11 @@ public class SceneParserTests
     [InlineData("bounding-box", ColliderKind.BoundingBox)]
     [InlineData("simple", ColliderKind.Simple)]
     public void PhysicsObject_WithOptions_HasThem(string name, ColliderKind collider) => Assert.Equal(
-        new PhysicsObject("a.fdo", Samples.Move(1, 2, 3), 1) { Velocity = new(4, 5, 6), Mass = 2.5, Collider = collider, Name = "n",
-        Colour = Colour.White },
+        new PhysicsObject("a.fdo", Samples.Move(1, 2, 3), 1)
+        {
+            Velocity = new(4, 5, 6), Mass = 2.5, Collider = collider, Name = "n",
+            Colour = Colour.White
+        },
         ParseObject($"p \"a.fdo\" ((1,2,3),#,#) 1 velocity (4, 5, 6) mass 2.5 collider {name} name \"n\" colour (1,1,1)"));
 
     [Theory]
@@ -218,8 +221,11 @@ public class SceneParserTests
     public void Player_WithOptions_HasThem(string options)
     {
         var player = Parse($"player (1, 2, 3) 0.3 1.8 {options}").Player!;
-        Assert.Equal(new Player(new(1, 2, 3), 0.3, 1.8) { WalkingSpeedOverride = 4, JumpSpeedOverride = 5, MaxSlopeAngle = 60,
-            StepHeightOverride = 0.5 }, player);
+        Assert.Equal(new Player(new(1, 2, 3), 0.3, 1.8)
+        {
+            WalkingSpeedOverride = 4, JumpSpeedOverride = 5, MaxSlopeAngle = 60,
+            StepHeightOverride = 0.5
+        }, player);
         Assert.Equal((4, 5, 0.5), (player.WalkingSpeed, player.JumpSpeed(9.8), player.StepHeight));
     }
 
@@ -227,8 +233,11 @@ public class SceneParserTests
     [InlineData("speed 0 jump 0 slope 0 step 0", 0, 0)]
     [InlineData("speed 0 jump 0 slope 89 step 1.7999999999999998", 89, 1.7999999999999998)]
     public void Player_AtTheEndsOfTheRanges_IsRead(string options, double slope, double step) => Assert.Equal(
-        new Player(Vector.Zero, 0.9, 1.8) { WalkingSpeedOverride = 0, JumpSpeedOverride = 0, MaxSlopeAngle = slope,
-        StepHeightOverride = step }, Parse($"player (0, 0, 0) 0.9 1.8 {options}").Player);
+        new Player(Vector.Zero, 0.9, 1.8)
+        {
+            WalkingSpeedOverride = 0, JumpSpeedOverride = 0, MaxSlopeAngle = slope,
+            StepHeightOverride = step
+        }, Parse($"player (0, 0, 0) 0.9 1.8 {options}").Player);
 
     [Fact]
     public void Lights_OfAllKinds_AreReadInOrder() => Assert.Equal(

@@ -51,13 +51,16 @@ public class SceneWriterTests
 
     private static readonly Gen<SceneObject> Bodies = Plain.Zip(Unit)
         .Zip(AnyVector.Zip(Positive), (o, b) => (SceneObject)new PhysicsObject(o.Item1.File!, o.Item1.Placement, o.Item2)
-    {
-        Name = o.Item1.Name, Colour = o.Item1.Colour, Gradient = o.Item1.Gradient, Velocity = b.Item1, Mass = b.Item2,
-        Collider = (ColliderKind)(b.Item2.GetHashCode() & 3),
-    }).Zip(NotNegative.Three().Zip(Gen.Elements(1, double.Epsilon, 0.05, 1.0 / 3)),
+        {
+            Name = o.Item1.Name, Colour = o.Item1.Colour, Gradient = o.Item1.Gradient, Velocity = b.Item1, Mass = b.Item2,
+            Collider = (ColliderKind)(b.Item2.GetHashCode() & 3),
+        }).Zip(NotNegative.Three().Zip(Gen.Elements(1, double.Epsilon, 0.05, 1.0 / 3)),
     (declared, more) => Gen.Elements(declared, (PhysicsObject)declared with
     {
-        Friction = more.Item1.Item1, Damping = more.Item1.Item2, Shrinkage = more.Item1.Item3, MinScale = more.Item2,
+        Friction = more.Item1.Item1,
+        Damping = more.Item1.Item2,
+        Shrinkage = more.Item1.Item3,
+        MinScale = more.Item2,
     })).SelectMany(declared => declared);
 
     // In the range that the grammar allows.

@@ -65,8 +65,16 @@ public class BodyDescriptionTests
         var low = Valid with { Restitution = 0, Friction = 0, Layer = 0, MinScale = 1e-9, InertiaFactor = 1e-9, Radius = 1e-300 };
         var high = Valid with
         {
-            Restitution = 1, Friction = 1e9, RollingFriction = 9, SpinningFriction = 9, Damping = 9, Shrinkage = 9, Layer = 31,
-            MinScale = 1, InertiaFactor = 2.0 / 3, Shape = CompoundShape.OfBalls([new(Vector.Zero, 0.5)]),
+            Restitution = 1,
+            Friction = 1e9,
+            RollingFriction = 9,
+            SpinningFriction = 9,
+            Damping = 9,
+            Shrinkage = 9,
+            Layer = 31,
+            MinScale = 1,
+            InertiaFactor = 2.0 / 3,
+            Shape = CompoundShape.OfBalls([new(Vector.Zero, 0.5)]),
         };
         Assert.Null(low.FindFault());
         Assert.Null(high.FindFault());

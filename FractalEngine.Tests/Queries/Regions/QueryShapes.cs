@@ -51,7 +51,7 @@ internal static class QueryShapes
 
     private static Fractal CreateFractal(Random random, int maxTriangles)
     {
-        for (; ;)
+        for (; ; )
         {
             var fractal = random.Next(4) switch
             {

@@ -48,7 +48,8 @@ public class PathTracerTests
         var light = new PointLight(new(-3, 4, 2), Colour.White, 1, 30);
         var scene = LoadedScene.Of(Scene([WhiteSky, light], new SceneObject(fractal) { Colour = Colour.White })
             // As dense as it takes to hide a part of what is near.
-            with { Fog = hasFog ? new(1 / unit, new(0, 0, 1)) : null });
+            with
+        { Fog = hasFog ? new(1 / unit, new(0, 0, 1)) : null });
         var camera = new Camera(
             dive.Address.WorldPosition(AffineMap.Identity), CameraFraming.LookRotation(dive.LocateTarget(Vector.Zero)), 50);
         var world = new View(camera, Projection.Perspective) { FixedClipPlanes = (0.001 * unit, 100) };
@@ -312,7 +313,8 @@ public class PathTracerTests
         var second = Scene(
             [WhiteSky, new DirectionalLight(new(0, -1, 1), Colour.White, 0.5)],
             new SceneObject(sponge) { Placement = Transformation.Identity with { Position = new(0.5, 0, 1) }, Colour = new(1, 0.5, 0) },
-            Matt(Shapes.Sphere(1), Colour.White)) with { Camera = camera, Background = new(0.2, 0.3, 0.4) };
+            Matt(Shapes.Sphere(1), Colour.White)) with
+        { Camera = camera, Background = new(0.2, 0.3, 0.4) };
 
         var loaded = LoadedScene.Of(second);
         var other = Trace(first, Camera.Default, 8, 2).WithScene(loaded, View.Of(loaded, 1), 20, 20);
