@@ -107,9 +107,10 @@ internal sealed class RayChecker(string name, RayCaster caster, RayOracle oracle
     {
         if (!condition)
         {
-            throw new XunitException(string.Create(
+            var cast = string.Create(
                 CultureInfo.InvariantCulture,
-                $"{name}, ray new(new{Format(ray.Origin)}, new{Format(ray.Direction)}) from {minDistance:R} to {maxDistance:R}: {message.ToString(CultureInfo.InvariantCulture)}"));
+                $"{name}, ray new(new{Format(ray.Origin)}, new{Format(ray.Direction)}) from {minDistance:R} to {maxDistance:R}");
+            throw new XunitException($"{cast}: {message.ToString(CultureInfo.InvariantCulture)}");
         }
     }
 
