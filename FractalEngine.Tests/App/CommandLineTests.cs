@@ -382,6 +382,7 @@ public sealed class CommandLineTests : IDisposable
     }
 
     [Fact]
+    [Trait("Category", "Soak")]
     public void Render_TracingAModelBeyondALimit_ExitsWith3()
     {
         _folder.Write(

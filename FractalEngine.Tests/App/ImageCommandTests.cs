@@ -127,6 +127,7 @@ public sealed class ImageCommandTests : DrawingCommandTests
     }
 
     [SkippableFact]
+    [Trait("Category", "Soak")]
     public void Zoom_IntoAnInfiniteFractal_ComesToTheSameImageAgain()
     {
         var zoom = Repository.Full("assets/examples/zoom.sdo");

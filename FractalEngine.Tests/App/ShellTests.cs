@@ -173,6 +173,7 @@ public sealed class ShellTests : IDisposable
     [SkippableTheory]
     [InlineData("0.2", false)]
     [InlineData("2.5", true)]
+    [Trait("Category", "Soak")]
     public void Build_OnATerminal_SaysSoWhenItTakesMoreThanTwoSeconds(string seconds, bool isAnnounced)
     {
         var setup = Repository.Full("eng/setup.sh");

@@ -58,6 +58,7 @@ public sealed class TracedAnimationTests : IDisposable
     }
 
     [Fact]
+    [Trait("Category", "Soak")]
     public void Zoom_Traced_EndsWithTheStillImage()
     {
         var zoom = Repository.Full("assets/examples/zoom.sdo");

@@ -71,6 +71,7 @@ public sealed class BenchmarkCommandTests : IDisposable
         AppProcess.RunBenchmarks(_folder.Path, "Front", "--output", "out"));
 
     [Fact]
+    [Trait("Category", "Soak")]
     public void Run_OfAnOptionOfBenchmarkDotNet_IsItsWork()
     {
         var (exitCode, output, error) = AppProcess.RunBenchmarks(_folder.Path, "--list", "flat", "--output", "out");

@@ -110,6 +110,7 @@ public class MatrixStabilityTests(ITestOutputHelper output)
     }
 
     [Fact]
+    [Trait("Category", "Soak")]
     public void Camera_TurnedAMillionTimes_KeepsItsAxesAndItsHeading()
     {
         using var report = new StabilityReport(output);

@@ -214,6 +214,7 @@ public class VisibleSetLimitTests
     });
 
     [Fact]
+    [Trait("Category", "Soak")]
     public void Cull_CloseToAFixedPoint_StaysQuick()
     {
         // The camera approaches a corner of the sponge by twelve levels, and the near plane with it.

@@ -36,6 +36,7 @@ public sealed class AnimateCommandTests : DrawingCommandTests
     }
 
     [SkippableFact]
+    [Trait("Category", "Soak")]
     public void Animate_AlongAPath_BeginsAndEndsAtItsCameras()
     {
         Display.Require();

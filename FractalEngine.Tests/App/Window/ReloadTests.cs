@@ -27,6 +27,7 @@ public sealed class ReloadTests : IDisposable
     public void Dispose() => _folder.Dispose();
 
     [SkippableFact]
+    [Trait("Category", "Soak")]
     public void Reload_OfEverySaveOfAnEditor_ShowsTheNewScene()
     {
         using var window = Open();

@@ -118,6 +118,7 @@ public sealed class SavingTests : IDisposable
     }
 
     [SkippableFact]
+    [Trait("Category", "Soak")]
     public void Save_IntoAFolderThatIsGone_SaysSo()
     {
         var inner = Path.Combine(_folder.Path, "inner");

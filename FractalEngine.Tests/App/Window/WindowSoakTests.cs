@@ -48,6 +48,7 @@ public sealed class WindowSoakTests : IDisposable
 
     /// <summary>No driver has frames of so many pixels, but a window system may have such a window.</summary>
     [SkippableFact]
+    [Trait("Category", "Soak")]
     public void Window_LargerThanTheDriverCanDraw_WaitsForAnotherSizeAndSaves()
     {
         using var window = Open();

@@ -173,6 +173,7 @@ public sealed class DeepZoomDrawingTests
     }
 
     [SkippableFact]
+    [Trait("Category", "Soak")]
     public void Shadows_AtAFixedPoint_AreTheSameAtAnyDepth() => AssertSameShadows("sierpinski", [21, 10_000]);
 
     [SkippableFact]

@@ -246,6 +246,7 @@ public class FractalWriterTests
     }
 
     [Fact]
+    [Trait("Category", "Soak")]
     public void Write_OfAFewObjectsThatStandForMillions_NamesTheLimitOfTheText()
     {
         // Every object is used twice, so that the text would double with each level of nesting.
