@@ -1,10 +1,10 @@
 namespace FractalEngine.App.Jobs;
 
-/// <summary>Work on another thread.</summary>
+/// <summary>Runs work on another thread, and keeps its result or its exception.</summary>
 /// <typeparam name="T">The result.</typeparam>
 internal sealed class BackgroundJob<T>
 {
-    /// <summary>Starts the work at once.</summary>
+    /// <summary>Starts the work at once, on a thread of the pool.</summary>
     /// <param name="work">Computes the result.</param>
     /// <param name="ended">Called on another thread when the work has succeeded or failed.</param>
     public BackgroundJob(Func<CancellationToken, T> work, Action ended)

@@ -16,7 +16,7 @@ namespace FractalEngine.App.Window;
 /// <param name="prompts">Shows questions.</param>
 internal sealed class EventDispatch(RenderWindow window, FrameRenderer frames, WindowActions actions, PromptHost prompts)
 {
-    /// <summary>Passes on an event.</summary>
+    /// <summary>Passes an event to the first that takes it: panels, the open question, or the scene.</summary>
     /// <param name="physicalEvent">The event, before the user's key bindings.</param>
     /// <param name="now">The present time, in which clicks follow each other.</param>
     public Redraw Dispatch(WindowEvent physicalEvent, TimeSpan now)

@@ -139,7 +139,7 @@ public abstract class RayCaster
         return isHit;
     }
 
-    /// <summary>Searches along a ray.</summary>
+    /// <summary>Searches the nearest face along a ray, or any face where the search stops at the first.</summary>
     /// <param name="ray">In the frame of the caster.</param>
     /// <param name="search">Receives the hit and the cost.</param>
     /// <param name="context">Receives the path to the instance of a hit in its buffer of the best path.</param>

@@ -11,7 +11,7 @@ internal abstract class ShapeRayCaster : RayCaster
     /// <summary>The mesh that every instance of the shape shows.</summary>
     internal abstract Mesh Mesh { get; }
 
-    /// <summary>Searches along a ray.</summary>
+    /// <summary>Searches the nearest face of one shape along a ray, or any face where the search stops at the first.</summary>
     /// <param name="ray">In the shape's frame.</param>
     /// <param name="search">Receives the hit and the cost.</param>
     /// <param name="context">Receives the path to the instance of a hit in its buffer of the best path.</param>

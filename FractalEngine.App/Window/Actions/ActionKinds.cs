@@ -43,7 +43,7 @@ internal static class ActionKinds
     public static WindowAction Held(string id, string help, params ReadOnlySpan<Key> keys) =>
         new(id, "Go", "", help) { Keys = [.. keys.ToArray().Select(static key => new KeyChord(key))] };
 
-    /// <summary>Shows or hides a panel.</summary>
+    /// <summary>Creates an action that shows or hides the panel with its name.</summary>
     public static WindowAction Panel(string panel, string name, string contents, KeyChord key) =>
         new(panel == "statistics" ? panel : $"panel-{panel}", "Window", name, $"show or hide the panel: {contents}")
         {

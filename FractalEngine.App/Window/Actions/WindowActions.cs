@@ -39,7 +39,7 @@ internal sealed class WindowActions(
     /// <summary>Opens files, and asks before changes are lost.</summary>
     public FileCommands Files => files;
 
-    /// <summary>Edits and saves files.</summary>
+    /// <summary>Edits and saves the files of the document, and asks where others have changed them.</summary>
     public DocumentSaver Saver => saver;
 
     /// <summary>The panels of the window.</summary>

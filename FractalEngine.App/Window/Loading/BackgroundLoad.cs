@@ -18,7 +18,7 @@ internal sealed class BackgroundLoad
     private readonly AssetCache _cache;
     private readonly BackgroundJob<(LoadedFile File, ScenePreparation Preparation)> _job;
 
-    /// <summary>Starts to load a file.</summary>
+    /// <summary>Starts to load a file and all that it refers to, and to prepare it for drawing.</summary>
     /// <param name="request">The file.</param>
     /// <param name="options">What overrides the files.</param>
     /// <param name="settings">The render settings to prepare the scene for.</param>
@@ -55,7 +55,7 @@ internal sealed class BackgroundLoad
             ended);
     }
 
-    /// <summary>What is loaded, and why.</summary>
+    /// <summary>The request that this load answers.</summary>
     public LoadRequest Request { get; }
 
     /// <summary>True when the load has succeeded or failed.</summary>
