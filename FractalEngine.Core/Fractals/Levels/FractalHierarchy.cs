@@ -13,49 +13,28 @@ namespace FractalEngine.Core.Fractals.Levels;
 /// of k recursives, number k·n + r is recursive r with n remaining levels. The lowest states are the base meshes, and so many states have
 /// no children.
 /// </remarks>
-internal sealed class FractalHierarchy
+/// <param name="baseMeshes">That of each recursive.</param>
+/// <param name="levels">The levels.</param>
+/// <param name="top">Number of levels of the whole fractal.</param>
+internal sealed class FractalHierarchy(Mesh[] baseMeshes, LevelTable<HierarchyLevel> levels, long top)
 {
     // Up to here sub-fractals are found without a search.
     private const int MaxLowestLevel = 63;
 
-    private readonly SubFractal?[] _lowest;
-    private readonly int _rootRecursive;
-    private readonly long _recursiveTop;
-
-    /// <summary>Takes over the levels that were built.</summary>
-    /// <param name="baseMeshes">That of each recursive.</param>
-    /// <param name="levels">The levels.</param>
-    /// <param name="top">Number of levels of the whole fractal.</param>
-    /// <param name="rootRecursive">Index of the recursive that the steps are applied to.</param>
-    /// <param name="recursiveTop">Level of that recursive.</param>
-    public FractalHierarchy(Mesh[] baseMeshes, LevelTable<HierarchyLevel> levels, long top, int rootRecursive, long recursiveTop)
-    {
-        BaseMeshes = baseMeshes;
-        _rootRecursive = rootRecursive;
-        _recursiveTop = recursiveTop;
-        AllLevels = levels;
-        Levels = top;
-        _lowest = new SubFractal?[Math.Min(Levels, MaxLowestLevel) + 1];
-        for (var level = 0; level < _lowest.Length; level++)
-        {
-            _lowest[level] = FindOrNull(level);
-        }
-
-        Root = At(Levels);
-        RadiusSquared = 0.25 * Root.Box.Size.LengthSquared();
-    }
+    private readonly SubFractal?[] _lowest =
+        [.. Enumerable.Range(0, (int)Math.Min(top, MaxLowestLevel) + 1).Select(level => levels.At(level).SubFractal)];
 
     /// <summary>The base meshes: that of each recursive.</summary>
-    public Mesh[] BaseMeshes { get; }
+    public Mesh[] BaseMeshes { get; } = baseMeshes;
 
     /// <summary>Number of levels of the whole fractal, which is its state; a huge number where they are infinitely many.</summary>
-    public long Levels { get; }
+    public long Levels { get; } = top;
 
     /// <summary>The sub-fractal with all levels, which is the whole fractal.</summary>
-    public SubFractal Root { get; }
+    public SubFractal Root { get; } = levels.At(top).SubFractal!;
 
     /// <summary>Square of half the diagonal of the whole fractal's box.</summary>
-    public double RadiusSquared { get; }
+    public double RadiusSquared { get; } = 0.25 * levels.At(top).SubFractal!.Box.Size.LengthSquared();
 
     /// <summary>True when all maps are similarities, so that they multiply distances by their scale.</summary>
     public bool HasOnlySimilarities { get; init; }
@@ -64,7 +43,7 @@ internal sealed class FractalHierarchy
     public bool HasDoubledPowers { get; init; }
 
     /// <summary>All levels, also those that searches skip.</summary>
-    public LevelTable<HierarchyLevel> AllLevels { get; }
+    public LevelTable<HierarchyLevel> AllLevels { get; } = levels;
 
     /// <summary>Number of bytes of everything in the hierarchy.</summary>
     public long StorageBytes
@@ -82,11 +61,6 @@ internal sealed class FractalHierarchy
 
     /// <summary>True for the number of a state without levels, which is a base mesh.</summary>
     public bool IsBase(long remainingLevels) => remainingLevels < BaseMeshes.Length;
-
-    /// <summary>The state that a level stands for. Steps count as levels of the recursive that they are applied to.</summary>
-    public HierarchyState StateAt(long remainingLevels) => remainingLevels <= _recursiveTop
-        ? new((int)(remainingLevels % BaseMeshes.Length), remainingLevels / BaseMeshes.Length)
-        : new(_rootRecursive, (_recursiveTop / BaseMeshes.Length) + remainingLevels - _recursiveTop);
 
     /// <summary>The sub-fractal with a number of remaining levels, which must be one that a search can visit.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

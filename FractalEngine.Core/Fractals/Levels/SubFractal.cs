@@ -10,7 +10,20 @@ namespace FractalEngine.Core.Fractals.Levels;
 /// A state of a fractal, which is a recursive with a certain number of remaining levels, in its own frame: its children or its base mesh,
 /// and its bounds.
 /// </summary>
-internal sealed class SubFractal
+/// <param name="set">The set of the level; null for the base.</param>
+/// <param name="children">The children; none for the base.</param>
+/// <param name="childBoxes">Boxes around the children.</param>
+/// <param name="childHull">The hull of the sub-fractal that the first child is an instance of, in the frame of that one.</param>
+/// <param name="box">A box around the sub-fractal.</param>
+/// <param name="baseBox">The box of the base mesh; for a group, one around its parent and that mesh, so that it never counts as a point.</param>
+/// <param name="hull">A hull around the sub-fractal; null where it bounds no better than the box.</param>
+/// <param name="solid">A convex solid around the sub-fractal; null where it is empty, and for groups.</param>
+/// <param name="clusters">Boxes that bound better than one; null where they don't.</param>
+/// <param name="hasOnlySimilarities">True when all maps of the fractal are similarities: only then floats are searched.</param>
+/// <param name="baseIndex">Index of the base mesh, see <see cref="BaseIndex"/>.</param>
+internal sealed class SubFractal(
+    MapSet? set, ChildInstance[] children, ReadOnlySpan<BoundingBox> childBoxes, HullBound? childHull, BoundingBox box, BoundingBox baseBox,
+    HullBound? hull, ConvexSolid? solid, ClusterBounds? clusters, bool hasOnlySimilarities, int baseIndex)
 {
     /// <summary>Maximum number of children without groups; searches keep one bit of a word for each.</summary>
     public const int MaxUngroupedChildren = 64;
@@ -20,62 +33,19 @@ internal sealed class SubFractal
 
     private static readonly Vector FarAwayPoint = 1e300 * Vector.One;
 
-    private readonly Vector256<double> _halfSize;
-    private readonly bool _isGroup;
+    private readonly Vector256<double> _halfSize = SimdAffineMap.ToVector256((0.5 + RoundingErrors.MappedPoint) * box.Size);
 
     // So small that it takes no place of its own: queries read most of the fields.
-    private readonly ushort _baseIndex;
+    private readonly ushort _baseIndex = checked((ushort)baseIndex);
 
     // That of a group is created at its first use, twice at worst and with the same result: wide sets have thousands.
-    private ConvexSolid? _solid;
-
-    /// <summary>Creates a sub-fractal, and prepares its bounds for searches.</summary>
-    public SubFractal(in SubFractalDescription description)
-    {
-        _solid = description.Solid;
-        _isGroup = description.IsGroup;
-        _baseIndex = checked((ushort)description.BaseIndex);
-        Clusters = description.Clusters;
-        Set = description.Set;
-        Children = description.Children;
-        Box = description.Box;
-        Hull = description.Hull;
-        Centre = SimdAffineMap.ToVector256(Box.Centre);
-        _halfSize = SimdAffineMap.ToVector256((0.5 + RoundingErrors.MappedPoint) * Box.Size);
-        Floats = !description.HasOnlySimilarities || _isGroup ? null
-            : Hull is null ? new(Box, [], [], 0)
-            : new(Box, Hull.Planes, Hull.CopyVertices(), Hull.Margin);
-        var boxWithBase = BoundingBox.Union(Box, description.BaseBox);
-        var childBoxes = description.ChildBoxes;
-        ChildBoundsX8 = description.HasOnlySimilarities && Clusters is null
-            ? ChildBoundsX8.CreateOrNull(Children, childBoxes, description.ChildHull, boxWithBase)
-            : null;
-        PaddedCount = VectorX4.PaddedCount(Children.Length);
-        ChildBounds = new double[ValuesPerChild * PaddedCount];
-        for (var i = 0; i < PaddedCount; i++)
-        {
-            // Padding and empty children are far from everything.
-            var (x, y, z) = i < childBoxes.Length && !childBoxes[i].IsEmpty ? childBoxes[i].Centre : FarAwayPoint;
-            var (halfX, halfY, halfZ) = i < childBoxes.Length ? (0.5 + RoundingErrors.MappedPoint) * childBoxes[i].Size : Vector.Zero;
-            ReadOnlySpan<double> rows = [x, y, z, halfX, halfY, halfZ];
-            for (var row = 0; row < ValuesPerChild; row++)
-            {
-                ChildBounds[(row * PaddedCount) + i] = rows[row];
-            }
-        }
-
-        HasRotatedChildren = !UnrotatedChildBounds.HasNoRotation(Children);
-        UnrotatedBounds = Children.Length > 0
-            ? UnrotatedChildBounds.CreateOrNull(description.ChildHull, Children, PaddedCount)
-            : null;
-        RadiusSquared = 0.25 * boxWithBase.Size.LengthSquared();
-    }
+    private ConvexSolid? _solid = solid;
 
     /// <summary>The set of this level; null for the base.</summary>
-    public MapSet? Set { get; }
+    public MapSet? Set { get; } = set;
 
     /// <summary>The children; none for the base.</summary>
-    public ChildInstance[] Children { get; }
+    public ChildInstance[] Children { get; } = children;
 
     /// <summary>
     /// Index of the base mesh that the sub-fractal is where it has no children. Otherwise that of the mesh that replaces it where it is
@@ -84,40 +54,46 @@ internal sealed class SubFractal
     public int BaseIndex => _baseIndex;
 
     /// <summary>Number of child boxes including padding, which is far from everything.</summary>
-    public int PaddedCount { get; }
+    public int PaddedCount { get; } = VectorX4.PaddedCount(children.Length);
 
     /// <summary>Boxes around the children, [6 × <see cref="PaddedCount"/>]: x, y, z of the centres, then of half the sizes.</summary>
-    public double[] ChildBounds { get; }
+    public double[] ChildBounds { get; } = CreateChildBounds(childBoxes, VectorX4.PaddedCount(children.Length));
 
     /// <summary>Bounds of all children together; null where they are not instances of one sub-fractal without rotation.</summary>
-    public UnrotatedChildBounds? UnrotatedBounds { get; }
+    public UnrotatedChildBounds? UnrotatedBounds { get; } = children.Length > 0
+        ? UnrotatedChildBounds.CreateOrNull(childHull, children, VectorX4.PaddedCount(children.Length))
+        : null;
 
     /// <summary>False where each child's box is that of its sub-fractal, moved and scaled.</summary>
-    public bool HasRotatedChildren { get; }
+    public bool HasRotatedChildren { get; } = !UnrotatedChildBounds.HasNoRotation(children);
 
     /// <summary>The children in single precision; null where that would not bound them well.</summary>
-    public ChildBoundsX8? ChildBoundsX8 { get; }
+    public ChildBoundsX8? ChildBoundsX8 { get; } = hasOnlySimilarities && clusters is null
+        ? ChildBoundsX8.CreateOrNull(children, childBoxes, childHull, BoundingBox.Union(box, baseBox))
+        : null;
 
-    /// <summary>The bounds in single precision; null for groups, and where not all maps of the fractal are similarities.</summary>
-    public FloatBound? Floats { get; }
+    /// <summary>The bounds in single precision; null for groups, which no child is an instance of, and where not all maps of the fractal are similarities.</summary>
+    public FloatBound? Floats { get; } = !hasOnlySimilarities || (solid is null && !box.IsEmpty) ? null
+        : hull is null ? new(box, [], [], 0)
+        : new(box, hull.Planes, hull.CopyVertices(), hull.Margin);
 
     /// <summary>A box around the sub-fractal, in its frame.</summary>
-    public BoundingBox Box { get; }
+    public BoundingBox Box { get; } = box;
 
     /// <summary>Centre of the box: x, y, z, 0.</summary>
-    public Vector256<double> Centre { get; }
+    public Vector256<double> Centre { get; } = SimdAffineMap.ToVector256(box.Centre);
 
     /// <summary>A hull around the sub-fractal; null where it is no better than the box.</summary>
-    public HullBound? Hull { get; }
+    public HullBound? Hull { get; } = hull;
 
     /// <summary>A convex solid around the sub-fractal, for exact distances; null where the sub-fractal is empty.</summary>
-    public ConvexSolid? Solid => _solid ?? (_isGroup ? _solid = ConvexSolid.FromBox(Box) : null);
+    public ConvexSolid? Solid => _solid ?? (Box.IsEmpty ? null : _solid = ConvexSolid.FromBox(Box));
 
     /// <summary>Boxes that bound the sub-fractal better than one; null where they don't.</summary>
-    public ClusterBounds? Clusters { get; }
+    public ClusterBounds? Clusters { get; } = clusters;
 
     /// <summary>Square of half the diagonal of a box around the sub-fractal and the base mesh.</summary>
-    public double RadiusSquared { get; }
+    public double RadiusSquared { get; } = 0.25 * BoundingBox.Union(box, baseBox).Size.LengthSquared();
 
     /// <summary>Half the diagonal of a box around the sub-fractal and the base mesh.</summary>
     public double Radius => Math.Sqrt(RadiusSquared);
@@ -236,5 +212,23 @@ internal sealed class SubFractal
         return isHullTested
             ? Math.Max(bound, Hull!.TransformedLowerBoundSquared(position, in map, in inverse, cutoffSquared))
             : bound;
+    }
+
+    private static double[] CreateChildBounds(ReadOnlySpan<BoundingBox> childBoxes, int paddedCount)
+    {
+        var bounds = new double[ValuesPerChild * paddedCount];
+        for (var i = 0; i < paddedCount; i++)
+        {
+            // Padding and empty children are far from everything.
+            var (x, y, z) = i < childBoxes.Length && !childBoxes[i].IsEmpty ? childBoxes[i].Centre : FarAwayPoint;
+            var (halfX, halfY, halfZ) = i < childBoxes.Length ? (0.5 + RoundingErrors.MappedPoint) * childBoxes[i].Size : Vector.Zero;
+            ReadOnlySpan<double> rows = [x, y, z, halfX, halfY, halfZ];
+            for (var row = 0; row < ValuesPerChild; row++)
+            {
+                bounds[(row * paddedCount) + i] = rows[row];
+            }
+        }
+
+        return bounds;
     }
 }

@@ -55,18 +55,9 @@ internal static class ChildGroups
         {
             var (members, boxes) = BoxPartition.CountOf(range) > GroupSize ? CreateGroups(range) : CollectChildren(partition.Order[range]);
             var hasFirstHull = members[0].Group is null && members[0].LevelStep == children[0].LevelStep;
-            return new(new()
-            {
-                Set = set,
-                Children = members,
-                ChildBoxes = boxes,
-                ChildHull = hasFirstHull ? childHull : null,
-                Box = box,
-                BaseBox = parentBox,
-                HasOnlySimilarities = hasOnlySimilarities,
-                BaseIndex = baseIndex,
-                IsGroup = true,
-            });
+            return new(
+                set, members, boxes, hasFirstHull ? childHull : null, box, baseBox: parentBox, hull: null, solid: null, clusters: null,
+                hasOnlySimilarities, baseIndex);
         }
 
         (ChildInstance[], BoundingBox[]) CollectChildren(ReadOnlySpan<int> indices)

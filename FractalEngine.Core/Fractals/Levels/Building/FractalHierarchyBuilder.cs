@@ -1,6 +1,4 @@
 using FractalEngine.Core.Fractals.Descriptions;
-using FractalEngine.Core.Geometry.Triangles;
-using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Fractals.Levels.Building;
 
@@ -9,7 +7,11 @@ namespace FractalEngine.Core.Fractals.Levels.Building;
 /// The identity is not a child like the others. Where all levels below have it, the base mesh belongs to the level itself, and a child may
 /// skip levels that have it. Each chain of the other maps is then reached by one path, on its earliest levels (docs/colliders.md).
 /// </remarks>
-internal sealed class FractalHierarchyBuilder
+/// <param name="description">What the hierarchy is built from.</param>
+/// <param name="doublesPowers">
+/// True to double the levels of one map, see <see cref="MapPowers"/>; false for one level for each set, whose path colours need.
+/// </param>
+internal sealed class FractalHierarchyBuilder(HierarchyDescription description, bool doublesPowers)
 {
     /// <summary>Stands for infinitely many rounds: no search descends so many levels.</summary>
     public const long EndlessRounds = 1L << 40;
@@ -17,35 +19,13 @@ internal sealed class FractalHierarchyBuilder
     // More are not compared, though a cycle of calls may take as many.
     private const int MaxPeriodInRounds = 16;
 
-    private readonly HierarchyDescription _description;
-    private readonly bool _doublesPowers;
-
     // A set without maps on any level leaves nothing, however often it is repeated.
-    private readonly bool _isEmpty;
+    private readonly bool _isEmpty = FractalSteps.CountUpTo(description.Steps, 1).IsZero;
     private readonly Dictionary<TransformationSet, MapSet> _sets = new(ReferenceEqualityComparer.Instance);
-    private readonly LevelBuilder _levels;
-    private readonly RecursiveLevels _recursives;
-
-    /// <summary>Begins with the base meshes, which have no remaining levels.</summary>
-    /// <param name="description">What the hierarchy is built from.</param>
-    /// <param name="doublesPowers">
-    /// True to double the levels of one map, see <see cref="MapPowers"/>; false for one level for each set, whose path colours need.
-    /// </param>
-    private FractalHierarchyBuilder(HierarchyDescription description, bool doublesPowers)
-    {
-        _description = description;
-        _doublesPowers = doublesPowers;
-        _isEmpty = FractalSteps.CountUpTo(description.Steps, 1).IsZero;
-        _recursives = new(description.Recursives);
-        // A search by similarities computes in the units of base meshes.
-        HasOnlySimilarities = description.Steps.All(HasOnlySimilarMaps) && _recursives.HaveOnlySimilarities
-            && !description.Recursives.Any(static recursive => QueryScale.IsNeeded(QueryScale.Magnitude(recursive.BaseMesh)));
-        _levels = new(description, HasOnlySimilarities);
-    }
+    private readonly RecursiveLevels _recursives = new(description.Recursives);
+    private readonly LevelBuilder _levels = new(description);
 
     private BuiltLevels Built => _levels.Built;
-
-    private bool HasOnlySimilarities { get; }
 
     private bool HasDoubledPowers { get; set; }
 
@@ -60,11 +40,10 @@ internal sealed class FractalHierarchyBuilder
     /// <summary>Adds the levels of the recursives, and those of all steps, the innermost first.</summary>
     private FractalHierarchy Build(bool keepsAllLevels)
     {
-        LevelBuilder.RequireAllowedChildren(_description.Steps.Sum(CountWideChildren));
+        LevelBuilder.RequireAllowedChildren(description.Steps.Sum(CountWideChildren));
         AddRecursives();
-        var recursiveTop = Built.Top;
-        var baseIndex = _recursives.BaseIndexAt(recursiveTop);
-        foreach (var step in _description.Steps.Reverse())
+        var baseIndex = _recursives.BaseIndexAt(Built.Top);
+        foreach (var step in description.Steps.Reverse())
         {
             AddStep(step, baseIndex);
         }
@@ -75,9 +54,9 @@ internal sealed class FractalHierarchyBuilder
             ReachableLevels.RemoveOthers(levels, Built.Top);
         }
 
-        return new(_levels.BaseMeshes, levels, Built.Top, _description.Root, recursiveTop)
+        return new(_levels.BaseMeshes, levels, Built.Top)
         {
-            HasOnlySimilarities = HasOnlySimilarities,
+            HasOnlySimilarities = description.HasOnlySimilarities,
             HasDoubledPowers = HasDoubledPowers,
         };
     }
@@ -89,7 +68,7 @@ internal sealed class FractalHierarchyBuilder
     private long CountWideChildren(FractalStep step) => step switch
     {
         TransformationSet { Maps.Length: > SubFractal.MaxUngroupedChildren } set => set.Maps.Length,
-        Repetition repetition when !_doublesPowers || MapPowers.TryCreate(repetition) is null =>
+        Repetition repetition when !doublesPowers || MapPowers.TryCreate(repetition) is null =>
             Math.Min(repetition.Count ?? 2, 2) * repetition.Round.Sum(CountWideChildren),
         _ => 0,
     };
@@ -97,7 +76,7 @@ internal sealed class FractalHierarchyBuilder
     private void AddStep(FractalStep step, int baseIndex)
     {
         var repetition = step as Repetition ?? new([step], 1);
-        if (_doublesPowers && MapPowers.TryCreate(repetition) is { } powers)
+        if (doublesPowers && MapPowers.TryCreate(repetition) is { } powers)
         {
             HasDoubledPowers = true;
             powers.AddLevels(Built.Top, (edges, set) => _levels.Add(edges, set, baseIndex));
@@ -172,10 +151,10 @@ internal sealed class FractalHierarchyBuilder
     {
         var period = _recursives.Period;
         var nextAttempt = 0L;
-        for (var round = 0L; round < (_description.Levels ?? EndlessRounds); round++)
+        for (var round = 0L; round < (description.Levels ?? EndlessRounds); round++)
         {
             // The last round ends with the turn of the root.
-            var levelCount = ((_description.Levels - 1 - round ?? EndlessRounds) * period) + _description.Root + 1;
+            var levelCount = ((description.Levels - 1 - round ?? EndlessRounds) * period) + description.Root + 1;
             if (round >= nextAttempt)
             {
                 // Recursives that call only each other alternate: they may have faces only as often as a cycle of calls comes round.
@@ -214,25 +193,5 @@ internal sealed class FractalHierarchyBuilder
                 _levels.CreatePeriodicBound(period, builtRounds, _recursives.MaxExpandedRounds, arePhasesAlike: false),
                 _recursives.EdgesAt,
                 levelCount);
-    }
-
-    private static bool HasOnlySimilarMaps(FractalStep step) => step switch
-    {
-        Repetition repetition => repetition.Round.All(HasOnlySimilarMaps),
-        TransformationSet set => HasOnlySimilarMaps(set.Maps.AsSpan()),
-        _ => throw new ArgumentException($"{step.GetType().Name} is no step of a fractal", nameof(step)),
-    };
-
-    private static bool HasOnlySimilarMaps(ReadOnlySpan<AffineMap> maps)
-    {
-        foreach (ref readonly var map in maps)
-        {
-            if (!map.Linear.IsChainableSimilarity())
-            {
-                return false;
-            }
-        }
-
-        return true;
     }
 }

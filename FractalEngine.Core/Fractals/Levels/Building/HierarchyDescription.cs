@@ -1,6 +1,7 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Geometry.Triangles;
 
 namespace FractalEngine.Core.Fractals.Levels.Building;
 
@@ -11,28 +12,17 @@ namespace FractalEngine.Core.Fractals.Levels.Building;
 /// A fractal of one base mesh is a recursive without levels, and all its steps. A recursive that calls only itself is better described by a
 /// <see cref="Repetition"/>, which makes no instance twice because of the identity: see <see cref="ChildInstanceBuilder"/>.
 /// </remarks>
-internal sealed class HierarchyDescription
+/// <param name="Recursives">The recursives, which refer to each other by their indices.</param>
+/// <param name="Root">Index of the recursive that the steps are applied to.</param>
+/// <param name="Levels">Number of levels of that recursive; null for infinitely many.</param>
+/// <param name="Steps">What is applied to that recursive, the outermost step first.</param>
+internal sealed record HierarchyDescription(
+    ImmutableArray<FractalRecursive> Recursives, int Root, long? Levels, ImmutableArray<FractalStep> Steps)
 {
-    private HierarchyDescription(
-        ImmutableArray<FractalRecursive> recursives, int root, long? levels, ImmutableArray<FractalStep> steps)
-    {
-        Recursives = recursives;
-        Root = root;
-        Levels = levels;
-        Steps = steps;
-    }
-
-    /// <summary>The recursives, which refer to each other by their indices.</summary>
-    public ImmutableArray<FractalRecursive> Recursives { get; }
-
-    /// <summary>Index of the recursive that the steps are applied to.</summary>
-    public int Root { get; }
-
-    /// <summary>Number of levels of that recursive; null for infinitely many.</summary>
-    public long? Levels { get; }
-
-    /// <summary>What is applied to that recursive, the outermost step first.</summary>
-    public ImmutableArray<FractalStep> Steps { get; }
+    /// <summary>True when all maps are similarities, and a search by similarities may compute in the units of the base meshes.</summary>
+    public bool HasOnlySimilarities { get; } = Steps.All(HasOnlySimilarMaps)
+        && Recursives.All(static recursive => recursive.Calls.All(static call => call.Map.Linear.IsChainableSimilarity()))
+        && !Recursives.Any(static recursive => QueryScale.IsNeeded(QueryScale.Magnitude(recursive.BaseMesh)));
 
     /// <summary>Describes a fractal in affine composition: one chain of steps on one base mesh.</summary>
     public static HierarchyDescription Of(Mesh baseMesh, ImmutableArray<FractalStep> steps) => new([new(baseMesh, [])], 0, 0, steps);
@@ -65,4 +55,11 @@ internal sealed class HierarchyDescription
             ? new([new(recursives[root].BaseMesh, [])], 0, 0, steps)
             : new(recursives, root, levels, steps);
     }
+
+    private static bool HasOnlySimilarMaps(FractalStep step) => step switch
+    {
+        Repetition repetition => repetition.Round.All(HasOnlySimilarMaps),
+        TransformationSet set => set.Maps.All(static map => map.Linear.IsChainableSimilarity()),
+        _ => throw new ArgumentException($"{step.GetType().Name} is no step of a fractal", nameof(step)),
+    };
 }

@@ -19,13 +19,12 @@ internal sealed class LevelBuilder
 
     /// <summary>Begins with the base meshes, which have no remaining levels.</summary>
     /// <param name="description">What the levels are of.</param>
-    /// <param name="hasOnlySimilarities">True when all maps are similarities.</param>
-    public LevelBuilder(HierarchyDescription description, bool hasOnlySimilarities)
+    public LevelBuilder(HierarchyDescription description)
     {
         BaseMeshes = [.. description.Recursives.Select(static recursive => recursive.BaseMesh)];
         _childBuilder = new(BaseMeshes.Length);
         _union = new(Built, new(description));
-        _subFractalFactory = new(BaseMeshes, hasOnlySimilarities);
+        _subFractalFactory = new(BaseMeshes, description.HasOnlySimilarities);
         for (var i = 0; i < BaseMeshes.Length; i++)
         {
             var volume = _subFractalFactory.BaseVolumes[i];

@@ -12,7 +12,7 @@ namespace FractalEngine.Core.Fractals.Levels.Building;
 /// A million levels take twenty. Bounds are proved for each as for other levels, and a search or a bound visits as few. The error of a
 /// power is that of as many products, as a part of the largest coordinate.
 /// </remarks>
-internal sealed class MapPowers
+internal sealed class MapPowers(AffineMap map, int mapIndex, int identityIndex, long count)
 {
     // Fewer levels are as well searched one by one.
     private const int MinCount = 8;
@@ -21,19 +21,6 @@ internal sealed class MapPowers
     private const double MinNorm = 0.9;
 
     private const double MinDeterminant = 1e-30;
-
-    private readonly AffineMap _map;
-    private readonly int _mapIndex;
-    private readonly int _identityIndex;
-    private readonly long _count;
-
-    private MapPowers(AffineMap map, int mapIndex, int identityIndex, long count)
-    {
-        _map = map;
-        _mapIndex = mapIndex;
-        _identityIndex = identityIndex;
-        _count = count;
-    }
 
     /// <summary>Recognises a finite repetition of one map, with or without the identity, that does not shrink; null for others.</summary>
     public static MapPowers? TryCreate(Repetition repetition)
@@ -74,17 +61,17 @@ internal sealed class MapPowers
     /// <param name="addLevel">Adds a level on top of those before, from its edges and its set.</param>
     public void AddLevels(long levelBelow, Action<ChildEdge[], MapSet> addLevel)
     {
-        if (_identityIndex < 0)
+        if (identityIndex < 0)
         {
-            var power = Edge(PowerOf(_count), _count, levelBelow, levelBelow);
-            addLevel([power], power.Set);
+            var whole = Edge(PowerOf(count), count, levelBelow, levelBelow);
+            addLevel([whole], whole.Set);
             return;
         }
 
-        var powers = new List<AffineMap> { _map };
+        var powers = new List<AffineMap> { map };
         var top = levelBelow;
         // The level of the first 2ʲ powers is levelBelow + j.
-        for (var exponent = 1L; 2 * exponent <= _count + 1; exponent *= 2)
+        for (var exponent = 1L; 2 * exponent <= count + 1; exponent *= 2)
         {
             AddSum(exponent, powers[^1], top, top);
             powers.Add(powers[^1] * powers[^1]);
@@ -92,9 +79,9 @@ internal sealed class MapPowers
 
         // The number of powers is a sum of powers of two, the smallest first.
         var sum = -1L;
-        for (var bit = 0; _count + 1 >> bit > 0; bit++)
+        for (var bit = 0; count + 1 >> bit > 0; bit++)
         {
-            if ((_count + 1 >> bit & 1) == 0)
+            if ((count + 1 >> bit & 1) == 0)
             {
                 continue;
             }
@@ -111,21 +98,21 @@ internal sealed class MapPowers
             }
         }
 
-        void AddSum(long exponent, AffineMap map, long first, long second)
+        void AddSum(long exponent, AffineMap power, long first, long second)
         {
-            var shifted = Edge(map, exponent, second, levelBelow);
+            var shifted = Edge(power, exponent, second, levelBelow);
             addLevel([Edge(AffineMap.Identity, 0, first, levelBelow), shifted], shifted.Set);
             top++;
         }
     }
 
-    private ChildEdge Edge(AffineMap map, long exponent, long remainingLevels, long levelBelow) => new(
-        new([map]) { Power = new(_mapIndex, _identityIndex, exponent, _count, levelBelow) }, 0, LevelStep.To(remainingLevels));
+    private ChildEdge Edge(AffineMap power, long exponent, long remainingLevels, long levelBelow) => new(
+        new([power]) { Power = new(mapIndex, identityIndex, exponent, count, levelBelow) }, 0, LevelStep.To(remainingLevels));
 
     private AffineMap PowerOf(long exponent)
     {
         var result = AffineMap.Identity;
-        for (var factor = _map; exponent > 0; exponent >>= 1, factor *= factor)
+        for (var factor = map; exponent > 0; exponent >>= 1, factor *= factor)
         {
             result = (exponent & 1) == 0 ? result : result * factor;
         }

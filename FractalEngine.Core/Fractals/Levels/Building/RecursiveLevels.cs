@@ -28,9 +28,6 @@ internal sealed class RecursiveLevels(ImmutableArray<FractalRecursive> recursive
     /// <summary>The largest number of rounds between a sub-fractal and its children: the last call may lead to a later turn.</summary>
     public int MaxExpandedRounds => (ChildInstanceBuilder.MaxExpandedLevels * MaxRoundsDown) + (Period > 1 ? 1 : 0);
 
-    /// <summary>True when all maps of all calls are similarities.</summary>
-    public bool HaveOnlySimilarities => _sets.All(static set => set.AreSimilarities);
-
     /// <summary>The maps of the calls of a level's recursive.</summary>
     public MapSet SetAt(long level) => _sets[(int)(level % Period)];
 

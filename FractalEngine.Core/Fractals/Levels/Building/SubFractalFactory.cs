@@ -22,16 +22,9 @@ internal sealed class SubFractalFactory(Mesh[] baseMeshes, bool hasOnlySimilarit
     public SubFractal CreateBase(int baseIndex)
     {
         var volume = BaseVolumes[baseIndex];
-        return new(new()
-        {
-            Children = [],
-            Box = volume.Box,
-            BaseBox = volume.Box,
-            Hull = CreateHullBound(volume),
-            Solid = CreateSolid(volume),
-            HasOnlySimilarities = hasOnlySimilarities,
-            BaseIndex = baseIndex,
-        });
+        return new(
+            set: null, children: [], childBoxes: [], childHull: null, volume.Box, baseBox: volume.Box, CreateHullBound(volume),
+            CreateSolid(volume), clusters: null, hasOnlySimilarities, baseIndex);
     }
 
     /// <summary>Creates the sub-fractal of a level.</summary>
@@ -58,20 +51,9 @@ internal sealed class SubFractalFactory(Mesh[] baseMeshes, bool hasOnlySimilarit
             childHull = null;
         }
 
-        return new(new()
-        {
-            Set = set,
-            Children = children,
-            ChildBoxes = childBoxes,
-            ChildHull = childHull,
-            Box = volume.Box,
-            BaseBox = baseBox,
-            Hull = CreateHullBound(volume),
-            Solid = CreateSolid(volume),
-            Clusters = CreateClusters(volume),
-            HasOnlySimilarities = hasOnlySimilarities,
-            BaseIndex = baseIndex,
-        });
+        return new(
+            set, children, childBoxes, childHull, volume.Box, baseBox, CreateHullBound(volume), CreateSolid(volume),
+            CreateClusters(volume), hasOnlySimilarities, baseIndex);
     }
 
     private static ClusterBounds? CreateClusters(BoundingVolume volume) => volume.Clusters.Length > 1 ? new(volume.Clusters) : null;
