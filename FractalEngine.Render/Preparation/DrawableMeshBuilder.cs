@@ -9,34 +9,16 @@ namespace FractalEngine.Render.Preparation;
 /// Turns a mesh into interleaved vertices and indices. GL has one index for position, normal and texture coordinates together, so that a
 /// position with several normals becomes several vertices. Vertices that no face uses are omitted.
 /// </summary>
-internal sealed class DrawableMeshBuilder
+internal sealed class DrawableMeshBuilder(Mesh mesh, Vector origin, double creaseAngle, bool hasTextures)
 {
-    private readonly Mesh _mesh;
-    private readonly Vector _origin;
-    private readonly bool _hasTextures;
-
-    // The file's own normals where they are complete, else generated ones.
-    private readonly Mesh _meshWithNormals;
-    private readonly List<float> _vertices;
+    private readonly Mesh _meshWithNormals = NormalGenerator.Complete(mesh, creaseAngle);
+    private readonly List<float> _vertices = new(mesh.VertexCount * DrawableModel.FloatsPerVertex);
     private readonly List<float> _textureCoordinates = [];
     private readonly List<float> _colours = [];
 
     // Few vertices share a position: each position has a linked list of them, from its first vertex on; −1 ends it.
-    private readonly int[] _firstVertexOfPosition;
-    private readonly List<(VertexKey Key, int Next)> _builtVertices;
-
-    private DrawableMeshBuilder(Mesh mesh, Vector origin, double creaseAngle, bool hasTextures)
-    {
-        _mesh = mesh;
-        _origin = origin;
-        _hasTextures = hasTextures;
-        var hasAllNormals = mesh.NormalIndices.Length > 0 && !mesh.NormalIndices.AsSpan().Contains(-1);
-        _meshWithNormals = hasAllNormals ? mesh : NormalGenerator.Generate(mesh, creaseAngle);
-        _vertices = new(mesh.VertexCount * DrawableModel.FloatsPerVertex);
-        _builtVertices = new(mesh.VertexCount);
-        _firstVertexOfPosition = new int[mesh.VertexCount];
-        Array.Fill(_firstVertexOfPosition, -1);
-    }
+    private readonly int[] _firstVertexOfPosition = [.. Enumerable.Repeat(-1, mesh.VertexCount)];
+    private readonly List<(VertexKey Key, int Next)> _builtVertices = new(mesh.VertexCount);
 
     /// <summary>Builds the arrays of a mesh.</summary>
     /// <param name="mesh">Mesh, whose own normals are used where it has them; others are generated.</param>
@@ -70,13 +52,13 @@ internal sealed class DrawableMeshBuilder
 
     private void AddFace(int face, Span<uint> indices)
     {
-        var (a, b, c) = _mesh.Face(face);
+        var (a, b, c) = mesh.Face(face);
         var faceNormal = Vector.Cross(b - a, c - a);
         for (var i = 0; i < 3; i++)
         {
             var corner = (3 * face) + i;
-            var textureCoordinates = _hasTextures ? TextureCoordinatesAt(corner) : default;
-            indices[i] = (uint)FindOrAddVertex(_mesh.VertexIndices[corner], new(NormalAt(corner, faceNormal), textureCoordinates));
+            var textureCoordinates = hasTextures ? TextureCoordinatesAt(corner) : default;
+            indices[i] = (uint)FindOrAddVertex(mesh.VertexIndices[corner], new(NormalAt(corner, faceNormal), textureCoordinates));
         }
     }
 
@@ -93,25 +75,25 @@ internal sealed class DrawableMeshBuilder
 
         _builtVertices.Add((key, first));
         first = _builtVertices.Count - 1;
-        Write(_mesh.Vertex(position) - _origin, _vertices);
+        Write(mesh.Vertex(position) - origin, _vertices);
         Write(key.Normal, _vertices);
-        if (_hasTextures)
+        if (hasTextures)
         {
             _textureCoordinates.Add((float)key.TextureCoordinates.U);
             _textureCoordinates.Add((float)key.TextureCoordinates.V);
         }
 
-        if (!_mesh.Colours.IsEmpty)
+        if (!mesh.Colours.IsEmpty)
         {
-            Write(LinearColour(_mesh, position), _colours);
+            Write(LinearColour(mesh, position), _colours);
         }
 
         return first;
     }
 
     private (double U, double V) TextureCoordinatesAt(int corner) =>
-        _mesh.TextureIndices.Length > 0 && _mesh.TextureIndices[corner] is >= 0 and var index
-            ? (_mesh.TextureCoordinates[2 * index], _mesh.TextureCoordinates[(2 * index) + 1])
+        mesh.TextureIndices.Length > 0 && mesh.TextureIndices[corner] is >= 0 and var index
+            ? (mesh.TextureCoordinates[2 * index], mesh.TextureCoordinates[(2 * index) + 1])
             : default;
 
     /// <summary>
@@ -120,12 +102,12 @@ internal sealed class DrawableMeshBuilder
     /// </summary>
     private Vector NormalAt(int corner, Vector faceNormal)
     {
-        if (_mesh.NormalIndices.Length == 0 || _mesh.NormalIndices[corner] < 0)
+        if (mesh.NormalIndices.Length == 0 || mesh.NormalIndices[corner] < 0)
         {
             return UnitNormal(_meshWithNormals, _meshWithNormals.NormalIndices[corner]);
         }
 
-        var normal = UnitNormal(_mesh, _mesh.NormalIndices[corner]);
+        var normal = UnitNormal(mesh, mesh.NormalIndices[corner]);
         return Vector.Dot(normal, faceNormal) < 0 ? -normal : normal;
     }
 

@@ -26,8 +26,7 @@ internal sealed class TracedModel
     {
         _mesh = model.Mesh;
         _isSolid = new(() => ClosedSurface.IsSolid(model.Mesh));
-        var hasAllNormals = _mesh.NormalIndices.Length > 0 && !_mesh.NormalIndices.AsSpan().Contains(-1);
-        _meshWithNormals = hasAllNormals ? _mesh : NormalGenerator.Generate(_mesh, creaseAngle);
+        _meshWithNormals = NormalGenerator.Complete(_mesh, creaseAngle);
         var materials = new List<TracedMaterial> { TracedMaterial.Default };
         if (!model.Materials.IsEmpty && !_mesh.Groups.IsEmpty)
         {

@@ -44,6 +44,10 @@ public static class NormalGenerator
             ImmutableCollectionsMarshal.AsImmutableArray(builder.NormalIndices));
     }
 
+    /// <summary>The mesh itself where all its corners have normals, else with generated ones.</summary>
+    public static Mesh Complete(Mesh mesh, double creaseAngle) =>
+        mesh.NormalIndices.Length > 0 && !mesh.NormalIndices.AsSpan().Contains(-1) ? mesh : Generate(mesh, creaseAngle);
+
     /// <summary>The normals and angles of all faces at their corners, and the corners that share a position.</summary>
     private sealed class MeshCorners(Vector[] faceNormals, double[] angles, int[] starts, int[] sorted)
     {
