@@ -8,57 +8,46 @@ namespace FractalEngine.Core.Queries;
 /// <summary>
 /// A part of a shape's tree in the frame of a query: a sub-fractal, or a node or leaf of the hierarchy of the base mesh.
 /// </summary>
-internal readonly struct ShapeNode
+/// <param name="subFractal">The sub-fractal; null inside the base mesh.</param>
+/// <param name="remainingLevels">Its remaining levels.</param>
+/// <param name="bvhNode">The node or leaf of the base mesh's hierarchy.</param>
+/// <param name="baseIndex">Index of the base mesh that the node is or is inside of; negative above the base meshes.</param>
+/// <param name="map">From the node's frame to that of the query.</param>
+/// <param name="localBox">A box around the node in its own frame.</param>
+/// <param name="reach">The largest absolute coordinate on the way to the node.</param>
+internal readonly struct ShapeNode(
+    SubFractal? subFractal, long remainingLevels, BvhChild bvhNode, int baseIndex, in AffineMap map, BoundingBox localBox, double reach)
 {
-    /// <summary>Creates a node of a shape.</summary>
-    /// <param name="subFractal">The sub-fractal; null inside the base mesh.</param>
-    /// <param name="remainingLevels">Its remaining levels.</param>
-    /// <param name="bvhNode">The node or leaf of the base mesh's hierarchy.</param>
-    /// <param name="baseIndex">Index of the base mesh that the node is or is inside of; negative above the base meshes.</param>
-    /// <param name="map">From the node's frame to that of the query.</param>
-    /// <param name="localBox">A box around the node in its own frame.</param>
-    /// <param name="reach">The largest absolute coordinate on the way to the node.</param>
-    public ShapeNode(
-        SubFractal? subFractal, long remainingLevels, BvhChild bvhNode, int baseIndex, in AffineMap map, BoundingBox localBox, double reach)
-    {
-        SubFractal = subFractal;
-        RemainingLevels = remainingLevels;
-        BvhNode = bvhNode;
-        BaseIndex = baseIndex;
-        Map = map;
-        LocalBox = localBox;
-        Box = localBox.Transform(map);
-        // The largest products and sums that make a coordinate.
-        var localReach = map.Linear.Absolute() * Vector.Max(localBox.Minimum.Absolute(), localBox.Maximum.Absolute());
-        Reach = Math.Max(reach, localReach.MaxAbsComponent() + map.Translation.MaxAbsComponent());
-    }
-
     /// <summary>The sub-fractal; null inside the base mesh.</summary>
-    public SubFractal? SubFractal { get; }
+    public SubFractal? SubFractal { get; } = subFractal;
 
     /// <summary>Remaining levels of the sub-fractal.</summary>
-    public long RemainingLevels { get; }
+    public long RemainingLevels { get; } = remainingLevels;
 
     /// <summary>The node or leaf of the base mesh's hierarchy; meaningless above the base mesh.</summary>
-    public BvhChild BvhNode { get; }
+    public BvhChild BvhNode { get; } = bvhNode;
 
     /// <summary>True for a base mesh and what is inside.</summary>
     public bool IsBase => BaseIndex >= 0;
 
     /// <summary>Index of that base mesh; negative above.</summary>
-    public int BaseIndex { get; }
+    public int BaseIndex { get; } = baseIndex;
 
     /// <summary>From the node's frame to that of the query.</summary>
-    public AffineMap Map { get; }
+    public AffineMap Map { get; } = map;
 
     /// <summary>A box around the node in its own frame.</summary>
-    public BoundingBox LocalBox { get; }
+    public BoundingBox LocalBox { get; } = localBox;
 
     /// <summary>A box around the node in the frame of the query.</summary>
-    public BoundingBox Box { get; }
+    public BoundingBox Box { get; } = localBox.Transform(map);
 
     /// <summary>The largest absolute coordinate on the way to the node, in the frame of the query.</summary>
-    public double Reach { get; }
+    /// <remarks>Counts the largest products and sums that make a coordinate.</remarks>
+    public double Reach { get; } = Math.Max(
+        reach,
+        (map.Linear.Absolute() * Vector.Max(localBox.Minimum.Absolute(), localBox.Maximum.Absolute())).MaxAbsComponent()
+        + map.Translation.MaxAbsComponent());
 
     /// <summary>How far rounding may have moved what is inside, in the frame of the query.</summary>
     public double Slack => RoundingErrors.Coordinate * Reach;

@@ -20,7 +20,15 @@ namespace FractalEngine.Core.Rays;
 /// Sub-fractals smaller than <see cref="LevelPrecision.RelativePrecision"/> of the whole are replaced by the base mesh, and so is
 /// what a ray still has to visit after a million bounds. Why no hit is lost is explained in docs/rays.md.
 /// </remarks>
-internal sealed class FractalRayCaster : ShapeRayCaster
+/// <param name="fractal">In affine composition.</param>
+/// <param name="hierarchy">Its levels.</param>
+/// <param name="rootLevels">Remaining levels of the sub-fractal that rays are cast at, which the hierarchy must have kept.</param>
+/// <param name="bvh">The hierarchy of the base mesh.</param>
+/// <param name="rayLevels">The bounds of all levels.</param>
+/// <param name="basePlanes">The planes around the base mesh.</param>
+internal sealed class FractalRayCaster(
+    Fractal fractal, FractalHierarchy hierarchy, long rootLevels, TriangleBvh bvh, RayLevels rayLevels, RayPlanes basePlanes)
+    : ShapeRayCaster
 {
     // About a fifth of a second.
     public const long MaxBoundTests = 1_000_000;
@@ -36,15 +44,9 @@ internal sealed class FractalRayCaster : ShapeRayCaster
     // Longer than the way of a ray from its origin through the box of a sub-fractal, in the units of its bounds.
     private const double MaxReach = 16;
 
-    private readonly Fractal _fractal;
-    private readonly FractalHierarchy _hierarchy;
-    private readonly TriangleBvh _bvh;
-    private readonly SubFractal _root;
-    private readonly long _rootLevels;
-    private readonly double _minRadius;
-    private readonly RayLevels _levels;
-    private readonly ShapeTree _tree;
-    private readonly RayPlanes _basePlanes;
+    private readonly SubFractal _root = hierarchy.At(rootLevels);
+    private readonly double _minRadius = LevelPrecision.MinRadius(hierarchy.At(rootLevels));
+    private readonly ShapeTree _tree = new(hierarchy, [bvh], LevelPrecision.MinRadius(hierarchy.At(rootLevels)));
 
     /// <summary>Prepares a fractal in affine composition.</summary>
     public FractalRayCaster(Fractal fractal)
@@ -54,58 +56,37 @@ internal sealed class FractalRayCaster : ShapeRayCaster
 
     /// <summary>Prepares a fractal with another hierarchy than its own.</summary>
     public FractalRayCaster(Fractal fractal, FractalHierarchy hierarchy)
+        : this(fractal, hierarchy, hierarchy.Levels, TriangleBvh.For(fractal.BaseMesh), new(hierarchy), new(fractal.BaseMesh))
     {
-        _fractal = fractal;
-        _hierarchy = hierarchy;
-        (_root, _rootLevels) = (_hierarchy.Root, _hierarchy.Levels);
-        _bvh = TriangleBvh.For(fractal.BaseMesh);
-        _minRadius = LevelPrecision.MinRadius(_root);
-        ShapeMagnitude = _root.Box.MaxAbsCoordinate();
-        _levels = new(_hierarchy);
-        _tree = new(_hierarchy, [_bvh], _minRadius);
-        _basePlanes = new(fractal.BaseMesh);
-    }
-
-    private FractalRayCaster(FractalRayCaster whole, long levels)
-    {
-        _fractal = whole._fractal;
-        _hierarchy = whole._hierarchy;
-        (_root, _rootLevels) = (_hierarchy.At(levels), levels);
-        _bvh = whole._bvh;
-        _minRadius = LevelPrecision.MinRadius(_root);
-        ShapeMagnitude = _root.Box.MaxAbsCoordinate();
-        _levels = whole._levels;
-        _tree = new(_hierarchy, [_bvh], _minRadius);
-        _basePlanes = whole._basePlanes;
     }
 
     /// <summary>The caster of a sub-fractal in its own frame. It shares what is kept with that of the whole.</summary>
     /// <param name="levels">Its remaining levels, which the hierarchy must have kept.</param>
-    public FractalRayCaster At(long levels) => new(this, levels);
+    public FractalRayCaster At(long levels) => new(fractal, hierarchy, levels, bvh, rayLevels, basePlanes);
 
     /// <summary>The maps of the outermost set of a sub-fractal.</summary>
     /// <param name="levels">Its remaining levels, at least 1.</param>
-    public ReadOnlySpan<AffineMap> MapsAt(long levels) => _hierarchy.MapSetAt(levels)!.Maps;
+    public ReadOnlySpan<AffineMap> MapsAt(long levels) => hierarchy.MapSetAt(levels)!.Maps;
 
     /// <summary>The box of the fractal, or of the sub-fractal; empty where it has no faces.</summary>
     public BoundingBox Box => _root.Box;
 
     /// <inheritdoc/>
-    public override long StorageBytes => _hierarchy.StorageBytes + _bvh.StorageBytes + _levels.StorageBytes + _basePlanes.StorageBytes;
+    public override long StorageBytes => hierarchy.StorageBytes + bvh.StorageBytes + rayLevels.StorageBytes + basePlanes.StorageBytes;
 
     /// <inheritdoc/>
-    internal override Mesh Mesh => _fractal.BaseMesh;
+    internal override Mesh Mesh => fractal.BaseMesh;
 
     /// <inheritdoc/>
-    private protected override double ShapeMagnitude { get; }
+    private protected override double ShapeMagnitude { get; } = hierarchy.At(rootLevels).Box.MaxAbsCoordinate();
 
     /// <inheritdoc/>
     internal override SimdAffineMap ResolveInstance(
         in RaySearch search, int pathLength, in AffineMap map, QueryContext context)
     {
         context.ClearPath();
-        var instance = _hierarchy.ResolveInstance(
-            context.BestPathBuffer(pathLength)[..pathLength], _rootLevels, in map, context, out _);
+        var instance = hierarchy.ResolveInstance(
+            context.BestPathBuffer(pathLength)[..pathLength], rootLevels, in map, context, out _);
         return search.Proxy is { } proxy ? SimdAffineMap.Compose(in instance, in proxy.Map) : instance;
     }
 
@@ -119,14 +100,14 @@ internal sealed class FractalRayCaster : ShapeRayCaster
 
         // Below the rounding of the ray, all that it comes near seems hit.
         var minRadius = Math.Max(ray.Scale * _minRadius, MinRadiusInErrors * search.Error);
-        if (_rootLevels == 0 || ray.Scale * _root.Radius <= minRadius)
+        if (rootLevels == 0 || ray.Scale * _root.Radius <= minRadius)
         {
             var isRootHit = TryIntersectBase(in ray, ref search);
             pathLength = isRootHit ? 0 : pathLength;
             return isRootHit;
         }
 
-        var rootBounds = _levels.At(_rootLevels);
+        var rootBounds = rayLevels.At(rootLevels);
         var approached = ray;
         if (!rootBounds.Box.TryApproach(ref approached, in search))
         {
@@ -154,7 +135,7 @@ internal sealed class FractalRayCaster : ShapeRayCaster
         var depth = 0;
         ref var frame = ref stack[0];
         frame.SetBounds(rootBounds);
-        frame.RemainingLevels = _rootLevels;
+        frame.RemainingLevels = rootLevels;
         frame.PathLength = 0;
         frame.Set(in approached);
         if (!TryOpen(ref frame, hasTestedPlanes: false, ref stack.Entries(0), ref search, minRadius))
@@ -190,7 +171,7 @@ internal sealed class FractalRayCaster : ShapeRayCaster
             ref readonly var child = ref frame.Bounds.Child(frame.Octant, lane);
             ref var inner = ref stack[depth + 1];
             inner.Enter(in frame, in child, entry);
-            var bounds = child.Group ?? _levels.At(inner.RemainingLevels);
+            var bounds = child.Group ?? rayLevels.At(inner.RemainingLevels);
             if (inner.Scale * inner.InverseScale > MaxCondition)
             {
                 isHit |= TryIntersectFlat(in ray, depth, inner.PathLength, ref search, context, ref pathLength);
@@ -282,7 +263,7 @@ internal sealed class FractalRayCaster : ShapeRayCaster
         var prefix = new int[prefixLength];
         context.RayStack.CopyPath(depth, prefix);
         var policy = new FlatRayPolicy(ray, search);
-        var node = _tree.Node(_rootLevels, prefix);
+        var node = _tree.Node(rootLevels, prefix);
         ShapeTraversal.Run(
             _tree, node, _tree.MinRadiusSquared(AffineMap.Identity), ref policy, context.TraversalStack, ref policy.Search.BoundTests,
             ref policy.Search.FaceTests);
@@ -304,7 +285,7 @@ internal sealed class FractalRayCaster : ShapeRayCaster
         int depth, in RayFrame frame, RayBounds bounds, ref RaySearch search, QueryContext context, ref int pathLength)
     {
         var local = frame.ToLocal(bounds.Box).Transform(in bounds.Proxy.Inverse, 1, 1);
-        if (!_bvh.Rays.TryIntersect(in local, ref search))
+        if (!bvh.Rays.TryIntersect(in local, ref search))
         {
             return false;
         }
@@ -347,10 +328,10 @@ internal sealed class FractalRayCaster : ShapeRayCaster
 
     private bool TestBase(in RayFrame frame, RayBounds bounds, ref RaySearch search)
     {
-        if (frame.RemainingLevels == 0 && !_basePlanes.IsEmpty)
+        if (frame.RemainingLevels == 0 && !basePlanes.IsEmpty)
         {
             search.BoundTests++;
-            if (!_basePlanes.MayHit(in frame, in search))
+            if (!basePlanes.MayHit(in frame, in search))
             {
                 return false;
             }
@@ -361,7 +342,7 @@ internal sealed class FractalRayCaster : ShapeRayCaster
 
     private bool TryIntersectBase(in LocalRay ray, ref RaySearch search)
     {
-        if (!_bvh.Rays.TryIntersect(in ray, ref search))
+        if (!bvh.Rays.TryIntersect(in ray, ref search))
         {
             return false;
         }

@@ -6,36 +6,25 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Rays;
 
 /// <summary>An object of a scene for rays: the caster of its model, and its place in the world.</summary>
-internal sealed class RayInstance : ObjectBvhLeaf
+/// <param name="index">Index of the object in the scene, from 0.</param>
+/// <param name="caster">In the frame of the model, made at the first ray.</param>
+/// <param name="objectToWorld">From that frame to world space.</param>
+/// <param name="bounds">In world space.</param>
+/// <exception cref="SingularMatrixException">The map has no inverse.</exception>
+internal sealed class RayInstance(int index, Lazy<ShapeRayCaster> caster, AffineMap objectToWorld, BoundingBox bounds)
+    : ObjectBvhLeaf(index, bounds)
 {
-    private readonly AffineMap _objectToWorld;
-    private readonly SimdAffineMap _worldToObject;
-    private readonly double _norm;
-    private readonly double _inverseNorm;
-
-    /// <summary>Places the caster of a model.</summary>
-    /// <param name="index">Index of the object in the scene, from 0.</param>
-    /// <param name="caster">In the frame of the model, made at the first ray.</param>
-    /// <param name="objectToWorld">From that frame to world space.</param>
-    /// <param name="bounds">In world space.</param>
-    /// <exception cref="SingularMatrixException">The map has no inverse.</exception>
-    public RayInstance(int index, Lazy<ShapeRayCaster> caster, AffineMap objectToWorld, BoundingBox bounds)
-        : base(index, bounds)
-    {
-        Caster = caster;
-        ShapeMagnitude = bounds.MaxAbsCoordinate();
-        _objectToWorld = objectToWorld;
-        var inverse = objectToWorld.Inverse();
-        _worldToObject = new(inverse);
-        _norm = BoundingSphere.OperatorNormBound(objectToWorld.Linear) * (1 + RoundingErrors.Norm);
-        _inverseNorm = BoundingSphere.OperatorNormBound(inverse.Linear) * (1 + RoundingErrors.Norm);
-    }
+    private readonly AffineMap _objectToWorld = objectToWorld;
+    private readonly SimdAffineMap _worldToObject = new(objectToWorld.Inverse());
+    private readonly double _norm = BoundingSphere.OperatorNormBound(objectToWorld.Linear) * (1 + RoundingErrors.Norm);
+    private readonly double _inverseNorm =
+        BoundingSphere.OperatorNormBound(objectToWorld.Inverse().Linear) * (1 + RoundingErrors.Norm);
 
     /// <summary>In the frame of the model, made at the first ray.</summary>
-    public Lazy<ShapeRayCaster> Caster { get; }
+    public Lazy<ShapeRayCaster> Caster { get; } = caster;
 
     /// <summary>The largest absolute coordinate in world space.</summary>
-    public double ShapeMagnitude { get; }
+    public double ShapeMagnitude { get; } = bounds.MaxAbsCoordinate();
 
     /// <summary>From the frame of the model to world space.</summary>
     public ref readonly AffineMap ObjectToWorld => ref _objectToWorld;

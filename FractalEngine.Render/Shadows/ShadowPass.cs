@@ -19,51 +19,39 @@ namespace FractalEngine.Render.Shadows;
 /// Maps that fit the view and maps of the whole scene are kept apart, so that a camera which moves and rests in turn finds the latter as
 /// they were. In a deep zoom all is relative to the camera, and maps fit the view.
 /// </remarks>
-internal sealed class ShadowPass : IDisposable
+/// <param name="context">The context; nothing is allocated in it until a light casts shadows.</param>
+/// <param name="scene">The scene.</param>
+/// <param name="buffers">Its buffers.</param>
+/// <param name="transforms">Where its objects are.</param>
+internal sealed class ShadowPass(
+    RenderContext context, DrawableScene scene, SceneBuffers buffers, ObjectTransforms transforms) : IDisposable
 {
     // In a deep zoom, shadows fall up to so many times farther than the near plane: fifty times the distance of the closest surface.
     private const double DeepZoomReach = 2500;
 
-    private readonly GlResources _resources;
-    private readonly SceneBuffers _buffers;
-    private readonly ObjectTransforms _transforms;
-    private readonly ImmutableArray<Emitter> _lights;
+    private readonly ImmutableArray<Emitter> _lights = LightBlock.LightsOf(scene.Source);
     private readonly ShadowFit _fit = new();
-    private readonly ShadowMaps _fittedMaps;
-    private readonly ShadowMaps _wholeMaps;
+    private readonly ShadowMaps _fittedMaps = new(context.Resources);
+    private readonly ShadowMaps _wholeMaps = new(context.Resources);
     private readonly CasterSelection _fittedCasters = new();
     private readonly CasterSelection _wholeCasters = new();
-    private readonly ShadowBlock _block;
-    private readonly CasterRenderer _casters;
-    private readonly Action<ShadowView> _drawStanding;
-    private readonly List<int> _movingObjects = [];
+    private readonly ShadowBlock _block = new(context.Resources, context.HasReversedDepth);
+    private readonly CasterRenderer _casters = new(context.Resources, scene, buffers, transforms);
+    private Action<ShadowView>? _drawStanding;
+    private readonly List<int> _movingObjects = [.. MovingObjectsOf(scene)];
     private SceneCuller? _lastCuller;
     private readonly ShadowCulling _shadowCulling = new();
     private CullingSettings? _culling;
     private DeepZoom? _zoom;
-    private ShadowMaps _maps;
-    private CasterSelection _selection;
+    private bool _fitsToView;
     private bool _hasMoving;
     private IReadOnlyList<SphereInstance> _lastSpheres = [];
     private long _version;
     private long _movingVersion;
 
-    /// <summary>Prepares the shadows of a scene; nothing is allocated until a light casts some.</summary>
-    public ShadowPass(RenderContext context, DrawableScene scene, SceneBuffers buffers, ObjectTransforms transforms)
-    {
-        _resources = context.Resources;
-        _buffers = buffers;
-        _transforms = transforms;
-        _lights = LightBlock.LightsOf(scene.Source);
-        _fittedMaps = new(_resources);
-        _wholeMaps = new(_resources);
-        _maps = _fittedMaps;
-        _selection = _fittedCasters;
-        _block = new(_resources, context.HasReversedDepth);
-        _casters = new(_resources, scene, buffers, transforms);
-        _drawStanding = DrawStanding;
-        SetScene(scene);
-    }
+    private ShadowMaps Maps => _fitsToView ? _fittedMaps : _wholeMaps;
+
+    private CasterSelection Selection => _fitsToView ? _fittedCasters : _wholeCasters;
 
     /// <summary>Whether the frame has lights with shadows.</summary>
     public bool HasShadows { get; private set; }
@@ -90,11 +78,11 @@ internal sealed class ShadowPass : IDisposable
     public int DrawnMapCount { get; private set; }
 
     /// <summary>Draws another preparation of the same scene from now on.</summary>
-    public void SetScene(DrawableScene scene)
+    public void SetScene(DrawableScene prepared)
     {
-        _casters.Scene = scene;
+        _casters.Scene = prepared;
         _movingObjects.Clear();
-        _movingObjects.AddRange(Enumerable.Range(0, scene.Objects.Length).Where(i => scene.Objects[i].IsDynamic));
+        _movingObjects.AddRange(MovingObjectsOf(prepared));
         _version++;
     }
 
@@ -155,12 +143,11 @@ internal sealed class ShadowPass : IDisposable
             HasSlices |= count > 1 && !_fit.Views[first].IsPerspective;
         }
 
-        _maps = fitsToView ? _fittedMaps : _wholeMaps;
-        _selection = fitsToView ? _fittedCasters : _wholeCasters;
-        _selection.Update(
-            _casters.Scene, _transforms.Bounds, spheres, bounds, in frame, _fit, fitsToView, settings.CasterCulling && _zoom is null);
-        SkippedCasterCount = _selection.SkippedCount;
-        if (!_selection.HasCasters && spheres.Count == 0)
+        _fitsToView = fitsToView;
+        Selection.Update(
+            _casters.Scene, transforms.Bounds, spheres, bounds, in frame, _fit, fitsToView, settings.CasterCulling && _zoom is null);
+        SkippedCasterCount = Selection.SkippedCount;
+        if (!Selection.HasCasters && spheres.Count == 0)
         {
             // Faces that turn away from a light are still dark, as those of lights with maps.
             SkippedMapCount += _fit.Views.Count;
@@ -173,7 +160,7 @@ internal sealed class ShadowPass : IDisposable
             DrawMaps(in frame, spheres, settings);
         }
 
-        _block.Upload(_fit.Ranges, _fit.Views, _maps.Corners, _maps.TextureSize, origin);
+        _block.Upload(_fit.Ranges, _fit.Views, Maps.Corners, Maps.TextureSize, origin);
     }
 
     /// <summary>Binds the maps and their views, where the frame has any.</summary>
@@ -186,7 +173,7 @@ internal sealed class ShadowPass : IDisposable
 
         if (MapCount > 0)
         {
-            _maps.BindTexture(GlState.ShadowTextureUnit, _hasMoving);
+            Maps.BindTexture(GlState.ShadowTextureUnit, _hasMoving);
         }
     }
 
@@ -199,13 +186,13 @@ internal sealed class ShadowPass : IDisposable
         RefreshCuller();
         for (var i = 0; i < _casters.Scene.Objects.Length; i++)
         {
-            _buffers.ShadowCuller.Include(i, _selection.IsSelected(i));
+            buffers.ShadowCuller.Include(i, Selection.IsSelected(i));
         }
 
         _culling = _shadowCulling.Resolve(settings.Culling);
         CasterRenderer.BeginMaps(frame.Section is not null);
-        _maps.DrawStanding(_fit.Views, _culling, _zoom, _version + _selection.Version, settings.ReuseBuffers, _drawStanding);
-        DrawnMapCount = _maps.DrawnCount;
+        Maps.DrawStanding(_fit.Views, _culling, _zoom, _version + Selection.Version, settings.ReuseBuffers, _drawStanding ??= DrawStanding);
+        DrawnMapCount = Maps.DrawnCount;
         _hasMoving = _zoom is null && (_movingObjects.Count > 0 || spheres.Count > 0);
         if (_hasMoving)
         {
@@ -219,6 +206,9 @@ internal sealed class ShadowPass : IDisposable
     }
 
     /// <summary>Bounds of what stands; all bounds where nothing does.</summary>
+    private static IEnumerable<int> MovingObjectsOf(DrawableScene scene) =>
+        Enumerable.Range(0, scene.Objects.Length).Where(i => scene.Objects[i].IsDynamic);
+
     private BoundingBox StandingBounds(BoundingBox bounds)
     {
         if (_movingObjects.Count == 0)
@@ -229,7 +219,7 @@ internal sealed class ShadowPass : IDisposable
         var standing = BoundingBox.Empty;
         for (var i = 0; i < _casters.Scene.Objects.Length; i++)
         {
-            standing = _casters.Scene.Objects[i].IsDynamic ? standing : BoundingBox.Union(standing, _transforms.Bounds[i]);
+            standing = _casters.Scene.Objects[i].IsDynamic ? standing : BoundingBox.Union(standing, transforms.Bounds[i]);
         }
 
         return standing.IsEmpty ? bounds : standing;
@@ -238,7 +228,7 @@ internal sealed class ShadowPass : IDisposable
     /// <summary>Notes when models were uploaded anew: their culler then has the places that the scene declares.</summary>
     private void RefreshCuller()
     {
-        var culler = _buffers.ShadowCuller;
+        var culler = buffers.ShadowCuller;
         if (culler == _lastCuller)
         {
             return;
@@ -248,19 +238,19 @@ internal sealed class ShadowPass : IDisposable
         _version++;
         for (var i = 0; i < _casters.Scene.Objects.Length; i++)
         {
-            culler.Move(i, _transforms.ObjectToWorld[i]);
+            culler.Move(i, transforms.ObjectToWorld[i]);
         }
     }
 
     private void DrawStanding(ShadowView view)
     {
         _casters.Begin(in view);
-        _casters.DrawStatic(_culling, _zoom?.AboutEye(view.Position), _selection);
+        _casters.DrawStatic(_culling, _zoom?.AboutEye(view.Position), Selection);
     }
 
     private void DrawMoving(IReadOnlyList<SphereInstance> spheres)
     {
-        if (!_maps.TryBeginMoving(_movingVersion + _selection.Version))
+        if (!Maps.TryBeginMoving(_movingVersion + Selection.Version))
         {
             return;
         }
@@ -268,11 +258,11 @@ internal sealed class ShadowPass : IDisposable
         for (var i = 0; i < _fit.Views.Count; i++)
         {
             var view = _fit.Views[i];
-            _maps.SelectMap(i, in view);
+            Maps.SelectMap(i, in view);
             _casters.Begin(in view);
             foreach (var index in _movingObjects)
             {
-                if (_selection.IsSelected(index) && _maps.TryMark(i, in view, _transforms.Bounds[index]))
+                if (Selection.IsSelected(index) && Maps.TryMark(i, in view, transforms.Bounds[index]))
                 {
                     _casters.DrawWhole(index);
                 }
@@ -281,7 +271,7 @@ internal sealed class ShadowPass : IDisposable
             var hasSpheres = false;
             for (var j = 0; j < spheres.Count; j++)
             {
-                hasSpheres |= _maps.TryMark(i, in view, spheres[j].Bounds);
+                hasSpheres |= Maps.TryMark(i, in view, spheres[j].Bounds);
             }
 
             if (hasSpheres)

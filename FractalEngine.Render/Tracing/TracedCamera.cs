@@ -5,38 +5,31 @@ using FractalEngine.Render.Views;
 namespace FractalEngine.Render.Tracing;
 
 /// <summary>Makes the rays of a view's pixels.</summary>
-internal sealed class TracedCamera
+/// <param name="view">Camera and projection.</param>
+/// <param name="width">Width of the frame in pixels.</param>
+/// <param name="height">Height of the frame in pixels.</param>
+/// <param name="footprintPixels">Radius of a ray in pixels.</param>
+internal sealed class TracedCamera(View view, int width, int height, double footprintPixels)
 {
-    private readonly Camera _camera;
-    private readonly bool _isPerspective;
-    private readonly double _halfHeight;
-    private readonly double _halfWidth;
-    private readonly double _footprint;
-    private readonly (double Near, double Far) _clip;
+    private readonly Camera _camera = view.Camera;
+    private readonly bool _isPerspective = view.Projection == Projection.Perspective;
+    private readonly double _halfHeight = view.HalfHeight;
+    private readonly double _halfWidth = view.HalfHeight * view.EffectiveAspect(width, height);
+    private readonly double _footprint = footprintPixels * 2 * view.HalfHeight / view.Viewport(width, height).Height;
+    private readonly (double Near, double Far) _clip = view.FixedClipPlanes ?? (0, double.PositiveInfinity);
 
     // May reach beyond the sides of the frame.
-    private readonly (int X, int Y, int Width, int Height) _image;
-
-    /// <summary>Prepares a view for a frame.</summary>
-    /// <param name="view">Camera and projection.</param>
-    /// <param name="width">Width of the frame in pixels.</param>
-    /// <param name="height">Height of the frame in pixels.</param>
-    /// <param name="footprintPixels">Radius of a ray in pixels.</param>
-    public TracedCamera(View view, int width, int height, double footprintPixels)
-    {
-        _camera = view.Camera;
-        _isPerspective = view.Projection == Projection.Perspective;
-        _image = view.Viewport(width, height);
-        var (left, right) = (Math.Max(0, _image.X), Math.Min(width, _image.X + _image.Width));
-        Viewport = _image with { X = left, Width = right - left };
-        _halfHeight = view.HalfHeight;
-        _halfWidth = _halfHeight * view.EffectiveAspect(width, height);
-        _footprint = footprintPixels * 2 * _halfHeight / _image.Height;
-        _clip = view.FixedClipPlanes ?? (0, double.PositiveInfinity);
-    }
+    private readonly (int X, int Y, int Width, int Height) _image = view.Viewport(width, height);
 
     /// <summary>The part of the frame that shows the scene, in pixels from the upper left corner.</summary>
-    public (int X, int Y, int Width, int Height) Viewport { get; }
+    public (int X, int Y, int Width, int Height) Viewport
+    {
+        get
+        {
+            var (left, right) = (Math.Max(0, _image.X), Math.Min(width, _image.X + _image.Width));
+            return _image with { X = left, Width = right - left };
+        }
+    }
 
     /// <summary>Makes a ray near the centre of a pixel.</summary>
     /// <param name="x">Pixel from the left, from 0.</param>

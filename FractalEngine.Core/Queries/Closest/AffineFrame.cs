@@ -12,11 +12,16 @@ namespace FractalEngine.Core.Queries.Closest;
 /// The frame of a sub-fractal under any maps: bounds are taken into the frame of the query, since distances there are not proportional to
 /// those in the sub-fractal's frame.
 /// </summary>
-internal readonly struct AffineFrame : ISearchFrame<AffineFrame>
+/// <param name="position">Position of the query in the query's frame: x, y, z, 0.</param>
+/// <param name="map">From the sub-fractal's frame to that of the query.</param>
+/// <param name="inverse">The inverse of that map.</param>
+[method: MethodImpl(MethodImplOptions.AggressiveInlining)]
+internal readonly struct AffineFrame(Vector256<double> position, in SimdAffineMap map, in SimdAffineMap inverse)
+    : ISearchFrame<AffineFrame>
 {
-    private readonly Vector256<double> _position;
-    private readonly SimdAffineMap _map;
-    private readonly SimdAffineMap _inverse;
+    private readonly Vector256<double> _position = position;
+    private readonly SimdAffineMap _map = map;
+    private readonly SimdAffineMap _inverse = inverse;
 
     /// <summary>Creates the frame of the whole fractal.</summary>
     /// <param name="position">Position of the query in the query's frame.</param>
@@ -24,14 +29,6 @@ internal readonly struct AffineFrame : ISearchFrame<AffineFrame>
     public AffineFrame(Vector position, in AffineMap map)
         : this(SimdAffineMap.ToVector256(position), new(map), new(map.Inverse()))
     {
-    }
-
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private AffineFrame(Vector256<double> position, in SimdAffineMap map, in SimdAffineMap inverse)
-    {
-        _position = position;
-        _map = map;
-        _inverse = inverse;
     }
 
     /// <summary>Finds the closest triangle of the base mesh under a map, if it is closer than all before.</summary>

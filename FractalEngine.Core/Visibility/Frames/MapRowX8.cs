@@ -5,25 +5,16 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Visibility.Frames;
 
 /// <summary>One row of an affine map in single precision, each entry in all lanes, for eight points at a time.</summary>
-internal readonly struct MapRowX8
+/// <param name="map">Map with the row's linear part.</param>
+/// <param name="translation">Image of the point that coordinates are relative to, in place of the map's: x, y, z, 0.</param>
+/// <param name="row">0 for x, 1 for y, 2 for z.</param>
+[method: MethodImpl(MethodImplOptions.AggressiveInlining)]
+internal readonly struct MapRowX8(in SimdAffineMap map, Vector256<double> translation, int row)
 {
-    private readonly Vector256<float> _x;
-    private readonly Vector256<float> _y;
-    private readonly Vector256<float> _z;
-    private readonly Vector256<float> _translation;
-
-    /// <summary>Takes a row from a map whose translation is replaced.</summary>
-    /// <param name="map">Map with the row's linear part.</param>
-    /// <param name="translation">Image of the point that coordinates are relative to: x, y, z, 0.</param>
-    /// <param name="row">0 for x, 1 for y, 2 for z.</param>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public MapRowX8(in SimdAffineMap map, Vector256<double> translation, int row)
-    {
-        _x = Vector256.Create((float)map.V1[row]);
-        _y = Vector256.Create((float)map.V2[row]);
-        _z = Vector256.Create((float)map.V3[row]);
-        _translation = Vector256.Create((float)translation[row]);
-    }
+    private readonly Vector256<float> _x = Vector256.Create((float)map.V1[row]);
+    private readonly Vector256<float> _y = Vector256.Create((float)map.V2[row]);
+    private readonly Vector256<float> _z = Vector256.Create((float)map.V3[row]);
+    private readonly Vector256<float> _translation = Vector256.Create((float)translation[row]);
 
     /// <summary>Computes the row's coordinate of the images of eight points.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

@@ -14,7 +14,14 @@ namespace FractalEngine.Core.Visibility.Frames;
 /// Pixels are those of the occlusion buffer: two by two for each pixel of the frame where pixels have several samples. Columns and rows
 /// are counted from the upper left corner of the frame.
 /// </remarks>
-internal readonly struct StripFrame
+/// <param name="view">View of the whole frame.</param>
+/// <param name="settings">Settings of culling.</param>
+/// <param name="minProjectedSize">Projected size below which sub-fractals become proxies, pixels of the frame.</param>
+/// <param name="instanceBudget">Number of instances after which the strip gives up.</param>
+/// <param name="left">First column of the strip in the frame.</param>
+/// <param name="right">One more than the last column.</param>
+internal readonly struct StripFrame(
+    in CullingView view, CullingSettings settings, double minProjectedSize, int instanceBudget, int left, int right)
 {
     private const int MultisampleFactor = 2;
 
@@ -31,121 +38,77 @@ internal readonly struct StripFrame
     // Relative to coordinates: more than the rounding of the maps from objects to the view.
     private const double SectionMargin = 1e-12;
 
-    private readonly Vector256<double> _sectionNormal;
-    private readonly Vector256<double> _sectionExtent;
-    private readonly double _sectionDistance;
-    private readonly float _minSampleOffset;
-    private readonly float _maxSampleOffset;
-
-    /// <summary>Computes the parameters of a strip.</summary>
-    /// <param name="view">View of the whole frame.</param>
-    /// <param name="settings">Settings of culling.</param>
-    /// <param name="minProjectedSize">Projected size below which sub-fractals become proxies, pixels of the frame.</param>
-    /// <param name="instanceBudget">Number of instances after which the strip gives up.</param>
-    /// <param name="left">First column of the strip in the frame.</param>
-    /// <param name="right">One more than the last column.</param>
-    public StripFrame(in CullingView view, CullingSettings settings, double minProjectedSize, int instanceBudget, int left, int right)
-    {
-        var samplesPerAxis = settings.IsMultisampled ? MultisampleFactor : 1;
-        Position = view.Position;
-        Axes = view.Axes;
-        IsMirrored = view.Axes.Determinant() < 0;
-        IsPerspective = view.IsPerspective;
-        Near = view.Near;
-        Far = view.Far;
-        HasFrustumCulling = settings.FrustumCulling;
-        HasOcclusionCulling = settings.OcclusionCulling;
-        IsMultisampled = settings.IsMultisampled;
-        HasSkyVisibility = settings.SkyVisibility;
-        MinProjectedSize = samplesPerAxis * minProjectedSize;
-        InstanceBudget = instanceBudget;
-        MaxNodes = MaxNodesPerInstance * (long)Math.Max(instanceBudget, MinInstancesForNodeLimit);
-        ScaleX = samplesPerAxis * view.PixelsPerUnitX;
-        ScaleY = samplesPerAxis * view.PixelsPerUnitY;
-        CentreX = samplesPerAxis * 0.5 * view.Width;
-        CentreY = samplesPerAxis * 0.5 * view.Height;
-        Left = samplesPerAxis * left;
-        Right = samplesPerAxis * right;
-        Height = samplesPerAxis * view.Height;
-        var (minOffset, maxOffset) = OcclusionBuffer.SampleOffsets(settings.IsMultisampled);
-        _minSampleOffset = minOffset - PixelPadding;
-        _maxSampleOffset = maxOffset + PixelPadding;
-        ViewToWorld = new(new AffineMap(view.Axes, Vector.Zero));
-        if (view.Section is { } section)
-        {
-            HasSection = true;
-            _sectionDistance = section.Distance;
-            var normal = view.Axes.Inverse() * section.Normal;
-            _sectionNormal = SimdAffineMap.ToVector256(normal);
-            _sectionExtent = SimdAffineMap.ToVector256(normal.Absolute());
-        }
-    }
+    private readonly Vector256<double> _sectionNormal = SimdAffineMap.ToVector256(SectionNormal(in view));
+    private readonly Vector256<double> _sectionExtent = SimdAffineMap.ToVector256(SectionNormal(in view).Absolute());
+    private readonly double _sectionDistance = view.Section?.Distance ?? 0;
+    private readonly float _minSampleOffset = OcclusionBuffer.SampleOffsets(settings.IsMultisampled).Min - PixelPadding;
+    private readonly float _maxSampleOffset = OcclusionBuffer.SampleOffsets(settings.IsMultisampled).Max + PixelPadding;
 
     /// <summary>Camera position, world space.</summary>
-    public Vector Position { get; }
+    public Vector Position { get; } = view.Position;
 
     /// <summary>Columns are the camera's right, up and forward axes in world space.</summary>
-    public Matrix Axes { get; }
+    public Matrix Axes { get; } = view.Axes;
 
     /// <summary>True for a perspective projection, false for an orthographic one.</summary>
-    public bool IsPerspective { get; }
+    public bool IsPerspective { get; } = view.IsPerspective;
 
     /// <summary>Depth of the near plane, scene units.</summary>
-    public double Near { get; }
+    public double Near { get; } = view.Near;
 
     /// <summary>Depth of the far plane, scene units.</summary>
-    public double Far { get; }
+    public double Far { get; } = view.Far;
 
     /// <summary>Whether boxes outside the frustum are culled.</summary>
-    public bool HasFrustumCulling { get; }
+    public bool HasFrustumCulling { get; } = settings.FrustumCulling;
 
     /// <summary>Whether hidden boxes are culled.</summary>
-    public bool HasOcclusionCulling { get; }
+    public bool HasOcclusionCulling { get; } = settings.OcclusionCulling;
 
     /// <summary>Whether boxes beyond a section plane are culled.</summary>
-    public bool HasSection { get; }
+    public bool HasSection { get; } = view.Section is not null;
 
     /// <summary>Whether instances come with the parts of the sky that they see.</summary>
-    public bool HasSkyVisibility { get; }
+    public bool HasSkyVisibility { get; } = settings.SkyVisibility;
 
     /// <summary>Whether the camera's axes are right-handed.</summary>
-    public bool IsMirrored { get; }
+    public bool IsMirrored { get; } = view.Axes.Determinant() < 0;
 
     /// <summary>Whether pixels of the frame have several samples.</summary>
-    public bool IsMultisampled { get; }
+    public bool IsMultisampled { get; } = settings.IsMultisampled;
 
     /// <summary>Projected size below which sub-fractals become proxies, pixels of the occlusion buffer.</summary>
-    public double MinProjectedSize { get; }
+    public double MinProjectedSize { get; } = SamplesPerAxis(settings) * minProjectedSize;
 
     /// <summary>Number of instances after which the strip gives up.</summary>
-    public int InstanceBudget { get; }
+    public int InstanceBudget { get; } = instanceBudget;
 
     /// <summary>Number of visited nodes after which the strip gives up.</summary>
-    public long MaxNodes { get; }
+    public long MaxNodes { get; } = MaxNodesPerInstance * (long)Math.Max(instanceBudget, MinInstancesForNodeLimit);
 
     /// <summary>Pixels per unit to the right (at depth 1 in perspective).</summary>
-    public double ScaleX { get; }
+    public double ScaleX { get; } = SamplesPerAxis(settings) * view.PixelsPerUnitX;
 
     /// <summary>Pixels per unit upwards (at depth 1 in perspective).</summary>
-    public double ScaleY { get; }
+    public double ScaleY { get; } = SamplesPerAxis(settings) * view.PixelsPerUnitY;
 
     /// <summary>Horizontal coordinate of the frame's centre.</summary>
-    public double CentreX { get; }
+    public double CentreX { get; } = SamplesPerAxis(settings) * 0.5 * view.Width;
 
     /// <summary>Vertical coordinate of the frame's centre.</summary>
-    public double CentreY { get; }
+    public double CentreY { get; } = SamplesPerAxis(settings) * 0.5 * view.Height;
 
     /// <summary>First column of the strip.</summary>
-    public int Left { get; }
+    public int Left { get; } = SamplesPerAxis(settings) * left;
 
     /// <summary>One more than the last column of the strip.</summary>
-    public int Right { get; }
+    public int Right { get; } = SamplesPerAxis(settings) * right;
 
     /// <summary>Number of rows of the frame.</summary>
-    public int Height { get; }
+    public int Height { get; } = SamplesPerAxis(settings) * view.Height;
 
     /// <summary>Map from view space to world axes about the camera.</summary>
-    public SimdAffineMap ViewToWorld { get; }
+    public SimdAffineMap ViewToWorld { get; } = new(new AffineMap(view.Axes, Vector.Zero));
 
     /// <summary>Tells on which side of the section plane a box in view space lies.</summary>
     /// <param name="centre">Centre of the box: x, y, z, 0.</param>
@@ -245,6 +208,12 @@ internal readonly struct StripFrame
         var padding = GroupPadding * (IsPerspective ? Math.Max(0, zHigh) : 1) * Vector128.Create(1 / ScaleX, 1 / ScaleY);
         return IsOutsideFrustum(centre, halfSize + Vector256.Create(padding, Vector128<double>.Zero));
     }
+
+    private static int SamplesPerAxis(CullingSettings settings) => settings.IsMultisampled ? MultisampleFactor : 1;
+
+    /// <summary>Normal of the section plane in view space; zero without a section.</summary>
+    private static Vector SectionNormal(in CullingView view) =>
+        view.Section is { } section ? view.Axes.Inverse() * section.Normal : Vector.Zero;
 
     /// <summary>Tests whether a box lies beyond one of the planes through the eye and the edges of the strip.</summary>
     private bool IsOutsideFrustum(Vector256<double> centre, Vector256<double> halfSize)
