@@ -16,6 +16,7 @@ internal sealed class InstanceList(bool hasPathHashes)
     // The list grows by a quarter, so that most of the memory is used.
     private const int GrowthDivisor = 4;
 
+    private readonly List<int> _ends = [];
     private float[] _rows = new float[64 * FloatsPerInstance];
     private float[] _gradientFactors = [];
     private float[] _skyParts = [];
@@ -24,22 +25,38 @@ internal sealed class InstanceList(bool hasPathHashes)
     /// <summary>Number of instances in the list.</summary>
     public int Count { get; private set; }
 
-    /// <summary>Rows of the maps, [<see cref="Count"/> × 12].</summary>
-    public ReadOnlySpan<float> Span => _rows.AsSpan(0, Count * FloatsPerInstance);
-
-    /// <summary>Gradient factors from 0 to 1, [at most <see cref="Count"/>].</summary>
-    /// <remarks>Only those of objects with a gradient have a meaning; the list ends with the last of these.</remarks>
-    public ReadOnlySpan<float> GradientFactors => _gradientFactors.AsSpan(0, Math.Min(Count, _gradientFactors.Length));
-
-    /// <summary>Parts of the sky that the six sides of instances see, [at most <see cref="Count"/> × 6].</summary>
-    /// <remarks>Only those of objects with masks have a meaning; the list ends with the last of these.</remarks>
-    public ReadOnlySpan<float> SkyParts => _skyParts.AsSpan(0, Math.Min(Count * AmbientCube.Count, _skyParts.Length));
-
     /// <summary>Hashes that tell the instances of one object apart, [<see cref="Count"/>].</summary>
     public ReadOnlySpan<ulong> PathHashes => _pathHashes.AsSpan(0, Count);
 
+    /// <summary>Rows of the maps of an object's instances, [n × 12].</summary>
+    /// <param name="rank">Rank of the object in the order of culling.</param>
+    public ReadOnlySpan<float> RowsOf(int rank) => Slice(_rows, FloatsPerInstance, rank);
+
+    /// <summary>Gradient factors from 0 to 1 of the instances of an object with a gradient, [n].</summary>
+    /// <param name="rank">Rank of the object in the order of culling.</param>
+    public ReadOnlySpan<float> GradientFactorsOf(int rank) => Slice(_gradientFactors, 1, rank);
+
+    /// <summary>Parts of the sky that the six sides of the instances of an object with masks see, [n × 6].</summary>
+    /// <param name="rank">Rank of the object in the order of culling.</param>
+    public ReadOnlySpan<float> SkyPartsOf(int rank) => Slice(_skyParts, AmbientCube.Count, rank);
+
+    /// <summary>The range of an object's instances.</summary>
+    /// <param name="rank">Rank of the object in the order of culling.</param>
+    public (int Start, int Count) RangeOf(int rank)
+    {
+        var start = rank == 0 ? 0 : _ends[rank - 1];
+        return (start, _ends[rank] - start);
+    }
+
     /// <summary>Removes all instances, and keeps the memory for the next ones.</summary>
-    public void Clear() => Count = 0;
+    public void Clear()
+    {
+        Count = 0;
+        _ends.Clear();
+    }
+
+    /// <summary>Ends the instances of one object; those of the next one follow.</summary>
+    public void EndObject() => _ends.Add(Count);
 
     /// <summary>Appends an instance to the list.</summary>
     /// <param name="map">Map from the frame of the base mesh.</param>
@@ -109,6 +126,13 @@ internal sealed class InstanceList(bool hasPathHashes)
         }
 
         return _skyParts.AsSpan((Count - 1) * AmbientCube.Count, AmbientCube.Count);
+    }
+
+    private ReadOnlySpan<float> Slice(float[] values, int floatsPerInstance, int rank)
+    {
+        var (start, count) = RangeOf(rank);
+        // Factors and parts end with those of the last object that has some, before an empty range.
+        return count == 0 ? [] : values.AsSpan(start * floatsPerInstance, count * floatsPerInstance);
     }
 
     private void EnsureCapacity()

@@ -45,7 +45,7 @@ internal sealed class StripCuller
     public void Cull(
         in StripFrame frame, IReadOnlyList<CulledObject> objects, ReadOnlySpan<int> order, ReadOnlySpan<int> ranks, CulledObjectBvh? bvh)
     {
-        Output.Clear(order.Length);
+        Output.Clear();
         _rasterizer.Clear(in frame);
         _candidates.Clear();
         if (bvh is null)

@@ -3,9 +3,8 @@ namespace FractalEngine.Core.Visibility;
 /// <summary>The result of culling one strip of a frame: instances, in the order of the objects, and statistics.</summary>
 internal sealed class StripOutput
 {
-    private ObjectEnd[] _ends = [];
+    private readonly List<bool> _areNearClipped = [];
     private CullingStatistics _statistics;
-    private int _objectCount;
 
     /// <summary>Instances that lie within the strip: rows of 3×4 maps from the drawn mesh's frame to world axes about the camera.</summary>
     public InstanceList Instances { get; } = new(hasPathHashes: false);
@@ -26,15 +25,9 @@ internal sealed class StripOutput
     public int InstanceCount => Instances.Count + SharedInstances.Count;
 
     /// <summary>Removes all results, and keeps the memory.</summary>
-    /// <param name="objectCount">Number of objects of the frame.</param>
-    public void Clear(int objectCount)
+    public void Clear()
     {
-        if (_ends.Length < objectCount)
-        {
-            _ends = new ObjectEnd[objectCount];
-        }
-
-        _objectCount = 0;
+        _areNearClipped.Clear();
         _statistics = default;
         IsNearClipped = false;
         IsOverBudget = false;
@@ -45,30 +38,13 @@ internal sealed class StripOutput
     /// <summary>Ends the results of one object; those of the next one follow.</summary>
     public void EndObject()
     {
-        _ends[_objectCount] = new(Instances.Count, SharedInstances.Count, IsNearClipped);
-        _objectCount++;
+        Instances.EndObject();
+        SharedInstances.EndObject();
+        _areNearClipped.Add(IsNearClipped);
         IsNearClipped = false;
-    }
-
-    /// <summary>The range of an object's instances in <see cref="Instances"/>.</summary>
-    /// <param name="rank">Rank of the object in the order of culling.</param>
-    public (int Start, int Count) InstancesOf(int rank)
-    {
-        var start = rank == 0 ? 0 : _ends[rank - 1].Instances;
-        return (start, _ends[rank].Instances - start);
-    }
-
-    /// <summary>The range of an object's instances in <see cref="SharedInstances"/>.</summary>
-    /// <param name="rank">Rank of the object in the order of culling.</param>
-    public (int Start, int Count) SharedInstancesOf(int rank)
-    {
-        var start = rank == 0 ? 0 : _ends[rank - 1].SharedInstances;
-        return (start, _ends[rank].SharedInstances - start);
     }
 
     /// <summary>Tells whether the near plane or a section plane clips an instance of an object.</summary>
     /// <param name="rank">Rank of the object in the order of culling.</param>
-    public bool HasNearClippedInstance(int rank) => _ends[rank].IsNearClipped;
-
-    private readonly record struct ObjectEnd(int Instances, int SharedInstances, bool IsNearClipped);
+    public bool HasNearClippedInstance(int rank) => _areNearClipped[rank];
 }

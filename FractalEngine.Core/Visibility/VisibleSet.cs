@@ -1,5 +1,4 @@
 using FractalEngine.Core.Visibility.Frames;
-using FractalEngine.Core.Visibility.Sky;
 
 namespace FractalEngine.Core.Visibility;
 
@@ -30,7 +29,6 @@ public sealed class VisibleSet
     private int[] _order = [];
     private int[] _ranks = [];
     private double[] _sortKeys = [];
-    private int[] _mergedEnds = [];
     private int _coarseningStep;
     private int _instanceBudget;
     private int _foundCount;
@@ -112,21 +110,12 @@ public sealed class VisibleSet
     /// <summary>Instances of an object in one chunk, [n × 12].</summary>
     /// <param name="objectIndex">Index of the object in the list of <see cref="Cull"/>.</param>
     /// <param name="chunk">Index of the chunk, less than <see cref="ChunkCount"/>.</param>
-    public ReadOnlySpan<float> Instances(int objectIndex, int chunk)
-    {
-        var (start, count) = RangeOf(objectIndex, chunk);
-        return ListOf(chunk).Span.Slice(start * InstanceList.FloatsPerInstance, count * InstanceList.FloatsPerInstance);
-    }
+    public ReadOnlySpan<float> Instances(int objectIndex, int chunk) => ListOf(chunk).RowsOf(RankOf(objectIndex));
 
     /// <summary>Gradient factors from 0 to 1, one for each of <see cref="Instances"/>, of an object with a gradient.</summary>
     /// <param name="objectIndex">Index of the object in the list of <see cref="Cull"/>.</param>
     /// <param name="chunk">Index of the chunk, less than <see cref="ChunkCount"/>.</param>
-    public ReadOnlySpan<float> GradientFactors(int objectIndex, int chunk)
-    {
-        var (start, count) = RangeOf(objectIndex, chunk);
-        // The factors may end before an empty range.
-        return count == 0 ? [] : ListOf(chunk).GradientFactors.Slice(start, count);
-    }
+    public ReadOnlySpan<float> GradientFactors(int objectIndex, int chunk) => ListOf(chunk).GradientFactorsOf(RankOf(objectIndex));
 
     /// <summary>
     /// Parts of the sky from 0 to 1 that the sides of each of <see cref="Instances"/> see, towards +x, +y, +z, −x, −y, −z of the base
@@ -135,11 +124,7 @@ public sealed class VisibleSet
     /// </summary>
     /// <param name="objectIndex">Index of the object in the list of <see cref="Cull"/>.</param>
     /// <param name="chunk">Index of the chunk, less than <see cref="ChunkCount"/>.</param>
-    public ReadOnlySpan<float> SkyParts(int objectIndex, int chunk)
-    {
-        var (start, count) = RangeOf(objectIndex, chunk);
-        return count == 0 ? [] : ListOf(chunk).SkyParts.Slice(start * AmbientCube.Count, count * AmbientCube.Count);
-    }
+    public ReadOnlySpan<float> SkyParts(int objectIndex, int chunk) => ListOf(chunk).SkyPartsOf(RankOf(objectIndex));
 
     /// <summary>Counts the visible instances of an object.</summary>
     /// <param name="objectIndex">Index of the object in the list of <see cref="Cull"/>.</param>
@@ -148,7 +133,7 @@ public sealed class VisibleSet
         var sum = 0;
         for (var chunk = 0; chunk < ChunkCount; chunk++)
         {
-            sum += RangeOf(objectIndex, chunk).Count;
+            sum += ListOf(chunk).RangeOf(RankOf(objectIndex)).Count;
         }
 
         return sum;
@@ -175,18 +160,6 @@ public sealed class VisibleSet
     private int RankOf(int objectIndex) => _ranks.AsSpan(0, _objects.Count)[objectIndex];
 
     private InstanceList ListOf(int chunk) => chunk < StripCount ? _strips[chunk].Output.Instances : _sharedInstances;
-
-    private (int Start, int Count) RangeOf(int objectIndex, int chunk)
-    {
-        var rank = RankOf(objectIndex);
-        if (chunk < StripCount)
-        {
-            return _strips[chunk].Output.InstancesOf(rank);
-        }
-
-        var start = rank == 0 ? 0 : _mergedEnds[rank - 1];
-        return (start, _mergedEnds[rank] - start);
-    }
 
     /// <summary>Culls all strips with a number of steps of coarsening.</summary>
     /// <returns>False when there are more instances than the budget.</returns>
@@ -228,7 +201,6 @@ public sealed class VisibleSet
             _order = new int[count];
             _ranks = new int[count];
             _sortKeys = new double[count];
-            _mergedEnds = new int[count];
         }
 
         for (var i = 0; i < count; i++)
@@ -276,7 +248,7 @@ public sealed class VisibleSet
             foreach (var strip in _strips)
             {
                 var candidates = strip.Output.SharedInstances;
-                var (start, count) = strip.Output.SharedInstancesOf(rank);
+                var (start, count) = candidates.RangeOf(rank);
                 for (var i = start; i < start + count; i++)
                 {
                     if (_mergedKeys.Add((rank, candidates.PathHashes[i])))
@@ -286,7 +258,7 @@ public sealed class VisibleSet
                 }
             }
 
-            _mergedEnds[rank] = _sharedInstances.Count;
+            _sharedInstances.EndObject();
         }
     }
 
