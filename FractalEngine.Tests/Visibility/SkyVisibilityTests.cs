@@ -65,10 +65,10 @@ public class SkyVisibilityTests
     {
         var hierarchy = LodHierarchy.Build(CubesAt([Move(0, 0, 0), Move(100, 0, 0)]));
         var whole = hierarchy.NodeAt(hierarchy.LevelCount);
-        var children = new SkyChildren(hierarchy, whole, hierarchy.LevelCount);
-        var child = Array.FindIndex(whole.ChildMaps, static map => map.ToAffineMap().Translation == Vector.Zero);
-        Assert.Equal(expected, children.EntryOf(child, new(x, y, z), new(1 / across, 1 / 0.0, 1)), 1e-9);
-        Assert.Equal(expected, children.EntryOf(child, new(x, y, z), new(1 / -across, 1 / -0.0, 1)), 1e-9);
+        var child = Array.Find(
+            SkyChild.ChildrenOf(hierarchy, whole, hierarchy.LevelCount), static child => child.Inverse.Translation == Vector.Zero);
+        Assert.Equal(expected, child.EntryOf(new(x, y, z), new(1 / across, 1 / 0.0, 1)), 1e-9);
+        Assert.Equal(expected, child.EntryOf(new(x, y, z), new(1 / -across, 1 / -0.0, 1)), 1e-9);
     }
 
     [Fact]
@@ -171,7 +171,7 @@ public class SkyVisibilityTests
                 continue;
             }
 
-            var free = occluder.FreeDirections(node, levels, -1, sample.Point, SkyDirections.Above(sample.Normal));
+            var (free, _) = occluder.FreeDirections(node, levels, -1, sample.Point, SkyDirections.Above(sample.Normal));
             if (SkyDirections.VisiblePart(free, ToVector256(sample.Normal)) > 0.4)
             {
                 path.Set(sample.Steps);

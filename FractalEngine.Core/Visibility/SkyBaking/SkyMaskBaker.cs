@@ -119,7 +119,7 @@ public sealed class SkyMaskBaker
             if (isFound)
             {
                 var above = SkyDirections.Above(sample.Normal);
-                _occluder.FreeDirections(whole, levels, -1, sample.Point, above, ref visitCount);
+                visitCount += _occluder.FreeDirections(whole, levels, -1, sample.Point, above).VisitCount;
                 rayCount += BitOperations.PopCount(above);
             }
         }
@@ -197,9 +197,8 @@ public sealed class SkyMaskBaker
             if (node.ChildMaps.Length > 0)
             {
                 var isSettled = levels > _occluder.LastLevels && levels >= SettledLevels;
-                sources.Add((i, isSettled ? sources.FindIndex(pair => pair.Source < 0 && HasSameChildren(pair.Index, node)) : -1));
-                var (index, source) = sources[^1];
-                sources[^1] = (index, source < 0 ? -1 : sources[source].Index);
+                var source = isSettled ? sources.FindIndex(pair => pair.Source < 0 && HasSameChildren(pair.Index, node)) : -1;
+                sources.Add((i, source < 0 ? -1 : sources[source].Index));
             }
         }
 
@@ -274,7 +273,7 @@ public sealed class SkyMaskBaker
             }
 
             var above = SkyDirections.Above(sample.Normal);
-            var free = _occluder.FreeDirections(node, levels, child, sample.Point, above);
+            var (free, _) = _occluder.FreeDirections(node, levels, child, sample.Point, above);
             votes[child].Add(place, above, free);
         }
     }
@@ -283,13 +282,13 @@ public sealed class SkyMaskBaker
     private Matrix ToNextMasks(LodNode node, long levels, int child)
     {
         var linear = node.ChildMaps[child].ToAffineMap().Linear;
-        var (below, belowLevels) = _occluder.ChildOf(node, levels, child);
-        for (var i = 0; i < MaxOnlyChildren && below.ChildMaps.Length == 1; i++)
+        var below = _occluder.ChildOf(node, levels, child);
+        for (var i = 0; i < MaxOnlyChildren && below.Node.ChildMaps.Length == 1; i++)
         {
             // Only directions matter: the product of many small maps would underflow.
             linear /= linear.MaxAbsEntry();
-            linear *= below.ChildMaps[0].ToAffineMap().Linear;
-            (below, belowLevels) = _occluder.ChildOf(below, belowLevels, 0);
+            linear *= below.Node.ChildMaps[0].ToAffineMap().Linear;
+            below = _occluder.ChildOf(below.Node, below.Levels, 0);
         }
 
         return (linear / linear.MaxAbsEntry()).Inverse();

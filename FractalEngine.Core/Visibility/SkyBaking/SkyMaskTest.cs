@@ -32,7 +32,7 @@ internal static class SkyMaskTest
         {
             if (occluder.TrySample(node, levels, random, sample))
             {
-                var free = occluder.FreeDirections(node, levels, -1, sample.Point, SkyDirections.Above(sample.Normal));
+                var (free, _) = occluder.FreeDirections(node, levels, -1, sample.Point, SkyDirections.Above(sample.Normal));
                 var truth = SkyDirections.VisiblePart(free, SimdAffineMap.ToVector256(sample.Normal));
                 path.Set(sample.Steps);
                 path.ComputeParts(hierarchy, sample.Leaf!, sample.Steps.Count, VisibleSides.All, parts);

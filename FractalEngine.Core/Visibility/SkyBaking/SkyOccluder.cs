@@ -27,7 +27,7 @@ internal sealed class SkyOccluder
 
     private readonly LodHierarchy _hierarchy;
     private readonly int _windingSign;
-    private readonly Dictionary<(LodNode, long), SkyChildren> _children = [];
+    private readonly Dictionary<(LodNode, long), SkyChild[]> _children = [];
     private readonly (Vector A, Vector Edge1, Vector Edge2)[] _triangles;
 
     /// <summary>Collects the nodes that are reached from the whole.</summary>
@@ -58,33 +58,18 @@ internal sealed class SkyOccluder
     public long LastLevels { get; }
 
     /// <summary>Returns the child of a node, with the levels that it has left.</summary>
-    public (LodNode Node, long Levels) ChildOf(LodNode node, long levels, int child) => ChildrenOf(node, levels).Nodes[child];
+    public SkyChild ChildOf(LodNode node, long levels, int child) => ChildrenOf(node, levels)[child];
 
-    /// <summary>Tells which directions are free of some.</summary>
+    /// <summary>Finds the directions in which rays meet nothing, and counts the nodes that the rays have entered.</summary>
     /// <param name="node">Node whose children stop rays.</param>
     /// <param name="levels">Levels that it has left.</param>
     /// <param name="excludedChild">Index of the child that stops none; −1 for none.</param>
     /// <param name="point">Where the rays begin, in the node's frame.</param>
     /// <param name="directions">Directions to test.</param>
-    public ulong FreeDirections(LodNode node, long levels, int excludedChild, Vector point, ulong directions)
-    {
-        var visitCount = 0L;
-        return FreeDirections(node, levels, excludedChild, point, directions, ref visitCount);
-    }
-
-    /// <summary>Finds the directions in which rays meet nothing, and counts the work.</summary>
-    /// <inheritdoc cref="FreeDirections(LodNode, long, int, Vector, ulong)"/>
-    /// <param name="node">A node of the fractal.</param>
-    /// <param name="levels">Levels that it has left.</param>
-    /// <param name="excludedChild">Index of the child that stops none; −1 for none.</param>
-    /// <param name="point">Where the rays begin, in the node's frame.</param>
-    /// <param name="directions">Directions to test.</param>
-    /// <param name="visitCount">Receives how many nodes the rays have entered in addition.</param>
-    public ulong FreeDirections(
-        LodNode node, long levels, int excludedChild, Vector point, ulong directions, ref long visitCount)
+    public (ulong Free, long VisitCount) FreeDirections(LodNode node, long levels, int excludedChild, Vector point, ulong directions)
     {
         var children = ChildrenOf(node, levels);
-        var free = 0ul;
+        var (free, visitCount) = (0ul, 0L);
         for (var rest = directions; rest != 0; rest &= rest - 1)
         {
             var i = BitOperations.TrailingZeroCount(rest);
@@ -93,7 +78,7 @@ internal sealed class SkyOccluder
             visitCount += MaxVisits - remainingVisits;
         }
 
-        return free;
+        return (free, visitCount);
     }
 
     /// <summary>
@@ -136,7 +121,7 @@ internal sealed class SkyOccluder
         return new(radius * cosine, radius * sine, z);
     }
 
-    private SkyChildren ChildrenOf(LodNode node, long levels) => _children[KeyOf(node, levels)];
+    private SkyChild[] ChildrenOf(LodNode node, long levels) => _children[KeyOf(node, levels)];
 
     private (LodNode, long) KeyOf(LodNode node, long levels) => (node, levels <= LastLevels ? levels : long.MaxValue);
 
@@ -162,9 +147,9 @@ internal sealed class SkyOccluder
 
         for (var i = 0; i < Nodes.Count; i++)
         {
-            foreach (var (child, childLevels) in ChildrenOf(Nodes[i].Node, Nodes[i].Levels).Nodes)
+            foreach (var child in ChildrenOf(Nodes[i].Node, Nodes[i].Levels))
             {
-                Add(child, childLevels);
+                Add(child.Node, child.Levels);
             }
         }
 
@@ -172,7 +157,7 @@ internal sealed class SkyOccluder
         {
             if (!node.IsEmpty && !_children.ContainsKey(KeyOf(node, levels)))
             {
-                _children[KeyOf(node, levels)] = new(_hierarchy, node, levels);
+                _children[KeyOf(node, levels)] = SkyChild.ChildrenOf(_hierarchy, node, levels);
                 Nodes.Add((node, levels));
             }
         }
@@ -194,15 +179,15 @@ internal sealed class SkyOccluder
 
         var children = ChildrenOf(node, levels);
         var inverseDirection = new Vector(1 / direction.X, 1 / direction.Y, 1 / direction.Z);
-        for (var i = 0; i < children.Count; i++)
+        for (var i = 0; i < children.Length; i++)
         {
-            if (children.EntryOf(i, origin, inverseDirection) < sample.Distance)
+            ref readonly var child = ref children[i];
+            if (child.EntryOf(origin, inverseDirection) < sample.Distance)
             {
                 sample.SetStep(depth, new(node, levels, i));
                 FindNearest(
-                    children.Nodes[i].Node, children.Nodes[i].Levels,
-                    children.Inverses[i] * origin, children.Inverses[i].Linear * direction,
-                    toRoot * node.ChildMaps[i].ToAffineMap(), size * children.SizeRatios[i], depth + 1, sample);
+                    child.Node, child.Levels, child.Inverse * origin, child.Inverse.Linear * direction,
+                    toRoot * node.ChildMaps[i].ToAffineMap(), size * child.SizeRatio, depth + 1, sample);
             }
         }
     }
@@ -222,12 +207,13 @@ internal sealed class SkyOccluder
 
     /// <summary>Tells whether a ray hits a child of a node, all in the node's frame.</summary>
     private bool IsBlocked(
-        SkyChildren children, int excludedChild, Vector origin, Vector direction, double size, int depth, ref int remainingVisits)
+        SkyChild[] children, int excludedChild, Vector origin, Vector direction, double size, int depth, ref int remainingVisits)
     {
         var inverseDirection = new Vector(1 / direction.X, 1 / direction.Y, 1 / direction.Z);
-        for (var i = 0; i < children.Count; i++)
+        for (var i = 0; i < children.Length; i++)
         {
-            if (i == excludedChild || double.IsPositiveInfinity(children.EntryOf(i, origin, inverseDirection)))
+            ref readonly var child = ref children[i];
+            if (i == excludedChild || double.IsPositiveInfinity(child.EntryOf(origin, inverseDirection)))
             {
                 continue;
             }
@@ -239,12 +225,11 @@ internal sealed class SkyOccluder
 
             remainingVisits--;
 
-            var (child, childLevels) = children.Nodes[i];
-            var (childOrigin, childDirection) = (children.Inverses[i] * origin, children.Inverses[i].Linear * direction);
-            var childSize = size * children.SizeRatios[i];
-            if (child.ChildMaps.Length == 0 || childSize < MinRelativeSize || depth >= MaxDepth
-                ? HitsMesh(child, childOrigin, childDirection)
-                : IsBlocked(ChildrenOf(child, childLevels), -1, childOrigin, childDirection, childSize, depth + 1, ref remainingVisits))
+            var (childOrigin, childDirection) = (child.Inverse * origin, child.Inverse.Linear * direction);
+            var childSize = size * child.SizeRatio;
+            if (child.Node.ChildMaps.Length == 0 || childSize < MinRelativeSize || depth >= MaxDepth
+                ? HitsMesh(child.Node, childOrigin, childDirection)
+                : IsBlocked(ChildrenOf(child.Node, child.Levels), -1, childOrigin, childDirection, childSize, depth + 1, ref remainingVisits))
             {
                 return true;
             }

@@ -4,54 +4,40 @@ using FractalEngine.Core.Visibility.Levels;
 
 namespace FractalEngine.Core.Visibility.SkyBaking;
 
-/// <summary>The children of a node as rays meet them.</summary>
-internal sealed class SkyChildren
+/// <summary>A child of a node as rays meet it.</summary>
+/// <param name="Node">The child.</param>
+/// <param name="Levels">Levels that it has left.</param>
+/// <param name="Inverse">Map from the node's frame to the child's.</param>
+/// <param name="Box">Box that holds it, in the node's frame.</param>
+/// <param name="SizeRatio">Diagonal of that box, by that of the node's.</param>
+internal readonly record struct SkyChild(LodNode Node, long Levels, AffineMap Inverse, BoundingBox Box, double SizeRatio)
 {
-    private readonly BoundingBox[] _boxes;
-
     /// <summary>Prepares the children of a node.</summary>
     /// <param name="hierarchy">Hierarchy of the node.</param>
     /// <param name="node">The node.</param>
     /// <param name="levels">Levels that it has left.</param>
-    public SkyChildren(LodHierarchy hierarchy, LodNode node, long levels)
+    public static SkyChild[] ChildrenOf(LodHierarchy hierarchy, LodNode node, long levels)
     {
-        var count = node.ChildMaps.Length;
-        Nodes = new (LodNode, long)[count];
-        Inverses = new AffineMap[count];
-        _boxes = new BoundingBox[count];
-        SizeRatios = new double[count];
-        for (var i = 0; i < count; i++)
+        var children = new SkyChild[node.ChildMaps.Length];
+        for (var i = 0; i < children.Length; i++)
         {
             var childLevels = node.ChildLevelSteps[i].RemainingLevels(levels);
             var child = hierarchy.NodeAt(childLevels);
             var map = node.ChildMaps[i].ToAffineMap();
-            Nodes[i] = (child, childLevels);
-            Inverses[i] = map.Inverse();
-            _boxes[i] = child.Box.Transform(map);
-            SizeRatios[i] = _boxes[i].Diagonal / node.Box.Diagonal;
+            var box = child.Box.Transform(map);
+            children[i] = new(child, childLevels, map.Inverse(), box, box.Diagonal / node.Box.Diagonal);
         }
+
+        return children;
     }
 
-    /// <summary>How many children the node has.</summary>
-    public int Count => Nodes.Length;
-
-    /// <summary>The children, with the levels that they have left.</summary>
-    public (LodNode Node, long Levels)[] Nodes { get; }
-
-    /// <summary>Maps from the node's frame to theirs.</summary>
-    public AffineMap[] Inverses { get; }
-
-    /// <summary>Diagonals of the boxes that hold them, by that of the node's box.</summary>
-    public double[] SizeRatios { get; }
-
-    /// <summary>Finds where a ray enters the box of a child: multiples of its direction, infinite where it misses.</summary>
-    /// <param name="child">Index of the child.</param>
+    /// <summary>Finds where a ray enters the box: multiples of its direction, infinite where it misses.</summary>
     /// <param name="origin">Where the ray begins, in the node's frame.</param>
     /// <param name="inverseDirection">One by each component of its direction.</param>
-    public double EntryOf(int child, Vector origin, Vector inverseDirection)
+    public double EntryOf(Vector origin, Vector inverseDirection)
     {
-        var toMinimum = _boxes[child].Minimum - origin;
-        var toMaximum = _boxes[child].Maximum - origin;
+        var toMinimum = Box.Minimum - origin;
+        var toMaximum = Box.Maximum - origin;
         var (entry, exit) = (double.NegativeInfinity, double.PositiveInfinity);
         Clip(toMinimum.X, toMaximum.X, inverseDirection.X);
         Clip(toMinimum.Y, toMaximum.Y, inverseDirection.Y);
