@@ -14,16 +14,13 @@ using FractalEngine.Render.Views;
 namespace FractalEngine.Render.Tracing;
 
 /// <summary>The objects of a scene with all that light needs to know of their surfaces. Immutable: any number of threads may ask.</summary>
-internal sealed class TracedScene
+internal sealed record TracedScene
 {
     // Rays leave a surface by this part of the scene's size: far more than rounding, far less than a pixel.
     private const double SurfaceOffset = 1e-9;
 
-    private readonly RayCaster _caster;
     private readonly TracedScene _whole;
-    private readonly DeepZoom? _zoom;
     private readonly ConcurrentDictionary<Model, DeepZoomRayCaster> _zoomCasters;
-    private readonly SectionPlane? _section;
     private readonly double _offset;
     private readonly ImmutableArray<PlacedModel> _objects;
     private readonly TracedModel[] _models;
@@ -34,6 +31,11 @@ internal sealed class TracedScene
 
     // What multiplies the colours of an object's materials.
     private readonly Vector[] _tints;
+
+    // What a view has of its own.
+    private RayCaster _caster;
+    private DeepZoom? _zoom;
+    private SectionPlane? _section;
 
     /// <summary>Prepares a scene: its surfaces, and its objects for rays.</summary>
     /// <param name="scene">With its models loaded.</param>
@@ -67,27 +69,6 @@ internal sealed class TracedScene
         _offset = SurfaceOffset * scene.Bounds.FiniteDiagonalOr(1);
     }
 
-    private TracedScene(TracedScene scene, DeepZoom? zoom, SectionPlane? section)
-    {
-        _whole = scene;
-        _caster = zoom is null ? scene._caster : scene._zoomCasters.GetOrAdd(
-            scene._objects[zoom.ObjectIndex].Model,
-            static model => new DeepZoomRayCaster(((FractalModel)model).Fractal, [])).WithRoots(zoom.Roots);
-        _zoomCasters = scene._zoomCasters;
-        _offset = scene._offset;
-        _section = section;
-        _objects = scene._objects;
-        _models = scene._models;
-        _surfaces = scene._surfaces;
-        _settings = scene._settings;
-        _colours = scene._colours;
-        _gradientEnds = scene._gradientEnds;
-        _tints = scene._tints;
-        IsSeeThrough = scene.IsSeeThrough;
-        Notices = scene.Notices;
-        _zoom = zoom;
-    }
-
     /// <summary>Sentences for the user about textures that can't be decoded, each when its model is prepared.</summary>
     public ImmutableArray<string> Notices { get; }
 
@@ -101,8 +82,14 @@ internal sealed class TracedScene
     /// <summary>The same surfaces for a view; those of a deep zoom are around the camera, in the unit of the zoom.</summary>
     /// <param name="zoom">Deep zoom of the view; null for none.</param>
     /// <param name="section">Plane that cuts the scene open, in the frame of the rays; null for none.</param>
-    public TracedScene ForView(DeepZoom? zoom, SectionPlane? section) =>
-        zoom is null && section is null ? _whole : new(_whole, zoom, section);
+    public TracedScene ForView(DeepZoom? zoom, SectionPlane? section) => zoom is null && section is null ? _whole : _whole with
+    {
+        _zoom = zoom,
+        _section = section,
+        _caster = zoom is null ? _whole._caster : _zoomCasters.GetOrAdd(
+            _objects[zoom.ObjectIndex].Model,
+            static model => new DeepZoomRayCaster(((FractalModel)model).Fractal, [])).WithRoots(zoom.Roots),
+    };
 
     /// <summary>Prepares another scene, or another state of this one. What was prepared of models that both show is shared.</summary>
     /// <param name="scene">With its models loaded.</param>
