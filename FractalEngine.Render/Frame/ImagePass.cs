@@ -19,7 +19,7 @@ internal sealed class ImagePass : IDisposable
     public ImagePass(GlResources resources)
     {
         _resources = resources;
-        _program = ShaderProgram.Load(resources, "image");
+        _program = new(resources, "image");
         _program.Use();
         _program.Set("image", 0);
         // The vertices have no attributes, but OpenGL requires an array.

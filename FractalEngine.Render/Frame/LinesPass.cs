@@ -30,7 +30,7 @@ internal sealed class LinesPass : IDisposable
     public LinesPass(RenderContext context)
     {
         _uploadFilter = context.Resources.UploadFilter;
-        _program = ShaderProgram.Load(context.Resources, "lines");
+        _program = new(context.Resources, "lines");
         _viewUniforms = new(_program, context.Resources.State.Filter, context.HasReversedDepth);
         _vertices = new(context.Resources, "grid and axes", BufferTarget.ArrayBuffer);
         _vertexArray = new(context.Resources, "grid and axes");

@@ -10,10 +10,9 @@ using FractalEngine.Render.Windowing;
 namespace FractalEngine.Render.Frame;
 
 /// <summary>The program for one combination of <see cref="MeshFeatures"/>, with its uniforms.</summary>
-internal sealed class MeshProgram : IDisposable
+internal sealed class MeshProgram : ShaderProgram
 {
     private readonly RedundancyFilter _filter;
-    private readonly ShaderProgram _program;
     private readonly MaterialUniforms _materialUniforms;
     private readonly int _sectionLocation;
     private bool? _lastWireframe;
@@ -26,22 +25,22 @@ internal sealed class MeshProgram : IDisposable
     /// <param name="lightSymbols">Number and kinds of the lights: <see cref="LightBlock.SymbolsOf"/>.</param>
     /// <exception cref="GlException">The driver refuses the program.</exception>
     public MeshProgram(RenderContext context, MeshFeatures features, IReadOnlyList<string> lightSymbols)
+        : base(context.Resources, "mesh", [.. SymbolsOf(features), .. lightSymbols])
     {
         _filter = context.Resources.State.Filter;
-        _program = ShaderProgram.Load(context.Resources, "mesh", [.. SymbolsOf(features), .. lightSymbols]);
-        _program.BindBlock("ObjectBlock", GlState.ObjectBinding);
-        _program.BindBlock("LightBlock", GlState.LightBinding);
+        BindBlock("ObjectBlock", GlState.ObjectBinding);
+        BindBlock("LightBlock", GlState.LightBinding);
         if (features.HasFlag(MeshFeatures.Shadows))
         {
-            _program.BindBlock("ShadowBlock", GlState.ShadowBinding);
+            BindBlock("ShadowBlock", GlState.ShadowBinding);
         }
 
-        View = new(_program, _filter, context.HasReversedDepth);
-        _sectionLocation = _program.UniformLocation("section");
-        _program.Use();
-        _program.Set("surfaceTexture", 0);
-        _program.Set("shadowMap", GlState.ShadowTextureUnit);
-        _materialUniforms = new(_program, _filter);
+        View = new(this, _filter, context.HasReversedDepth);
+        _sectionLocation = UniformLocation("section");
+        Use();
+        Set("surfaceTexture", 0);
+        Set("shadowMap", GlState.ShadowTextureUnit);
+        _materialUniforms = new(this, _filter);
     }
 
     /// <summary>The camera uniforms of this program.</summary>
@@ -52,16 +51,13 @@ internal sealed class MeshProgram : IDisposable
         .Where(feature => feature != MeshFeatures.None && features.HasFlag(feature))
         .Select(static feature => JsonNamingPolicy.SnakeCaseUpper.ConvertName(feature.ToString()));
 
-    /// <summary>Makes this the current program.</summary>
-    public void Use() => _program.Use();
-
     /// <summary>Sets the colour of wireframe edges, or lit surfaces. The program must be in use.</summary>
     public void SetWireframe(bool wireframe, Colour colour)
     {
         if (_filter.Update(ref _lastWireframe, wireframe))
         {
             var (red, green, blue) = colour.ToLinear();
-            _program.Set("flatColour", red, green, blue, wireframe ? 1 : 0);
+            Set("flatColour", red, green, blue, wireframe ? 1 : 0);
         }
     }
 
@@ -79,7 +75,7 @@ internal sealed class MeshProgram : IDisposable
     {
         if (_filter.Update(ref _lastInnerFace, face))
         {
-            _program.Set("innerFace", face == CullFace.None ? 0.0 : face == CullFace.Back ? -1.0 : 1.0);
+            Set("innerFace", face == CullFace.None ? 0.0 : face == CullFace.Back ? -1.0 : 1.0);
         }
     }
 
@@ -87,7 +83,4 @@ internal sealed class MeshProgram : IDisposable
     /// <param name="material">Null for the object's own colour.</param>
     /// <param name="tint">Colour that multiplies the material's own, sRGB.</param>
     public void SetMaterial(DrawableMaterial? material, Colour tint) => _materialUniforms.Set(material?.Material, tint);
-
-    /// <inheritdoc/>
-    public void Dispose() => _program.Dispose();
 }

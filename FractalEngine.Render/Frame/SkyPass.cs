@@ -21,7 +21,7 @@ internal sealed class SkyPass : IDisposable
     public SkyPass(GlResources resources, Sky sky)
     {
         _resources = resources;
-        _program = ShaderProgram.Load(resources, "sky");
+        _program = new(resources, "sky");
         _program.BindBlock("LightBlock", GlState.LightBinding);
         _program.Use();
         _program.Set("zenith", sky.ZenithRadiance);

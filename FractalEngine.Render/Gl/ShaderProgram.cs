@@ -5,7 +5,7 @@ using OpenTK.Graphics.OpenGL4;
 namespace FractalEngine.Render.Gl;
 
 /// <summary>A linked program of a vertex shader and a fragment shader.</summary>
-internal sealed class ShaderProgram : GlObject
+internal class ShaderProgram : GlObject
 {
     private readonly int _name;
     private readonly Dictionary<string, int> _locations = [];
@@ -27,8 +27,10 @@ internal sealed class ShaderProgram : GlObject
     /// <param name="name">Common name of both files.</param>
     /// <param name="symbols">Symbols that are defined in both.</param>
     /// <exception cref="GlException">The driver refuses a shader.</exception>
-    public static ShaderProgram Load(GlResources resources, string name, params IReadOnlyList<string> symbols) =>
-        new(resources, Read($"{name}.vert", symbols), Read($"{name}.frag", symbols));
+    public ShaderProgram(GlResources resources, string name, params IReadOnlyList<string> symbols)
+        : this(resources, Read($"{name}.vert", symbols), Read($"{name}.frag", symbols))
+    {
+    }
 
     /// <summary>Makes this the current program.</summary>
     public void Use() => Resources.State.UseProgram(_name);
@@ -76,7 +78,7 @@ internal sealed class ShaderProgram : GlObject
     }
 
     /// <inheritdoc/>
-    protected override void Delete() => Resources.State.DeleteProgram(_name);
+    protected sealed override void Delete() => Resources.State.DeleteProgram(_name);
 
     private static (string File, string Text) Read(string file, IReadOnlyList<string> symbols) => (file, ShaderSource.Read(file, symbols));
 

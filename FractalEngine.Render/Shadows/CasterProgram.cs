@@ -7,9 +7,8 @@ using OpenTK.Graphics.OpenGL4;
 namespace FractalEngine.Render.Shadows;
 
 /// <summary>The program that draws depths alone, with or without holes of a texture.</summary>
-internal sealed class CasterProgram : IDisposable
+internal sealed class CasterProgram : ShaderProgram
 {
-    private readonly ShaderProgram _program;
     private readonly int _sectionLocation;
     private readonly float[] _rows = new float[9];
 
@@ -19,31 +18,27 @@ internal sealed class CasterProgram : IDisposable
     /// <param name="isCutOut">Whether a texture cuts holes.</param>
     /// <exception cref="GlException">The driver refuses the program.</exception>
     public CasterProgram(GlResources resources, bool isRelative, bool isCutOut)
+        : base(resources, "shadow", [.. isRelative ? (string[])["CAMERA_RELATIVE"] : [], .. isCutOut ? (string[])["CUT_OUT"] : []])
     {
-        string[] symbols = [.. isRelative ? ["CAMERA_RELATIVE"] : Array.Empty<string>(), .. isCutOut ? ["CUT_OUT"] : Array.Empty<string>()];
-        _program = ShaderProgram.Load(resources, "shadow", symbols);
         if (!isRelative)
         {
-            _program.BindBlock("ObjectBlock", GlState.ObjectBinding);
+            BindBlock("ObjectBlock", GlState.ObjectBinding);
         }
 
-        _sectionLocation = _program.UniformLocation("section");
-        _program.Use();
-        _program.Set("surfaceTexture", 0);
+        _sectionLocation = UniformLocation("section");
+        Use();
+        Set("surfaceTexture", 0);
     }
-
-    /// <summary>Makes the program current.</summary>
-    public void Use() => _program.Use();
 
     /// <summary>Makes the program current, and sets the view of a light.</summary>
     public void SetView(in ShadowView view)
     {
-        _program.Use();
+        Use();
         ViewUniforms.WriteRows(view.Axes.Transpose(), _rows);
-        GL.Uniform3(_program.UniformLocation("lightAxes"), 3, _rows);
-        _program.Set("viewScale", 1 / view.HalfWidth, 1 / view.HalfHeight);
+        GL.Uniform3(UniformLocation("lightAxes"), 3, _rows);
+        Set("viewScale", 1 / view.HalfWidth, 1 / view.HalfHeight);
         var (zByDepth, z, wByDepth, w) = view.DepthScale;
-        _program.Set("depthScale", zByDepth, z, wByDepth, w);
+        Set("depthScale", zByDepth, z, wByDepth, w);
         if (view.Section is { } section)
         {
             ViewUniforms.SetSection(_sectionLocation, section);
@@ -52,8 +47,5 @@ internal sealed class CasterProgram : IDisposable
 
     /// <summary>Sets how texture coordinates are moved. The program must be in use.</summary>
     public void SetTexture(MaterialTexture texture) =>
-        _program.Set("textureTransform", texture.Scale.U, texture.Scale.V, texture.Offset.U, texture.Offset.V);
-
-    /// <inheritdoc/>
-    public void Dispose() => _program.Dispose();
+        Set("textureTransform", texture.Scale.U, texture.Scale.V, texture.Offset.U, texture.Offset.V);
 }

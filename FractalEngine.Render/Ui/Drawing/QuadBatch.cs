@@ -21,7 +21,7 @@ internal sealed class QuadBatch : IDisposable
     public QuadBatch(GlResources resources)
     {
         _resources = resources;
-        _program = ShaderProgram.Load(resources, "overlay");
+        _program = new(resources, "overlay");
         _program.Use();
         _program.Set("glyphs", 0);
         _program.Set("columns", GlyphSheet.Columns);
