@@ -39,8 +39,6 @@ internal sealed class UiDialogs(
 
     public bool Add(UserInterface ui, string title, Action head, UiPanel panel)
     {
-        ArgumentNullException.ThrowIfNull(head);
-        ArgumentNullException.ThrowIfNull(panel);
         if (Opened != title)
         {
             return false;

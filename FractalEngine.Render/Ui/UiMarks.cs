@@ -10,7 +10,6 @@ internal sealed class UiMarks(UiInput input, UiPainter painter, UiTargets target
 {
     public void AddText(string text, double x, double y)
     {
-        ArgumentNullException.ThrowIfNull(text);
         painter.Begin(layer: 0);
         var rect = PlaceAt(x, y, (text.Length * painter.CellWidth) + (2 * painter.Gap));
         painter.Fill(rect, painter.Theme.Panel, 3);
@@ -19,8 +18,6 @@ internal sealed class UiMarks(UiInput input, UiPainter painter, UiTargets target
 
     public UiTouch AddKnob(string label, string name, double x, double y, Colour colour)
     {
-        ArgumentNullException.ThrowIfNull(label);
-        ArgumentNullException.ThrowIfNull(name);
         var rect = PlaceAt(x, y, painter.RowHeight);
         targets.BeginRoot(name, rect, layer: 0);
         var touch = targets.Touch(name, rect, takesFocus: false);

@@ -57,7 +57,6 @@ internal sealed class UiTargets(UiInput input, UiPainter painter, UiFocus focus)
 
     public void Scope(object name, Action build)
     {
-        ArgumentNullException.ThrowIfNull(build);
         _scopes.Push(IdOf(FormattableString.Invariant($"{name}")));
         build();
         _scopes.Pop();

@@ -36,8 +36,6 @@ internal sealed class UiMenus(UiInput input, UiPainter painter, UiLayout layout,
 
     public void AddBar(Action build, string note)
     {
-        ArgumentNullException.ThrowIfNull(build);
-        ArgumentNullException.ThrowIfNull(note);
         areas.TakeTop(Bar.Height);
         BeginBar();
         painter.Fill(Bar, Theme.Title);
@@ -52,8 +50,6 @@ internal sealed class UiMenus(UiInput input, UiPainter painter, UiLayout layout,
 
     public void Add(string title, Action build, int columns, int items)
     {
-        ArgumentNullException.ThrowIfNull(title);
-        ArgumentNullException.ThrowIfNull(build);
         var rect = Bar with { X = _x, Width = (title.Length + 2) * painter.CellWidth };
         _x = rect.Right;
         _titles.Add(title);
@@ -85,8 +81,6 @@ internal sealed class UiMenus(UiInput input, UiPainter painter, UiLayout layout,
 
     public bool AddItem(string label, string key, bool isOn, bool isEnabled)
     {
-        ArgumentNullException.ThrowIfNull(label);
-        ArgumentNullException.ThrowIfNull(key);
         var rect = layout.Next();
         var touch = isEnabled ? targets.Touch(label, rect, isRow: true) : default;
         targets.Hover(rect);

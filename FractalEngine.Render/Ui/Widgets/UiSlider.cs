@@ -18,7 +18,6 @@ internal sealed class UiSlider(
 
     public bool Add(string label, ref double value, double minimum, double maximum, double step, bool isBounded)
     {
-        ArgumentNullException.ThrowIfNull(label);
         var bar = AddLabel(label);
         var id = targets.IdOf(label);
         (minimum, maximum) = isBounded ? (minimum, maximum) : KeepRange(id, value, minimum, maximum);

@@ -15,8 +15,6 @@ internal sealed class UiTextField(
 
     public bool Add(string label, ref string text, out bool isCommitted, bool takesKeyboard)
     {
-        ArgumentNullException.ThrowIfNull(label);
-        ArgumentNullException.ThrowIfNull(text);
         var id = targets.IdOf(label);
         var rect = layout.Next();
         var before = text;

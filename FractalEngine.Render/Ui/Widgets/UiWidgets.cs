@@ -15,7 +15,6 @@ internal sealed class UiWidgets(UiInput input, UiPainter painter, UiLayout layou
 
     public void Label(string text, Colour colour, double align = 0)
     {
-        ArgumentNullException.ThrowIfNull(text);
         var rect = layout.Next();
         targets.Hover(rect);
         tooltip.Print(text, rect, colour, align);
@@ -29,7 +28,6 @@ internal sealed class UiWidgets(UiInput input, UiPainter painter, UiLayout layou
 
     public void Paragraph(string text, Colour colour)
     {
-        ArgumentNullException.ThrowIfNull(text);
         var columns = Math.Max(8, layout.NextWidth / painter.CellWidth);
         var lines = text.Split('\n').SelectMany(line => TextLines.Wrap(line, columns)).ToArray();
         var rect = layout.Next(((lines.Length * painter.LineHeight) + (2 * Gap) + painter.RowPitch - 1) / painter.RowPitch);
@@ -39,7 +37,6 @@ internal sealed class UiWidgets(UiInput input, UiPainter painter, UiLayout layou
 
     public bool Button(string label, bool isEnabled)
     {
-        ArgumentNullException.ThrowIfNull(label);
         var rect = layout.Next();
         if (!isEnabled)
         {
@@ -66,7 +63,6 @@ internal sealed class UiWidgets(UiInput input, UiPainter painter, UiLayout layou
 
     public bool CheckBox(string label, ref bool isChecked)
     {
-        ArgumentNullException.ThrowIfNull(label);
         var rect = layout.Next();
         var touch = targets.Touch(label, rect);
         isChecked ^= touch.IsActivated;
@@ -82,7 +78,6 @@ internal sealed class UiWidgets(UiInput input, UiPainter painter, UiLayout layou
 
     public bool Selectable(string label, bool isSelected, int depth)
     {
-        ArgumentNullException.ThrowIfNull(label);
         var rect = layout.Next();
         var touch = targets.Touch(label, rect, isRow: true);
         if (isSelected || touch.IsHot)
@@ -98,7 +93,6 @@ internal sealed class UiWidgets(UiInput input, UiPainter painter, UiLayout layou
 
     public bool Branch(string label, ref bool isOpen)
     {
-        ArgumentNullException.ThrowIfNull(label);
         layout.Row(1);
         var rect = layout.Next();
         var touch = targets.Touch(label, rect, isRow: true);
@@ -122,7 +116,6 @@ internal sealed class UiWidgets(UiInput input, UiPainter painter, UiLayout layou
 
     public void Progress(double fraction, string label)
     {
-        ArgumentNullException.ThrowIfNull(label);
         var rect = layout.Next();
         painter.Fill(rect, Theme.Field, 3);
         painter.Fill(rect with { Width = (int)(rect.Width * Math.Clamp(fraction, 0, 1)) }, Theme.Fill, 3);
@@ -131,7 +124,6 @@ internal sealed class UiWidgets(UiInput input, UiPainter painter, UiLayout layou
 
     public void Graph(IReadOnlyCollection<double> values, double maximum, int rows)
     {
-        ArgumentNullException.ThrowIfNull(values);
         var rect = layout.Next(rows);
         painter.Fill(rect, Theme.Field, 2);
         var width = Math.Max(1, painter.CellWidth / 4);
