@@ -3,23 +3,7 @@ using FractalEngine.Core;
 namespace FractalEngine.Render.Gl.State;
 
 /// <summary>The error of an OpenGL operation that failed, such as a shader or an allocation. The message says which and why.</summary>
-public sealed class GlException : FractalEngineException
-{
-    /// <summary>Creates an error with a message of one line.</summary>
-    public GlException(string message)
-        : base(ErrorKind.Limit, message)
-    {
-    }
-
-    /// <summary>Creates an error with a message of one line and a cause.</summary>
-    public GlException(string message, Exception innerException)
-        : base(ErrorKind.Limit, message, innerException)
-    {
-    }
-
-    /// <summary>Creates an error without details.</summary>
-    public GlException()
-        : this("OpenGL refused a request")
-    {
-    }
-}
+/// <param name="message">One line, without a full stop.</param>
+/// <param name="innerException">The cause, if another error was.</param>
+public sealed class GlException(string message, Exception? innerException = null)
+    : FractalEngineException(ErrorKind.Limit, message, innerException);
