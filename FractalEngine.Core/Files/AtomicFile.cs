@@ -1,3 +1,5 @@
+using System.Security.Cryptography;
+
 namespace FractalEngine.Core.Files;
 
 /// <summary>Writes files completely or not at all: into a temporary file in the same folder, which then replaces the target.</summary>
@@ -233,20 +235,7 @@ public static class AtomicFile
     {
         using var stream1 = File.OpenRead(file1);
         using var stream2 = File.OpenRead(file2);
-        var buffer1 = new byte[1 << 16];
-        var buffer2 = new byte[1 << 16];
-        int count;
-        do
-        {
-            count = stream1.ReadAtLeast(buffer1, buffer1.Length, throwOnEndOfStream: false);
-            if (stream2.ReadAtLeast(buffer2, buffer2.Length, throwOnEndOfStream: false) != count
-                || !buffer1.AsSpan(0, count).SequenceEqual(buffer2.AsSpan(0, count)))
-            {
-                return false;
-            }
-        }
-        while (count > 0);
-        return true;
+        return SHA256.HashData(stream1).AsSpan().SequenceEqual(SHA256.HashData(stream2));
     }
 
     /// <summary>Writes a temporary file with the permissions of its target, and deletes it unless the last action moves it.</summary>
