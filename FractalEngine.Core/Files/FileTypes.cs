@@ -122,22 +122,17 @@ public static class FileTypes
     }
 
     [DllImport("libc", EntryPoint = "statx")]
-    [DefaultDllImportSearchPaths(DllImportSearchPath.SafeDirectories)]
     private static extern int ReadLinuxStatus(int folder, byte[] path, int flags, uint mask, byte[] buffer);
 
     [DllImport("libc", EntryPoint = "open", SetLastError = true)]
-    [DefaultDllImportSearchPaths(DllImportSearchPath.SafeDirectories)]
     private static extern int OpenFile(byte[] path, int flags);
 
     [DllImport("libc", EntryPoint = "close")]
-    [DefaultDllImportSearchPaths(DllImportSearchPath.SafeDirectories)]
     private static extern int CloseFile(int descriptor);
 
     [DllImport("libc", EntryPoint = "stat")]
-    [DefaultDllImportSearchPaths(DllImportSearchPath.SafeDirectories)]
     private static extern int ReadMacStatus(byte[] path, byte[] buffer);
 
     [DllImport("libc", EntryPoint = "stat$INODE64")]
-    [DefaultDllImportSearchPaths(DllImportSearchPath.SafeDirectories)]
     private static extern int ReadIntelMacStatus(byte[] path, byte[] buffer);
 }

@@ -43,6 +43,5 @@ internal static class LargePages
     }
 
     [DllImport("libc", EntryPoint = "madvise")]
-    [DefaultDllImportSearchPaths(DllImportSearchPath.SafeDirectories)]
     private static extern int AdviseMemory(nuint start, nuint length, int advice);
 }
