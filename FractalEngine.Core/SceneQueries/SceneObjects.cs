@@ -9,31 +9,26 @@ namespace FractalEngine.Core.SceneQueries;
 /// Moving an object costs O(log n) once the hierarchy is built. Few objects need none: a list is faster. Objects that are added stay in the
 /// list until they are more than the square root of all, so that adding one by one builds few hierarchies.
 /// </remarks>
-internal sealed class SceneObjects
+/// <param name="hierarchy">Holds the first objects; null where all are in the list.</param>
+/// <param name="loose">The objects behind those of the hierarchy, in the order of their indices.</param>
+internal sealed class SceneObjects(ObjectBvh? hierarchy, ImmutableArray<ColliderInstance> loose)
 {
     // A list as long as this costs less than the hierarchy beside it.
     private const int MinLoose = 8;
 
-    private SceneObjects(ObjectBvh? hierarchy, ImmutableArray<ColliderInstance> loose)
-    {
-        Hierarchy = hierarchy;
-        Loose = loose;
-        NeedsNewHierarchy = hierarchy is null
-            ? loose.Length > QueryContext.MaxListedObjects
-            : loose.Length > Math.Max(MinLoose, Math.Sqrt(Count)) || hierarchy.IsDegraded;
-    }
-
     /// <summary>Holds the first objects; null where all are in the list.</summary>
-    public ObjectBvh? Hierarchy { get; }
+    public ObjectBvh? Hierarchy { get; } = hierarchy;
 
     /// <summary>The objects behind those of the hierarchy, in the order of their indices.</summary>
-    public ImmutableArray<ColliderInstance> Loose { get; }
+    public ImmutableArray<ColliderInstance> Loose { get; } = loose;
 
     /// <summary>Number of all objects.</summary>
     public int Count => HierarchyCount + Loose.Length;
 
     /// <summary>Whether queries would be slower than on <see cref="WithNewHierarchy"/>.</summary>
-    public bool NeedsNewHierarchy { get; }
+    public bool NeedsNewHierarchy => Hierarchy is null
+        ? Loose.Length > QueryContext.MaxListedObjects
+        : Loose.Length > Math.Max(MinLoose, Math.Sqrt(Count)) || Hierarchy.IsDegraded;
 
     private int HierarchyCount => Hierarchy?.Count ?? 0;
 

@@ -9,7 +9,11 @@ namespace FractalEngine.Core.Bvh.Objects;
 /// An object that moves is refitted: the nodes above it are replaced, O(log n), and the shape of the tree stays. Objects that move far make
 /// boxes overlap. Then <see cref="IsDegraded"/> asks the owner for a new hierarchy, O(n log n).
 /// </remarks>
-internal sealed class ObjectBvh
+/// <param name="root">The node that holds all objects.</param>
+/// <param name="paths">Paths to the leaves by index of the object; refitted hierarchies share them, since the shape stays.</param>
+/// <param name="builtSize">Size of all boxes when the hierarchy was built.</param>
+/// <param name="currentSize">Size of all boxes.</param>
+internal sealed class ObjectBvh(ObjectBvhNode root, ulong[] paths, double builtSize, double currentSize)
 {
     // Boxes twice as large in all are visited about twice as often, which a new hierarchy costs less than.
     private const double MaxGrowth = 2;
@@ -17,27 +21,14 @@ internal sealed class ObjectBvh
     // The path to a leaf, from the root: the slot at each node.
     private const int BitsPerLevel = 2;
 
-    // By index of the object; refitted hierarchies share them, since the shape stays.
-    private readonly ulong[] _paths;
-    private readonly double _builtSize;
-    private readonly double _size;
-
-    private ObjectBvh(ObjectBvhNode root, ulong[] paths, double builtSize, double size)
-    {
-        Root = root;
-        _paths = paths;
-        _builtSize = builtSize;
-        _size = size;
-    }
-
     /// <summary>The node that holds all objects.</summary>
-    public ObjectBvhNode Root { get; }
+    public ObjectBvhNode Root { get; } = root;
 
     /// <summary>Number of objects in the hierarchy.</summary>
-    public int Count => _paths.Length;
+    public int Count => paths.Length;
 
     /// <summary>Whether objects have moved so far that a hierarchy built anew is worth its cost.</summary>
-    public bool IsDegraded => _size > MaxGrowth * _builtSize;
+    public bool IsDegraded => currentSize > MaxGrowth * builtSize;
 
     /// <summary>Builds the hierarchy, O(n log n).</summary>
     /// <param name="leaves">At least one; the leaf with the index i at i.</param>
@@ -54,16 +45,16 @@ internal sealed class ObjectBvh
     /// <param name="leaf">Has the index of the leaf that it replaces.</param>
     public ObjectBvh With(ObjectBvhLeaf leaf)
     {
-        var size = _size;
-        var root = Replace(Root, _paths[leaf.Index], leaf, ref size);
-        return new(root, _paths, _builtSize, size);
+        var size = currentSize;
+        var root = Replace(Root, paths[leaf.Index], leaf, ref size);
+        return new(root, paths, builtSize, size);
     }
 
     /// <summary>Finds the leaf of an object, O(log n).</summary>
     public ObjectBvhLeaf LeafOf(int index)
     {
         var node = Root;
-        for (var path = _paths[index]; ; path >>= BitsPerLevel)
+        for (var path = paths[index]; ; path >>= BitsPerLevel)
         {
             var target = node[(int)(path & (ObjectBvhNode.Width - 1))];
             if (target is not ObjectBvhNode child)

@@ -4,28 +4,19 @@ using System.Runtime.Intrinsics;
 namespace FractalEngine.Core.Geometry.Rays;
 
 /// <summary>A ray for boxes of objects, four at a time, in double precision: what all nodes of a hierarchy need of it.</summary>
-internal readonly struct ObjectRay
+/// <param name="ray">In the frame of the boxes.</param>
+/// <param name="error">What boxes are widened by on all sides.</param>
+internal readonly struct ObjectRay(in LocalRay ray, double error)
 {
     // A slower ray than this passes no box within the range of coordinates.
     private const double MinComponent = 1e-30;
 
-    private readonly Axis _x;
-    private readonly Axis _y;
-    private readonly Axis _z;
-
-    /// <summary>Takes a ray apart by axes, with its inverse direction.</summary>
-    /// <param name="ray">In the frame of the boxes.</param>
-    /// <param name="error">What boxes are widened by on all sides.</param>
-    public ObjectRay(in LocalRay ray, double error)
-    {
-        _x = new(ray.Origin[0], ray.Direction[0], error);
-        _y = new(ray.Origin[1], ray.Direction[1], error);
-        _z = new(ray.Origin[2], ray.Direction[2], error);
-        Start = ray.Start;
-    }
+    private readonly Axis _x = new(ray.Origin[0], ray.Direction[0], error);
+    private readonly Axis _y = new(ray.Origin[1], ray.Direction[1], error);
+    private readonly Axis _z = new(ray.Origin[2], ray.Direction[2], error);
 
     /// <summary>Distance of the origin along the ray of the query.</summary>
-    public double Start { get; }
+    public double Start { get; } = ray.Start;
 
     /// <summary>Clips the parts of the ray within four boxes at their sides across an axis.</summary>
     /// <param name="axis">From 0 to 2.</param>
