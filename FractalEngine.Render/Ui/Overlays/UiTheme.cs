@@ -51,17 +51,4 @@ public sealed record UiTheme(
         Accent: new(0.380, 0.200, 0.000),
         Warning: new(0.560, 0.080, 0.020),
         Focus: new(0.020, 0.360, 0.720));
-
-    /// <summary>Computes the contrast of two colours by WCAG 2.1, from 1 to 21.</summary>
-    public static double Contrast(Colour colour1, Colour colour2)
-    {
-        var luminance1 = Luminance(colour1);
-        var luminance2 = Luminance(colour2);
-        return (Math.Max(luminance1, luminance2) + 0.05) / (Math.Min(luminance1, luminance2) + 0.05);
-    }
-
-    private static double Luminance(Colour colour) =>
-        (0.2126 * Linear(colour.Red)) + (0.7152 * Linear(colour.Green)) + (0.0722 * Linear(colour.Blue));
-
-    private static double Linear(double value) => value <= 0.04045 ? value / 12.92 : Math.Pow((value + 0.055) / 1.055, 2.4);
 }
