@@ -74,19 +74,7 @@ internal static class DistinctMaps
     {
         var capacity = Capacity(outer.Length, inner.Length, maxCount);
         var products = fractal is null ? new(WriteMap, capacity) : Images(fractal, capacity);
-        foreach (ref readonly var m1 in outer)
-        {
-            foreach (ref readonly var m2 in inner)
-            {
-                var product = m1 * m2;
-                if (!products.TryAdd(in product, maxCount))
-                {
-                    return null;
-                }
-            }
-        }
-
-        return products;
+        return TryAddPairs(products, outer, inner, static (m1, m2) => m1 * m2, maxCount);
     }
 
     /// <summary>
@@ -102,12 +90,18 @@ internal static class DistinctMaps
         ReadOnlySpan<Transformation> transformations, ReadOnlySpan<Transformation> sums, long maxCount)
     {
         var list = new DistinctList<Transformation>(WriteTransformation, Capacity(transformations.Length, sums.Length, maxCount));
-        foreach (ref readonly var added in transformations)
+        return TryAddPairs(
+            list, transformations, sums, static (added, previous) => Transformation.ComposeComponentwise(previous, added), maxCount);
+    }
+
+    private static DistinctList<T>? TryAddPairs<T>(
+        DistinctList<T> list, ReadOnlySpan<T> set1, ReadOnlySpan<T> set2, Func<T, T, T> compose, long maxCount)
+    {
+        foreach (var item1 in set1)
         {
-            foreach (ref readonly var previous in sums)
+            foreach (var item2 in set2)
             {
-                var sum = Transformation.ComposeComponentwise(previous, added);
-                if (!list.TryAdd(in sum, maxCount))
+                if (!list.TryAdd(compose(item1, item2), maxCount))
                 {
                     return null;
                 }
