@@ -185,37 +185,36 @@ internal sealed class ClosestPairSearch
 
     private void TestTriangles(in NodePair pair)
     {
-        _nodes1.LoadTriangles(pair.Node1);
-        _nodes2.LoadTriangles(pair.Node2);
+        var triangles2 = _nodes2.Triangles(pair.Node2);
         var box2 = _nodes2[pair.Node2].Box;
-        for (var i = 0; i < _nodes1.Faces.Count; i++)
+        foreach (ref readonly var triangle1 in _nodes1.Triangles(pair.Node1))
         {
             _work++;
-            if (Excludes(DistanceSquared(_nodes1.TriangleBoxes[i], box2)))
+            if (Excludes(DistanceSquared(triangle1.Box, box2)))
             {
                 continue;
             }
 
-            for (var j = 0; j < _nodes2.Faces.Count; j++)
+            foreach (ref readonly var triangle2 in triangles2)
             {
                 _work++;
-                if (!Excludes(DistanceSquared(_nodes1.TriangleBoxes[i], _nodes2.TriangleBoxes[j])))
+                if (!Excludes(DistanceSquared(triangle1.Box, triangle2.Box)))
                 {
-                    TestTriangles(in pair, i, j);
+                    TestTriangles(in pair, in triangle1, in triangle2);
                 }
             }
         }
     }
 
-    private void TestTriangles(in NodePair pair, int triangle1, int triangle2)
+    private void TestTriangles(in NodePair pair, in ShapeNodes.Triangle triangle1, in ShapeNodes.Triangle triangle2)
     {
         _statistics.FaceTests++;
-        var closest = TrianglePairKernel.Closest(_nodes1.Triangles[triangle1], _nodes2.Triangles[triangle2]);
+        var closest = TrianglePairKernel.Closest(triangle1.Corners, triangle2.Corners);
         if (closest.DistanceSquared < _best.DistanceSquared)
         {
             _best = closest;
-            _bestPlace1 = (pair.Node1, _nodes1.Faces[triangle1]);
-            _bestPlace2 = (pair.Node2, _nodes2.Faces[triangle2]);
+            _bestPlace1 = (pair.Node1, triangle1.Face);
+            _bestPlace2 = (pair.Node2, triangle2.Face);
             // Distances that differ by no more than rounding count as equal.
             var cutoff = Math.Max(0, Math.Sqrt(closest.DistanceSquared) - _tolerance);
             _cutoffSquared = cutoff * cutoff;

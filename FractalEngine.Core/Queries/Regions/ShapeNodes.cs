@@ -1,3 +1,4 @@
+using System.Runtime.InteropServices;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
@@ -11,9 +12,7 @@ internal sealed class ShapeNodes
     private readonly ShapeTree _tree;
     private readonly double _minRadiusSquared;
     private readonly List<Entry> _entries = [];
-    private readonly List<int> _faces = [];
-    private readonly List<(Vector A, Vector B, Vector C)> _triangles = [];
-    private readonly List<BoundingBox> _triangleBoxes = [];
+    private readonly List<Triangle> _triangles = [];
     private int _leafOfTriangles = -1;
 
     /// <summary>Begins with the root, which has the index 0.</summary>
@@ -31,15 +30,6 @@ internal sealed class ShapeNodes
 
     /// <summary>How far a sub-fractal may reach that was replaced by the base mesh, in the frame of the query.</summary>
     public double Precision => 2 * Math.Sqrt(_minRadiusSquared);
-
-    /// <summary>The faces of the leaf that <see cref="LoadTriangles"/> was called for last, as indices in the base mesh.</summary>
-    public IReadOnlyList<int> Faces => _faces;
-
-    /// <summary>The triangles of these faces in the frame of the query.</summary>
-    public IReadOnlyList<(Vector A, Vector B, Vector C)> Triangles => _triangles;
-
-    /// <summary>The boxes around these triangles.</summary>
-    public IReadOnlyList<BoundingBox> TriangleBoxes => _triangleBoxes;
 
     /// <summary>The node with an index in the order in which nodes were made.</summary>
     public ShapeNode this[int index] => _entries[index].Node;
@@ -70,26 +60,22 @@ internal sealed class ShapeNodes
         return entry.FirstChild..(entry.FirstChild + entry.ChildCount);
     }
 
-    /// <summary>Computes the triangles of a leaf.</summary>
-    public void LoadTriangles(int leaf)
+    /// <summary>Computes the triangles of a leaf in the frame of the query; those of the last leaf are kept.</summary>
+    public ReadOnlySpan<Triangle> Triangles(int leaf)
     {
-        if (leaf == _leafOfTriangles)
+        if (leaf != _leafOfTriangles)
         {
-            return;
+            _leafOfTriangles = leaf;
+            _triangles.Clear();
+            var node = _entries[leaf].Node;
+            foreach (var face in _tree.Faces(in node))
+            {
+                var (a, b, c) = _tree.Triangle(in node, face);
+                _triangles.Add(new(face, (a, b, c), new(Vector.Min(a, Vector.Min(b, c)), Vector.Max(a, Vector.Max(b, c)))));
+            }
         }
 
-        _leafOfTriangles = leaf;
-        _faces.Clear();
-        _triangles.Clear();
-        _triangleBoxes.Clear();
-        var node = _entries[leaf].Node;
-        foreach (var face in _tree.Faces(in node))
-        {
-            var (a, b, c) = _tree.Triangle(in node, face);
-            _faces.Add(face);
-            _triangles.Add((a, b, c));
-            _triangleBoxes.Add(new(Vector.Min(a, Vector.Min(b, c)), Vector.Max(a, Vector.Max(b, c))));
-        }
+        return CollectionsMarshal.AsSpan(_triangles);
     }
 
     /// <summary>Names the instance of a node.</summary>
@@ -111,4 +97,10 @@ internal sealed class ShapeNodes
         _entries.Add(new(node, parent, childIndex, depth, Unexpanded, 0));
 
     private readonly record struct Entry(ShapeNode Node, int Parent, int ChildIndex, int Depth, int FirstChild, int ChildCount);
+
+    /// <summary>A triangle of a leaf.</summary>
+    /// <param name="Face">Its index in the base mesh.</param>
+    /// <param name="Corners">In the frame of the query.</param>
+    /// <param name="Box">The box around it.</param>
+    public readonly record struct Triangle(int Face, (Vector A, Vector B, Vector C) Corners, BoundingBox Box);
 }
