@@ -48,7 +48,7 @@ public sealed class BoundingBoxCollider : Collider
         _mesh = mesh;
         _faceIndices = [.. Enumerable.Range(0, mesh.FaceCount)];
         Vector[] centroids = [.. _faceIndices.Select(CentroidOf)];
-        _rootBox = centroids.Aggregate(BoundingBox.Empty, (box, centroid) => box.Including(centroid));
+        _rootBox = BoundingBox.Around(centroids);
         _nodes.Add(default);
         Subdivide(0, 0, _faceIndices.Length, _rootBox, Depth, centroids);
         _nodes.TrimExcess();

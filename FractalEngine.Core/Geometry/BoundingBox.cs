@@ -37,6 +37,18 @@ public readonly record struct BoundingBox(Vector Minimum, Vector Maximum)
     public Vector Corner(int index) => new(
         (index & 1) == 0 ? Minimum.X : Maximum.X, (index & 2) == 0 ? Minimum.Y : Maximum.Y, (index & 4) == 0 ? Minimum.Z : Maximum.Z);
 
+    /// <summary>Computes the smallest box that holds some points.</summary>
+    internal static BoundingBox Around(ReadOnlySpan<Vector> points)
+    {
+        var box = Empty;
+        foreach (var point in points)
+        {
+            box = box.Including(point);
+        }
+
+        return box;
+    }
+
     /// <summary>Computes the smallest box that holds two boxes.</summary>
     public static BoundingBox Union(BoundingBox box1, BoundingBox box2) =>
         new(Vector.Min(box1.Minimum, box2.Minimum), Vector.Max(box1.Maximum, box2.Maximum));

@@ -140,23 +140,8 @@ internal sealed class SubFractal(
     /// <summary>Computes a box around the image of the sub-fractal under a map.</summary>
     /// <param name="map">From the frame of the sub-fractal to that of the image.</param>
     /// <param name="operatorNormBound">Upper bound of the factor by which the map lengthens vectors.</param>
-    public BoundingBox TransformedBox(AffineMap map, double operatorNormBound)
-    {
-        var box = Box.Transform(map);
-        if (Hull is null)
-        {
-            return box;
-        }
-
-        var hullBox = BoundingBox.Empty;
-        foreach (var vertex in Hull.CopyVertices())
-        {
-            hullBox = hullBox.Including(map * vertex);
-        }
-
-        var margin = (Hull.Margin * operatorNormBound) + BoundingVolume.RoundingMargin(box);
-        return BoundingBox.Intersection(box, BoundingVolume.Inflate(hullBox, margin));
-    }
+    public BoundingBox TransformedBox(AffineMap map, double operatorNormBound) =>
+        BoundingVolume.TransformedBox(Box, Hull?.CopyVertices(), Hull?.Margin ?? 0, map, operatorNormBound);
 
     /// <summary>Tells whether a position is within so many radii of the box's centre.</summary>
     /// <param name="position">In the frame of the sub-fractal: x, y, z, 0.</param>

@@ -71,21 +71,26 @@ internal sealed record BoundingVolume(BoundingBox Box, ConvexHull? Hull, double 
     /// <summary>Computes a box around this volume's image under a map.</summary>
     /// <param name="map">From the frame of this volume to that of the image.</param>
     /// <param name="operatorNormBound">Upper bound of the factor by which the map lengthens vectors.</param>
-    public BoundingBox TransformedBox(AffineMap map, double operatorNormBound)
+    public BoundingBox TransformedBox(AffineMap map, double operatorNormBound) =>
+        TransformedBox(Box, Hull?.Vertices, Margin, map, operatorNormBound);
+
+    /// <summary>Computes a box around the image of what a box and a hull hold.</summary>
+    /// <param name="box">The box.</param>
+    /// <param name="hullVertices">Vertices of the hull; null for none.</param>
+    /// <param name="margin">How far points lie outside the hull at most.</param>
+    /// <param name="map">The map.</param>
+    /// <param name="operatorNormBound">Upper bound of the factor by which the map lengthens vectors.</param>
+    public static BoundingBox TransformedBox(
+        BoundingBox box, Vector[]? hullVertices, double margin, AffineMap map, double operatorNormBound)
     {
-        var transformedBox = Box.Transform(map);
-        if (Hull is null)
+        var transformedBox = box.Transform(map);
+        if (hullVertices is null)
         {
             return transformedBox;
         }
 
-        var hullBox = BoundingBox.Empty;
-        foreach (var vertex in Hull.Vertices)
-        {
-            hullBox = hullBox.Including(map * vertex);
-        }
-
-        return BoundingBox.Intersection(transformedBox, Inflate(hullBox, (Margin * operatorNormBound) + RoundingMargin(transformedBox)));
+        var hullBox = BoundingBox.Around(Array.ConvertAll(hullVertices, vertex => map * vertex));
+        return BoundingBox.Intersection(transformedBox, Inflate(hullBox, (margin * operatorNormBound) + RoundingMargin(transformedBox)));
     }
 
     /// <summary>Computes boxes around the images of the clusters, or of the box, under a map.</summary>
@@ -117,14 +122,6 @@ internal sealed record BoundingVolume(BoundingBox Box, ConvexHull? Hull, double 
     }
 
     /// <summary>The same volume with a box that is no larger than that of the hull.</summary>
-    private BoundingVolume WithTightBox()
-    {
-        var hullBox = BoundingBox.Empty;
-        foreach (var vertex in Hull!.Vertices)
-        {
-            hullBox = hullBox.Including(vertex);
-        }
-
-        return this with { Box = BoundingBox.Intersection(Box, Inflate(hullBox, Margin)) };
-    }
+    private BoundingVolume WithTightBox() =>
+        this with { Box = BoundingBox.Intersection(Box, Inflate(BoundingBox.Around(Hull!.Vertices), Margin)) };
 }

@@ -56,12 +56,7 @@ internal sealed class ConvexHull
     public static ConvexHull Build(Vector[] array, int count, int maxVertices)
     {
         var points = array.AsSpan(0, count);
-        var box = BoundingBox.Empty;
-        foreach (var point in points)
-        {
-            box = box.Including(point);
-        }
-
+        var box = BoundingBox.Around(points);
         // Far from the origin, coordinates are rounded by more than a part of the size.
         var largest = box.MaxAbsCoordinate();
         var tolerance = Math.Max(CoplanarTolerance * box.Diagonal, RoundingErrors.Chain * largest);
