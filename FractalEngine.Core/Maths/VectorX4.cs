@@ -92,6 +92,35 @@ internal readonly record struct VectorX4(Vector256<double> X, Vector256<double> 
         Vector256.LoadUnsafe(ref rows, (nuint)(first + rowLength)),
         Vector256.LoadUnsafe(ref rows, (nuint)(first + (2 * rowLength))));
 
+    /// <summary>Lays the numbers of some items out in rows, a number of each item in each, padded by those of the last item.</summary>
+    /// <typeparam name="T">What has the numbers.</typeparam>
+    /// <param name="items">The items.</param>
+    /// <param name="rowCount">How many numbers each has.</param>
+    /// <param name="numbersOf">Returns the numbers of an item.</param>
+    public static double[] CreateRows<T>(ReadOnlySpan<T> items, int rowCount, Func<T, double[]> numbersOf)
+    {
+        var rowLength = PaddedCount(items.Length);
+        var rows = new double[rowCount * rowLength];
+        for (var i = 0; i < rowLength; i++)
+        {
+            var numbers = numbersOf(items[Math.Min(i, items.Length - 1)]);
+            for (var row = 0; row < rowCount; row++)
+            {
+                rows[(row * rowLength) + i] = numbers[row];
+            }
+        }
+
+        return rows;
+    }
+
+    /// <summary>Finds the largest of four numbers.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static double HorizontalMax(Vector256<double> numbers)
+    {
+        var pair = Vector128.MaxNative(numbers.GetLower(), numbers.GetUpper());
+        return Math.Max(pair[0], pair[1]);
+    }
+
     /// <summary>Takes the larger of each component; the result for a NaN depends on the processor.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static VectorX4 MaxNative(VectorX4 v1, VectorX4 v2) =>

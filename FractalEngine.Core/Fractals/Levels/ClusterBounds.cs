@@ -24,18 +24,11 @@ internal sealed class ClusterBounds
     {
         Bulk = boxes[0];
         _paddedCount = VectorX4.PaddedCount(boxes.Length);
-        _rows = new double[6 * _paddedCount];
-        for (var i = 0; i < _paddedCount; i++)
+        _rows = VectorX4.CreateRows<BoundingBox>(boxes, 6, static box =>
         {
-            var box = boxes[Math.Min(i, boxes.Length - 1)];
-            var (x, y, z) = box.Centre;
-            var (halfX, halfY, halfZ) = (0.5 + RoundingErrors.Coordinate) * box.Size;
-            ReadOnlySpan<double> rows = [x, y, z, halfX, halfY, halfZ];
-            for (var row = 0; row < rows.Length; row++)
-            {
-                _rows[(row * _paddedCount) + i] = rows[row];
-            }
-        }
+            var halfSize = (0.5 + RoundingErrors.Coordinate) * box.Size;
+            return [box.Centre.X, box.Centre.Y, box.Centre.Z, halfSize.X, halfSize.Y, halfSize.Z];
+        });
     }
 
     /// <summary>The box of most instances.</summary>
@@ -58,7 +51,7 @@ internal sealed class ClusterBounds
             lowest = Vector256.MinNative(lowest, outside.LengthSquared());
         }
 
-        return HorizontalMin(lowest);
+        return -VectorX4.HorizontalMax(-lowest);
     }
 
     /// <summary>Computes the squared distance of a position from the closest box around the image of a box under a map.</summary>
@@ -78,12 +71,6 @@ internal sealed class ClusterBounds
             lowest = Vector256.MinNative(lowest, TransformedBoxDistance.DistanceSquared(fromCentre, halfSize, v1, v2, v3));
         }
 
-        return HorizontalMin(lowest);
-    }
-
-    private static double HorizontalMin(Vector256<double> v)
-    {
-        var pair = Vector128.MinNative(v.GetLower(), v.GetUpper());
-        return Math.Min(pair[0], pair[1]);
+        return -VectorX4.HorizontalMax(-lowest);
     }
 }

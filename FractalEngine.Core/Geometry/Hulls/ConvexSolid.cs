@@ -31,16 +31,8 @@ internal sealed class ConvexSolid
     {
         _margin = margin;
         _paddedCount = VectorX4.PaddedCount(vertices.Length);
-        _rows = new double[3 * _paddedCount];
-        var box = BoundingBox.Empty;
-        for (var i = 0; i < _paddedCount; i++)
-        {
-            var vertex = vertices[Math.Min(i, vertices.Length - 1)];
-            box = box.Including(vertex);
-            (_rows[i], _rows[_paddedCount + i], _rows[(2 * _paddedCount) + i]) = vertex;
-        }
-
-        _centre = SimdAffineMap.ToVector256(box.Centre);
+        _rows = VectorX4.CreateRows(vertices, 3, static vertex => [vertex.X, vertex.Y, vertex.Z]);
+        _centre = SimdAffineMap.ToVector256(BoundingBox.Around(vertices).Centre);
     }
 
     /// <summary>Number of bytes of the arrays.</summary>
@@ -58,10 +50,7 @@ internal sealed class ConvexSolid
         Span<Vector> corners = stackalloc Vector[8];
         for (var i = 0; i < corners.Length; i++)
         {
-            corners[i] = new(
-                (i & 1) == 0 ? box.Minimum.X : box.Maximum.X,
-                (i & 2) == 0 ? box.Minimum.Y : box.Maximum.Y,
-                (i & 4) == 0 ? box.Minimum.Z : box.Maximum.Z);
+            corners[i] = box.Corner(i);
         }
 
         return new(corners, 0) { IsBox = true };

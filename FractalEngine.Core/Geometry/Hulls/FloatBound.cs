@@ -26,7 +26,7 @@ internal sealed class FloatBound
     /// <param name="planes">The planes of a hull around it; none where the box bounds as well.</param>
     /// <param name="vertices">The vertices of the hull; none where they are not worth their cost.</param>
     /// <param name="margin">How far the sub-fractal may reach out of the hull of the vertices.</param>
-    public FloatBound(BoundingBox box, IReadOnlyList<HullPlane> planes, ReadOnlySpan<Vector> vertices, double margin)
+    public FloatBound(BoundingBox box, IReadOnlyList<HullPlane> planes, Vector[] vertices, double margin)
     {
         var centre = box.IsEmpty ? Vector.Zero : box.Centre;
         var (x, y, z) = centre;
@@ -35,22 +35,14 @@ internal sealed class FloatBound
         (_halfX, _halfY, _halfZ) = (Vector256.Create((float)halfX), Vector256.Create((float)halfY), Vector256.Create((float)halfZ));
         _margin = (float)margin;
         var planeCount = planes.Count <= MaxPlanes ? planes.Count : 0;
-        _planes = new float[4 * planeCount];
-        for (var i = 0; i < planeCount; i++)
-        {
-            var (normal, offset, _) = planes[i];
-            ReadOnlySpan<float> plane = [(float)normal.X, (float)normal.Y, (float)normal.Z, (float)(offset - Vector.Dot(normal, centre))];
-            plane.CopyTo(_planes.AsSpan(4 * i));
-        }
-
+        _planes = [.. planes.Take(planeCount).SelectMany(plane => (float[])
+        [
+            (float)plane.Normal.X, (float)plane.Normal.Y, (float)plane.Normal.Z,
+            (float)(plane.Offset - Vector.Dot(plane.Normal, centre)),
+        ])];
         var vertexCount = vertices.Length <= MaxVertices && planeCount > 0 ? vertices.Length : 0;
-        _vertices = new float[3 * vertexCount];
-        for (var i = 0; i < vertexCount; i++)
-        {
-            var fromCentre = vertices[i] - centre;
-            ReadOnlySpan<float> vertex = [(float)fromCentre.X, (float)fromCentre.Y, (float)fromCentre.Z];
-            vertex.CopyTo(_vertices.AsSpan(3 * i));
-        }
+        _vertices = [.. vertices.Take(vertexCount).Select(vertex => vertex - centre)
+            .SelectMany(static offset => (float[])[(float)offset.X, (float)offset.Y, (float)offset.Z])];
     }
 
     /// <summary>True for hulls of so few planes that they are tested for all children at once.</summary>

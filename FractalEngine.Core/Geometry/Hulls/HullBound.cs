@@ -53,24 +53,11 @@ internal sealed class HullBound
         _farDistanceSquared = FarFactor * FarFactor * 0.25 * box.Size.LengthSquared();
         _margin = margin;
         _planeCount = VectorX4.PaddedCount(planes.Length);
-        _planes = new double[4 * _planeCount];
-        // The last elements fill the lanes that are left over.
-        for (var i = 0; i < _planeCount; i++)
-        {
-            var (normal, offset, _) = planes[Math.Min(i, planes.Length - 1)];
-            (_planes[i], _planes[_planeCount + i], _planes[(2 * _planeCount) + i]) = normal;
-            _planes[(3 * _planeCount) + i] = offset + margin;
-        }
-
+        _planes = VectorX4.CreateRows<HullPlane>(
+            planes, 4, plane => [plane.Normal.X, plane.Normal.Y, plane.Normal.Z, plane.Offset + margin]);
         _hullVertexCount = hull.Vertices.Length;
         _vertexCount = VectorX4.PaddedCount(hull.Vertices.Length);
-        _vertices = new double[3 * _vertexCount];
-        for (var i = 0; i < _vertexCount; i++)
-        {
-            var vertex = hull.Vertices[Math.Min(i, hull.Vertices.Length - 1)];
-            (_vertices[i], _vertices[_vertexCount + i], _vertices[(2 * _vertexCount) + i]) = vertex;
-        }
-
+        _vertices = VectorX4.CreateRows<Vector>(hull.Vertices, 3, static vertex => [vertex.X, vertex.Y, vertex.Z]);
         if (_vertexCount <= MaxSmallHullVertices)
         {
             _smallHullVertices = [.. Enumerable.Range(0, _vertexCount)
@@ -187,7 +174,7 @@ internal sealed class HullBound
             maxHeight = Vector256.MaxNative(maxHeight, height);
         }
 
-        return HorizontalMax(maxHeight);
+        return VectorX4.HorizontalMax(maxHeight);
     }
 
     /// <summary>Computes the normal, in the frame of an image, of the plane that a position seems to be farthest above there.</summary>
@@ -241,7 +228,7 @@ internal sealed class HullBound
             maxProduct = Vector256.MaxNative(maxProduct, VectorX4.Dot(directionX4, VectorX4.Load(ref vertices, i, count)));
         }
 
-        return HorizontalMax(maxProduct);
+        return VectorX4.HorizontalMax(maxProduct);
     }
 
     /// <summary>Computes the largest product of a direction with a vertex of a small hull, and that vertex.</summary>
@@ -253,18 +240,11 @@ internal sealed class HullBound
         var secondStart = _vertexCount - VectorX4.Count;
         var firstProducts = VectorX4.Dot(directionX4, VectorX4.Load(ref vertices, 0, _vertexCount));
         var secondProducts = VectorX4.Dot(directionX4, VectorX4.Load(ref vertices, secondStart, _vertexCount));
-        var maxProduct = HorizontalMax(Vector256.MaxNative(firstProducts, secondProducts));
+        var maxProduct = VectorX4.HorizontalMax(Vector256.MaxNative(firstProducts, secondProducts));
         var matchMask = Vector256.Equals(firstProducts, Vector256.Create(maxProduct)).ExtractMostSignificantBits()
             | (Vector256.Equals(secondProducts, Vector256.Create(maxProduct)).ExtractMostSignificantBits() << secondStart);
         supportVertex = _smallHullVertices[BitOperations.TrailingZeroCount(matchMask)];
         return maxProduct;
-    }
-
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private static double HorizontalMax(Vector256<double> v)
-    {
-        var pair = Vector128.MaxNative(v.GetLower(), v.GetUpper());
-        return Math.Max(pair[0], pair[1]);
     }
 
     private static double Length(Vector256<double> v) => Math.Sqrt(Vector256.Dot(v, v));

@@ -78,12 +78,6 @@ internal sealed class RayPlanes
             far = Vector256.MinNative(far, Vector256.ConditionalSelect(isEntry, far, crossing));
         }
 
-        return Max(near) <= -Max(-far);
-    }
-
-    private static double Max(Vector256<double> v)
-    {
-        var half = Vector128.MaxNative(v.GetLower(), v.GetUpper());
-        return Math.Max(half[0], half[1]);
+        return VectorX4.HorizontalMax(near) <= -VectorX4.HorizontalMax(-far);
     }
 }

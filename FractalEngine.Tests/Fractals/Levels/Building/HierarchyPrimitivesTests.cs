@@ -224,7 +224,7 @@ public sealed class HierarchyPrimitivesTests
         Assert.Equal(256, new FloatBound(box, [.. hull.Planes, hull.Planes[0]], vertices, Margin).StorageBytes);
         Vector[] many = [.. Enumerable.Repeat(Vector.I, 17)];
         Assert.Equal((4 * 4 * 8) + 256, new FloatBound(box, hull.Planes, many, Margin).StorageBytes);
-        Assert.Equal((4 * ((4 * 8) + (3 * 16))) + 256, new FloatBound(box, hull.Planes, many.AsSpan(1), Margin).StorageBytes);
+        Assert.Equal((4 * ((4 * 8) + (3 * 16))) + 256, new FloatBound(box, hull.Planes, many[1..], Margin).StorageBytes);
 
         double Distance(FloatBound bound, out double fromCentre)
         {
