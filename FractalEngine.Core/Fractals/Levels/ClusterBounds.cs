@@ -10,29 +10,21 @@ namespace FractalEngine.Core.Fractals.Levels;
 /// Bounds a sub-fractal by several boxes. Where one map throws far away, or enlarges what the others shrink, a single box or hull is
 /// nearly empty, and at every level most of them would hold the position of a query.
 /// </summary>
-internal sealed class ClusterBounds
+/// <param name="boxes">At least one box, none of them empty; that of most instances first.</param>
+internal sealed class ClusterBounds(BoundingBox[] boxes)
 {
     /// <summary>Maximum number of boxes.</summary>
     public const int MaxBoxes = 64;
 
-    private readonly double[] _rows;
-    private readonly int _paddedCount;
-
-    /// <summary>Prepares the boxes for queries.</summary>
-    /// <param name="boxes">At least one box, none of them empty; that of most instances first.</param>
-    public ClusterBounds(BoundingBox[] boxes)
+    private readonly int _paddedCount = VectorX4.PaddedCount(boxes.Length);
+    private readonly double[] _rows = VectorX4.CreateRows<BoundingBox>(boxes, 6, static box =>
     {
-        Bulk = boxes[0];
-        _paddedCount = VectorX4.PaddedCount(boxes.Length);
-        _rows = VectorX4.CreateRows<BoundingBox>(boxes, 6, static box =>
-        {
-            var halfSize = (0.5 + RoundingErrors.Coordinate) * box.Size;
-            return [box.Centre.X, box.Centre.Y, box.Centre.Z, halfSize.X, halfSize.Y, halfSize.Z];
-        });
-    }
+        var halfSize = (0.5 + RoundingErrors.Coordinate) * box.Size;
+        return [box.Centre.X, box.Centre.Y, box.Centre.Z, halfSize.X, halfSize.Y, halfSize.Z];
+    });
 
     /// <summary>The box of most instances.</summary>
-    public BoundingBox Bulk { get; }
+    public BoundingBox Bulk { get; } = boxes[0];
 
     /// <summary>Number of bytes of the arrays.</summary>
     public long StorageBytes => (sizeof(double) * (long)_rows.Length) + 40;

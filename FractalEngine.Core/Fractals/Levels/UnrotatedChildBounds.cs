@@ -10,27 +10,17 @@ namespace FractalEngine.Core.Fractals.Levels;
 /// Bounds children that are instances of one solid in any sizes, none of them rotated, as in Sierpiński's and Menger's fractals. One
 /// support of the solid serves all of them, four at a time.
 /// </summary>
-internal sealed class UnrotatedChildBounds
+/// <param name="childHull">Bounds each child in its own frame.</param>
+/// <param name="children">The children, for which <see cref="HasNoRotation"/> holds.</param>
+/// <param name="paddedCount">Their number, with those that fill the last vector.</param>
+internal sealed class UnrotatedChildBounds(HullBound childHull, ChildInstance[] children, int paddedCount)
 {
-    private readonly HullBound _childHull;
-    private readonly int _paddedCount;
-    private readonly double[] _translationsAndScales;
-
-    private UnrotatedChildBounds(HullBound childHull, ChildInstance[] children, int paddedCount)
-    {
-        _childHull = childHull;
-        _paddedCount = paddedCount;
-        _translationsAndScales = new double[4 * paddedCount];
-        for (var i = 0; i < children.Length; i++)
+    private readonly double[] _translationsAndScales = VectorX4.CreateRows<ChildInstance>(
+        children, 4, static child =>
         {
-            var translation = children[i].Map.Translation;
-            var scale = children[i].Map.Linear.V1.X;
-            _translationsAndScales[i] = translation.X;
-            _translationsAndScales[paddedCount + i] = translation.Y;
-            _translationsAndScales[(2 * paddedCount) + i] = translation.Z;
-            _translationsAndScales[(3 * paddedCount) + i] = scale;
-        }
-    }
+            var (x, y, z) = child.Map.Translation;
+            return [x, y, z, child.Map.Linear.V1.X];
+        });
 
     /// <summary>Number of bytes of the arrays.</summary>
     public long StorageBytes => (sizeof(double) * _translationsAndScales.Length) + 64;
@@ -72,13 +62,13 @@ internal sealed class UnrotatedChildBounds
         var positionX4 = VectorX4.Broadcast(position);
         var directionX4 = VectorX4.Broadcast(unitDirection);
         var height = Vector256.Create(Vector256.Dot(unitDirection, position));
-        var support = Vector256.Create(_childHull.Support(unitDirection));
-        for (var i = 0; i < _paddedCount; i += VectorX4.Count)
+        var support = Vector256.Create(childHull.Support(unitDirection));
+        for (var i = 0; i < paddedCount; i += VectorX4.Count)
         {
-            var bounds = BoxDistance.SquaredX4(ref boxes, _paddedCount, i, positionX4, out var centreDistances);
-            var translation = VectorX4.Load(ref translations, i, _paddedCount);
+            var bounds = BoxDistance.SquaredX4(ref boxes, paddedCount, i, positionX4, out var centreDistances);
+            var translation = VectorX4.Load(ref translations, i, paddedCount);
             var separation = height - VectorX4.Dot(directionX4, translation)
-                - (Vector256.LoadUnsafe(ref translations, (nuint)((3 * _paddedCount) + i)) * support);
+                - (Vector256.LoadUnsafe(ref translations, (nuint)((3 * paddedCount) + i)) * support);
             separation = Vector256.MaxNative(separation, Vector256<double>.Zero);
             queue.SetBounds(Vector256.MaxNative(bounds, separation * separation), centreDistances, i);
         }

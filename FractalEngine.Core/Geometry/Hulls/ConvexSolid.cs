@@ -12,49 +12,30 @@ namespace FractalEngine.Core.Geometry.Hulls;
 /// The algorithm of Gilbert, Johnson and Keerthi (1988): a simplex of vertices moves towards the position. Each step's direction gives a
 /// lower bound that holds whatever the rounding of the simplex, so the best of them is returned.
 /// </remarks>
-internal sealed class ConvexSolid
+/// <param name="vertices">At least one vertex.</param>
+/// <param name="margin">How far the solid reaches beyond the hull of the vertices, in scene units.</param>
+internal sealed class ConvexSolid(ReadOnlySpan<Vector> vertices, double margin)
 {
     private const int MaxSteps = 24;
 
     // The distance is exact to this part when a step comes no closer.
     private const double ConvergenceTolerance = 1e-14;
 
-    private readonly double[] _rows;
-    private readonly int _paddedCount;
-    private readonly Vector256<double> _centre;
-    private readonly double _margin;
-
-    /// <summary>Creates a solid from its vertices.</summary>
-    /// <param name="vertices">At least one vertex.</param>
-    /// <param name="margin">How far the solid reaches beyond the hull of the vertices, in scene units.</param>
-    public ConvexSolid(ReadOnlySpan<Vector> vertices, double margin)
-    {
-        _margin = margin;
-        _paddedCount = VectorX4.PaddedCount(vertices.Length);
-        _rows = VectorX4.CreateRows(vertices, 3, static vertex => [vertex.X, vertex.Y, vertex.Z]);
-        _centre = SimdAffineMap.ToVector256(BoundingBox.Around(vertices).Centre);
-    }
+    private readonly double[] _rows = VectorX4.CreateRows(vertices, 3, static vertex => [vertex.X, vertex.Y, vertex.Z]);
+    private readonly int _paddedCount = VectorX4.PaddedCount(vertices.Length);
+    private readonly Vector256<double> _centre = SimdAffineMap.ToVector256(BoundingBox.Around(vertices).Centre);
 
     /// <summary>Number of bytes of the arrays.</summary>
     public long StorageBytes => (sizeof(double) * (long)_rows.Length) + 96;
 
     /// <summary>How far the solid reaches beyond the hull of the vertices, in scene units.</summary>
-    public double Margin => _margin;
+    public double Margin => margin;
 
     /// <summary>True for a solid that is a box parallel to the axes.</summary>
     public bool IsBox { get; private init; }
 
     /// <summary>Creates the solid box.</summary>
-    public static ConvexSolid FromBox(BoundingBox box)
-    {
-        Span<Vector> corners = stackalloc Vector[8];
-        for (var i = 0; i < corners.Length; i++)
-        {
-            corners[i] = box.Corner(i);
-        }
-
-        return new(corners, 0) { IsBox = true };
-    }
+    public static ConvexSolid FromBox(BoundingBox box) => new([.. Enumerable.Range(0, 8).Select(box.Corner)], 0) { IsBox = true };
 
     /// <summary>Computes the squared distance of a position from the solid's image under a map, or a little less.</summary>
     /// <param name="position">In the frame of the image: x, y, z, 0.</param>
@@ -78,7 +59,7 @@ internal sealed class ConvexSolid
             var vertex = FindLowestVertex(localDirection);
             var toVertex = SimdAffineMap.ToVector(map.Apply(vertex) - position);
             var height = Vector.Dot(toSolid, toVertex);
-            var separation = height - (_margin * Math.Sqrt(Vector256.Dot(localDirection, localDirection)));
+            var separation = height - (margin * Math.Sqrt(Vector256.Dot(localDirection, localDirection)));
             if (separation > 0)
             {
                 bound = Math.Max(bound, separation * (separation / lengthSquared));
@@ -100,7 +81,7 @@ internal sealed class ConvexSolid
     public double Support(Vector direction)
     {
         var vertex = FindLowestVertex(SimdAffineMap.ToVector256(-direction));
-        return Vector.Dot(direction, SimdAffineMap.ToVector(vertex)) + (_margin * direction.Length());
+        return Vector.Dot(direction, SimdAffineMap.ToVector(vertex)) + (margin * direction.Length());
     }
 
     /// <summary>Finds the vertex with the smallest product with a direction.</summary>
