@@ -1,6 +1,7 @@
 using FractalEngine.Core.Geometry;
 using FractalEngine.Render.Gl;
 using FractalEngine.Render.Gl.State;
+using FractalEngine.Render.Lights;
 using OpenTK.Graphics.OpenGL4;
 
 namespace FractalEngine.Render.Upload;
@@ -39,10 +40,7 @@ internal sealed class MaterialUniforms(ShaderProgram program, RedundancyFilter f
         WriteVector(8, ClampNegative(material?.Ambient ?? Colour.White), material is null ? 0 : 1);
         if (material?.Texture is { } texture)
         {
-            _data[12] = (float)texture.Scale.U;
-            _data[13] = (float)texture.Scale.V;
-            _data[14] = (float)texture.Offset.U;
-            _data[15] = (float)texture.Offset.V;
+            LightBlock.WriteVector(new(texture.Scale.U, texture.Scale.V, texture.Offset.U), texture.Offset.V, _data.AsSpan(12));
         }
 
         WriteVector(16, ClampNegative(material?.Emission ?? Colour.Black), 0);
@@ -51,11 +49,6 @@ internal sealed class MaterialUniforms(ShaderProgram program, RedundancyFilter f
 
     private static Colour ClampNegative(Colour colour) => new(Math.Max(colour.Red, 0), Math.Max(colour.Green, 0), Math.Max(colour.Blue, 0));
 
-    private void WriteVector(int start, Colour colour, double w)
-    {
-        _data[start] = (float)colour.Red;
-        _data[start + 1] = (float)colour.Green;
-        _data[start + 2] = (float)colour.Blue;
-        _data[start + 3] = (float)w;
-    }
+    private void WriteVector(int start, Colour colour, double w) =>
+        LightBlock.WriteVector(new(colour.Red, colour.Green, colour.Blue), w, _data.AsSpan(start));
 }

@@ -79,23 +79,8 @@ internal sealed class SceneCuller : IDisposable
     public double MinProjectedSize => _visible.MinProjectedSize;
 
     /// <summary>Number of triangles of the visible instances.</summary>
-    public long TriangleCount
-    {
-        get
-        {
-            var count = 0L;
-            for (var i = 0; i < _visibleInstances.Length; i++)
-            {
-                if (_visibleInstances[i] is not null)
-                {
-                    var trianglesPerInstance = _scene.Objects[i].Model.Indices.Length / 3;
-                    count += _visible.InstanceCountOf(_culledIndices[i]) * (long)trianglesPerInstance;
-                }
-            }
-
-            return count;
-        }
-    }
+    public long TriangleCount => Enumerable.Range(0, _visibleInstances.Length).Where(SelectsInstances)
+        .Sum(index => _visible.InstanceCountOf(_culledIndices[index]) * (long)(_scene.Objects[index].Model.Indices.Length / 3));
 
     /// <summary>Bytes of instances that were uploaded to the GPU so far.</summary>
     public long UploadedBytes => _visibleInstances.Sum(instances => instances?.UploadedBytes ?? 0);
@@ -119,7 +104,7 @@ internal sealed class SceneCuller : IDisposable
     {
         if (SelectsInstances(index))
         {
-            DiscardSpeculativeCull();
+            EndSpeculativeCull();
             ref var culledObject = ref _culledObjects[_culledIndices[index]];
             culledObject = culledObject with { ObjectToWorld = map };
             _lastKey = null;
@@ -140,7 +125,7 @@ internal sealed class SceneCuller : IDisposable
         var hierarchy = isIncluded ? _scene.Objects[index].Model.LodHierarchy! : Empty;
         if (!ReferenceEquals(culledObject.Hierarchy, hierarchy))
         {
-            DiscardSpeculativeCull();
+            EndSpeculativeCull();
             culledObject = culledObject with { Hierarchy = hierarchy };
             _lastKey = null;
         }
@@ -156,13 +141,14 @@ internal sealed class SceneCuller : IDisposable
 
         _lastKey = null;
         var watch = Stopwatch.StartNew();
-        if (_speculativeKey == (view, settings, zoom))
+        var isAnticipated = _speculativeKey == (view, settings, zoom);
+        EndSpeculativeCull();
+        if (isAnticipated)
         {
-            TakeSpeculativeCull();
+            (_visible, _speculative) = (_speculative, _visible);
         }
         else
         {
-            DiscardSpeculativeCull();
             _visible.Cull(in view, CulledObjectsOf(zoom), settings);
         }
 
@@ -185,7 +171,7 @@ internal sealed class SceneCuller : IDisposable
             return;
         }
 
-        DiscardSpeculativeCull();
+        EndSpeculativeCull();
         _speculativeKey = (view, settings, zoom);
         var target = _speculative;
         var objects = CulledObjectsOf(zoom);
@@ -201,7 +187,7 @@ internal sealed class SceneCuller : IDisposable
     /// <inheritdoc/>
     public void Dispose()
     {
-        DiscardSpeculativeCull();
+        EndSpeculativeCull();
         GlObject.DisposeAll(_visibleInstances);
     }
 
@@ -209,17 +195,8 @@ internal sealed class SceneCuller : IDisposable
     private CulledObject[] CulledObjectsOf(DeepZoom? zoom) => zoom is null ? _culledObjects
         : [.. _culledObjects.Select((item, index) => item with { Roots = index == _culledIndices[zoom.ObjectIndex] ? zoom.Roots : [] })];
 
-    /// <summary>Waits for the speculative pass and makes its result the visible set.</summary>
-    private void TakeSpeculativeCull()
-    {
-        _speculativeTask!.GetAwaiter().GetResult();
-        (_visible, _speculative) = (_speculative, _visible);
-        _speculativeTask = null;
-        _speculativeKey = null;
-    }
-
-    /// <summary>Waits for the speculative pass and drops its result, so that its memory and the objects can change.</summary>
-    private void DiscardSpeculativeCull()
+    /// <summary>Waits for the speculative pass, so that its memory and the objects can change.</summary>
+    private void EndSpeculativeCull()
     {
         _speculativeTask?.GetAwaiter().GetResult();
         _speculativeTask = null;
