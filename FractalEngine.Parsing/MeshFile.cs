@@ -58,10 +58,10 @@ public static class MeshFile
     {
         ObjMeshWriter.Write(mesh, stream);
         // A pipe has no length, and is not read back as a file.
-        if (stream.CanSeek && stream.Length > ParsingLimits.MaxObjBytes)
+        if (stream.CanSeek && stream.Length > ParsingLimits.ObjBytes.Value)
         {
             throw new FractalEngineException(ErrorKind.Limit,
-                $"the mesh can't be written as an OBJ file: its text has more than the limit of {ParsingLimits.MaxObjBytes} bytes");
+                $"the mesh can't be written as an OBJ file: its text has more than the limit of {ParsingLimits.ObjBytes.Value} bytes");
         }
     }
 }

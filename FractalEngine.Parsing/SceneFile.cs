@@ -57,9 +57,9 @@ public static class SceneFile
 
         var text = SceneWriter.Write(scene);
         var bytes = Encoding.UTF8.GetBytes(text);
-        if (bytes.Length > ParsingLimits.MaxDescriptionBytes)
+        if (bytes.Length > ParsingLimits.DescriptionBytes.Value)
         {
-            throw Fault(ErrorKind.Limit, $"its text has more than the limit of {ParsingLimits.MaxDescriptionBytes} bytes");
+            throw Fault(ErrorKind.Limit, $"its text has more than the limit of {ParsingLimits.DescriptionBytes.Value} bytes");
         }
 
         RequireReadable(text, scene);

@@ -49,9 +49,9 @@ public sealed class InvalidArgumentTests
     {
         var fractal = Fractal.Of(Shapes.Cube()).Repeat(Halves, 3);
         Assert.Throws<ArgumentOutOfRangeException>(() => fractal.WithDepth(-1));
-        var error = Assert.Throws<ArgumentOutOfRangeException>(() => fractal.WithDepth(FractalLimits.MaxDepth + 1));
-        Assert.Contains($"{FractalLimits.MaxDepth}", error.Message, StringComparison.Ordinal);
-        Assert.Equal(FractalLimits.MaxDepth, fractal.WithDepth(FractalLimits.MaxDepth).LevelCount);
+        var error = Assert.Throws<ArgumentOutOfRangeException>(() => fractal.WithDepth((int)FractalLimits.Depth.Value + 1));
+        Assert.Contains($"{FractalLimits.Depth.Value}", error.Message, StringComparison.Ordinal);
+        Assert.Equal((int)FractalLimits.Depth.Value, fractal.WithDepth((int)FractalLimits.Depth.Value).LevelCount);
     }
 
     [Theory]
@@ -64,27 +64,27 @@ public sealed class InvalidArgumentTests
     public void RepeatAndApply_BeyondALimit_NameIt()
     {
         var fractal = Fractal.Of(Shapes.Cube());
-        var steps = Enumerable.Range(0, FractalLimits.MaxSteps).Aggregate(fractal, (sum, _) => sum.Apply(Halves));
-        AssertLimit($"{FractalLimits.MaxSteps} steps", () => steps.Apply(Halves));
+        var steps = Enumerable.Range(0, (int)FractalLimits.Steps.Value).Aggregate(fractal, (sum, _) => sum.Apply(Halves));
+        AssertLimit($"{FractalLimits.Steps.Value} steps", () => steps.Apply(Halves));
         FractalStep nested = TransformationSet.Of(Halves);
-        for (var depth = 0; depth < FractalLimits.MaxNesting; depth++)
+        for (var depth = 0; depth < FractalLimits.Nesting.Value; depth++)
         {
             nested = new Repetition([nested], 1);
         }
 
-        AssertLimit($"{FractalLimits.MaxNesting} repetitions inside each other", () => fractal.Repeat([nested], 1));
-        FractalStep huge = new Repetition([TransformationSet.Of(Halves)], FractalLimits.MaxDepth);
-        AssertLimit($"{FractalLimits.MaxLevels} levels", () => fractal.Repeat([huge], 3));
+        AssertLimit($"{FractalLimits.Nesting.Value} repetitions inside each other", () => fractal.Repeat([nested], 1));
+        FractalStep huge = new Repetition([TransformationSet.Of(Halves)], (int)FractalLimits.Depth.Value);
+        AssertLimit($"{FractalLimits.Levels.Value} levels", () => fractal.Repeat([huge], 3));
         for (var depth = 0; depth < 4; depth++)
         {
             // More levels than a long counts.
-            huge = new Repetition([huge], FractalLimits.MaxDepth);
+            huge = new Repetition([huge], (int)FractalLimits.Depth.Value);
         }
 
-        AssertLimit($"{FractalLimits.MaxLevels} levels", () => fractal.Repeat([huge], 3));
+        AssertLimit($"{FractalLimits.Levels.Value} levels", () => fractal.Repeat([huge], 3));
         FractalStep set = TransformationSet.Of(Halves);
         var threeLevels = fractal.Repeat([set, set, set], 3);
-        AssertLimit($"{FractalLimits.MaxLevels} levels", () => threeLevels.WithDepth(FractalLimits.MaxDepth));
+        AssertLimit($"{FractalLimits.Levels.Value} levels", () => threeLevels.WithDepth((int)FractalLimits.Depth.Value));
     }
 
     [Fact]

@@ -30,7 +30,7 @@ internal sealed class CameraPath
     /// <exception cref="UsageException">There are fewer than two cameras.</exception>
     public static CameraPath Read(string path, Handedness handedness)
     {
-        var source = StandardInput.ReadOrFile(path, ParsingLimits.MaxDescriptionBytes);
+        var source = StandardInput.ReadOrFile(path, ParsingLimits.DescriptionBytes.Value);
         Camera[] cameras =
         [
             .. source.Text.ReplaceLineEndings("\n").Split('\n')

@@ -40,9 +40,9 @@ internal static class ExportCommand
 
     private static int Run(string path, LoadOptions options, string output, bool hasMaterials, WrittenReport report)
     {
-        if (options.Depth > FractalLimits.MaxDepth)
+        if (options.Depth > FractalLimits.Depth.Value)
         {
-            throw new FractalLimitException($"--depth {options.Depth} exceeds the limit of {FractalLimits.MaxDepth}");
+            throw new FractalLimitException($"--depth {options.Depth} exceeds the limit of {FractalLimits.Depth.Value}");
         }
 
         var file = report.Measure("load", () => ConsoleLoader.Load(path, options));
@@ -58,14 +58,14 @@ internal static class ExportCommand
         {
             if (materials is null)
             {
-                OutputFile.Write(output, stream => faceCount = ObjSceneWriter.Write(file.Scene, stream, FractalLimits.MaxExportedFaces));
+                OutputFile.Write(output, stream => faceCount = ObjSceneWriter.Write(file.Scene, stream, FractalLimits.ExportedFaces.Value));
             }
             else
             {
                 OutputFile.WritePair(
                     materials.Path, materials.Write,
                     output, stream => faceCount = ObjSceneWriter.Write(
-                        file.Scene, stream, FractalLimits.MaxExportedFaces, materials.Materials, materials.Name));
+                        file.Scene, stream, FractalLimits.ExportedFaces.Value, materials.Materials, materials.Name));
             }
         });
         var faces = faceCount == 1 ? "1 face" : FormattableString.Invariant($"{faceCount} faces");

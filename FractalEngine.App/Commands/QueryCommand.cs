@@ -87,7 +87,7 @@ internal static class QueryCommand
     {
         StandardInput.RequireOnce(path, pointsPath);
         var file = ConsoleLoader.Load(path, options);
-        var points = PointsParser.Parse(StandardInput.ReadOrFile(pointsPath, ParsingLimits.MaxPointsBytes));
+        var points = PointsParser.Parse(StandardInput.ReadOrFile(pointsPath, ParsingLimits.PointsBytes.Value));
         var clock = Stopwatch.StartNew();
         var collider = BuildCollider(file, kind);
         var buildTime = clock.Elapsed;

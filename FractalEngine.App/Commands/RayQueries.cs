@@ -26,7 +26,7 @@ internal static class RayQueries
     {
         StandardInput.RequireOnce(path, raysPath);
         var file = ConsoleLoader.Load(path, options);
-        var rays = RaysParser.Parse(StandardInput.ReadOrFile(raysPath, ParsingLimits.MaxPointsBytes));
+        var rays = RaysParser.Parse(StandardInput.ReadOrFile(raysPath, ParsingLimits.PointsBytes.Value));
         RequireReach(file, RayCaster.MaxCoordinate, "rays");
         var clock = Stopwatch.StartNew();
         var caster = new SceneRayCaster(file.Scene);

@@ -31,7 +31,7 @@ internal sealed class DrawOptions
     private readonly Option<int?> _maxInstances = NumberOption.Integer(
         "--instances", "N", 1, MaxInstances,
         $"Maximum number of instances in a frame (default: {DefaultCulling.InstanceBudget}); "
-        + $"with --detail 0, of each fractal (default: {FractalLimits.MaxDrawnInstances}).");
+        + $"with --detail 0, of each fractal (default: {FractalLimits.DrawnInstances.Value}).");
 
     private readonly Option<int?> _sampleCount = NumberOption.Integer(
         "--samples", "N", 0, MaxSamples, $"Samples per pixel for antialiasing, 0 for none (default: {DefaultSettings.Samples}).");

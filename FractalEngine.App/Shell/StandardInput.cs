@@ -84,7 +84,7 @@ internal static class StandardInput
 
     /// <summary>Adds the text of the standard input to the options of a file that is named <c>-</c>.</summary>
     public static LoadOptions AddTo(LoadOptions options, string path) =>
-        path == Name ? options with { Text = Read(Name, Parsing.Text.ParsingLimits.MaxDescriptionBytes) } : options;
+        path == Name ? options with { Text = Read(Name, Parsing.Text.ParsingLimits.DescriptionBytes.Value) } : options;
 
     /// <summary>
     /// Tells whether the program was started without a standard input. The runtime has taken its number for a pipe of its own then, and

@@ -93,7 +93,7 @@ internal static class LoadingTable
         [
             ("count the line feeds", () => _sink = bytes.AsSpan().Count((byte)'\n')),
             ("read numbers with Utf8Parser, keep nothing", () => _sink = SumNumbers(bytes)),
-            ("read by the grammar alone", () => ObjParser.Parse(SourceText.Read(file, file, ParsingLimits.MaxObjBytes))),
+            ("read by the grammar alone", () => ObjParser.Parse(SourceText.Read(file, file, ParsingLimits.ObjBytes.Value))),
             ("read on one thread", () => Read(file, threadCount: 1)),
             ("read on two threads", () => Read(file, threadCount: 2)),
         ];
@@ -107,7 +107,7 @@ internal static class LoadingTable
 
     private static void Read(string file, int threadCount)
     {
-        using var stream = SourceText.OpenFile(file, file, ParsingLimits.MaxObjBytes);
+        using var stream = SourceText.OpenFile(file, file, ParsingLimits.ObjBytes.Value);
         ObjReader.Read(stream, file, threadCount: threadCount);
     }
 

@@ -33,7 +33,7 @@ internal sealed record FractalCase(string Name, Fractal Fractal)
     {
         [var name] => Names.Contains(name),
         [var name, var depth] =>
-            Names.Contains(name) && CommandLineParser.TryParseCount(depth, out var count) && count <= FractalLimits.MaxDepth,
+            Names.Contains(name) && CommandLineParser.TryParseCount(depth, out var count) && count <= FractalLimits.Depth.Value,
         _ => false,
     };
 

@@ -194,10 +194,10 @@ public sealed class FractalCollider : Collider
 
     private static void RequireAllowedTests(long count)
     {
-        if (count > FractalLimits.MaxDescentTests)
+        if (count > FractalLimits.DescentTests.Value)
         {
             throw new FractalLimitException(
-                $"the descent of a query tests more than the limit of {FractalLimits.MaxDescentTests} faces: "
+                $"the descent of a query tests more than the limit of {FractalLimits.DescentTests.Value} faces: "
                 + "its cost grows with the depth");
         }
     }

@@ -175,7 +175,7 @@ internal sealed class CameraFrame(LodHierarchy hierarchy, FractalPath path, Affi
     /// <summary>Enters the child whose distance is smallest compared with its size, if it is close enough.</summary>
     private bool TryEnterClosestChild()
     {
-        if (Depth >= FractalLimits.MaxDepth)
+        if (Depth >= FractalLimits.Depth.Value)
         {
             return false;
         }
@@ -209,7 +209,7 @@ internal sealed class CameraFrame(LodHierarchy hierarchy, FractalPath path, Affi
     private bool TryEnter(int child)
     {
         var childToCamera = FrameToCamera * Path.CurrentNode.ChildMaps[child].ToAffineMap();
-        if (Depth >= FractalLimits.MaxDepth || IsNearlySingular(childToCamera.Linear)
+        if (Depth >= FractalLimits.Depth.Value || IsNearlySingular(childToCamera.Linear)
             || LogUnit + (Math.Log(Math.Abs(childToCamera.Linear.Determinant())) / 3) < _smallestUnit)
         {
             return false;

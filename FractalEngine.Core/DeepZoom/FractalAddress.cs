@@ -13,7 +13,7 @@ namespace FractalEngine.Core.DeepZoom;
 /// <remarks>
 /// As the camera moves, the sub-fractal is replaced by one further in or further out. So all numbers stay about 1 and nothing loses
 /// precision, however deep the camera goes. This replaces the paper's m ← m·t (§4.3.2), which keeps one matrix and loses it at about
-/// level 50. Memory: 16 bytes a level, at most <see cref="FractalLimits.MaxDepth"/> levels. Lengths are in a unit that changes with the
+/// level 50. Memory: 16 bytes a level, at most <see cref="FractalLimits.Depth"/> levels. Lengths are in a unit that changes with the
 /// depth; perspective shows the same in any unit.
 /// </remarks>
 public sealed class FractalAddress

@@ -22,7 +22,7 @@ public static class DistinctInstances
     /// <param name="fractal">Fractal of any composition and depth.</param>
     /// <param name="budget">
     /// Maximum number of chains that are expanded, and where there are more, of distinct instances of a level; null for
-    /// <see cref="FractalLimits.MaxCountedInstances"/> and <see cref="FractalLimits.MaxEnumeratedInstances"/>.
+    /// <see cref="FractalLimits.CountedInstances"/> and <see cref="FractalLimits.EnumeratedInstances"/>.
     /// </param>
     /// <returns>The exact number; null for an infinite fractal, or if there are too many to enumerate and no proof succeeds.</returns>
     public static BigInteger? Count(Fractal fractal, long? budget = null)
@@ -32,8 +32,8 @@ public static class DistinctInstances
             return null;
         }
 
-        var maxInstances = budget ?? FractalLimits.MaxEnumeratedInstances;
-        var maxChains = budget ?? FractalLimits.MaxCountedInstances;
+        var maxInstances = budget ?? FractalLimits.EnumeratedInstances.Value;
+        var maxChains = budget ?? FractalLimits.CountedInstances.Value;
         if (AreProvedDistinct(fractal))
         {
             return fractal.InstanceCount;

@@ -74,7 +74,7 @@ internal sealed class DistinctList<T>(EntryWriter<T> write, int capacity)
             first = Count++;
         }
 
-        return _comparisons <= FractalLimits.MaxComparedProducts + ((long)ComparisonsPerItem * _items.Length);
+        return _comparisons <= FractalLimits.ComparedProducts.Value + ((long)ComparisonsPerItem * _items.Length);
     }
 
     private static int[] EmptyChains(int capacity)

@@ -92,7 +92,7 @@ public sealed class Fractal : IEquatable<Fractal>
     /// transformations.
     /// </summary>
     /// <param name="transformations">The set, in its order; an empty one leaves nothing.</param>
-    /// <param name="depth">How often, not negative and at most <see cref="FractalLimits.MaxDepth"/>; null for the infinite fractal.</param>
+    /// <param name="depth">How often, not negative and at most <see cref="FractalLimits.Depth"/>; null for the infinite fractal.</param>
     /// <returns>A fractal of <c>n^depth</c> times as many instances for a set of n; costs no more memory than the set.</returns>
     /// <exception cref="ArgumentOutOfRangeException">The depth is negative or beyond the limit.</exception>
     /// <exception cref="FractalLimitException">The result exceeds one of <see cref="FractalLimits"/>.</exception>
@@ -103,7 +103,7 @@ public sealed class Fractal : IEquatable<Fractal>
 
     /// <summary>Repeats a round of steps, such as several sets after one another.</summary>
     /// <param name="round">Outermost first: the last one is applied first. At least one, and only finite ones.</param>
-    /// <param name="depth">How often, not negative and at most <see cref="FractalLimits.MaxDepth"/>; null for the infinite fractal.</param>
+    /// <param name="depth">How often, not negative and at most <see cref="FractalLimits.Depth"/>; null for the infinite fractal.</param>
     /// <exception cref="ArgumentException">The round is empty or infinite, or the depth is out of range.</exception>
     /// <exception cref="FractalLimitException">The result exceeds one of <see cref="FractalLimits"/>.</exception>
     /// <exception cref="InvalidOperationException">The fractal is infinite already.</exception>
@@ -112,7 +112,7 @@ public sealed class Fractal : IEquatable<Fractal>
         if (depth is { } count)
         {
             ArgumentOutOfRangeException.ThrowIfNegative(count, nameof(depth));
-            ArgumentOutOfRangeException.ThrowIfGreaterThan(count, FractalLimits.MaxDepth, nameof(depth));
+            ArgumentOutOfRangeException.ThrowIfGreaterThan(count, FractalLimits.Depth.Value, nameof(depth));
         }
 
         return Prepend(new Repetition([.. round], depth));
@@ -132,9 +132,9 @@ public sealed class Fractal : IEquatable<Fractal>
         : With(Description with { Composition = composition });
 
     /// <summary>Makes the same fractal at another depth, see <see cref="FractalDescription.WithDepth"/>.</summary>
-    /// <param name="depth">Not negative and at most <see cref="FractalLimits.MaxDepth"/>.</param>
+    /// <param name="depth">Not negative and at most <see cref="FractalLimits.Depth"/>.</param>
     /// <exception cref="ArgumentOutOfRangeException">The depth is negative or beyond the limit, which the message names.</exception>
-    /// <exception cref="FractalLimitException">The fractal would have more than <see cref="FractalLimits.MaxLevels"/> levels.</exception>
+    /// <exception cref="FractalLimitException">The fractal would have more than <see cref="FractalLimits.Levels"/> levels.</exception>
     /// <exception cref="InvalidOperationException">Nothing in the fractal is repeated.</exception>
     public Fractal WithDepth(int depth) => With(Description.WithDepth(depth));
 
@@ -206,7 +206,7 @@ public sealed class Fractal : IEquatable<Fractal>
         var perRound = FractalSteps.CountUpTo(repetition.Round, maxInstances);
         if (perRound <= 1)
         {
-            return repetition.Count ?? FractalLimits.MaxDepth;
+            return repetition.Count ?? (int)FractalLimits.Depth.Value;
         }
 
         var count = 0;

@@ -50,12 +50,12 @@ public static class FractalGenerator
     /// <param name="fractal">Fractal with finitely many levels.</param>
     /// <param name="maxInstances">
     /// Maximum number of instances. Where there are more chains, each level is limited to
-    /// <see cref="FractalLimits.MaxEnumeratedInstances"/> distinct ones as well.
+    /// <see cref="FractalLimits.EnumeratedInstances"/> distinct ones as well.
     /// </param>
     /// <exception cref="FractalLimitException">The fractal has more instances, or takes too long to enumerate.</exception>
     /// <remarks>
     /// Time is proportional to the distinct instances of all levels times the maps of a level, whatever the number of chains:
-    /// <see cref="FractalLimits.MaxComparedProducts"/> at most.
+    /// <see cref="FractalLimits.ComparedProducts"/> at most.
     /// </remarks>
     public static ImmutableArray<AffineMap> ExpandDistinct(this Fractal fractal, long maxInstances)
     {
@@ -66,7 +66,8 @@ public static class FractalGenerator
             return Expand(fractal, maxInstances);
         }
 
-        return TryExpandLevels(fractal, Math.Min(maxInstances, FractalLimits.MaxEnumeratedInstances), FractalLimits.MaxComparedProducts)
+        var maxDistinct = Math.Min(maxInstances, FractalLimits.EnumeratedInstances.Value);
+        return TryExpandLevels(fractal, maxDistinct, FractalLimits.ComparedProducts.Value)
             ?? throw LimitError(fractal, maxInstances);
     }
 
@@ -209,7 +210,7 @@ public static class FractalGenerator
     /// <summary>Expands a fractal in componentwise composition into its distinct sums.</summary>
     /// <param name="fractal">Fractal with finitely many levels.</param>
     /// <param name="maxInstances">
-    /// Maximum number of distinct sums, at most <see cref="FractalLimits.MaxComponentwiseSums"/>.
+    /// Maximum number of distinct sums, at most <see cref="FractalLimits.ComponentwiseSums"/>.
     /// </param>
     /// <remarks>Since this composition commutes, the number of sums grows like a power of the depth only.</remarks>
     /// <exception cref="FractalLimitException">There are more than <paramref name="maxInstances"/>, or the fractal is infinite.</exception>
@@ -223,16 +224,16 @@ public static class FractalGenerator
             throw new FractalLimitException("an infinite fractal can't be composed componentwise: its positions don't shrink");
         }
 
-        maxInstances = Math.Min(maxInstances, FractalLimits.MaxComponentwiseSums);
+        maxInstances = Math.Min(maxInstances, FractalLimits.ComponentwiseSums.Value);
         ReadOnlyMemory<Transformation> sums = new[] { Transformation.Identity };
         var compared = 0L;
         foreach (var set in LevelsOf(fractal).Select(static set => set.Transformations))
         {
             compared += sums.Length * (long)set.Length;
-            if (compared > FractalLimits.MaxComparedProducts)
+            if (compared > FractalLimits.ComparedProducts.Value)
             {
                 throw new FractalLimitException(
-                    $"the sums of all levels are more than the limit of {FractalLimits.MaxComparedProducts} compared ones");
+                    $"the sums of all levels are more than the limit of {FractalLimits.ComparedProducts.Value} compared ones");
             }
 
             sums = DistinctMaps.Sums(set.AsSpan(), sums.Span, maxInstances)?.Items ?? throw new FractalLimitException(

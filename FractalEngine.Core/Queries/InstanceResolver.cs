@@ -73,7 +73,7 @@ internal static class InstanceResolver
                 if (edge.Set.Power is { } power)
                 {
                     exponent = AppendPower(power, context, exponent, childLevels);
-                    end ??= exponent == 0 && power.Count > FractalLimits.MaxDepth ? context.InstancePath.Length : null;
+                    end ??= exponent == 0 && power.Count > FractalLimits.Depth.Value ? context.InstancePath.Length : null;
                     remainingLevels = childLevels;
                     continue;
                 }
@@ -82,7 +82,7 @@ internal static class InstanceResolver
                 // Levels that are skipped take their identity. A path that ends early goes on with identities, and one that takes them
                 // without end can't name what follows.
                 var lastSkipped = isIdentity ? childLevels : childLevels + 1;
-                var maxSkipped = isIdentity && childLevels == 0 ? MaxDepth : FractalLimits.MaxDepth;
+                var maxSkipped = isIdentity && childLevels == 0 ? MaxDepth : FractalLimits.Depth.Value;
                 end ??= remainingLevels - lastSkipped > maxSkipped ? context.InstancePath.Length : null;
                 for (var level = remainingLevels; level > lastSkipped && end is null; level--)
                 {
@@ -125,7 +125,7 @@ internal static class InstanceResolver
         }
 
         // A path that ends early goes on with identities.
-        for (var i = exponent; i < power.Count && power.Count <= (power.LevelBelow > 0 ? FractalLimits.MaxDepth : MaxDepth); i++)
+        for (var i = exponent; i < power.Count && power.Count <= (power.LevelBelow > 0 ? FractalLimits.Depth.Value : MaxDepth); i++)
         {
             context.AppendToPath(power.IdentityIndex);
         }

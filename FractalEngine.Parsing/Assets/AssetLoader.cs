@@ -34,7 +34,7 @@ public sealed class AssetLoader
         if (_options.Depth is { } depth)
         {
             ArgumentOutOfRangeException.ThrowIfNegative(depth, nameof(options));
-            ArgumentOutOfRangeException.ThrowIfGreaterThan(depth, FractalLimits.MaxDepth, nameof(options));
+            ArgumentOutOfRangeException.ThrowIfGreaterThan(depth, FractalLimits.Depth.Value, nameof(options));
         }
 
         _isCached = cache is not null;
@@ -123,7 +123,7 @@ public sealed class AssetLoader
 
     private LoadedFile LoadScene()
     {
-        var text = _models.ReadText(_fullPath, _path, ParsingLimits.MaxDescriptionBytes);
+        var text = _models.ReadText(_fullPath, _path, ParsingLimits.DescriptionBytes.Value);
         var parsed = _findsAllFaults ? SceneParser.Parse(text, _errors) : SceneParser.Parse(text);
         _models.Warnings.AddRange(parsed.Warnings);
         var objects = ImmutableArray.CreateBuilder<SceneObject>(parsed.Scene.Objects.Length);

@@ -15,7 +15,7 @@ public sealed record LoadOptions
     public Composition? Composition { get; init; }
 
     /// <summary>
-    /// Depth of all fractals that have one, from 0 to <see cref="FractalLimits.MaxDepth"/>; null for what each file states.
+    /// Depth of all fractals that have one, from 0 to <see cref="FractalLimits.Depth"/>; null for what each file states.
     /// </summary>
     public int? Depth { get; init; }
 

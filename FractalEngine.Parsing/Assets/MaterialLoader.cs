@@ -156,7 +156,7 @@ internal sealed class MaterialLoader(
     private ParsedMtl ReadOrFind(string fullPath, string displayName) =>
         AssetCache.ReadOrFind(cache, fullPath, record.Add(fullPath), () =>
         {
-            var file = MtlParser.Parse(SourceText.Read(fullPath, displayName, ParsingLimits.MaxMaterialBytes, acceptLatin1: true));
+            var file = MtlParser.Parse(SourceText.Read(fullPath, displayName, ParsingLimits.MaterialBytes.Value, acceptLatin1: true));
             cache?.ReadCount += 1;
             return file;
         });

@@ -173,7 +173,7 @@ internal sealed class ModelLoader
         _textBytes = bytesBefore + parsed.Source.ByteCount;
         return parsed;
 
-        ParsedFractal Read() => FractalParser.Parse(ReadText(fullPath, displayName, ParsingLimits.MaxDescriptionBytes));
+        ParsedFractal Read() => FractalParser.Parse(ReadText(fullPath, displayName, ParsingLimits.DescriptionBytes.Value));
     }
 
     private ParsedObj ReadOrFindMesh(string fullPath, string displayName) =>

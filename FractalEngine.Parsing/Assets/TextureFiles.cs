@@ -80,9 +80,9 @@ internal sealed class TextureFiles(FileReferenceResolver references, List<Diagno
             }
 
             using var stream = new FileStream(fullPath, FileMode.Open, FileAccess.Read, FileShare.Read);
-            if (stream.Length > ParsingLimits.MaxImageBytes)
+            if (stream.Length > ParsingLimits.ImageBytes.Value)
             {
-                throw source.Error(offset, $"the image \"{file}\" is larger than the limit of {ParsingLimits.MaxImageBytes} bytes",
+                throw source.Error(offset, $"the image \"{file}\" is larger than the limit of {ParsingLimits.ImageBytes.Value} bytes",
                     isLimitExceeded: true);
             }
 
@@ -92,17 +92,17 @@ internal sealed class TextureFiles(FileReferenceResolver references, List<Diagno
                 throw source.Error(offset, $"\"{file}\" is not a PNG, JPEG, BMP or TGA image");
             }
 
-            if (Math.Max(width, height) > ParsingLimits.MaxImageSide)
+            if (Math.Max(width, height) > ParsingLimits.ImageSide.Value)
             {
                 throw source.Error(offset,
-                    $"the image \"{file}\" has {width}×{height} pixels, more than the limit of {ParsingLimits.MaxImageSide} per side",
+                    $"the image \"{file}\" has {width}×{height} pixels, more than the limit of {ParsingLimits.ImageSide.Value} per side",
                     isLimitExceeded: true);
             }
 
-            if (_totalPixels + (width * height) > ParsingLimits.MaxTotalImagePixels)
+            if (_totalPixels + (width * height) > ParsingLimits.TotalImagePixels.Value)
             {
                 throw source.Error(offset,
-                    $"with \"{file}\" all images have more than the limit of {ParsingLimits.MaxTotalImagePixels} pixels",
+                    $"with \"{file}\" all images have more than the limit of {ParsingLimits.TotalImagePixels.Value} pixels",
                     isLimitExceeded: true);
             }
 

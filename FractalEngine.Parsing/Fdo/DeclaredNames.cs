@@ -36,10 +36,10 @@ internal sealed class DeclaredNames(SourceText source)
 
     private void Add<T>(Dictionary<string, (T Value, int Offset)> names, string kind, Cursor cursor, string name, T value)
     {
-        if (_objects.Count + _functions.Count >= ParsingLimits.MaxNames)
+        if (_objects.Count + _functions.Count >= ParsingLimits.Names.Value)
         {
             throw source.Error(
-                cursor.Offset, $"the file has more than the limit of {ParsingLimits.MaxNames} names", isLimitExceeded: true);
+                cursor.Offset, $"the file has more than the limit of {ParsingLimits.Names.Value} names", isLimitExceeded: true);
         }
 
         if (!names.TryAdd(name, (value, cursor.Offset)))

@@ -132,10 +132,9 @@ public sealed class FractalParser : TransformationParser
             throw Error(cursor, $"the result '<$>' is declared twice, first in line {Source.LineOf(first.Offset)}");
         }
 
-        RequireLimit(value.Steps.LevelCount, FractalLimits.MaxLevels, "the fractal", "levels", cursor);
-        RequireLimit(
-            FractalSteps.EstimateDigits(value.Steps.Take(value.Steps.Count)), FractalLimits.MaxDigits, "the number of instances", "digits",
-            cursor);
+        RequireLimit(value.Steps.LevelCount, FractalLimits.Levels.Value, "the fractal", "levels", cursor);
+        var digits = FractalSteps.EstimateDigits(value.Steps.Take(value.Steps.Count));
+        RequireLimit(digits, FractalLimits.Digits.Value, "the number of instances", "digits", cursor);
         _result = (value, cursor.Offset);
         return true;
     }
@@ -169,8 +168,8 @@ public sealed class FractalParser : TransformationParser
         }
 
         RequireLimit(
-            body.Steps.LevelCount - baseObject.Steps.LevelCount, FractalLimits.MaxLevels, "the fractal", "levels", bodyStart);
-        RequireLimit(_repeatedStepCount += stepCount, ParsingLimits.MaxRepeatedSteps, "the file", "steps in all recursives", bodyStart);
+            body.Steps.LevelCount - baseObject.Steps.LevelCount, FractalLimits.Levels.Value, "the fractal", "levels", bodyStart);
+        RequireLimit(_repeatedStepCount += stepCount, ParsingLimits.RepeatedSteps.Value, "the file", "steps in all recursives", bodyStart);
         Names.Add(cursor, name, new DeclaredRecursive(baseObject, body.Steps.Take(stepCount)));
         return true;
     }
@@ -261,9 +260,9 @@ public sealed class FractalParser : TransformationParser
             throw Error(depthStart, $"'{name}' is no recursive, so it has no depth");
         }
 
-        if (depth > FractalLimits.MaxDepth)
+        if (depth > FractalLimits.Depth.Value)
         {
-            throw Error(depthStart, $"the depth is more than the limit of {FractalLimits.MaxDepth}", isLimitExceeded: true);
+            throw Error(depthStart, $"the depth is more than the limit of {FractalLimits.Depth.Value}", isLimitExceeded: true);
         }
 
         value = recursive.WithDepth(depth);
@@ -281,9 +280,9 @@ public sealed class FractalParser : TransformationParser
 
     private void RequireStepLimits(DeclaredSteps steps, Cursor cursor)
     {
-        if (steps.Count > FractalLimits.MaxSteps || steps.NestingDepth > FractalLimits.MaxNesting)
+        if (steps.Count > FractalLimits.Steps.Value || steps.NestingDepth > FractalLimits.Nesting.Value)
         {
-            var limits = $"{FractalLimits.MaxSteps} steps, or of {FractalLimits.MaxNesting} recursives inside each other";
+            var limits = $"{FractalLimits.Steps.Value} steps, or of {FractalLimits.Nesting.Value} recursives inside each other";
             throw Error(cursor, $"the object has more than the limit of {limits}", isLimitExceeded: true);
         }
     }

@@ -171,7 +171,7 @@ public abstract class TransformationParser : Parser
             return false;
         }
 
-        var transformations = ImmutableArray.CreateBuilder<Transformation>(Math.Min(CountCalls(rest), ParsingLimits.MaxMaps));
+        var transformations = ImmutableArray.CreateBuilder<Transformation>((int)Math.Min(CountCalls(rest), ParsingLimits.Maps.Value));
 
         for (var first = true; rest.Current != ']'; first = false)
         {
@@ -180,7 +180,7 @@ public abstract class TransformationParser : Parser
                 return false;
             }
 
-            RequireLimit(++_mapCount, ParsingLimits.MaxMaps, "the file", "transformations in all sets", rest);
+            RequireLimit(++_mapCount, ParsingLimits.Maps.Value, "the file", "transformations in all sets", rest);
             transformations.Add(transformation);
             if (ParseBlanks(rest, out var next) && next.Current == ']')
             {

@@ -42,7 +42,7 @@ internal sealed class MeshBytes
     /// <exception cref="SourceException">The file is missing, unreadable or too large.</exception>
     public static MeshBytes Read(string path, string fileName)
     {
-        using var stream = SourceText.OpenFile(path, fileName, ParsingLimits.MaxObjBytes);
+        using var stream = SourceText.OpenFile(path, fileName, ParsingLimits.ObjBytes.Value);
         var bytes = new MeshBytes(fileName, (int)stream.Length);
         return SourceText.Access(fileName, () =>
         {

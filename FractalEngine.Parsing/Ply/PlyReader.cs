@@ -135,10 +135,11 @@ public sealed class PlyReader
     private void ReadFace(PlyProperty property)
     {
         var cornerCount = ReadLength(property);
-        if (cornerCount > ParsingLimits.MaxPolygonCorners)
+        if (cornerCount > ParsingLimits.PolygonCorners.Value)
         {
+            var limit = ParsingLimits.PolygonCorners.Value;
             throw _values.Error(FormattableString.Invariant(
-                $"the polygon has {cornerCount} corners, more than the limit of {ParsingLimits.MaxPolygonCorners}"), isLimitExceeded: true);
+                $"the polygon has {cornerCount} corners, more than the limit of {limit}"), isLimitExceeded: true);
         }
 
         for (var corner = 0; corner < cornerCount; corner++)

@@ -57,13 +57,13 @@ public sealed class SceneParser : SceneObjectParser
     private ParsedScene ParseFile(ICollection<Diagnostic>? faults)
     {
         // Arrays that grow would be several times as large.
-        Objects.EnsureCapacity(Math.Min(ParsingLimits.MaxSceneLines, Source.Text.AsSpan().Count('\n') + 1));
+        Objects.EnsureCapacity((int)Math.Min(ParsingLimits.SceneLines.Value, Source.Text.AsSpan().Count('\n') + 1));
         var lines = ImmutableArray.CreateBuilder<SceneLine>(Objects.Capacity);
         for (var cursor = Source.Start; !cursor.IsAtEnd;)
         {
-            if (lines.Count >= ParsingLimits.MaxSceneLines)
+            if (lines.Count >= ParsingLimits.SceneLines.Value)
             {
-                throw Error(cursor, $"the scene has more than the limit of {ParsingLimits.MaxSceneLines} lines", isLimitExceeded: true);
+                throw Error(cursor, $"the scene has more than the limit of {ParsingLimits.SceneLines.Value} lines", isLimitExceeded: true);
             }
 
             if (!TryParseLine(cursor, faults, out var kind, out var rest))

@@ -6,89 +6,53 @@ namespace FractalEngine.Parsing.Text;
 /// <summary>Limits on the input of all parsers. Each bounds time or memory and is named in the error that it causes.</summary>
 public static class ParsingLimits
 {
-    /// <summary>The limit of <see cref="MaxObjBytes"/>.</summary>
+    /// <summary>Largest size of a mesh file in bytes, decompressed: 1 GiB. Reading takes up to twice the memory of the mesh.</summary>
     public static Limit ObjBytes { get; } = new(
         "obj-bytes", 1L << 30, "bytes of a mesh file", "reading takes up to twice the memory of the mesh", 1L << 40);
 
-    /// <summary>Largest size of a mesh file in bytes, decompressed: 1 GiB. Reading takes up to twice the memory of the mesh.</summary>
-    public static long MaxObjBytes => ObjBytes.Value;
-
-    /// <summary>The limit of <see cref="MaxDescriptionBytes"/>.</summary>
+    /// <summary>Largest size of a scene or fractal file in bytes: 16 MiB, far beyond what anyone writes.</summary>
     public static Limit DescriptionBytes { get; } = new(
         "description-bytes", 1L << 24, "bytes of a scene or fractal file", "far beyond what anyone writes");
 
-    /// <summary>Largest size of a scene or fractal file in bytes: 16 MiB, far beyond what anyone writes.</summary>
-    public static long MaxDescriptionBytes => DescriptionBytes.Value;
-
-    /// <summary>The limit of <see cref="MaxSceneLines"/>.</summary>
+    /// <summary>Largest number of lines of a scene file: about 70 MB where each is an object.</summary>
     public static Limit SceneLines { get; } = new(
         "scene-lines", 100_000, "lines of a scene file", "about 70 MB where each is an object");
 
-    /// <summary>Largest number of lines of a scene file: about 70 MB where each is an object.</summary>
-    public static int MaxSceneLines => (int)SceneLines.Value;
-
-    /// <summary>The limit of <see cref="MaxPointsBytes"/>.</summary>
+    /// <summary>Largest size of a file of points in bytes: 256 MiB.</summary>
     public static Limit PointsBytes { get; } = new(
         "points-bytes", 1L << 28, "bytes of a file of points", "memory: the text is held as a whole", 1L << 29);
 
-    /// <summary>Largest size of a file of points in bytes: 256 MiB.</summary>
-    public static long MaxPointsBytes => PointsBytes.Value;
-
-    /// <summary>The limit of <see cref="MaxMaps"/>.</summary>
+    /// <summary>Largest number of transformations in all sets of a fractal file: about 50 MB.</summary>
     public static Limit Maps { get; } = new(
         "maps", 200_000, "transformations in all sets of a fractal file", "about 50 MB");
 
-    /// <summary>Largest number of transformations in all sets of a fractal file: about 50 MB.</summary>
-    public static int MaxMaps => (int)Maps.Value;
-
-    /// <summary>The limit of <see cref="MaxNames"/>.</summary>
+    /// <summary>Largest number of named objects and transformations of a fractal file: about 70 MB.</summary>
     public static Limit Names { get; } = new(
         "names", 150_000, "named objects and transformations of a fractal file", "about 70 MB");
 
-    /// <summary>Largest number of named objects and transformations of a fractal file: about 70 MB.</summary>
-    public static int MaxNames => (int)Names.Value;
-
-    /// <summary>The limit of <see cref="MaxRepeatedSteps"/>.</summary>
+    /// <summary>Largest number of steps that all recursives of a fractal file repeat: 8 MB.</summary>
     public static Limit RepeatedSteps { get; } = new(
         "repeated-steps", 1_000_000, "steps that all recursives of a fractal file repeat", "8 MB");
 
-    /// <summary>Largest number of steps that all recursives of a fractal file repeat: 8 MB.</summary>
-    public static int MaxRepeatedSteps => (int)RepeatedSteps.Value;
-
-    /// <summary>The limit of <see cref="MaxMaterialBytes"/>.</summary>
+    /// <summary>Largest size of a material file in bytes: 16 MiB.</summary>
     public static Limit MaterialBytes { get; } = new(
         "material-bytes", 1L << 24, "bytes of a material file", "far beyond what anyone writes");
 
-    /// <summary>Largest size of a material file in bytes: 16 MiB.</summary>
-    public static long MaxMaterialBytes => MaterialBytes.Value;
-
-    /// <summary>The limit of <see cref="MaxImageBytes"/>.</summary>
+    /// <summary>Largest size of an image file in bytes: 64 MiB.</summary>
     public static Limit ImageBytes { get; } = new(
         "image-bytes", 1L << 26, "bytes of an image file", "memory");
 
-    /// <summary>Largest size of an image file in bytes: 64 MiB.</summary>
-    public static long MaxImageBytes => ImageBytes.Value;
-
-    /// <summary>The limit of <see cref="MaxImageSide"/>.</summary>
+    /// <summary>Largest width or height of an image in pixels: what every driver of the last fifteen years can hold.</summary>
     public static Limit ImageSide { get; } = new(
         "image-side", 8192, "pixels along a side of an image", "what every driver of the last fifteen years can hold", 1 << 16);
 
-    /// <summary>Largest width or height of an image in pixels: what every driver of the last fifteen years can hold.</summary>
-    public static int MaxImageSide => (int)ImageSide.Value;
-
-    /// <summary>The limit of <see cref="MaxTotalImagePixels"/>.</summary>
+    /// <summary>Largest number of pixels in all images that one loaded file refers to, directly or not: 512 MiB when decoded.</summary>
     public static Limit TotalImagePixels { get; } = new(
         "image-pixels", 1L << 27, "pixels of all images of one file", "512 MiB, decoded", 1L << 40);
 
-    /// <summary>Largest number of pixels in all images that one loaded file refers to, directly or not: 512 MiB when decoded.</summary>
-    public static long MaxTotalImagePixels => TotalImagePixels.Value;
-
-    /// <summary>The limit of <see cref="MaxPolygonCorners"/>.</summary>
+    /// <summary>Largest number of corners of one polygon. Cutting it takes a time that is quadratic at worst.</summary>
     public static Limit PolygonCorners { get; } = new(
         "polygon-corners", 20_000, "corners of a polygon", "cutting it takes a time of their square at worst");
-
-    /// <summary>Largest number of corners of one polygon. Cutting it takes a time that is quadratic at worst.</summary>
-    public static int MaxPolygonCorners => (int)PolygonCorners.Value;
 
     /// <summary>All limits of parsers, in the order of a listing.</summary>
     public static ImmutableArray<Limit> All { get; } =

@@ -155,9 +155,9 @@ public abstract class ObjElementParser : Parser
             return ParseCommentAndEndOfLine(rest, out rest);
         }
 
-        if (_corners.Count > ParsingLimits.MaxPolygonCorners)
+        if (_corners.Count > ParsingLimits.PolygonCorners.Value)
         {
-            throw Error(start, $"the polygon has {_corners.Count} corners, more than the limit of {ParsingLimits.MaxPolygonCorners}",
+            throw Error(start, $"the polygon has {_corners.Count} corners, more than the limit of {ParsingLimits.PolygonCorners.Value}",
                 isLimitExceeded: true);
         }
 

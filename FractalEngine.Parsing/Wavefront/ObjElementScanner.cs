@@ -214,7 +214,7 @@ internal abstract class ObjElementScanner : ObjBlockBuilder
 
         var size = corner - firstCorner;
         position = position == Utf8NumberReader.None ? position : ScanEndOfLine(ref text, position);
-        if (position == Utf8NumberReader.None || size < 3 || size > ParsingLimits.MaxPolygonCorners)
+        if (position == Utf8NumberReader.None || size < 3 || size > ParsingLimits.PolygonCorners.Value)
         {
             (_textureIndexCount, _normalIndexCount) = (textureIndexCount, normalIndexCount);
             return Utf8NumberReader.None;

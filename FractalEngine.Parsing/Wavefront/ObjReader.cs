@@ -59,13 +59,13 @@ public sealed class ObjReader
     /// <exception cref="SourceException">The file can't be read, is not an OBJ file, or refers to elements that don't exist.</exception>
     public static ParsedObj Read(string path, string fileName, IProgress<double>? progress = null)
     {
-        using var file = SourceText.OpenFile(path, fileName, ParsingLimits.MaxObjBytes);
+        using var file = SourceText.OpenFile(path, fileName, ParsingLimits.ObjBytes.Value);
         if (!FileKinds.IsCompressed(path))
         {
             return Read(file, fileName, progress);
         }
 
-        using var contents = CompressedFile.Decompress(file, fileName, ParsingLimits.MaxObjBytes);
+        using var contents = CompressedFile.Decompress(file, fileName, ParsingLimits.ObjBytes.Value);
         return Read(contents, fileName, progress) with { ByteCount = file.Length };
     }
 

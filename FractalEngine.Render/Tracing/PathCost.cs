@@ -18,14 +18,14 @@ internal static class PathCost
     /// <param name="trace">Traces one path through the pixel of a column and a row of the image.</param>
     /// <param name="cancellation">Cancels between two rows.</param>
     /// <exception cref="OperationCanceledException">The check was cancelled.</exception>
-    /// <exception cref="FractalLimitException">Their mean cost exceeds <see cref="FractalLimits.MaxTracedTests"/>.</exception>
+    /// <exception cref="FractalLimitException">Their mean cost exceeds <see cref="FractalLimits.TracedTests"/>.</exception>
     public static void Check(
         (int Left, int Top, int Width, int Height) viewport, Action<int, int, QueryContext> trace, CancellationToken cancellation)
     {
         var (left, top, width, height) = viewport;
         var columns = Math.Min(width, Columns);
         var rows = Math.Min(height, Rows);
-        var allowed = FractalLimits.MaxTracedTests * columns * rows;
+        var allowed = FractalLimits.TracedTests.Value * columns * rows;
         var context = new QueryContext();
         for (var row = 0; row < rows; row++)
         {
@@ -36,7 +36,7 @@ internal static class PathCost
                 if (context.Statistics.BoundTests + context.Statistics.FaceTests > allowed)
                 {
                     throw new FractalLimitException(
-                        $"a path of light takes more than the limit of {FractalLimits.MaxTracedTests} tests of bounds and faces "
+                        $"a path of light takes more than the limit of {FractalLimits.TracedTests.Value} tests of bounds and faces "
                         + "(traced-tests): too much of the scene overlaps");
                 }
             }

@@ -162,7 +162,7 @@ public sealed class PathTracer
     /// <exception cref="OperationCanceledException">The samples were cancelled.</exception>
     /// <exception cref="FractalLimitException">
     /// A model can't be prepared, see <see cref="RayCaster.For(Fractal)"/>; or paths take more than
-    /// <see cref="FractalLimits.MaxTracedTests"/>.
+    /// <see cref="FractalLimits.TracedTests"/>.
     /// </exception>
     public void AddSample(int? threads = null, TaskScheduler? scheduler = null, CancellationToken cancellation = default)
     {

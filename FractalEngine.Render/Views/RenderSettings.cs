@@ -24,7 +24,7 @@ public sealed record RenderSettings
     {
         get;
         init => field = RequireNotNegative(value, nameof(InstanceBudget));
-    } = FractalLimits.MaxDrawnInstances;
+    } = (int)FractalLimits.DrawnInstances.Value;
 
     /// <summary>
     /// Maximum number of triangles of one fractal without <see cref="Culling"/>. It limits the instances of large meshes further.

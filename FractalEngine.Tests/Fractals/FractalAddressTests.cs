@@ -53,7 +53,7 @@ public class FractalAddressTests
     [InlineData("turned", 0)]
     [Trait("Category", "Soak")]
     public void Move_ThroughAMillionLevels_EndsWhereItBegan(string name, int mapIndex) =>
-        CheckDive(name, mapIndex, SamplePlacement, FractalLimits.MaxDepth, 1e-9);
+        CheckDive(name, mapIndex, SamplePlacement, (int)FractalLimits.Depth.Value, 1e-9);
 
     [Theory]
     [InlineData(100)]
@@ -267,11 +267,11 @@ public class FractalAddressTests
     public void Move_AtTheDeepestLevel_GoesNoDeeper()
     {
         var dive = CreateDive("menger", 0, AffineMap.Identity);
-        dive.GoToDepth(FractalLimits.MaxDepth);
+        dive.GoToDepth((int)FractalLimits.Depth.Value);
         for (var i = 0; i < 1000; i++)
         {
             dive.Move(0.5 * dive.LocateTarget(Vector.Zero));
-            Assert.Equal(FractalLimits.MaxDepth, dive.Address.Depth);
+            Assert.Equal((int)FractalLimits.Depth.Value, dive.Address.Depth);
             Assert.True(dive.Address.FrameToCamera.IsFinite());
         }
 

@@ -1,4 +1,3 @@
-using FractalEngine.Core;
 using FractalEngine.Parsing.Text;
 using FractalEngine.Tests.Support;
 
@@ -36,29 +35,14 @@ public sealed class ParsingLimitTests
     [Fact]
     public void Values_OfChangedLimits_AreThoseOfTheirOwn()
     {
-        (Limit Limit, Func<long> Value)[] limits =
-        [
-            (ParsingLimits.ObjBytes, () => ParsingLimits.MaxObjBytes),
-            (ParsingLimits.DescriptionBytes, () => ParsingLimits.MaxDescriptionBytes),
-            (ParsingLimits.SceneLines, () => ParsingLimits.MaxSceneLines),
-            (ParsingLimits.PointsBytes, () => ParsingLimits.MaxPointsBytes),
-            (ParsingLimits.Maps, () => ParsingLimits.MaxMaps),
-            (ParsingLimits.Names, () => ParsingLimits.MaxNames),
-            (ParsingLimits.RepeatedSteps, () => ParsingLimits.MaxRepeatedSteps),
-            (ParsingLimits.MaterialBytes, () => ParsingLimits.MaxMaterialBytes),
-            (ParsingLimits.ImageBytes, () => ParsingLimits.MaxImageBytes),
-            (ParsingLimits.ImageSide, () => ParsingLimits.MaxImageSide),
-            (ParsingLimits.TotalImagePixels, () => ParsingLimits.MaxTotalImagePixels),
-            (ParsingLimits.PolygonCorners, () => ParsingLimits.MaxPolygonCorners),
-        ];
-        Assert.Equal(ParsingLimits.All.AsEnumerable(), limits.Select(static item => item.Limit));
-        foreach (var (limit, value) in limits)
+        foreach (var limit in ParsingLimits.All)
         {
-            Assert.Equal(limit.Default, value());
+            Assert.Equal(limit.Default, limit.Value);
             limit.Value = limit.Default + 7;
             try
             {
-                Assert.Equal(limit.Default + 7, value());
+                Assert.Equal([limit], ParsingLimits.All.Where(static other => other.Value != other.Default));
+                Assert.Equal(limit.Default + 7, limit.Value);
             }
             finally
             {

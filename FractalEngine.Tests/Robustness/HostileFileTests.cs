@@ -40,9 +40,10 @@ public sealed class HostileFileTests : IDisposable
     [Fact]
     public void Load_OfMoreLinesThanTheLimit_NamesIt()
     {
-        var error = Errors.ThrownBy(() => SceneParser.Parse(new("a.sdo", new string('\n', ParsingLimits.MaxSceneLines + 1)))).Diagnostic;
+        var lines = new string('\n', (int)ParsingLimits.SceneLines.Value + 1);
+        var error = Errors.ThrownBy(() => SceneParser.Parse(new("a.sdo", lines))).Diagnostic;
         Assert.True(error.IsLimitExceeded);
-        Assert.Equal($"the scene has more than the limit of {ParsingLimits.MaxSceneLines} lines", error.Message);
+        Assert.Equal($"the scene has more than the limit of {ParsingLimits.SceneLines.Value} lines", error.Message);
     }
 
     [Theory]
@@ -50,7 +51,8 @@ public sealed class HostileFileTests : IDisposable
     public void Load_OfManyNamesOverManySteps_SharesTheSteps(int count)
     {
         var names = Lines(count, i => $"n{i}. [#] y\n");
-        var text = "x. \"t.obj\"\ny. " + string.Concat(Enumerable.Repeat("[#] ", FractalLimits.MaxSteps - 1)) + "x\n" + names + "<$>. y\n";
+        var steps = string.Concat(Enumerable.Repeat("[#] ", (int)FractalLimits.Steps.Value - 1));
+        var text = "x. \"t.obj\"\ny. " + steps + "x\n" + names + "<$>. y\n";
         var before = GC.GetAllocatedBytesForCurrentThread();
         Samples.ParseFractal(text);
         // Each name would copy 8 kB of steps, 80 MB in all.
@@ -60,10 +62,10 @@ public sealed class HostileFileTests : IDisposable
     [Fact]
     public void Load_OfMoreMapsThanTheLimit_NamesIt()
     {
-        var maps = string.Concat(Enumerable.Repeat("#,", ParsingLimits.MaxMaps));
+        var maps = string.Concat(Enumerable.Repeat("#,", (int)ParsingLimits.Maps.Value));
         var error = Errors.ThrownBy(() => Samples.ParseFractal($"x. \"t.obj\"\ny. [{maps}#] x\n<$>. y\n")).Diagnostic;
         Assert.True(error.IsLimitExceeded);
-        Assert.Equal($"the file has more than the limit of {ParsingLimits.MaxMaps} transformations in all sets", error.Message);
+        Assert.Equal($"the file has more than the limit of {ParsingLimits.Maps.Value} transformations in all sets", error.Message);
     }
 
     [Fact]
@@ -73,7 +75,7 @@ public sealed class HostileFileTests : IDisposable
         var error =
             Errors.ThrownBy(() => Samples.ParseFractal($"x. \"t.obj\"\nz<x>. [{maps}#] x\n<$>. z 1000000\n")).Diagnostic;
         Assert.True(error.IsLimitExceeded);
-        Assert.Equal($"the number of instances has more than the limit of {FractalLimits.MaxDigits} digits", error.Message);
+        Assert.Equal($"the number of instances has more than the limit of {FractalLimits.Digits.Value} digits", error.Message);
     }
 
     [Fact]

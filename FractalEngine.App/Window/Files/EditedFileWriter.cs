@@ -19,7 +19,7 @@ internal static class EditedFileWriter
         string present;
         try
         {
-            bytes = SourceText.ReadBytes(path, name, ParsingLimits.MaxDescriptionBytes);
+            bytes = SourceText.ReadBytes(path, name, ParsingLimits.DescriptionBytes.Value);
             present = SourceText.Decode(bytes, name).Text;
         }
         catch (SourceException exception)

@@ -101,5 +101,5 @@ internal sealed class FileEdits : IEquatable<FileEdits>
     public override int GetHashCode() => Files.Count;
 
     private static string ReadText(string path) =>
-        SourceText.Read(path, Path.GetFileName(path), ParsingLimits.MaxDescriptionBytes, acceptLatin1: true).Text;
+        SourceText.Read(path, Path.GetFileName(path), ParsingLimits.DescriptionBytes.Value, acceptLatin1: true).Text;
 }

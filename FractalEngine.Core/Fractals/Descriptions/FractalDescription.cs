@@ -23,14 +23,14 @@ public sealed record FractalDescription(ImmutableArray<FractalStep> Steps, Compo
     /// <summary>
     /// Makes the same description with the outermost repetition carried out <paramref name="depth"/> times.
     /// </summary>
-    /// <param name="depth">Not negative and at most <see cref="FractalLimits.MaxDepth"/>.</param>
+    /// <param name="depth">Not negative and at most <see cref="FractalLimits.Depth"/>.</param>
     /// <exception cref="ArgumentOutOfRangeException">The depth is negative or beyond the limit, which the message names.</exception>
-    /// <exception cref="FractalLimitException">The fractal would have more than <see cref="FractalLimits.MaxLevels"/> levels.</exception>
+    /// <exception cref="FractalLimitException">The fractal would have more than <see cref="FractalLimits.Levels"/> levels.</exception>
     /// <exception cref="InvalidOperationException">Nothing in the fractal is repeated.</exception>
     public FractalDescription WithDepth(int depth)
     {
         ArgumentOutOfRangeException.ThrowIfNegative(depth);
-        ArgumentOutOfRangeException.ThrowIfGreaterThan(depth, FractalLimits.MaxDepth);
+        ArgumentOutOfRangeException.ThrowIfGreaterThan(depth, FractalLimits.Depth.Value);
         if (Steps.FirstOrDefault(step => step is Repetition) is not Repetition outermost)
         {
             throw new InvalidOperationException("the fractal has no recursive step, so it has no depth to change");

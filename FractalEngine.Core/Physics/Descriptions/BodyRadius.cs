@@ -27,7 +27,7 @@ internal static class BodyRadius
         {
             FractalModel { Fractal: { Description.Composition: Composition.Affine } fractal } =>
                 Math.Max(0, new FarthestPointSearch(fractal.Hierarchy).Run(linear, new DistanceFromOrigin(), RelativeTolerance, MaxNodes)),
-            FractalModel { Fractal: var fractal } => FractalGenerator.Expand(fractal, FractalLimits.MaxDrawnInstances)
+            FractalModel { Fractal: var fractal } => FractalGenerator.Expand(fractal, FractalLimits.DrawnInstances.Value)
                 .Max(instance => MaxVertexDistance(fractal.BaseMesh, linear * instance)),
             _ => MaxVertexDistance(placed.Model.Mesh, linear),
         };

@@ -53,7 +53,7 @@ public sealed class LodHierarchy
     /// <param name="fractal">Fractal of any composition and depth.</param>
     /// <exception cref="FractalLimitException">
     /// Bounds overflow a double or don't converge, as those of an infinite fractal that grows; or there are more than
-    /// <see cref="FractalLimits.MaxComponentwiseSums"/> sums in componentwise composition.
+    /// <see cref="FractalLimits.ComponentwiseSums"/> sums in componentwise composition.
     /// </exception>
     /// <exception cref="SingularMatrixException">A map of the fractal flattens space.</exception>
     public static LodHierarchy Build(Fractal fractal) => LodHierarchyBuilder.Build(fractal);

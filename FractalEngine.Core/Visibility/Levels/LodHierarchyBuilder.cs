@@ -52,7 +52,7 @@ internal static class LodHierarchyBuilder
     private static LodHierarchy BuildComponentwise(Fractal fractal)
     {
         var mesh = fractal.BaseMesh;
-        var maps = mesh.FaceCount == 0 ? [] : FractalGenerator.Expand(fractal, FractalLimits.MaxComponentwiseSums);
+        var maps = mesh.FaceCount == 0 ? [] : FractalGenerator.Expand(fractal, FractalLimits.ComponentwiseSums.Value);
         var bvh = new InstanceBvh(mesh.Bounds, [.. maps]);
         return new(new(bvh.Nodes, [new(0, bvh.Nodes.Length, 0, bvh.Nodes.Length)]), bvh.RootIndex, mesh);
     }

@@ -55,9 +55,9 @@ public sealed class FractalWriter
     {
         // Deeper nesting is refused here, before any recursion over the steps.
         var nesting = description.Steps.Select(step => step.NestingDepth).DefaultIfEmpty().Max();
-        if (nesting > FractalLimits.MaxNesting)
+        if (nesting > FractalLimits.Nesting.Value)
         {
-            throw Fault(ErrorKind.Limit, $"it has more than the limit of {FractalLimits.MaxNesting} repetitions inside each other");
+            throw Fault(ErrorKind.Limit, $"it has more than the limit of {FractalLimits.Nesting.Value} repetitions inside each other");
         }
 
         var infinite = description.Steps.ToList().FindLastIndex(step => step.LevelCount is null);
@@ -69,9 +69,9 @@ public sealed class FractalWriter
 
     private static void RequireLength(long length)
     {
-        if (length > ParsingLimits.MaxDescriptionBytes)
+        if (length > ParsingLimits.DescriptionBytes.Value)
         {
-            throw Fault(ErrorKind.Limit, $"its text has more than the limit of {ParsingLimits.MaxDescriptionBytes} bytes");
+            throw Fault(ErrorKind.Limit, $"its text has more than the limit of {ParsingLimits.DescriptionBytes.Value} bytes");
         }
     }
 

@@ -42,7 +42,7 @@ public static class SceneFileMerge
     {
         try
         {
-            return SourceText.ReadBytes(path, path, ParsingLimits.MaxDescriptionBytes);
+            return SourceText.ReadBytes(path, path, ParsingLimits.DescriptionBytes.Value);
         }
         catch (SourceException exception)
         {

@@ -257,7 +257,7 @@ public sealed class MaterialLoaderTests : IDisposable
     {
         using (var stream = File.Create(_folder["a.mtl"]))
         {
-            stream.SetLength(ParsingLimits.MaxMaterialBytes + 1);
+            stream.SetLength(ParsingLimits.MaterialBytes.Value + 1);
         }
 
         Assert.Equal("a.mtl:1:1: warning: the file has 16777217 bytes, more than the limit of 16777216",
@@ -365,7 +365,7 @@ public sealed class MaterialLoaderTests : IDisposable
         WritePngHeader("a.png", 1, 1);
         using (var stream = File.OpenWrite(_folder["a.png"]))
         {
-            stream.SetLength(ParsingLimits.MaxImageBytes + 1);
+            stream.SetLength(ParsingLimits.ImageBytes.Value + 1);
         }
 
         AssertImageIsRefused("the image \"a.png\" is larger than the limit of 67108864 bytes");

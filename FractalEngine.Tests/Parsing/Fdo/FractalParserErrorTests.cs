@@ -164,7 +164,7 @@ public class FractalParserErrorTests
     public void Depth_BeyondTheLimit_NamesIt(string depth)
     {
         Fails(Head + $"<$>. z {depth}", $"""
-            test.fdo:6:8: error: the depth is more than the limit of {FractalLimits.MaxDepth}
+            test.fdo:6:8: error: the depth is more than the limit of {FractalLimits.Depth.Value}
               <$>. z {depth}
                      ^
             """);
@@ -357,9 +357,9 @@ public class FractalParserErrorTests
     public void Parse_OfManySteps_NamesTheLimit()
     {
         var error =
-            Errors.ThrownBy(() => Samples.ParseFractal("<$>. " + Repeat("[#] ", FractalLimits.MaxSteps + 1) + "\"b.obj\"")).Diagnostic;
+            Errors.ThrownBy(() => Samples.ParseFractal($"<$>. {Repeat("[#] ", (int)FractalLimits.Steps.Value + 1)}\"b.obj\"")).Diagnostic;
         Assert.True(error.IsLimitExceeded);
-        Assert.Contains($"{FractalLimits.MaxSteps}", error.Message, StringComparison.Ordinal);
+        Assert.Contains($"{FractalLimits.Steps.Value}", error.Message, StringComparison.Ordinal);
     }
 
     [Fact]
@@ -370,7 +370,7 @@ public class FractalParserErrorTests
                 () => Samples.ParseFractal("x. \"b.obj\"\ny0. [#] x\n" + Lines(40, i => $"z{i}<x>. [#] y{i}\ny{i + 1}. z{i} 1\n")
                     + "<$>. y40")).Diagnostic;
         Assert.True(error.IsLimitExceeded);
-        Assert.Contains($"{FractalLimits.MaxNesting}", error.Message, StringComparison.Ordinal);
+        Assert.Contains($"{FractalLimits.Nesting.Value}", error.Message, StringComparison.Ordinal);
     }
 
     [Fact]
@@ -380,7 +380,7 @@ public class FractalParserErrorTests
             Errors.ThrownBy(
                 () => Samples.ParseFractal("x. \"b.obj\"\nz<x>. [#, #] x\ny. z 1000000\nw<x>. [#] y\n<$>. w 1000000")).Diagnostic;
         Assert.True(error.IsLimitExceeded);
-        Assert.Contains($"{FractalLimits.MaxLevels}", error.Message, StringComparison.Ordinal);
+        Assert.Contains($"{FractalLimits.Levels.Value}", error.Message, StringComparison.Ordinal);
     }
 
     [Fact]

@@ -195,7 +195,7 @@ public class PlyReaderTests
     [Fact]
     public void Polygon_BeyondTheLimit_NamesIt()
     {
-        var corners = ParsingLimits.MaxPolygonCorners + 1;
+        var corners = (int)ParsingLimits.PolygonCorners.Value + 1;
         var face = corners.ToString(CultureInfo.InvariantCulture) + string.Concat(Enumerable.Repeat(" 0", corners));
         var error = Errors.ThrownBy(() => PlyReader.Read(Bytes(Text(
             Vertices + "element face 1\nproperty list int int vertex_indices\n", Square + face))));

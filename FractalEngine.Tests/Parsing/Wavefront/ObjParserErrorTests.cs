@@ -62,7 +62,7 @@ public class ObjParserErrorTests
     {
         var error = Errors.ThrownBy(() => Samples.ParseObj(Triangle + "f " + new StringBuilder().Insert(0, "1 2 3 ", 7000))).Diagnostic;
         Assert.True(error.IsLimitExceeded);
-        Assert.Contains($"{ParsingLimits.MaxPolygonCorners}", error.Message, StringComparison.Ordinal);
+        Assert.Contains($"{ParsingLimits.PolygonCorners.Value}", error.Message, StringComparison.Ordinal);
     }
 
     [Fact]

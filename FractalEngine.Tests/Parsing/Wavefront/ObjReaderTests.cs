@@ -236,10 +236,10 @@ public sealed class ObjReaderTests : IDisposable
     {
         using (var file = File.Create(_folder["a.obj"]))
         {
-            file.SetLength(ParsingLimits.MaxObjBytes + 1);
+            file.SetLength(ParsingLimits.ObjBytes.Value + 1);
         }
 
-        var limit = ParsingLimits.MaxObjBytes;
+        var limit = ParsingLimits.ObjBytes.Value;
         Errors.AssertMessage($"a:1:1: error: the file has {limit + 1} bytes, more than the limit of {limit}",
             () => ObjReader.Read(_folder["a.obj"], "a"));
     }

@@ -41,10 +41,11 @@ internal sealed class LevelBuilder
     /// <summary>Refuses more children on all levels together than the limit.</summary>
     public static void RequireAllowedChildren(long count)
     {
-        if (count > FractalLimits.MaxHierarchyChildren)
+        var limit = FractalLimits.HierarchyChildren.Value;
+        if (count > limit)
         {
             throw new FractalLimitException(
-                $"exact search needs more than the limit of {FractalLimits.MaxHierarchyChildren} transformations on all levels together");
+                $"exact search needs more than the limit of {limit} transformations on all levels together");
         }
     }
 

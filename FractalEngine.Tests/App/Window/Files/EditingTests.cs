@@ -209,7 +209,7 @@ public sealed class EditingTests : IDisposable
         System.Diagnostics.Process.Start("mkfifo", pipe).WaitForExit();
         File.CreateSymbolicLink(_folder["zero.sdo"], "/dev/zero");
         Directory.CreateDirectory(_folder["folder.sdo"]);
-        File.WriteAllBytes(_folder["large.sdo"], new byte[ParsingLimits.MaxDescriptionBytes + 1]);
+        File.WriteAllBytes(_folder["large.sdo"], new byte[ParsingLimits.DescriptionBytes.Value + 1]);
         var reasons = new Dictionary<string, string>
         {
             ["pipe.sdo"] = "this is a pipe or a device", ["zero.sdo"] = "this is a pipe or a device",

@@ -221,27 +221,27 @@ public class FractalWriterTests
     [Fact]
     public void Write_BeyondALimitOfTheLanguage_NamesIt()
     {
-        Fails(ErrorKind.Limit, $"the depth is more than the limit of {FractalLimits.MaxDepth}",
-            () => Write(new Repetition([Set()], FractalLimits.MaxDepth + 1)));
-        Fails(ErrorKind.Limit, $"the fractal has more than the limit of {FractalLimits.MaxLevels} levels",
-            () => Write(new Repetition([Set(), Set(), Set()], FractalLimits.MaxDepth)));
-        var limits = $"{FractalLimits.MaxSteps} steps, or of {FractalLimits.MaxNesting} recursives inside each other";
+        Fails(ErrorKind.Limit, $"the depth is more than the limit of {FractalLimits.Depth.Value}",
+            () => Write(new Repetition([Set()], (int)FractalLimits.Depth.Value + 1)));
+        Fails(ErrorKind.Limit, $"the fractal has more than the limit of {FractalLimits.Levels.Value} levels",
+            () => Write(new Repetition([Set(), Set(), Set()], (int)FractalLimits.Depth.Value)));
+        var limits = $"{FractalLimits.Steps.Value} steps, or of {FractalLimits.Nesting.Value} recursives inside each other";
         Fails(ErrorKind.Limit, $"the object has more than the limit of {limits}",
-            () => Write([.. Enumerable.Repeat(Set(), FractalLimits.MaxSteps + 1)]));
-        AssertReadsBack(new([.. Enumerable.Repeat(Set(), FractalLimits.MaxSteps)]));
+            () => Write([.. Enumerable.Repeat(Set(), (int)FractalLimits.Steps.Value + 1)]));
+        AssertReadsBack(new([.. Enumerable.Repeat(Set(), (int)FractalLimits.Steps.Value)]));
     }
 
     [Fact]
     public void Write_OfDeepNesting_IsRefusedBeyondTheLimitOnly()
     {
         FractalStep step = Set(Half);
-        for (var nesting = 0; nesting < FractalLimits.MaxNesting; nesting++)
+        for (var nesting = 0; nesting < FractalLimits.Nesting.Value; nesting++)
         {
             step = new Repetition([step], 1);
         }
 
         AssertReadsBack(new([step]));
-        Fails(ErrorKind.Limit, $"it has more than the limit of {FractalLimits.MaxNesting} repetitions inside each other",
+        Fails(ErrorKind.Limit, $"it has more than the limit of {FractalLimits.Nesting.Value} repetitions inside each other",
             () => Write(Set(Half), new Repetition([step], 1), Set(Half)));
     }
 
@@ -251,16 +251,16 @@ public class FractalWriterTests
     {
         // Every object is used twice, so that the text would double with each level of nesting.
         FractalStep step = Set();
-        for (var nesting = 0; nesting < FractalLimits.MaxNesting; nesting++)
+        for (var nesting = 0; nesting < FractalLimits.Nesting.Value; nesting++)
         {
             step = new Repetition([step, step], 0);
         }
 
-        Fails(ErrorKind.Limit, $"its text has more than the limit of {ParsingLimits.MaxDescriptionBytes} bytes",
+        Fails(ErrorKind.Limit, $"its text has more than the limit of {ParsingLimits.DescriptionBytes.Value} bytes",
             () => Write(step));
         var large = Set([.. Enumerable.Repeat(Half, 100_000)]);
-        Fails(ErrorKind.Limit, $"its text has more than the limit of {ParsingLimits.MaxDescriptionBytes} bytes",
-            () => Write([.. Enumerable.Repeat(large, FractalLimits.MaxSteps)]));
+        Fails(ErrorKind.Limit, $"its text has more than the limit of {ParsingLimits.DescriptionBytes.Value} bytes",
+            () => Write([.. Enumerable.Repeat(large, (int)FractalLimits.Steps.Value)]));
     }
 
     [Theory]
