@@ -15,7 +15,9 @@ namespace FractalEngine.Core.Fractals.Levels;
 /// <param name="childBoxes">Boxes around the children.</param>
 /// <param name="childHull">The hull of the sub-fractal that the first child is an instance of, in the frame of that one.</param>
 /// <param name="box">A box around the sub-fractal.</param>
-/// <param name="baseBox">The box of the base mesh; for a group, one around its parent and that mesh, so that it never counts as a point.</param>
+/// <param name="baseBox">
+/// The box of the base mesh; for a group, one around its parent and that mesh, so that it never counts as a point.
+/// </param>
 /// <param name="hull">A hull around the sub-fractal; null where it bounds no better than the box.</param>
 /// <param name="solid">A convex solid around the sub-fractal; null where it is empty, and for groups.</param>
 /// <param name="clusters">Boxes that bound better than one; null where they don't.</param>
@@ -72,7 +74,10 @@ internal sealed class SubFractal(
         ? ChildBoundsX8.CreateOrNull(children, childBoxes, childHull, BoundingBox.Union(box, baseBox))
         : null;
 
-    /// <summary>The bounds in single precision; null for groups, which no child is an instance of, and where not all maps of the fractal are similarities.</summary>
+    /// <summary>
+    /// The bounds in single precision; null for groups, which no child is an instance of, and where not all maps of the fractal are
+    /// similarities.
+    /// </summary>
     public FloatBound? Floats { get; } = !hasOnlySimilarities || (solid is null && !box.IsEmpty) ? null
         : hull is null ? new(box, [], [], 0)
         : new(box, hull.Planes, hull.CopyVertices(), hull.Margin);

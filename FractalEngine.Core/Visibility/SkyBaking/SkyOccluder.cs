@@ -229,7 +229,8 @@ internal sealed class SkyOccluder
             var childSize = size * child.SizeRatio;
             if (child.Node.ChildMaps.Length == 0 || childSize < MinRelativeSize || depth >= MaxDepth
                 ? HitsMesh(child.Node, childOrigin, childDirection)
-                : IsBlocked(ChildrenOf(child.Node, child.Levels), -1, childOrigin, childDirection, childSize, depth + 1, ref remainingVisits))
+                : IsBlocked(
+                    ChildrenOf(child.Node, child.Levels), -1, childOrigin, childDirection, childSize, depth + 1, ref remainingVisits))
             {
                 return true;
             }
