@@ -19,7 +19,7 @@ public sealed class SceneRenderer : IDisposable
     private readonly SceneBuffers _buffers;
     private ObjectTransforms _transforms;
     private ObjectsPass _objectsPass;
-    private readonly EffectiveCulling _effectiveCulling = new();
+    private readonly DerivedCulling _effectiveCulling = new(EffectiveCulling.Of);
     private BoundingBox? _bounds;
     private bool _hasMoved;
     private IReadOnlyList<SphereInstance> _spheres = [];
@@ -217,7 +217,7 @@ public sealed class SceneRenderer : IDisposable
         var stateChangesBefore = StateChangeCounts;
         var drawCallsBefore = Context.Resources.State.DrawCallCount;
         CullFrame(in frame, settings);
-        if (nextFrame is { } next && _effectiveCulling.Resolve(settings) is { } culling)
+        if (nextFrame is { } next && _effectiveCulling.Of(settings) is { } culling)
         {
             Culler.StartSpeculativeCull(next.ToCullingView(), culling, next.View.DeepZoom);
         }
@@ -230,7 +230,7 @@ public sealed class SceneRenderer : IDisposable
 
     private void CullFrame(in FrameView frame, RenderSettings settings)
     {
-        if (_effectiveCulling.Resolve(settings) is { } culling)
+        if (_effectiveCulling.Of(settings) is { } culling)
         {
             Culler.Cull(frame.ToCullingView(), culling, frame.View.DeepZoom);
         }

@@ -40,7 +40,7 @@ internal sealed class ShadowPass(
     private Action<ShadowView>? _drawStanding;
     private readonly List<int> _movingObjects = [.. MovingObjectsOf(scene)];
     private SceneCuller? _lastCuller;
-    private readonly ShadowCulling _shadowCulling = new();
+    private readonly DerivedCulling _shadowCulling = new(EffectiveCulling.OfShadows);
     private CullingSettings? _culling;
     private DeepZoom? _zoom;
     private bool _fitsToView;
@@ -189,7 +189,7 @@ internal sealed class ShadowPass(
             buffers.ShadowCuller.Include(i, Selection.IsSelected(i));
         }
 
-        _culling = _shadowCulling.Resolve(settings.Culling);
+        _culling = _shadowCulling.Of(settings);
         CasterRenderer.BeginMaps(frame.Section is not null);
         Maps.DrawStanding(_fit.Views, _culling, _zoom, _version + Selection.Version, settings.ReuseBuffers, _drawStanding ??= DrawStanding);
         DrawnMapCount = Maps.DrawnCount;

@@ -6,9 +6,9 @@ namespace FractalEngine.Tests.Render.Views;
 public sealed class EffectiveCullingTests
 {
     [Fact]
-    public void Resolve_OfSettingsThatChange_FollowsEach()
+    public void Of_SettingsThatChange_FollowsEach()
     {
-        var culling = new EffectiveCulling();
+        var culling = new DerivedCulling(EffectiveCulling.Of);
         var settings = new RenderSettings { Samples = 4, AmbientOcclusion = true };
         RenderSettings[] changes =
         [
@@ -19,16 +19,17 @@ public sealed class EffectiveCullingTests
         {
             foreach (var second in changes)
             {
-                culling.Resolve(first);
-                var resolved = culling.Resolve(second)!;
+                culling.Of(first);
+                var resolved = culling.Of(second)!;
                 Assert.Equal(second.Samples > 1, resolved.IsMultisampled);
                 Assert.Equal(second is { AmbientOcclusion: true, Wireframe: false }, resolved.SkyVisibility);
                 Assert.Equal(
                     second is { Wireframe: false, Samples: 0 or 4, Culling.OcclusionCulling: true }, resolved.OcclusionCulling);
-                Assert.Same(resolved, culling.Resolve(second with { }));
+                Assert.Same(resolved, culling.Of(second));
+                Assert.Equal(resolved, culling.Of(second with { }));
             }
         }
 
-        Assert.Null(culling.Resolve(settings with { Culling = null }));
+        Assert.Null(culling.Of(settings with { Culling = null }));
     }
 }
