@@ -84,6 +84,9 @@ public readonly record struct Vector(double X, double Y, double Z)
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public double LengthSquared() => Dot(this, this);
 
+    /// <summary>Returns the component along an axis, from 0 to 2.</summary>
+    internal double Component(int axis) => axis switch { 0 => X, 1 => Y, _ => Z };
+
     /// <summary>Computes the largest absolute value of the components.</summary>
     public double MaxAbsComponent() => Math.Max(Math.Abs(X), Math.Max(Math.Abs(Y), Math.Abs(Z)));
 

@@ -1,5 +1,4 @@
 using FractalEngine.Core.Geometry;
-using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Bvh.Splitting;
 
@@ -70,7 +69,7 @@ internal sealed class BoxPartition(BoundingBox[] boxes)
         var indices = _order.AsSpan(range);
         var centreBounds = CentreBoundsOf(indices);
         var axis = LongestAxis(centreBounds);
-        var bestBin = Component(centreBounds.Size, axis) > 0 ? FindBestBin(indices, centreBounds, axis) : -1;
+        var bestBin = centreBounds.Size.Component(axis) > 0 ? FindBestBin(indices, centreBounds, axis) : -1;
         var middle = bestBin < 0 ? indices.Length / 2 : Reorder(indices, centreBounds, axis, bestBin);
         return SplitAt(range, middle);
     }
@@ -82,8 +81,8 @@ internal sealed class BoxPartition(BoundingBox[] boxes)
     {
         var indices = _order.AsSpan(range);
         var axis = LongestAxis(CentreBoundsOf(indices));
-        indices.Sort((index1, index2) => (Component(boxes[index1].Centre, axis), index1).CompareTo(
-            (Component(boxes[index2].Centre, axis), index2)));
+        indices.Sort((index1, index2) => (boxes[index1].Centre.Component(axis), index1).CompareTo(
+            (boxes[index2].Centre.Component(axis), index2)));
         return SplitAt(range, leftCount);
     }
 
@@ -178,8 +177,8 @@ internal sealed class BoxPartition(BoundingBox[] boxes)
 
     private static int BinOf(BoundingBox box, BoundingBox centreBounds, int axis)
     {
-        var offset = Component(box.Centre, axis) - Component(centreBounds.Minimum, axis);
-        return Math.Clamp((int)(BinCount * (offset / Component(centreBounds.Size, axis))), 0, BinCount - 1);
+        var offset = box.Centre.Component(axis) - centreBounds.Minimum.Component(axis);
+        return Math.Clamp((int)(BinCount * (offset / centreBounds.Size.Component(axis))), 0, BinCount - 1);
     }
 
     /// <summary>
@@ -191,11 +190,4 @@ internal sealed class BoxPartition(BoundingBox[] boxes)
         var sum = x + y + z;
         return sum * sum;
     }
-
-    private static double Component(Vector v, int axis) => axis switch
-    {
-        0 => v.X,
-        1 => v.Y,
-        _ => v.Z,
-    };
 }

@@ -186,9 +186,9 @@ internal sealed class ConvexHull
         {
             for (var axis = 0; axis < 3; axis++)
             {
-                var coordinate = Component(points[i], axis);
-                extremes[axis] = coordinate < Component(points[extremes[axis]], axis) ? i : extremes[axis];
-                extremes[3 + axis] = coordinate > Component(points[extremes[3 + axis]], axis) ? i : extremes[3 + axis];
+                var coordinate = points[i].Component(axis);
+                extremes[axis] = coordinate < points[extremes[axis]].Component(axis) ? i : extremes[axis];
+                extremes[3 + axis] = coordinate > points[extremes[3 + axis]].Component(axis) ? i : extremes[3 + axis];
             }
         }
 
@@ -230,6 +230,4 @@ internal sealed class ConvexHull
 
         return farthest;
     }
-
-    private static double Component(Vector v, int axis) => axis switch { 0 => v.X, 1 => v.Y, _ => v.Z };
 }
