@@ -79,13 +79,11 @@ internal sealed class EarClipper
         {
             _previous[i] = i == 0 ? _count - 1 : i - 1;
             _next[i] = i == _count - 1 ? 0 : i + 1;
-            _blockers[i] = Unblocked;
-            _testStarts[i] = 0;
         }
 
         for (var i = 0; i < _count; i++)
         {
-            Classify(i);
+            RepeatTest(i);
         }
 
         _reflex.Collect(_points.AsSpan(0, _count), this);
@@ -99,14 +97,6 @@ internal sealed class EarClipper
 
     private double TwiceSignedAreaAt(int corner) =>
         TwiceSignedArea(_points[_previous[corner]], _points[corner], _points[_next[corner]]);
-
-    /// <summary>Notes that a corner is to be tested, or that its triangle has no area.</summary>
-    private void Classify(int corner)
-    {
-        var area = TwiceSignedAreaAt(corner);
-        _untested.Set(corner, !(area <= 0));
-        _flat.Set(corner, area == 0);
-    }
 
     private void LinkTwins()
     {
@@ -204,9 +194,7 @@ internal sealed class EarClipper
         EndReflex(corner);
         foreach (var neighbour in (ReadOnlySpan<int>)[previous, next])
         {
-            _blockers[neighbour] = Unblocked;
-            _testStarts[neighbour] = 0;
-            Classify(neighbour);
+            RepeatTest(neighbour);
             if (!IsReflex(neighbour))
             {
                 EndReflex(neighbour);
@@ -248,10 +236,13 @@ internal sealed class EarClipper
         }
     }
 
+    /// <summary>Notes that a corner is to be tested, or that its triangle has no area. Nothing is known to block it.</summary>
     private void RepeatTest(int corner)
     {
         _blockers[corner] = Unblocked;
         _testStarts[corner] = 0;
-        Classify(corner);
+        var area = TwiceSignedAreaAt(corner);
+        _untested.Set(corner, !(area <= 0));
+        _flat.Set(corner, area == 0);
     }
 }
