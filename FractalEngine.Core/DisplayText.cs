@@ -13,19 +13,8 @@ public static class DisplayText
     public static string Escape(string text)
     {
         ArgumentNullException.ThrowIfNull(text);
-        var first = 0;
-        while (first < text.Length && !IsHidden(text, first))
-        {
-            first++;
-        }
-
-        if (first == text.Length)
-        {
-            return text;
-        }
-
-        var escaped = new StringBuilder(text.Length + 16).Append(text, 0, first);
-        for (var i = first; i < text.Length; i++)
+        var escaped = new StringBuilder(text.Length);
+        for (var i = 0; i < text.Length; i++)
         {
             if (IsHidden(text, i))
             {
