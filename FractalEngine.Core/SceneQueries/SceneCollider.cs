@@ -1,4 +1,3 @@
-using System.Runtime.InteropServices;
 using FractalEngine.Core.Colliders;
 using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Geometry;
@@ -70,13 +69,7 @@ public sealed class SceneCollider : Collider
         _sharedColliders = scene.Models.ToDictionary(
             model => model,
             model => cache?.GetOrAdd(model, KindFor(model), () => CreateCollider(model)) ?? new(() => CreateCollider(model)));
-        var instances = new ColliderInstance[scene.Objects.Length];
-        for (var i = 0; i < instances.Length; i++)
-        {
-            instances[i] = CreateInstance(i, scene.Objects[i]);
-        }
-
-        _objects = SceneObjects.Of(ImmutableCollectionsMarshal.AsImmutableArray(instances));
+        _objects = SceneObjects.Of([.. scene.Objects.Select((placed, index) => CreateInstance(index, placed))]);
     }
 
     private SceneCollider(SceneObjects objects, Dictionary<Model, Lazy<Collider>> sharedColliders, SceneCollider kinds)

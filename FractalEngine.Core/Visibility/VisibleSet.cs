@@ -17,7 +17,7 @@ public sealed class VisibleSet
     private const double CoarseningFactor = 1.5;
     private const int FineStepCount = 4;
 
-    private readonly StripCuller[] _strips = new StripCuller[StripCount];
+    private readonly StripCuller[] _strips = [.. Enumerable.Range(0, StripCount).Select(static _ => new StripCuller())];
     private readonly InstanceList _sharedInstances = new(hasPathHashes: false);
     private readonly HashSet<(int Rank, ulong PathHash)> _mergedKeys = [];
     private readonly ParallelOptions _parallelOptions = new();
@@ -36,15 +36,7 @@ public sealed class VisibleSet
     private volatile bool _isOverBudget;
 
     /// <summary>Creates an empty set.</summary>
-    public VisibleSet()
-    {
-        for (var i = 0; i < StripCount; i++)
-        {
-            _strips[i] = new();
-        }
-
-        _cullStrip = CullStrip;
-    }
+    public VisibleSet() => _cullStrip = CullStrip;
 
     /// <summary>Number of floats of one instance.</summary>
     /// <remarks>They are the rows of a 3×4 map from the drawn mesh's frame to world axes about the camera.</remarks>

@@ -59,9 +59,7 @@ internal sealed class ConvexRegion
     {
         for (var i = 0; i < 8; i++)
         {
-            _box[i] = new(
-                (i & 1) == 0 ? box.Minimum.X : box.Maximum.X, (i & 2) == 0 ? box.Minimum.Y : box.Maximum.Y,
-                (i & 4) == 0 ? box.Minimum.Z : box.Maximum.Z);
+            _box[i] = box.Corner(i);
         }
     }
 

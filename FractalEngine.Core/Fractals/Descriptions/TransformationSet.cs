@@ -1,6 +1,5 @@
 using System.Collections.Immutable;
 using System.Numerics;
-using System.Runtime.InteropServices;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Fractals.Descriptions;
@@ -14,13 +13,7 @@ public sealed class TransformationSet : FractalStep
     {
         Transformations = !transformations.IsDefault && transformations.All(static one => one.IsFinite())
             ? transformations : throw new ArgumentException("expected transformations of finite numbers", nameof(transformations));
-        var maps = new AffineMap[transformations.Length];
-        for (var i = 0; i < maps.Length; i++)
-        {
-            maps[i] = transformations[i].ToAffineMap();
-        }
-
-        Maps = ImmutableCollectionsMarshal.AsImmutableArray(maps);
+        Maps = ImmutableArray.CreateRange(transformations, static one => one.ToAffineMap());
     }
 
     /// <summary>The transformations as they were declared.</summary>

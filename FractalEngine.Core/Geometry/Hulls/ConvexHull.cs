@@ -90,12 +90,7 @@ internal sealed class ConvexHull
         var linear = (1 / map.Linear.MaxAbsEntry()) * map.Linear;
         var normalMatrix = linear.Cofactors();
         var orientation = linear.Determinant() < 0 ? -1 : 1;
-        var vertices = new Vector[Vertices.Length];
-        for (var i = 0; i < vertices.Length; i++)
-        {
-            vertices[i] = map * Vertices[i];
-        }
-
+        var vertices = Array.ConvertAll(Vertices, vertex => map * vertex);
         var planes = new HullPlane[Planes.Length];
         for (var i = 0; i < planes.Length; i++)
         {
@@ -109,13 +104,8 @@ internal sealed class ConvexHull
             planes[i] = new(normal.UnitVector(), double.NegativeInfinity, Planes[i].DoubledArea);
         }
 
-        var facets = new HullFacet[_facets.Length];
-        for (var i = 0; i < facets.Length; i++)
-        {
-            facets[i] = new(map * _facets[i].A, map * _facets[i].B, map * _facets[i].C);
-        }
-
-        return new(vertices, planes, 0, facets);
+        return new(
+            vertices, planes, 0, Array.ConvertAll(_facets, facet => new HullFacet(map * facet.A, map * facet.B, map * facet.C)));
     }
 
     /// <summary>Computes the volume in cubic scene units; 0 where the hull is flat.</summary>

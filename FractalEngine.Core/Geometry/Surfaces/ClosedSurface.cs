@@ -24,12 +24,7 @@ public static class ClosedSurface
         }
 
         var edgeBalance = new Dictionary<(int From, int To), int>(indices.Length);
-        var components = new int[mesh.VertexCount];
-        for (var i = 0; i < components.Length; i++)
-        {
-            components[i] = i;
-        }
-
+        int[] components = [.. Enumerable.Range(0, mesh.VertexCount)];
         for (var i = 0; i < indices.Length; i++)
         {
             var (from, to) = (indices[i], indices[i % 3 == 2 ? i - 2 : i + 1]);

@@ -1,3 +1,4 @@
+using System.Runtime.InteropServices;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Visibility.Levels;
 
@@ -57,9 +58,6 @@ internal sealed class SkySample
     {
         (Distance, Triangle, Leaf, FromMesh) = (distance, triangle, leaf, fromMesh);
         _nearestSteps.Clear();
-        for (var i = 0; i < depth; i++)
-        {
-            _nearestSteps.Add(_steps[i]);
-        }
+        _nearestSteps.AddRange(CollectionsMarshal.AsSpan(_steps)[..depth]);
     }
 }

@@ -30,12 +30,7 @@ internal sealed class GlyphAtlas(char[] characters, GlyphSheet[] sheets)
         }
 
         using var reader = new BinaryReader(new DeflateStream(file, CompressionMode.Decompress));
-        var characters = new char[reader.ReadUInt16()];
-        for (var i = 0; i < characters.Length; i++)
-        {
-            characters[i] = (char)reader.ReadUInt16();
-        }
-
+        char[] characters = [.. Enumerable.Range(0, reader.ReadUInt16()).Select(_ => (char)reader.ReadUInt16())];
         var sheets = new GlyphSheet[reader.ReadUInt16()];
         for (var i = 0; i < sheets.Length; i++)
         {

@@ -94,12 +94,7 @@ internal sealed class ChildInstanceBuilder(int baseCount)
             return GetOrCreateAll(edges);
         }
 
-        var chains = new List<EdgeChain>(edges.Length);
-        foreach (var edge in edges)
-        {
-            chains.Add(new([edge], edge.RemainingLevels(level)));
-        }
-
+        var chains = edges.Select(edge => new EdgeChain([edge], edge.RemainingLevels(level))).ToList();
         var best = chains;
         var bestHasSameLevel = HaveSameLevel(chains);
         for (var expandedLevels = 1; expandedLevels < MaxExpandedLevels; expandedLevels++)
@@ -126,13 +121,7 @@ internal sealed class ChildInstanceBuilder(int baseCount)
             }
         }
 
-        var children = new ChildInstance[best.Count];
-        for (var i = 0; i < children.Length; i++)
-        {
-            children[i] = GetOrCreate(best[i].Edges);
-        }
-
-        return children;
+        return [.. best.Select(chain => GetOrCreate(chain.Edges))];
     }
 
     /// <summary>Tells whether the highest level that edges lead to has no edges itself.</summary>

@@ -82,12 +82,7 @@ internal sealed class OutlierClusters
             return false;
         }
 
-        var reaches = new double[maps.Length];
-        for (var i = 0; i < maps.Length; i++)
-        {
-            reaches[i] = MapReach(maps[i]);
-        }
-
+        double[] reaches = [.. maps.Select(MapReach)];
         var median = MedianOf(reaches);
         return reaches[^1] > OutlierFactor * median;
     }

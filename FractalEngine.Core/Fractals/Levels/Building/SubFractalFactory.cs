@@ -37,12 +37,8 @@ internal sealed class SubFractalFactory(Mesh[] baseMeshes, bool hasOnlySimilarit
         MapSet set, ChildInstance[] children, BoundingVolume[] childVolumes, BoundingVolume volume, int baseIndex)
     {
         var baseBox = BaseVolumes[baseIndex].Box;
-        var childBoxes = new BoundingBox[children.Length];
-        for (var i = 0; i < children.Length; i++)
-        {
-            childBoxes[i] = childVolumes[i].TransformedBox(children[i].Map, children[i].OperatorNormBound);
-        }
-
+        BoundingBox[] childBoxes =
+            [.. children.Zip(childVolumes, (child, bounds) => bounds.TransformedBox(child.Map, child.OperatorNormBound))];
         var childHull = childVolumes.Length > 0 ? CreateHullBound(childVolumes[0]) : null;
         if (children.Length > SubFractal.MaxUngroupedChildren)
         {
