@@ -55,13 +55,8 @@ public static class FractalBounds
         var steps = LevelsOf(fractal);
         var outer = steps[..wideIndex].Aggregate(AffineMap.Identity, static (map, step) => map * ((TransformationSet)step).Maps[0]);
         var inner = steps[(wideIndex + 1)..].Aggregate(AffineMap.Identity, static (map, step) => map * ((TransformationSet)step).Maps[0]);
-        var box = BoundingBox.Empty;
-        foreach (var map in ((TransformationSet)steps[wideIndex]).Maps)
-        {
-            box = BoundingBox.Union(box, fractal.BaseMesh.ComputeBounds(outer * map * inner));
-        }
-
-        return box;
+        return ((TransformationSet)steps[wideIndex]).Maps.Select(map => fractal.BaseMesh.ComputeBounds(outer * map * inner))
+            .Aggregate(BoundingBox.Empty, BoundingBox.Union);
     }
 
     private static BoundingBox ComputeAffineBox(Fractal fractal)

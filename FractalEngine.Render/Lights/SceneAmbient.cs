@@ -34,12 +34,8 @@ internal readonly record struct SceneAmbient(Vector Above, Vector Below, Vector 
             return new(new(0.23, 0.245, 0.28), new(0.11, 0.10, 0.095), Vector.Zero);
         }
 
-        var sum = Vector.Zero;
-        foreach (var light in scene.Lights.Where(static light => light.ToEmitter() is null))
-        {
-            sum += light.Radiance;
-        }
-
+        var sum = scene.Lights.Where(static light => light.ToEmitter() is null)
+            .Aggregate(Vector.Zero, static (sum, light) => sum + light.Radiance);
         return new(sum, sum, Vector.Zero);
     }
 

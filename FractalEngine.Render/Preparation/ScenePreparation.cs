@@ -103,18 +103,8 @@ public sealed class ScenePreparation
     /// <summary>Returns true when the model of a visible object is not prepared yet.</summary>
     /// <param name="view">Camera and projection.</param>
     /// <param name="aspect">Width divided by height of the frame.</param>
-    public bool HasUnpreparedVisibleModels(View view, double aspect)
-    {
-        for (var i = 0; i < _models.Length; i++)
-        {
-            if (_prepared[i] is null && IsVisible(_models[i], view, aspect))
-            {
-                return true;
-            }
-        }
-
-        return false;
-    }
+    public bool HasUnpreparedVisibleModels(View view, double aspect) =>
+        _models.Index().Any(model => _prepared[model.Index] is null && IsVisible(model.Item, view, aspect));
 
     private bool NeedsBaking(DrawableModel? model) =>
         model?.LodHierarchy is { IsSkyBaked: false } && !(_settings.BakeSkipping && model.HasOpenSky);
@@ -135,18 +125,8 @@ public sealed class ScenePreparation
         }
     }
 
-    private bool IsVisible(Model model, View view, double aspect)
-    {
-        foreach (var placed in _scene.Objects)
-        {
-            if (ReferenceEquals(placed.Model, model) && view.MayIntersectFrustum(placed.Bounds, aspect))
-            {
-                return true;
-            }
-        }
-
-        return false;
-    }
+    private bool IsVisible(Model model, View view, double aspect) =>
+        _scene.Objects.Any(placed => ReferenceEquals(placed.Model, model) && view.MayIntersectFrustum(placed.Bounds, aspect));
 
     private bool Prepare(Func<Model, bool> isSelected, IProgress<PreparationProgress>? progress, CancellationToken cancellation)
     {

@@ -26,19 +26,9 @@ internal sealed class UnrotatedChildBounds(HullBound childHull, ChildInstance[] 
     public long StorageBytes => (sizeof(double) * _translationsAndScales.Length) + 64;
 
     /// <summary>Tells whether all children are instances of one sub-fractal, moved and scaled but not rotated.</summary>
-    public static bool HasNoRotation(ChildInstance[] children)
-    {
-        foreach (var child in children)
-        {
-            var linear = child.Map.Linear;
-            if (child.LevelStep != children[0].LevelStep || !(linear.V1.X > 0) || linear != linear.V1.X * Matrix.Identity)
-            {
-                return false;
-            }
-        }
-
-        return true;
-    }
+    public static bool HasNoRotation(ChildInstance[] children) => Array.TrueForAll(
+        children, child => child.LevelStep == children[0].LevelStep && child.Map.Linear is var linear && linear.V1.X > 0
+            && linear == linear.V1.X * Matrix.Identity);
 
     /// <summary>Creates the bounds of children without rotation; null for others.</summary>
     /// <param name="childHull">The hull of the sub-fractal that the children are instances of; null where boxes bound as well.</param>

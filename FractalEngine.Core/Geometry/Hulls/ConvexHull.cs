@@ -109,16 +109,8 @@ internal sealed class ConvexHull
     }
 
     /// <summary>Computes the volume in cubic scene units; 0 where the hull is flat.</summary>
-    public double Volume()
-    {
-        var sum = 0.0;
-        foreach (var (a, b, c) in _facets)
-        {
-            sum += Vector.Dot(a - Vertices[0], Vector.Cross(b - Vertices[0], c - Vertices[0]));
-        }
-
-        return Math.Abs(sum) / 6;
-    }
+    public double Volume() => Math.Abs(_facets.Sum(
+        facet => Vector.Dot(facet.A - Vertices[0], Vector.Cross(facet.B - Vertices[0], facet.C - Vertices[0])))) / 6;
 
     /// <summary>Computes the support of the hull: the largest product of a direction with a vertex.</summary>
     public double Support(Vector direction)

@@ -22,15 +22,7 @@ public static class UnshadedSurface
 
         var origin = mesh.Vertex(mesh.VertexIndices[0]);
         var tolerance = Tolerance * mesh.Bounds.Diagonal;
-        for (var i = 0; i < mesh.VertexIndices.Length; i++)
-        {
-            if (!(Math.Abs(Vector.Dot(unit, mesh.Vertex(mesh.VertexIndices[i]) - origin)) <= tolerance))
-            {
-                return null;
-            }
-        }
-
-        return unit;
+        return mesh.VertexIndices.All(vertex => Math.Abs(Vector.Dot(unit, mesh.Vertex(vertex) - origin)) <= tolerance) ? unit : null;
     }
 
     /// <summary>Tests whether all vertices lie behind or in the plane of each face, for meshes of up to 256 faces.</summary>

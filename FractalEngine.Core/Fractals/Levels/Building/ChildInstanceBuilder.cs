@@ -127,12 +127,7 @@ internal sealed class ChildInstanceBuilder(int baseCount)
     /// <summary>Tells whether the highest level that edges lead to has no edges itself.</summary>
     private bool LeadToNothing(long level, ChildEdge[] edges, Func<long, ChildEdge[]> edgesAt)
     {
-        var highest = 0L;
-        foreach (var edge in edges)
-        {
-            highest = Math.Max(highest, edge.RemainingLevels(level));
-        }
-
+        var highest = edges.Select(edge => edge.RemainingLevels(level)).DefaultIfEmpty().Max();
         return highest >= baseCount && edgesAt(highest).Length == 0;
     }
 
@@ -155,16 +150,8 @@ internal sealed class ChildInstanceBuilder(int baseCount)
         return children;
     }
 
-    private static long HighestLevel(List<EdgeChain> chains)
-    {
-        var highest = 0L;
-        foreach (var chain in chains)
-        {
-            highest = Math.Max(highest, chain.RemainingLevels);
-        }
-
-        return highest;
-    }
+    private static long HighestLevel(List<EdgeChain> chains) =>
+        chains.Select(static chain => chain.RemainingLevels).DefaultIfEmpty().Max();
 
     private static List<EdgeChain> Expand(List<EdgeChain> chains, long level, ChildEdge[] nextEdges)
     {
