@@ -68,12 +68,7 @@ public sealed class DrawableScene
     /// <summary>Creates a scene whose models are placeholder boxes.</summary>
     internal static DrawableScene CreateWithPlaceholders(LoadedScene scene, ImmutableArray<string> notices)
     {
-        var models = new Dictionary<Model, DrawableModel>(ReferenceEqualityComparer.Instance);
-        foreach (var model in scene.Models)
-        {
-            models.Add(model, ModelPreparation.CreatePlaceholder(model));
-        }
-
+        var models = scene.Models.ToDictionary(static model => model, ModelPreparation.CreatePlaceholder);
         return new(
             scene,
             [.. scene.Models.Select(model => models[model])],

@@ -26,17 +26,12 @@ internal static class LodHierarchyBuilder
 
     private static LodNode BuildNode(HierarchyLevel level, BoundingBox baseBox)
     {
-        var children = new List<LodChild>();
-        foreach (var (edge, box) in level.Edges.Zip(level.GetEdgeBoxes()))
-        {
-            if (!box.IsEmpty)
-            {
-                children.Add(new(edge.Map, box, edge.LevelStep, edge.Map == AffineMap.Identity ? -1 : edge.MapIndex));
-            }
-        }
-
-        return new(level.Box, ComputeProxyMap(baseBox, level.Box), [.. children]);
+        var children = level.Edges.Zip(level.GetEdgeBoxes()).Where(static child => !child.Second.IsEmpty);
+        return new(level.Box, ComputeProxyMap(baseBox, level.Box), [.. children.Select(CreateChild)]);
     }
+
+    private static LodChild CreateChild((ChildEdge Edge, BoundingBox Box) child) => new(
+        child.Edge.Map, child.Box, child.Edge.LevelStep, child.Edge.Map == AffineMap.Identity ? -1 : child.Edge.MapIndex);
 
     /// <summary>Computes the map under which the base mesh is the proxy of what a box holds.</summary>
     /// <remarks>

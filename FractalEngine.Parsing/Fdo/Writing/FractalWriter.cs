@@ -136,16 +136,9 @@ public sealed class FractalWriter
 
     private void WriteVectors(string name, string pluralName, Func<FractalSetForm, IEnumerable<Vector>> select)
     {
-        var lines = new List<string>();
         var first = _vectors.Count + 1;
-        foreach (var vector in _orderedForms.SelectMany(select))
-        {
-            if (_vectors.Add(vector))
-            {
-                lines.Add(FormattableString.Invariant($"v {vector.X:R} {vector.Y:R} {vector.Z:R}"));
-            }
-        }
-
+        var lines = _orderedForms.SelectMany(select).Where(_vectors.Add)
+            .Select(static vector => FormattableString.Invariant($"v {vector.X:R} {vector.Y:R} {vector.Z:R}")).ToList();
         if (lines.Count > 0)
         {
             var separator = lines.Count == 2 ? "and" : "to";
