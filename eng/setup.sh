@@ -61,7 +61,7 @@ install_packages() {
 
 # Tells whether no source is newer than a file.
 is_up_to_date() {
-    [ -e "$1" ] && [ -z "$(find "$root" \
+    [ -e "$1" ] && [ -z "$(find "$root" -mindepth 1 \
         \( -name bin -o -name obj -o -name .git -o -name out -o -name assets -o -name docs \) -prune -o \
         \( -name '*.cs' -o -name '*.csproj' -o -name '*.props' -o -name '*.json' -o -name '.editorconfig' \
         -o -name '*.vert' -o -name '*.frag' -o -name '*.glsl' -o -name '*.atlas' -o -path '*/Templates/*' \) -newer "$1" -print -quit)" ]

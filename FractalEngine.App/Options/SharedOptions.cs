@@ -50,7 +50,7 @@ internal sealed class SharedOptions
     }
 
     /// <summary>Adds options to a command, in the order of the help text.</summary>
-    public static void AddAll(Command command, params ReadOnlySpan<Option> options)
+    public static void AddAll(Command command, params Option[] options)
     {
         foreach (var option in options)
         {

@@ -60,9 +60,13 @@ public sealed class AssetCache
     private static void Drop<TKey, TValue>(Dictionary<TKey, TValue> entries, Func<TKey, bool> isNeeded)
         where TKey : notnull
     {
-        foreach (var key in entries.Keys.Where(key => !isNeeded(key)).ToArray())
+        // A dictionary may lose entries while it is looked through.
+        foreach (var key in entries.Keys)
         {
-            entries.Remove(key);
+            if (!isNeeded(key))
+            {
+                entries.Remove(key);
+            }
         }
     }
 

@@ -20,16 +20,20 @@ internal abstract class ObjElementScanner : ObjBlockBuilder
     private protected int End { get; private set; }
 
     /// <summary>Clears all counts, and makes room for the largest number of elements that so many bytes can hold.</summary>
-    private protected void Restart(int length)
+    /// <param name="capacity">
+    /// Length of the longest block that is likely to come: arrays that grow copy, and so touch, what no line has written.
+    /// </param>
+    /// <param name="length">Length of this block.</param>
+    private protected void Restart(int capacity, int length)
     {
         // The shortest lines are "v 0 0 0", "vt 0", "vn 0 0 0" and "f 1 1 1" with a line break, the shortest corner " 1".
-        Reserve(ref _positions, 3 * ((length / 8) + 2));
-        Reserve(ref _textureCoordinates, 2 * ((length / 5) + 2));
-        Reserve(ref _normals, 3 * ((length / 9) + 2));
-        Reserve(ref _positionIndices, (length / 2) + 2);
-        Reserve(ref _textureIndices, (length / 2) + 2);
-        Reserve(ref _normalIndices, (length / 2) + 2);
-        Reserve(ref _polygonSizes, (length / 8) + 2);
+        Reserve(ref _positions, 3 * ((capacity / 8) + 2));
+        Reserve(ref _textureCoordinates, 2 * ((capacity / 5) + 2));
+        Reserve(ref _normals, 3 * ((capacity / 9) + 2));
+        Reserve(ref _positionIndices, (capacity / 2) + 2);
+        Reserve(ref _textureIndices, (capacity / 2) + 2);
+        Reserve(ref _normalIndices, (capacity / 2) + 2);
+        Reserve(ref _polygonSizes, (capacity / 8) + 2);
         Clear();
         End = length;
         _requiredPositions = _requiredTextureCoordinates = _requiredNormals = 0;

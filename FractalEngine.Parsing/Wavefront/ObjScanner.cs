@@ -32,10 +32,9 @@ internal sealed class ObjScanner : ObjElementScanner
     /// <param name="length">Length of the block.</param>
     public void Scan(byte[] bytes, int length)
     {
-        Restart(length);
+        Restart(Math.Max(length, Math.Min(bytes.Length, ObjReader.DefaultBlockSize)), length);
         Statements.Clear();
-        HasDeclaration = false;
-        LineCount = 0;
+        (HasDeclaration, LineCount) = (false, 0);
         ScannedLength = Math.Min((int)ScanLines(ref MemoryMarshal.GetArrayDataReference(bytes)), length);
         HasDeclaration |= _positionCount > 0 || _textureCoordinateCount > 0 || _normalCount > 0 || _polygonCount > 0;
     }

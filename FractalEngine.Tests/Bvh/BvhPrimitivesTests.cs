@@ -97,8 +97,8 @@ public sealed class BvhPrimitivesTests
         var distance = random.Next(4) == 0 ? 0 : random.Between(0, 300);
         var error = FloatCutoff.ErrorBound(coordinate, edge, kernel, distance);
         var limit = Math.Sqrt(FloatCutoff.Create(coordinate, edge, kernel).For((float)(distance * distance)));
-        Assert.True(limit >= distance + (1.99 * error), $"{limit} at {distance} with {error}");
-        Assert.True(limit <= distance + (2.2 * error) + (24 * HalfPlace * distance), $"{limit} at {distance} with {error}");
+        Ensure.That(limit >= distance + (1.99 * error), $"{limit} at {distance} with {error}");
+        Ensure.That(limit <= distance + (2.2 * error) + (24 * HalfPlace * distance), $"{limit} at {distance} with {error}");
     });
 
     /// <summary>A position and a foot are rounded, √3 times half a place; the rest is proved in the documentation of colliders.</summary>

@@ -14,7 +14,7 @@ public class ExactFractalColliderAdversarialTests
 
     [Theory]
     [MemberData(nameof(Names))]
-    public void TryFindClosest_OnAnUnusualFractal_EqualsEveryFace(string name) => CheckAgainstEveryFace(name, 25);
+    public void TryFindClosest_OnAnUnusualFractal_EqualsEveryFace(string name) => CheckAgainstEveryFace(name, 10);
 
     [Theory]
     [MemberData(nameof(Names))]

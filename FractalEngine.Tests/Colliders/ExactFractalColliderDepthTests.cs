@@ -48,7 +48,7 @@ public class ExactFractalColliderDepthTests
     [InlineData("fern", 20)]
     [InlineData("appendix-b", 60)]
     [InlineData("terrain", 20)]
-    public void TryFindClosest_AtSomeDepth_EqualsBranchAndBoundWithSpheres(string name, int? depth) => Compare(name, depth, queries: 3);
+    public void TryFindClosest_AtSomeDepth_EqualsBranchAndBoundWithSpheres(string name, int? depth) => Compare(name, depth, queries: 2);
 
     [Theory]
     [MemberData(nameof(DeepFractals))]

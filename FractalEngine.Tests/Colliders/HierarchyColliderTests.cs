@@ -1,4 +1,3 @@
-using System.Globalization;
 using FractalEngine.Core.Colliders;
 using FractalEngine.Core.Generation;
 using FractalEngine.Core.Geometry;
@@ -266,9 +265,9 @@ public class HierarchyColliderTests
             // The kernel and the triangle are the same.
             Assert.Equal(expected.Distance, closest.Distance);
             var distance = expected.Distance;
-            Assert.True(hierarchy.TryFindClosest(position, distance, context, out _), $"nothing within {distance:R} of {position}");
+            Ensure.That(hierarchy.TryFindClosest(position, distance, context, out _), $"nothing within {distance:R} of {position}");
             var isFoundCloser = hierarchy.TryFindClosest(position, distance * (1 - 1e-12), context, out _);
-            Assert.False(isFoundCloser && distance > 0, $"within less than {distance:R} of {position}");
+            Ensure.That(!isFoundCloser || !(distance > 0), $"within less than {distance:R} of {position}");
         });
     }
 
@@ -287,9 +286,9 @@ public class HierarchyColliderTests
             Assert.True(simple.TryFindClosest(position, double.PositiveInfinity, context, out var expected));
             Assert.True(hierarchy.TryFindClosest(position, double.PositiveInfinity, context, out var actual));
             // The kernel and the triangle are the same, and so are the bits; of triangles equally close the first is right.
-            Assert.True((expected.Distance, expected.FaceIndex) == (actual.Distance, actual.FaceIndex), string.Create(
-                CultureInfo.InvariantCulture,
-                $"{position}: {actual.Distance:R} at face {actual.FaceIndex}, not {expected.Distance:R} at face {expected.FaceIndex}"));
+            Ensure.That(
+                (expected.Distance, expected.FaceIndex) == (actual.Distance, actual.FaceIndex),
+                $"{position}: {actual.Distance:R} at face {actual.FaceIndex}, not {expected.Distance:R} at face {expected.FaceIndex}");
             Assert.True(!isInKernelsRange || Math.Abs(actual.Distance - (position - actual.Point).Length())
                 <= 1e-12 * (position.MaxAbsComponent() + mesh.Bounds.Diagonal));
         });

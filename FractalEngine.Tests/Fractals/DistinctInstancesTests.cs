@@ -121,7 +121,13 @@ public class DistinctInstancesTests
     }
 
     [Fact]
-    public void TryExpandLevels_OfASmallFractal_EqualsTheExpansionOfAllChainsToTheBit() => Seeded.Run(300, random =>
+    public void TryExpandLevels_OfASmallFractal_EqualsTheExpansionOfAllChainsToTheBit() => Seeded.Run(100, CheckLevels);
+
+    [Fact]
+    [Trait("Category", "Soak")]
+    public void TryExpandLevels_OfManySmallFractals_EqualsTheExpansionOfAllChainsToTheBit() => Seeded.Run(3000, CheckLevels);
+
+    private static void CheckLevels(Random random)
     {
         // One in two with maps that commute, so that many chains are equal up to rounding.
         var fractal = random.Next(2) == 0
@@ -135,7 +141,7 @@ public class DistinctInstancesTests
         Assert.Null(FractalGenerator.TryExpandLevels(fractal, expected.Length - 1, long.MaxValue));
 
         Transformation RandomMove() => Samples.Move(0.1 * random.Next(-3, 4), 0.7 * random.Next(2), 0);
-    });
+    }
 
     // Among images that touch, overlap a little or entirely, or are flat. Most sets of many have two that overlap.
     [Fact]

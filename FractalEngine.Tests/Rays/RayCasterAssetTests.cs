@@ -8,7 +8,7 @@ namespace FractalEngine.Tests.Rays;
 /// <summary>Rays at the fractals of the assets against all their faces.</summary>
 public class RayCasterAssetTests
 {
-    private const int Rays = 5000;
+    private const int Rays = 2000;
     private const int SoakRays = 8_000_000;
 
     // The decimals of its file leave gaps of 3e-13 between its parts, wider than rounding.

@@ -30,7 +30,7 @@ public class MutationTests(Xunit.Abstractions.ITestOutputHelper output)
     private static readonly string[] Cultures = ["", "de-DE", "tr-TR", "ar-SA"];
 
     [Fact]
-    public void LoadThenUse_OfChangedFiles_GivesAResultOrAnErrorOfTheEngine() => Seeded.Run(60, Run);
+    public void LoadThenUse_OfChangedFiles_GivesAResultOrAnErrorOfTheEngine() => Seeded.Run(30, Run);
 
     [Fact]
     [Trait("Category", "Soak")]

@@ -97,19 +97,20 @@ public sealed class RangeTests
         ];
         var fractal = Fractal.Of(mesh).Repeat(maps, 3);
         Transformation skewed = new(Vector.Zero, new(10, 20, 30), new(1, 0.5, 0.9));
-        List<Func<Collider>> colliders =
+        // Each is made, or refused, once.
+        List<Lazy<Collider>> colliders =
         [
             .. Enum.GetValues<ColliderKind>().Where(kind => kind != ColliderKind.Fractal)
-                .Select(kind => (Func<Collider>)(() => Collider.For(mesh, kind))),
-            () => Collider.For(fractal), () => Collider.For(fractal, ColliderKind.Fractal),
+                .Select(kind => new Lazy<Collider>(() => Collider.For(mesh, kind))),
+            new(() => Collider.For(fractal)), new(() => Collider.For(fractal, ColliderKind.Fractal)),
         ];
-        List<LoadedScene> scenes =
+        List<Lazy<SceneCollider>> scenes =
         [
-            Scene(new PlacedModel(new SceneObject(mesh) { Placement = skewed })),
-            Scene([.. Enumerable.Range(0, 80).Select(i => new PlacedModel(
-                new SceneObject(mesh) { Placement = Samples.Move(size / 100 * i, 0, 0) }))]),
-            Scene([.. Enumerable.Range(0, 2).Select(_ => new PlacedModel(
-                new SceneObject(mesh) { Placement = Samples.MoveAndScale(0, 0, 0, 1e-200) }))]),
+            new(() => new(Scene(new PlacedModel(new SceneObject(mesh) { Placement = skewed })))),
+            new(() => new(Scene([.. Enumerable.Range(0, 80).Select(i => new PlacedModel(
+                new SceneObject(mesh) { Placement = Samples.Move(size / 100 * i, 0, 0) }))]))),
+            new(() => new(Scene([.. Enumerable.Range(0, 2).Select(_ => new PlacedModel(
+                new SceneObject(mesh) { Placement = Samples.MoveAndScale(0, 0, 0, 1e-200) }))]))),
         ];
         foreach (var (position, magnitude) in Positions(size))
         {
@@ -117,16 +118,16 @@ public sealed class RangeTests
             {
                 foreach (var radius in new[] { 1e308, double.PositiveInfinity })
                 {
-                    foreach (var create in colliders)
+                    foreach (var collider in colliders)
                     {
                         AssertFoundOrRefused(magnitude, () => (
-                            create().TryFindClosest(position, radius, new(), out var closest, epsilon), closest));
+                            collider.Value.TryFindClosest(position, radius, new(), out var closest, epsilon), closest));
                     }
 
                     foreach (var scene in scenes)
                     {
                         AssertFoundOrRefused(magnitude, () => (
-                            new SceneCollider(scene).TryFindClosest(
+                            scene.Value.TryFindClosest(
                                 position, radius, new(), out var closest, out _, epsilon: epsilon), closest));
                     }
                 }

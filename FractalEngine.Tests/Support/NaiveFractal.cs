@@ -97,7 +97,7 @@ internal static class NaiveFractal
         foreach (var map in expected)
         {
             var match = unmatched.FindIndex(other => MaxDifference(map, other) <= tolerance);
-            Assert.True(match >= 0, $"no instance is {string.Join(" ", map.SelectMany(row => row))}");
+            Ensure.That(match >= 0, $"no instance is {string.Join(" ", map.SelectMany(row => row))}");
             unmatched.RemoveAt(match);
         }
     }

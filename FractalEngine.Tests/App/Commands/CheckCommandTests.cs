@@ -5,6 +5,7 @@ using FractalEngine.Tests.Support;
 namespace FractalEngine.Tests.App.Commands;
 
 /// <summary>Tests that <c>check</c> tells all errors of a scene.</summary>
+[Collection(ConsoleTests.Name)]
 public sealed class CheckCommandTests : IDisposable
 {
     private readonly TemporaryFolder _folder = new();
@@ -66,5 +67,5 @@ public sealed class CheckCommandTests : IDisposable
         Assert.Single(Run("info", "bad.sdo").Error.Split('\n'), line => line.Contains(": error: ", StringComparison.Ordinal));
     }
 
-    private AppResult Run(params string[] arguments) => AppProcess.Run(_folder.Path, arguments);
+    private AppResult Run(params string[] arguments) => AppInProcess.Run(_folder.Path, arguments);
 }

@@ -7,6 +7,7 @@ using FractalEngine.Tests.Support;
 namespace FractalEngine.Tests.App.Commands;
 
 /// <summary>Tests the material file that <c>export</c> writes beside its mesh.</summary>
+[Collection(ConsoleTests.Name)]
 public sealed class ExportCommandTests : IDisposable
 {
     private const string Materials = """
@@ -165,7 +166,7 @@ public sealed class ExportCommandTests : IDisposable
     [Fact]
     public void Export_IntoTheStandardOutput_NamesNoMaterials()
     {
-        var (exitCode, output, _) = Run("export", "models/mesh.obj", "--output", "-");
+        var (exitCode, output, _) = AppProcess.Run(_folder.Path, "export", "models/mesh.obj", "--output", "-");
         Assert.Equal(0, exitCode);
         Assert.DoesNotContain("mtl", output, StringComparison.Ordinal);
     }
@@ -192,5 +193,5 @@ public sealed class ExportCommandTests : IDisposable
         PngWriter.Write(new PixelImage(2, 2, new byte[16]), stream);
     }
 
-    private AppResult Run(params string[] arguments) => AppProcess.Run(_folder.Path, arguments);
+    private AppResult Run(params string[] arguments) => AppInProcess.Run(_folder.Path, arguments);
 }

@@ -2,7 +2,8 @@ using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.App.Commands;
 
-/// <summary>Tests the command <c>generate</c>, which runs as a process.</summary>
+/// <summary>Tests the command <c>generate</c>.</summary>
+[Collection(ConsoleTests.Name)]
 public sealed class GenerateCommandTests : IDisposable
 {
     private readonly TemporaryFolder _folder = new();
@@ -46,5 +47,5 @@ public sealed class GenerateCommandTests : IDisposable
     public void Generate_OfInvalidNumbers_IsWrongUsage(string option, string value) =>
         Assert.Equal(2, Run("generate", "terrain", "-o", "a.obj", option, value).ExitCode);
 
-    private AppResult Run(params string[] arguments) => AppProcess.Run(_folder.Path, arguments);
+    private AppResult Run(params string[] arguments) => AppInProcess.Run(_folder.Path, arguments);
 }

@@ -7,6 +7,7 @@ using static System.FormattableString;
 namespace FractalEngine.Tests.App.Commands;
 
 /// <summary>Tests the command <c>query</c>, which prints one line per position in order, or one error.</summary>
+[Collection(ConsoleTests.Name)]
 public sealed class QueryCommandTests : IDisposable
 {
     private readonly TemporaryFolder _folder = new();
@@ -218,19 +219,5 @@ public sealed class QueryCommandTests : IDisposable
         Assert.StartsWith("error: ", error, StringComparison.Ordinal);
     }
 
-    [Fact]
-    public void Query_OnAnyNumberOfCores_PrintsTheSameLinesInTheOrderOfThePoints()
-    {
-        // Several blocks for each thread, among more objects than are searched without a hierarchy.
-        _folder.Write("many.sdo", string.Concat(Enumerable.Range(0, 100).Select(i => $"o \"cube.obj\" (({3 * i}, 0, 0), #, #)\n")));
-        _folder.Write("points.txt", string.Concat(Enumerable.Range(0, 3000).Select(i => $"{i % 300} {i / 300} 2\n")));
-        string[] arguments = ["query", "many.sdo", "--points", "points.txt"];
-        var (_, expected, _) = AppProcess.Run(_folder.Path, new() { ["DOTNET_PROCESSOR_COUNT"] = "1" }, arguments);
-        Assert.Equal(3000, expected.Count(character => character == '\n'));
-        // The first point is 1.5 before the first cube.
-        Assert.StartsWith("1.5 0 0 0.5 0 0 1 ", expected, StringComparison.Ordinal);
-        Assert.Equal(expected, AppProcess.Run(_folder.Path, new() { ["DOTNET_PROCESSOR_COUNT"] = "4" }, arguments).Output);
-    }
-
-    private AppResult Run(params string[] arguments) => AppProcess.Run(_folder.Path, arguments);
+    private AppResult Run(params string[] arguments) => AppInProcess.Run(_folder.Path, arguments);
 }

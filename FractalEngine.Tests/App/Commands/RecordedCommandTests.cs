@@ -136,13 +136,6 @@ public sealed class RecordedCommandTests : IDisposable
         "query row.fdo --rays points.txt", "query row.fdo --rays rays.txt --epsilon 1", "query row.fdo --rays rays.txt --json --header",
         "query blank.sdo --rays rays.txt", "query - --points -", "query - --rays -", "query missing.fdo --points points.txt");
 
-    /// <summary>A walk whose steps turn has more parts around a position than any search visits.</summary>
-    [Fact]
-    public void Query_BeyondTheLimitOfWork_SaysHowManyAnswersAreUncertain() => Check(
-        "commands-uncertain.txt",
-        "query walk.fdo --points one.txt",
-        "query walk.fdo --points one.txt --collider simple");
-
     [Fact]
     public void Simulate_OfAScene_IsAsRecorded() => Check(
         "commands-simulate.txt",
@@ -156,28 +149,6 @@ public sealed class RecordedCommandTests : IDisposable
         "simulate drop.sdo -o h.txt", "simulate drop.sdo -o h.csv --collider box", "simulate drop.sdo -o drop.sdo",
         "simulate drop.sdo -o h.csv --collider fractal", "simulate drop.sdo -o i.csv --seconds 0.1 --limit bodies=1",
         "simulate missing.sdo -o h.csv", "simulate blank.sdo -o h.csv", "simulate drop.sdo -o a.txt/h.csv --seconds 0.1");
-
-    /// <summary>What only a process has: its standard streams, its culture and the name by which it was called.</summary>
-    [Fact]
-    public void Streams_OfProcesses_AreAsRecorded()
-    {
-        foreach (string line in (string[])[
-            "$APP export row.fdo -o - --depth 1 --verbose", "$APP simulate drop.sdo --seconds 0.05",
-            "$APP save scene.sdo -o - | $APP save - -o -",
-            "$APP query row.fdo --points - < points.txt", "$APP query - --rays rays.txt < row.fdo",
-            "$APP query /dev/stdin --points - < points.txt",
-            "$APP info - <&-", "$APP check - < faulty.fdo", "$APP info - --limit description-bytes=9 < row.fdo",
-            "LC_ALL=de_DE.UTF-8 $APP render --help --json | tail -5",
-            "LC_ALL=de_DE.UTF-8 $APP query row.fdo --points points.txt --header", "FRACTALENGINE_PROGRAM=./run.sh $APP limits --help",
-            "FRACTALENGINE_PROGRAM= $APP info -x",
-            "$APP generate icosphere --faces 20 -o - | head -3",
-            "mkdir gone; cd gone; rmdir ../gone; $APP info ../cube.obj; $APP export ../cube.obj -o x.obj"])
-        {
-            _transcript.RunShell(line);
-        }
-
-        RecordedText.Check("commands-streams.txt", _transcript.Lines);
-    }
 
     private void Check(string file, params string[] commandLines)
     {

@@ -15,7 +15,7 @@ namespace FractalEngine.Tests.App.Commands;
 /// Runs command lines in a folder of their own and in the process of the tests, and notes what a user sees: the exit code, both streams
 /// and the files that are written. Times and paths are masked.
 /// </summary>
-/// <remarks>Its users belong to <see cref="ConsoleTests"/>.</remarks>
+/// <remarks>Its users belong to <see cref="ConsoleTests"/>, unless they only run lines of the shell.</remarks>
 internal sealed partial class Transcript : IDisposable
 {
     private const int MaxLine = 280;

@@ -194,10 +194,12 @@ internal sealed partial class DrivenWindow : IDisposable
         var differing = 0;
         for (var i = 0; i < image1.Pixels.Length; i += 4)
         {
-            differing += Enumerable.Range(i, 3).Any(k => Math.Abs(image1.Pixels[k] - image2.Pixels[k]) > 8) ? 1 : 0;
+            differing += Differs(i) || Differs(i + 1) || Differs(i + 2) ? 1 : 0;
         }
 
         return differing / (image1.Pixels.Length / 4.0);
+
+        bool Differs(int k) => Math.Abs(image1.Pixels[k] - image2.Pixels[k]) > 8;
     }
 
     public void Dispose()

@@ -10,7 +10,7 @@ internal static class ScreenText
     public static (int X, int Y)? Find(PixelImage image, string text)
     {
         var sheet = GlyphAtlas.Shared.Sheets[0];
-        var points = new List<(int X, int Y, bool IsInk)>();
+        var (ink, paper) = (new List<int>(), new List<int>());
         for (var i = 0; i < text.Length; i++)
         {
             var glyph = GlyphAtlas.Shared.GlyphOf(text[i]);
@@ -19,19 +19,21 @@ internal static class ScreenText
                 var coverage = sheet.Coverage[(glyph * sheet.CellWidth * sheet.CellHeight) + pixel];
                 if (coverage is 0 or > 245)
                 {
-                    points.Add(((i * sheet.CellWidth) + (pixel % sheet.CellWidth), pixel / sheet.CellWidth, coverage > 0));
+                    (coverage > 0 ? ink : paper).Add(
+                        (pixel / sheet.CellWidth * image.Width) + (i * sheet.CellWidth) + (pixel % sheet.CellWidth));
                 }
             }
         }
 
-        // Ink first: most places fail at once.
-        points = [.. points.OrderByDescending(static point => point.IsInk)];
+        var isText = FindTextPixels(image);
         var width = text.Length * sheet.CellWidth;
         for (var y = image.Height - sheet.CellHeight; y >= 0; y--)
         {
             for (var x = image.Width - width; x >= 0; x--)
             {
-                if (points.TrueForAll(point => IsText(image, x + point.X, y + point.Y) == point.IsInk))
+                // Ink first: most places fail at once.
+                var place = isText.AsSpan((y * image.Width) + x);
+                if (AreAll(place, ink, true) && AreAll(place, paper, false))
                 {
                     return (x + (width / 2), y + (sheet.CellHeight / 2));
                 }
@@ -41,11 +43,33 @@ internal static class ScreenText
         return null;
     }
 
-    private static bool IsText(PixelImage image, int x, int y)
+    private static bool AreAll(ReadOnlySpan<bool> place, List<int> offsets, bool isText)
     {
-        var colour = image[x, y];
-        return new[] { UiTheme.Dark.Text, UiTheme.Dark.DimText, UiTheme.Dark.Accent, UiTheme.Dark.Warning }.Any(text =>
-            Math.Abs(colour.Red - (255 * text.Red)) < 12 && Math.Abs(colour.Green - (255 * text.Green)) < 12
-            && Math.Abs(colour.Blue - (255 * text.Blue)) < 12);
+        foreach (var offset in offsets)
+        {
+            if (place[offset] != isText)
+            {
+                return false;
+            }
+        }
+
+        return true;
+    }
+
+    /// <summary>Tells of each pixel whether it has a colour of texts. A window is looked at many times, so this must be quick.</summary>
+    private static bool[] FindTextPixels(PixelImage image)
+    {
+        var isText = new bool[image.Width * image.Height];
+        foreach (var text in new[] { UiTheme.Dark.Text, UiTheme.Dark.DimText, UiTheme.Dark.Accent, UiTheme.Dark.Warning })
+        {
+            var (red, green, blue) = (255 * text.Red, 255 * text.Green, 255 * text.Blue);
+            for (var i = 0; i < isText.Length; i++)
+            {
+                isText[i] |= Math.Abs(image.Pixels[4 * i] - red) < 12 && Math.Abs(image.Pixels[(4 * i) + 1] - green) < 12
+                    && Math.Abs(image.Pixels[(4 * i) + 2] - blue) < 12;
+            }
+        }
+
+        return isText;
     }
 }

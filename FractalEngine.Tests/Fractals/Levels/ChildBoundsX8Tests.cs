@@ -55,7 +55,7 @@ public class ChildBoundsX8Tests
 
                 // Points are rounded, too.
                 var cutoff = Math.Sqrt(closestSquared) + (1e-13 * (position.MaxAbsComponent() + root.Radius));
-                Assert.True(queue.TryPeek(cutoff * cutoff, cutoff, out var found), $"child {i} is excluded at {Math.Sqrt(closestSquared)}");
+                Ensure.That(queue.TryPeek(cutoff * cutoff, cutoff, out var found), $"child {i} is excluded at {Math.Sqrt(closestSquared)}");
                 Assert.Equal(i, found);
                 Assert.InRange(queue.BoundOf(i), 0, cutoff * cutoff);
                 Assert.True(queue.MayContain(i) || queue.BoundOf(i) > 0);

@@ -57,7 +57,7 @@ public class ConvexHullTests
         {
             Assert.Equal(1, plane.Normal.Length(), 1e-12);
             Assert.All(hull.Vertices,
-                vertex => Assert.True(Vector.Dot(plane.Normal, vertex) <= plane.Offset, $"{vertex} is above {plane}"));
+                vertex => Ensure.That(Vector.Dot(plane.Normal, vertex) <= plane.Offset, $"{vertex} is above {plane}"));
             Assert.True(hull.Support(plane.Normal) <= plane.Offset);
         }
     });

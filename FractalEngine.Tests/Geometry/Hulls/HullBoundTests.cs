@@ -105,10 +105,10 @@ public class HullBoundTests
     private static void Check(double bound, Vector position, Vector[] points, double magnitude)
     {
         var expected = points.Min(point => (position - point).Length());
-        Assert.True(bound >= 0, $"{bound}");
-        Assert.True(
+        Ensure.That(bound >= 0, $"{bound}");
+        Ensure.That(
             Math.Sqrt(bound) <= (expected * (1 + RelativeTolerance)) + (RoundingTolerance * magnitude),
-            FormattableString.Invariant($"from {position}: a bound of {Math.Sqrt(bound):R}, though a point is at {expected:R}"));
+            $"from {position}: a bound of {Math.Sqrt(bound):R}, though a point is at {expected:R}");
     }
 
     private static HullBound CreateBound(Vector[] points, Random random, double? margin = null)

@@ -28,12 +28,12 @@ public sealed class TriangleBoxTestTests
                 if (IsAnythingLeft([a, b, c], Grown(box, -Slack)))
                 {
                     meetings++;
-                    Assert.True(isMeeting, $"{a} {b} {c} meets {box}");
+                    Ensure.That(isMeeting, $"{a} {b} {c} meets {box}");
                 }
                 else if (!IsAnythingLeft([a, b, c], Grown(box, Slack)))
                 {
                     misses++;
-                    Assert.False(isMeeting, $"{a} {b} {c} is apart from {box}");
+                    Ensure.That(!isMeeting, $"{a} {b} {c} is apart from {box}");
                 }
 
                 Assert.Equal(isMeeting, TriangleBoxTest.Meets(b, c, a, box, 0));

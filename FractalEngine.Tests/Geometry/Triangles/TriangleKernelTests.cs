@@ -1,4 +1,3 @@
-using System.Globalization;
 using FractalEngine.Core.Geometry.Triangles;
 using FractalEngine.Core.Maths;
 using FractalEngine.Tests.Colliders;
@@ -34,12 +33,12 @@ public class TriangleKernelTests
             var (position, a, b, c) = triangle;
             var point = TriangleKernel.ClosestPoint(position, a, b, c);
             var (weightA, weightB, weightC) = point.Barycentrics;
-            Assert.True(weightA >= 0 && weightB >= 0 && weightC >= 0, $"{triangle}: {point}");
+            Ensure.That(weightA >= 0 && weightB >= 0 && weightC >= 0, $"{triangle}: {point}");
             // Three numbers below 1 are rounded once each.
             Near.Equal(1, weightA + weightB + weightC, 4e-16);
             Near.Equal(point.Point, (weightA * a) + (weightB * b) + (weightC * c), Tolerance * triangle.Magnitude);
             Near.Equal((position - point.Point).Length(), Math.Sqrt(point.DistanceSquared), Tolerance * triangle.Magnitude);
-            Assert.True(IsConsistent(point.Feature, point.Barycentrics), $"{triangle}: {point}");
+            Ensure.That(IsConsistent(point.Feature, point.Barycentrics), $"{triangle}: {point}");
         }
     });
 
@@ -119,9 +118,9 @@ public class TriangleKernelTests
             var (position, a, b, c) = triangle;
             var distance = Math.Sqrt(TriangleKernel.ClosestPoint(position, a, b, c).DistanceSquared);
             var exact = ExactTriangleDistance.Distance(position, a, b, c);
-            Assert.True(Math.Abs(distance - exact) <= Tolerance * triangle.Magnitude, string.Create(
-                CultureInfo.InvariantCulture,
-                $"{triangle}: {distance:R}, exactly {exact:R}, off by {(distance - exact) / triangle.Magnitude:R} of the size"));
+            Ensure.That(
+                Math.Abs(distance - exact) <= Tolerance * triangle.Magnitude,
+                $"{triangle}: {distance:R}, exactly {exact:R}, off by {(distance - exact) / triangle.Magnitude:R} of the size");
         }
     });
 }

@@ -95,7 +95,7 @@ public class TrianglePairKernelTests
         {
             var direction = (pair.Point2 - pair.Point1) / distance;
             var gap = -Support(triangle2, -direction) - Support(triangle1, direction);
-            Assert.True(gap >= distance - (Tolerance / distance), $"{triangle1} and {triangle2}: {distance:R}, but the slab has {gap:R}");
+            Ensure.That(gap >= distance - (Tolerance / distance), $"{triangle1} and {triangle2}: {distance:R}, but the slab has {gap:R}");
         }
     }
 

@@ -112,12 +112,32 @@ public class SceneWriterTests
     private static ParsedScene Parse(string text) => SceneParser.Parse(new("test.sdo", text));
 
     [Fact]
-    public void Write_OfAnyScene_ReadsBackToTheSameBits() =>
-        Laws.CheckForAll(Scenes, scene => Assert.Equal(Bits.Of(scene), Bits.Of(Parse(SceneWriter.Write(scene)).Scene)));
+    public void Write_OfAnyScene_ReadsBackToTheSameBits() => CheckBits(100);
 
     [Fact]
-    public void Write_Twice_IsTheSameText() => Laws.CheckForAll(Scenes, scene =>
-        Assert.Equal(SceneWriter.Write(scene), SceneWriter.Write(Parse(SceneWriter.Write(scene)).Scene)));
+    public void Write_Twice_IsTheSameText() => CheckTwice(100);
+
+    [Fact]
+    [Trait("Category", "Soak")]
+    public void Write_OfManyScenes_ReadsBackToTheSameBitsAndText()
+    {
+        CheckBits(3000);
+        CheckTwice(3000);
+        CheckOverAnOriginal(3000);
+    }
+
+    private static void CheckBits(int scenes) => Laws.CheckForAll(
+        Scenes, scene => Assert.Equal(Bits.Of(scene), Bits.Of(Parse(SceneWriter.Write(scene)).Scene)), scenes);
+
+    private static void CheckTwice(int scenes) => Laws.CheckForAll(
+        Scenes,
+        scene => Assert.Equal(SceneWriter.Write(scene), SceneWriter.Write(Parse(SceneWriter.Write(scene)).Scene)),
+        scenes);
+
+    private static void CheckOverAnOriginal(int scenes) => Laws.CheckForAll(
+        Scenes,
+        scene => Assert.Equal(Bits.Of(scene), Bits.Of(Parse(SceneWriter.Write(scene, Parse(Commented))).Scene)),
+        scenes);
 
     [Theory]
     [MemberData(nameof(InCulture.Names), MemberType = typeof(InCulture))]
@@ -221,8 +241,7 @@ public class SceneWriterTests
     });
 
     [Fact]
-    public void Write_OfAnyOtherSceneOverAnOriginal_ReadsBackToTheSameBits() => Laws.CheckForAll(
-        Scenes, scene => Assert.Equal(Bits.Of(scene), Bits.Of(Parse(SceneWriter.Write(scene, Parse(Commented))).Scene)));
+    public void Write_OfAnyOtherSceneOverAnOriginal_ReadsBackToTheSameBits() => CheckOverAnOriginal(100);
 
     [Fact]
     public void Write_OfACameraWithATarget_KeepsItsLineUntilTheCameraMoves()

@@ -238,7 +238,7 @@ public class LodHierarchyTests
             foreach (var corner in corners)
             {
                 var point = map * corner;
-                Assert.True(box.DistanceSquared(point) <= rounding * rounding, $"{point} is not in {box}, {where}");
+                Ensure.That(box.DistanceSquared(point) <= rounding * rounding, $"{point} is not in {box}, {where}");
             }
         }
     }

@@ -18,7 +18,7 @@ public class RandomRecursivesTests
     public void Searches_InManyRandomRecursives_AgreeWithAllFaces() => Seeded.RunMostInParallel(20_000, CheckRandom, minShare: 0.7);
 
     [Fact]
-    public void FindClosest_OfPointsOfRandomDeepRecursives_IsAtThem() => Seeded.RunMost(12, CheckRandomDeep, minShare: 0.6);
+    public void FindClosest_OfPointsOfRandomDeepRecursives_IsAtThem() => Seeded.RunMost(6, CheckRandomDeep, minShare: 0.6);
 
     [Fact]
     [Trait("Category", "Soak")]
