@@ -26,8 +26,6 @@ internal static class UsageErrors
     }
 
     /// <summary>Reports a first word that is neither a command nor a file, if it is one.</summary>
-    /// <param name="root">The root of all commands.</param>
-    /// <param name="args">All arguments.</param>
     /// <returns>The exit code; null where the first word may be a file.</returns>
     public static int? ReportUnknownCommand(RootCommand root, string[] args)
     {

@@ -30,13 +30,15 @@ public sealed class NullArgumentTests : IDisposable
     // Types of inner layers, whose callers have checked before: a null ends in a NullReferenceException there.
     private static readonly string[] Unchecked =
     [
-        "AdaptiveQuality", "AtomicFile", "BodyDescription", "CameraFraming", "CameraNavigation", "ClosedSurface",
-        "DeepZoomRayCaster", "DistinctInstances", "ExactFractalCollider", "FractalAddress", "FractalBounds", "FractalGenerator",
-        "FractalNumber", "FractalParser", "FractalSteps", "FractalWriter", "FrameRenderer", "HierarchyCollider", "ImageHeader",
-        "LoadedScene", "LodHierarchy", "MtlParser", "NormalGenerator", "ObjMeshWriter", "ObjSceneWriter", "PhysicsWorld",
-        "PlacedModel", "PointsParser", "QueryStatistics", "RaysParser", "SceneFileMerge", "SceneMaterials", "SceneMerge", "SceneParser",
-        "SceneWriter", "SimpleCollider", "UnshadedSurface", "UserInterface", "View",
-        "VisibleSet",
+        "AdaptiveQuality", "AnimationOutput", "AtomicFile", "BodyCsvWriter", "BodyDescription", "CameraFraming",
+        "CameraNavigation", "CameraZoom", "ClosedSurface", "DeepZoomRayCaster", "DistinctInstances", "EditedFile",
+        "EditedFileWriter", "ExactFractalCollider", "FileEdits", "FlyingCamera", "FractalAddress", "FractalBounds",
+        "FractalComments", "FractalGenerator", "FractalNumber", "FractalParser", "FractalSteps", "FractalWriter",
+        "FrameRenderer", "HierarchyCollider", "ImageHeader", "LoadedScene", "LodHierarchy", "Matting", "MtlParser", "NewFile",
+        "NewFractalFile", "NewSceneFile", "NormalGenerator", "ObjMeshWriter", "ObjSceneWriter", "PhysicsWorld", "PlacedModel",
+        "PointsParser", "QueryStatistics", "RaysParser", "SceneDraft", "SceneEditor", "SceneFileMerge", "SceneFraming",
+        "SceneMaterials", "SceneMerge", "SceneParser", "SceneWorld", "SceneWriter", "SimpleCollider", "SubFractals",
+        "UnshadedSurface", "UserInterface", "View", "VisibleSet",
     ];
 
     [Fact]

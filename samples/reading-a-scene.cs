@@ -2,10 +2,10 @@
 #:property PublishAot=false
 // Loads a scene with all its files, lists its objects, and finds the one closest to the camera. Run from the folder of README.md.
 using FractalEngine.Core.Colliders;
-using FractalEngine.Core.SceneQueries;
 using FractalEngine.Core.Views;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Parsing.Text;
+
 
 var file = AssetLoader.Load("assets/scenes/menger.sdo");
 foreach (var placed in file.Scene.Objects)

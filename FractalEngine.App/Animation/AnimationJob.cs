@@ -1,7 +1,9 @@
 using FractalEngine.App.Jobs;
 using FractalEngine.App.Shell;
 using FractalEngine.App.Shell.Reports;
+using FractalEngine.Core.Images.Animations;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Scenes.Cameras;
 using FractalEngine.Render.Preparation;
 using FractalEngine.Render.Views;
 
@@ -18,6 +20,9 @@ namespace FractalEngine.App.Animation;
 internal sealed record AnimationJob(
     RenderJob Images, string Output, int FrameCount, double FramesPerSecond, bool IsTurntable, string? CameraList, bool IsSimulated)
 {
+    // A GIF counts the time of a frame in hundredths of a second.
+    private const double MaxFramesPerSecondOfGif = 100;
+
     /// <summary>How the frames are traced; null where they are drawn.</summary>
     public TracedImage? Trace { get; init; }
 
@@ -36,14 +41,37 @@ internal sealed record AnimationJob(
             throw new UsageException("nothing moves: expected --turntable, --zoom LEVELS, --path CAMERAS.txt or --simulate");
         }
 
-        AnimationOutput.CheckFormat(Output, FramesPerSecond, Images.Background.IsTransparent);
+        CheckFormat(Output, FramesPerSecond, Images.Background.IsTransparent);
+    }
+
+    /// <summary>Creates the output for the ending of its name.</summary>
+    /// <exception cref="IOException">It needs a program that is not installed.</exception>
+    /// <exception cref="UsageException">No format has its ending.</exception>
+    public AnimationOutput CreateOutput() => AnimationOutput.Create(Output, FrameCount, FramesPerSecond)
+        ?? throw new UsageException($"--output '{Output}' must end in {AnimationOutput.Endings}");
+
+    /// <summary>Requires the format of an output to be able to hold the frames.</summary>
+    /// <exception cref="UsageException">It can't.</exception>
+    public static void CheckFormat(string path, double framesPerSecond, bool isTransparent)
+    {
+        var ending = Path.GetExtension(path).ToLowerInvariant();
+        if (ending is ".gif" && framesPerSecond > MaxFramesPerSecondOfGif)
+        {
+            var rates = FormattableString.Invariant($"{MaxFramesPerSecondOfGif} frames a second, not {framesPerSecond}");
+            throw new UsageException($"a .gif has at most {rates}: expected a smaller --fps, or .apng");
+        }
+
+        if (isTransparent && ending is (".mp4" or ".webm" or ".gif"))
+        {
+            throw new UsageException($"a video has no transparent background: expected --output to end in .png or .apng, not {ending}");
+        }
     }
 
     /// <summary>Returns the physics time of a frame, in seconds.</summary>
     /// <param name="frame">Index of the frame, from 0.</param>
     public double TimeOf(int frame) => Images.Time + (frame / FramesPerSecond);
 
-    /// <summary>Creates the motion of the camera: the view of each frame.</summary>
+    /// <summary>Creates the motion of the camera: the view of each frame. Frames of a zoom must be asked for in order.</summary>
     /// <param name="scene">The scene as it is at first.</param>
     /// <param name="prepare">Prepares the scene for drawing, which only a zoom needs.</param>
     /// <param name="view">The view of a still image.</param>
@@ -53,12 +81,26 @@ internal sealed record AnimationJob(
     {
         // The way into a fractal is measured first, which takes long for hundreds of levels.
         using var notice = new SlowWorkNotice("finding the camera's way", isQuiet);
-        return this switch
+        var last = Math.Max(1, FrameCount - 1);
+        if (IsTurntable)
         {
-            { IsTurntable: true } => CameraMotion.Turntable(view, scene.Bounds.Centre, FrameCount),
-            { CameraList: { } list } => CameraMotion.Along(CameraPath.Read(list, scene.Scene.Handedness), view, FrameCount),
-            { Images.ZoomLevels: > 0 and var levels } => CameraMotion.Zoom(prepare(), view, levels, FrameCount),
-            _ => CameraMotion.Still(view),
-        };
+            // So that the last frame leads on to the first.
+            var pivot = scene.Bounds.Centre;
+            return frame => view with { Camera = CameraNavigation.Orbit(view.Camera, pivot, 2 * Math.PI * frame / FrameCount, 0) };
+        }
+
+        if (CameraList is { } list)
+        {
+            var path = CameraText.ReadPath(list, scene.Scene.Handedness);
+            return frame => view with { Camera = path.At((double)frame / last) };
+        }
+
+        if (Images.ZoomLevels > 0)
+        {
+            var (zoom, steps) = Images.PlanZoom(prepare(), view);
+            return frame => zoom.FlyTo(steps * frame / last);
+        }
+
+        return _ => view;
     }
 }

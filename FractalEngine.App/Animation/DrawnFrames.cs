@@ -1,7 +1,9 @@
 using FractalEngine.App.Jobs;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Images;
+using FractalEngine.Parsing.Simulation;
 using FractalEngine.Render;
+using FractalEngine.Render.Images;
 using FractalEngine.Render.Preparation;
 using FractalEngine.Render.Views;
 using FractalEngine.Render.Windowing;
@@ -16,7 +18,6 @@ internal sealed class DrawnFrames(DrawableScene drawable, RenderJob job) : Frame
 {
     private readonly Renderer _renderer = Renderer.Offscreen(job.Size.Width, job.Size.Height, job.Settings);
 
-    /// <inheritdoc/>
     public override PixelImage CreateFrame(View view, CancellationToken cancellation)
     {
         cancellation.ThrowIfCancellationRequested();
@@ -25,7 +26,6 @@ internal sealed class DrawnFrames(DrawableScene drawable, RenderJob job) : Frame
             : DrawOn(view, job.Background.Colour);
     }
 
-    /// <inheritdoc/>
     public override void Move(AnimatedBodies bodies)
     {
         foreach (var (index, map) in bodies.Maps)
@@ -34,7 +34,6 @@ internal sealed class DrawnFrames(DrawableScene drawable, RenderJob job) : Frame
         }
     }
 
-    /// <inheritdoc/>
     public override void Dispose()
     {
         _renderer.Dispose();

@@ -1,4 +1,5 @@
 using FractalEngine.Core.Images;
+using FractalEngine.Parsing.Simulation;
 using FractalEngine.Render.Views;
 
 namespace FractalEngine.App.Animation;
@@ -12,10 +13,8 @@ internal abstract class FrameSource : IDisposable
     /// <exception cref="OperationCanceledException">The work was cancelled.</exception>
     public abstract PixelImage CreateFrame(View view, CancellationToken cancellation);
 
-    /// <summary>Shows the bodies of the scene where they are now.</summary>
     public abstract void Move(AnimatedBodies bodies);
 
-    /// <inheritdoc/>
     public virtual void Dispose()
     {
     }

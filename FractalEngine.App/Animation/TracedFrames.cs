@@ -1,6 +1,7 @@
 using FractalEngine.App.Jobs;
 using FractalEngine.Core.Images;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Parsing.Simulation;
 using FractalEngine.Render.Tracing;
 using FractalEngine.Render.Views;
 
@@ -15,7 +16,6 @@ internal sealed class TracedFrames(PathTracer prepared, RenderJob job, TracedIma
     private PathTracer _tracer = prepared;
     private LoadedScene? _movedScene;
 
-    /// <inheritdoc/>
     public override PixelImage CreateFrame(View view, CancellationToken cancellation)
     {
         _tracer = _movedScene is { } scene
@@ -26,6 +26,5 @@ internal sealed class TracedFrames(PathTracer prepared, RenderJob job, TracedIma
         return _tracer.ToImage();
     }
 
-    /// <inheritdoc/>
     public override void Move(AnimatedBodies bodies) => _movedScene = bodies.GetScene();
 }

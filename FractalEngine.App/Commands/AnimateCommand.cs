@@ -3,7 +3,9 @@ using FractalEngine.App.Animation;
 using FractalEngine.App.Options;
 using FractalEngine.App.Shell;
 using FractalEngine.App.Shell.Reports;
+using FractalEngine.Core.Images.Animations;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Parsing.Simulation;
 using FractalEngine.Render.Preparation;
 using FractalEngine.Render.Views;
 
@@ -13,14 +15,12 @@ namespace FractalEngine.App.Commands;
 internal static class AnimateCommand
 {
     private const int DefaultFrameCount = 60;
-    /// <summary>Largest number of frames.</summary>
     public const int MaxFrameCount = 100_000;
 
     /// <summary>Largest number of frames a second.</summary>
     public const double MaxFramesPerSecond = 655;
     private const int DefaultFramesPerSecond = 25;
 
-    /// <summary>Creates the command with its arguments and options.</summary>
     public static Command Create()
     {
         var images = new ImageOptions(canKeepPartial: false);
@@ -76,15 +76,24 @@ internal static class AnimateCommand
     {
         animation.Check();
         // Before anything is loaded, since a video needs a program that may be missing.
-        using var output = AnimationOutput.Create(animation.Output, animation.FrameCount, animation.FramesPerSecond);
+        using var output = animation.CreateOutput();
         var job = animation.Images;
         var file = report.Measure("load", () => ConsoleLoader.Load(job.Path, job.Load, isTraced: animation.Trace is not null));
-        output.Protect();
+        foreach (var written in output.Files)
+        {
+            InputFiles.Protect(written);
+        }
+
         var scene = job.WithProjection(file.Scene);
         // A default camera frames the scene as it is at time 0, as in a still image.
         var view = job.CreateView(scene, (double)job.Size.Width / job.Size.Height);
+        if (animation.IsSimulated)
+        {
+            job.RequireMotion(scene, "there is nothing to simulate");
+        }
+
         var bodies = animation.IsSimulated ? new AnimatedBodies(job.Path, file, scene) : null;
-        scene = bodies is null ? AnimatedBodies.SceneAfter(job.Path, file, scene, job.Time) : scene;
+        scene = bodies is null ? job.AtTime(file, scene) : scene;
         using var frames = CreateFrames(animation, scene, view, report, out var motion);
         return Write(animation, frames, motion, bodies, output, report);
     }

@@ -14,7 +14,6 @@ internal static class CheckCommand
 {
     private static readonly string[] Endings = [".obj", ".obj.gz", ".ply", ".stl", ".fdo", ".sdo"];
 
-    /// <summary>Creates the command with its arguments and options.</summary>
     public static Command Create()
     {
         var shared = new SharedOptions();

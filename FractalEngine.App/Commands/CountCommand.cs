@@ -9,7 +9,6 @@ namespace FractalEngine.App.Commands;
 /// <summary>The command <c>count FILE</c>, which writes the face count into the head of an OBJ file (paper §4.1.1).</summary>
 internal static class CountCommand
 {
-    /// <summary>Creates the command with its arguments and options.</summary>
     public static Command Create()
     {
         var file = SharedOptions.FileArgument("A mesh (.obj).");

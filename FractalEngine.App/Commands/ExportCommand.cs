@@ -13,16 +13,12 @@ namespace FractalEngine.App.Commands;
 /// <summary>The command <c>export FILE --output X.obj</c>, which expands a file into one flat mesh.</summary>
 internal static class ExportCommand
 {
-    /// <summary>Creates the command with its arguments and options.</summary>
     public static Command Create()
     {
         var shared = new SharedOptions();
         var output = SharedOptions.OutputOption(".obj", "Mesh to write.");
         var depth = NumberOption.Integer("--depth", "N", 0, int.MaxValue, "Recursion depth, overriding the fractal's file.");
-        var noMaterials = new Option<bool>("--no-materials")
-        {
-            Description = "Write no material file (.mtl) beside the mesh.",
-        };
+        var noMaterials = SharedOptions.Flag("--no-materials", "Write no material file (.mtl) beside the mesh.");
         var report = new ReportOptions();
         var command = new DocumentedCommand(
             "export", "Write all faces of FILE as one flat mesh, with fractals expanded.",

@@ -13,7 +13,6 @@ namespace FractalEngine.App.Commands;
 /// </summary>
 internal static class GenerateCommand
 {
-    /// <summary>Creates the command with its arguments and options.</summary>
     public static Command Create()
     {
         var name = new Argument<string>("NAME") { Description = Descriptions() };

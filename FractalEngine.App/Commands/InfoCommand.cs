@@ -1,6 +1,5 @@
 using System.CommandLine;
 using System.Diagnostics;
-using FractalEngine.App.Jobs;
 using FractalEngine.App.Options;
 using FractalEngine.App.Shell;
 using FractalEngine.App.Shell.Reports;
@@ -12,7 +11,6 @@ namespace FractalEngine.App.Commands;
 /// <summary>The command <c>info FILE [--json] [--prepare]</c>, which prints exact counts, bounds, storage size and load time.</summary>
 internal static class InfoCommand
 {
-    /// <summary>Creates the command with its arguments and options.</summary>
     public static Command Create()
     {
         var shared = new SharedOptions();
@@ -35,7 +33,7 @@ internal static class InfoCommand
         var clock = Stopwatch.StartNew();
         var file = ConsoleLoader.Load(path, options);
         var loadTime = clock.Elapsed;
-        var summary = FileSummary.Of(file, loadTime, prepare ? MeasurePreparation(file) : null);
+        var summary = new FileSummary(file, loadTime, prepare ? MeasurePreparation(file) : null);
         Console.WriteLine(json ? summary.ToJson() : summary.ToText());
         return ExitCode.Done;
     }

@@ -10,7 +10,6 @@ internal sealed class LimitOption : Option<string[]>
 {
     private const string ExportName = "export";
 
-    /// <summary>Creates the option for all commands.</summary>
     public LimitOption()
         : base("--limit")
     {

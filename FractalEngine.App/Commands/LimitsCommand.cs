@@ -1,5 +1,4 @@
 using System.CommandLine;
-using FractalEngine.App.Cameras;
 using FractalEngine.App.Jobs;
 using FractalEngine.App.Options;
 using FractalEngine.App.Shell;
@@ -8,6 +7,7 @@ using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Generation;
 using FractalEngine.Core.Physics;
 using FractalEngine.Parsing.Text;
+using FractalEngine.Render.Cameras;
 using static System.FormattableString;
 
 namespace FractalEngine.App.Commands;
@@ -18,7 +18,6 @@ internal static class LimitsCommand
     /// <summary>All limits, those of fractals first.</summary>
     public static IEnumerable<Limit> All => [.. FractalLimits.All, .. ParsingLimits.All, .. PhysicsLimits.All];
 
-    /// <summary>Creates the command, which has no arguments.</summary>
     public static Command Create()
     {
         var command = new DocumentedCommand(

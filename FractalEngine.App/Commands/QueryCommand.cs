@@ -27,7 +27,6 @@ internal static class QueryCommand
     // As a part of the coordinates; rounding alone leaves far less.
     private const double MaxCertainError = 1e-9;
 
-    /// <summary>Creates the command with its arguments and options.</summary>
     public static Command Create()
     {
         var shared = new SharedOptions();
@@ -40,10 +39,8 @@ internal static class QueryCommand
         var maxDistance = NumberOption.NonNegative("--within", "R", "Search radius in scene units (default: unlimited).");
         var epsilon = NumberOption.NonNegative(
             "--epsilon", "E", "Accept points farther than the closest by a factor of up to 1 + E (default: 0).");
-        var errorBound = new Option<bool>("--error-bound")
-        {
-            Description = "Also print how much farther than the closest point each result may be.",
-        };
+        var errorBound = SharedOptions.Flag(
+            "--error-bound", "Also print how much farther than the closest point each result may be.");
         var json = new Option<bool>("--json") { Description = "Print a JSON array instead of lines." };
         var header = new Option<bool>("--header") { Description = "Print a first line with the names of the columns." };
         var command = new DocumentedCommand(
@@ -175,7 +172,6 @@ internal static class QueryCommand
             $"{closest.Distance:R} {FormatVector(closest.Point, " ")} {FormatVector(closest.Normal, " ")} {faceTests}{errorBound}");
     }
 
-    /// <summary>Formats the components of a vector.</summary>
     internal static string FormatVector(Vector vector, string separator) =>
         string.Create(CultureInfo.InvariantCulture, $"{vector.X:R}{separator}{vector.Y:R}{separator}{vector.Z:R}");
 

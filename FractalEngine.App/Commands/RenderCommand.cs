@@ -1,6 +1,5 @@
 using System.CommandLine;
 using FractalEngine.App.Animation;
-using FractalEngine.App.Cameras;
 using FractalEngine.App.Jobs;
 using FractalEngine.App.Options;
 using FractalEngine.App.Shell;
@@ -15,7 +14,6 @@ namespace FractalEngine.App.Commands;
 /// <summary>The command <c>render FILE --output X.png</c>, which draws a file into an image without a window.</summary>
 internal static class RenderCommand
 {
-    /// <summary>Creates the command with its arguments and options.</summary>
     public static Command Create()
     {
         var images = new ImageOptions(canKeepPartial: true);
@@ -52,7 +50,7 @@ internal static class RenderCommand
         var scene = job.WithProjection(file.Scene);
         // A default camera frames the scene as it is at time 0, so that images of several times show the same view.
         var view = job.CreateView(scene, (double)job.Size.Width / job.Size.Height);
-        scene = AnimatedBodies.SceneAfter(job.Path, file, scene, job.Time);
+        scene = job.AtTime(file, scene);
         if (trace is not null)
         {
             Trace(scene, view, job, trace, output, report);
@@ -93,8 +91,8 @@ internal static class RenderCommand
             return view;
         }
 
-        var zoom = new CameraZoom(drawable, view);
-        return zoom.FlyTo(zoom.CountSteps(job.ZoomLevels));
+        var (zoom, steps) = job.PlanZoom(drawable, view);
+        return zoom.FlyTo(steps);
     }
 
     private static void Write(PixelImage image, string output, WrittenReport report)

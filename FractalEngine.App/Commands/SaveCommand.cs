@@ -5,6 +5,7 @@ using FractalEngine.App.Shell;
 using FractalEngine.App.Shell.Reports;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Parsing.Assets.References;
+using FractalEngine.Parsing.Editing;
 using FractalEngine.Parsing.Sdo;
 
 namespace FractalEngine.App.Commands;
@@ -12,7 +13,6 @@ namespace FractalEngine.App.Commands;
 /// <summary>The command <c>save FILE --output Y.sdo</c>, which loads a file and writes it as a scene.</summary>
 internal static class SaveCommand
 {
-    /// <summary>Creates the command with its arguments and options.</summary>
     public static Command Create()
     {
         var shared = new SharedOptions();
@@ -34,24 +34,16 @@ internal static class SaveCommand
     private static int Run(string path, LoadOptions options, string output, WrittenReport report)
     {
         var file = report.Measure("load", () => ConsoleLoader.Load(path, options));
-        report.Measure("write", () => Save(file, file.Scene.Scene, output));
+        report.Measure("write", () => Save(file, output));
         report.Written(output, $"{file.Scene.Scene.Objects.Length} {(file.Scene.Scene.Objects.Length == 1 ? "object" : "objects")}");
         return ExitCode.Done;
     }
 
-    /// <summary>Writes a scene that may have changed since it was loaded. File names become relative to the output.</summary>
-    /// <param name="file">The file that the scene was loaded from.</param>
-    /// <param name="scene">The scene to write.</param>
-    /// <param name="output">Path of the scene file to write.</param>
-    /// <exception cref="UsageException">The path of a file can't be written in a scene.</exception>
-    public static void Save(LoadedFile file, Core.Scenes.Scene scene, string output)
+    /// <summary>Writes the scene of a file. File names become relative to the output.</summary>
+    /// <exception cref="IOException">The path of a file can't be written in a scene.</exception>
+    private static void Save(LoadedFile file, string output)
     {
-        var relocated = SceneRelocation.Relocate(scene, file.Path, Path.GetFullPath(output));
-        if (relocated.Objects.Any(declared => declared.File!.IndexOfAny(['"', '\n', '\r']) >= 0))
-        {
-            throw new UsageException("a scene can't refer to a file with a quote or a line break in its path");
-        }
-
+        var relocated = NewSceneFile.Relocate(file, file.Scene.Scene, Path.GetFullPath(output));
         // Editors that need a byte order mark wrote it. UTF-16 becomes UTF-8 with one.
         var mark = file.ParsedScene?.Source.HasByteOrderMark == true ? "\uFEFF" : "";
         OutputFile.Write(output, stream => stream.Write(Encoding.UTF8.GetBytes(mark + SceneWriter.Write(relocated, file.ParsedScene))));

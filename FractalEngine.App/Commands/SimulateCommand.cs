@@ -1,7 +1,6 @@
 using System.CommandLine;
 using System.Diagnostics;
 using System.Text;
-using FractalEngine.App.Jobs;
 using FractalEngine.App.Options;
 using FractalEngine.App.Shell;
 using FractalEngine.App.Shell.Reports;
@@ -12,6 +11,7 @@ using FractalEngine.Core.Physics;
 using FractalEngine.Core.Physics.Descriptions;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Assets;
+using FractalEngine.Parsing.Simulation;
 using static System.FormattableString;
 using static FractalEngine.App.Shell.StandardStreams;
 
@@ -30,7 +30,6 @@ internal static class SimulateCommand
     // Excess of a quotient of two rounded numbers over the whole number that is meant, in steps.
     private const double StepTolerance = 1e-9;
 
-    /// <summary>Creates the command with its arguments and options.</summary>
     public static Command Create()
     {
         var shared = new SharedOptions();

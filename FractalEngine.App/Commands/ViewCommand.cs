@@ -25,7 +25,6 @@ internal static class ViewCommand
     // Set to 1 by run.sh where it starts a virtual display, which nobody can see.
     private const string NoWindowVariable = "FRACTALENGINE_NO_WINDOW";
 
-    /// <summary>Creates the command with its arguments and options.</summary>
     public static Command Create()
     {
         var shared = new SharedOptions();

@@ -9,7 +9,6 @@ namespace FractalEngine.App.Jobs;
 /// <param name="Colour">The colour of the background; null for the scene's own. Without meaning where it is transparent.</param>
 internal sealed record BackgroundChoice(bool IsTransparent, Colour? Colour)
 {
-    /// <summary>The background of the scene.</summary>
     public static BackgroundChoice OfScene { get; } = new(false, null);
 
     /// <summary>Gives a scene this background, so that haze without a colour of its own fades to it.</summary>

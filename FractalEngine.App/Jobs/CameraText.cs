@@ -4,6 +4,7 @@ using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Scenes.Cameras;
 using FractalEngine.Parsing.Sdo;
 using FractalEngine.Parsing.Text;
+using FractalEngine.Render.Cameras;
 
 namespace FractalEngine.App.Jobs;
 
@@ -13,20 +14,29 @@ internal static class CameraText
     private const string CameraForms = "(x, y, z) (pitch, yaw, roll) fov or (x, y, z) look-at (x, y, z) fov";
 
     /// <summary>Parses what follows <c>c</c> in a scene: <c>(x, y, z) (pitch, yaw, roll) fov</c>, or with <c>look-at</c>.</summary>
-    /// <param name="option">Name of the option.</param>
-    /// <param name="text">The camera.</param>
-    /// <param name="handedness">That of the scene.</param>
     /// <exception cref="UsageException">The text is no camera.</exception>
     public static Camera ParseCamera(string option, string text, Handedness handedness) =>
         ParseOption(option, "c ", text, CameraForms, handedness).Camera!;
 
-    /// <summary>Parses a line of a list of cameras: what <see cref="ParseCamera"/> takes, or the whole line of a scene.</summary>
-    /// <param name="file">Name of the list in messages.</param>
-    /// <param name="line">Number of the line, from 1.</param>
-    /// <param name="text">The line.</param>
-    /// <param name="handedness">That of the scene.</param>
-    /// <exception cref="SourceException">The line is no camera.</exception>
-    public static Camera ParseCameraLine(string file, int line, string text, Handedness handedness)
+    /// <summary>
+    /// Reads a list: a camera a line, as <c>--camera</c> takes it. A leading <c>c</c> is allowed, and <c>#</c> starts a comment.
+    /// </summary>
+    /// <exception cref="SourceException">The file can't be read, or a line is no camera, or one beyond the limit.</exception>
+    /// <exception cref="UsageException">There are fewer than two cameras.</exception>
+    public static CameraPath ReadPath(string path, Handedness handedness)
+    {
+        var source = StandardInput.ReadOrFile(path, ParsingLimits.MaxDescriptionBytes);
+        Camera[] cameras =
+        [
+            .. source.Text.ReplaceLineEndings("\n").Split('\n')
+                .Select(static (line, index) => (Text: line.TrimEnd(), Number: index + 1))
+                .Where(static line => line.Text.Length > 0 && !line.Text.TrimStart().StartsWith('#'))
+                .Select(line => ParseCameraLine(path, line.Number, line.Text, handedness)),
+        ];
+        return cameras.Length >= 2 ? new(cameras, handedness) : throw new UsageException($"{path} has fewer than two cameras");
+    }
+
+    internal static Camera ParseCameraLine(string file, int line, string text, Handedness handedness)
     {
         var start = text.Length - text.TrimStart().Length;
         start += text.AsSpan(start).StartsWith("c ") ? 2 : 0;
@@ -38,7 +48,8 @@ internal static class CameraText
             Console.Error.WriteLine(warning);
         }
 
-        return scene.Camera!;
+        return scene.Camera!.Position.MaxAbsComponent() <= CameraPath.MaxCoordinate ? scene.Camera : throw new SourceException(
+            new(file, line, 1, DiagnosticSeverity.Error, "the camera of a path is beyond the limit of 1e150") { IsLimitExceeded = true });
     }
 
     /// <summary>Formats the camera of a scene as its line <c>c</c>, which reads back to the same bits.</summary>

@@ -22,7 +22,6 @@ internal sealed class ExportedMaterials
         _fullPath = System.IO.Path.Combine(AssetFolder.ResolveLinks(folder), Name);
     }
 
-    /// <summary>The materials of all objects.</summary>
     public SceneMaterials Materials { get; }
 
     /// <summary>Path of the file: that of the mesh, with another ending.</summary>
@@ -60,10 +59,8 @@ internal sealed class ExportedMaterials
         return new(materials, path);
     }
 
-    /// <summary>Writes the contents of the file.</summary>
     public void Write(Stream stream) => Materials.Write(stream, _fullPath);
 
-    /// <summary>Returns the number of materials with the name of the file.</summary>
     public string Describe() => Materials.Count == 1
         ? $"1 material in {Name}"
         : FormattableString.Invariant($"{Materials.Count} materials in {Name}");

@@ -1,6 +1,11 @@
+using FractalEngine.App.Shell;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Scenes.Cameras;
 using FractalEngine.Parsing.Assets;
+using FractalEngine.Parsing.Simulation;
+using FractalEngine.Parsing.Text;
+using FractalEngine.Render.Cameras;
+using FractalEngine.Render.Preparation;
 using FractalEngine.Render.Views;
 
 namespace FractalEngine.App.Jobs;
@@ -17,7 +22,6 @@ internal sealed record RenderJob(
     /// <summary>The physics time at which the scene is drawn, in seconds.</summary>
     public double Time { get; init; }
 
-    /// <summary>What is shown behind the scene.</summary>
     public BackgroundChoice Background { get; init; } = BackgroundChoice.OfScene;
 
     /// <summary>Creates the view of a scene for an aspect ratio, before any zoom.</summary>
@@ -26,7 +30,56 @@ internal sealed record RenderJob(
     /// <summary>Number of levels that the camera flies into a fractal.</summary>
     public double ZoomLevels { get; init; }
 
-    /// <summary>Returns a scene with the projection of the job.</summary>
     public LoadedScene WithProjection(LoadedScene scene) =>
         Projection is { } projection ? scene with { Scene = scene.Scene with { Projection = projection } } : scene;
+
+    /// <summary>Returns a scene as it is at the time of the job.</summary>
+    /// <param name="file">The file that the scene was loaded from.</param>
+    /// <param name="scene">The scene, perhaps with another projection.</param>
+    /// <exception cref="SourceException">A body is invalid, or leaves the range of a double.</exception>
+    /// <exception cref="UsageException">Nothing in the scene moves.</exception>
+    public LoadedScene AtTime(LoadedFile file, LoadedScene scene)
+    {
+        if (Time > 0)
+        {
+            RequireMotion(scene, "--time has no effect");
+        }
+
+        return AnimatedBodies.SceneAfter(Path, file, scene, Time);
+    }
+
+    /// <summary>Requires a scene to have physics objects or moving ones.</summary>
+    /// <exception cref="UsageException">It has none.</exception>
+    public void RequireMotion(LoadedScene scene, string consequence)
+    {
+        if (!scene.Objects.Any(static placed => placed.Declaration is PhysicsObject or { Motion: not null }))
+        {
+            throw new UsageException($"{Path} has no physics objects, so {consequence}");
+        }
+    }
+
+    /// <summary>Plans the flight into a fractal, which takes long for hundreds of levels.</summary>
+    /// <exception cref="UsageException">There is no single fractal, the view is orthographic, or it meets no surface.</exception>
+    public (CameraZoom Zoom, double Steps) PlanZoom(DrawableScene drawable, View view)
+    {
+        if (drawable.SingleFractal is not { } fractal)
+        {
+            throw new UsageException("--zoom needs a fractal, or a scene whose only object is one, and --detail above 0");
+        }
+
+        if (view.Projection != Core.Scenes.Cameras.Projection.Perspective)
+        {
+            throw new UsageException("--zoom needs the perspective projection");
+        }
+
+        try
+        {
+            var zoom = new CameraZoom(drawable.Source.Bounds, fractal, view);
+            return (zoom, zoom.CountSteps(ZoomLevels));
+        }
+        catch (InvalidOperationException exception)
+        {
+            throw new UsageException(exception.Message);
+        }
+    }
 }

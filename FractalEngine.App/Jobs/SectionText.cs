@@ -10,8 +10,6 @@ internal static class SectionText
     private const int NumberCount = 4;
 
     /// <summary>Parses the plane of all points with x·NX + y·NY + z·NZ = D. Commas, blanks or both separate the numbers.</summary>
-    /// <param name="option">Name of the option.</param>
-    /// <param name="text">Four numbers.</param>
     /// <exception cref="UsageException">The text has not four finite numbers, or the normal is 0.</exception>
     public static SectionPlane Parse(string option, string text)
     {

@@ -1,11 +1,11 @@
 using System.CommandLine;
-using FractalEngine.App.Cameras;
 using FractalEngine.App.Jobs;
 using FractalEngine.App.Shell;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Scenes.Cameras;
 using FractalEngine.Core.Views;
+using FractalEngine.Render.Cameras;
 using FractalEngine.Render.Views;
 
 namespace FractalEngine.App.Options;
@@ -38,13 +38,11 @@ internal sealed class CameraOptions
     private readonly Option<double?> _zoom = NumberOption.Decimal(
         "--zoom", "LEVELS", 0, CameraZoom.MaxLevels, "Fly so many levels into a fractal, towards the surface ahead.");
 
-    /// <summary>Adds the options to a command.</summary>
     public void AddTo(Command command) => SharedOptions.AddAll(command, _camera, _lookFrom, _lookAt, _up, _view, _zoom);
 
     /// <summary>Returns the number of levels that the camera flies into a fractal.</summary>
     public double Zoom(ParseResult result) => result.GetValue(_zoom) ?? 0;
 
-    /// <summary>Returns whether the options choose a camera.</summary>
     public bool IsGiven(ParseResult result) =>
         result.GetValue(_camera) is not null || result.GetValue(_view) is not null || HasTarget(result);
 
@@ -94,14 +92,8 @@ internal sealed class CameraOptions
     private static View Framed(LoadedScene scene, Camera camera, double frameAspect)
     {
         var aspect = scene.Scene.Aspect ?? frameAspect;
-        var framed = CameraFraming.FrameScene(camera, scene, aspect);
-        if (scene.Scene.Projection == Projection.Perspective)
-        {
-            return Render.Views.View.Of(scene, frameAspect, framed);
-        }
-
-        var (centred, height) = CameraFraming.FrameSceneOrthographic(framed, scene, aspect);
-        var view = Render.Views.View.Of(scene, frameAspect, centred);
+        var (framed, height) = new SceneFraming(scene.Bounds, scene).Frame(camera, scene.Scene.Projection, aspect);
+        var view = Render.Views.View.Of(scene, frameAspect, framed);
         return view with { OrthographicHeight = height ?? view.OrthographicHeight };
     }
 

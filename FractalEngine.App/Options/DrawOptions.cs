@@ -13,7 +13,6 @@ namespace FractalEngine.App.Options;
 /// <summary>The options of the commands that draw, and the settings that follow from them.</summary>
 internal sealed class DrawOptions
 {
-    /// <summary>Largest number of instances in a frame.</summary>
     public const int MaxInstances = 100_000_000;
 
     /// <summary>Largest size of a proxy, in pixels.</summary>
@@ -51,15 +50,12 @@ internal sealed class DrawOptions
         "--section", "NX,NY,NZ,D",
         "Cut away what lies beyond the plane x*NX + y*NY + z*NZ = D, and show solids filled where it cuts them.");
 
-    private readonly Option<bool> _noAmbientOcclusion = new("--no-ambient-occlusion")
-    {
-        Description = "Light the holes of fractals as if they were open to the sky.",
-    };
+    private readonly Option<bool> _noAmbientOcclusion = SharedOptions.Flag(
+        "--no-ambient-occlusion", "Light the holes of fractals as if they were open to the sky.");
 
     private readonly Option<Projection?> _projection = SharedOptions.ProjectionOption();
     private readonly Option<(int Width, int Height)?> _resolution = SharedOptions.ResolutionOption();
 
-    /// <summary>Adds the options to a command.</summary>
     public void AddTo(Command command) => SharedOptions.AddAll(
         command, _resolution, _projection, _shading, _noShadows, _noAmbientOcclusion, _wireframe, _grid, _section, _minProjectedSize,
         _maxInstances, _sampleCount);

@@ -14,10 +14,8 @@ internal sealed class ImageOptions(bool canKeepPartial)
     private readonly Option<double?> _time = SharedOptions.TimeOption();
     private readonly Option<string?> _background = SharedOptions.BackgroundOption();
 
-    /// <summary>The camera of the images.</summary>
     public CameraOptions Camera { get; } = new();
 
-    /// <summary>Adds the options to a command.</summary>
     public void AddTo(Command command)
     {
         _shared.AddTo(command);

@@ -9,9 +9,7 @@ internal sealed class ReportOptions
     private readonly Option<bool> _quiet = new("--quiet") { Description = "Do not tell what was written." };
     private readonly Option<bool> _verbose = new("--verbose") { Description = "Also tell how long each part of the work took." };
 
-    /// <summary>Adds the options to a command.</summary>
     public void AddTo(Command command) => SharedOptions.AddAll(command, _quiet, _verbose);
 
-    /// <summary>Begins the report of a command, and its time.</summary>
     public WrittenReport Begin(ParseResult result) => new(result.GetValue(_quiet), result.GetValue(_verbose));
 }

@@ -21,15 +21,11 @@ internal sealed class SharedOptions
     /// <summary>Width and height of an image or window unless <c>--resolution</c> is given, in pixels.</summary>
     public static (int Width, int Height) DefaultResolution => (1280, 720);
 
-    /// <summary>The input file of a command.</summary>
     public Argument<string> File { get; } = FileArgument(
         "A mesh (.obj, .obj.gz, .ply, .stl), a fractal (.fdo) or a scene (.sdo); '-' reads a scene or a fractal from the standard input.");
 
     /// <summary>The option that lifts the restriction of <see cref="AssetFolder"/>.</summary>
-    public Option<bool> AllowOutside { get; } = new("--allow-outside")
-    {
-        Description = "Allow files to refer to files outside their folder.",
-    };
+    public Option<bool> AllowOutside { get; } = Flag("--allow-outside", "Allow files to refer to files outside their folder.");
 
     /// <summary>The option that selects how transformations are composed.</summary>
     public Option<Composition?> Composition { get; } = WordOption.Single(
@@ -37,8 +33,6 @@ internal sealed class SharedOptions
         ("affine", Core.Fractals.Descriptions.Composition.Affine), ("componentwise", Core.Fractals.Descriptions.Composition.Componentwise));
 
     /// <summary>Adds the input file and the options of loading to a command.</summary>
-    /// <param name="command">The command that loads a file.</param>
-    /// <param name="hasComposition">Whether composition makes a difference to the command.</param>
     public void AddTo(Command command, bool hasComposition = true)
     {
         command.Add(File);
@@ -81,6 +75,9 @@ internal sealed class SharedOptions
         },
     };
 
+    /// <summary>Creates an option without a value.</summary>
+    public static Option<bool> Flag(string name, string description) => new(name) { Description = description };
+
     /// <summary>Creates an option for a text, which the command parses.</summary>
     /// <param name="name">The name with its dashes.</param>
     /// <param name="helpName">The placeholder of the value in the help text.</param>
@@ -114,12 +111,10 @@ internal sealed class SharedOptions
     public static Option<ColliderKind?> ColliderOption(string description) => WordOption.Single(
         "--collider", description, [.. ColliderNames.All.Select(static known => (known.Name, known.Kind))]);
 
-    /// <summary>Creates the option that selects the projection of a frame.</summary>
     public static Option<Projection?> ProjectionOption() => WordOption.Single(
         "--projection", "Projection, overriding the scene's.",
         ("perspective", Projection.Perspective), ("orthographic", Projection.Orthographic));
 
-    /// <summary>Creates the option for what is behind the scene.</summary>
     public static Option<string?> BackgroundOption() => TextOption(
         "--background", "transparent|\"(r, g, b)\"",
         "Colour behind the scene, sRGB from 0 to 1, overriding the scene's; or transparent.");

@@ -17,12 +17,9 @@ internal sealed class TraceOptions(bool canKeepPartial)
 
     private readonly Option<int?> _seed = NumberOption.Integer("--seed", "N", 0, int.MaxValue, "Seed of a traced image (default: 0).");
 
-    private readonly Option<bool> _keepsPartial = new("--keep-partial")
-    {
-        Description = "Write a traced image that is interrupted as far as it is.",
-    };
+    private readonly Option<bool> _keepsPartial = SharedOptions.Flag(
+        "--keep-partial", "Write a traced image that is interrupted as far as it is.");
 
-    /// <summary>Adds the options to a command.</summary>
     public void AddTo(Command command) =>
         SharedOptions.AddAll(command, canKeepPartial ? [_samples, _seed, _keepsPartial] : [_samples, _seed]);
 

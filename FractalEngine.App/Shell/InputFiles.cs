@@ -16,7 +16,6 @@ internal static class InputFiles
         Paths.Add(AssetFolder.ResolveLinks(path));
     }
 
-    /// <summary>Remembers the files that a load has read.</summary>
     public static void Add(AssetCache cache)
     {
         foreach (var path in cache.Files.Keys.Where(File.Exists))

@@ -52,7 +52,6 @@ internal sealed class InterruptSignal : IDisposable
         }
     }
 
-    /// <inheritdoc/>
     public void Dispose()
     {
         Array.ForEach(_registrations, static registration => registration.Dispose());

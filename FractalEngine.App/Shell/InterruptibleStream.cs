@@ -5,7 +5,6 @@ namespace FractalEngine.App.Shell;
 /// <param name="interruption">Polled before each write.</param>
 internal sealed class InterruptibleStream(Stream target, InterruptSignal interruption) : WriteOnlyStream
 {
-    /// <inheritdoc/>
     public override void Flush() => target.Flush();
 
     /// <inheritdoc/>

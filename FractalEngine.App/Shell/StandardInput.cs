@@ -14,7 +14,6 @@ internal static class StandardInput
 
     private static bool _isRead;
 
-    /// <summary>Returns whether a path means the standard input.</summary>
     public static bool IsNamedBy(string path) => Paths.Contains(path);
 
     /// <summary>Reads all text of the standard input.</summary>

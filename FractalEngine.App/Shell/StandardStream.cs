@@ -7,12 +7,10 @@ internal sealed class StandardStream(Func<Stream> open, Action<Exception> report
 {
     private Stream? _target;
 
-    /// <inheritdoc/>
     public override void Flush()
     {
     }
 
-    /// <inheritdoc/>
     public override void Write(ReadOnlySpan<byte> buffer)
     {
         try

@@ -81,7 +81,6 @@ internal sealed class SceneWindow : IDisposable
         return window._loader.ExitCode;
     }
 
-    /// <inheritdoc/>
     public void Dispose()
     {
         _tracing.Dispose();

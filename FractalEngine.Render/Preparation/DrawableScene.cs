@@ -1,6 +1,7 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Render.Cameras;
 using FractalEngine.Render.Drawables;
 using FractalEngine.Render.Views;
 
@@ -41,6 +42,11 @@ public sealed class DrawableScene
 
     /// <summary>Number of triangles that are drawn in every frame, without those of culled instances.</summary>
     public long TriangleCount => Objects.Sum(item => item.Model.TriangleCount);
+
+    /// <summary>The fractal that a camera can enter: the only object of the scene, if that is a fractal; null for none.</summary>
+    public FractalLocation? SingleFractal =>
+        Source.Objects is [{ Model: FractalModel, ObjectToWorld: var objectToWorld }] && Objects[0].Model.LodHierarchy is { } hierarchy
+            ? new(0, hierarchy, objectToWorld) : null;
 
     /// <summary>Prepares all models of a scene, and the light within its fractals.</summary>
     /// <param name="scene">Scene with its files loaded.</param>

@@ -1,5 +1,5 @@
 using System.Diagnostics;
-using FractalEngine.App.Jobs;
+using FractalEngine.App.Shell;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.App;
@@ -55,7 +55,7 @@ public sealed class InterruptedWorkTests : IDisposable
     public void Simulate_StartedToIgnoreHangups_GoesOn()
     {
         Elsewhere.SkipIf(!OperatingSystem.IsLinux(), "only Linux tells which signals a process ignores");
-        string program = typeof(BodyCsvWriter).Assembly.Location;
+        string program = typeof(ExitCode).Assembly.Location;
         var start = new ProcessStartInfo(
             "sh", ["-c", $"trap '' HUP; exec dotnet exec '{program}' simulate drop.sdo --seconds 100000 --output drop.csv"])
         {

@@ -192,7 +192,7 @@ public sealed class ShellTests : IDisposable
     /// <summary>Runs a line of a shell, in which {0} stands for the program.</summary>
     private AppResult RunInShell(string line)
     {
-        var program = typeof(FractalEngine.App.Jobs.BodyCsvWriter).Assembly.Location;
+        var program = typeof(FractalEngine.App.Shell.ExitCode).Assembly.Location;
         var start = new ProcessStartInfo("sh", ["-c", line.Replace("{0}", $"dotnet exec '{program}'", StringComparison.Ordinal)])
         {
             WorkingDirectory = _folder.Path,

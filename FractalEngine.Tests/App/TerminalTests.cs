@@ -1,5 +1,5 @@
 using System.Text;
-using FractalEngine.App.Jobs;
+using FractalEngine.App.Shell;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.App;
@@ -45,5 +45,5 @@ public sealed class TerminalTests : IDisposable
     }
 
     private string Run(string arguments) =>
-        Terminal.Run(_folder.Path, $"dotnet exec '{typeof(BodyCsvWriter).Assembly.Location}' {arguments}");
+        Terminal.Run(_folder.Path, $"dotnet exec '{typeof(ExitCode).Assembly.Location}' {arguments}");
 }

@@ -1,6 +1,6 @@
-using FractalEngine.App.Animation;
-using FractalEngine.App.Jobs;
+using FractalEngine.App.Shell;
 using FractalEngine.Parsing.Assets;
+using FractalEngine.Parsing.Simulation;
 using FractalEngine.Render.Images;
 using FractalEngine.Tests.Support;
 
@@ -122,7 +122,7 @@ public sealed class TracedAnimationTests : IDisposable
     [InlineData("--quiet", false)]
     public void Progress_OnATerminal_CountsFramesAndIsClearedAtTheEnd(string option, bool isTold)
     {
-        var program = typeof(AnimatedBodies).Assembly.Location;
+        var program = typeof(ExitCode).Assembly.Location;
         var output = Terminal.Run(
             _folder.Path,
             $"dotnet exec '{program}' animate scene.sdo --turntable --frames 3 --trace 1 --resolution 8x8 --output f.png {option}");

@@ -3,7 +3,6 @@ namespace FractalEngine.App.Shell.Reports;
 /// <summary>Says once on stderr that work takes long, and that it can be ended: drawing tells nothing by itself.</summary>
 internal sealed class SlowWorkNotice : IDisposable
 {
-    /// <summary>Time after which the notice is written.</summary>
     public static readonly TimeSpan DefaultDelay = TimeSpan.FromSeconds(10);
 
     private readonly Timer? _timer;

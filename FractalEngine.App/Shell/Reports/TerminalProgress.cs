@@ -12,7 +12,6 @@ internal sealed class TerminalProgress(string step, int stepCount, bool isQuiet)
     private readonly Stopwatch _clock = Stopwatch.StartNew();
     private readonly bool _isShown = !isQuiet && !Console.IsErrorRedirected;
 
-    /// <summary>Tells that a number of steps are done.</summary>
     public void Report(int done)
     {
         if (_isShown)

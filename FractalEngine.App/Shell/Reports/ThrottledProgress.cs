@@ -31,9 +31,7 @@ internal sealed class ThrottledProgress : IProgress<LoadProgress>, IProgress<Pre
         }
     }
 
-    /// <inheritdoc/>
     public void Report(LoadProgress value) => Latest = (value.File, value.Fraction);
 
-    /// <inheritdoc/>
     public void Report(PreparationProgress value) => Latest = (value.FileName, value.Fraction);
 }

@@ -4,18 +4,12 @@ using System.Globalization;
 namespace FractalEngine.App.Shell.Reports;
 
 /// <summary>Tells on stderr what a command has written, and with <c>--verbose</c> how long each part took.</summary>
-/// <param name="isQuiet">Whether nothing is told.</param>
-/// <param name="isVerbose">Whether times are told.</param>
 internal sealed class WrittenReport(bool isQuiet, bool isVerbose)
 {
     private readonly Stopwatch _clock = Stopwatch.StartNew();
 
-    /// <summary>Whether nothing is told.</summary>
     public bool IsQuiet => isQuiet;
 
-    /// <summary>Does a part of the work and measures its time.</summary>
-    /// <param name="part">The word for it.</param>
-    /// <param name="work">Does the part.</param>
     public T Measure<T>(string part, Func<T> work)
     {
         var clock = Stopwatch.StartNew();

@@ -10,19 +10,15 @@ namespace FractalEngine.App.Window.Actions;
 /// <summary>What actions of one kind have in common, and when they are available.</summary>
 internal static class ActionKinds
 {
-    /// <summary>Whether a document is shown.</summary>
     public static bool HasDocument(WindowActions actions) => actions.Document is not null;
 
-    /// <summary>Whether a scene is shown.</summary>
     public static bool HasScene(WindowActions actions) => actions.Document?.File.Kind == FileKind.Scene;
 
-    /// <summary>Whether anything is selected.</summary>
     public static bool HasSelection(WindowActions actions) => actions.Document?.Tool.Selected is not null;
 
     /// <summary>Whether the scene is cut open.</summary>
     public static bool HasSection(WindowActions actions) => actions.Document?.Section.IsOn == true;
 
-    /// <summary>Shows handles of one kind.</summary>
     public static WindowAction Handles(string id, string name, string verb, Key key, HandleKind kind) =>
         new(id, "Edit", name, $"{verb} the selected object of a scene by handles, where Ctrl snaps; again for no handles")
         {
@@ -43,7 +39,6 @@ internal static class ActionKinds
     public static WindowAction Held(string id, string help, params ReadOnlySpan<Key> keys) =>
         new(id, "Go", "", help) { Keys = [.. keys.ToArray().Select(static key => new KeyChord(key))] };
 
-    /// <summary>Creates an action that shows or hides the panel with its name.</summary>
     public static WindowAction Panel(string panel, string name, string contents, KeyChord key) =>
         new(panel == "statistics" ? panel : $"panel-{panel}", "Window", name, $"show or hide the panel: {contents}")
         {
@@ -52,10 +47,8 @@ internal static class ActionKinds
             IsOn = a => a.Panels.IsOpen(panel),
         };
 
-    /// <summary>Something that the pointer does.</summary>
     public static WindowAction Gesture(string id, string gesture, string help) => new(id, "Go", "", help) { Gesture = gesture };
 
-    /// <summary>Switches a render setting.</summary>
     public static WindowAction Setting(
         string id, string name, string help, Key? key, string? flag, Func<RenderSettings, bool> isOn,
         Func<RenderSettings, bool, RenderSettings> set, string? onMessage = null, string? offMessage = null) => new(id, "View", name, help)
@@ -71,11 +64,9 @@ internal static class ActionKinds
             },
         };
 
-    /// <summary>A command of the bodies with a key.</summary>
     public static WindowAction OfPhysics(string id, string name, string help, Key key, Func<Document, string> command) =>
         new(id, "Physics", name, help) { Keys = [new(key)], Run = Physics(command), IsAvailable = HasDocument };
 
-    /// <summary>Runs a command of the bodies.</summary>
     public static Func<WindowActions, Redraw> Physics(Func<Document, string> command) => actions => actions.RunPhysics(command);
 
     /// <summary>Runs a command of the selection, and draws a frame.</summary>

@@ -113,13 +113,13 @@ internal static class ActionTable
                 : settings with { Culling = culling with { OcclusionCulling = on } }),
         new("normals", "View", "Normals", "normals of the selected instance's faces, or of all meshes where nothing is selected")
         {
-            IsAvailable = HasDocument, IsOn = static a => a.Document?.Tool.Normals.IsOn == true,
-            Run = OfTool(static tool => tool.Normals.IsOn = !tool.Normals.IsOn),
+            IsAvailable = HasDocument, IsOn = static a => a.Document?.Tool.ShowsNormals == true,
+            Run = OfTool(static tool => tool.ShowsNormals = !tool.ShowsNormals),
         },
         new("level-boxes", "View", "Bounding boxes", "bounding boxes of whole objects; the view panel has those of the levels within")
         {
-            IsAvailable = HasDocument, IsOn = static a => a.Document?.Tool.Boxes.Level >= 0,
-            Run = OfTool(static tool => tool.Boxes.Level = tool.Boxes.Level < 0 ? 0 : -1),
+            IsAvailable = HasDocument, IsOn = static a => a.Document?.Tool.BoxLevel >= 0,
+            Run = OfTool(static tool => tool.BoxLevel = tool.BoxLevel < 0 ? 0 : -1),
         },
         new("filmic-tone", "View", "Filmic tone", "show the scene in the tone of film, or its colours as they are computed")
         {

@@ -37,7 +37,6 @@ internal sealed class KeyBindings
     /// <summary>The first key of actions that differ from the table, by their ids.</summary>
     public ImmutableDictionary<string, KeyChord> Changed { get; }
 
-    /// <summary>Returns the keys of an action, for the user.</summary>
     public string TextOf(WindowAction action) => Changed.TryGetValue(action.Id, out var chord)
         ? string.Join(", ", action.Keys.Skip(1).Prepend(chord))
         : action.KeyText;

@@ -19,7 +19,6 @@ internal readonly record struct KeyChord(Key Key, KeyModifiers Modifiers = KeyMo
         (Key.Comma, ","), (Key.Period, "."), (Key.Slash, "/"), (Key.LeftBracket, "["), (Key.RightBracket, "]"),
     ];
 
-    /// <summary>Makes the chord of a key that was pressed.</summary>
     public static KeyChord Of(KeyPressed pressed) => new(
         KeypadTwin(pressed.Key),
         pressed.Modifiers.HasFlag(KeyModifiers.Control) ? pressed.Modifiers & ~KeyModifiers.Alt : KeyModifiers.None);
@@ -57,7 +56,6 @@ internal readonly record struct KeyChord(Key Key, KeyModifiers Modifiers = KeyMo
         return false;
     }
 
-    /// <inheritdoc/>
     public override string ToString()
     {
         var modifiers = Modifiers;

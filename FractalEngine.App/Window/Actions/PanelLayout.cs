@@ -39,7 +39,6 @@ internal sealed class PanelLayout
     /// <summary>The widgets as they were built last.</summary>
     public UserInterface Ui { get; }
 
-    /// <summary>The keys that the settings have changed.</summary>
     public KeyBindings Bindings { get; }
 
     /// <summary>All panels, in the order in which they were added.</summary>
@@ -72,7 +71,6 @@ internal sealed class PanelLayout
         Ui.Handle(new MouseMoved(-1, -1, 0, 0));
     }
 
-    /// <summary>Tells whether a panel is shown.</summary>
     public bool IsOpen(string name) => PanelOf(name).IsOpen;
 
     /// <summary>Opens a panel that is closed, and closes one that is open; its place is remembered.</summary>
@@ -82,23 +80,19 @@ internal sealed class PanelLayout
         panel.IsOpen = !panel.IsOpen;
     }
 
-    /// <summary>Opens a panel, and unfolds it.</summary>
     public void Open(string name)
     {
         var panel = PanelOf(name);
         (panel.IsOpen, panel.IsFolded) = (true, false);
     }
 
-    /// <summary>Whether the menu bar and the panels are shown.</summary>
     public bool IsShown => _settings.ShowsMenu;
 
-    /// <summary>Whether there is room for texts between the panels.</summary>
     public bool HasRoomForTexts => Ui.FreeArea.Width >= 0.4 * Ui.Width;
 
     /// <summary>Whether there is room for the texts about bodies beside the knobs of the axes.</summary>
     public bool HasRoomForPhysics => !IsOpen("physics") && Ui.SceneArea.Width / Ui.Scale >= MinWidthForPhysics;
 
-    /// <summary>Shows or hides the menu bar and all panels.</summary>
     public void ToggleAll() => _settings = _settings with { ShowsMenu = !_settings.ShowsMenu };
 
     /// <summary>Whether text is dark on light ground.</summary>
@@ -121,7 +115,6 @@ internal sealed class PanelLayout
         return FormattableString.Invariant($"size of the text: {100 * _settings.Scale:F0} %");
     }
 
-    /// <summary>Shows the list of keys with its search.</summary>
     public void OpenKeys()
     {
         IsKeyListNew = true;
@@ -130,7 +123,6 @@ internal sealed class PanelLayout
         Update(Ui.Width, Ui.Height);
     }
 
-    /// <summary>Writes the settings if they have changed.</summary>
     public void SaveSettings()
     {
         var panels = _settings.Panels.SetItems(

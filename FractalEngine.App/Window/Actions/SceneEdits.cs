@@ -1,7 +1,7 @@
-using FractalEngine.App.Window.Files;
 using FractalEngine.Core;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Scenes.Lights;
+using FractalEngine.Parsing.Editing;
 using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.App.Window.Actions;
@@ -15,9 +15,6 @@ internal static class SceneEdits
         actions.EditScene(text => SceneEditor.Change(text, change));
 
     /// <summary>Changes an object of the document's scene. Refused while the scene has other objects than were loaded.</summary>
-    /// <param name="actions">The window with the document.</param>
-    /// <param name="index">Index of the object in the loaded scene.</param>
-    /// <param name="change">Returns the changed object.</param>
     public static void ChangeObject(this WindowActions actions, int index, Func<SceneObject, SceneObject> change) =>
         actions.ChangeScene(scene =>
         {
@@ -26,9 +23,6 @@ internal static class SceneEdits
         });
 
     /// <summary>Changes a light of the document's scene. Refused while the scene has other lights than were loaded.</summary>
-    /// <param name="actions">The window with the document.</param>
-    /// <param name="index">Index of the light in the loaded scene.</param>
-    /// <param name="change">Returns the changed light.</param>
     public static void ChangeLight(this WindowActions actions, int index, Func<Light, Light> change) =>
         actions.ChangeScene(scene =>
         {

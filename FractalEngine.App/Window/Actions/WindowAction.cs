@@ -1,6 +1,6 @@
 using System.Collections.Immutable;
-using FractalEngine.App.Cameras;
 using FractalEngine.App.Window.State;
+using FractalEngine.Render.Cameras;
 
 namespace FractalEngine.App.Window.Actions;
 
@@ -29,7 +29,6 @@ internal sealed record WindowAction(string Id, string Menu, string Name, string 
     /// <summary>Tells whether what the action switches is on; null for actions that are no switches.</summary>
     public Func<WindowActions, bool>? IsOn { get; init; }
 
-    /// <summary>Tells whether the action has an effect now.</summary>
     public Func<WindowActions, bool> IsAvailable { get; init; } = static _ => true;
 
     /// <summary>True where the action can be chosen in a menu: it is no movement that goes on while a key is held.</summary>
@@ -38,6 +37,5 @@ internal sealed record WindowAction(string Id, string Menu, string Name, string 
     /// <summary>What the action does, without the marks of code that the manual has.</summary>
     public string PlainHelp => Help.Replace("`", "", StringComparison.Ordinal);
 
-    /// <summary>The keys or the gesture, for the user.</summary>
     public string KeyText => Gesture ?? string.Join(", ", Keys);
 }

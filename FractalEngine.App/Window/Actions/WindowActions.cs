@@ -30,7 +30,6 @@ internal sealed class WindowActions(
 {
     private readonly Queue<WindowAction> _chosen = [];
 
-    /// <summary>The present render settings.</summary>
     public RenderSettings Settings { get; set; } = settings;
 
     /// <summary>The document shown; null for none.</summary>
@@ -42,13 +41,10 @@ internal sealed class WindowActions(
     /// <summary>Edits and saves the files of the document, and asks where others have changed them.</summary>
     public DocumentSaver Saver => saver;
 
-    /// <summary>The panels of the window.</summary>
     public PanelLayout Panels => panels;
 
-    /// <summary>The overlay of the window.</summary>
     public WindowOverlay Overlay => overlay;
 
-    /// <summary>Traces the view of the window.</summary>
     public WindowTracing Tracing => tracing;
 
     /// <summary>Lets the window run an action that was chosen in a menu or a panel.</summary>
@@ -58,12 +54,9 @@ internal sealed class WindowActions(
     public WindowAction? TakeChosen() => _chosen.TryDequeue(out var action) ? action : null;
 
     /// <summary>Runs the command of a key. Keys of the camera are those of <see cref="CameraControls"/>, and ignored here.</summary>
-    /// <param name="pressed">The key that was pressed.</param>
     public Redraw Handle(KeyPressed pressed) =>
         ActionTable.Find(pressed) is { MoveCamera: null } action ? Run(action) : Redraw.None;
 
-    /// <summary>Runs an action, if it has an effect now.</summary>
-    /// <param name="action">A row of the table.</param>
     public Redraw Run(WindowAction action)
     {
         if (!action.IsAvailable(this))
@@ -91,11 +84,7 @@ internal sealed class WindowActions(
     }
 
     /// <summary>Shows an error for some time, and writes it to stderr.</summary>
-    public void ShowProblem(string error)
-    {
-        Console.Error.WriteLine(error);
-        overlay.ShowProblem(error, clock());
-    }
+    public void ShowProblem(string error) => overlay.ShowProblem(error, clock());
 
     /// <summary>Returns to the view before the last move, or makes it again.</summary>
     public Redraw Undo(bool isRedo)
@@ -110,7 +99,6 @@ internal sealed class WindowActions(
         return Show(message) | Redraw.Scene;
     }
 
-    /// <summary>Whether the window fills the screen.</summary>
     public bool IsFullScreen
     {
         get => window.IsFullScreen;
@@ -193,7 +181,6 @@ internal sealed class WindowActions(
             : "this engine's zoom: to any depth");
     }
 
-    /// <summary>Runs a command of the bodies, and shows its answer.</summary>
     public Redraw RunPhysics(Func<Document, string> command)
     {
         var message = command(Document!);

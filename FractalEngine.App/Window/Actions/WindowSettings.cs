@@ -23,10 +23,8 @@ internal sealed record WindowSettings
     /// <summary>Whether views that stand still are traced.</summary>
     public bool IsTraced { get; init; } = true;
 
-    /// <summary>Whether the menu bar is shown.</summary>
     public bool ShowsMenu { get; init; } = true;
 
-    /// <summary>Lines of the panels, by their names.</summary>
     public ImmutableSortedDictionary<string, PanelState> Panels { get; init; } = ImmutableSortedDictionary<string, PanelState>.Empty;
 
     /// <summary>Keys that differ from the table of actions, by the ids of the actions.</summary>
@@ -65,7 +63,6 @@ internal sealed record WindowSettings
     /// <param name="report">Shows a message about a file that can't be written.</param>
     public void Write(string? path, Action<string> report) => UserFile.Write(path, ToText(), "the settings", report);
 
-    /// <summary>Returns the settings as lines of their file.</summary>
     public string ToText()
     {
         var text = new StringBuilder("# Settings of the window. Lines `key ID KEYS` change keys; the manual lists the actions.\n");
@@ -108,7 +105,6 @@ internal sealed record WindowSettings
     /// <param name="Y">Top edge of a floating panel.</param>
     internal sealed record PanelState(bool IsOpen, bool IsFolded, UiDock Dock, double X, double Y)
     {
-        /// <summary>Returns the state of a panel.</summary>
         public static PanelState Of(UiPanel panel) =>
             new(panel.IsOpen, panel.IsFolded, panel.Dock, Math.Round(panel.X), Math.Round(panel.Y));
 
@@ -123,7 +119,6 @@ internal sealed record WindowSettings
                 : null;
         }
 
-        /// <summary>Restores the state of a panel.</summary>
         public void ApplyTo(UiPanel panel)
         {
             panel.IsOpen = IsOpen;
@@ -133,7 +128,6 @@ internal sealed record WindowSettings
             panel.Y = Y;
         }
 
-        /// <inheritdoc/>
         public override string ToString() => Invariant(
             $"{(IsOpen ? "open" : "closed")} {(IsFolded ? "folded" : "unfolded")} {Dock.ToString().ToLowerInvariant()} {X} {Y}");
     }

@@ -54,7 +54,6 @@ internal sealed class WindowOverlay
     /// <summary>The time at which the present message disappears; null if there is none.</summary>
     public TimeSpan? NextExpiry { get; private set; }
 
-    /// <summary>All panels that are shown now.</summary>
     public IReadOnlyList<OverlayPanel> Panels
     {
         get
@@ -149,11 +148,10 @@ internal sealed class WindowOverlay
         NextExpiry = now + MessageDuration;
     }
 
-    /// <summary>Shows an error for some time, over a scene that stays.</summary>
-    /// <param name="error">Lines for the user.</param>
-    /// <param name="now">The present time.</param>
+    /// <summary>Shows an error for some time, over a scene that stays, and writes it to stderr.</summary>
     public void ShowProblem(string error, TimeSpan now)
     {
+        Console.Error.WriteLine(error);
         _message = OfError(OverlayAnchor.Bottom, error);
         NextExpiry = now + ProblemDuration;
     }

@@ -14,7 +14,6 @@ namespace FractalEngine.App.Window.Drawing;
 /// are culled while one is drawn. When it stops, a full frame follows. The first frame of a scene is a preview: one sample a pixel, coarse
 /// detail and no shadows, since full frames of large scenes take seconds without a GPU.
 /// </summary>
-/// <param name="frame">The frame renderer of the window.</param>
 internal sealed class WindowRenderer(FrameRenderer frame)
 {
     private readonly AdaptiveQuality _adaptiveQuality = new();
@@ -99,7 +98,6 @@ internal sealed class WindowRenderer(FrameRenderer frame)
     }
 
     /// <summary>Reports the time of the last frame, so that the next ones keep up with a moving camera.</summary>
-    /// <param name="frameTime">The time that drawing and presenting took.</param>
     public void RecordFrameTime(TimeSpan frameTime)
     {
         if (IsReducedQuality)

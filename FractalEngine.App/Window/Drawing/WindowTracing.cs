@@ -1,6 +1,7 @@
 using FractalEngine.App.Jobs;
 using FractalEngine.App.Window.State;
 using FractalEngine.Core.Images;
+using FractalEngine.Render.Tracing;
 using FractalEngine.Render.Views;
 
 namespace FractalEngine.App.Window.Drawing;
@@ -15,7 +16,6 @@ internal sealed class WindowTracing(WindowOptions options, Action published) : I
 
     private string? _obstacle;
 
-    /// <summary>Whether tracing is switched on.</summary>
     public bool IsEnabled { get; set; }
 
     /// <summary>The image to show over the frame; null for none.</summary>
@@ -69,7 +69,6 @@ internal sealed class WindowTracing(WindowOptions options, Action published) : I
     /// <summary>Returns whether there is something new to show since the last call.</summary>
     public bool TakeUpdate() => _trace.TakeUpdate();
 
-    /// <inheritdoc/>
     public void Dispose() => _trace.Dispose();
 
     /// <summary>Names what a traced image of the document would not show; null for nothing.</summary>

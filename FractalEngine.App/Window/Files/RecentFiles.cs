@@ -7,7 +7,6 @@ namespace FractalEngine.App.Window.Files;
 /// <param name="report">Shows a message about a list that can't be used.</param>
 internal sealed class RecentFiles(string? path, Action<string> report)
 {
-    /// <summary>Maximum number of files in the list.</summary>
     public const int MaxFiles = 10;
 
     private bool _isBrokenReported;

@@ -10,22 +10,17 @@ internal static class Screenshots
     /// <param name="image">The frame without its overlay.</param>
     /// <param name="path">Path of the file that the window shows.</param>
     /// <returns>A message for the user, in case of an error too.</returns>
-    public static string Save(PixelImage image, string path) => Try(() =>
-    {
-        Directory.CreateDirectory("out");
-        var name = Path.GetFileNameWithoutExtension(path);
-        var output = Enumerable.Range(1, int.MaxValue)
-            .Select(number => Path.Combine("out", $"{name}-{number:D3}.png"))
-            .First(candidate => !File.Exists(candidate));
-        ImageFile.SavePng(image, output);
-        return $"saved {output}";
-    });
-
-    private static string Try(Func<string> save)
+    public static string Save(PixelImage image, string path)
     {
         try
         {
-            return save();
+            Directory.CreateDirectory("out");
+            var name = Path.GetFileNameWithoutExtension(path);
+            var output = Enumerable.Range(1, int.MaxValue)
+                .Select(number => Path.Combine("out", $"{name}-{number:D3}.png"))
+                .First(candidate => !File.Exists(candidate));
+            ImageFile.SavePng(image, output);
+            return $"saved {output}";
         }
         catch (Exception exception) when (exception is IOException or UnauthorizedAccessException)
         {

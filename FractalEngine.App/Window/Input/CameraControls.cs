@@ -1,5 +1,5 @@
-using FractalEngine.App.Cameras;
 using FractalEngine.Core.Maths;
+using FractalEngine.Render.Cameras;
 using FractalEngine.Render.Windowing.Events;
 using FractalEngine.Render.Windowing.Keyboard;
 
@@ -94,7 +94,6 @@ internal sealed class CameraControls(FlyingCamera camera)
         return Camera.Pose != poseBefore;
     }
 
-    /// <summary>Releases all held keys.</summary>
     public void ReleaseKeys() => _heldKeys.Clear();
 
     /// <summary>Moves the camera for a time in the direction of the held keys.</summary>

@@ -11,7 +11,6 @@ namespace FractalEngine.App.Window.Input;
 /// <param name="choices">The answers.</param>
 internal sealed class ChoicePrompt(string title, IEnumerable<string> details, params ImmutableArray<PromptChoice> choices) : Prompt
 {
-    /// <inheritdoc/>
     public override OverlayPanel Panel { get; } = new(OverlayAnchor.Centre,
     [
         .. details.Select(static line => new OverlayLine(line)),
@@ -23,7 +22,6 @@ internal sealed class ChoicePrompt(string title, IEnumerable<string> details, pa
         IsQuestion = true,
     };
 
-    /// <inheritdoc/>
     public override void HandleKey(KeyPressed pressed)
     {
         if (pressed.IsRepeat)
@@ -41,7 +39,6 @@ internal sealed class ChoicePrompt(string title, IEnumerable<string> details, pa
         }
     }
 
-    /// <inheritdoc/>
     public override void HandleAnswer(int answer)
     {
         if (answer == choices.Length)
@@ -60,3 +57,9 @@ internal sealed class ChoicePrompt(string title, IEnumerable<string> details, pa
         choice.Run?.Invoke();
     }
 }
+
+/// <summary>One answer of a <see cref="ChoicePrompt"/>.</summary>
+/// <param name="Key">The key that gives the answer.</param>
+/// <param name="Text">What the answer does, for the user.</param>
+/// <param name="Run">Runs the answer; null for an answer that only closes the question.</param>
+internal sealed record PromptChoice(Key Key, string Text, Action? Run);

@@ -36,7 +36,6 @@ internal sealed class HeldKeys
         }
     }
 
-    /// <summary>Releases all keys, as if none were held.</summary>
     public void Clear() => _keys.Clear();
 
     private double Axis(Key letter, Key alternative) => _keys.Contains(letter) || _keys.Contains(alternative) ? 1 : 0;

@@ -9,19 +9,15 @@ internal abstract class Prompt
     /// <summary>True once the user has answered.</summary>
     public bool IsClosed { get; private set; }
 
-    /// <summary>The question as it is shown now.</summary>
     public abstract OverlayPanel Panel { get; }
 
-    /// <summary>Processes a key that was pressed.</summary>
     public abstract void HandleKey(KeyPressed pressed);
 
-    /// <summary>Processes text that was typed.</summary>
     public virtual void HandleText(string text)
     {
     }
 
     /// <summary>Processes a click on a line of the panel.</summary>
-    /// <param name="answer">What the line answers.</param>
     public virtual void HandleAnswer(int answer)
     {
     }

@@ -25,7 +25,6 @@ internal sealed class TextPrompt(
     /// <summary>The text as it is edited so far.</summary>
     public string Text { get; private set; } = text;
 
-    /// <inheritdoc/>
     public override OverlayPanel Panel
     {
         get
@@ -54,10 +53,8 @@ internal sealed class TextPrompt(
 
     private ImmutableArray<string> Suggestions => _suggestions ??= suggest?.Invoke(Text) ?? [];
 
-    /// <inheritdoc/>
     public override void HandleText(string text) => Edit(Text.Insert(_cursor, text), _cursor + text.Length);
 
-    /// <inheritdoc/>
     public override void HandleKey(KeyPressed pressed)
     {
         switch (pressed.Key)
@@ -102,7 +99,6 @@ internal sealed class TextPrompt(
         }
     }
 
-    /// <inheritdoc/>
     public override void HandleAnswer(int answer)
     {
         _picked = answer;

@@ -41,8 +41,6 @@ internal sealed class WalkControls
     }
 
     /// <summary>Processes an event, and updates the move input of the player.</summary>
-    /// <param name="windowEvent">Any event of the window.</param>
-    /// <param name="controller">The player.</param>
     /// <returns>True when the direction of the gaze has changed.</returns>
     public bool Handle(WindowEvent windowEvent, CharacterController controller)
     {

@@ -1,10 +1,10 @@
 using System.Collections.Immutable;
-using FractalEngine.App.Jobs;
 using FractalEngine.App.Shell;
 using FractalEngine.App.Shell.Reports;
 using FractalEngine.App.Window.State;
 using FractalEngine.Core;
 using FractalEngine.Core.Files;
+using FractalEngine.Core.Threading;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Render.Preparation;
 using FractalEngine.Render.Views;
@@ -55,7 +55,6 @@ internal sealed class BackgroundLoad
             ended);
     }
 
-    /// <summary>The request that this load answers.</summary>
     public LoadRequest Request { get; }
 
     /// <summary>True when the load has succeeded or failed.</summary>

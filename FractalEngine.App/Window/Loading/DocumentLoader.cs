@@ -1,8 +1,8 @@
 using FractalEngine.App.Shell;
 using FractalEngine.App.Window.Drawing;
-using FractalEngine.App.Window.Files;
 using FractalEngine.App.Window.State;
 using FractalEngine.Core;
+using FractalEngine.Core.Files;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Render.Preparation;
 using FractalEngine.Render.Views;
@@ -81,7 +81,6 @@ internal sealed class DocumentLoader(
         window.Title = $"{Path.GetFileName(State.FilePath)}{(State.Edits.IsEmpty ? "" : "*")}{trace} - FractalEngine";
     }
 
-    /// <inheritdoc/>
     public void Dispose()
     {
         _watcher?.Dispose();
@@ -102,7 +101,6 @@ internal sealed class DocumentLoader(
                     report(text);
                     break;
                 case WindowEffect.ShowProblem:
-                    Console.Error.WriteLine(text);
                     overlay.ShowProblem(text, clock());
                     break;
                 case WindowEffect.WatchFiles:

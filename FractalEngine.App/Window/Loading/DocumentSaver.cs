@@ -3,6 +3,7 @@ using FractalEngine.App.Window.Files;
 using FractalEngine.App.Window.Input;
 using FractalEngine.App.Window.State;
 using FractalEngine.Core;
+using FractalEngine.Parsing.Editing;
 using FractalEngine.Parsing.Sdo.Merging;
 using FractalEngine.Parsing.Text;
 using FractalEngine.Render.Windowing.Keyboard;
@@ -10,9 +11,6 @@ using FractalEngine.Render.Windowing.Keyboard;
 namespace FractalEngine.App.Window.Loading;
 
 /// <summary>Edits the files of the document, and saves them with its view. Asks where another program has changed the same lines.</summary>
-/// <param name="loader">Loads what is edited, and owns the document.</param>
-/// <param name="prompts">Shows the questions.</param>
-/// <param name="report">Shows a message.</param>
 internal sealed class DocumentSaver(DocumentLoader loader, PromptHost prompts, Action<string> report)
 {
     private WindowState State
@@ -142,7 +140,6 @@ internal sealed class DocumentSaver(DocumentLoader loader, PromptHost prompts, A
         }
     });
 
-    /// <summary>Writes an edited text, and returns the state of the document after that.</summary>
     private static DocumentState SaveEdit(Document document, DocumentState state, string path, EditedFile edited)
     {
         if (path != document.File.Path || document.File.Kind != FileKind.Scene)

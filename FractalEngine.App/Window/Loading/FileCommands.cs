@@ -1,6 +1,7 @@
 using System.Collections.Immutable;
 using FractalEngine.App.Window.Files;
 using FractalEngine.App.Window.Input;
+using FractalEngine.Parsing.Editing;
 using FractalEngine.Render.Windowing.Keyboard;
 
 namespace FractalEngine.App.Window.Loading;
@@ -15,6 +16,9 @@ namespace FractalEngine.App.Window.Loading;
 internal sealed class FileCommands(
     DocumentLoader loader, DocumentSaver saver, PromptHost prompts, RecentFiles recent, Action<string> report, Action close)
 {
+    // Those of a tree, a Sierpinski triangle and cubes.
+    private static readonly Key[] TemplateKeys = [Key.T, Key.S, Key.C];
+
     /// <summary>Asks for a file, and opens it. The files that were opened last are suggested first.</summary>
     public void AskForFile() => prompts.Open(new TextPrompt("Open a file", "", TryOpen, SuggestFiles));
 
@@ -22,7 +26,10 @@ internal sealed class FileCommands(
     /// <param name="created">Called once it is written.</param>
     public void NewFractal(Action created) => AskAboutChanges("Begin a new fractal?", () => prompts.Open(new ChoicePrompt(
         "A new fractal begins as", [],
-        [.. FractalTemplate.All.Select(template => new PromptChoice(template.Key, template.Help, () => AskForName(template, created)))])));
+        [
+            .. FractalTemplate.All.Zip(
+                TemplateKeys, (template, key) => new PromptChoice(key, template.Help, () => AskForName(template, created))),
+        ])));
 
     private void AskForName(FractalTemplate template, Action created) => prompts.Open(new TextPrompt(
         "Name of the new fractal", PathText.Shorten(NewFractalFile.Propose(template, Directory.GetCurrentDirectory())), text =>

@@ -12,7 +12,6 @@ using FractalEngine.Render.Ui;
 namespace FractalEngine.App.Window.Panels;
 
 /// <summary>The panel of a fractal: its depth and all components of its vectors as sliders, which change the text of its file.</summary>
-/// <param name="actions">The window with the document.</param>
 internal sealed class FractalPanel(WindowActions actions)
 {
     private const string Axes = "xyz";
@@ -35,7 +34,6 @@ internal sealed class FractalPanel(WindowActions actions)
     private (ImmutableArray<int> Path, int Depth) _scrolled;
     private bool _isScrolling;
 
-    /// <summary>Adds the widgets of the panel.</summary>
     public void Build(UserInterface ui)
     {
         var models = actions.Document?.File.Scene.Models.OfType<FractalModel>()
@@ -226,7 +224,6 @@ internal sealed class FractalPanel(WindowActions actions)
         }
     }
 
-    /// <summary>Adds an argument of a call: the number of a vector, of which there are so many.</summary>
     private void BuildArgument(UserInterface ui, int index, int vectorCount, bool isFirst)
     {
         var number = _numbers[index];
@@ -277,7 +274,6 @@ internal sealed class FractalPanel(WindowActions actions)
         }
     }
 
-    /// <summary>Returns the ends of a slider, and its step.</summary>
     private static (double Minimum, double Maximum, double Step) RangeOf(FractalNumber number)
     {
         var reach = Math.Max(1, Math.Abs(number.Value));

@@ -10,8 +10,6 @@ internal sealed class KeyList
     private readonly UiPanel _panel;
     private string _search = "";
 
-    /// <summary>Makes the list of a window.</summary>
-    /// <param name="actions">The window whose actions are listed.</param>
     public KeyList(WindowActions actions)
     {
         _actions = actions;

@@ -6,10 +6,8 @@ using FractalEngine.Render.Ui;
 namespace FractalEngine.App.Window.Panels;
 
 /// <summary>The panel of bodies and their collider.</summary>
-/// <param name="actions">The window with the document.</param>
 internal sealed class PhysicsPanel(WindowActions actions)
 {
-    /// <summary>Adds the widgets of the panel.</summary>
     public void Build(UserInterface ui, Document document)
     {
         ui.Actions(actions, 2, "pause", "step", "drop-ball", "throw-ball", "reset-bodies", "walk");

@@ -1,12 +1,12 @@
 using System.Globalization;
 using FractalEngine.App.Window.Actions;
-using FractalEngine.App.Window.Files;
 using FractalEngine.App.Window.State;
 using FractalEngine.App.Window.Tools;
 using FractalEngine.App.Window.Widgets;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Parsing.Editing;
 using FractalEngine.Parsing.Text;
 using FractalEngine.Render.Ui;
 using FractalEngine.Render.Views;
@@ -14,7 +14,6 @@ using FractalEngine.Render.Views;
 namespace FractalEngine.App.Window.Panels;
 
 /// <summary>The panel of a scene: its objects with their places and colours, its lights, and its background.</summary>
-/// <param name="actions">The window with the document.</param>
 internal sealed class ScenePanel(WindowActions actions)
 {
     private readonly LightList _lights = new(actions);
@@ -26,7 +25,6 @@ internal sealed class ScenePanel(WindowActions actions)
     private bool _showsObjects = true;
     private string _addedFile = "";
 
-    /// <summary>Adds the widgets of the panel.</summary>
     public void Build(UserInterface ui, Document document)
     {
         if (document.File.Kind != FileKind.Scene || document.File.ParsedScene is null)

@@ -8,12 +8,10 @@ using FractalEngine.Render.Ui;
 namespace FractalEngine.App.Window.Panels;
 
 /// <summary>The panel of what was clicked and measured.</summary>
-/// <param name="actions">The window with the document.</param>
 internal sealed class SelectionPanel(WindowActions actions)
 {
     private readonly PlacementFields _placement = new(actions);
 
-    /// <summary>Adds the widgets of the panel.</summary>
     public void Build(UserInterface ui, Document document)
     {
         if (document.Tool.Selected is { } selected)

@@ -6,10 +6,8 @@ using static System.FormattableString;
 namespace FractalEngine.App.Window.Panels;
 
 /// <summary>The panel of what the last frame cost, and what each optimisation has saved.</summary>
-/// <param name="actions">The window with the overlay, which has the numbers.</param>
 internal sealed class StatisticsPanel(WindowActions actions)
 {
-    /// <summary>Adds the widgets of the panel.</summary>
     public void Build(UserInterface ui)
     {
         var times = actions.Overlay.FrameTimes;

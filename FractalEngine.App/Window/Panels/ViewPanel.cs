@@ -1,20 +1,18 @@
-using FractalEngine.App.Cameras;
 using FractalEngine.App.Window.Actions;
 using FractalEngine.App.Window.State;
 using FractalEngine.App.Window.Widgets;
+using FractalEngine.Render.Cameras;
 using FractalEngine.Render.Ui;
 
 namespace FractalEngine.App.Window.Panels;
 
 /// <summary>The panel of the camera, and of how the scene is drawn.</summary>
-/// <param name="actions">The window with the document.</param>
 internal sealed class ViewPanel(WindowActions actions)
 {
     private readonly List<(string Name, CameraState State)> _bookmarks = [];
     private readonly SectionFields _section = new(actions);
     private readonly ClipFields _clip = new(actions);
 
-    /// <summary>Adds the widgets of the panel.</summary>
     public void Build(UserInterface ui)
     {
         ui.Actions(actions, 3, "view-front", "view-right", "view-top");
@@ -31,11 +29,11 @@ internal sealed class ViewPanel(WindowActions actions)
         BuildDetail(ui);
         if (actions.Document is { } shown)
         {
-            double level = shown.Tool.Boxes.Level;
+            double level = shown.Tool.BoxLevel;
             ui.Row(1);
             if (ui.Slider("level boxes", ref level, -1, 8, 1))
             {
-                shown.Tool.Boxes.Level = (int)level;
+                shown.Tool.BoxLevel = (int)level;
                 actions.RequestDraw();
             }
 

@@ -54,7 +54,6 @@ internal sealed class WindowInterface
         _keyList.Build(ui);
     }
 
-    /// <summary>Builds a panel of the document, or says that there is none.</summary>
     private Action<UserInterface> OfDocument(Action<UserInterface, Document> build) => ui =>
     {
         if (_actions.Document is { } document)

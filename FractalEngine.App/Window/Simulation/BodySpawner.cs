@@ -83,7 +83,6 @@ internal static class BodySpawner
     }
 
     /// <summary>Tells whether a falling player meets something.</summary>
-    /// <param name="world">The world with its player.</param>
     public static bool HasGround(PhysicsWorld world)
     {
         var player = world.Character!;

@@ -17,7 +17,6 @@ internal static class PhysicsCommands
         return physics.IsBroken ? OutOfRangeMessage : physics.IsPaused ? "paused: N makes one step" : "running";
     }
 
-    /// <summary>Pauses the simulation, and makes one step.</summary>
     public static string StepOnce(this ScenePhysics physics)
     {
         physics.IsPaused = true;
@@ -40,11 +39,9 @@ internal static class PhysicsCommands
         return "bodies reset";
     });
 
-    /// <summary>Drops a sphere where the camera looks.</summary>
     public static string DropSphere(this ScenePhysics physics, Camera camera) =>
         physics.WhenReady(world => BodySpawner.DropSphere(world, physics.SceneExtent, camera));
 
-    /// <summary>Throws a sphere from the camera straight ahead.</summary>
     public static string ThrowSphere(this ScenePhysics physics, Camera camera) =>
         physics.WhenReady(world => BodySpawner.ThrowSphere(world, physics.SceneExtent, camera));
 
@@ -82,7 +79,6 @@ internal static class PhysicsCommands
         return !physics.IsShrinking ? "nothing shrinks" : areDeclared ? "shrinking, as the scene has it" : "all bodies shrink";
     });
 
-    /// <summary>Shows or hides the lines to closest points.</summary>
     public static string ToggleClosestPoints(this ScenePhysics physics)
     {
         physics.ShowsClosestPoints = !physics.ShowsClosestPoints;

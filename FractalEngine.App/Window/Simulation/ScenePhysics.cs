@@ -1,5 +1,4 @@
 using System.Diagnostics;
-using FractalEngine.App.Jobs;
 using FractalEngine.Core;
 using FractalEngine.Core.Colliders;
 using FractalEngine.Core.Maths;
@@ -8,8 +7,11 @@ using FractalEngine.Core.Physics.Bodies;
 using FractalEngine.Core.Physics.Movement;
 using FractalEngine.Core.SceneQueries;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Threading;
 using FractalEngine.Render;
 using FractalEngine.Render.Drawables;
+using FractalEngine.Render.Lines;
+using FractalEngine.Render.Preparation;
 using static System.FormattableString;
 
 namespace FractalEngine.App.Window.Simulation;
@@ -57,13 +59,11 @@ internal sealed class ScenePhysics : IDisposable
     /// <summary>True while bodies, objects or the player move, so that <see cref="Advance"/> must be called.</summary>
     public bool IsRunning => !IsPaused && Speed > 0 && World is { } world && (world.IsMoving || IsWalking);
 
-    /// <summary>The scene as it was loaded.</summary>
     public LoadedScene Scene { get; }
 
     /// <summary>The diagonal of the scene in scene units.</summary>
     public double SceneExtent { get; }
 
-    /// <summary>Whether the simulation is paused.</summary>
     public bool IsPaused { get; set; }
 
     /// <summary>True while a body is out of range: no step can be made until the next reset.</summary>
@@ -114,7 +114,6 @@ internal sealed class ScenePhysics : IDisposable
     /// <summary>The scene with its bodies where they are, the same object until one of them moves.</summary>
     public LoadedScene CurrentScene => _movedScene.With(World ?? _continued);
 
-    /// <summary>Number of colliders built so far, and number of all colliders.</summary>
     public (int Built, int All) ColliderCounts => World?.ColliderCounts ?? (0, _colliderCount);
 
     /// <summary>The world, once its colliders are built; null until then, and where it can't be made or nothing has needed it.</summary>

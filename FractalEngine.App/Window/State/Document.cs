@@ -1,5 +1,3 @@
-using FractalEngine.App.Cameras;
-using FractalEngine.App.Window.Files;
 using FractalEngine.App.Window.Input;
 using FractalEngine.App.Window.Simulation;
 using FractalEngine.App.Window.Tools;
@@ -9,8 +7,10 @@ using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Scenes.Cameras;
 using FractalEngine.Parsing.Assets;
+using FractalEngine.Parsing.Editing;
 using FractalEngine.Parsing.Text;
 using FractalEngine.Render;
+using FractalEngine.Render.Cameras;
 using FractalEngine.Render.Preparation;
 using FractalEngine.Render.Views;
 using FractalEngine.Render.Windowing;
@@ -50,7 +50,7 @@ internal sealed class Document : IDisposable
         var scene = file.Scene.Scene;
         var camera = View.Of(file.Scene, area.Aspect).Camera;
         FlyingCamera = new(
-            file.Scene.Bounds, camera, options.Projection ?? scene.Projection, scene.OrthographicHeight, FindFractal(preparation.Scene),
+            file.Scene.Bounds, camera, options.Projection ?? scene.Projection, scene.OrthographicHeight, preparation.Scene.SingleFractal,
             file.Scene, scene.Camera is null ? area.Aspect : null);
         Trail = file.Scene.Objects is [{ Model: FractalModel { Fractal: var fractal } }] ? new(fractal, options.TrailLength) : null;
         // Before anything of the previous document ends, since the driver may refuse the new one.
@@ -64,7 +64,6 @@ internal sealed class Document : IDisposable
         previous?.FirstSightLoader.Dispose();
     }
 
-    /// <summary>The loaded file with its scene.</summary>
     public LoadedFile File { get; }
 
     /// <summary>The part of the window that panels leave free.</summary>
@@ -73,22 +72,18 @@ internal sealed class Document : IDisposable
     /// <summary>Whether this replaces the same document before its files were changed.</summary>
     public bool IsReload { get; }
 
-    /// <summary>The renderer of the scene.</summary>
     public SceneRenderer Renderer { get; }
 
     /// <summary>The loader that prepares models when they first become visible.</summary>
     public FirstSightLoader FirstSightLoader { get; }
 
-    /// <summary>The bodies of the scene and the player.</summary>
     public ScenePhysics Physics { get; }
 
     /// <summary>The camera while no player walks.</summary>
     public FlyingCamera FlyingCamera { get; }
 
-    /// <summary>The controls of the flying camera.</summary>
     public CameraControls CameraControls { get; }
 
-    /// <summary>The controls of the player.</summary>
     public WalkControls WalkControls { get; }
 
     /// <summary>Selects and measures what is clicked.</summary>
@@ -100,7 +95,6 @@ internal sealed class Document : IDisposable
     /// <summary>The paper's zoom into the fractal; null unless the scene is one fractal.</summary>
     public FractalTrail? Trail { get; }
 
-    /// <summary>The files that were edited and not saved.</summary>
     public FileEdits Edits => State.Edits;
 
     /// <summary>The view of the last frame; null before the first.</summary>
@@ -240,7 +234,6 @@ internal sealed class Document : IDisposable
     public string ThrowBall() =>
         VisibleDepth > 0 ? "a ball is too large for this depth: zoom out first" : Physics.ThrowSphere(Camera);
 
-    /// <summary>Releases all keys that are held.</summary>
     public void ReleaseKeys()
     {
         CameraControls.ReleaseKeys();
@@ -311,7 +304,6 @@ internal sealed class Document : IDisposable
     public static Camera WithoutNegativeZeros(Camera camera) =>
         camera with { Position = camera.Position + Vector.Zero, Rotation = camera.Rotation + Vector.Zero };
 
-    /// <summary>Returns the scene with the present camera and projection.</summary>
     public Scene GetCurrentScene() => File.Scene.Scene with
     {
         Camera = Camera,
@@ -319,22 +311,10 @@ internal sealed class Document : IDisposable
         OrthographicHeight = FlyingCamera.OrthographicHeight,
     };
 
-    /// <inheritdoc/>
     public void Dispose()
     {
         FirstSightLoader.Dispose();
         Physics.Dispose();
         Renderer.Dispose();
-    }
-
-    /// <summary>Finds the fractal that the camera can enter: the only object of the scene, if that is a fractal.</summary>
-    private static FractalLocation? FindFractal(DrawableScene drawable)
-    {
-        if (drawable.Source.Objects is not [{ Model: FractalModel, ObjectToWorld: var objectToWorld }])
-        {
-            return null;
-        }
-
-        return drawable.Objects[0].Model.LodHierarchy is { } hierarchy ? new(0, hierarchy, objectToWorld) : null;
     }
 }

@@ -1,7 +1,7 @@
-using FractalEngine.App.Cameras;
-using FractalEngine.App.Window.Files;
 using FractalEngine.Parsing.Assets;
+using FractalEngine.Parsing.Editing;
 using FractalEngine.Parsing.Text;
+using FractalEngine.Render.Cameras;
 
 namespace FractalEngine.App.Window.State;
 
@@ -10,10 +10,8 @@ namespace FractalEngine.App.Window.State;
 /// <param name="History">The views and edits that the user can return to.</param>
 internal sealed record DocumentState(SceneDraft Draft, UndoHistory<UndoStep> History)
 {
-    /// <summary>The loaded file with its scene.</summary>
     public LoadedFile File => Draft.File;
 
-    /// <summary>The files that were edited and not saved.</summary>
     public FileEdits Edits { get; init; } = FileEdits.None;
 
     /// <summary>The edits that are in the scene that is shown, which is loaded later than they are made.</summary>
@@ -60,14 +58,10 @@ internal sealed record DocumentState(SceneDraft Draft, UndoHistory<UndoStep> His
     }
 
     /// <summary>Takes over that the view was saved, also in the texts that an undo returns to.</summary>
-    /// <param name="text">Text of the scene's file now.</param>
-    /// <param name="view">The view that it contains.</param>
     public DocumentState ViewSaved(string text, SceneView view) =>
         InHistory(edits => edits.Carry(File.Path, before => Draft.Carry(view, before))) with { Draft = Draft.Saved(text, view) };
 
     /// <summary>Drops the edit of the scene that can't be loaded, also in all steps that an undo returns to.</summary>
-    /// <param name="refused">The text that can't be loaded.</param>
-    /// <param name="loaded">The edits that can be loaded.</param>
     public DocumentState Drop(string refused, FileEdits loaded)
     {
         var kept = Edits.WithEditOf(File.Path, loaded);
@@ -108,3 +102,6 @@ internal sealed record DocumentState(SceneDraft Draft, UndoHistory<UndoStep> His
     private DocumentState InHistory(Func<FileEdits, FileEdits> change) =>
         this with { History = History.Transform(step => step with { Edits = change(step.Edits) }) };
 }
+
+/// <summary>What an undo returns to: the view, and the texts of the files.</summary>
+internal sealed record UndoStep(CameraState Camera, FileEdits Edits);

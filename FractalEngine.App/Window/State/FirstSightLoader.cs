@@ -1,6 +1,6 @@
-using FractalEngine.App.Jobs;
 using FractalEngine.App.Shell.Reports;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Threading;
 using FractalEngine.Render.Preparation;
 using FractalEngine.Render.Views;
 

@@ -1,4 +1,4 @@
-using FractalEngine.App.Window.Files;
+using FractalEngine.Parsing.Editing;
 
 namespace FractalEngine.App.Window.State;
 
@@ -19,3 +19,9 @@ internal sealed record LoadRequest(string Path, bool Continues, FileEdits EditsB
     /// </summary>
     public LoadFault? Refused { get; init; }
 }
+
+/// <summary>Why the document can't be loaded again.</summary>
+/// <param name="Request">The load that has failed.</param>
+/// <param name="Error">Lines for the user.</param>
+/// <param name="ShownFrom">When it is shown, unless another load ends before.</param>
+internal sealed record LoadFault(LoadRequest Request, string Error, TimeSpan ShownFrom);

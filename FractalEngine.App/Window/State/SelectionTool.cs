@@ -1,7 +1,9 @@
 using FractalEngine.App.Window.Tools;
 using FractalEngine.Core;
+using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Text;
+using FractalEngine.Render.Lines;
 using FractalEngine.Render.Views;
 using FractalEngine.Render.Windowing.Events;
 using FractalEngine.Render.Windowing.Keyboard;
@@ -9,13 +11,21 @@ using FractalEngine.Render.Windowing.Keyboard;
 namespace FractalEngine.App.Window.State;
 
 /// <summary>Selects, measures and focuses on what is clicked in the frame of a document.</summary>
-/// <param name="document">The document shown.</param>
 internal sealed class SelectionTool(Document document)
 {
     // A drag is longer than this, pixels.
     private const double MaxClickDistance = 4;
 
     private static readonly TimeSpan DoubleClickTime = TimeSpan.FromSeconds(0.4);
+
+    private static readonly Colour BoxColour = new(0.55, 0.75, 1);
+
+    private readonly CachedLines<(LoadedScene Scene, int Level)> _boxes =
+        new(static shown => BoxLines.OfLevel(shown.Scene, shown.Level, BoxColour));
+
+    private readonly CachedLines<(LoadedScene Scene, Selection? Selected)> _normals = new(static shown =>
+        shown.Selected is null ? NormalLines.OfMeshes(shown.Scene)
+        : shown.Selected.Instance is var (mesh, map) ? NormalLines.Of(mesh, map) : []);
 
     private Picker _picker = new();
     private Document _document = document;
@@ -28,13 +38,12 @@ internal sealed class SelectionTool(Document document)
     /// <summary>Measures distances between clicks.</summary>
     public MeasureTool Measure { get; } = new();
 
-    /// <summary>The bounding boxes that are shown.</summary>
-    public BoxesOfLevel Boxes { get; } = new();
+    /// <summary>The level whose bounding boxes are shown: 0 for whole objects, −1 for none.</summary>
+    public int BoxLevel { get; set; } = -1;
 
-    /// <summary>The normals that are shown.</summary>
-    public NormalLines Normals { get; } = new();
+    /// <summary>Whether normals are shown: those of the selected instance, or of all meshes where nothing is selected.</summary>
+    public bool ShowsNormals { get; set; }
 
-    /// <summary>The handles of the selected object.</summary>
     public HandleKind Handles { get; private set; }
 
     /// <summary>Distance of the handles from the middle of the object, as a part of the frame's height.</summary>
@@ -113,10 +122,14 @@ internal sealed class SelectionTool(Document document)
     {
         var lines = new List<LineSegment>();
         var scene = _document.Physics.CurrentScene;
-        Boxes.AddTo(scene, lines);
-        if (Selected is not { Viewpoint: not null })
+        if (BoxLevel >= 0)
         {
-            Normals.AddTo(scene, Selected, lines);
+            lines.AddRange(_boxes.Of((scene, BoxLevel)));
+        }
+
+        if (ShowsNormals && Selected is not { Viewpoint: not null })
+        {
+            lines.AddRange(_normals.Of((scene, Selected)));
         }
 
         return lines;
@@ -129,9 +142,9 @@ internal sealed class SelectionTool(Document document)
         {
             var own = new List<LineSegment>();
             selected.AddLines(own);
-            if (selected.Viewpoint is not null)
+            if (ShowsNormals && selected.Viewpoint is not null)
             {
-                Normals.AddTo(_document.File.Scene, selected, own);
+                own.AddRange(_normals.Of((_document.File.Scene, selected)));
             }
 
             lines.AddRange(own.Select(line => line with { From = map(line.From), To = map(line.To) }));

@@ -4,7 +4,6 @@ using FractalEngine.Render.Windowing;
 namespace FractalEngine.App.Window.State;
 
 /// <summary>The part of a window that panels leave to the scene, in whose middle the view is centred.</summary>
-/// <param name="window">The window, whose frame is larger.</param>
 internal sealed class ViewArea(RenderWindow window)
 {
     private double _widthFraction = 1;

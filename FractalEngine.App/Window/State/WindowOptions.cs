@@ -12,7 +12,6 @@ internal sealed record WindowOptions
     /// <summary>Number of samples of each pixel of a traced image, unless stated otherwise.</summary>
     public const int DefaultTraceSampleCount = 256;
 
-    /// <summary>The load options of all files.</summary>
     public LoadOptions Load { get; init; } = new();
 
     /// <summary>The initial render settings, some of which keys can change.</summary>

@@ -1,7 +1,7 @@
 using System.Collections.Immutable;
-using FractalEngine.App.Cameras;
-using FractalEngine.App.Window.Files;
+using FractalEngine.Parsing.Editing;
 using FractalEngine.Parsing.Text;
+using FractalEngine.Render.Cameras;
 
 namespace FractalEngine.App.Window.State;
 
@@ -47,7 +47,6 @@ internal sealed record WindowState
     /// <summary>What the window has to do, in this order.</summary>
     public ImmutableArray<(WindowEffect Effect, string Text)> Effects { get; init; } = [];
 
-    /// <summary>The files that were edited and not saved.</summary>
     public FileEdits Edits => Document?.Edits ?? FileEdits.None;
 
     /// <summary>The edits that the load in progress begins with.</summary>
@@ -83,7 +82,6 @@ internal sealed record WindowState
     }).Reload();
 
     /// <summary>Takes over that a file was saved: what a load has read before may be older than that.</summary>
-    /// <param name="document">The document after the save.</param>
     public WindowState Saved(DocumentState document) => this with { SaveCount = SaveCount + 1, Document = document };
 
     /// <summary>Takes over that the load in progress has begun.</summary>
@@ -105,8 +103,6 @@ internal sealed record WindowState
             .StartNext();
     }
 
-    /// <summary>Takes over that what was loaded is shown.</summary>
-    /// <param name="document">The document.</param>
     public WindowState Shown(DocumentState document)
     {
         var request = Showing!;
@@ -133,7 +129,6 @@ internal sealed record WindowState
     public WindowState Refused(string error, TimeSpan now) => (this with { Showing = null }).Refuse(Showing!, error, now).StartNext();
 
     /// <summary>Shows a reason that has stood for a while, or first tries whether the last edit of the scene is at fault.</summary>
-    /// <param name="now">The present time.</param>
     public WindowState Tick(TimeSpan now)
     {
         // What loads now tells more.
@@ -156,7 +151,6 @@ internal sealed record WindowState
     /// <summary>Shows an error that stays until a file is shown.</summary>
     public WindowState Fail(string error) => (this with { Error = error }).Tell(WindowEffect.Print, error);
 
-    /// <summary>Tells whether a load is that of the document under the name that it has.</summary>
     public bool IsReload(LoadRequest request) => request.Continues && request.Path == FilePath;
 
     private WindowState ShowError(string error) => error == Error ? this : Fail(error);
@@ -210,4 +204,27 @@ internal sealed record WindowState
 
     private string KeptMessage(LoadRequest request) =>
         $"{Path.GetFileName(request.Path)} was not opened, since {Path.GetFileName(FilePath)} was changed meanwhile: save that first";
+}
+
+/// <summary>Holds the present state of a window.</summary>
+internal sealed class WindowStore
+{
+    /// <summary>The state; each change replaces it.</summary>
+    public WindowState State { get; set; } = new();
+}
+
+/// <summary>What a window does once when its state has changed.</summary>
+internal enum WindowEffect
+{
+    /// <summary>Writes an error to stderr.</summary>
+    Print,
+
+    /// <summary>Writes a message to stderr, and shows it for a few seconds.</summary>
+    Report,
+
+    /// <summary>Writes an error to stderr, and shows it for some time over the scene.</summary>
+    ShowProblem,
+
+    /// <summary>Watches the files that the load which has just ended has come to.</summary>
+    WatchFiles,
 }

@@ -29,7 +29,6 @@ internal sealed class MeasureTool
     /// <summary>Whether the first of two points was clicked, and is marked.</summary>
     public bool HasFirstPoint => _first is not null;
 
-    /// <summary>The distances that were measured.</summary>
     public ImmutableArray<Dimension> Dimensions { get; private set; } = [];
 
     /// <summary>What to click next, for the user.</summary>
@@ -190,4 +189,17 @@ internal sealed class MeasureTool
                 return new(kind, first, second, pair.Point, pair.OtherPoint, $"{first.Object.Declaration.DisplayName} to {name}");
         }
     }
+}
+
+/// <summary>What the next two clicks measure.</summary>
+internal enum MeasureKind
+{
+    /// <summary>The distance of two points.</summary>
+    Points,
+
+    /// <summary>The distance of a point and the object that is clicked second.</summary>
+    PointToObject,
+
+    /// <summary>The distance of two objects at their closest points.</summary>
+    Objects,
 }

@@ -2,11 +2,13 @@ using System.Collections.Immutable;
 using System.Globalization;
 using System.Text;
 using FractalEngine.Core.DeepZoom;
+using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Rays;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Render.Lines;
 using FractalEngine.Render.Views;
 
 namespace FractalEngine.App.Window.Tools;
@@ -26,9 +28,6 @@ namespace FractalEngine.App.Window.Tools;
 internal sealed record Selection(
     int ObjectIndex, PlacedModel Object, ImmutableArray<int> Path, int Depth, RayHit? Hit, FractalAddress? Viewpoint = null)
 {
-    /// <summary>Number of lines of <see cref="AddBox"/>.</summary>
-    public const int LinesPerBox = 12;
-
     // Of a longer path, panels show the end.
     private const int MaxShownLevels = 24;
 
@@ -41,6 +40,10 @@ internal sealed record Selection(
     /// large to be told there.
     /// </summary>
     public (BoundingBox Box, AffineMap Map) Outline { get; private init; } = ComputeOutline(Object, Path, Depth, Hit, Viewpoint);
+
+    /// <summary>The clicked instance, and its map to the frame of the hit; null for a fractal that was chosen from a list.</summary>
+    public (Mesh Mesh, AffineMap Map)? Instance =>
+        (Hit?.InstanceMap ?? (Object.Model is MeshModel ? Object.ObjectToWorld : null)) is { } map ? (Object.Model.Mesh, map) : null;
 
     /// <summary>The clicked point, in the frame of the hit; the middle of an object chosen from a list.</summary>
     public Vector Point => Hit?.Point ?? Object.Bounds.Centre;
@@ -58,7 +61,6 @@ internal sealed record Selection(
         Depth > 0 ? this with { Depth = Depth - 1, Outline = ComputeOutline(Object, Path, Depth - 1, Hit, Viewpoint) } : this;
 
     /// <summary>Selects the same part after the object was moved, or its model changed.</summary>
-    /// <param name="placed">The object as it is now.</param>
     /// <returns>Null where the object has no such part any more.</returns>
     public Selection? ContinueIn(PlacedModel placed)
     {
@@ -140,7 +142,7 @@ internal sealed record Selection(
     /// <summary>Adds lines around the selected part, and those of the clicked face and its normal, in the frame of the hit.</summary>
     public void AddLines(List<LineSegment> lines)
     {
-        AddBox(lines, Outline.Box, Outline.Map, OutlineColour);
+        BoxLines.Add(lines, Outline.Box, Outline.Map, OutlineColour);
         if (Hit is not { } hit)
         {
             return;
@@ -153,25 +155,6 @@ internal sealed record Selection(
         lines.Add(new(c, a, FaceColour));
         var size = Math.Max((b - a).Length(), (c - a).Length());
         lines.Add(new(hit.Point, hit.Point + (0.5 * size * hit.Normal), NormalColour));
-    }
-
-    /// <summary>Adds the edges of a box; none where it is empty or infinite.</summary>
-    /// <param name="lines">The list that is added to.</param>
-    /// <param name="box">In its own frame.</param>
-    /// <param name="map">From that frame to world space.</param>
-    /// <param name="colour">Colour of the edges, sRGB.</param>
-    public static void AddBox(List<LineSegment> lines, BoundingBox box, in AffineMap map, Colour colour)
-    {
-        for (var i = 0; i < 8 && !box.IsEmpty && box.Size.IsFinite(); i++)
-        {
-            for (var axis = 1; axis < 8; axis *= 2)
-            {
-                if ((i & axis) == 0)
-                {
-                    lines.Add(new(map * Corner(box, i), map * Corner(box, i | axis), colour));
-                }
-            }
-        }
     }
 
     /// <summary>Names the selected part.</summary>
@@ -223,11 +206,6 @@ internal sealed record Selection(
 
     private static string Format(Vector vector) =>
         string.Create(CultureInfo.InvariantCulture, $"({vector.X:G9}, {vector.Y:G9}, {vector.Z:G9})");
-
-    private static Vector Corner(BoundingBox box, int index) => new(
-        (index & 1) == 0 ? box.Minimum.X : box.Maximum.X,
-        (index & 2) == 0 ? box.Minimum.Y : box.Maximum.Y,
-        (index & 4) == 0 ? box.Minimum.Z : box.Maximum.Z);
 
     private static (BoundingBox Box, AffineMap Map) ComputeOutline(
         PlacedModel placed, ImmutableArray<int> path, int depth, RayHit? hit, FractalAddress? viewpoint)

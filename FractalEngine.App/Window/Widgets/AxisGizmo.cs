@@ -8,7 +8,6 @@ using FractalEngine.Render.Ui;
 namespace FractalEngine.App.Window.Widgets;
 
 /// <summary>Shows where the axes of the world point, in a corner of the frame. A click on an end views along its axis.</summary>
-/// <param name="actions">The window with the document.</param>
 internal sealed class AxisGizmo(WindowActions actions)
 {
     // Distance of the knobs from the middle, pixels at scale 1.

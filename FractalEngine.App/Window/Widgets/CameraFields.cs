@@ -8,7 +8,6 @@ using FractalEngine.Render.Ui;
 namespace FractalEngine.App.Window.Widgets;
 
 /// <summary>The camera of a scene as numbers, in the scene's panel. Ctrl+S writes it into the scene's line <c>c</c>.</summary>
-/// <param name="actions">The window with the document.</param>
 internal sealed class CameraFields(WindowActions actions)
 {
     private const double DegreesPerRadian = 180 / Math.PI;
@@ -17,7 +16,6 @@ internal sealed class CameraFields(WindowActions actions)
     private int _startInteraction = -1;
     private Camera? _start;
 
-    /// <summary>Adds the branch of the camera.</summary>
     public void Build(UserInterface ui, Document document)
     {
         if (!ui.Branch("Camera", ref _isOpen))

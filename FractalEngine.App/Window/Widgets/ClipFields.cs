@@ -7,7 +7,6 @@ using FractalEngine.Render.Ui;
 namespace FractalEngine.App.Window.Widgets;
 
 /// <summary>The near and the far clip plane of a scene, in the panel of the view. They belong to the scene's file.</summary>
-/// <param name="actions">The window with the document.</param>
 internal sealed class ClipFields(WindowActions actions)
 {
     /// <summary>Adds a check box, and the two depths where they are fixed.</summary>

@@ -1,22 +1,20 @@
 using System.Globalization;
 using FractalEngine.App.Window.Actions;
-using FractalEngine.App.Window.Files;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Scenes.Cameras;
 using FractalEngine.Core.Scenes.Lights;
+using FractalEngine.Parsing.Editing;
 using FractalEngine.Render.Ui;
 
 namespace FractalEngine.App.Window.Widgets;
 
 /// <summary>The lights of a scene, in its panel.</summary>
-/// <param name="actions">The window with the document.</param>
 internal sealed class LightList(WindowActions actions)
 {
     private int _light = -1;
     private bool _isOpen;
 
-    /// <summary>Adds the branch of the lights.</summary>
     public void Build(UserInterface ui, Scene scene)
     {
         if (!ui.Branch(string.Create(CultureInfo.InvariantCulture, $"Lights ({scene.Lights.Length})"), ref _isOpen))

@@ -10,9 +10,6 @@ namespace FractalEngine.App.Window.Widgets;
 internal static class PanelWidgets
 {
     /// <summary>Adds a check box or a button for an action, with its help.</summary>
-    /// <param name="ui">The interface that is being built.</param>
-    /// <param name="actions">The window with the document.</param>
-    /// <param name="id">Id of the action in the table.</param>
     public static void Action(this UserInterface ui, WindowActions actions, string id)
     {
         var action = ActionTable.Get(id);
@@ -34,10 +31,6 @@ internal static class PanelWidgets
     }
 
     /// <summary>Adds rows of check boxes and buttons for actions, in columns of equal width.</summary>
-    /// <param name="ui">The interface that is being built.</param>
-    /// <param name="actions">The window with the document.</param>
-    /// <param name="columns">Number of actions in a row.</param>
-    /// <param name="ids">Ids of the actions in the table.</param>
     public static void Actions(this UserInterface ui, WindowActions actions, int columns, params ReadOnlySpan<string> ids)
     {
         ui.Row([.. Enumerable.Repeat(1.0, columns)]);
@@ -114,9 +107,6 @@ internal static class PanelWidgets
     }
 
     /// <summary>Makes a change in a vector of which other components may have changed, and are not loaded yet.</summary>
-    /// <param name="present">The vector to change.</param>
-    /// <param name="before">The vector that widgets have shown.</param>
-    /// <param name="after">The vector that widgets have made of it.</param>
     public static Vector Merge(Vector present, Vector before, Vector after) => new(
         after.X.Equals(before.X) ? present.X : after.X,
         after.Y.Equals(before.Y) ? present.Y : after.Y,

@@ -6,7 +6,6 @@ using FractalEngine.Render.Ui;
 namespace FractalEngine.App.Window.Widgets;
 
 /// <summary>Sliders for position, rotation and scale of an object, on which numbers can be typed.</summary>
-/// <param name="actions">The window with the document.</param>
 internal sealed class PlacementFields(WindowActions actions)
 {
     // The placement at the beginning of a drag, around which the sliders reach.

@@ -8,14 +8,12 @@ using FractalEngine.Render.Ui;
 namespace FractalEngine.App.Window.Widgets;
 
 /// <summary>The section plane as numbers, in the panel of the view.</summary>
-/// <param name="actions">The window with the document.</param>
 internal sealed class SectionFields(WindowActions actions)
 {
     // The plane at the beginning of a drag, around which the sliders reach.
     private int _startInteraction = -1;
     private SectionPlane _start;
 
-    /// <summary>Adds the widgets of the plane.</summary>
     public void Build(UserInterface ui, Document document)
     {
         ui.Heading("Section");

@@ -7,7 +7,6 @@ using FractalEngine.Render.Ui;
 namespace FractalEngine.App.Window.Widgets;
 
 /// <summary>The knob in the middle of the section plane, which drags it along its normal.</summary>
-/// <param name="actions">The window with the document.</param>
 internal sealed class SectionHandle(WindowActions actions)
 {
     // Of the size of the scene: what a drag is rounded to, with Ctrl and without.

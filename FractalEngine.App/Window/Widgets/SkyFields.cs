@@ -8,7 +8,6 @@ using FractalEngine.Render.Ui;
 namespace FractalEngine.App.Window.Widgets;
 
 /// <summary>The sky of a scene, its exposure, tone and haze, in the scene's panel.</summary>
-/// <param name="actions">The window with the document.</param>
 internal sealed class SkyFields(WindowActions actions)
 {
     private static readonly Colour DefaultZenith = new(0.25, 0.45, 0.75);
@@ -19,7 +18,6 @@ internal sealed class SkyFields(WindowActions actions)
     // The sky that was taken away last, and the scene that had it.
     private (string Path, Sky Sky)? _removed;
 
-    /// <summary>Adds the branch of the sky.</summary>
     public void Build(UserInterface ui, Scene scene)
     {
         if (!ui.Branch("Sky and haze", ref _isOpen))

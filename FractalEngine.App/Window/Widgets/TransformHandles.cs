@@ -10,7 +10,6 @@ namespace FractalEngine.App.Window.Widgets;
 /// The handles of the selected object: knobs at the ends of its axes or on rings around it, which move, turn and scale it. Each drag is
 /// one step that can be undone, and changes the numbers of the object's line in the scene.
 /// </summary>
-/// <param name="actions">The window with the document.</param>
 internal sealed class TransformHandles(WindowActions actions)
 {
     // Pixels at scale 1 from the middle of the object to a handle.

@@ -1,8 +1,10 @@
 using FractalEngine.App.Animation;
 using FractalEngine.App.Shell;
 using FractalEngine.Core.Images;
+using FractalEngine.Core.Images.Animations;
 using FractalEngine.Core.Maths;
 using FractalEngine.Parsing.Assets;
+using FractalEngine.Parsing.Simulation;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.App.Animation;
@@ -24,7 +26,7 @@ public sealed class AnimationOutputTests : IDisposable
     [InlineData(100_000, "f-000001.png")]
     public void Add_OfANumberedImage_HasAsManyDigitsAsTheLastAndFourAtLeast(int frameCount, string name)
     {
-        using var output = AnimationOutput.Create(_folder["f.png"], frameCount, 25);
+        using var output = AnimationOutput.Create(_folder["f.png"], frameCount, 25)!;
         output.Add(Pixel);
         output.Complete();
         Assert.Equal([_folder[name]], Directory.GetFiles(_folder.Path));
@@ -36,18 +38,18 @@ public sealed class AnimationOutputTests : IDisposable
     [InlineData("f-0001.png", true)]
     [InlineData("f-0003.png", true)]
     [InlineData("f-0004.png", false)]
-    public void Protect_OfNumberedImages_RefusesEachThatIsRead(string read, bool isRefused) =>
+    public void Files_OfNumberedImages_RefusesEachThatIsRead(string read, bool isRefused) =>
         CheckProtection("f.png", read, isRefused);
 
     [Theory]
     [InlineData("f.apng", true)]
     [InlineData("g.apng", false)]
-    public void Protect_OfAnAnimatedImage_RefusesOneThatIsRead(string read, bool isRefused) => CheckProtection("f.apng", read, isRefused);
+    public void Files_OfAnAnimatedImage_RefusesOneThatIsRead(string read, bool isRefused) => CheckProtection("f.apng", read, isRefused);
 
     [Fact]
     public void Complete_OfAnAnimatedImage_WritesItOnlyWithFrames()
     {
-        using var output = AnimationOutput.Create(_folder["f.APNG"], 2, 25);
+        using var output = AnimationOutput.Create(_folder["f.APNG"], 2, 25)!;
         output.Complete();
         Assert.Empty(Directory.GetFiles(_folder.Path));
         output.Add(Pixel);
@@ -68,7 +70,7 @@ public sealed class AnimationOutputTests : IDisposable
     [InlineData("a.WebM", 25, true,
         "a video has no transparent background: expected --output to end in .png or .apng, not .webm")]
     public void CheckFormat_OfWhatAFormatCannotHold_SaysSo(string path, double rate, bool isTransparent, string? message) =>
-        Assert.Equal(message, Record.Exception(() => AnimationOutput.CheckFormat(path, rate, isTransparent))?.Message);
+        Assert.Equal(message, Record.Exception(() => AnimationJob.CheckFormat(path, rate, isTransparent))?.Message);
 
     [Theory]
     [InlineData("a.png", true)]
@@ -105,8 +107,8 @@ public sealed class AnimationOutputTests : IDisposable
     private void CheckProtection(string output, string read, bool isRefused)
     {
         InputFiles.Add(_folder.Write(read, "input"));
-        using var animation = AnimationOutput.Create(_folder[output], 3, 25);
+        using var animation = AnimationOutput.Create(_folder[output], 3, 25)!;
         string? message = isRefused ? $"{_folder[read]} is one of the files that are read, and is not overwritten" : null;
-        Assert.Equal(message, Record.Exception(animation.Protect)?.Message);
+        Assert.Equal(message, Record.Exception(() => Array.ForEach([.. animation.Files], InputFiles.Protect))?.Message);
     }
 }

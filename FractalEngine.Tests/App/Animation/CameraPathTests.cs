@@ -1,4 +1,4 @@
-using FractalEngine.App.Animation;
+using FractalEngine.App.Jobs;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes.Cameras;
 using FractalEngine.Tests.Support;
@@ -23,7 +23,7 @@ public sealed class CameraPathTests : IDisposable
     {
         double[] places = [0, 1, 9, 4, 25, 7, 36];
         string list = string.Join('\n', places.Select(x => FormattableString.Invariant($"({x}, 0, 5) (0, 3, 0) 60")));
-        var path = CameraPath.Read(_folder.Write("path.txt", list), Handedness.Right);
+        var path = CameraText.ReadPath(_folder.Write("path.txt", list), Handedness.Right);
         double scaled = time * (places.Length - 1);
         int index = (int)scaled;
         double t = scaled - index;

@@ -1,10 +1,10 @@
-using FractalEngine.App.Cameras;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Scenes.Cameras;
 using FractalEngine.Core.Views;
 using FractalEngine.Core.Visibility.Levels;
+using FractalEngine.Render.Cameras;
 using FractalEngine.Tests.Render;
 using FractalEngine.Tests.Support;
 

@@ -1,4 +1,3 @@
-using FractalEngine.App.Cameras;
 using FractalEngine.App.Window.Input;
 using FractalEngine.Core.DeepZoom;
 using FractalEngine.Core.Fractals;
@@ -14,6 +13,7 @@ using FractalEngine.Core.Scenes.Lights;
 using FractalEngine.Core.Views;
 using FractalEngine.Core.Visibility.Levels;
 using FractalEngine.Render;
+using FractalEngine.Render.Cameras;
 using FractalEngine.Render.Preparation;
 using FractalEngine.Render.Views;
 using FractalEngine.Render.Windowing;

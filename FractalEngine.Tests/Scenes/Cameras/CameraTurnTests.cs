@@ -1,6 +1,7 @@
-using FractalEngine.App.Animation;
+using FractalEngine.App.Jobs;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes.Cameras;
+using FractalEngine.Render.Cameras;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Scenes.Cameras;
@@ -54,5 +55,5 @@ public sealed class CameraTurnTests : IDisposable
     }
 
     private CameraPath Read(params string[] lines) =>
-        CameraPath.Read(_folder.Write("cameras.txt", string.Join('\n', lines)), Handedness.Left);
+        CameraText.ReadPath(_folder.Write("cameras.txt", string.Join('\n', lines)), Handedness.Left);
 }

@@ -1,4 +1,3 @@
-using FractalEngine.App.Animation;
 using FractalEngine.App.Jobs;
 using FractalEngine.Core.Scenes.Cameras;
 using FractalEngine.Tests.App;
@@ -41,6 +40,6 @@ public sealed class CameraWarningTests : IDisposable
     {
         string path = _folder.Write("cameras.txt", "# a list\r\n\r\n(0, 0, 0) # 60\r\n(1, 2, 3) (0, 45, 0) 60\r\n");
         Assert.StartsWith(
-            $"{path}:4:11: warning: {Hint}", ErrorText.Of(() => CameraPath.Read(path, Handedness.Left)), StringComparison.Ordinal);
+            $"{path}:4:11: warning: {Hint}", ErrorText.Of(() => CameraText.ReadPath(path, Handedness.Left)), StringComparison.Ordinal);
     }
 }

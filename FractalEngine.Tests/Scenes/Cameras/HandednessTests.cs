@@ -1,5 +1,4 @@
 using System.Collections.Immutable;
-using FractalEngine.App.Cameras;
 using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Images;
@@ -11,6 +10,7 @@ using FractalEngine.Core.Views;
 using FractalEngine.Parsing;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Render;
+using FractalEngine.Render.Cameras;
 using FractalEngine.Render.Images;
 using FractalEngine.Render.Preparation;
 using FractalEngine.Render.Views;

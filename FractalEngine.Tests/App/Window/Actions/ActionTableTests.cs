@@ -1,12 +1,12 @@
 using System.Collections.Immutable;
 using System.Text;
-using FractalEngine.App.Cameras;
 using FractalEngine.App.Commands;
 using FractalEngine.App.Window.Actions;
 using FractalEngine.App.Window.Input;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes.Cameras;
+using FractalEngine.Render.Cameras;
 using FractalEngine.Render.Windowing.Events;
 using FractalEngine.Render.Windowing.Keyboard;
 using FractalEngine.Tests.Support;

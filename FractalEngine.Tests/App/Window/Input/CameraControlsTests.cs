@@ -1,11 +1,11 @@
 using System.Globalization;
-using FractalEngine.App.Cameras;
 using FractalEngine.App.Window.Actions;
 using FractalEngine.App.Window.Input;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes.Cameras;
 using FractalEngine.Core.Views;
 using FractalEngine.Core.Visibility.Levels;
+using FractalEngine.Render.Cameras;
 using FractalEngine.Render.Views;
 using FractalEngine.Render.Windowing.Events;
 using FractalEngine.Render.Windowing.Keyboard;

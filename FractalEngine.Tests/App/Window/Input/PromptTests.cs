@@ -1,7 +1,7 @@
 using System.Collections.Immutable;
 using FractalEngine.App.Window.Files;
 using FractalEngine.App.Window.Input;
-using FractalEngine.App.Window.State;
+using FractalEngine.Parsing.Editing;
 using FractalEngine.Render.Windowing.Events;
 using FractalEngine.Render.Windowing.Keyboard;
 using FractalEngine.Tests.Support;

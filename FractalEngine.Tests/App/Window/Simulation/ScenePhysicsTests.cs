@@ -3,6 +3,7 @@ using FractalEngine.Core.Generation;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Render.Lines;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.App.Window.Simulation;

@@ -1,8 +1,8 @@
-using FractalEngine.App.Cameras;
-using FractalEngine.App.Window.Files;
 using FractalEngine.App.Window.State;
 using FractalEngine.Core.Scenes.Cameras;
 using FractalEngine.Parsing.Assets;
+using FractalEngine.Parsing.Editing;
+using FractalEngine.Render.Cameras;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.App.Window.State;

@@ -1,4 +1,3 @@
-using FractalEngine.App.Cameras;
 using FractalEngine.App.Window.Tools;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Maths;
@@ -6,6 +5,7 @@ using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Scenes.Cameras;
 using FractalEngine.Core.Views;
 using FractalEngine.Core.Visibility.Levels;
+using FractalEngine.Render.Cameras;
 using FractalEngine.Render.Views;
 using FractalEngine.Tests.Support;
 using FractalEngine.Tests.Visibility.Frames;

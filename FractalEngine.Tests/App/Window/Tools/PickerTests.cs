@@ -2,9 +2,11 @@ using FractalEngine.App.Window.Tools;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Generation;
+using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Scenes.Cameras;
+using FractalEngine.Render.Lines;
 using FractalEngine.Render.Views;
 using FractalEngine.Tests.Support;
 
@@ -123,12 +125,8 @@ public class PickerTests
     [InlineData(2, 400)]
     [InlineData(3, 1000)]
     [InlineData(4, 0)]
-    public void Boxes_OfALevel_AreThoseOfItsSubFractals(int level, int expected)
-    {
-        var lines = new List<LineSegment>();
-        new BoxesOfLevel { Level = level }.AddTo(Scene(Sponge(depth: 3)), lines);
-        Assert.Equal(expected, lines.Count / 12);
-    }
+    public void Boxes_OfALevel_AreThoseOfItsSubFractals(int level, int expected) =>
+        Assert.Equal(expected, BoxLines.OfLevel(Scene(Sponge(depth: 3)), level, Colour.White).Count / 12);
 
     [Fact]
     public void Text_OfASelection_NamesWhatWasClicked()

@@ -1,0 +1,26 @@
+using FractalEngine.Core.Files;
+
+namespace FractalEngine.Core.Images.Animations;
+
+/// <summary>Frames in one animated PNG, which repeats for ever.</summary>
+/// <param name="path">Path of the file.</param>
+/// <param name="framesPerSecond">Frames a second.</param>
+internal sealed class AnimatedImage(string path, double framesPerSecond) : AnimationOutput
+{
+    private readonly ApngAnimation _animation = new(framesPerSecond);
+
+    /// <inheritdoc/>
+    public override string Name => path;
+
+    /// <inheritdoc/>
+    public override void Add(PixelImage frame) => _animation.Add(frame);
+
+    /// <inheritdoc/>
+    public override void Complete()
+    {
+        if (_animation.FrameCount > 0)
+        {
+            AtomicFile.Write(path, _animation.Write);
+        }
+    }
+}

@@ -1,0 +1,41 @@
+namespace FractalEngine.Core.Images.Animations;
+
+/// <summary>Where the frames of an animation go: numbered images, an animated PNG, or a video, by the ending of a name.</summary>
+public abstract class AnimationOutput : IDisposable
+{
+    /// <summary>Endings of names, for messages.</summary>
+    public const string Endings = ".png, .apng, .mp4, .webm or .gif";
+
+    /// <summary>Returns whether an output is a list of images, none of which has a time.</summary>
+    public static bool HasNoTimes(string path) => path.EndsWith(".png", StringComparison.OrdinalIgnoreCase);
+
+    /// <summary>Creates the output for the ending of a name.</summary>
+    /// <param name="path">Path that ends in one of <see cref="Endings"/>.</param>
+    /// <param name="frameCount">Number of frames that will follow.</param>
+    /// <param name="framesPerSecond">Frames a second.</param>
+    /// <returns>Null where the ending is another one.</returns>
+    /// <exception cref="IOException">The output needs the program ffmpeg, which is not installed.</exception>
+    public static AnimationOutput? Create(string path, int frameCount, double framesPerSecond) =>
+        Path.GetExtension(path).ToUpperInvariant() switch
+        {
+            ".PNG" => new NumberedImages(path, frameCount),
+            ".APNG" => new AnimatedImage(path, framesPerSecond),
+            ".MP4" or ".WEBM" or ".GIF" => new Video(path, framesPerSecond),
+            _ => null,
+        };
+
+    /// <summary>Path of the file, or a text for the files, in the report.</summary>
+    public abstract string Name { get; }
+
+    /// <summary>Paths of all files that are written or replaced.</summary>
+    public virtual IEnumerable<string> Files => [Name];
+
+    /// <summary>Adds a frame behind the others.</summary>
+    public abstract void Add(PixelImage frame);
+
+    /// <summary>Completes the output, with all frames or with those before an interruption.</summary>
+    public abstract void Complete();
+
+    /// <summary>Ends the output. What is not complete then is deleted.</summary>
+    public virtual void Dispose() => GC.SuppressFinalize(this);
+}

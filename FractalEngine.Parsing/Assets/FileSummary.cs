@@ -1,0 +1,78 @@
+using System.Globalization;
+using System.Text.Encodings.Web;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes;
+using BigInteger = System.Numerics.BigInteger;
+
+namespace FractalEngine.Parsing.Assets;
+
+/// <summary>
+/// The facts about a loaded file: kind, counts, bounds, size and times. Counts are exact, of the scene with all fractals expanded. A model
+/// counts once per object that shows it.
+/// </summary>
+/// <param name="file">The loaded file.</param>
+/// <param name="loadTime">Time of parsing and checking all files, and of finding the bounds.</param>
+/// <param name="prepareTime">Further time until the scene could be drawn; null where it was not prepared.</param>
+public sealed class FileSummary(LoadedFile file, TimeSpan loadTime, TimeSpan? prepareTime)
+{
+    /// <summary>Formats the summary as one JSON object, in which numbers of any length are written out.</summary>
+    public string ToJson() => "{" + string.Join(", ", Fields(FormatJson).Select(field => $"\"{field.Name}\": {field.Value}")) + "}";
+
+    /// <summary>Formats the summary as text with one field per line.</summary>
+    public string ToText() => string.Join('\n', Fields(FormatPlain).Select(field => $"{field.Name,-20}{field.Value}"));
+
+    private IEnumerable<(string Name, string Value)> Fields(Func<object?, string> format)
+    {
+        var scene = file.Scene;
+        var bounds = scene.Bounds;
+        var instances = scene.Sum(static model => model.InstanceCount);
+        var distinctCounts = scene.Models.ToDictionary(model => model, CountDistinctInstances);
+        return
+        [
+            ("kind", format(file.Kind.ToString().ToLowerInvariant())),
+            ("handed", format(scene.Scene.Handedness.ToString().ToLowerInvariant())),
+            ("vertices", FormatCount(scene.Sum(static model => model.VertexCount), format)),
+            ("faces", FormatCount(scene.Sum(static model => model.FaceCount), format)),
+            ("instances", FormatCount(instances, format)),
+            ("infinite", format(instances is null)),
+            ("distinctInstances", FormatCount(scene.Sum(model => distinctCounts[model]), format)),
+            ("boundsMin", format(bounds.IsEmpty ? null : bounds.Minimum)),
+            ("boundsMax", format(bounds.IsEmpty ? null : bounds.Maximum)),
+            ("storageBytes", format(file.StorageBytes)),
+            ("loadMilliseconds", FormatTime(loadTime, format)),
+            ("prepareMilliseconds", FormatTime(prepareTime, format)),
+        ];
+    }
+
+    private static string FormatTime(TimeSpan? time, Func<object?, string> format) =>
+        format(time is { } known ? Math.Round(known.TotalMilliseconds, 3) : null);
+
+    private static string FormatCount(BigInteger? count, Func<object?, string> format) =>
+        count is { } number ? DecimalText.Format(number) : format(null);
+
+    private static string FormatJson(object? value) => value switch
+    {
+        null => "null",
+        bool flag => flag ? "true" : "false",
+        string text => $"\"{JavaScriptEncoder.UnsafeRelaxedJsonEscaping.Encode(text)}\"",
+        // JSON has no infinity.
+        Vector vector when !vector.IsFinite() => "null",
+        Vector(var x, var y, var z) => FormattableString.Invariant($"[{x:R}, {y:R}, {z:R}]"),
+        IFormattable number => number.ToString(null, CultureInfo.InvariantCulture),
+        _ => throw new ArgumentOutOfRangeException(nameof(value)),
+    };
+
+    private static string FormatPlain(object? value) => value switch
+    {
+        null => "-",
+        bool flag => flag ? "yes" : "no",
+        Vector(var x, var y, var z) => string.Create(CultureInfo.InvariantCulture, $"{x:R} {y:R} {z:R}"),
+        _ => string.Create(CultureInfo.InvariantCulture, $"{value}"),
+    };
+
+    private static BigInteger? CountDistinctInstances(Model model) => model switch
+    {
+        FractalModel { Fractal: var fractal } => Core.Fractals.DistinctInstances.Count(fractal),
+        _ => BigInteger.One,
+    };
+}

@@ -1,0 +1,35 @@
+using FractalEngine.Core.Files;
+
+namespace FractalEngine.Parsing.Editing;
+
+/// <summary>Writes fractals to begin with. No other file is ever replaced.</summary>
+public static class NewFractalFile
+{
+    private const string Extension = ".fdo";
+
+    /// <summary>Returns a name for a fractal in a folder that no other file has.</summary>
+    /// <param name="template">What the fractal begins with.</param>
+    /// <param name="folder">Full path of the folder.</param>
+    public static string Propose(FractalTemplate template, string folder) => NewFile.Propose(
+        Path.Combine(folder, template.Name), Extension, static path => !Path.Exists(path) && !Path.Exists(FractalFile.BaseMeshPath(path)));
+
+    /// <summary>Writes a fractal, and its base mesh beside it.</summary>
+    /// <param name="template">What the fractal begins with.</param>
+    /// <param name="path">Full path of the new file.</param>
+    /// <exception cref="IOException">A name is taken or has another ending, or a file can't be written.</exception>
+    public static void Write(FractalTemplate template, string path)
+    {
+        NewFile.RequireEnding(path, "fractal", Extension);
+        NewFile.RequireFolder(path);
+        if (path.IndexOfAny(['"', '\n', '\r']) >= 0)
+        {
+            throw new IOException("the name of a fractal has no quote and no line break");
+        }
+
+        var meshPath = FractalFile.BaseMeshPath(path);
+        NewFile.RequireFree(path);
+        NewFile.RequireFree(meshPath);
+        NewFile.Write(meshPath, template.MeshText);
+        NewFile.Write(path, template.TextWith(Path.GetFileName(meshPath)));
+    }
+}
