@@ -15,9 +15,6 @@ internal sealed partial class IslandPlanner
     private const int MaxReboundRounds = 8;
 
     private readonly List<int> _rebounding = [];
-    private readonly bool[] _isRebounding = new bool[IslandParts.MaxCount + 1];
-    private readonly List<int>[] _reboundingOfParts =
-        [.. Enumerable.Range(0, IslandParts.MaxCount + 1).Select(static _ => new List<int>())];
 
     /// <summary>Lets all pairs bounce until none approaches fast enough any more.</summary>
     private void BounceAll(Span<ContactRow> rows)
