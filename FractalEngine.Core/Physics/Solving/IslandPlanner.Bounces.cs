@@ -1,6 +1,5 @@
 using System.Runtime.InteropServices;
 using FractalEngine.Core.Maths;
-using FractalEngine.Core.Physics.Islands;
 using FractalEngine.Core.Physics.Rows;
 
 namespace FractalEngine.Core.Physics.Solving;

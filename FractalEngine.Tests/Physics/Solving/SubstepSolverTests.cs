@@ -3,7 +3,6 @@ using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
 using FractalEngine.Core.Physics.Bodies;
 using FractalEngine.Core.Physics.Descriptions;
-using FractalEngine.Core.Physics.Rows;
 using FractalEngine.Core.Physics.Solving;
 using FractalEngine.Tests.Physics.Islands;
 using FractalEngine.Tests.Support;
