@@ -259,7 +259,6 @@ public sealed partial class PhysicsWorld
         _islands.Reserve(_bodyRoom);
         _planner.Reserve(_bodyRoom, _contactRoom);
         _islandMover.Reserve(_bodyRoom, _contactRoom);
-        _energyGuard.Reserve(_bodyRoom);
         _contactLog.Reserve(_contactRoom);
     }
 

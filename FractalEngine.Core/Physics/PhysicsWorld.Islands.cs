@@ -12,23 +12,60 @@ public sealed partial class PhysicsWorld
     /// <summary>Moves the bodies of all islands at once.</summary>
     private void MoveIslands(CharacterController? character, double seconds)
     {
-        _islandMover.SetTargets();
+        foreach (var island in _planner.Graph.Islands)
+        {
+            if (!island.IsOfBalls)
+            {
+                _islandMover.SetTargets(in island);
+            }
+        }
+
         MoveObstructing(character, seconds);
         foreach (var island in _planner.Graph.Islands)
         {
-            MoveIsland(in island, character, seconds);
+            if (island.IsOfBalls)
+            {
+                MoveBalls(in island, character, seconds);
+            }
+            else
+            {
+                MoveIsland(in island, character, seconds);
+            }
         }
 
         _islandMover.ReturnOverlapping();
         foreach (var island in _planner.Graph.Islands)
         {
-            _energyGuard.FinishVelocities(in island);
-            if (!island.IsFree)
+            if (!island.IsOfBalls)
             {
-                _islandMover.DampJammed(in island, seconds);
+                _energyGuard.FinishVelocities(in island);
+                if (!island.IsFree)
+                {
+                    _islandMover.DampJammed(in island, seconds);
+                }
             }
 
             FinishIsland(in island, seconds);
+        }
+    }
+
+    /// <summary>Moves the balls of an island to their targets, or as far as surfaces let them.</summary>
+    private void MoveBalls(in Island island, CharacterController? character, double seconds)
+    {
+        if (!MoveShared(in island, character, seconds))
+        {
+            return;
+        }
+
+        foreach (var index in _planner.Graph.BodiesOf(in island))
+        {
+            var body = _bodies[index];
+            if (!body.IsMovedAhead)
+            {
+                MoveBody(body, character, seconds, isPlanned: true);
+            }
+
+            body.IsMovedAhead = false;
         }
     }
 
@@ -76,32 +113,24 @@ public sealed partial class PhysicsWorld
             _islandMover.FindUnplanned(in island, seconds);
             _islandMover.SeparateTargets(in island);
             hasHeld = false;
-            if (!MoveShared(in island, pass, character, seconds))
-            {
-                return;
-            }
-
             foreach (var index in _planner.Graph.BodiesOf(in island))
             {
                 var body = _bodies[index];
-                if (body.IsMovedAhead || MustMove(body, pass))
+                if (body.IsHeld || (pass > 0 && body.Target == body.CheckedTarget))
                 {
-                    if (!body.IsMovedAhead)
-                    {
-                        MoveBody(body, character, seconds, isPlanned: true);
-                    }
+                    continue;
+                }
 
-                    body.IsMovedAhead = false;
-                    hasHeld |= body.IsHeld;
-                    if (body.PlannedHit is { } hit && pass < MaxPasses - 2)
-                    {
-                        _kinematics.Time = seconds;
-                        _islandMover.AddSurface(body, in hit);
-                    }
-                    else if (body.IsHeld)
-                    {
-                        body.Target = body.Position;
-                    }
+                MoveBody(body, character, seconds, isPlanned: true);
+                hasHeld |= body.IsHeld;
+                if (body.PlannedHit is { } hit && pass < MaxPasses - 2)
+                {
+                    _kinematics.Time = seconds;
+                    _islandMover.AddSurface(body, in hit);
+                }
+                else if (body.IsHeld)
+                {
+                    body.Target = body.Position;
                 }
             }
         }

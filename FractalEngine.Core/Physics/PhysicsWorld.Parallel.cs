@@ -23,7 +23,6 @@ public sealed partial class PhysicsWorld
     private StaticColliders? _sharedColliders;
     private CharacterController? _sharedCharacter;
     private Island _sharedIsland;
-    private int _sharedPass;
     private double _sharedSeconds;
     private bool _isFirstPart;
     private bool _hasStepForces;
@@ -107,11 +106,10 @@ public sealed partial class PhysicsWorld
             || HasOthersAfter(_bodies.Count, _findNearSurfaces);
 
     /// <summary>Moves the balls of an island along their planned ways.</summary>
-    /// <returns>True where one was held, or others are left.</returns>
-    private bool MoveShared(in Island island, int pass, CharacterController? character, double seconds)
+    /// <returns>True where others are left.</returns>
+    private bool MoveShared(in Island island, CharacterController? character, double seconds)
     {
         _sharedIsland = island;
-        _sharedPass = pass;
         return !ParallelSteppers.AreMany(island.BodyCount) || !TryBeginShared(character, seconds)
             || HasOthersAfter(island.BodyCount, _movePlanned);
     }
@@ -169,16 +167,9 @@ public sealed partial class PhysicsWorld
         }
     }
 
-    private static bool MustMove(Body body, int pass) => !body.IsHeld && (pass == 0 || body.Target != body.CheckedTarget);
-
     private void MovePlanned(BodyStepper stepper, int place)
     {
         var body = _bodies[_planner.Graph.BodiesOf(in _sharedIsland)[place]];
-        if (!MustMove(body, _sharedPass))
-        {
-            return;
-        }
-
         if (!MayShare(body))
         {
             _hasOthers = true;
@@ -193,11 +184,6 @@ public sealed partial class PhysicsWorld
         catch (ArgumentOutOfRangeException exception) when (exception.ActualValue is Vector)
         {
             throw CreateRangeException(body, exception);
-        }
-
-        if (body.IsHeld)
-        {
-            _hasOthers = true;
         }
     }
 

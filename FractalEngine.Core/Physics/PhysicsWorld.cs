@@ -89,16 +89,16 @@ public sealed partial class PhysicsWorld
         _contactLog = new(_bodies, _statics) { IsEnabled = Settings.ReportsContacts };
         _queries = new(_bodies, _statics, _obstacles, _kinematics, _queryContext);
         var maxThreads = Settings.MaxThreads ?? Environment.ProcessorCount;
-        _planner = new(_bodies, nearbyBodies, _contactLog, maxThreads);
+        _planner = new(_bodies, nearbyBodies, _contactLog, new(), maxThreads);
         _stepper = new(Settings, _bodies, _grid, nearbyBodies, _obstacles, _islands, _planner, _queryContext, _contactLog);
-        _islandMover = new(_bodies, _planner.Graph, _grid, nearbyBodies, maxThreads);
+        _islandMover = new(_bodies, _planner.Graph, _grid, nearbyBodies);
         _parallel = CreateParallelSteppers(maxThreads);
         _beginPart = BeginPart;
         _prepare = Prepare;
         _findNearSurfaces = FindNearSurfaces;
         _movePlanned = MovePlanned;
         _finishPlanned = FinishPlanned;
-        _energyGuard = new(_bodies, _planner.Graph, _islandMover, maxThreads);
+        _energyGuard = new(_bodies, _planner.Graph, _islandMover);
         _staticOfObject = new StaticObject?[scene.Objects.Length];
         for (var i = 0; i < scene.Objects.Length; i++)
         {

@@ -110,8 +110,6 @@ public sealed partial class Body
     /// <summary>True once it has gone its planned way together with others, before what it met is looked at.</summary>
     internal bool IsMovedAhead { get; set; }
 
-    /// <summary>True for a body of an island whose target is farther from its free way than the plan of the step foresees.</summary>
-    internal bool HasDeviated { get; set; }
 
     /// <summary>True once it has ended its step together with others, and has still to tell those around it.</summary>
     internal bool IsFinished { get; set; }

@@ -9,6 +9,7 @@ internal sealed partial class ContactGraph
     private readonly List<int> _sortedPairs = [];
     private int[] _islandOf = [];
     private int[] _next = [0];
+    private Island _cutIsland;
 
     /// <summary>Makes islands of the joined sets, and contacts of their pairs and surfaces.</summary>
     /// <param name="onlyImpacts">True to make none for large islands that cannot bounce: their step's solve has their impacts.</param>
@@ -17,10 +18,11 @@ internal sealed partial class ContactGraph
         _islands.Clear();
         _islandBodies.Clear();
         _partEnds.Clear();
+        _allPartBodyEnds.Clear();
         CollectBodies();
         _count = 0;
         RowCount = 0;
-        if (onlyImpacts && _islands is [var only] && Island.IsLargeFor(_pairs.Count, only.HasCompound) && !MayBounce(BodiesOf(in only)))
+        if (onlyImpacts && _islands is [{ IsOfBalls: true } only] && !MayBounce(BodiesOf(in only)))
         {
             return;
         }
@@ -32,7 +34,7 @@ internal sealed partial class ContactGraph
             var firstPair = island > 0 ? _next[island - 1] : 0;
             var pairs = CollectionsMarshal.AsSpan(_sortedPairs)[firstPair.._next[island]];
             var partCount = _islands[island].HasCompound ? 1 : IslandParts.CountFor(pairs.Length);
-            if (onlyImpacts && Island.IsLargeFor(pairs.Length, _islands[island].HasCompound) && !MayBounce(BodiesOf(_islands[island])))
+            if (onlyImpacts && _islands[island].IsOfBalls && !MayBounce(BodiesOf(_islands[island])))
             {
                 continue;
             }
@@ -41,6 +43,7 @@ internal sealed partial class ContactGraph
             if (partCount > 1)
             {
                 _islands[island] = _islands[island] with { PartCount = partCount, FirstPartEnd = _partEnds.Count };
+                _cutIsland = _islands[island];
                 kinds = AddParts(BodiesOf(_islands[island]), pairs, partCount);
             }
             else

@@ -10,6 +10,7 @@ internal sealed partial class ContactGraph
     private readonly IslandParts _parts = new();
     private readonly List<int> _partPairs = [];
     private readonly List<int> _partEnds = [];
+    private readonly List<int> _allPartBodyEnds = [];
     private readonly int[] _partStarts = new int[IslandParts.MaxCount + 2];
     private readonly List<int> _partBodies = [];
     private readonly int[] _partBodyEnds = new int[IslandParts.MaxCount];
@@ -18,6 +19,7 @@ internal sealed partial class ContactGraph
     private Action<int>? _countSurfaces;
     private Action<int>? _fillPart;
     private int _partCount;
+    private int _sortedStart;
 
     /// <summary>
     /// The ends of the contacts of each part of an island, and of those between parts, counted from its first; empty for a single part.
@@ -51,6 +53,7 @@ internal sealed partial class ContactGraph
     {
         var firstRow = _count;
         _partCount = partCount;
+        _sortedStart = _cutIsland.FirstBody;
         _parts.Cut(island, partCount, _states);
         SortByParts(pairs, partCount);
         SortBodiesByParts(island, partCount);
@@ -73,6 +76,19 @@ internal sealed partial class ContactGraph
         }
 
         return kinds;
+    }
+
+    /// <summary>The bodies of a part of an island.</summary>
+    public ReadOnlySpan<int> BodiesOfPart(in Island island, int part)
+    {
+        var members = BodiesOf(in island);
+        if (island.PartCount == 1)
+        {
+            return part == 0 ? members : [];
+        }
+
+        var ends = CollectionsMarshal.AsSpan(_allPartBodyEnds).Slice(island.FirstPartEnd, island.PartCount + 1);
+        return members[(part > 0 ? ends[part - 1] : 0)..ends[part]];
     }
 
     private ReadOnlySpan<int> BodiesOfPart(int part)
@@ -149,6 +165,13 @@ internal sealed partial class ContactGraph
             // Each entry is the end of its part afterwards.
             sorted[_partBodyEnds[_parts.PartOf(index)]++] = index;
         }
+
+        for (var part = 0; part <= partCount; part++)
+        {
+            _allPartBodyEnds.Add(_partBodyEnds[Math.Min(part, partCount - 1)]);
+        }
+
+        sorted.CopyTo(CollectionsMarshal.AsSpan(_islandBodies)[_sortedStart..]);
     }
 
     private void SortByParts(ReadOnlySpan<int> pairs, int partCount)

@@ -185,7 +185,8 @@ internal sealed partial class ContactGraph
     }
 
     /// <summary>Collects the bodies that a sphere overlaps where they were when they were copied.</summary>
-    private void CollectOverlaps(Vector centre, double radius, int excludedIndex, List<int> results)
+    /// <summary>Collects the bodies that a sphere overlaps, where they are at the beginning of the step.</summary>
+    public void CollectOverlaps(Vector centre, double radius, int excludedIndex, List<int> results)
     {
         if (_grid.IsBuilt)
         {

@@ -227,6 +227,7 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
         _sortedPairs.EnsureCapacity(contactCount);
         _partPairs.EnsureCapacity(contactCount);
         _partEnds.EnsureCapacity(bodyCount);
+        _allPartBodyEnds.EnsureCapacity(bodyCount);
         _islands.EnsureCapacity(bodyCount);
         _islandBodies.EnsureCapacity(bodyCount);
         _partBodies.EnsureCapacity(bodyCount);

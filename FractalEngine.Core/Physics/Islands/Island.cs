@@ -7,9 +7,6 @@ namespace FractalEngine.Core.Physics.Islands;
 /// <param name="BodyCount">Number of its bodies, at least two.</param>
 internal readonly record struct Island(int FirstRow, int RowCount, int FirstBody, int BodyCount)
 {
-    // Contacts from which on forces and impulses are one solve.
-    private const int MinRowsOfLarge = 300;
-
     /// <summary>Number of parts that share no body, see <see cref="IslandParts"/>.</summary>
     public int PartCount { get; init; } = 1;
 
@@ -28,9 +25,6 @@ internal readonly record struct Island(int FirstRow, int RowCount, int FirstBody
     /// <summary>True where one of its bodies is a compound.</summary>
     public bool HasCompound { get; init; }
 
-    /// <summary>True where a solve is too long to converge in each step: it goes on from step to step.</summary>
-    public bool IsLarge => IsLargeFor(RowCount, HasCompound);
-
-    /// <summary>True for a large island of so many contacts, or more.</summary>
-    public static bool IsLargeFor(int rowCount, bool hasCompound) => rowCount >= MinRowsOfLarge && !hasCompound;
+    /// <summary>True where all of its bodies are balls.</summary>
+    public bool IsOfBalls => !HasCompound;
 }

@@ -14,17 +14,9 @@ internal static class RoundLimits
     private const int MaxContactSolves = 60_000;
     private const int Min = 12;
 
-    // The same for large islands, whose solve goes on from step to step.
-    private const int MaxContactSolvesOfLarge = 25_000;
-    private const int MinOfLarge = 8;
-
     /// <summary>Rounds of a solve that should converge in its step.</summary>
     /// <param name="contacts">Number of contacts.</param>
     /// <param name="maxRounds">Rounds for few of them.</param>
     public static int For(int contacts, int maxRounds = Many) => contacts <= MaxContactsOfMany ? maxRounds
         : Math.Min(maxRounds, Math.Max(Min, MaxContactSolves / contacts));
-
-    /// <summary>Rounds of the solve of a large island.</summary>
-    /// <param name="contacts">Number of its contacts.</param>
-    public static int ForLarge(int contacts) => Math.Min(For(contacts), Math.Max(MinOfLarge, MaxContactSolvesOfLarge / contacts));
 }

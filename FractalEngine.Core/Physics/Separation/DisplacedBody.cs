@@ -16,7 +16,4 @@ internal struct DisplacedBody
 
     /// <summary>True where its way has been changed.</summary>
     public bool HasMoved;
-
-    /// <summary>True where its way has been changed since its contacts across a cut were last tested.</summary>
-    public bool HasJustMoved;
 }

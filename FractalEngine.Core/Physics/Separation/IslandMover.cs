@@ -3,7 +3,6 @@ using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics.Bodies;
 using FractalEngine.Core.Physics.Islands;
 using FractalEngine.Core.Physics.Rows;
-using FractalEngine.Core.Threading;
 
 namespace FractalEngine.Core.Physics.Separation;
 
@@ -11,7 +10,7 @@ namespace FractalEngine.Core.Physics.Separation;
 /// Moves the bodies of an island all at once, to where their plan leads them. What the solve has left of overlaps is taken back; what it
 /// did not foresee keeps bodies where they were, so that none ever enters another.
 /// </summary>
-internal sealed partial class IslandMover
+internal sealed class IslandMover
 {
     // Relative to the radius: how far others may have moved to where a body unexpectedly goes.
     private const double SearchMargin = 0.5;
@@ -20,49 +19,26 @@ internal sealed partial class IslandMover
     private const double JamFraction = 0.5;
     private const int MaxJammedSteps = 8;
 
-    private const int BodiesPerJob = 256;
-
-    // Positions are told to the grid in at most so many groups.
-    private const int MaxCellJobs = 32;
+    // Relative to the smaller radius: overlaps for which bodies return.
+    private const double MaxOverlap = 9e-7;
 
     private readonly List<Body> _bodies;
     private readonly ContactGraph _graph;
     private readonly BodyGrid _grid;
     private readonly NearbyBodies _nearbyBodies;
-    private readonly int _maxThreads;
-    private readonly Action<int> _testPairs;
-    private readonly Action<int> _setTargets;
-    private readonly Action<int> _takeWays;
-    private readonly Action<int> _setWays;
-    private readonly Action<int> _dampJammed;
-    private readonly Action<int> _updateCells;
-    private readonly List<int>[] _leftCells = [.. Enumerable.Range(0, MaxCellJobs).Select(static _ => new List<int>())];
     private readonly OverlapSeparator _separator;
     private readonly List<int> _neighbours = [];
 
     // Contacts that no plan knew.
     private readonly List<ContactRow> _unplanned = [];
 
-    private Island _island;
-    private double _stepLength;
-
-    // Threads set it in any order, to the same.
-    private volatile bool _hasDeviated;
-
-    public IslandMover(List<Body> bodies, ContactGraph graph, BodyGrid grid, NearbyBodies nearbyBodies, int maxThreads)
+    public IslandMover(List<Body> bodies, ContactGraph graph, BodyGrid grid, NearbyBodies nearbyBodies)
     {
         _bodies = bodies;
         _graph = graph;
         _grid = grid;
         _nearbyBodies = nearbyBodies;
-        _maxThreads = maxThreads;
-        _separator = new(graph, maxThreads);
-        _testPairs = TestPairs;
-        _setTargets = SetTargets;
-        _takeWays = TakeWays;
-        _setWays = SetWays;
-        _dampJammed = DampJammed;
-        _updateCells = UpdateCells;
+        _separator = new(graph);
     }
 
     /// <summary>Number of times that a body had to stay where it was.</summary>
@@ -72,21 +48,19 @@ internal sealed partial class IslandMover
     public void Reserve(int bodyCount, int contactCount)
     {
         _separator.Reserve(bodyCount, contactCount);
-        _places = new Place[bodyCount];
         _neighbours.EnsureCapacity(bodyCount);
         _unplanned.EnsureCapacity(bodyCount / 2);
-        foreach (var left in _leftCells)
-        {
-            left.EnsureCapacity(Math.Min(bodyCount, Math.Max(BodiesPerJob, (bodyCount + MaxCellJobs - 1) / MaxCellJobs)));
-        }
     }
 
-    /// <summary>Sets the targets of all bodies of all islands, which have been planned.</summary>
-    public void SetTargets()
+    /// <summary>Sets the targets of the bodies of an island, which have been planned.</summary>
+    public void SetTargets(in Island island)
     {
-        foreach (var island in _graph.Islands)
+        foreach (var index in _graph.BodiesOf(in island))
         {
-            RunOnMembers(in island, _setTargets);
+            var body = _bodies[index];
+            body.PlannedStart = body.Position;
+            body.Target = body.Position + body.PlannedDisplacement;
+            body.IsHeld = false;
         }
     }
 
@@ -137,19 +111,13 @@ internal sealed partial class IslandMover
     /// <summary>Sets the ways of all bodies, and finds those that others meet which have got farther than was foreseen.</summary>
     public void FindUnplanned(in Island island, double stepLength)
     {
-        _stepLength = stepLength;
-        _hasDeviated = false;
-        RunOnMembers(in island, _setWays);
-        if (!_hasDeviated)
-        {
-            return;
-        }
-
         foreach (var index in _graph.BodiesOf(in island))
         {
-            if (_bodies[index].HasDeviated)
+            var body = _bodies[index];
+            _separator.SetBody(index, body.Target - body.PlannedStart, body.IsHeld ? 0 : 1 / body.Description.Mass);
+            if (HasDeviated(body, body.Target, stepLength))
             {
-                FindUnplanned(_bodies[index]);
+                FindUnplanned(body);
             }
         }
     }
@@ -177,36 +145,7 @@ internal sealed partial class IslandMover
     public void SeparateTargets(in Island island)
     {
         _separator.Separate(in island, CollectionsMarshal.AsSpan(_unplanned));
-        RunOnMembers(in island, _takeWays);
-    }
-
-    /// <summary>Does a job for each group of an island's bodies, on all threads.</summary>
-    private void RunOnMembers(in Island island, Action<int> job)
-    {
-        _island = island;
-        WorkerSet.Shared.Run((island.BodyCount + BodiesPerJob - 1) / BodiesPerJob, _maxThreads, job);
-    }
-
-    private ReadOnlySpan<int> MembersOf(int job)
-    {
-        var members = _graph.BodiesOf(in _island);
-        return members[(job * BodiesPerJob)..Math.Min(members.Length, (job + 1) * BodiesPerJob)];
-    }
-
-    private void SetTargets(int job)
-    {
-        foreach (var index in MembersOf(job))
-        {
-            var body = _bodies[index];
-            body.PlannedStart = body.Position;
-            body.Target = body.Position + body.PlannedDisplacement;
-            body.IsHeld = false;
-        }
-    }
-
-    private void TakeWays(int job)
-    {
-        foreach (var index in MembersOf(job))
+        foreach (var index in _graph.BodiesOf(in island))
         {
             if (_separator.HasMoved(index))
             {
@@ -220,16 +159,10 @@ internal sealed partial class IslandMover
     /// <param name="stepLength">Seconds.</param>
     public void DampJammed(in Island island, double stepLength)
     {
-        _stepLength = stepLength;
-        RunOnMembers(in island, _dampJammed);
-    }
-
-    private void DampJammed(int job)
-    {
-        foreach (var index in MembersOf(job))
+        foreach (var index in _graph.BodiesOf(in island))
         {
             var body = _bodies[index];
-            var way = JamFraction * _stepLength * body.Velocity;
+            var way = JamFraction * stepLength * body.Velocity;
             var isJammed = (body.Position - body.PlannedStart).LengthSquared() < way.LengthSquared();
             body.JammedSteps = isJammed ? body.JammedSteps + 1 : 0;
             if (body.JammedSteps >= MaxJammedSteps)
@@ -240,24 +173,153 @@ internal sealed partial class IslandMover
         }
     }
 
-    private void SetWays(int job)
-    {
-        foreach (var index in MembersOf(job))
-        {
-            var body = _bodies[index];
-            _separator.SetBody(index, body.Target - body.PlannedStart, body.IsHeld ? 0 : 1 / body.Description.Mass);
-            body.HasDeviated = HasDeviated(body, body.Target, _stepLength);
-            if (body.HasDeviated)
-            {
-                _hasDeviated = true;
-            }
-        }
-    }
-
     private bool HasDeviated(Body body, Vector position, double stepLength)
     {
         var free = body.PlannedStart + (stepLength * (body.PlannedVelocity + (0.5 * stepLength * body.FreeAcceleration)));
         var limit = _graph.DeviationLimit(body.Index);
         return (position - free).LengthSquared() > limit * limit;
+    }
+
+    /// <summary>Puts an island back to where its step began, unless others have come there.</summary>
+    public bool TryReturn(in Island island)
+    {
+        var members = _graph.BodiesOf(in island);
+        foreach (var index in members)
+        {
+            _bodies[index].CheckedTarget = _bodies[index].Position;
+            _bodies[index].MovedOrientation = _bodies[index].Orientation;
+            PutBack(_bodies[index]);
+        }
+
+        var isFree = true;
+        foreach (var index in members)
+        {
+            isFree &= !OverlapsOthers(_bodies[index]);
+        }
+
+        foreach (var index in isFree ? [] : members)
+        {
+            _bodies[index].Position = _bodies[index].CheckedTarget;
+            _bodies[index].SetOrientation(_bodies[index].MovedOrientation);
+            _grid.Update(index);
+        }
+
+        return isFree;
+    }
+
+    /// <summary>True where a body overlaps one that is not of its island.</summary>
+    private bool OverlapsOthers(Body body)
+    {
+        _neighbours.Clear();
+        _nearbyBodies.CollectOverlaps(body.Position, body.Radius * (1 - MaxOverlap), body.Index, _neighbours);
+        foreach (var neighbour in _neighbours)
+        {
+            if (_bodies[neighbour].IslandIndex != body.IslandIndex && BallPairs.AreOverlapping(body, _bodies[neighbour], MaxOverlap))
+            {
+                return true;
+            }
+        }
+
+        return false;
+    }
+
+    /// <summary>
+    /// Puts bodies back to where they were that now overlap others, after those of all islands have moved. What returns may overlap
+    /// others in turn, which return as well; where all began, none overlapped.
+    /// </summary>
+    public void ReturnOverlapping()
+    {
+        var hasOthers = false;
+        foreach (var island in _graph.Islands)
+        {
+            foreach (var index in island.IsOfBalls ? [] : _graph.BodiesOf(in island))
+            {
+                _grid.Update(index);
+                hasOthers = true;
+            }
+        }
+
+        while (hasOthers && (ReturnPairs() || ReturnBeyondReach()))
+        {
+        }
+    }
+
+    private bool ReturnPairs()
+    {
+        var hasReturned = false;
+        foreach (ref readonly var pair in _graph.Pairs)
+        {
+            var first = _bodies[pair.First];
+            var second = _bodies[pair.Second];
+            if ((MayReturn(first) || MayReturn(second)) && BallPairs.AreOverlapping(first, second, MaxOverlap))
+            {
+                hasReturned |= Return(first);
+                hasReturned |= Return(second);
+            }
+        }
+
+        return hasReturned;
+    }
+
+    /// <summary>True for a body of an island in which none may overlap.</summary>
+    private bool MayReturn(Body body) => body.IslandIndex >= 0 && !_graph.Islands[body.IslandIndex].IsOfBalls;
+
+    /// <summary>Puts bodies back that have got farther than any pair foresees and overlap any other, and that one with them.</summary>
+    private bool ReturnBeyondReach()
+    {
+        var hasReturned = false;
+        foreach (var island in _graph.Islands)
+        {
+            foreach (var index in island.IsOfBalls ? [] : _graph.BodiesOf(in island))
+            {
+                if (_graph.IsBeyondReach(_bodies[index]))
+                {
+                    hasReturned |= ReturnAmongAll(_bodies[index]);
+                }
+            }
+        }
+
+        return hasReturned;
+    }
+
+    private bool ReturnAmongAll(Body body)
+    {
+        _neighbours.Clear();
+        _nearbyBodies.CollectOverlaps(
+            body.Position, body.Radius * (1 - MaxOverlap), body.Index, _neighbours);
+        var hasReturned = false;
+        foreach (var neighbour in _neighbours)
+        {
+            if (BallPairs.AreOverlapping(body, _bodies[neighbour], MaxOverlap))
+            {
+                hasReturned |= Return(body);
+                hasReturned |= Return(_bodies[neighbour]);
+            }
+        }
+
+        return hasReturned;
+    }
+
+    private bool Return(Body body)
+    {
+        if (!MayReturn(body)
+            || (body.Position == body.PlannedStart && (!body.IsCompound || body.Orientation == body.PlannedStartOrientation)))
+        {
+            return false;
+        }
+
+        ReturnCount++;
+        PutBack(body);
+        return true;
+    }
+
+    private void PutBack(Body body)
+    {
+        body.Position = body.PlannedStart;
+        _grid.Update(body.Index);
+        if (body.IsCompound)
+        {
+            body.SetOrientation(body.PlannedStartOrientation);
+        }
     }
 }

@@ -1,16 +1,16 @@
+using System.Runtime.InteropServices;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics.Descriptions;
 using FractalEngine.Core.Physics.Islands;
 using FractalEngine.Core.Physics.Rows;
-using FractalEngine.Core.Threading;
 
 namespace FractalEngine.Core.Physics.Separation;
 
 /// <summary>
 /// Takes back the overlaps that the solve of an island has left, by displacements alone: one contact after the other, and again, until
-/// all of them are negligible. The parts of a large island are separated on all threads, and then the contacts between them.
+/// all of them are negligible.
 /// </summary>
-internal sealed class OverlapSeparator
+internal sealed class OverlapSeparator(ContactGraph graph)
 {
     /// <summary>Relative to the smaller radius: overlaps that are left.</summary>
     public const double NegligibleOverlap = 3e-7;
@@ -19,40 +19,26 @@ internal sealed class OverlapSeparator
     private const int MaxRounds = 60;
     private const int MaxChoices = 4;
 
-    private readonly ContactGraph _graph;
-    private readonly int _maxThreads;
-    private readonly Action<int> _choose;
-    private readonly Action<int> _separate;
-    private readonly Action<int> _takeBackSurfaces;
+    // Gap, relative to the distance at which two touch, beyond which they are not near touching.
+    private const double Near = 0.01;
 
-    // One for each part, and behind them one for the contacts between parts.
-    private readonly GapGroup[] _groups = [.. Enumerable.Range(0, IslandParts.MaxCount + 1).Select(static _ => new GapGroup())];
+    // Where something pushes bodies together, all of a row come to touch at once.
+    private const double PushedNear = 0.25;
+
+    // Squares of shorter offsets lose digits.
+    private const double MinDistance = 1e-140;
+
+    // Relative to the distance at which two touch: a shorter displacement makes no others overlap.
+    private const double NegligibleShift = 0.1 * NegligibleOverlap;
+
+    private readonly List<SeparationGap> _gaps = [];
     private DisplacedBody[] _movers = [];
-    private Island _island;
-    private SeparationSettings _aim;
-    private double _reach;
-    private bool _isFirstRound;
-
-    public OverlapSeparator(ContactGraph graph, int maxThreads)
-    {
-        _graph = graph;
-        _maxThreads = maxThreads;
-        _choose = Choose;
-        _separate = SeparatePart;
-        _takeBackSurfaces = TakeBackSurfaces;
-    }
-
-    private GapGroup Between => _groups[_island.PartCount];
 
     /// <summary>Makes room for the bodies of a world and their contacts.</summary>
     public void Reserve(int bodyCount, int contactCount)
     {
         _movers = new DisplacedBody[bodyCount];
-        for (var i = 0; i < _groups.Length; i++)
-        {
-            // An island has so many parts at least where it has this one.
-            _groups[i].Reserve(bodyCount, contactCount / (i + 1));
-        }
+        _gaps.EnsureCapacity(contactCount);
     }
 
     /// <summary>Sets the displacement of a body from the beginning of the step, and its inverse mass; 0 where it is held.</summary>
@@ -66,192 +52,131 @@ internal sealed class OverlapSeparator
     public bool HasMoved(int index) => _movers[index].HasMoved;
 
     /// <summary>Separates all bodies of an island, whose displacements must have been set.</summary>
-    /// <param name="island">The island. Balls of a large one keep a margin, see <see cref="ContactTolerances.HeapMargin"/>.</param>
+    /// <param name="island">The island.</param>
     /// <param name="others">Contacts that no plan knew.</param>
     public void Separate(in Island island, ReadOnlySpan<ContactRow> others)
     {
-        _island = island;
-        _aim = SeparationSettings.Of(in island);
-        _reach = 0.5 * _aim.MaxGap * _graph.MinRadiusOf(in island);
+        var maxGap = island.IsPushed ? PushedNear : Near;
+        var reach = 0.5 * maxGap * graph.MinRadiusOf(in island);
         // Chosen anew as long as what was not near touching comes to overlap.
         var hasMoved = true;
         for (var choice = 0; choice < MaxChoices && hasMoved; choice++)
         {
-            ChooseAll(others);
-            var isEnded = false;
-            hasMoved = island.PartCount == 1 ? SeparateWhole(out isEnded) : SeparateParts(out isEnded);
-            hasMoved = hasMoved && !(StaysWithinReach(in island) && isEnded);
+            _gaps.Clear();
+            Choose(graph.RowsOf(in island), maxGap);
+            Choose(others, maxGap);
+            hasMoved = MakeRounds(out var isEnded) && !(StaysWithin(reach, in island) && isEnded);
         }
 
         // Last, since what is immovable gives way to nothing.
-        WorkerSet.Shared.Run(island.PartCount, _maxThreads, _takeBackSurfaces);
-        for (var i = 0; i < others.Length; i++)
-        {
-            TakeBackSurfaces(others.Slice(i, 1));
-        }
+        TakeBackSurfaces(graph.RowsOf(in island));
+        TakeBackSurfaces(others);
     }
 
     /// <summary>Chooses the contacts that are near touching.</summary>
-    private void ChooseAll(ReadOnlySpan<ContactRow> others)
+    private void Choose(ReadOnlySpan<ContactRow> rows, double maxGap)
     {
-        foreach (var group in _groups.AsSpan(0, _island.PartCount + 1))
+        foreach (ref readonly var row in rows)
         {
-            group.Clear();
-        }
-
-        WorkerSet.Shared.Run(ContactGraph.GroupCountOf(in _island), _maxThreads, _choose);
-        for (var i = 0; i < others.Length; i++)
-        {
-            _groups[GroupOf(in others[i])].AddNear(others.Slice(i, 1), _movers, in _aim);
-        }
-
-        if (_island.PartCount > 1)
-        {
-            // What moves across a cut lets the contacts within its part wait, if it has some.
-            foreach (ref readonly var gap in Between.Gaps)
+            var gap = new SeparationGap(in row);
+            var offset = OffsetOf(in gap);
+            if ((gap.IsPlane ? Vector.Dot(offset, gap.Normal) : offset.Length()) < row.MinDistance * (1 + maxGap))
             {
-                _groups[_graph.PartOf(gap.First)].ClearListOf(gap.First);
-                _groups[_graph.PartOf(gap.Second)].ClearListOf(gap.Second);
+                _gaps.Add(gap);
             }
-
-            Between.Enqueue(_movers.Length);
         }
-
-        _isFirstRound = true;
     }
 
     /// <summary>True where no body has been moved so far that contacts come to overlap which were not near when they were chosen.</summary>
-    private bool StaysWithinReach(in Island island)
+    private bool StaysWithin(double reach, in Island island)
     {
         var maxShiftSquared = 0.0;
-        foreach (var index in _graph.BodiesOf(in island))
+        foreach (var index in graph.BodiesOf(in island))
         {
             ref var mover = ref _movers[index];
-            if (mover.HasMoved)
-            {
-                maxShiftSquared = Math.Max(maxShiftSquared, (mover.Displacement - mover.ChosenDisplacement).LengthSquared());
-                mover.ChosenDisplacement = mover.Displacement;
-            }
+            maxShiftSquared = Math.Max(maxShiftSquared, (mover.Displacement - mover.ChosenDisplacement).LengthSquared());
+            mover.ChosenDisplacement = mover.Displacement;
         }
 
         // Each of the two bodies may have come nearer by so much.
-        return maxShiftSquared < _reach * _reach;
+        return maxShiftSquared < reach * reach;
     }
-
-    private int GroupOf(in ContactRow row)
-    {
-        if (_island.PartCount == 1)
-        {
-            return 0;
-        }
-
-        var part = _graph.PartOf(row.First);
-        return row.Second < 0 || _graph.PartOf(row.Second) == part ? part : _island.PartCount;
-    }
-
-    private void Choose(int group) => _groups[group].AddNear(_graph.RowsOfPart(in _island, group), _movers, in _aim);
 
     /// <summary>Makes rounds to and fro: what the floor pushes up reaches the top of a pile in one round.</summary>
     /// <param name="isEnded">Receives true where none overlap any more that are near.</param>
     /// <returns>True where a body has been moved.</returns>
-    private bool SeparateWhole(out bool isEnded)
+    private bool MakeRounds(out bool isEnded)
     {
-        _groups[0].Enqueue(_movers.Length);
-        var hasMoved = _groups[0].MakeRound(_movers, isBackwards: false);
-        isEnded = !hasMoved;
-        for (var round = 1; round < MaxRounds && !isEnded; round++)
-        {
-            isEnded = !_groups[0].MakeRound(_movers, isBackwards: round % 2 == 1);
-        }
-
-        return hasMoved;
-    }
-
-    /// <summary>Makes rounds to and fro within each part, and then across the cuts.</summary>
-    /// <inheritdoc cref="SeparateWhole"/>
-    private bool SeparateParts(out bool isEnded)
-    {
+        var gaps = CollectionsMarshal.AsSpan(_gaps);
         var hasMoved = false;
-        var isMoving = true;
-        for (var round = 0; round < MaxRounds && isMoving; round += 2)
+        isEnded = false;
+        for (var round = 0; round < MaxRounds && !isEnded; round++)
         {
-            WorkerSet.Shared.Run(_island.PartCount, _maxThreads, _separate);
-            _isFirstRound = false;
-            isMoving = SeparateBetween();
-            foreach (var group in _groups.AsSpan(0, _island.PartCount))
+            isEnded = true;
+            for (var i = 0; i < gaps.Length; i++)
             {
-                isMoving |= group.HasMoved;
+                isEnded &= !TakeBack(in gaps[round % 2 == 0 ? i : gaps.Length - 1 - i]);
             }
 
-            hasMoved |= isMoving;
+            hasMoved |= !isEnded;
         }
 
-        isEnded = !isMoving;
         return hasMoved;
     }
 
-    private void SeparatePart(int part)
+    /// <summary>Moves two overlapping bodies apart, the lighter one farther.</summary>
+    /// <returns>True where that may have made others overlap.</returns>
+    internal bool TakeBack(in SeparationGap gap)
     {
-        var group = _groups[part];
-        if (_isFirstRound)
+        var offset = OffsetOf(in gap);
+        var distance = gap.IsPlane ? Vector.Dot(offset, gap.Normal) : offset.Length();
+        if (distance >= gap.MinDistance - gap.Negligible)
         {
-            group.Enqueue(_movers.Length);
+            return false;
         }
 
-        group.HasMoved = false;
-        if (group.MakeRound(_movers, isBackwards: false))
+        var normal = gap.IsPlane ? gap.Normal : distance > MinDistance ? (1 / distance) * offset : offset.UnitVectorOrZero();
+        ref var first = ref _movers[gap.First];
+        var firstWeight = first.InverseMass;
+        var secondWeight = gap.Second >= 0 ? _movers[gap.Second].InverseMass : 0;
+        if (gap.IsOneSided && secondWeight > 0 && firstWeight > 0)
         {
-            _ = group.MakeRound(_movers, isBackwards: true);
+            // The faster one ends where it touches.
+            var isFirstFaster = first.Displacement.LengthSquared() >= _movers[gap.Second].Displacement.LengthSquared();
+            firstWeight = isFirstFaster ? firstWeight : 0;
+            secondWeight = isFirstFaster ? 0 : secondWeight;
         }
+
+        var sum = firstWeight + secondWeight;
+        if (sum == 0)
+        {
+            return false;
+        }
+
+        var overlap = gap.MinDistance - distance;
+        var shift = ((gap.Relaxation * overlap) - gap.Aimed) / sum * normal;
+        first.Displacement += firstWeight * shift;
+        first.HasMoved = true;
+        if (gap.Second >= 0)
+        {
+            _movers[gap.Second].Displacement -= secondWeight * shift;
+            _movers[gap.Second].HasMoved = true;
+        }
+
+        return overlap > NegligibleShift * gap.MinDistance;
     }
 
-    private bool SeparateBetween()
-    {
-        var group = Between;
-        group.HasMoved = false;
-        foreach (ref readonly var gap in group.Gaps)
-        {
-            PassOn(gap.First, group);
-            PassOn(gap.Second, group);
-        }
-
-        if (group.MakeRound(_movers, isBackwards: false))
-        {
-            _ = group.MakeRound(_movers, isBackwards: true);
-        }
-
-        foreach (ref readonly var gap in group.Gaps)
-        {
-            PassOn(gap.First, _groups[_graph.PartOf(gap.First)]);
-            PassOn(gap.Second, _groups[_graph.PartOf(gap.Second)]);
-        }
-
-        return group.HasMoved;
-    }
-
-    /// <summary>Lets the contacts of a body wait that has just been moved by those of another group.</summary>
-    private void PassOn(int body, GapGroup group)
-    {
-        if (_movers[body].HasJustMoved)
-        {
-            _movers[body].HasJustMoved = false;
-            group.WaitForContactsOf(body);
-        }
-    }
-
-    private void TakeBackSurfaces(int part) => TakeBackSurfaces(_graph.RowsOfPart(in _island, part));
+    private Vector OffsetOf(in SeparationGap gap) => gap.Second >= 0
+        ? gap.Offset + (_movers[gap.First].Displacement - _movers[gap.Second].Displacement) : gap.Offset + _movers[gap.First].Displacement;
 
     private void TakeBackSurfaces(ReadOnlySpan<ContactRow> rows)
     {
         foreach (ref readonly var row in rows)
         {
-            if (row.IsBall)
+            if (!row.IsBall)
             {
-                // Surfaces are first in each part.
-                return;
+                _ = TakeBack(new SeparationGap(in row));
             }
-
-            _ = GapGroup.TakeBack(new SeparationGap(in row, in _aim), _movers);
         }
     }
 }

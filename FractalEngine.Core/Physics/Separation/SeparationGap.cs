@@ -6,6 +6,12 @@ namespace FractalEngine.Core.Physics.Separation;
 /// <summary>What a separation of overlapping bodies needs of a contact.</summary>
 internal readonly struct SeparationGap
 {
+    // Relative to the smaller radius: at so small an overlap a displacement ends.
+    private const double AimedOverlap = 1e-7;
+
+    // More of an overlap is taken back at once, since others will push in again.
+    private const double OverRelaxation = 1.3;
+
     /// <summary>Index of the body on the normal's side.</summary>
     public readonly int First;
 
@@ -24,7 +30,7 @@ internal readonly struct SeparationGap
     /// <summary>Overlap that is left, scene units.</summary>
     public readonly double Negligible;
 
-    /// <summary>Overlap at which a displacement ends, scene units; negative for a gap.</summary>
+    /// <summary>Overlap at which a displacement ends, scene units.</summary>
     public readonly double Aimed;
 
     /// <summary>Part of an overlap that is taken back at once.</summary>
@@ -38,8 +44,7 @@ internal readonly struct SeparationGap
 
     /// <summary>Takes from a contact what a separation needs.</summary>
     /// <param name="row">The contact.</param>
-    /// <param name="aim">What separations aim at.</param>
-    public SeparationGap(in ContactRow row, in SeparationSettings aim)
+    public SeparationGap(in ContactRow row)
     {
         First = row.First;
         Second = row.Second;
@@ -48,8 +53,8 @@ internal readonly struct SeparationGap
         MinDistance = row.MinDistance;
         var unit = row.IsBall ? row.MinDistance * row.SmallerRadiusShare : 0;
         Negligible = OverlapSeparator.NegligibleOverlap * unit;
-        Aimed = aim.Overlap * unit;
-        Relaxation = row.IsBall && !row.IsAhead ? aim.Relaxation : 1;
+        Aimed = AimedOverlap * unit;
+        Relaxation = row.IsBall && !row.IsAhead ? OverRelaxation : 1;
         IsPlane = !row.IsBall || row.HasFixedNormal;
         IsOneSided = row.IsBouncingAhead;
     }

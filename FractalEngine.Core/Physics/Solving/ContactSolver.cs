@@ -1,6 +1,5 @@
 using System.Runtime.CompilerServices;
 using FractalEngine.Core.Maths;
-using FractalEngine.Core.Physics.Islands;
 using FractalEngine.Core.Physics.Rows;
 
 namespace FractalEngine.Core.Physics.Solving;
@@ -13,7 +12,7 @@ namespace FractalEngine.Core.Physics.Solving;
 /// Projected Gauss–Seidel, whose changes are taken as the gradients of a nonlinear conjugate gradient method (Silcowitz, Niebe and
 /// Erleben 2010). Plain rounds pass a load on by one body each; with the conjugate directions far fewer are needed.
 /// </remarks>
-internal sealed partial class ContactSolver(int maxThreads = 1)
+internal sealed partial class ContactSolver
 {
     // Relative to the largest impulse: a round that changes less has converged.
     private const double Tolerance = 1e-9;
@@ -28,14 +27,6 @@ internal sealed partial class ContactSolver(int maxThreads = 1)
     // Relative to the momentum of a contact's bodies.
     private const double RelativeRounding = 1e-14;
 
-    // One of so many rounds of a large island tests the contacts that do not push.
-    private const int FullRoundPeriod = 4;
-    private const int MaxContactsOfFullRounds = 300;
-
-    // Fewer contacts are solved as soon without being copied.
-    private const int MinBallRows = 8;
-
-    private readonly BallContactSolver _balls = new(maxThreads);
     private double _frictionShare = 1;
     private double _rounding;
     private SolverBody[] _bodies = [];
@@ -54,10 +45,6 @@ internal sealed partial class ContactSolver(int maxThreads = 1)
         _bodies = new SolverBody[bodyCount];
         _inverseInertias = new Matrix[bodyCount];
         ReserveContacts(contactCount);
-        if (contactCount > MinBallRows)
-        {
-            _balls.Reserve(contactCount, bodyCount);
-        }
     }
 
     /// <summary>Computes the masses of a contact from those of its bodies.</summary>
@@ -163,33 +150,7 @@ internal sealed partial class ContactSolver(int maxThreads = 1)
     {
         ReserveContacts(rows.Length);
         _rounding = ComputeRounding(rows);
-        var isOfBalls = rows.Length > MinBallRows && !HasArms(rows);
-        if (isOfBalls)
-        {
-            _balls.Load(rows, _bodies);
-        }
-
-        var isConverged = Iterate(rows, isOfBalls, maxRounds);
-        if (isOfBalls)
-        {
-            _balls.Store(rows, _bodies);
-        }
-
-        return isConverged;
-    }
-
-    /// <summary>Solves for the impulses of a large island of balls, on all threads.</summary>
-    /// <param name="graph">Has the island's contacts, which receive the impulses.</param>
-    /// <param name="island">The island.</param>
-    /// <param name="maxRounds">Number of rounds at most, see <see cref="RoundLimits"/>.</param>
-    /// <param name="rebounding">Receives the places of the contacts of each part, and of those between parts, that may rebound.</param>
-    /// <inheritdoc cref="Solve"/>
-    public bool SolveLarge(ContactGraph graph, in Island island, int maxRounds, List<int>[] rebounding)
-    {
-        _rounding = RelativeRounding * _balls.Load(graph, in island, _bodies);
-        var isConverged = Iterate(graph.RowsOf(in island), isOfBalls: true, maxRounds);
-        _balls.Store(rebounding);
-        return isConverged;
+        return Iterate(rows, maxRounds);
     }
 
     private void ReserveContacts(int count)
@@ -201,18 +162,13 @@ internal sealed partial class ContactSolver(int maxThreads = 1)
         }
     }
 
-    private bool Iterate(Span<ContactRow> rows, bool isOfBalls, int maxRounds)
+    private bool Iterate(Span<ContactRow> rows, int maxRounds)
     {
         var previousNorm = 0.0;
         _frictionShare = 1;
-        var isConverged = false;
         for (Rounds = 1; Rounds < maxRounds; Rounds++)
         {
-            var tolerance = Rounds <= FineRounds ? FineTolerance : Tolerance;
-            // What converged among the contacts that push must do so among all.
-            var isFull = !isOfBalls || rows.Length <= MaxContactsOfFullRounds || isConverged || Rounds % FullRoundPeriod == 1;
-            isConverged = isOfBalls ? MakeRoundOfBalls(isFull, tolerance, out var norm) : MakeRound(rows, tolerance, out norm);
-            if (isConverged && isFull)
+            if (MakeRound(rows, Rounds <= FineRounds ? FineTolerance : Tolerance, out var norm))
             {
                 return true;
             }
@@ -220,40 +176,11 @@ internal sealed partial class ContactSolver(int maxThreads = 1)
             _frictionShare = Rounds < maxRounds / 2 ? 1 : LateFrictionShare;
             // Directions that have not led to the end by now may never do so where balls begin and cease to slip.
             var isConjugate = previousNorm > 0 && norm <= previousNorm && Rounds < maxRounds / 2;
-            var share = isConjugate ? norm / previousNorm : 0;
-            if (isOfBalls)
-            {
-                _balls.Extrapolate(share);
-            }
-            else
-            {
-                Extrapolate(rows, share);
-            }
-
+            Extrapolate(rows, isConjugate ? norm / previousNorm : 0);
             previousNorm = norm;
         }
 
-        return isOfBalls ? MakeRoundOfBalls(isFull: true, Tolerance, out _) : MakeRound(rows, Tolerance, out _);
-    }
-
-    private bool MakeRoundOfBalls(bool isFull, double tolerance, out double norm)
-    {
-        _balls.FrictionShare = _frictionShare;
-        var maxChange = _balls.MakeRound(isFull, out norm, out var maxImpulse);
-        return maxChange <= Math.Max(tolerance * maxImpulse, _rounding);
-    }
-
-    private static bool HasArms(ReadOnlySpan<ContactRow> rows)
-    {
-        foreach (ref readonly var row in rows)
-        {
-            if (row.HasArms)
-            {
-                return true;
-            }
-        }
-
-        return false;
+        return MakeRound(rows, Tolerance, out _);
     }
 
     /// <summary>Impulses that rounding cannot tell from 0: those of bodies that barely approach have no larger digits.</summary>
@@ -262,18 +189,12 @@ internal sealed partial class ContactSolver(int maxThreads = 1)
         var impulse = 0.0;
         foreach (ref readonly var row in rows)
         {
-            impulse = Math.Max(impulse, StoppingImpulse(in row, _bodies));
+            var speed = _bodies[row.First].Velocity.MaxAbsComponent();
+            speed = row.Second >= 0 ? Math.Max(speed, _bodies[row.Second].Velocity.MaxAbsComponent()) : speed;
+            impulse = Math.Max(impulse, row.NormalMass * speed);
         }
 
         return RelativeRounding * impulse;
-    }
-
-    /// <summary>The impulse that would stop a contact's bodies.</summary>
-    public static double StoppingImpulse(in ContactRow row, ReadOnlySpan<SolverBody> bodies)
-    {
-        var speed = bodies[row.First].Velocity.MaxAbsComponent();
-        speed = row.Second >= 0 ? Math.Max(speed, bodies[row.Second].Velocity.MaxAbsComponent()) : speed;
-        return row.NormalMass * speed;
     }
 
     /// <summary>Gives both bodies an angular impulse.</summary>

@@ -1,6 +1,5 @@
 using System.Runtime.InteropServices;
 using FractalEngine.Core.Maths;
-using FractalEngine.Core.Physics.Islands;
 using FractalEngine.Core.Physics.Rows;
 
 namespace FractalEngine.Core.Physics.Solving;
@@ -15,9 +14,6 @@ internal sealed partial class IslandPlanner
     private const int MaxReboundRounds = 8;
 
     private readonly List<int> _rebounding = [];
-    private readonly bool[] _isRebounding = new bool[IslandParts.MaxCount + 1];
-    private readonly List<int>[] _reboundingOfParts =
-        [.. Enumerable.Range(0, IslandParts.MaxCount + 1).Select(static _ => new List<int>())];
 
     /// <summary>Lets all pairs bounce until none approaches fast enough any more.</summary>
     private void BounceAll(Span<ContactRow> rows)

@@ -15,7 +15,7 @@ namespace FractalEngine.Core.Physics.Solving;
 /// The forces are constant during the step, so that each body follows a parabola. They act along the mean of the line of contact before
 /// and after the step. Along it, two balls that stay in touch do not come closer, so that the forces between them do no work.
 /// </remarks>
-internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies nearbyBodies, ContactLog contactLog, int maxThreads)
+internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies nearbyBodies, ContactLog contactLog, ImpulseCache cache, int maxThreads)
 {
     // Times that the lines of contact are corrected for how far the bodies move in the step.
     private const int MaxTurns = 4;
@@ -31,8 +31,9 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
     // Relative to what gravity and forces add to the speed: less is what the solve leaves of it, and the body rests.
     private const double RestFraction = 1e-10;
 
-    private readonly ContactSolver _solver = new(maxThreads);
-    private readonly ImpulseCache _cache = new();
+    private readonly ContactSolver _solver = new();
+    private readonly ImpulseCache _cache = cache;
+    private readonly SubstepSolver _substeps = new(bodies, cache, maxThreads);
 
     /// <summary>The contacts and islands of this step.</summary>
     public ContactGraph Graph { get; } = new(bodies, nearbyBodies, maxThreads);
@@ -50,15 +51,11 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
     /// <summary>Makes room for the bodies of a world and their contacts, before the first step with them.</summary>
     public void Reserve(int bodyCount, int contactCount)
     {
-        CreateJobs();
         Graph.Reserve(bodyCount, contactCount);
         _solver.Reserve(bodyCount, contactCount);
         _cache.Reserve(contactCount);
+        _substeps.Reserve(bodyCount, contactCount);
         _rebounding.EnsureCapacity(contactCount);
-        for (var i = 0; i < _reboundingOfParts.Length; i++)
-        {
-            _reboundingOfParts[i].EnsureCapacity(contactCount / (i + 1));
-        }
     }
 
     /// <summary>Takes away all approaching velocities of bodies that touch. They must have been joined.</summary>
@@ -74,7 +71,7 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
             }
 
             Load(Graph.BodiesOf(in island), rows);
-            if (island.IsLarge)
+            if (island.IsOfBalls)
             {
                 // What then still approaches is stopped by the solve of the step.
                 BounceAll(rows);
@@ -97,36 +94,61 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
         for (var index = 0; index < Graph.Islands.Count; index++)
         {
             var island = Graph.Islands[index];
-            var isConverged = island.IsLarge ? PlanLarge(index, in island, stepLength) : PlanSmall(index, in island, stepLength);
+            var isConverged = island.IsOfBalls ? PlanBalls(index, in island, stepLength) : PlanOthers(index, in island, stepLength);
             Statistics = new(Statistics.Solves + 1, Statistics.Rounds, Statistics.Unconverged + (isConverged ? 0 : 1));
-            Log(Graph.RowsOf(in island));
         }
 
         _cache.Store(Graph, maxThreads);
     }
 
-    private bool PlanSmall(int index, in Island island, double stepLength)
+    private bool PlanBalls(int index, in Island island, double stepLength)
+    {
+        var rows = Graph.RowsOf(in island);
+        if (Graph.MayBounce(Graph.BodiesOf(in island)))
+        {
+            // Bodies that have joined without touching another may run into surfaces.
+            Load(Graph.BodiesOf(in island), rows);
+            BounceAll(rows);
+            StoreVelocities(Graph.BodiesOf(in island));
+        }
+
+        Join(in island, index);
+        var isConverged = _substeps.Solve(Graph, in island, stepLength);
+        for (var i = 0; contactLog.IsEnabled && i < rows.Length; i++)
+        {
+            if (_substeps.ImpulseOf(i) > 0 || !rows[i].IsAhead)
+            {
+                Log(in rows[i], _substeps.ImpulseOf(i));
+            }
+        }
+
+        Statistics = Statistics with { Rounds = Statistics.Rounds + _substeps.Rounds };
+        return isConverged;
+    }
+
+    private bool PlanOthers(int index, in Island island, double stepLength)
     {
         var members = Graph.BodiesOf(in island);
         var rows = Graph.RowsOf(in island);
-        Join(members, index, isLarge: false);
+        Join(in island, index);
         var isConverged = FindForces(in island, stepLength);
-        StorePlan(members, stepLength, isLarge: false);
+        StorePlan(members, stepLength);
         StoreTurns(members, rows, stepLength);
         FindRebounding(rows, _rebounding);
         StopRebounds(rows, _rebounding);
         StoreChanges(members);
+        Log(rows);
         return isConverged;
     }
 
     /// <summary>Tells bodies which island they are of.</summary>
-    private void Join(ReadOnlySpan<int> members, int island, bool isLarge)
+    private void Join(in Island island, int islandIndex)
     {
-        foreach (var index in members)
+        foreach (var index in Graph.BodiesOf(in island))
         {
-            bodies[index].IslandIndex = island;
+            bodies[index].IslandIndex = islandIndex;
             bodies[index].MayTouchBodies = true;
-            bodies[index].HasHeapMargin = isLarge;
+            bodies[index].HasHeapMargin = island.IsOfBalls;
             bodies[index].PlannedStartOrientation = bodies[index].Orientation;
         }
     }
@@ -278,7 +300,7 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
         }
     }
 
-    private void StorePlan(ReadOnlySpan<int> island, double stepLength, bool isLarge)
+    private void StorePlan(ReadOnlySpan<int> island, double stepLength)
     {
         foreach (var index in island)
         {
@@ -296,10 +318,7 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
             }
 
             body.NetAcceleration = change / stepLength;
-            // In a large island, what touches nothing follows its parabola too.
-            var isStraight = isLarge && change != Vector.Zero
-                && _solver.Bodies[index].Velocity != body.Velocity + (stepLength * body.FreeAcceleration);
-            body.PlannedDisplacement = stepLength * (body.Velocity + (isStraight ? change : 0.5 * stepLength * body.NetAcceleration));
+            body.PlannedDisplacement = stepLength * (body.Velocity + (0.5 * stepLength * body.NetAcceleration));
         }
     }
 }

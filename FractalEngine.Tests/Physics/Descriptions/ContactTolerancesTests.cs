@@ -1,8 +1,6 @@
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics.Descriptions;
-using FractalEngine.Core.Physics.Islands;
 using FractalEngine.Core.Physics.Rows;
-using FractalEngine.Core.Physics.Separation;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Physics.Descriptions;
@@ -26,35 +24,18 @@ public class ContactTolerancesTests
     }
 
     [Theory]
-    [InlineData(1, 250, 250)]
-    [InlineData(500, 250, 50)]
-    [InlineData(501, 119, 49)]
-    [InlineData(2000, 30, 12)]
-    [InlineData(4000, 15, 8)]
-    [InlineData(4999, 12, 8)]
-    [InlineData(100_000, 12, 8)]
-    public void Rounds_OfAnIsland_FallWithItsContacts(int contacts, int expected, int expectedOfLarge)
+    [InlineData(1, 250)]
+    [InlineData(500, 250)]
+    [InlineData(501, 119)]
+    [InlineData(2000, 30)]
+    [InlineData(4000, 15)]
+    [InlineData(4999, 12)]
+    [InlineData(100_000, 12)]
+    public void Rounds_OfAnIsland_FallWithItsContacts(int contacts, int expected)
     {
         Assert.Equal(expected, RoundLimits.For(contacts));
-        Assert.Equal(expectedOfLarge, RoundLimits.ForLarge(contacts));
         Assert.Equal(Math.Min(expected, 20), RoundLimits.For(contacts, 20));
         Assert.Equal((32, 250), (RoundLimits.First, RoundLimits.Many));
-    }
-
-    [Theory]
-    [InlineData(299, 1, false, false, 1e-7, 1.3, 0.01)]
-    [InlineData(300, 1, true, false, 1e-7, 1.3, 0.01)]
-    [InlineData(300, 1, false, false, -3e-4, 1.3, 0.01)]
-    [InlineData(300, 1, false, true, -3e-4, 1.3, 0.25)]
-    [InlineData(3000, 2, false, false, -6e-4, 1.6, 0.01)]
-    [InlineData(3, 1, false, true, 1e-7, 1.3, 0.25)]
-    public void Aim_OfASeparation_DependsOnTheSizeOfItsIsland(
-        int rows, int parts, bool hasCompound, bool isPushed, double overlap, double relaxation, double maxGap)
-    {
-        var island = new Island(0, rows, 0, 2) { PartCount = parts, HasCompound = hasCompound, IsPushed = isPushed };
-        var aim = SeparationSettings.Of(in island);
-        Near.Equal(overlap, aim.Overlap, 1e-18);
-        Assert.Equal((relaxation, maxGap), (aim.Relaxation, aim.MaxGap));
     }
 
     /// <summary>Two things meet when the mask of each has the other's layer.</summary>

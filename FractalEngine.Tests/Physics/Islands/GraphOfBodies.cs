@@ -17,7 +17,7 @@ internal sealed class GraphOfBodies
         Sleep = new(Bodies, Nearby);
         Graph = new(Bodies, Nearby, 1);
         Graph.Reserve(Bodies.Count, 8 * Bodies.Count);
-        Mover = new(Bodies, Graph, Grid, Nearby, 1);
+        Mover = new(Bodies, Graph, Grid, Nearby);
         Mover.Reserve(Bodies.Count, 8 * Bodies.Count);
     }
 

@@ -2,50 +2,35 @@ using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics.Descriptions;
 using FractalEngine.Core.Physics.Islands;
 using FractalEngine.Core.Physics.Rows;
-using FractalEngine.Core.Physics.Separation;
 
 namespace FractalEngine.Tests.Physics.Islands;
 
-/// <summary>Which islands are large, how many rounds they may take, and how far apart their bodies are put.</summary>
+/// <summary>What islands are made of, and how many rounds they may take.</summary>
 public sealed class IslandTests
 {
     [Theory]
-    [InlineData(299, false, false)]
-    [InlineData(300, false, true)]
-    [InlineData(300, true, false)]
-    [InlineData(9000, true, false)]
-    public void IsLarge_OfAnIsland_TellsOfManyContactsOfBalls(int rowCount, bool hasCompound, bool isLarge)
+    [InlineData(false)]
+    [InlineData(true)]
+    public void IsOfBalls_OfAnIsland_TellsWhetherOneIsACompound(bool hasCompound)
     {
-        Assert.Equal(isLarge, Island.IsLargeFor(rowCount, hasCompound));
-        var island = new Island(1, rowCount, 2, 3) { HasCompound = hasCompound };
-        Assert.Equal((isLarge, 1, false, false), (island.IsLarge, island.PartCount, island.IsFree, island.IsPushed));
+        var island = new Island(1, 4, 2, 3) { HasCompound = hasCompound };
+        Assert.Equal((!hasCompound, 1, false, false), (island.IsOfBalls, island.PartCount, island.IsFree, island.IsPushed));
     }
 
     [Theory]
-    [InlineData(1, 250, 250)]
-    [InlineData(100, 250, 250)]
-    [InlineData(500, 250, 50)]
-    [InlineData(501, 119, 49)]
-    [InlineData(1000, 60, 25)]
-    [InlineData(3125, 19, 8)]
-    [InlineData(4000, 15, 8)]
-    [InlineData(5000, 12, 8)]
-    [InlineData(90_000, 12, 8)]
-    public void For_ANumberOfContacts_BoundsTheRounds(int contacts, int rounds, int roundsOfLarge)
+    [InlineData(1, 250)]
+    [InlineData(100, 250)]
+    [InlineData(500, 250)]
+    [InlineData(501, 119)]
+    [InlineData(1000, 60)]
+    [InlineData(3125, 19)]
+    [InlineData(4000, 15)]
+    [InlineData(5000, 12)]
+    [InlineData(90_000, 12)]
+    public void For_ANumberOfContacts_BoundsTheRounds(int contacts, int rounds)
     {
         Assert.Equal(rounds, RoundLimits.For(contacts));
-        Assert.Equal(roundsOfLarge, RoundLimits.ForLarge(contacts));
         Assert.Equal(Math.Min(contacts <= 500 ? 32 : rounds, 32), RoundLimits.For(contacts, RoundLimits.First));
-    }
-
-    [Fact]
-    public void Of_AnIsland_AimsAtSoMuchRoom()
-    {
-        Assert.Equal(new(1e-7, 1.3, 0.01), SeparationSettings.Of(new Island(0, 299, 0, 100)));
-        Assert.Equal(new(1e-7, 1.3, 0.25), SeparationSettings.Of(new Island(0, 299, 0, 100) { IsPushed = true }));
-        Assert.Equal(new(-3e-4, 1.3, 0.01), SeparationSettings.Of(new Island(0, 300, 0, 100)));
-        Assert.Equal(new(-6e-4, 1.6, 0.01), SeparationSettings.Of(new Island(0, 300, 0, 100) { PartCount = 2 }));
-        Assert.Equal(new(-6e-4, 1.6, 0.25), SeparationSettings.Of(new Island(0, 300, 0, 100) { PartCount = 3, IsPushed = true }));
     }
 
     [Fact]

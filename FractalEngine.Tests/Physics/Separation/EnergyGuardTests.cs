@@ -118,9 +118,8 @@ public sealed class EnergyGuardTests
     {
         var setup = new GraphOfBodies(new BodyDescription(Vector.Zero, 0.5), new BodyDescription(Vector.I, 0.5) { Mass = 3 });
         Assert.True(setup.TryGroup(0.25));
-        setup.Mover.SetTargets();
-        guard = new(setup.Bodies, setup.Graph, setup.Mover, 1);
-        guard.Reserve(2);
+        setup.Mover.SetTargets(setup.Graph.Islands[0]);
+        guard = new(setup.Bodies, setup.Graph, setup.Mover);
         return setup;
     }
 }

@@ -344,18 +344,6 @@ public sealed class ContactSolverTests
             (second.Spin / ball.InverseInertia) + Vector.Cross(new(0, 0.25, 0), second.Velocity), 1e-10);
     }
 
-    [Theory]
-    [InlineData(0, 1, 8)]
-    [InlineData(1, 0, 8)]
-    [InlineData(0, -1, 3)]
-    [InlineData(1, -1, 8)]
-    public void StoppingImpulse_OfAContact_IsThatOfTheFasterBody(int first, int second, double speed)
-    {
-        SolverBody[] bodies = [new() { Velocity = new(1, -3, 2) }, new() { Velocity = new(-8, 0, 4) }];
-        var row = new ContactRow { First = first, Second = second, NormalMass = 0.5 };
-        Assert.Equal(0.5 * speed, ContactSolver.StoppingImpulse(in row, bodies));
-    }
-
     [Fact]
     public void ApplyTurn_OfTwoBodies_TurnsThemAgainstEachOther()
     {

@@ -61,7 +61,7 @@ public sealed class ParallelSteppersTests
         var nearby = new NearbyBodies(grid, bodies);
         var log = new ContactLog(bodies, new StaticObjectSet(new(), new(), static _ => { }, null));
         var obstacles = new Obstacles(bodies, nearby, context, new KinematicSet());
-        var planner = new IslandPlanner(bodies, nearby, log, 1);
+        var planner = new IslandPlanner(bodies, nearby, log, new(), 1);
         return new(new(), bodies, grid, nearby, obstacles, new SleepIslands(bodies, nearby), planner, context, log);
     }
 }

@@ -1,0 +1,610 @@
+using System.Runtime.InteropServices;
+using System.Runtime.Intrinsics;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics.Bodies;
+using FractalEngine.Core.Physics.Islands;
+using FractalEngine.Core.Physics.Rows;
+using FractalEngine.Core.Threading;
+
+namespace FractalEngine.Core.Physics.Solving;
+
+/// <summary>
+/// Finds how the balls of an island move in a step, in a few substeps. Each adds what gravity and forces give, takes away what approaches,
+/// moves all, and pushes apart what overlaps. A large island makes one round over its contacts in each; the next one goes on from there.
+/// </summary>
+/// <remarks>
+/// Many small steps with few rounds beat few large ones with many rounds (Macklin et al. 2019, "Small steps in physics simulation"). Rounds
+/// are projected Gauss–Seidel, forwards and backwards. Impulses take energy away, or leave it, up to what does not converge: where a
+/// substep ends with more than it began with, its velocities are scaled down. Pushes leave velocities as they are.
+/// </remarks>
+internal sealed class SubstepSolver
+{
+    // Contacts from which on bodies may overlap by what can't be seen, so that the rounds suffice.
+    private const int MinContactsOfLarge = 300;
+    private const int Substeps = 3;
+    private const int SubstepsOfSmall = 6;
+
+    // A small island takes rounds until it has converged; one of many contacts as many as solve so many.
+    private const int MaxRounds = 250;
+    private const int ContactSolves = 3000;
+
+    // Relative to the largest impulse: a round that changes less has converged, and one that need not converge any further.
+    private const double Tolerance = 1e-9;
+    private const double FineTolerance = 1e-13;
+
+    // Relative to the momentum of a contact's bodies.
+    private const double RelativeRounding = 1e-14;
+
+    // Relative to the smaller radius: overlaps that stay, and overlaps at the end of a step beyond which more pushes are made.
+    private const double Slop = 5e-4;
+    private const double MaxOverlap = 0.02;
+    private const int MaxPushes = 40;
+
+    // Relative to what gravity and forces add to the speed, and to the radius: less is what the rounds leave of it, and the ball rests.
+    private const double RestFraction = 1e-10;
+
+    // Part of an overlap that a push takes back: others push in again.
+    private const double PushShare = 0.6;
+
+    // Rounds over the planes that a ball must not end behind.
+    private const int MaxPlaneRounds = 16;
+
+    // Threads write zeros to what stands for surfaces that rest, one of each group, and so they are some lines of the cache apart.
+    private const int SurfaceStride = 2;
+    private const int RestingSurfaces = SurfaceStride * (IslandParts.MaxCount + 1);
+
+    private readonly List<Body> _bodies;
+    private readonly ImpulseCache _cache;
+    private readonly int _maxThreads;
+    private readonly Action<int> _load;
+    private readonly Action<int> _accelerate;
+    private readonly Action<int> _begin;
+    private readonly Action<int> _forwards;
+    private readonly Action<int> _backwards;
+    private readonly Action<int> _extrapolate;
+    private readonly Action<int> _integrate;
+    private readonly Action<int> _push;
+    private readonly Action<int> _store;
+
+    // The last group has the contacts between parts.
+    private readonly Group[] _groups = [.. Enumerable.Range(0, IslandParts.MaxCount + 1).Select(static _ => new Group())];
+    private readonly List<BallContact> _unplanned = [];
+    private readonly List<int> _neighbours = [];
+    private BallState[] _states = [];
+    private BallContact[] _contacts = [];
+    private TurnFriction[] _turns = [];
+    private double[] _impulses = [];
+    private Vector256<double>[] _changes = [];
+    private Vector256<double>[] _directions = [];
+    private ContactGraph? _graph;
+    private Island _island;
+    private double _stepLength;
+    private double _substep;
+    private double _scale;
+    private double _share;
+    private Vector256<double> _centreVelocity;
+    private int _substepCount;
+    private int _surfaceCount;
+    private bool _isLarge;
+    private bool _hasTurns;
+
+    public SubstepSolver(List<Body> bodies, ImpulseCache cache, int maxThreads)
+    {
+        _bodies = bodies;
+        _cache = cache;
+        _maxThreads = maxThreads;
+        _load = Load;
+        _accelerate = Accelerate;
+        _begin = Begin;
+        _forwards = SolveForwards;
+        _backwards = SolveBackwards;
+        _extrapolate = Extrapolate;
+        _integrate = Integrate;
+        _push = Push;
+        _store = Store;
+    }
+
+    /// <summary>Rounds of the last solve.</summary>
+    public int Rounds { get; private set; }
+
+    private ReadOnlySpan<Group> Groups => _groups.AsSpan(0, ContactGraph.GroupCountOf(in _island));
+
+    private int FirstSurface => _bodies.Count;
+
+    /// <summary>Makes room for the bodies of a world and their contacts.</summary>
+    public void Reserve(int bodyCount, int contactCount)
+    {
+        if (_states.Length < bodyCount + RestingSurfaces)
+        {
+            _states = new BallState[(2 * bodyCount) + RestingSurfaces];
+        }
+
+        _unplanned.EnsureCapacity(bodyCount);
+        _neighbours.EnsureCapacity(bodyCount);
+        if (_contacts.Length < contactCount)
+        {
+            _contacts = new BallContact[Math.Max(contactCount, 2 * _contacts.Length)];
+            _turns = new TurnFriction[_contacts.Length];
+            _impulses = new double[_contacts.Length];
+            _changes = new Vector256<double>[_contacts.Length];
+            _directions = new Vector256<double>[_contacts.Length];
+        }
+    }
+
+    /// <summary>Impulse along the normal that a contact of the last island has had in the step.</summary>
+    /// <param name="contact">Index among the contacts of the island.</param>
+    public double ImpulseOf(int contact) => _impulses[contact];
+
+    /// <summary>
+    /// Finds the velocities and targets of the balls of an island at the end of a step. None of the targets is behind a plane that a ball
+    /// touches or may meet.
+    /// </summary>
+    /// <param name="graph">Has the contacts, which receive their last impulses.</param>
+    /// <param name="island">An island of balls.</param>
+    /// <param name="stepLength">Seconds.</param>
+    /// <returns>False for a small island that has not converged.</returns>
+    public bool Solve(ContactGraph graph, in Island island, double stepLength)
+    {
+        SetIsland(graph, in island, stepLength);
+        Rounds = 0;
+        WorkerSet.Shared.Run(island.PartCount, island.HasMovingSurface ? 1 : _maxThreads, _load);
+        RunBetween(_load);
+        var isConverged = true;
+        for (var i = 0; i < _substepCount; i++)
+        {
+            RunAll(_accelerate);
+            var energy = SumEnergy(out _);
+            RunAll(_begin);
+            isConverged &= MakeRounds();
+            LimitEnergy(energy);
+            RunAll(_integrate);
+        }
+
+        FindUnplanned();
+        PushApart();
+
+        RunAll(_store);
+        return isConverged || _isLarge;
+    }
+
+    private void SetIsland(ContactGraph graph, in Island island, double stepLength)
+    {
+        Reserve(_bodies.Count, island.RowCount);
+        _graph = graph;
+        _island = island;
+        _stepLength = stepLength;
+        _isLarge = island.RowCount >= MinContactsOfLarge;
+        _substepCount = _isLarge ? Substeps : SubstepsOfSmall;
+        _substep = stepLength / _substepCount;
+        _hasTurns = false;
+        _surfaceCount = 0;
+        Array.Clear(_states, FirstSurface, RestingSurfaces);
+        var ends = graph.PartEndsOf(in island);
+        var first = 0;
+        for (var i = 0; i < Groups.Length; i++)
+        {
+            var end = ends.Length > 0 ? ends[i] : island.RowCount;
+            (_groups[i].First, _groups[i].End) = (first, end);
+            first = end;
+        }
+    }
+
+    /// <summary>Does something for all parts, on all threads, and then for the contacts between them.</summary>
+    private void RunAll(Action<int> act)
+    {
+        WorkerSet.Shared.Run(_island.PartCount, _maxThreads, act);
+        RunBetween(act);
+    }
+
+    private void RunBetween(Action<int> act)
+    {
+        if (_island.PartCount > 1)
+        {
+            act(_island.PartCount);
+        }
+    }
+
+    private bool MakeRounds()
+    {
+        var maxRounds = Math.Clamp(ContactSolves / Math.Max(1, _island.RowCount), 1, MaxRounds);
+        var previousNorm = 0.0;
+        for (var round = 1; ; round++)
+        {
+            Rounds++;
+            RunAll(_forwards);
+            RunBetween(_backwards);
+            WorkerSet.Shared.Run(_island.PartCount, _maxThreads, _backwards);
+            var (change, impulse, rounding, norm) = (0.0, 0.0, 0.0, 0.0);
+            foreach (var group in Groups)
+            {
+                norm += group.Norm;
+                change = Math.Max(change, group.Change);
+                impulse = Math.Max(impulse, group.Impulse);
+                rounding = Math.Max(rounding, group.Rounding);
+            }
+
+            if (round == maxRounds || change <= Math.Max(FineTolerance * impulse, rounding))
+            {
+                return change <= Math.Max(Tolerance * impulse, rounding);
+            }
+
+            // Directions that have not led to the end by now may never do so where balls begin and cease to slip.
+            _share = previousNorm > 0 && norm <= previousNorm && round < maxRounds / 2 ? norm / previousNorm : 0;
+            RunAll(_extrapolate);
+            previousNorm = norm;
+        }
+    }
+
+    /// <summary>Pushes apart what still overlaps.</summary>
+    private void PushApart()
+    {
+        var worst = double.PositiveInfinity;
+        for (var i = 0; i < MaxPushes && worst > MaxOverlap; i++)
+        {
+            RunAll(_push);
+            worst = Push(CollectionsMarshal.AsSpan(_unplanned));
+            foreach (var group in Groups)
+            {
+                worst = Math.Max(worst, group.Overlap);
+            }
+        }
+    }
+
+    private ReadOnlySpan<int> BodiesOf(int part) => part < _island.PartCount ? _graph!.BodiesOfPart(in _island, part) : [];
+
+    private void Load(int index)
+    {
+        foreach (var body in BodiesOf(index))
+        {
+            _states[body] = new(_bodies[body], _substep);
+        }
+
+        var group = _groups[index];
+        var rows = _graph!.RowsOf(in _island);
+        var rounding = 0.0;
+        for (var i = group.First; i < group.End; i++)
+        {
+            ref var row = ref rows[i];
+            _cache.Recall(ref row);
+            var first = _bodies[row.First];
+            var other = row.Second >= 0 ? _bodies[row.Second] : null;
+            var (mass, inertia) = (1 / first.Description.Mass, first.InverseInertia);
+            var spin = inertia * row.FirstRadius * row.FirstRadius;
+            var velocity = first.Velocity;
+            if (other is not null)
+            {
+                mass += 1 / other.Description.Mass;
+                inertia += other.InverseInertia;
+                spin += other.InverseInertia * row.SecondRadius * row.SecondRadius;
+                velocity -= other.Velocity;
+            }
+            else if (row.IsOnMovingSurface)
+            {
+                velocity -= row.SurfaceVelocity;
+            }
+
+            var willBounce = row.IsAhead && row.Restitution > 0
+                && -Vector.Dot(velocity, row.Normal) > Math.Max(first.RestitutionThreshold, other?.RestitutionThreshold ?? 0);
+            var second = other is not null ? row.Second
+                : row.IsOnMovingSurface ? AddSurface(in row) : FirstSurface + (SurfaceStride * index);
+            _contacts[i] = new(in row, second, (mass, inertia, spin), willBounce, 1.0 / _substepCount);
+            _impulses[i] = 0;
+            rounding = Math.Max(rounding, first.Velocity.MaxAbsComponent() / mass);
+            if (_contacts[i].SlowsTurns)
+            {
+                _turns[i] = new(in row, inertia, 1.0 / _substepCount);
+                _hasTurns = true;
+            }
+        }
+
+        group.Rounding = RelativeRounding * rounding;
+    }
+
+    private int AddSurface(in ContactRow row)
+    {
+        var index = FirstSurface + RestingSurfaces + _surfaceCount++;
+        if (index == _states.Length)
+        {
+            Array.Resize(ref _states, 2 * _states.Length);
+        }
+
+        _states[index] = new(row.SurfaceVelocity, row.SurfaceSpin);
+        return index;
+    }
+
+    private void Accelerate(int part)
+    {
+        foreach (var body in BodiesOf(part))
+        {
+            _states[body].Velocity += _states[body].Gain;
+        }
+    }
+
+    private void Begin(int index)
+    {
+        var group = _groups[index];
+        for (var i = group.First; i < group.End; i++)
+        {
+            ref var contact = ref _contacts[i];
+            ref var first = ref _states[contact.First];
+            ref var second = ref _states[contact.Second];
+            var gap = contact.Place(ref first, ref second, PushShare, Slop);
+            contact.Begin(ref first, ref second, gap, _substep);
+            if (contact.SlowsTurns)
+            {
+                _turns[i].Begin(ref first, ref second);
+            }
+        }
+    }
+
+    private void SolveForwards(int index)
+    {
+        var group = _groups[index];
+        for (var i = group.First; i < group.End; i++)
+        {
+            ref var contact = ref _contacts[i];
+            _changes[i] = contact.Solve(ref _states[contact.First], ref _states[contact.Second]);
+            if (_hasTurns && contact.SlowsTurns)
+            {
+                _ = _turns[i].Solve(in contact, ref _states[contact.First], ref _states[contact.Second]);
+            }
+        }
+    }
+
+    private void SolveBackwards(int index)
+    {
+        var group = _groups[index];
+        var change = Vector256<double>.Zero;
+        var (impulse, norm) = (0.0, 0.0);
+        for (var i = group.End - 1; i >= group.First; i--)
+        {
+            ref var contact = ref _contacts[i];
+            _changes[i] += contact.Solve(ref _states[contact.First], ref _states[contact.Second]);
+            change = Vector256.MaxNative(change, Vector256.Abs(_changes[i]));
+            norm += contact.NormOf(_changes[i]);
+            impulse = Math.Max(impulse, contact.NormalImpulse);
+            if (_hasTurns && contact.SlowsTurns)
+            {
+                var turn = _turns[i].Solve(in contact, ref _states[contact.First], ref _states[contact.Second]);
+                change = Vector256.MaxNative(change, Vector256.Abs(turn) / Vector256.Create(contact.SmallerRadius));
+            }
+        }
+
+        group.Change = Math.Max(Math.Max(change[0], change[1]), Math.Max(change[2], change[3]));
+        group.Impulse = impulse;
+        group.Norm = norm;
+    }
+
+    /// <summary>Goes on along the changes of the rounds so far: a nonlinear conjugate gradient method (Silcowitz et al. 2010).</summary>
+    private void Extrapolate(int index)
+    {
+        var group = _groups[index];
+        for (var i = group.First; i < group.End; i++)
+        {
+            ref var contact = ref _contacts[i];
+            if (_share > 0)
+            {
+                var direction = Vector256.Create(_share) * _directions[i];
+                contact.Extrapolate(ref _states[contact.First], ref _states[contact.Second], direction);
+                _directions[i] = direction + _changes[i];
+            }
+            else
+            {
+                _directions[i] = _changes[i];
+            }
+        }
+    }
+
+    /// <summary>Energy of motion and rotation of all balls, for an island that touches nothing immovable about its centre of mass.</summary>
+    private double SumEnergy(out Vector256<double> centreVelocity)
+    {
+        centreVelocity = Vector256<double>.Zero;
+        if (_island.HasMovingSurface)
+        {
+            return double.PositiveInfinity;
+        }
+
+        var (energy, mass) = (0.0, 0.0);
+        var momentum = Vector256<double>.Zero;
+        foreach (var body in _graph!.BodiesOf(in _island))
+        {
+            ref readonly var state = ref _states[body];
+            energy += state.KineticEnergy;
+            mass += 1 / state.InverseMass;
+            momentum += state.Velocity / Vector256.Create(state.InverseMass);
+        }
+
+        if (!_island.IsFree)
+        {
+            return energy;
+        }
+
+        centreVelocity = momentum / Vector256.Create(mass);
+        return energy - (0.5 * mass * Vector256.Dot(centreVelocity, centreVelocity));
+    }
+
+    /// <summary>Takes back what a solve that has not converged has added to an energy.</summary>
+    private void LimitEnergy(double limit)
+    {
+        var energy = SumEnergy(out _centreVelocity);
+        _scale = energy > limit ? Math.Sqrt(Math.Max(0, limit) / energy) : 1;
+    }
+
+    private void Integrate(int index)
+    {
+        var group = _groups[index];
+        for (var i = group.First; i < group.End; i++)
+        {
+            _impulses[i] += _contacts[i].NormalImpulse;
+        }
+
+        var time = Vector256.Create(_substep);
+        foreach (var body in BodiesOf(index))
+        {
+            ref var state = ref _states[body];
+            if (_scale < 1)
+            {
+                state.Velocity = _centreVelocity + (Vector256.Create(_scale) * (state.Velocity - _centreVelocity));
+                state.Spin *= Vector256.Create(_scale);
+            }
+
+            state.Displacement += time * state.Velocity;
+        }
+
+        for (var i = 0; index == 0 && i < _surfaceCount; i++)
+        {
+            ref var surface = ref _states[FirstSurface + RestingSurfaces + i];
+            surface.Displacement += time * surface.Velocity;
+        }
+    }
+
+    private void Push(int index)
+    {
+        var group = _groups[index];
+        group.Overlap = Push(_contacts.AsSpan(group.First..group.End));
+    }
+
+    /// <summary>Pushes apart what overlaps.</summary>
+    /// <returns>The largest overlap before, relative to the smaller radius.</returns>
+    private double Push(Span<BallContact> contacts)
+    {
+        var worst = 0.0;
+        foreach (ref var contact in contacts)
+        {
+            var gap = contact.Place(ref _states[contact.First], ref _states[contact.Second], PushShare, Slop);
+            worst = Math.Max(worst, -gap / contact.SmallerRadius);
+        }
+
+        return worst;
+    }
+
+    /// <summary>Finds what balls meet that have got farther than was foreseen when contacts were made. They push, and give no impulse.</summary>
+    private void FindUnplanned()
+    {
+        _unplanned.Clear();
+        var maxWay = 0.0;
+        foreach (var index in _graph!.BodiesOf(in _island))
+        {
+            maxWay = Math.Max(maxWay, SimdAffineMap.ToVector(_states[index].Displacement).Length());
+        }
+
+        foreach (var index in _graph!.BodiesOf(in _island))
+        {
+            var body = _bodies[index];
+            var way = SimdAffineMap.ToVector(_states[index].Displacement);
+            var freeWay = _stepLength * (body.Velocity + (0.5 * _stepLength * body.FreeAcceleration));
+            var limit = _graph.DeviationLimit(index);
+            if ((way - freeWay).LengthSquared() > limit * limit)
+            {
+                FindUnplanned(body, way, maxWay);
+            }
+        }
+    }
+
+    private void FindUnplanned(Body body, Vector way, double maxWay)
+    {
+        _neighbours.Clear();
+        _graph!.CollectOverlaps(body.Position + way, body.Radius + maxWay, body.Index, _neighbours);
+        foreach (var neighbour in _neighbours)
+        {
+            // One of another island, or of none, moves later or has moved: this one keeps away from where it was.
+            var other = _bodies[neighbour];
+            var second = other.IslandIndex == body.IslandIndex ? neighbour : FirstSurface;
+            var offset = body.Position - other.Position;
+            var distance = body.Radius + other.Radius;
+            if ((offset + way - SimdAffineMap.ToVector(_states[second].Displacement)).LengthSquared() < distance * distance)
+            {
+                var row = new ContactRow { First = body.Index };
+                ContactRows.SetBalls(ref row, offset, body.Radius, other.Radius);
+                _unplanned.Add(new(
+                    in row, second, (_states[body.Index].InverseMass + _states[second].InverseMass, 0, 0), willBounce: false, impulseShare: 0));
+            }
+        }
+    }
+
+    /// <summary>Ends all ways before the planes of the surfaces, which are the first contacts of a part: these give way to nothing.</summary>
+    private void KeepInFront(int index)
+    {
+        var group = _groups[index];
+        var isMoved = true;
+        for (var round = 0; round < MaxPlaneRounds && isMoved; round++)
+        {
+            isMoved = false;
+            for (var i = group.First; i < group.End && !_contacts[i].IsBall; i++)
+            {
+                ref var contact = ref _contacts[i];
+                isMoved |= contact.Place(ref _states[contact.First], ref _states[contact.Second], share: 1, slop: 0) < 0;
+            }
+        }
+    }
+
+    private void Store(int index)
+    {
+        KeepInFront(index);
+        foreach (var i in BodiesOf(index))
+        {
+            ref readonly var state = ref _states[i];
+            var body = _bodies[i];
+            var (velocity, spin) = (SimdAffineMap.ToVector(state.Velocity), SimdAffineMap.ToVector(state.Spin));
+            var displacement = SimdAffineMap.ToVector(state.Displacement);
+            var negligible = RestFraction * _stepLength * body.FreeAcceleration.Length();
+            if (Math.Max(velocity.MaxAbsComponent(), body.Velocity.MaxAbsComponent()) <= negligible
+                && spin.MaxAbsComponent() * body.Radius <= negligible && displacement.MaxAbsComponent() <= RestFraction * body.Radius)
+            {
+                (velocity, spin, displacement) = (Vector.Zero, Vector.Zero, Vector.Zero);
+            }
+            else if (IsInFlight(in state, body))
+            {
+                displacement = _stepLength * (body.Velocity + (0.5 * _stepLength * body.FreeAcceleration));
+            }
+
+            body.PlannedStart = body.Position;
+            body.NetAcceleration = (velocity - body.Velocity) / _stepLength;
+            body.Velocity = velocity;
+            body.AngularVelocity = spin;
+            body.Target = body.Position + displacement;
+            body.IsHeld = false;
+        }
+
+        var group = _groups[index];
+        var rows = _graph!.RowsOf(in _island);
+        for (var i = group.First; i < group.End; i++)
+        {
+            rows[i].NormalImpulse = _substepCount * _contacts[i].NormalImpulse;
+            rows[i].FrictionImpulse = _substepCount * _contacts[i].FrictionImpulse;
+            rows[i].TurnImpulse = _contacts[i].SlowsTurns ? _substepCount * SimdAffineMap.ToVector(_turns[i].Impulse) : Vector.Zero;
+        }
+    }
+
+    /// <summary>True where no contact has changed a velocity or a way: such a ball follows its parabola.</summary>
+    private bool IsInFlight(in BallState state, Body body)
+    {
+        var velocity = SimdAffineMap.ToVector256(body.Velocity);
+        var displacement = Vector256<double>.Zero;
+        for (var i = 0; i < _substepCount; i++)
+        {
+            velocity += state.Gain;
+            displacement += Vector256.Create(_substep) * velocity;
+        }
+
+        return velocity == state.Velocity && displacement == state.Displacement;
+    }
+
+    /// <summary>The contacts within one part of an island, or between its parts.</summary>
+    private sealed class Group
+    {
+        public int First { get; set; }
+
+        public int End { get; set; }
+
+        public double Change { get; set; }
+
+        public double Impulse { get; set; }
+
+        public double Rounding { get; set; }
+
+        public double Norm { get; set; }
+
+        public double Overlap { get; set; }
+    }
+}
