@@ -37,8 +37,12 @@ internal sealed class SubstepSolver
 
     // Relative to the smaller radius: overlaps that stay, and overlaps at the end of a step beyond which more pushes are made.
     private const double Slop = 5e-4;
-    private const double MaxOverlap = 0.02;
+    private const double MaxOverlap = 0.03;
+
+    // Rounds of pushes at the end of a step: as many as look at so many contacts.
+    private const int MinPushes = 12;
     private const int MaxPushes = 40;
+    private const int PushedContacts = 60_000;
 
     // Relative to what gravity and forces add to the speed, and to the radius: less is what the rounds leave of it, and the ball rests.
     private const double RestFraction = 1e-10;
@@ -239,7 +243,8 @@ internal sealed class SubstepSolver
     private void PushApart()
     {
         var worst = double.PositiveInfinity;
-        for (var i = 0; i < MaxPushes && worst > MaxOverlap; i++)
+        var maxPushes = Math.Clamp(PushedContacts / Math.Max(1, _island.RowCount), MinPushes, MaxPushes);
+        for (var i = 0; i < maxPushes && worst > MaxOverlap; i++)
         {
             RunAll(_push);
             worst = Push(CollectionsMarshal.AsSpan(_unplanned));
