@@ -7,7 +7,7 @@ namespace FractalEngine.Core.Physics.Solving;
 /// <summary>What the substeps of an island change of a ball; or a surface, which has infinite mass.</summary>
 internal struct BallState
 {
-    /// <summary>Units per second.</summary>
+    /// <summary>Velocity of the centre, units per second.</summary>
     public Vector256<double> Velocity;
 
     /// <summary>Angular velocity, radians per second.</summary>

@@ -15,7 +15,8 @@ namespace FractalEngine.Core.Physics.Solving;
 /// The forces are constant during the step, so that each body follows a parabola. They act along the mean of the line of contact before
 /// and after the step. Along it, two balls that stay in touch do not come closer, so that the forces between them do no work.
 /// </remarks>
-internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies nearbyBodies, ContactLog contactLog, ImpulseCache cache, int maxThreads)
+internal sealed partial class IslandPlanner(
+    List<Body> bodies, NearbyBodies nearbyBodies, ContactLog contactLog, ImpulseCache cache, int maxThreads)
 {
     // Times that the lines of contact are corrected for how far the bodies move in the step.
     private const int MaxTurns = 4;

@@ -400,7 +400,7 @@ internal sealed class SubstepSolver
         }
     }
 
-    /// <summary>Energy of motion and rotation of all balls, for an island that touches nothing immovable about its centre of mass.</summary>
+    /// <summary>Energy of motion and rotation of all balls: about the centre of mass, if nothing immovable is touched.</summary>
     private double SumEnergy(out Vector256<double> centreVelocity)
     {
         centreVelocity = Vector256<double>.Zero;
@@ -483,7 +483,7 @@ internal sealed class SubstepSolver
         return worst;
     }
 
-    /// <summary>Finds what balls meet that have got farther than was foreseen when contacts were made. They push, and give no impulse.</summary>
+    /// <summary>Finds what balls meet that have got farther than was foreseen when contacts were made: it only pushes.</summary>
     private void FindUnplanned()
     {
         _unplanned.Clear();
@@ -521,13 +521,13 @@ internal sealed class SubstepSolver
             {
                 var row = new ContactRow { First = body.Index };
                 ContactRows.SetBalls(ref row, offset, body.Radius, other.Radius);
-                _unplanned.Add(new(
-                    in row, second, (_states[body.Index].InverseMass + _states[second].InverseMass, 0, 0), willBounce: false, impulseShare: 0));
+                var inverseMass = _states[body.Index].InverseMass + _states[second].InverseMass;
+                _unplanned.Add(new(in row, second, (inverseMass, 0, 0), willBounce: false, impulseShare: 0));
             }
         }
     }
 
-    /// <summary>Ends all ways before the planes of the surfaces, which are the first contacts of a part: these give way to nothing.</summary>
+    /// <summary>Ends all ways before the planes of surfaces, which are the first contacts of a part and give way to nothing.</summary>
     private void KeepInFront(int index)
     {
         var group = _groups[index];
