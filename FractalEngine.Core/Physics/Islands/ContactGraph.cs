@@ -253,6 +253,9 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
         }
 
         var offset = first.Position - second.Position;
-        return Vector.Dot(RelativeVelocity(in pair), offset) > first.SpeedGain * offset.Length();
+        var distance = offset.Length();
+        // Those that overlap come apart only as an island: each alone would start within the other.
+        var minDistance = first.Radius + second.Radius - ContactTolerances.Slop(Math.Min(first.Radius, second.Radius), first.Position);
+        return Vector.Dot(RelativeVelocity(in pair), offset) > first.SpeedGain * distance && distance >= minDistance;
     }
 }

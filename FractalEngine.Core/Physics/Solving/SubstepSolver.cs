@@ -44,6 +44,11 @@ internal sealed class SubstepSolver
     private const int MaxPushes = 40;
     private const int PushedContacts = 60_000;
 
+    // What goes several radii in a step may end deep in others: more pushes, and searches for what they make balls meet.
+    private const double DeepOverlap = 0.15;
+    private const int MaxDeepPushes = 200;
+    private const int MaxSearches = 3;
+
     // Relative to what gravity and forces add to the speed, and to the radius: less is what the rounds leave of it, and the ball rests.
     private const double RestFraction = 1e-10;
 
@@ -164,8 +169,12 @@ internal sealed class SubstepSolver
             RunAll(_integrate);
         }
 
-        FindUnplanned();
-        PushApart();
+        for (var search = 0; search < MaxSearches && (search == 0 || _unplanned.Count > 0); search++)
+        {
+            FindUnplanned();
+            PushApart();
+        }
+
 
         RunAll(_store);
         return isConverged || _isLarge;
@@ -244,7 +253,7 @@ internal sealed class SubstepSolver
     {
         var worst = double.PositiveInfinity;
         var maxPushes = Math.Clamp(PushedContacts / Math.Max(1, _island.RowCount), MinPushes, MaxPushes);
-        for (var i = 0; i < maxPushes && worst > MaxOverlap; i++)
+        for (var i = 0; worst > (i < maxPushes ? MaxOverlap : DeepOverlap) && i < MaxDeepPushes; i++)
         {
             RunAll(_push);
             worst = Push(CollectionsMarshal.AsSpan(_unplanned));

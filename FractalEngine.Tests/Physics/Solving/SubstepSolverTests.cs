@@ -75,6 +75,17 @@ public sealed class SubstepSolverTests
         Assert.All(setup.Bodies, static body => Assert.Equal(Vector.Zero, body.Velocity));
     }
 
+    /// <summary>Each alone would start within the other, and could go nowhere.</summary>
+    [Theory]
+    [InlineData(0.9, 1)]
+    [InlineData(1, 0)]
+    public void Islands_OfBallsThatSeparate_AreThoseThatOverlap(double distance, int islands)
+    {
+        var setup = new GraphOfBodies(Ball(Vector.Zero), Ball(distance * Vector.I) with { Velocity = 5 * Vector.I });
+        Assert.True(setup.TryGroup(Step));
+        Assert.Equal(islands, setup.Graph.Islands.Count);
+    }
+
     [Fact]
     public void Solve_OfBallsAtOnePlace_StaysFinite()
     {
