@@ -92,7 +92,7 @@ public sealed partial class Body
     /// <summary>How far the planned path leads.</summary>
     internal Vector PlannedDisplacement { get; set; }
 
-    /// <summary>True for a body that was of a large island last, see <see cref="ContactTolerances.HeapMargin"/>.</summary>
+    /// <summary>True for a body that was of an island of balls last, see <see cref="ContactTolerances.HeapMargin"/>.</summary>
     internal bool HasHeapMargin { get; set; }
 
     /// <summary>Energy of motion and rotation at the beginning of the planned path, joules.</summary>

@@ -9,8 +9,8 @@ internal static class ContactTolerances
     public const double NeighbourRadiusFactor = 1 + 1e-6;
 
     /// <summary>
-    /// Relative to the smaller radius: balls of large islands stay up to so far apart where they touch. What their solve leaves of an
-    /// approach uses that up first, so that they rarely overlap.
+    /// Relative to the smaller radius: balls of one island still count as touching up to such a gap in the next step. A ball that slides
+    /// over another gets about so far from it in a substep.
     /// </summary>
     public const double HeapMargin = 1e-3;
 
@@ -37,7 +37,7 @@ internal static class ContactTolerances
     /// <summary>Largest gap at which two balls count as touching, in scene units.</summary>
     /// <param name="radius">Radius of the smaller one.</param>
     /// <param name="rounding">The <see cref="Slop"/> of a radius of 0 where they are.</param>
-    /// <param name="keepsMargin">True for two balls of a large island.</param>
+    /// <param name="keepsMargin">True for two balls that were of islands in the step before.</param>
     public static double TouchDistance(double radius, double rounding, bool keepsMargin) =>
         ((SlopFraction + (keepsMargin ? HeapMargin : 0)) * radius) + rounding;
 }

@@ -12,7 +12,7 @@ internal sealed partial class ContactGraph
     private Island _cutIsland;
 
     /// <summary>Makes islands of the joined sets, and contacts of their pairs and surfaces.</summary>
-    /// <param name="onlyImpacts">True to make none for large islands that cannot bounce: their step's solve has their impacts.</param>
+    /// <param name="onlyImpacts">True to make none for islands of balls that cannot bounce: their substeps have their impacts.</param>
     public void Group(bool onlyImpacts)
     {
         _islands.Clear();

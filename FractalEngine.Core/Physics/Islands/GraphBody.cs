@@ -30,7 +30,7 @@ internal struct GraphBody
     /// <summary>True for a body that has slept for some time, see <see cref="Body.IsIdle"/>.</summary>
     public bool IsIdle;
 
-    /// <summary>True for a body that was of a large island last, see <see cref="Body.HasHeapMargin"/>.</summary>
+    /// <summary>True for a body that was of an island of balls last, see <see cref="Body.HasHeapMargin"/>.</summary>
     public bool HasHeapMargin;
 
     /// <summary>What rounding adds to gaps so far from the origin.</summary>
