@@ -110,6 +110,13 @@ internal struct BallContact
         return gap;
     }
 
+    /// <summary>The gap where both are, scene units.</summary>
+    public readonly double GapOf(in BallState first, in BallState second)
+    {
+        var offset = _offset + (first.Displacement - second.Displacement);
+        return (IsBall ? Math.Sqrt(Vector256.Dot(offset, offset)) : Vector256.Dot(offset, _normal)) - _minDistance;
+    }
+
     /// <summary>Begins a substep: with the impulses of the one before.</summary>
     /// <param name="first">The first ball.</param>
     /// <param name="second">The second ball.</param>

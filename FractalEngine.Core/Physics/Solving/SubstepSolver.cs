@@ -45,6 +45,7 @@ internal sealed class SubstepSolver
     private const int PushedContacts = 60_000;
 
     // What goes several radii in a step may end deep in others: more pushes, and searches for what they make balls meet.
+    private const double MaxFinalOverlap = 0.045;
     private const double DeepOverlap = 0.15;
     private const int MaxDeepPushes = 200;
     private const int MaxSearches = 3;
@@ -73,6 +74,7 @@ internal sealed class SubstepSolver
     private readonly Action<int> _extrapolate;
     private readonly Action<int> _integrate;
     private readonly Action<int> _push;
+    private readonly Action<int> _keepInFront;
     private readonly Action<int> _store;
 
     // The last group has the contacts between parts.
@@ -110,6 +112,7 @@ internal sealed class SubstepSolver
         _extrapolate = Extrapolate;
         _integrate = Integrate;
         _push = Push;
+        _keepInFront = KeepInFront;
         _store = Store;
     }
 
@@ -175,6 +178,11 @@ internal sealed class SubstepSolver
             PushApart();
         }
 
+
+        RunAll(_keepInFront);
+        while (ReturnOverlapping(_contacts.AsSpan(0, island.RowCount)) | ReturnOverlapping(CollectionsMarshal.AsSpan(_unplanned)))
+        {
+        }
 
         RunAll(_store);
         return isConverged || _isLarge;
@@ -536,6 +544,42 @@ internal sealed class SubstepSolver
         }
     }
 
+    /// <summary>
+    /// Puts balls back to where the step began that end deep in each other, and no faster than they were. What returns may overlap others
+    /// in turn, which return as well.
+    /// </summary>
+    /// <returns>True where one has returned.</returns>
+    private bool ReturnOverlapping(Span<BallContact> contacts)
+    {
+        var hasReturned = false;
+        foreach (ref readonly var contact in contacts)
+        {
+            ref var first = ref _states[contact.First];
+            ref var second = ref _states[contact.Second];
+            var gap = contact.GapOf(in first, in second);
+            if (contact.IsBall && gap < -MaxFinalOverlap * contact.SmallerRadius && gap < contact.GapOf(default, default))
+            {
+                hasReturned |= Return(contact.First, ref first) | (contact.Second < FirstSurface && Return(contact.Second, ref second));
+            }
+        }
+
+        return hasReturned;
+    }
+
+    private bool Return(int index, ref BallState state)
+    {
+        if (state.Displacement == Vector256<double>.Zero)
+        {
+            return false;
+        }
+
+        var limit = _bodies[index].Velocity.Length();
+        var speed = SimdAffineMap.ToVector(state.Velocity).Length();
+        state.Velocity *= Vector256.Create(speed > limit ? limit / speed : 1);
+        state.Displacement = Vector256<double>.Zero;
+        return true;
+    }
+
     /// <summary>Ends all ways before the planes of surfaces, which are the first contacts of a part and give way to nothing.</summary>
     private void KeepInFront(int index)
     {
@@ -554,7 +598,6 @@ internal sealed class SubstepSolver
 
     private void Store(int index)
     {
-        KeepInFront(index);
         foreach (var i in BodiesOf(index))
         {
             ref readonly var state = ref _states[i];
