@@ -25,7 +25,7 @@ internal static class CameraText
     /// <exception cref="UsageException">There are fewer than two cameras.</exception>
     public static CameraPath ReadPath(string path, Handedness handedness)
     {
-        var source = StandardInput.ReadOrFile(path, ParsingLimits.MaxDescriptionBytes);
+        var source = StandardInput.ReadOrFile(path, ParsingLimits.DescriptionBytes.Value);
         Camera[] cameras =
         [
             .. source.Text.ReplaceLineEndings("\n").Split('\n')
