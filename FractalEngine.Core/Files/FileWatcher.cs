@@ -85,7 +85,7 @@ public sealed class FileWatcher : IDisposable
         }
     }
 
-    /// <summary>Examines the files without the lock, for which the window would have to wait.</summary>
+    /// <summary>Examines the files without the lock, for which callers would have to wait.</summary>
     private void Check()
     {
         ImmutableDictionary<string, FileStamp> loaded;

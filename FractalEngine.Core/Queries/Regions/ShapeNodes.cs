@@ -98,7 +98,7 @@ internal sealed class ShapeNodes
 
     private readonly record struct Entry(ShapeNode Node, int Parent, int ChildIndex, int Depth, int FirstChild, int ChildCount);
 
-    /// <summary>A triangle of a leaf.</summary>
+    /// <summary>A triangle of a leaf, where the query sees it.</summary>
     /// <param name="Face">Its index in the base mesh.</param>
     /// <param name="Corners">In the frame of the query.</param>
     /// <param name="Box">The box around it.</param>
