@@ -20,7 +20,7 @@ public sealed partial class PhysicsWorld
             }
         }
 
-        MoveObstructing(character, seconds);
+        var hasMovedAhead = MoveObstructing(character, seconds);
         foreach (var island in _planner.Graph.Islands)
         {
             if (island.IsOfBalls)
@@ -33,16 +33,13 @@ public sealed partial class PhysicsWorld
             }
         }
 
-        _islandMover.ReturnOverlapping();
+        _islandMover.ReturnOverlapping(_planner.HasDeepOverlaps || hasMovedAhead);
         foreach (var island in _planner.Graph.Islands)
         {
-            if (!island.IsOfBalls)
+            _energyGuard.FinishVelocities(in island);
+            if (!island.IsFree)
             {
-                _energyGuard.FinishVelocities(in island);
-                if (!island.IsFree)
-                {
-                    _islandMover.DampJammed(in island, seconds);
-                }
+                _islandMover.DampJammed(in island, seconds);
             }
 
             FinishIsland(in island, seconds);
@@ -88,19 +85,34 @@ public sealed partial class PhysicsWorld
     }
 
     /// <summary>Moves bodies of no island first that stand where those of islands will be, such as what falls ahead of them.</summary>
-    private void MoveObstructing(CharacterController? character, double seconds)
+    /// <returns>True where there are such.</returns>
+    private bool MoveObstructing(CharacterController? character, double seconds)
     {
         var hasMoved = false;
-        for (var pair = 0; _islandMover.FindObstructing(ref pair) is { } body;)
+        for (var pair = 0; _islandMover.FindObstructing(ref pair) is { } body; hasMoved = true)
         {
+            if (!hasMoved)
+            {
+                AddStartEnergies(-1);
+            }
+
             StepBody(body, character, seconds);
-            hasMoved = true;
         }
 
-        for (var i = 0; hasMoved && i < _bodies.Count; i++)
+        if (hasMoved)
         {
-            // It may have pushed them.
-            _bodies[i].PlannedStartEnergy = _bodies[i].KineticEnergy;
+            AddStartEnergies(1);
+        }
+
+        return hasMoved;
+    }
+
+    /// <summary>Takes or gives the energies that bodies have: between both, what has moved ahead may push them.</summary>
+    private void AddStartEnergies(double share)
+    {
+        foreach (var body in _bodies)
+        {
+            body.PlannedStartEnergy += share * body.KineticEnergy;
         }
     }
 
@@ -110,7 +122,7 @@ public sealed partial class PhysicsWorld
         var hasHeld = true;
         for (var pass = 0; pass < MaxPasses && hasHeld; pass++)
         {
-            _islandMover.FindUnplanned(in island, seconds);
+            _islandMover.FindUnplanned(in island);
             _islandMover.SeparateTargets(in island);
             hasHeld = false;
             foreach (var index in _planner.Graph.BodiesOf(in island))

@@ -74,6 +74,50 @@ public class ManyBodiesTests
         });
     });
 
+    /// <summary>Balls of very different sizes and masses that go many radii in a step.</summary>
+    [Fact]
+    public void Crowd_OfAnySpeedAndMass_StaysApartAndGainsNoEnergy() => Seeded.Run(6, random => CheckCrowd(random, 60, 40));
+
+    [Fact]
+    [Trait("Category", "Soak")]
+    public void Crowds_OfAnySpeedAndMass_StayApartAndGainNoEnergy() =>
+        Parallel.For(1, 200, seed => Seeded.RunOne(seed, random => CheckCrowd(random, 300, 60)));
+
+    private static void CheckCrowd(Random random, int maxCount, int steps)
+    {
+        const double Half = 2;
+        var settings = new PhysicsSettings { SleepSpeed = random.Next(2) == 0 ? 0 : null, MaxThreads = random.Next(1, 4) };
+        var gravity = random.Vector(Math.Pow(10, random.Between(0, 2)));
+        var world = TestWorlds.Create(gravity, settings, TestWorlds.Place(PhysicsMeshes.Scale(PhysicsMeshes.InwardCube, 2 * Half)));
+        var (size, speed) = (Math.Pow(10, random.Between(-1.5, -0.5)), Math.Pow(10, random.Between(-1, 2.5)));
+        for (var i = 0; i < maxCount; i++)
+        {
+            var radius = size * Math.Pow(10, random.Between(-1, 0));
+            var position = random.Vector(Half - radius);
+            if (world.Bodies.All(other => (other.Position - position).Length() > other.Radius + radius))
+            {
+                world.Add(new(position, radius)
+                {
+                    Velocity = random.Vector(speed), Mass = Math.Pow(10, random.Between(-1.5, 1.5)), Friction = random.Next(2) * 0.5,
+                    Restitution = random.Next(2) * random.NextDouble(), AngularVelocity = random.Vector(10),
+                });
+            }
+        }
+
+        // From where potential energy is positive all over the box.
+        double Energy() => world.Energy() + (2 * Half * gravity.Length() * world.Bodies.Sum(body => body.Description.Mass));
+        var energy = Energy();
+        world.Run(steps, () =>
+        {
+            var after = Energy();
+            Assert.True(after <= energy * (1 + 1e-3), $"from {energy:R} to {after:R} in step {world.StepCount}");
+            energy = after;
+            Assert.All(world.Bodies, static body =>
+                Assert.True(body.Position.MaxAbsComponent() + body.Radius <= Half + (MaxOverlap * body.Radius), $"{body}"));
+            CheckNoOverlap(world);
+        });
+    }
+
     private static void CheckPoured(int count, int steps, int seed)
     {
         const double Half = 3;

@@ -86,9 +86,6 @@ public sealed partial class Body
     /// <summary>Position at the beginning of the planned path.</summary>
     internal Vector PlannedStart { get; set; }
 
-    /// <summary>Velocity at the beginning of the planned path.</summary>
-    internal Vector PlannedVelocity { get; set; }
-
     /// <summary>How far the planned path leads.</summary>
     internal Vector PlannedDisplacement { get; set; }
 
@@ -109,7 +106,6 @@ public sealed partial class Body
 
     /// <summary>True once it has gone its planned way together with others, before what it met is looked at.</summary>
     internal bool IsMovedAhead { get; set; }
-
 
     /// <summary>True once it has ended its step together with others, and has still to tell those around it.</summary>
     internal bool IsFinished { get; set; }

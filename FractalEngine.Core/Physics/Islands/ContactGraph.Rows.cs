@@ -86,9 +86,9 @@ internal sealed partial class ContactGraph
 
         var body = bodies[pair.First];
         var other = bodies[pair.Second];
-        var limit = DeviationLimit(pair.First) + (_stepLength * body.AngularVelocity.Length() * body.MaxArm)
+        var limit = DeviationLimit(in _states[pair.First]) + (_stepLength * body.AngularVelocity.Length() * body.MaxArm)
             + (_stepLength * RelativeVelocity(in pair).Length());
-        limit += pair.IsSecondImmovable ? 0 : DeviationLimit(pair.Second) + (_stepLength * other.AngularVelocity.Length() * other.MaxArm);
+        limit += pair.IsSecondImmovable ? 0 : DeviationLimit(in _states[pair.Second]) + (_stepLength * other.AngularVelocity.Length() * other.MaxArm);
         for (var i = 0; i < body.BallCount; i++)
         {
             for (var j = 0; j < other.BallCount; j++)

@@ -85,8 +85,14 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
     /// <summary>How far a body that can move may get in the step. Never 0, which is for bodies that do not move.</summary>
     public double ReachOf(int body) => _states[body].Reach;
 
-    /// <summary>How far a body may get from where it would be without others, before it may meet what no contact knows of.</summary>
-    public double DeviationLimit(int body) => DeviationLimit(in _states[body]);
+    /// <summary>True for a body that gets farther from where it would be alone than was foreseen: it may meet what no contact knows of.</summary>
+    /// <param name="body">Index of the body.</param>
+    /// <param name="way">From where it is when the step begins.</param>
+    public bool HasDeviated(int body, Vector way)
+    {
+        var limit = DeviationLimit(in _states[body]);
+        return (way - (_stepLength * _states[body].Velocity)).LengthSquared() > limit * limit;
+    }
 
     /// <summary>True for a body of an island that is farther from where it was than any pair foresees.</summary>
     public bool IsBeyondReach(Body body)

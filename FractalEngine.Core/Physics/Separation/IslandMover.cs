@@ -12,6 +12,9 @@ namespace FractalEngine.Core.Physics.Separation;
 /// </summary>
 internal sealed class IslandMover
 {
+    /// <summary>Relative to the smaller radius: overlaps for which balls of islands return.</summary>
+    public const double MaxOverlapOfBalls = 0.05;
+
     // Relative to the radius: how far others may have moved to where a body unexpectedly goes.
     private const double SearchMargin = 0.5;
 
@@ -109,13 +112,13 @@ internal sealed class IslandMover
     }
 
     /// <summary>Sets the ways of all bodies, and finds those that others meet which have got farther than was foreseen.</summary>
-    public void FindUnplanned(in Island island, double stepLength)
+    public void FindUnplanned(in Island island)
     {
         foreach (var index in _graph.BodiesOf(in island))
         {
             var body = _bodies[index];
             _separator.SetBody(index, body.Target - body.PlannedStart, body.IsHeld ? 0 : 1 / body.Description.Mass);
-            if (HasDeviated(body, body.Target, stepLength))
+            if (_graph.HasDeviated(index, body.Target - body.PlannedStart))
             {
                 FindUnplanned(body);
             }
@@ -173,13 +176,6 @@ internal sealed class IslandMover
         }
     }
 
-    private bool HasDeviated(Body body, Vector position, double stepLength)
-    {
-        var free = body.PlannedStart + (stepLength * (body.PlannedVelocity + (0.5 * stepLength * body.FreeAcceleration)));
-        var limit = _graph.DeviationLimit(body.Index);
-        return (position - free).LengthSquared() > limit * limit;
-    }
-
     /// <summary>Puts an island back to where its step began, unless others have come there.</summary>
     public bool TryReturn(in Island island)
     {
@@ -225,21 +221,39 @@ internal sealed class IslandMover
 
     /// <summary>
     /// Puts bodies back to where they were that now overlap others, after those of all islands have moved. What returns may overlap
-    /// others in turn, which return as well; where all began, none overlapped.
+    /// others in turn, which return as well; where all began, none overlapped, or no less deeply.
     /// </summary>
-    public void ReturnOverlapping()
+    /// <param name="mayHaveDeepBalls">True where balls of islands may overlap deeply.</param>
+    public void ReturnOverlapping(bool mayHaveDeepBalls)
     {
         var hasOthers = false;
         foreach (var island in _graph.Islands)
         {
-            foreach (var index in island.IsOfBalls ? [] : _graph.BodiesOf(in island))
+            if (!mayHaveDeepBalls && island.IsOfBalls)
+            {
+                foreach (var index in _graph.BodiesOf(in island))
+                {
+                    mayHaveDeepBalls |= _bodies[index].IsHeld;
+                }
+            }
+
+            hasOthers |= !island.IsOfBalls;
+        }
+
+        if (!hasOthers && !mayHaveDeepBalls)
+        {
+            return;
+        }
+
+        foreach (var island in _graph.Islands)
+        {
+            foreach (var index in _graph.BodiesOf(in island))
             {
                 _grid.Update(index);
-                hasOthers = true;
             }
         }
 
-        while (hasOthers && (ReturnPairs() || ReturnBeyondReach()))
+        while (ReturnPairs() | ReturnUnforeseen())
         {
         }
     }
@@ -249,33 +263,46 @@ internal sealed class IslandMover
         var hasReturned = false;
         foreach (ref readonly var pair in _graph.Pairs)
         {
-            var first = _bodies[pair.First];
-            var second = _bodies[pair.Second];
-            if ((MayReturn(first) || MayReturn(second)) && BallPairs.AreOverlapping(first, second, MaxOverlap))
-            {
-                hasReturned |= Return(first);
-                hasReturned |= Return(second);
-            }
+            hasReturned |= Return(_bodies[pair.First], _bodies[pair.Second]);
         }
 
         return hasReturned;
     }
 
-    /// <summary>True for a body of an island in which none may overlap.</summary>
-    private bool MayReturn(Body body) => body.IslandIndex >= 0 && !_graph.Islands[body.IslandIndex].IsOfBalls;
+    /// <summary>Puts both of two bodies back that overlap.</summary>
+    private bool Return(Body first, Body second)
+    {
+        if (first.IslandIndex < 0 && second.IslandIndex < 0)
+        {
+            return false;
+        }
 
-    /// <summary>Puts bodies back that have got farther than any pair foresees and overlap any other, and that one with them.</summary>
-    private bool ReturnBeyondReach()
+        if (HasCompound(first) || HasCompound(second))
+        {
+            return BallPairs.AreOverlapping(first, second, MaxOverlap) && (Return(first) | Return(second));
+        }
+
+        return BallPairs.AreOverlapping(first, second, MaxOverlapOfBalls)
+            && (first.Position - second.Position).LengthSquared() < (StartOf(first) - StartOf(second)).LengthSquared()
+            && (Return(first) | Return(second));
+    }
+
+    private bool HasCompound(Body body) => body.IslandIndex >= 0 && _graph.Islands[body.IslandIndex].HasCompound;
+
+    private static Vector StartOf(Body body) => body.IslandIndex >= 0 ? body.PlannedStart : body.Position;
+
+    /// <summary>
+    /// Puts bodies back that overlap others of which no pair tells: where one has got farther than was foreseen, or was of no island and
+    /// has moved ahead.
+    /// </summary>
+    private bool ReturnUnforeseen()
     {
         var hasReturned = false;
-        foreach (var island in _graph.Islands)
+        foreach (var body in _bodies)
         {
-            foreach (var index in island.IsOfBalls ? [] : _graph.BodiesOf(in island))
+            if (body.IslandIndex >= 0 ? _graph.IsBeyondReach(body) : body.HasMoved)
             {
-                if (_graph.IsBeyondReach(_bodies[index]))
-                {
-                    hasReturned |= ReturnAmongAll(_bodies[index]);
-                }
+                hasReturned |= ReturnAmongAll(body);
             }
         }
 
@@ -285,16 +312,11 @@ internal sealed class IslandMover
     private bool ReturnAmongAll(Body body)
     {
         _neighbours.Clear();
-        _nearbyBodies.CollectOverlaps(
-            body.Position, body.Radius * (1 - MaxOverlap), body.Index, _neighbours);
+        _nearbyBodies.CollectOverlaps(body.Position, body.Radius, body.Index, _neighbours);
         var hasReturned = false;
         foreach (var neighbour in _neighbours)
         {
-            if (BallPairs.AreOverlapping(body, _bodies[neighbour], MaxOverlap))
-            {
-                hasReturned |= Return(body);
-                hasReturned |= Return(_bodies[neighbour]);
-            }
+            hasReturned |= Return(body, _bodies[neighbour]);
         }
 
         return hasReturned;
@@ -302,7 +324,7 @@ internal sealed class IslandMover
 
     private bool Return(Body body)
     {
-        if (!MayReturn(body)
+        if (body.IslandIndex < 0
             || (body.Position == body.PlannedStart && (!body.IsCompound || body.Orientation == body.PlannedStartOrientation)))
         {
             return false;

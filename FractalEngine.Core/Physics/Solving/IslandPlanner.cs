@@ -42,6 +42,9 @@ internal sealed partial class IslandPlanner(
     /// <summary>What has been solved so far.</summary>
     public IslandStatistics Statistics { get; private set; }
 
+    /// <summary>True once balls of the islands of this step may end deep in others.</summary>
+    public bool HasDeepOverlaps => _substeps.HasDeepOverlaps;
+
     /// <summary>Forgets what has been solved before.</summary>
     public void Reset()
     {
@@ -92,6 +95,7 @@ internal sealed partial class IslandPlanner(
     public void Plan(double stepLength)
     {
         Graph.Group(onlyImpacts: false);
+        _substeps.HasDeepOverlaps = false;
         for (var index = 0; index < Graph.Islands.Count; index++)
         {
             var island = Graph.Islands[index];
@@ -308,7 +312,6 @@ internal sealed partial class IslandPlanner(
             var body = bodies[index];
             var negligible = RestFraction * stepLength * body.FreeAcceleration.Length();
             var change = _solver.Bodies[index].Velocity - body.Velocity;
-            body.PlannedVelocity = body.Velocity;
             body.PlannedStartEnergy = body.KineticEnergy;
             if (change.MaxAbsComponent() <= negligible && body.Velocity.MaxAbsComponent() <= negligible
                 && _solver.Bodies[index].Spin.MaxAbsComponent() * body.Radius <= negligible)

@@ -4,6 +4,7 @@ using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics.Bodies;
 using FractalEngine.Core.Physics.Islands;
 using FractalEngine.Core.Physics.Rows;
+using FractalEngine.Core.Physics.Separation;
 using FractalEngine.Core.Threading;
 
 namespace FractalEngine.Core.Physics.Solving;
@@ -26,10 +27,11 @@ internal sealed class SubstepSolver
 
     // A small island takes rounds until it has converged; one of many contacts as many as solve so many.
     private const int MaxRounds = 250;
-    private const int ContactSolves = 3000;
+    private const int ContactSolves = 20_000;
+    private const int ContactSolvesOfLarge = 3000;
 
     // Relative to the largest impulse: a round that changes less has converged, and one that need not converge any further.
-    private const double Tolerance = 1e-9;
+    private const double Tolerance = 1e-6;
     private const double FineTolerance = 1e-13;
 
     // Relative to the momentum of a contact's bodies.
@@ -45,7 +47,6 @@ internal sealed class SubstepSolver
     private const int PushedContacts = 60_000;
 
     // What goes several radii in a step may end deep in others: more pushes, and searches for what they make balls meet.
-    private const double MaxFinalOverlap = 0.045;
     private const double DeepOverlap = 0.15;
     private const int MaxDeepPushes = 200;
     private const int MaxSearches = 3;
@@ -119,6 +120,9 @@ internal sealed class SubstepSolver
     /// <summary>Rounds of the last solve.</summary>
     public int Rounds { get; private set; }
 
+    /// <summary>True once balls may end deep in others, see <see cref="Separation.IslandMover.ReturnOverlapping"/>.</summary>
+    public bool HasDeepOverlaps { get; set; }
+
     private ReadOnlySpan<Group> Groups => _groups.AsSpan(0, ContactGraph.GroupCountOf(in _island));
 
     private int FirstSurface => _bodies.Count;
@@ -178,13 +182,13 @@ internal sealed class SubstepSolver
             PushApart();
         }
 
-
         RunAll(_keepInFront);
-        while (ReturnOverlapping(_contacts.AsSpan(0, island.RowCount)) | ReturnOverlapping(CollectionsMarshal.AsSpan(_unplanned)))
+        RunAll(_store);
+        foreach (var group in Groups)
         {
+            HasDeepOverlaps |= group.Overlap > IslandMover.MaxOverlapOfBalls;
         }
 
-        RunAll(_store);
         return isConverged || _isLarge;
     }
 
@@ -227,7 +231,7 @@ internal sealed class SubstepSolver
 
     private bool MakeRounds()
     {
-        var maxRounds = Math.Clamp(ContactSolves / Math.Max(1, _island.RowCount), 1, MaxRounds);
+        var maxRounds = Math.Clamp((_isLarge ? ContactSolvesOfLarge : ContactSolves) / Math.Max(1, _island.RowCount), 1, MaxRounds);
         var previousNorm = 0.0;
         for (var round = 1; ; round++)
         {
@@ -512,13 +516,10 @@ internal sealed class SubstepSolver
 
         foreach (var index in _graph!.BodiesOf(in _island))
         {
-            var body = _bodies[index];
             var way = SimdAffineMap.ToVector(_states[index].Displacement);
-            var freeWay = _stepLength * (body.Velocity + (0.5 * _stepLength * body.FreeAcceleration));
-            var limit = _graph.DeviationLimit(index);
-            if ((way - freeWay).LengthSquared() > limit * limit)
+            if (_graph.HasDeviated(index, way))
             {
-                FindUnplanned(body, way, maxWay);
+                FindUnplanned(_bodies[index], way, maxWay);
             }
         }
     }
@@ -544,42 +545,6 @@ internal sealed class SubstepSolver
         }
     }
 
-    /// <summary>
-    /// Puts balls back to where the step began that end deep in each other, and no faster than they were. What returns may overlap others
-    /// in turn, which return as well.
-    /// </summary>
-    /// <returns>True where one has returned.</returns>
-    private bool ReturnOverlapping(Span<BallContact> contacts)
-    {
-        var hasReturned = false;
-        foreach (ref readonly var contact in contacts)
-        {
-            ref var first = ref _states[contact.First];
-            ref var second = ref _states[contact.Second];
-            var gap = contact.GapOf(in first, in second);
-            if (contact.IsBall && gap < -MaxFinalOverlap * contact.SmallerRadius && gap < contact.GapOf(default, default))
-            {
-                hasReturned |= Return(contact.First, ref first) | (contact.Second < FirstSurface && Return(contact.Second, ref second));
-            }
-        }
-
-        return hasReturned;
-    }
-
-    private bool Return(int index, ref BallState state)
-    {
-        if (state.Displacement == Vector256<double>.Zero)
-        {
-            return false;
-        }
-
-        var limit = _bodies[index].Velocity.Length();
-        var speed = SimdAffineMap.ToVector(state.Velocity).Length();
-        state.Velocity *= Vector256.Create(speed > limit ? limit / speed : 1);
-        state.Displacement = Vector256<double>.Zero;
-        return true;
-    }
-
     /// <summary>Ends all ways before the planes of surfaces, which are the first contacts of a part and give way to nothing.</summary>
     private void KeepInFront(int index)
     {
@@ -598,12 +563,15 @@ internal sealed class SubstepSolver
 
     private void Store(int index)
     {
+        var group = _groups[index];
+        group.Overlap = 0;
         foreach (var i in BodiesOf(index))
         {
             ref readonly var state = ref _states[i];
             var body = _bodies[i];
             var (velocity, spin) = (SimdAffineMap.ToVector(state.Velocity), SimdAffineMap.ToVector(state.Spin));
             var displacement = SimdAffineMap.ToVector(state.Displacement);
+            group.Overlap = _graph!.HasDeviated(i, displacement) ? double.PositiveInfinity : group.Overlap;
             var negligible = RestFraction * _stepLength * body.FreeAcceleration.Length();
             if (Math.Max(velocity.MaxAbsComponent(), body.Velocity.MaxAbsComponent()) <= negligible
                 && spin.MaxAbsComponent() * body.Radius <= negligible && displacement.MaxAbsComponent() <= RestFraction * body.Radius)
@@ -616,6 +584,8 @@ internal sealed class SubstepSolver
             }
 
             body.PlannedStart = body.Position;
+            body.PlannedStartEnergy = body.KineticEnergy;
+            (body.PlannedChange, body.PlannedSpinChange) = (Vector.Zero, Vector.Zero);
             body.NetAcceleration = (velocity - body.Velocity) / _stepLength;
             body.Velocity = velocity;
             body.AngularVelocity = spin;
@@ -623,10 +593,12 @@ internal sealed class SubstepSolver
             body.IsHeld = false;
         }
 
-        var group = _groups[index];
         var rows = _graph!.RowsOf(in _island);
         for (var i = group.First; i < group.End; i++)
         {
+            ref readonly var contact = ref _contacts[i];
+            var gap = contact.GapOf(in _states[contact.First], in _states[contact.Second]);
+            group.Overlap = Math.Max(group.Overlap, -gap / contact.SmallerRadius);
             rows[i].NormalImpulse = _substepCount * _contacts[i].NormalImpulse;
             rows[i].FrictionImpulse = _substepCount * _contacts[i].FrictionImpulse;
             rows[i].TurnImpulse = _contacts[i].SlowsTurns ? _substepCount * SimdAffineMap.ToVector(_turns[i].Impulse) : Vector.Zero;

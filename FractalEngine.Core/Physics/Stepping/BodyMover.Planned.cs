@@ -116,6 +116,18 @@ internal sealed partial class BodyMover
             body.Position = RemoveRoundingOverlap(body.Position, in hit);
             body.Contacts.Add(in hit, body.Position);
             body.PlannedHit = hit with { CachedNormal = hit.Normal(body.Position) };
+            StopBefore(body, in hit);
+        }
+    }
+
+    /// <summary>Takes the velocity with which a ball would go on into what holds it, unless it bounces there in the next step.</summary>
+    private static void StopBefore(Body body, in Contact hit)
+    {
+        var normal = hit.Normal(body.Position);
+        var approach = -Vector.Dot(body.Velocity + body.PlannedChange - hit.SurfaceVelocity(body.Position), normal);
+        if (approach > 0 && (body.Description.Restitution == 0 || approach <= body.RestitutionThreshold))
+        {
+            body.PlannedChange += approach * normal;
         }
     }
 

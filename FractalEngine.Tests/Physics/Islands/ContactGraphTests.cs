@@ -169,7 +169,9 @@ public sealed class ContactGraphTests
         Assert.True(setup.TryGroup(Step));
         // v·t + a·t² + r/10 and the push.
         Near.Equal(1.25 + 0.5 + 0.05 + 0.5, setup.Graph.ReachOf(0), 1e-15);
-        Near.Equal(0.5 + 0.05 + 0.5, setup.Graph.DeviationLimit(0), 1e-15);
+        // Beside the straight way at its velocity.
+        Assert.False(setup.Graph.HasDeviated(0, new(1.049, 0.75, 1)));
+        Assert.True(setup.Graph.HasDeviated(0, new(1.051, 0.75, 1)));
         Near.Equal(0.05, setup.Graph.ReachOf(1), 1e-15);
         setup.Bodies[1].PlannedStart = setup.Bodies[1].Position;
         setup.Bodies[1].Position += 0.049 * Vector.J;

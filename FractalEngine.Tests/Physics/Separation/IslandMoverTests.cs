@@ -88,10 +88,10 @@ public sealed class IslandMoverTests
         var setup = Create(9, isFirstCompound: true);
         setup.Mover.SetTargets(setup.Graph.Islands[0]);
         setup.Bodies[0].Position = new(0.25, 0, 0);
-        setup.Mover.ReturnOverlapping();
+        setup.Mover.ReturnOverlapping(mayHaveDeepBalls: false);
         Assert.Equal((Vector.Zero, Vector.I, 1L), (setup.Bodies[0].Position, setup.Bodies[1].Position, setup.Mover.ReturnCount));
         setup.Bodies[0].Position = new(8e-7 / 2, 0, 0);
-        setup.Mover.ReturnOverlapping();
+        setup.Mover.ReturnOverlapping(mayHaveDeepBalls: false);
         Assert.Equal((8e-7 / 2, 1L), (setup.Bodies[0].Position.X, setup.Mover.ReturnCount));
     }
 
@@ -106,9 +106,37 @@ public sealed class IslandMoverTests
         setup.Grid.Update(2);
         setup.Mover.SetTargets(setup.Graph.Islands[0]);
         setup.Bodies[0].Position = new(0, height, 0);
-        setup.Mover.ReturnOverlapping();
+        setup.Mover.ReturnOverlapping(mayHaveDeepBalls: false);
         Assert.Equal(returns ? 0 : height, setup.Bodies[0].Position.Y);
         Assert.Equal((5, returns ? 1 : 0), (setup.Bodies[2].Position.Y, setup.Mover.ReturnCount));
+    }
+
+    /// <summary>Balls of which an overlap of more than 5 % of the smaller radius is known return, others stay.</summary>
+    [Theory]
+    [InlineData(0.03, true, false)]
+    [InlineData(0.02, true, true)]
+    [InlineData(0.03, false, true)]
+    public void ReturnOverlapping_OfBalls_PutsThoseBackThatAreDeep(double way, bool mayHaveDeepBalls, bool stays)
+    {
+        var setup = Create(9);
+        setup.Mover.SetTargets(setup.Graph.Islands[0]);
+        setup.Bodies[0].Position = new(way, 0, 0);
+        setup.Mover.ReturnOverlapping(mayHaveDeepBalls);
+        Assert.Equal(stays ? way : 0, setup.Bodies[0].Position.X);
+    }
+
+    /// <summary>Balls that began deep in each other may stay as they are, but come no nearer.</summary>
+    [Theory]
+    [InlineData(-0.1, true)]
+    [InlineData(0.1, false)]
+    public void ReturnOverlapping_OfBallsThatBeganDeep_LetsThemComeApart(double way, bool stays)
+    {
+        var setup = Create(9);
+        setup.Bodies[0].Position = new(0.5, 0, 0);
+        setup.Mover.SetTargets(setup.Graph.Islands[0]);
+        setup.Bodies[0].Position += way * Vector.I;
+        setup.Mover.ReturnOverlapping(mayHaveDeepBalls: true);
+        Assert.Equal(stays ? 0.5 + way : 0.5, setup.Bodies[0].Position.X);
     }
 
     /// <summary>Who gets less than half as far as its speed tells, eight times in a row, loses half of it.</summary>
@@ -146,7 +174,7 @@ public sealed class IslandMoverTests
         setup.Bodies[0].Target = new(0.1, 0, 0);
         var island = setup.Graph.Islands[0];
         setup.Mover.BeginIsland();
-        setup.Mover.FindUnplanned(in island, Step);
+        setup.Mover.FindUnplanned(in island);
         setup.Mover.SeparateTargets(in island);
         // As far as they overlap, or somewhat farther; the centre of mass stays.
         Near.Equal(1.3, (3 * setup.Bodies[0].Target.X) + setup.Bodies[1].Target.X, 1e-14);
@@ -154,7 +182,7 @@ public sealed class IslandMoverTests
         setup.Bodies[1].IsHeld = true;
         setup.Bodies[1].Target = Vector.I;
         setup.Bodies[0].Target = new(0.1, 0, 0);
-        setup.Mover.FindUnplanned(in island, Step);
+        setup.Mover.FindUnplanned(in island);
         setup.Mover.SeparateTargets(in island);
         Assert.InRange(setup.Bodies[0].Target.X, -0.04, 1e-6);
         Assert.Equal(Vector.I, setup.Bodies[1].Target);
@@ -173,7 +201,7 @@ public sealed class IslandMoverTests
         setup.Bodies[0].Target = new(4, height, 0);
         var island = setup.Graph.Islands[0];
         setup.Mover.BeginIsland();
-        setup.Mover.FindUnplanned(in island, Step);
+        setup.Mover.FindUnplanned(in island);
         setup.Mover.SeparateTargets(in island);
         var (first, last) = (setup.Bodies[0].Target, setup.Bodies[4].Target);
         Assert.InRange((first - last).Length(), 1 - 1e-6, meets ? 1.04 : 1.1 + 1e-12);
@@ -194,13 +222,13 @@ public sealed class IslandMoverTests
         setup.Mover.AddSurface(
             body, new Contact(new(0, -0.75, 0), 0.5, Vector.Zero, Contact.NoBody, IsFlat: true) { CachedNormal = Vector.J });
         Assert.False(body.IsHeld);
-        setup.Mover.FindUnplanned(in island, Step);
+        setup.Mover.FindUnplanned(in island);
         setup.Mover.SeparateTargets(in island);
         Near.Equal(-0.25, body.Target.Y, 1e-9);
         // The next island knows nothing of it.
         setup.Mover.BeginIsland();
         body.Target = new(0, -0.75, 0);
-        setup.Mover.FindUnplanned(in island, Step);
+        setup.Mover.FindUnplanned(in island);
         setup.Mover.SeparateTargets(in island);
         Assert.Equal(-0.75, body.Target.Y);
     }
