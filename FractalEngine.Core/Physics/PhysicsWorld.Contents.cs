@@ -258,7 +258,7 @@ public sealed partial class PhysicsWorld
         _stepper.Reserve(_bodyRoom);
         _islands.Reserve(_bodyRoom);
         _planner.Reserve(_bodyRoom, _contactRoom);
-        _islandMover.Reserve(_bodyRoom, _contactRoom);
+        _islandMover.Reserve(_bodyRoom);
         _contactLog.Reserve(_contactRoom);
     }
 

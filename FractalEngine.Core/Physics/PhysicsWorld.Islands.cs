@@ -6,31 +6,13 @@ namespace FractalEngine.Core.Physics;
 /// <content>How the bodies of islands move, which have been planned.</content>
 public sealed partial class PhysicsWorld
 {
-    // Times that the bodies of an island go around one that something unforeseen holds.
-    private const int MaxPasses = 4;
-
     /// <summary>Moves the bodies of all islands at once.</summary>
     private void MoveIslands(CharacterController? character, double seconds)
     {
-        foreach (var island in _planner.Graph.Islands)
-        {
-            if (!island.IsOfBalls)
-            {
-                _islandMover.SetTargets(in island);
-            }
-        }
-
         var hasMovedAhead = MoveObstructing(character, seconds);
         foreach (var island in _planner.Graph.Islands)
         {
-            if (island.IsOfBalls)
-            {
-                MoveBalls(in island, character, seconds);
-            }
-            else
-            {
-                MoveIsland(in island, character, seconds);
-            }
+            MoveIsland(in island, character, seconds);
         }
 
         _islandMover.ReturnOverlapping(_planner.HasDeepOverlaps || hasMovedAhead);
@@ -46,8 +28,8 @@ public sealed partial class PhysicsWorld
         }
     }
 
-    /// <summary>Moves the balls of an island to their targets, or as far as surfaces let them.</summary>
-    private void MoveBalls(in Island island, CharacterController? character, double seconds)
+    /// <summary>Moves the bodies of an island to their targets, or as far as surfaces let them.</summary>
+    private void MoveIsland(in Island island, CharacterController? character, double seconds)
     {
         if (!MoveShared(in island, character, seconds))
         {
@@ -113,38 +95,6 @@ public sealed partial class PhysicsWorld
         foreach (var body in _bodies)
         {
             body.PlannedStartEnergy += share * body.KineticEnergy;
-        }
-    }
-
-    private void MoveIsland(in Island island, CharacterController? character, double seconds)
-    {
-        _islandMover.BeginIsland();
-        var hasHeld = true;
-        for (var pass = 0; pass < MaxPasses && hasHeld; pass++)
-        {
-            _islandMover.FindUnplanned(in island);
-            _islandMover.SeparateTargets(in island);
-            hasHeld = false;
-            foreach (var index in _planner.Graph.BodiesOf(in island))
-            {
-                var body = _bodies[index];
-                if (body.IsHeld || (pass > 0 && body.Target == body.CheckedTarget))
-                {
-                    continue;
-                }
-
-                MoveBody(body, character, seconds, isPlanned: true);
-                hasHeld |= body.IsHeld;
-                if (body.PlannedHit is { } hit && pass < MaxPasses - 2)
-                {
-                    _kinematics.Time = seconds;
-                    _islandMover.AddSurface(body, in hit);
-                }
-                else if (body.IsHeld)
-                {
-                    body.Target = body.Position;
-                }
-            }
         }
     }
 }

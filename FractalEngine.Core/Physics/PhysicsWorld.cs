@@ -98,7 +98,7 @@ public sealed partial class PhysicsWorld
         _findNearSurfaces = FindNearSurfaces;
         _movePlanned = MovePlanned;
         _finishPlanned = FinishPlanned;
-        _energyGuard = new(_bodies, _planner.Graph, _islandMover);
+        _energyGuard = new(_bodies, _planner.Graph);
         _staticOfObject = new StaticObject?[scene.Objects.Length];
         for (var i = 0; i < scene.Objects.Length; i++)
         {

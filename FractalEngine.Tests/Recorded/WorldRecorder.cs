@@ -53,7 +53,7 @@ internal sealed class WorldRecorder(string name, PhysicsWorld world)
         {
             var island = graph.Islands[i];
             _islands += (i + 1) * (island.RowCount + (3 * island.BodyCount) + (7 * island.PartCount)
-                + Bits(island.IsFree, island.IsPushed, island.HasMovingSurface, island.HasCompound));
+                + Bits(island.IsFree, island.HasMovingSurface, island.HasCompound));
             foreach (ref readonly var row in graph.RowsOf(in island))
             {
                 _forces.Add(row.NormalImpulse);

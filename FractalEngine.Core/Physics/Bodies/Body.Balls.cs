@@ -36,14 +36,8 @@ public sealed partial class Body
     /// <summary>Rotation vector of the planned turn of a compound, radians.</summary>
     internal Vector PlannedTurn { get; set; }
 
-    /// <summary>Index of the ball that <see cref="PlannedHit"/> has stopped.</summary>
-    internal int PlannedHitBall { get; set; }
-
     /// <summary>Orientation of a compound at the beginning of the planned path.</summary>
     internal Orientation PlannedStartOrientation { get; set; } = Orientation.Identity;
-
-    /// <summary>Orientation after the planned path, while it is tried whether the body can return.</summary>
-    internal Orientation MovedOrientation { get; set; } = Orientation.Identity;
 
     /// <summary>Largest distance of a ball's centre from the centre of mass, scene units; 0 for one ball.</summary>
     internal double MaxArm { get; private set; }
@@ -58,10 +52,6 @@ public sealed partial class Body
 
     /// <summary>Centre of a ball relative to the body's position.</summary>
     internal Vector BallOffset(int ball) => IsCompound ? Balls[ball].Offset : Vector.Zero;
-
-    /// <summary>Centre of a compound's ball relative to its position, after the planned turn.</summary>
-    internal Vector PlannedOffset(int ball) =>
-        PlannedStartOrientation.TurnedBy(PlannedTurn).Rotate(Scale * Description.Shape!.Balls[ball].Offset);
 
     /// <summary>True where the body touches a surface, or another body that it has met by itself.</summary>
     internal bool IsTouching
@@ -113,6 +103,22 @@ public sealed partial class Body
     {
         Velocity += impulse / Description.Mass;
         AngularVelocity += InverseInertiaTensor * Vector.Cross(arm, impulse);
+    }
+
+    /// <summary>Plans to lose the velocity that leads into what holds the body, unless it bounces there in the next step.</summary>
+    /// <param name="ball">Index of the ball that is held.</param>
+    /// <param name="hit">What holds it.</param>
+    internal void PlanStop(int ball, in Contact hit)
+    {
+        var normal = hit.Normal(BallCentre(ball));
+        var arm = BallOffset(ball);
+        var approach = Vector.Dot(hit.SurfaceVelocity(BallCentre(ball)) - VelocityAt(arm), normal);
+        if (approach > 0 && (Description.Restitution == 0 || approach <= RestitutionThreshold))
+        {
+            var impulse = approach / InverseMassAt(arm, normal) * normal;
+            PlannedChange += impulse / Description.Mass;
+            PlannedSpinChange += InverseInertiaTensor * Vector.Cross(arm, impulse);
+        }
     }
 
     /// <summary>Sets the orientation, and puts the balls of a compound where it has them.</summary>

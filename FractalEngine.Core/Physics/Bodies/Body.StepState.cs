@@ -86,9 +86,6 @@ public sealed partial class Body
     /// <summary>Position at the beginning of the planned path.</summary>
     internal Vector PlannedStart { get; set; }
 
-    /// <summary>How far the planned path leads.</summary>
-    internal Vector PlannedDisplacement { get; set; }
-
     /// <summary>True for a body that was of an island of balls last, see <see cref="ContactTolerances.HeapMargin"/>.</summary>
     internal bool HasHeapMargin { get; set; }
 
@@ -98,9 +95,6 @@ public sealed partial class Body
     /// <summary>Where the planned path leads.</summary>
     internal Vector Target { get; set; }
 
-    /// <summary>The target up to which the way is known to be free.</summary>
-    internal Vector CheckedTarget { get; set; }
-
     /// <summary>True where something stops the body on its planned path that no plan knew.</summary>
     internal bool IsHeld { get; set; }
 
@@ -109,9 +103,6 @@ public sealed partial class Body
 
     /// <summary>True once it has ended its step together with others, and has still to tell those around it.</summary>
     internal bool IsFinished { get; set; }
-
-    /// <summary>What has stopped the body on its planned path; null for nothing.</summary>
-    internal Contact? PlannedHit { get; set; }
 
     /// <summary>Faces that the body touches or may meet in this step, and no contact knows of.</summary>
     internal NearSurfaceList NearSurfaces { get; } = new();

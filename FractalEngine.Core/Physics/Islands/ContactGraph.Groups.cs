@@ -12,7 +12,7 @@ internal sealed partial class ContactGraph
     private Island _cutIsland;
 
     /// <summary>Makes islands of the joined sets, and contacts of their pairs and surfaces.</summary>
-    /// <param name="onlyImpacts">True to make none for islands of balls that cannot bounce: their substeps have their impacts.</param>
+    /// <param name="onlyImpacts">True to make none for islands that cannot bounce: their substeps have their impacts.</param>
     public void Group(bool onlyImpacts)
     {
         _islands.Clear();
@@ -22,7 +22,7 @@ internal sealed partial class ContactGraph
         CollectBodies();
         _count = 0;
         RowCount = 0;
-        if (onlyImpacts && _islands is [{ IsOfBalls: true } only] && !MayBounce(BodiesOf(in only)))
+        if (onlyImpacts && _islands is [var only] && !MayBounce(BodiesOf(in only)))
         {
             return;
         }
@@ -34,7 +34,7 @@ internal sealed partial class ContactGraph
             var firstPair = island > 0 ? _next[island - 1] : 0;
             var pairs = CollectionsMarshal.AsSpan(_sortedPairs)[firstPair.._next[island]];
             var partCount = _islands[island].HasCompound ? 1 : IslandParts.CountFor(pairs.Length);
-            if (onlyImpacts && _islands[island].IsOfBalls && !MayBounce(BodiesOf(_islands[island])))
+            if (onlyImpacts && !MayBounce(BodiesOf(_islands[island])))
             {
                 continue;
             }
@@ -58,7 +58,6 @@ internal sealed partial class ContactGraph
                 FirstRow = firstRow,
                 RowCount = _count - firstRow,
                 IsFree = (kinds & RowKinds.Immovable) == 0,
-                IsPushed = (kinds & RowKinds.Pushing) != 0,
                 HasMovingSurface = (kinds & RowKinds.Moving) != 0,
             };
         }

@@ -118,13 +118,13 @@ internal sealed partial class ContactGraph
             {
                 if (body.Contacts[i] is { IsBody: false } contact)
                 {
-                    _rows[place++] = ContactRows.OfSurface(body, 0, in contact, isAhead: false, _stepLength);
+                    _rows[place++] = ContactRows.OfSurface(body, 0, in contact, isAhead: false);
                 }
             }
 
             for (var i = 0; i < body.NearSurfaces.Count; i++)
             {
-                _rows[place++] = ContactRows.OfNearSurface(body, 0, in body.NearSurfaces[i], _stepLength);
+                _rows[place++] = ContactRows.OfNearSurface(body, 0, in body.NearSurfaces[i]);
             }
         }
 

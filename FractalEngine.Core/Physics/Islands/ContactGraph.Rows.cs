@@ -18,7 +18,6 @@ internal sealed partial class ContactGraph
         foreach (ref readonly var row in rows)
         {
             kinds |= row.Second >= 0 ? RowKinds.None : RowKinds.Immovable;
-            kinds |= row.SurfaceDisplacement != Vector.Zero ? RowKinds.Pushing : RowKinds.None;
             kinds |= row.IsOnMovingSurface ? RowKinds.Moving : RowKinds.None;
         }
 
@@ -66,13 +65,13 @@ internal sealed partial class ContactGraph
         {
             if (contacts[i] is { IsBody: false } contact)
             {
-                AddRow() = ContactRows.OfSurface(body, ball, in contact, isAhead: false, _stepLength);
+                AddRow() = ContactRows.OfSurface(body, ball, in contact, isAhead: false);
             }
         }
 
         for (var i = 0; i < nearSurfaces.Count; i++)
         {
-            AddRow() = ContactRows.OfNearSurface(body, ball, in nearSurfaces[i], _stepLength);
+            AddRow() = ContactRows.OfNearSurface(body, ball, in nearSurfaces[i]);
         }
     }
 
@@ -141,13 +140,12 @@ internal sealed partial class ContactGraph
         }
     }
 
-    /// <summary>What is among contacts: something immovable, what pushes, and what moves.</summary>
+    /// <summary>What is among contacts: something immovable, and surfaces that move.</summary>
     [Flags]
     private enum RowKinds
     {
         None = 0,
         Immovable = 1,
-        Pushing = 2,
-        Moving = 4,
+        Moving = 2,
     }
 }

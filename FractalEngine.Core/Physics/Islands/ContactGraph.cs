@@ -57,22 +57,6 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
     /// <summary>Index of the island of a body; negative for none.</summary>
     public int IslandOf(int body) => _islandOf[body];
 
-    /// <summary>Radius of the smallest body of an island; of a compound, that of its smallest ball.</summary>
-    public double MinRadiusOf(in Island island)
-    {
-        var radius = double.PositiveInfinity;
-        foreach (var index in BodiesOf(in island))
-        {
-            radius = Math.Min(radius, _states[index].IsCompound ? double.PositiveInfinity : _states[index].Radius);
-            for (var ball = 0; _states[index].IsCompound && ball < bodies[index].BallCount; ball++)
-            {
-                radius = Math.Min(radius, bodies[index].BallRadius(ball));
-            }
-        }
-
-        return radius;
-    }
-
     /// <summary>Number of bodies that are joined with others.</summary>
     public int JoinedCount => _sets.JoinedCount;
 

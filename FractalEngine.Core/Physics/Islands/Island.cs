@@ -16,15 +16,9 @@ internal readonly record struct Island(int FirstRow, int RowCount, int FirstBody
     /// <summary>True where it touches nothing immovable, so that its momentum is its own.</summary>
     public bool IsFree { get; init; }
 
-    /// <summary>True where a surface that it touches, or may meet, will be elsewhere at the end of the step; a belt will not.</summary>
-    public bool IsPushed { get; init; }
-
     /// <summary>True where a surface that it touches, or may meet, has any velocity: it moves, turns, or is a belt.</summary>
     public bool HasMovingSurface { get; init; }
 
     /// <summary>True where one of its bodies is a compound.</summary>
     public bool HasCompound { get; init; }
-
-    /// <summary>True where all of its bodies are balls.</summary>
-    public bool IsOfBalls => !HasCompound;
 }

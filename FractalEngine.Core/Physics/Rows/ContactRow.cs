@@ -23,14 +23,8 @@ internal struct ContactRow
     /// <summary>True for two balls, whose line of contact turns as they move; false for the plane of a surface.</summary>
     public bool IsBall;
 
-    /// <summary>True where the normal is that of an impact ahead, and stays as it is.</summary>
-    public bool HasFixedNormal;
-
     /// <summary>True for what will bounce when it touches, and gives no impulse before.</summary>
     public bool IsBouncingAhead;
-
-    /// <summary>True where a way ends when it touches what is ahead, even too slowly to bounce.</summary>
-    public bool IsMetExactly;
 
     /// <summary>True for what does not touch yet, and may meet in this step.</summary>
     public bool IsAhead;
@@ -92,7 +86,6 @@ internal struct ContactRow
     private Vector _turnImpulse;
     private Vector _surfaceVelocity;
     private Vector _surfaceSpin;
-    private Vector _surfaceDisplacement;
 
     /// <summary>Centre of the first ball relative to the first body's position.</summary>
     public readonly Vector FirstArm => HasArms ? _firstArm : Vector.Zero;
@@ -129,9 +122,6 @@ internal struct ContactRow
     /// <summary>Angular velocity of a surface that turns.</summary>
     public readonly Vector SurfaceSpin => _hasSurface ? _surfaceSpin : Vector.Zero;
 
-    /// <summary>How far a surface goes in the step, its belt aside.</summary>
-    public readonly Vector SurfaceDisplacement => _hasSurface ? _surfaceDisplacement : Vector.Zero;
-
     /// <summary>True for the contact with a surface that moves or turns.</summary>
     public readonly bool IsOnMovingSurface => Second < 0 && (SurfaceVelocity != Vector.Zero || SurfaceSpin != Vector.Zero);
 
@@ -145,9 +135,7 @@ internal struct ContactRow
     public static void Clear(ref ContactRow row)
     {
         row.IsBall = false;
-        row.HasFixedNormal = false;
         row.IsBouncingAhead = false;
-        row.IsMetExactly = false;
         row.IsAhead = false;
         row.HasArms = false;
         row._hasSurface = false;
@@ -166,16 +154,12 @@ internal struct ContactRow
     }
 
     /// <summary>Sets how the surface moves.</summary>
-    public void SetSurface(Vector velocity, Vector spin, Vector displacement)
+    public void SetSurface(Vector velocity, Vector spin)
     {
         _hasSurface = true;
         _surfaceVelocity = velocity;
         _surfaceSpin = spin;
-        _surfaceDisplacement = displacement;
     }
-
-    /// <summary>Radius of the smaller one of two balls, as a share of the distance between them.</summary>
-    public readonly double SmallerRadiusShare => Math.Min(FirstRadius, SecondRadius) / MinDistance;
 
     /// <summary>Says which contact it is, from step to step: both indices, and which of their balls.</summary>
     public readonly long Key => (((long)First << 32) | (uint)(Second + 1)) ^ ((long)FeatureId << FeatureShift);

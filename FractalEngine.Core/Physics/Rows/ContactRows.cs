@@ -15,8 +15,7 @@ internal static class ContactRows
     /// <param name="ball">Index of its ball.</param>
     /// <param name="contact">The surface.</param>
     /// <param name="isAhead">True where it is not touched yet.</param>
-    /// <param name="duration">Seconds for which it is planned.</param>
-    public static ContactRow OfSurface(Body body, int ball, in Contact contact, bool isAhead, double duration)
+    public static ContactRow OfSurface(Body body, int ball, in Contact contact, bool isAhead)
     {
         var row = new ContactRow
         {
@@ -40,8 +39,7 @@ internal static class ContactRows
 
         if (contact.Kinematic is { } kinematic)
         {
-            row.SetSurface(
-                contact.SurfaceVelocity(body.BallCentre(ball)), kinematic.AngularVelocity, duration * kinematic.VelocityAt(contact.Point));
+            row.SetSurface(contact.SurfaceVelocity(body.BallCentre(ball)), kinematic.AngularVelocity);
         }
 
         return row;
@@ -51,12 +49,11 @@ internal static class ContactRows
     /// <param name="body">The body.</param>
     /// <param name="ball">Index of its ball.</param>
     /// <param name="face">The face, with its normal.</param>
-    /// <param name="duration">Seconds for which it is planned.</param>
-    public static ContactRow OfNearSurface(Body body, int ball, in Contact face, double duration)
+    public static ContactRow OfNearSurface(Body body, int ball, in Contact face)
     {
         var centre = body.BallCentre(ball);
         var gap = Vector.Dot(face.PointToCentre(centre), face.CachedNormal) - body.BallRadius(ball);
-        var row = OfSurface(body, ball, in face, gap > ContactTolerances.Slop(body.BallRadius(ball), centre), duration);
+        var row = OfSurface(body, ball, in face, gap > ContactTolerances.Slop(body.BallRadius(ball), centre));
         row.Normal = face.CachedNormal;
         return row;
     }

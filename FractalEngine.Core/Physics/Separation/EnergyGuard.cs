@@ -8,7 +8,7 @@ namespace FractalEngine.Core.Physics.Separation;
 /// Takes back what an island has gained in its planned motion: by rounding, by forces that did not converge, or since a body was stopped
 /// by something that no plan knew. Its velocities are scaled, about that of its centre of mass where it touches nothing immovable.
 /// </summary>
-internal sealed class EnergyGuard(List<Body> bodies, ContactGraph graph, IslandMover mover)
+internal sealed class EnergyGuard(List<Body> bodies, ContactGraph graph)
 {
     /// <summary>Gives the bodies of an island, all of which have moved, their new velocities, and checks their energy.</summary>
     public void FinishVelocities(in Island island)
@@ -24,10 +24,10 @@ internal sealed class EnergyGuard(List<Body> bodies, ContactGraph graph, IslandM
                 - (body.Description.Mass * Vector.Dot(body.FreeAcceleration, body.Position - body.PlannedStart));
         }
 
-        if (!(island.IsOfBalls && island.HasMovingSurface))
+        if (!island.HasMovingSurface)
         {
-            // The work of surfaces in substeps is not known.
-            Check(in island, gain - WorkOfSurfaces(in island));
+            // Surfaces that move do work, which is not known.
+            Check(in island, gain);
         }
     }
 
@@ -46,24 +46,6 @@ internal sealed class EnergyGuard(List<Body> bodies, ContactGraph graph, IslandM
             bodies[index].Velocity = centreVelocity + (scale * (bodies[index].Velocity - centreVelocity));
             bodies[index].AngularVelocity *= scale;
         }
-
-        if (scale == 0 && centreVelocity == Vector.Zero && !island.IsPushed && !island.IsOfBalls)
-        {
-            // What has lifted it has more energy than it can give back: it rests.
-            _ = mover.TryReturn(in island);
-        }
-    }
-
-    private double WorkOfSurfaces(in Island island)
-    {
-        var work = 0.0;
-        foreach (ref readonly var row in island.HasMovingSurface ? graph.RowsOf(in island) : [])
-        {
-            work += Vector.Dot((row.NormalImpulse * row.Normal) + row.FrictionImpulse, row.SurfaceVelocity)
-                + Vector.Dot(row.TurnImpulse, row.SurfaceSpin);
-        }
-
-        return work;
     }
 
     private Vector CentreVelocity(in Island island)

@@ -8,8 +8,8 @@ namespace FractalEngine.Core.Physics.Solving;
 /// <summary>A contact of two balls, or of a ball with a plane, while its island is solved in substeps.</summary>
 internal struct BallContact
 {
-    // The impulse along the normal is the fourth number beside that across it.
-    private const int NormalLane = 3;
+    /// <summary>The impulse along the normal is the fourth number beside that across it.</summary>
+    public const int NormalLane = 3;
 
     // Relative to the distance at which two touch: with centres so near each other, neither is to any side of the other.
     private const double MinDistanceShare = 1e-9;
@@ -23,18 +23,33 @@ internal struct BallContact
     /// <summary>True for two balls, whose normal turns as they move; false for a plane.</summary>
     public readonly bool IsBall;
 
+    /// <summary>True where <see cref="ContactArms"/> belong to it.</summary>
+    public readonly bool HasArms;
+
+    /// <summary>Coulomb's coefficient.</summary>
+    public readonly double Friction;
+
+    /// <summary>Radius of the first ball.</summary>
+    public readonly double FirstRadius;
+
+    /// <summary>Radius of the second ball; 0 of a surface.</summary>
+    public readonly double SecondRadius;
+
+    /// <summary>Vector between the centres, or from the surface's point, before either has moved.</summary>
+    public Vector256<double> Offset;
+
+    /// <summary>Impulse across the normal in this substep, and along it in <see cref="NormalLane"/>.</summary>
+    public Vector256<double> Impulse;
+
+    /// <summary>Smallest allowed relative velocity along the normal, units per second.</summary>
+    public double MinNormalVelocity;
+
     private readonly bool _willBounce;
     private readonly bool _slowsTurns;
-    private readonly Vector256<double> _offset;
     private readonly double _minDistance;
     private readonly double _normalMass;
     private readonly double _frictionMass;
-    private readonly double _friction;
-    private readonly double _firstRadius;
-    private readonly double _secondRadius;
     private Vector256<double> _normal;
-    private Vector256<double> _impulse;
-    private double _minNormalVelocity;
 
     /// <summary>Creates a contact at the beginning of a step.</summary>
     /// <param name="row">The contact, with the impulse of a substep to begin with.</param>
@@ -48,22 +63,23 @@ internal struct BallContact
         First = row.First;
         Second = second;
         IsBall = row.IsBall;
+        HasArms = row.HasArms;
         _willBounce = willBounce;
         _slowsTurns = row.IsSlowedDown && masses.Inertia > 0;
-        _offset = SimdAffineMap.ToVector256(row.Offset);
+        Offset = SimdAffineMap.ToVector256(row.Offset);
         _minDistance = row.MinDistance;
         _normalMass = 1 / masses.Mass;
         _frictionMass = 1 / (masses.Mass + masses.Spin);
-        _friction = row.Friction;
-        _firstRadius = row.FirstRadius;
-        _secondRadius = row.SecondRadius;
+        Friction = row.Friction;
+        FirstRadius = row.FirstRadius;
+        SecondRadius = row.SecondRadius;
         _normal = SimdAffineMap.ToVector256(row.Normal);
-        _impulse = Vector256.Create(impulseShare)
+        Impulse = Vector256.Create(impulseShare)
             * Vector256.Create(row.FrictionImpulse.X, row.FrictionImpulse.Y, row.FrictionImpulse.Z, row.NormalImpulse);
     }
 
     /// <summary>The radius against which overlaps are measured: that of the smaller ball.</summary>
-    public readonly double SmallerRadius => IsBall && _secondRadius > 0 ? Math.Min(_firstRadius, _secondRadius) : _firstRadius;
+    public readonly double SmallerRadius => IsBall && SecondRadius > 0 ? Math.Min(FirstRadius, SecondRadius) : FirstRadius;
 
     /// <summary>True where the contact has friction against turning, see <see cref="TurnFriction"/>.</summary>
     public readonly bool SlowsTurns => _slowsTurns;
@@ -72,10 +88,10 @@ internal struct BallContact
     public readonly Vector256<double> Normal => _normal;
 
     /// <summary>Impulse along the normal in this substep.</summary>
-    public readonly double NormalImpulse => _impulse[NormalLane];
+    public readonly double NormalImpulse => Impulse[NormalLane];
 
     /// <summary>Impulse across the normal in this substep.</summary>
-    public readonly Vector FrictionImpulse => SimdAffineMap.ToVector(_impulse);
+    public readonly Vector FrictionImpulse => SimdAffineMap.ToVector(Impulse);
 
     /// <summary>Finds the normal and the gap where both are now, and moves them apart where they overlap.</summary>
     /// <param name="first">The first ball.</param>
@@ -86,7 +102,7 @@ internal struct BallContact
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public double Place(ref BallState first, ref BallState second, double share, double slop)
     {
-        var offset = _offset + (first.Displacement - second.Displacement);
+        var offset = Offset + (first.Displacement - second.Displacement);
         double gap;
         if (IsBall)
         {
@@ -113,35 +129,32 @@ internal struct BallContact
     /// <summary>The gap where both are, scene units.</summary>
     public readonly double GapOf(in BallState first, in BallState second)
     {
-        var offset = _offset + (first.Displacement - second.Displacement);
+        var offset = Offset + (first.Displacement - second.Displacement);
         return (IsBall ? Math.Sqrt(Vector256.Dot(offset, offset)) : Vector256.Dot(offset, _normal)) - _minDistance;
     }
 
-    /// <summary>Begins a substep: with the impulses of the one before.</summary>
-    /// <param name="first">The first ball.</param>
-    /// <param name="second">The second ball.</param>
+    /// <summary>Begins a substep: with the impulses of the one before, which both bodies must be given.</summary>
     /// <param name="gap">Their gap, scene units.</param>
     /// <param name="substep">Seconds.</param>
-    public void Begin(ref BallState first, ref BallState second, double gap, double substep)
+    public void Begin(double gap, double substep)
     {
         // What touches only at the end of the way has no impulse before it bounces, in the next step.
-        _minNormalVelocity = _willBounce ? double.NegativeInfinity : -Math.Max(0, gap) / substep;
-        if (_impulse != Vector256<double>.Zero)
-        {
-            var alongNormal = _impulse[NormalLane];
-            var across = _impulse.WithElement(NormalLane, 0);
-            across -= Vector256.Create(Vector256.Dot(across, _normal)) * _normal;
-            _impulse = across.WithElement(NormalLane, alongNormal);
-            Apply(ref first, ref second, alongNormal, across);
-        }
+        MinNormalVelocity = _willBounce ? double.NegativeInfinity : -Math.Max(0, gap) / substep;
+        var across = Impulse.WithElement(NormalLane, 0);
+        across -= Vector256.Create(Vector256.Dot(across, _normal)) * _normal;
+        Impulse = across.WithElement(NormalLane, NormalImpulse);
     }
 
-    /// <summary>Adds to the impulse along the direction in which the last rounds have changed it.</summary>
-    public void Extrapolate(ref BallState first, ref BallState second, Vector256<double> direction)
-    {
-        _impulse += direction;
-        Apply(ref first, ref second, direction[NormalLane], direction.WithElement(NormalLane, 0));
-    }
+    /// <summary>The vector of an impulse that is told across the normal and along it.</summary>
+    public readonly Vector256<double> Push(Vector256<double> impulse) =>
+        (Vector256.Create(impulse[NormalLane]) * _normal) + impulse.WithElement(NormalLane, 0);
+
+    /// <summary>Gives both balls an impulse.</summary>
+    /// <param name="first">The first ball.</param>
+    /// <param name="second">The second ball.</param>
+    /// <param name="impulse">Across the normal and along it.</param>
+    public readonly void Apply(ref BallState first, ref BallState second, Vector256<double> impulse) =>
+        Apply(ref first, ref second, impulse[NormalLane], impulse.WithElement(NormalLane, 0));
 
     /// <summary>Square of a change of the impulse, in the metric of the masses.</summary>
     public readonly double NormOf(Vector256<double> change) => Vector256.Dot(change, change) / _normalMass;
@@ -157,11 +170,11 @@ internal struct BallContact
     public Vector256<double> Solve(ref BallState first, ref BallState second)
     {
         var normal = _normal;
-        var impulse = _impulse;
+        var impulse = Impulse;
         var alongNormal = impulse[NormalLane];
         var relative = first.Velocity - second.Velocity;
         var speed = Vector256.Dot(relative, normal);
-        var newAlongNormal = Math.Max(0, alongNormal + (_normalMass * (_minNormalVelocity - speed)));
+        var newAlongNormal = Math.Max(0, alongNormal + (_normalMass * (MinNormalVelocity - speed)));
         if (newAlongNormal == 0 && impulse == Vector256<double>.Zero)
         {
             return Vector256<double>.Zero;
@@ -169,15 +182,15 @@ internal struct BallContact
 
         var across = Vector256<double>.Zero;
         var acrossChange = Vector256<double>.Zero;
-        if (_friction > 0)
+        if (Friction > 0)
         {
             // The change along the normal turns nothing, and leaves the slip as it is.
             var oldAcross = impulse.WithElement(NormalLane, 0);
-            var spin = (Vector256.Create(_firstRadius) * first.Spin) + (Vector256.Create(_secondRadius) * second.Spin);
+            var spin = (Vector256.Create(FirstRadius) * first.Spin) + (Vector256.Create(SecondRadius) * second.Spin);
             var slip = relative - (Vector256.Create(speed) * normal) + Cross(normal, spin);
             across = oldAcross - (Vector256.Create(_frictionMass) * slip);
             var squared = Vector256.Dot(across, across);
-            var limit = _friction * newAlongNormal;
+            var limit = Friction * newAlongNormal;
             if (squared > limit * limit)
             {
                 across *= Vector256.Create(limit / Math.Sqrt(squared));
@@ -186,7 +199,7 @@ internal struct BallContact
             acrossChange = across - oldAcross;
         }
 
-        _impulse = across.WithElement(NormalLane, newAlongNormal);
+        Impulse = across.WithElement(NormalLane, newAlongNormal);
         Apply(ref first, ref second, newAlongNormal - alongNormal, acrossChange);
         return acrossChange.WithElement(NormalLane, newAlongNormal - alongNormal);
     }
@@ -197,11 +210,11 @@ internal struct BallContact
         var push = (Vector256.Create(alongNormal) * _normal) + across;
         first.Velocity += Vector256.Create(first.InverseMass) * push;
         second.Velocity -= Vector256.Create(second.InverseMass) * push;
-        if (_friction > 0)
+        if (Friction > 0)
         {
             var torque = Cross(_normal, across);
-            first.Spin -= Vector256.Create(first.InverseInertia * _firstRadius) * torque;
-            second.Spin -= Vector256.Create(second.InverseInertia * _secondRadius) * torque;
+            first.Spin -= Vector256.Create(first.InverseInertia * FirstRadius) * torque;
+            second.Spin -= Vector256.Create(second.InverseInertia * SecondRadius) * torque;
         }
     }
 

@@ -22,7 +22,7 @@ internal struct BallState
     /// <summary>1/kg; 0 for what gives way to nothing.</summary>
     public double InverseMass;
 
-    /// <summary>1/(kg·unit²); 0 for what does not turn.</summary>
+    /// <summary>1/(kg·unit²); 0 for what does not turn, and for compounds: see <see cref="TurnedBody"/>.</summary>
     public double InverseInertia;
 
     /// <summary>Creates the state of a ball at the beginning of a step.</summary>
@@ -34,7 +34,7 @@ internal struct BallState
         Spin = SimdAffineMap.ToVector256(body.AngularVelocity);
         Gain = SimdAffineMap.ToVector256(substep * body.FreeAcceleration);
         InverseMass = 1 / body.Description.Mass;
-        InverseInertia = body.InverseInertia;
+        InverseInertia = body.IsCompound ? 0 : body.InverseInertia;
     }
 
     /// <summary>Creates a surface that moves.</summary>

@@ -20,6 +20,7 @@ internal sealed partial class ContactSolver
     // Small islands converge to rounding in a few rounds, and large ones need not.
     private const double FineTolerance = 1e-13;
     private const int FineRounds = 32;
+    private const int MaxRounds = 250;
 
     // Relative to a change of friction, in late rounds: where balls pass their slip to and fro, smaller changes come to an end.
     private const double LateFrictionShare = 0.5;
@@ -144,14 +145,30 @@ internal sealed partial class ContactSolver
 
     /// <summary>Solves for the impulses. Those of the rows must have been given to the bodies already.</summary>
     /// <param name="rows">All contacts of an island; receive the impulses.</param>
-    /// <param name="maxRounds">Number of rounds at most, see <see cref="RoundLimits"/>.</param>
     /// <returns>False where it has not converged: then the impulses are those of the last round.</returns>
-    public bool Solve(Span<ContactRow> rows, int maxRounds)
+    public bool Solve(Span<ContactRow> rows)
     {
         ReserveContacts(rows.Length);
         _rounding = ComputeRounding(rows);
-        return Iterate(rows, maxRounds);
+        var previousNorm = 0.0;
+        _frictionShare = 1;
+        for (Rounds = 1; Rounds < MaxRounds; Rounds++)
+        {
+            if (MakeRound(rows, Rounds <= FineRounds ? FineTolerance : Tolerance, out var norm))
+            {
+                return true;
+            }
+
+            _frictionShare = Rounds < MaxRounds / 2 ? 1 : LateFrictionShare;
+            // Directions that have not led to the end by now may never do so where balls begin and cease to slip.
+            var isConjugate = previousNorm > 0 && norm <= previousNorm && Rounds < MaxRounds / 2;
+            Extrapolate(rows, isConjugate ? norm / previousNorm : 0);
+            previousNorm = norm;
+        }
+
+        return MakeRound(rows, Tolerance, out _);
     }
+
 
     private void ReserveContacts(int count)
     {
@@ -160,27 +177,6 @@ internal sealed partial class ContactSolver
             _changes = new Direction[Math.Max(count, 2 * _changes.Length)];
             _directions = new Direction[_changes.Length];
         }
-    }
-
-    private bool Iterate(Span<ContactRow> rows, int maxRounds)
-    {
-        var previousNorm = 0.0;
-        _frictionShare = 1;
-        for (Rounds = 1; Rounds < maxRounds; Rounds++)
-        {
-            if (MakeRound(rows, Rounds <= FineRounds ? FineTolerance : Tolerance, out var norm))
-            {
-                return true;
-            }
-
-            _frictionShare = Rounds < maxRounds / 2 ? 1 : LateFrictionShare;
-            // Directions that have not led to the end by now may never do so where balls begin and cease to slip.
-            var isConjugate = previousNorm > 0 && norm <= previousNorm && Rounds < maxRounds / 2;
-            Extrapolate(rows, isConjugate ? norm / previousNorm : 0);
-            previousNorm = norm;
-        }
-
-        return MakeRound(rows, Tolerance, out _);
     }
 
     /// <summary>Impulses that rounding cannot tell from 0: those of bodies that barely approach have no larger digits.</summary>

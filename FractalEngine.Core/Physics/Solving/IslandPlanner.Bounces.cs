@@ -51,17 +51,6 @@ internal sealed partial class IslandPlanner
         return hasBounced;
     }
 
-    /// <summary>Stores what the solve has changed of bodies.</summary>
-    private void StoreChanges(ReadOnlySpan<int> members)
-    {
-        foreach (var index in members)
-        {
-            var body = bodies[index];
-            body.PlannedChange = body.IsResting ? Vector.Zero : _solver.Bodies[index].Velocity - body.Velocity;
-            body.PlannedSpinChange = body.IsResting ? Vector.Zero : _solver.Bodies[index].Spin - body.AngularVelocity;
-        }
-    }
-
     private static void FindRebounding(ReadOnlySpan<ContactRow> rows, List<int> rebounding)
     {
         rebounding.Clear();

@@ -51,64 +51,11 @@ internal sealed partial class IslandPlanner
         }
     }
 
-    /// <summary>Stores the turns of compounds, and what they mean for the contacts.</summary>
-    private void StoreTurns(ReadOnlySpan<int> island, Span<ContactRow> rows, double stepLength)
+    /// <summary>How much farther a ball of a compound gets by its turn than a straight way leads it.</summary>
+    private Vector TurnShift(Body body, Vector arm, double duration, bool isFirst)
     {
-        var hasCompound = false;
-        foreach (var index in island)
-        {
-            var body = bodies[index];
-            if (body.IsCompound)
-            {
-                hasCompound = true;
-                body.PlannedTurn = body.IsResting ? Vector.Zero : 0.5 * stepLength * (body.SpinBase + _solver.Bodies[index].Spin);
-            }
-        }
-
-        if (!hasCompound)
-        {
-            return;
-        }
-
-        foreach (ref var row in rows)
-        {
-            if (row.HasArms)
-            {
-                row.TurnShift = Turned(bodies[row.First], row.FirstArm) - row.FirstArm;
-                row.TurnShift -= row.Second >= 0 ? Turned(bodies[row.Second], row.SecondArm) - row.SecondArm : Vector.Zero;
-            }
-        }
-    }
-
-    private static Vector Turned(Body body, Vector arm) =>
-        body.IsCompound ? Orientation.Identity.TurnedBy(body.PlannedTurn).Rotate(arm) : arm;
-
-    /// <summary>Velocity of the first ball's centre relative to the second's, whose mean with that at the end is the way.</summary>
-    private Vector BaseVelocity(in ContactRow row)
-    {
-        var velocity = BaseVelocity(bodies[row.First], row.FirstArm);
-        return velocity - (row.Second >= 0 ? BaseVelocity(bodies[row.Second], row.SecondArm) : row.SurfaceVelocity);
-    }
-
-    private static Vector BaseVelocity(Body body, Vector arm) =>
-        body.IsCompound ? body.Velocity + Vector.Cross(body.SpinBase, arm) : body.Velocity;
-
-    /// <summary>How much farther the balls get by the turns of their bodies than straight ways lead them.</summary>
-    private Vector TurnShift(in ContactRow row, double stepLength, bool isFirst)
-    {
-        var shift = TurnShift(row.First, row.FirstArm, stepLength, isFirst);
-        return row.Second >= 0 ? shift - TurnShift(row.Second, row.SecondArm, stepLength, isFirst) : shift;
-    }
-
-    private Vector TurnShift(int index, Vector arm, double stepLength, bool isFirst)
-    {
-        if (!bodies[index].IsCompound)
-        {
-            return Vector.Zero;
-        }
-
-        var spin = isFirst ? bodies[index].FreeSpin : _solver.Bodies[index].Spin;
-        var turn = 0.5 * stepLength * (bodies[index].SpinBase + spin);
+        var spin = isFirst ? body.FreeSpin : _solver.Bodies[body.Index].Spin;
+        var turn = 0.5 * duration * (body.SpinBase + spin);
         return Orientation.Identity.TurnedBy(turn).Rotate(arm) - arm - Vector.Cross(turn, arm);
     }
 }

@@ -20,17 +20,12 @@ internal sealed partial class IslandPlanner(
 {
     // Times that the lines of contact are corrected for how far the bodies move in the step.
     private const int MaxTurns = 4;
-    private const int MinTurns = 2;
-    private const int MaxRowsOfManyTurns = 300;
 
     // Radians: lines of contact that turn by less need no further correction.
     private const double TurnTolerance = 1e-10;
 
     // Relative to the speed: what rounding leaves of a velocity along a normal.
     private const double RelativeTolerance = 1e-13;
-
-    // Relative to what gravity and forces add to the speed: less is what the solve leaves of it, and the body rests.
-    private const double RestFraction = 1e-10;
 
     private readonly ContactSolver _solver = new();
     private readonly ImpulseCache _cache = cache;
@@ -74,19 +69,8 @@ internal sealed partial class IslandPlanner(
                 continue;
             }
 
-            Load(Graph.BodiesOf(in island), rows);
-            if (island.IsOfBalls)
-            {
-                // What then still approaches is stopped by the solve of the step.
-                BounceAll(rows);
-            }
-            else
-            {
-                // The solve of the step ends what this one leaves.
-                _ = StopApproaches(rows, island.HasCompound ? RoundLimits.Many : RoundLimits.First);
-            }
-
-            StoreVelocities(Graph.BodiesOf(in island));
+            // What then still approaches is stopped by the solve of the step.
+            Bounce(in island, rows);
         }
     }
 
@@ -99,22 +83,20 @@ internal sealed partial class IslandPlanner(
         for (var index = 0; index < Graph.Islands.Count; index++)
         {
             var island = Graph.Islands[index];
-            var isConverged = island.IsOfBalls ? PlanBalls(index, in island, stepLength) : PlanOthers(index, in island, stepLength);
+            var isConverged = Plan(index, in island, stepLength);
             Statistics = new(Statistics.Solves + 1, Statistics.Rounds, Statistics.Unconverged + (isConverged ? 0 : 1));
         }
 
         _cache.Store(Graph, maxThreads);
     }
 
-    private bool PlanBalls(int index, in Island island, double stepLength)
+    private bool Plan(int index, in Island island, double stepLength)
     {
         var rows = Graph.RowsOf(in island);
         if (Graph.MayBounce(Graph.BodiesOf(in island)))
         {
             // Bodies that have joined without touching another may run into surfaces.
-            Load(Graph.BodiesOf(in island), rows);
-            BounceAll(rows);
-            StoreVelocities(Graph.BodiesOf(in island));
+            Bounce(in island, rows);
         }
 
         Join(in island, index);
@@ -131,19 +113,11 @@ internal sealed partial class IslandPlanner(
         return isConverged;
     }
 
-    private bool PlanOthers(int index, in Island island, double stepLength)
+    private void Bounce(in Island island, Span<ContactRow> rows)
     {
-        var members = Graph.BodiesOf(in island);
-        var rows = Graph.RowsOf(in island);
-        Join(in island, index);
-        var isConverged = FindForces(in island, stepLength);
-        StorePlan(members, stepLength);
-        StoreTurns(members, rows, stepLength);
-        FindRebounding(rows, _rebounding);
-        StopRebounds(rows, _rebounding);
-        StoreChanges(members);
-        Log(rows);
-        return isConverged;
+        Load(Graph.BodiesOf(in island), rows);
+        BounceAll(rows);
+        StoreVelocities(Graph.BodiesOf(in island));
     }
 
     /// <summary>Tells bodies which island they are of.</summary>
@@ -153,7 +127,7 @@ internal sealed partial class IslandPlanner(
         {
             bodies[index].IslandIndex = islandIndex;
             bodies[index].MayTouchBodies = true;
-            bodies[index].HasHeapMargin = island.IsOfBalls;
+            bodies[index].HasHeapMargin = true;
             bodies[index].PlannedStartOrientation = bodies[index].Orientation;
         }
     }
@@ -171,19 +145,8 @@ internal sealed partial class IslandPlanner(
         }
     }
 
-    private bool FindForces(in Island island, double stepLength)
-    {
-        var members = Graph.BodiesOf(in island);
-        var rows = Graph.RowsOf(in island);
-        Load(members, rows);
-        // Bodies that have joined without touching another may run into surfaces.
-        var isConverged = StopApproaches(rows);
-        StoreVelocities(members);
-        return FindForces(members, rows, stepLength) && isConverged;
-    }
-
     /// <summary>Takes away all approaching velocities: by bounces where they are fast enough, else by one solve.</summary>
-    private bool StopApproaches(Span<ContactRow> rows, int maxRounds = RoundLimits.Many)
+    private bool StopApproaches(Span<ContactRow> rows)
     {
         BounceAll(rows);
         var isApproaching = false;
@@ -203,7 +166,7 @@ internal sealed partial class IslandPlanner(
             row.MinNormalVelocity = row.IsAhead ? double.NegativeInfinity : 0;
         }
 
-        var isConverged = Solve(rows, RoundLimits.For(rows.Length, maxRounds));
+        var isConverged = Solve(rows);
         Log(rows);
         return isConverged;
     }
@@ -248,8 +211,7 @@ internal sealed partial class IslandPlanner(
         FindFreeTurns(island, stepLength);
         var isConverged = false;
         var turn = double.PositiveInfinity;
-        var maxTurns = rows.Length <= MaxRowsOfManyTurns ? MaxTurns : MinTurns;
-        for (var i = 0; i < maxTurns && turn > TurnTolerance; i++)
+        for (var i = 0; i < MaxTurns && turn > TurnTolerance; i++)
         {
             turn = 0;
             foreach (ref var row in rows)
@@ -275,7 +237,7 @@ internal sealed partial class IslandPlanner(
                 ApplyKnownImpulses(ref row);
             }
 
-            isConverged = Solve(rows, RoundLimits.For(rows.Length));
+            isConverged = Solve(rows);
         }
 
         return isConverged;
@@ -289,9 +251,9 @@ internal sealed partial class IslandPlanner(
         _solver.ApplyTurn(in row, row.TurnImpulse);
     }
 
-    private bool Solve(Span<ContactRow> rows, int maxRounds)
+    private bool Solve(Span<ContactRow> rows)
     {
-        var isConverged = _solver.Solve(rows, maxRounds);
+        var isConverged = _solver.Solve(rows);
         Statistics = Statistics with { Rounds = Statistics.Rounds + _solver.Rounds };
         return isConverged;
     }
@@ -302,27 +264,6 @@ internal sealed partial class IslandPlanner(
         {
             bodies[index].Velocity = _solver.Bodies[index].Velocity;
             bodies[index].AngularVelocity = _solver.Bodies[index].Spin;
-        }
-    }
-
-    private void StorePlan(ReadOnlySpan<int> island, double stepLength)
-    {
-        foreach (var index in island)
-        {
-            var body = bodies[index];
-            var negligible = RestFraction * stepLength * body.FreeAcceleration.Length();
-            var change = _solver.Bodies[index].Velocity - body.Velocity;
-            body.PlannedStartEnergy = body.KineticEnergy;
-            if (change.MaxAbsComponent() <= negligible && body.Velocity.MaxAbsComponent() <= negligible
-                && _solver.Bodies[index].Spin.MaxAbsComponent() * body.Radius <= negligible)
-            {
-                body.AngularVelocity = Vector.Zero;
-                body.Velocity = Vector.Zero;
-                change = Vector.Zero;
-            }
-
-            body.NetAcceleration = change / stepLength;
-            body.PlannedDisplacement = stepLength * (body.Velocity + (0.5 * stepLength * body.NetAcceleration));
         }
     }
 }

@@ -10,7 +10,7 @@ using FractalEngine.Core.Threading;
 namespace FractalEngine.Core.Physics.Solving;
 
 /// <summary>
-/// Finds how the balls of an island move in a step, in a few substeps. Each adds what gravity and forces give, takes away what approaches,
+/// Finds how the bodies of an island move in a step, in a few substeps. Each adds what gravity and forces give, takes away what approaches,
 /// moves all, and pushes apart what overlaps. A large island makes one round over its contacts in each; the next one goes on from there.
 /// </summary>
 /// <remarks>
@@ -85,6 +85,10 @@ internal sealed class SubstepSolver
     private BallState[] _states = [];
     private BallContact[] _contacts = [];
     private TurnFriction[] _turns = [];
+
+    // Used where an island has compounds.
+    private TurnedBody[] _turned = [];
+    private ContactArms[] _arms = [];
     private double[] _impulses = [];
     private Vector256<double>[] _changes = [];
     private Vector256<double>[] _directions = [];
@@ -145,6 +149,12 @@ internal sealed class SubstepSolver
             _changes = new Vector256<double>[_contacts.Length];
             _directions = new Vector256<double>[_contacts.Length];
         }
+
+        if (_bodies.Exists(static body => body.IsCompound) && (_turned.Length < _states.Length || _arms.Length < _contacts.Length))
+        {
+            _turned = new TurnedBody[_states.Length];
+            _arms = new ContactArms[_contacts.Length];
+        }
     }
 
     /// <summary>Impulse along the normal that a contact of the last island has had in the step.</summary>
@@ -186,7 +196,7 @@ internal sealed class SubstepSolver
         RunAll(_store);
         foreach (var group in Groups)
         {
-            HasDeepOverlaps |= group.Overlap > IslandMover.MaxOverlapOfBalls;
+            HasDeepOverlaps |= group.Overlap > IslandMover.MaxOverlap;
         }
 
         return isConverged || _isLarge;
@@ -283,6 +293,10 @@ internal sealed class SubstepSolver
         foreach (var body in BodiesOf(index))
         {
             _states[body] = new(_bodies[body], _substep);
+            if (_island.HasCompound)
+            {
+                _turned[body] = new(_bodies[body]);
+            }
         }
 
         var group = _groups[index];
@@ -296,13 +310,13 @@ internal sealed class SubstepSolver
             var other = row.Second >= 0 ? _bodies[row.Second] : null;
             var (mass, inertia) = (1 / first.Description.Mass, first.InverseInertia);
             var spin = inertia * row.FirstRadius * row.FirstRadius;
-            var velocity = first.Velocity;
+            var velocity = first.VelocityAt(row.FirstArm);
             if (other is not null)
             {
                 mass += 1 / other.Description.Mass;
                 inertia += other.InverseInertia;
                 spin += other.InverseInertia * row.SecondRadius * row.SecondRadius;
-                velocity -= other.Velocity;
+                velocity -= other.VelocityAt(row.SecondArm);
             }
             else if (row.IsOnMovingSurface)
             {
@@ -321,6 +335,11 @@ internal sealed class SubstepSolver
                 _turns[i] = new(in row, inertia, 1.0 / _substepCount);
                 _hasTurns = true;
             }
+
+            if (row.HasArms)
+            {
+                _arms[i] = new(in row);
+            }
         }
 
         group.Rounding = RelativeRounding * rounding;
@@ -332,6 +351,7 @@ internal sealed class SubstepSolver
         if (index == _states.Length)
         {
             Array.Resize(ref _states, 2 * _states.Length);
+            Array.Resize(ref _turned, _turned.Length > 0 ? _states.Length : 0);
         }
 
         _states[index] = new(row.SurfaceVelocity, row.SurfaceSpin);
@@ -355,12 +375,57 @@ internal sealed class SubstepSolver
             ref var first = ref _states[contact.First];
             ref var second = ref _states[contact.Second];
             var gap = contact.Place(ref first, ref second, PushShare, Slop);
-            contact.Begin(ref first, ref second, gap, _substep);
+            if (contact.HasArms)
+            {
+                _arms[i].Place(in contact, in first, in second, in _turned[contact.First], in _turned[contact.Second]);
+            }
+
+            contact.Begin(gap, _substep);
+            if (contact.Impulse != Vector256<double>.Zero)
+            {
+                Apply(i, ref contact, contact.Impulse);
+            }
+
             if (contact.SlowsTurns)
             {
-                _turns[i].Begin(ref first, ref second);
+                ApplyTurn(in contact, _turns[i].Impulse);
             }
         }
+    }
+
+    private void Apply(int index, ref BallContact contact, Vector256<double> impulse)
+    {
+        ref var first = ref _states[contact.First];
+        ref var second = ref _states[contact.Second];
+        if (contact.HasArms)
+        {
+            _arms[index].Apply(
+                ref first, ref second, in _turned[contact.First], in _turned[contact.Second], contact.Push(impulse));
+        }
+        else
+        {
+            contact.Apply(ref first, ref second, impulse);
+        }
+    }
+
+    private void ApplyTurn(in BallContact contact, Vector256<double> turn)
+    {
+        _states[contact.First].Spin += SpinChange(contact.First, turn);
+        _states[contact.Second].Spin -= SpinChange(contact.Second, turn);
+    }
+
+    private Vector256<double> SpinChange(int index, Vector256<double> turn) => _island.HasCompound
+        ? SimdAffineMap.ToVector256(_turned[index].InverseInertia * SimdAffineMap.ToVector(turn))
+        : Vector256.Create(_states[index].InverseInertia) * turn;
+
+    private Vector256<double> SolveArms(int index, ref BallContact contact) => _arms[index].Solve(ref contact,
+        ref _states[contact.First], ref _states[contact.Second], in _turned[contact.First], in _turned[contact.Second]);
+
+    private Vector256<double> StopTurning(int index, in BallContact contact)
+    {
+        var turn = _turns[index].Solve(in contact, in _states[contact.First], in _states[contact.Second]);
+        ApplyTurn(in contact, turn);
+        return turn;
     }
 
     private void SolveForwards(int index)
@@ -369,10 +434,11 @@ internal sealed class SubstepSolver
         for (var i = group.First; i < group.End; i++)
         {
             ref var contact = ref _contacts[i];
-            _changes[i] = contact.Solve(ref _states[contact.First], ref _states[contact.Second]);
+            _changes[i] = contact.HasArms ? SolveArms(i, ref contact)
+                : contact.Solve(ref _states[contact.First], ref _states[contact.Second]);
             if (_hasTurns && contact.SlowsTurns)
             {
-                _ = _turns[i].Solve(in contact, ref _states[contact.First], ref _states[contact.Second]);
+                _ = StopTurning(i, in contact);
             }
         }
     }
@@ -385,13 +451,14 @@ internal sealed class SubstepSolver
         for (var i = group.End - 1; i >= group.First; i--)
         {
             ref var contact = ref _contacts[i];
-            _changes[i] += contact.Solve(ref _states[contact.First], ref _states[contact.Second]);
+            _changes[i] += contact.HasArms ? SolveArms(i, ref contact)
+                : contact.Solve(ref _states[contact.First], ref _states[contact.Second]);
             change = Vector256.MaxNative(change, Vector256.Abs(_changes[i]));
             norm += contact.NormOf(_changes[i]);
             impulse = Math.Max(impulse, contact.NormalImpulse);
             if (_hasTurns && contact.SlowsTurns)
             {
-                var turn = _turns[i].Solve(in contact, ref _states[contact.First], ref _states[contact.Second]);
+                var turn = StopTurning(i, in contact);
                 change = Vector256.MaxNative(change, Vector256.Abs(turn) / Vector256.Create(contact.SmallerRadius));
             }
         }
@@ -411,7 +478,8 @@ internal sealed class SubstepSolver
             if (_share > 0)
             {
                 var direction = Vector256.Create(_share) * _directions[i];
-                contact.Extrapolate(ref _states[contact.First], ref _states[contact.Second], direction);
+                contact.Impulse += direction;
+                Apply(i, ref contact, direction);
                 _directions[i] = direction + _changes[i];
             }
             else
@@ -436,6 +504,7 @@ internal sealed class SubstepSolver
         {
             ref readonly var state = ref _states[body];
             energy += state.KineticEnergy;
+            energy += _island.HasCompound ? _turned[body].SpinEnergy(SimdAffineMap.ToVector(state.Spin)) : 0;
             mass += 1 / state.InverseMass;
             momentum += state.Velocity / Vector256.Create(state.InverseMass);
         }
@@ -475,6 +544,19 @@ internal sealed class SubstepSolver
             }
 
             state.Displacement += time * state.Velocity;
+            if (_bodies[body].IsCompound)
+            {
+                state.Spin = SimdAffineMap.ToVector256(_turned[body].Advance(SimdAffineMap.ToVector(state.Spin), _substep));
+            }
+        }
+
+        for (var i = group.First; _island.HasCompound && i < group.End; i++)
+        {
+            ref var contact = ref _contacts[i];
+            if (contact.HasArms)
+            {
+                _arms[i].Turn(ref contact, in _turned[contact.First], in _turned[contact.Second]);
+            }
         }
 
         for (var i = 0; index == 0 && i < _surfaceCount; i++)
@@ -517,7 +599,7 @@ internal sealed class SubstepSolver
         foreach (var index in _graph!.BodiesOf(in _island))
         {
             var way = SimdAffineMap.ToVector(_states[index].Displacement);
-            if (_graph.HasDeviated(index, way))
+            if (!_bodies[index].IsCompound && _graph.HasDeviated(index, way))
             {
                 FindUnplanned(_bodies[index], way, maxWay);
             }
@@ -532,6 +614,11 @@ internal sealed class SubstepSolver
         {
             // One of another island, or of none, moves later or has moved: this one keeps away from where it was.
             var other = _bodies[neighbour];
+            if (other.IsCompound)
+            {
+                continue;
+            }
+
             var second = other.IslandIndex == body.IslandIndex ? neighbour : FirstSurface;
             var offset = body.Position - other.Position;
             var distance = body.Radius + other.Radius;
@@ -589,6 +676,11 @@ internal sealed class SubstepSolver
             body.NetAcceleration = (velocity - body.Velocity) / _stepLength;
             body.Velocity = velocity;
             body.AngularVelocity = spin;
+            if (body.IsCompound)
+            {
+                body.PlannedTurn = spin == Vector.Zero && displacement == Vector.Zero ? Vector.Zero : _turned[i].RotationVector;
+            }
+
             body.Target = body.Position + displacement;
             body.IsHeld = false;
         }

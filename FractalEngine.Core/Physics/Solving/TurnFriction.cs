@@ -17,15 +17,12 @@ internal struct TurnFriction(in ContactRow row, double inverseInertia, double im
     /// <summary>Angular impulse in this substep.</summary>
     public Vector256<double> Impulse { get; private set; } = SimdAffineMap.ToVector256(impulseShare * row.TurnImpulse);
 
-    /// <summary>Begins a substep: with the angular impulse of the one before.</summary>
-    public readonly void Begin(ref BallState first, ref BallState second) => Apply(ref first, ref second, Impulse);
-
     /// <summary>Stops the turning of one ball against the other, as far as the friction allows.</summary>
     /// <param name="contact">The contact, whose impulse along the normal is known.</param>
     /// <param name="first">The first ball.</param>
     /// <param name="second">The second ball.</param>
-    /// <returns>By how much the angular impulse has changed.</returns>
-    public Vector256<double> Solve(in BallContact contact, ref BallState first, ref BallState second)
+    /// <returns>By how much the angular impulse has changed, which both must be given.</returns>
+    public Vector256<double> Solve(in BallContact contact, in BallState first, in BallState second)
     {
         var impulse = Impulse - (Vector256.Create(_inertia) * (first.Spin - second.Spin));
         var about = Vector256.Dot(impulse, contact.Normal);
@@ -36,13 +33,6 @@ internal struct TurnFriction(in ContactRow row, double inverseInertia, double im
         var spinningLimit = _spinningArm * contact.NormalImpulse;
         var change = rolling + (Vector256.Create(Math.Clamp(about, -spinningLimit, spinningLimit)) * contact.Normal) - Impulse;
         Impulse += change;
-        Apply(ref first, ref second, change);
         return change;
-    }
-
-    private static void Apply(ref BallState first, ref BallState second, Vector256<double> turn)
-    {
-        first.Spin += Vector256.Create(first.InverseInertia) * turn;
-        second.Spin -= Vector256.Create(second.InverseInertia) * turn;
     }
 }

@@ -97,7 +97,6 @@ internal sealed partial class BodyMover
     /// <param name="stepLength">Seconds.</param>
     public void MovePlanned(Body body, double stepLength)
     {
-        BeginMove(body);
         var way = body.Target - body.PlannedStart;
         if (way == Vector.Zero && _obstacles.MaxKinematicSpeed(new(body.PlannedStart, Vector.Zero, Vector.Zero), 0) == 0)
         {
@@ -115,34 +114,15 @@ internal sealed partial class BodyMover
         {
             body.Position = RemoveRoundingOverlap(body.Position, in hit);
             body.Contacts.Add(in hit, body.Position);
-            body.PlannedHit = hit with { CachedNormal = hit.Normal(body.Position) };
-            StopBefore(body, in hit);
-        }
-    }
-
-    /// <summary>Takes the velocity with which a ball would go on into what holds it, unless it bounces there in the next step.</summary>
-    private static void StopBefore(Body body, in Contact hit)
-    {
-        var normal = hit.Normal(body.Position);
-        var approach = -Vector.Dot(body.Velocity + body.PlannedChange - hit.SurfaceVelocity(body.Position), normal);
-        if (approach > 0 && (body.Description.Restitution == 0 || approach <= body.RestitutionThreshold))
-        {
-            body.PlannedChange += approach * normal;
+            body.PlanStop(0, in hit);
         }
     }
 
     /// <summary>Moves a body whose island has been solved to its target, on the way to which there is nothing.</summary>
     public static void MoveFreely(Body body)
     {
-        BeginMove(body);
         body.IsHeld = false;
         body.Position = body.Target;
-    }
-
-    private static void BeginMove(Body body)
-    {
-        body.CheckedTarget = body.Target;
-        body.PlannedHit = null;
     }
 
     /// <summary>Updates what a body touches after its planned way.</summary>

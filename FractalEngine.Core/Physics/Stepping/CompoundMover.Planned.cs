@@ -41,8 +41,6 @@ internal sealed partial class CompoundMover
     /// <param name="stepLength">Seconds.</param>
     public void MovePlanned(Body body, double stepLength)
     {
-        body.CheckedTarget = body.Target;
-        body.PlannedHit = null;
         body.Position = body.PlannedStart;
         body.SetOrientation(body.PlannedStartOrientation);
         var way = body.Target - body.PlannedStart;
@@ -67,8 +65,7 @@ internal sealed partial class CompoundMover
         if (isHit)
         {
             body.Balls[ball].Contacts.Add(in hit, body.BallCentre(ball));
-            body.PlannedHit = hit with { CachedNormal = hit.Normal(body.BallCentre(ball)) };
-            body.PlannedHitBall = ball;
+            body.PlanStop(ball, in hit);
         }
     }
 

@@ -69,7 +69,7 @@ internal sealed partial class CompoundMover
                 var contact = ball.Contacts[j];
                 if (!contact.IsBody)
                 {
-                    _rows.Add(ContactRows.OfSurface(body, i, in contact, isAhead: false, duration: 0));
+                    _rows.Add(ContactRows.OfSurface(body, i, in contact, isAhead: false));
                     continue;
                 }
 
@@ -89,9 +89,7 @@ internal sealed partial class CompoundMover
 
             for (var j = 0; j < ball.NearSurfaces.Count; j++)
             {
-                var row = ContactRows.OfNearSurface(body, i, in ball.NearSurfaces[j], duration: 0);
-                row.IsMetExactly = true;
-                _rows.Add(row);
+                _rows.Add(ContactRows.OfNearSurface(body, i, in ball.NearSurfaces[j]));
             }
         }
 

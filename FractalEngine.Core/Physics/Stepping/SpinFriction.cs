@@ -51,7 +51,7 @@ internal sealed class SpinFriction(List<Body> bodies)
             rows[i] = CreateRow(body, body.Contacts[i], position);
             if (body.Contacts[i].Kinematic is not null)
             {
-                rows[i].SetSurface(body.Contacts[i].SurfaceVelocity(position), Vector.Zero, Vector.Zero);
+                rows[i].SetSurface(body.Contacts[i].SurfaceVelocity(position), Vector.Zero);
             }
 
             _solver.ComputeMasses(ref rows[i]);
@@ -72,7 +72,7 @@ internal sealed class SpinFriction(List<Body> bodies)
         }
 
         solverBody.Velocity += duration * acceleration;
-        _ = _solver.Solve(rows, RoundLimits.For(rows.Length));
+        _ = _solver.Solve(rows);
         netAcceleration = (solverBody.Velocity - body.Velocity) / duration;
         spinAcceleration = (solverBody.Spin - body.AngularVelocity) / duration;
         var negligible = RestFraction * acceleration.Length();
@@ -99,7 +99,7 @@ internal sealed class SpinFriction(List<Body> bodies)
             {
                 rows[i].SetSurface(
                     rows[i].SurfaceVelocity + (duration * Vector.Cross(kinematic.AngularVelocity, body.Velocity - kinematic.Velocity)),
-                    kinematic.AngularVelocity, Vector.Zero);
+                    kinematic.AngularVelocity);
             }
         }
     }

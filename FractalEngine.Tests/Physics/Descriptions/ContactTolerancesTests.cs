@@ -23,21 +23,6 @@ public class ContactTolerancesTests
         Near.Equal(1.001001, ContactTolerances.SupportRadiusFactor, 1e-15);
     }
 
-    [Theory]
-    [InlineData(1, 250)]
-    [InlineData(500, 250)]
-    [InlineData(501, 119)]
-    [InlineData(2000, 30)]
-    [InlineData(4000, 15)]
-    [InlineData(4999, 12)]
-    [InlineData(100_000, 12)]
-    public void Rounds_OfAnIsland_FallWithItsContacts(int contacts, int expected)
-    {
-        Assert.Equal(expected, RoundLimits.For(contacts));
-        Assert.Equal(Math.Min(expected, 20), RoundLimits.For(contacts, 20));
-        Assert.Equal((32, 250), (RoundLimits.First, RoundLimits.Many));
-    }
-
     /// <summary>Two things meet when the mask of each has the other's layer.</summary>
     [Fact]
     public void Layers_OfAnyTwo_MeetWhereBothMasksSaySo()

@@ -18,7 +18,7 @@ internal sealed class GraphOfBodies
         Graph = new(Bodies, Nearby, 1);
         Graph.Reserve(Bodies.Count, 8 * Bodies.Count);
         Mover = new(Bodies, Graph, Grid, Nearby);
-        Mover.Reserve(Bodies.Count, 8 * Bodies.Count);
+        Mover.Reserve(Bodies.Count);
     }
 
     public List<Body> Bodies { get; }
@@ -32,6 +32,16 @@ internal sealed class GraphOfBodies
     public ContactGraph Graph { get; }
 
     public IslandMover Mover { get; }
+
+    /// <summary>Begins the planned ways of all bodies where they are.</summary>
+    public void BeginMove()
+    {
+        foreach (var body in Bodies)
+        {
+            (body.PlannedStart, body.Target, body.PlannedStartOrientation) = (body.Position, body.Position, body.Orientation);
+            body.IsHeld = false;
+        }
+    }
 
     /// <summary>Finds the islands of a step, whose bodies then know their island.</summary>
     /// <returns>False where a body had to be woken first.</returns>

@@ -5,34 +5,9 @@ using FractalEngine.Core.Physics.Rows;
 
 namespace FractalEngine.Tests.Physics.Islands;
 
-/// <summary>What islands are made of, and how many rounds they may take.</summary>
+/// <summary>What islands are made of.</summary>
 public sealed class IslandTests
 {
-    [Theory]
-    [InlineData(false)]
-    [InlineData(true)]
-    public void IsOfBalls_OfAnIsland_TellsWhetherOneIsACompound(bool hasCompound)
-    {
-        var island = new Island(1, 4, 2, 3) { HasCompound = hasCompound };
-        Assert.Equal((!hasCompound, 1, false, false), (island.IsOfBalls, island.PartCount, island.IsFree, island.IsPushed));
-    }
-
-    [Theory]
-    [InlineData(1, 250)]
-    [InlineData(100, 250)]
-    [InlineData(500, 250)]
-    [InlineData(501, 119)]
-    [InlineData(1000, 60)]
-    [InlineData(3125, 19)]
-    [InlineData(4000, 15)]
-    [InlineData(5000, 12)]
-    [InlineData(90_000, 12)]
-    public void For_ANumberOfContacts_BoundsTheRounds(int contacts, int rounds)
-    {
-        Assert.Equal(rounds, RoundLimits.For(contacts));
-        Assert.Equal(Math.Min(contacts <= 500 ? 32 : rounds, 32), RoundLimits.For(contacts, RoundLimits.First));
-    }
-
     [Fact]
     public void Order_OfPairs_IsThatOfTheFirstBodyAndThenOfTheSecond()
     {

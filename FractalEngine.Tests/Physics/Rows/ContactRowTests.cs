@@ -43,12 +43,11 @@ public sealed class ContactRowTests
     {
         var row = new ContactRow { Second = second };
         Assert.False(row.IsOnMovingSurface);
-        row.SetSurface(moves ? Vector.I : Vector.Zero, turns ? Vector.J : Vector.Zero, Vector.K);
+        row.SetSurface(moves ? Vector.I : Vector.Zero, turns ? Vector.J : Vector.Zero);
         Assert.Equal(isMoving, row.IsOnMovingSurface);
-        Assert.Equal((moves ? Vector.I : Vector.Zero, turns ? Vector.J : Vector.Zero, Vector.K),
-            (row.SurfaceVelocity, row.SurfaceSpin, row.SurfaceDisplacement));
+        Assert.Equal((moves ? Vector.I : Vector.Zero, turns ? Vector.J : Vector.Zero), (row.SurfaceVelocity, row.SurfaceSpin));
         ContactRow.Clear(ref row);
-        Assert.Equal((Vector.Zero, Vector.Zero, Vector.Zero), (row.SurfaceVelocity, row.SurfaceSpin, row.SurfaceDisplacement));
+        Assert.Equal((Vector.Zero, Vector.Zero), (row.SurfaceVelocity, row.SurfaceSpin));
     }
 
     [Theory]
@@ -59,7 +58,7 @@ public sealed class ContactRowTests
     public void MayRebound_OfWhatPushes_IsTrueAheadAndOnWhatMoves(double impulse, bool isAhead, bool moves, bool mayRebound)
     {
         var row = new ContactRow { NormalImpulse = impulse, IsAhead = isAhead };
-        row.SetSurface(moves ? Vector.I : Vector.Zero, Vector.Zero, Vector.Zero);
+        row.SetSurface(moves ? Vector.I : Vector.Zero, Vector.Zero);
         Assert.Equal(mayRebound, row.MayRebound);
     }
 
@@ -68,11 +67,11 @@ public sealed class ContactRowTests
     {
         var row = new ContactRow
         {
-            IsBall = true, HasFixedNormal = true, IsBouncingAhead = true, IsMetExactly = true, IsAhead = true, FeatureId = 3,
+            IsBall = true, IsBouncingAhead = true, IsAhead = true, FeatureId = 3,
             NormalImpulse = 2, FrictionImpulse = Vector.I, First = 4,
         };
         ContactRow.Clear(ref row);
-        Assert.False(row.IsBall || row.HasFixedNormal || row.IsBouncingAhead || row.IsMetExactly || row.IsAhead);
+        Assert.False(row.IsBall || row.IsBouncingAhead || row.IsAhead);
         Assert.Equal((0, 0.0, Vector.Zero), (row.FeatureId, row.NormalImpulse, row.FrictionImpulse));
     }
 
@@ -87,10 +86,4 @@ public sealed class ContactRowTests
         var row = new ContactRow { First = 1, Second = 2, FeatureId = 64 };
         Assert.Contains(row.Key, keys);
     }
-
-    [Theory]
-    [InlineData(0.5, 0.25, 1, 0.25)]
-    [InlineData(0.25, 0.5, 2, 0.125)]
-    public void SmallerRadiusShare_OfTwoBalls_IsThatOfTheSmallerOne(double first, double second, double distance, double share) =>
-        Assert.Equal(share, new ContactRow { FirstRadius = first, SecondRadius = second, MinDistance = distance }.SmallerRadiusShare);
 }

@@ -67,56 +67,9 @@ public sealed class EnergyGuardTests
         Assert.All(setup.Bodies, body => Near.Equal(new(0, -speed * share, 0), body.Velocity, 1e-14));
     }
 
-    /// <summary>An island that was lifted by more than it can give back returns; one that is pushed does not.</summary>
-    [Theory]
-    [InlineData(false, 0)]
-    [InlineData(true, 1)]
-    public void FinishVelocities_OfAnIslandThatWasLifted_PutsItBack(bool isPushed, double height)
-    {
-        var setup = Create(out var guard);
-        foreach (var body in setup.Bodies)
-        {
-            body.FreeAcceleration = new(0, -8, 0);
-            body.Velocity = new(1, 0, 0);
-            body.AngularVelocity = Vector.J;
-            body.PlannedStartEnergy = body.KineticEnergy;
-            body.Position += Vector.J;
-            setup.Grid.Update(body.Index);
-        }
-
-        var island = setup.Graph.Islands[0] with { IsFree = false, IsPushed = isPushed, HasCompound = true };
-        guard.FinishVelocities(in island);
-        Assert.All(setup.Bodies, static body => Assert.Equal((Vector.Zero, Vector.Zero), (body.Velocity, body.AngularVelocity)));
-        Assert.All(setup.Bodies, body => Assert.Equal(height, body.Position.Y));
-    }
-
-    /// <summary>A surface that moves does work, by its impulses along and across.</summary>
+    /// <summary>Bodies keep what surfaces that move give them: their work in substeps is not known.</summary>
     [Fact]
-    public void FinishVelocities_OnASurfaceThatMoves_AllowsItsWork()
-    {
-        var setup = Create(out var guard);
-        setup.Bodies[0].Velocity = new(0, 4, 0);
-        var island = setup.Graph.Islands[0] with { IsFree = false, HasMovingSurface = true, HasCompound = true };
-        ref var row = ref setup.Graph.Row(0);
-        row.Second = ContactRow.Immovable;
-        row.Normal = Vector.J;
-        row.NormalImpulse = 2;
-        row.FrictionImpulse = new(0.5, 0, 0);
-        row.RollingArm = 1;
-        row.TurnImpulse = new(0, 0, 0.25);
-        // 2·3 + 0.5·2 + 0.25·4 of 8.
-        row.SetSurface(new(2, 3, 0), new(0, 0, 4), Vector.Zero);
-        guard.FinishVelocities(in island);
-        Near.Equal(new(0, 4, 0), setup.Bodies[0].Velocity, 1e-14);
-        setup.Bodies[0].Velocity = new(0, 5, 0);
-        guard.FinishVelocities(in island);
-        // 12.5 less 4.5.
-        Near.Equal(new(0, 4, 0), setup.Bodies[0].Velocity, 1e-14);
-    }
-
-    /// <summary>Balls keep what surfaces that move give them: their work in substeps is not known.</summary>
-    [Fact]
-    public void FinishVelocities_OfBallsOnASurfaceThatMoves_TakesNothing()
+    public void FinishVelocities_OnASurfaceThatMoves_TakesNothing()
     {
         var setup = Create(out var guard);
         setup.Bodies[0].Velocity = new(0, 5, 0);
@@ -129,8 +82,8 @@ public sealed class EnergyGuardTests
     {
         var setup = new GraphOfBodies(new BodyDescription(Vector.Zero, 0.5), new BodyDescription(Vector.I, 0.5) { Mass = 3 });
         Assert.True(setup.TryGroup(0.25));
-        setup.Mover.SetTargets(setup.Graph.Islands[0]);
-        guard = new(setup.Bodies, setup.Graph, setup.Mover);
+        setup.BeginMove();
+        guard = new(setup.Bodies, setup.Graph);
         return setup;
     }
 }

@@ -171,7 +171,7 @@ public sealed class ContactSolverTests
         {
             solver.Bodies[i] = new() { InverseMass = 1, InverseInertia = 0 };
             rows[i] = Row(i, ContactRow.Immovable, Vector.J) with { Friction = 0.5, FirstRadius = 1 };
-            rows[i].SetSurface(new(i % 2 == 0 ? 9 : 0.25, 2, 0), Vector.Zero, Vector.Zero);
+            rows[i].SetSurface(new(i % 2 == 0 ? 9 : 0.25, 2, 0), Vector.Zero);
         }
 
         Solve(solver, rows);
@@ -269,7 +269,7 @@ public sealed class ContactSolverTests
     }
 
     [Fact]
-    public void Solve_InASingleRound_SaysThatItHasNotConverged()
+    public void Solve_OfARow_TakesSeveralRounds()
     {
         var solver = Create(4, 3);
         for (var i = 0; i < 4; i++)
@@ -283,9 +283,7 @@ public sealed class ContactSolverTests
             solver.ComputeMasses(ref rows[i]);
         }
 
-        Assert.False(solver.Solve(rows, 1));
-        Assert.Equal(1, solver.Rounds);
-        Assert.True(solver.Solve(rows, MaxRounds));
+        Assert.True(solver.Solve(rows));
         Assert.InRange(solver.Rounds, 2, MaxRounds - 1);
     }
 
@@ -373,6 +371,6 @@ public sealed class ContactSolverTests
             solver.ComputeMasses(ref rows[i]);
         }
 
-        Assert.True(solver.Solve(rows, MaxRounds));
+        Assert.True(solver.Solve(rows));
     }
 }
