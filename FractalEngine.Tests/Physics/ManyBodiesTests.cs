@@ -1,6 +1,7 @@
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
 using FractalEngine.Core.Physics.Descriptions;
+using FractalEngine.Core.Physics.Rows;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Physics;
@@ -74,16 +75,16 @@ public class ManyBodiesTests
         });
     });
 
-    /// <summary>Balls of very different sizes and masses that go many radii in a step.</summary>
+    /// <summary>Balls and compounds of very different sizes and masses that go many radii in a step.</summary>
     [Fact]
-    public void Crowd_OfAnySpeedAndMass_StaysApartAndGainsNoEnergy() => Seeded.Run(6, random => CheckCrowd(random, 60, 40));
+    public void Crowd_OfAnySpeedAndMass_StaysApartAndGainsNoEnergy() => Seeded.Run(6, random => CheckCrowd(random, 60, 40, hasCompounds: random.Next(2) == 0));
 
     [Fact]
     [Trait("Category", "Soak")]
     public void Crowds_OfAnySpeedAndMass_StayApartAndGainNoEnergy() =>
-        Parallel.For(1, 200, seed => Seeded.RunOne(seed, random => CheckCrowd(random, 300, 60)));
+        Parallel.For(1, 200, seed => Seeded.RunOne(seed, random => CheckCrowd(random, 300, 60, hasCompounds: random.Next(2) == 0)));
 
-    private static void CheckCrowd(Random random, int maxCount, int steps)
+    private static void CheckCrowd(Random random, int maxCount, int steps, bool hasCompounds)
     {
         const double Half = 2;
         var settings = new PhysicsSettings { SleepSpeed = random.Next(2) == 0 ? 0 : null, MaxThreads = random.Next(1, 4) };
@@ -96,7 +97,12 @@ public class ManyBodiesTests
             var position = random.Vector(Half - radius);
             if (world.Bodies.All(other => (other.Position - position).Length() > other.Radius + radius))
             {
-                world.Add(new(position, radius)
+                // Of three balls, within the same radius.
+                var shape = CompoundShape.OfBalls(
+                    Enumerable.Range(0, 3).Select(_ => new CompoundBall(random.Vector(0.4 * radius), 0.3 * radius)));
+                var description = random.Next(4) == 0 && hasCompounds
+                    ? new BodyDescription(position, shape) : new BodyDescription(position, radius);
+                world.Add(description with
                 {
                     Velocity = random.Vector(speed), Mass = Math.Pow(10, random.Between(-1.5, 1.5)), Friction = random.Next(2) * 0.5,
                     Restitution = random.Next(2) * random.NextDouble(), AngularVelocity = random.Vector(10),
@@ -112,8 +118,15 @@ public class ManyBodiesTests
             var after = Energy();
             Assert.True(after <= energy * (1 + 1e-3), $"from {energy:R} to {after:R} in step {world.StepCount}");
             energy = after;
-            Assert.All(world.Bodies, static body =>
-                Assert.True(body.Position.MaxAbsComponent() + body.Radius <= Half + (MaxOverlap * body.Radius), $"{body}"));
+            foreach (var body in world.Bodies)
+            {
+                for (var ball = 0; ball < body.BallCount; ball++)
+                {
+                    var end = body.BallCentre(ball).MaxAbsComponent() + body.BallRadius(ball);
+                    Assert.True(end <= Half + (MaxOverlap * body.BallRadius(ball)), $"{body.Name} ends at {end:R} in step {world.StepCount}");
+                }
+            }
+
             CheckNoOverlap(world);
         });
     }
@@ -155,17 +168,13 @@ public class ManyBodiesTests
 
     private static void CheckNoOverlap(PhysicsWorld world)
     {
-        for (var i = 0; i < world.Bodies.Count; i++)
+        foreach (var body in world.Bodies)
         {
-            for (var j = 0; j < i; j++)
+            foreach (var other in world.Bodies.Take(body.Index))
             {
-                var body = world.Bodies[i];
-                var other = world.Bodies[j];
-                var gap = (body.Position - other.Position).Length() - body.Radius - other.Radius;
-                if (gap < -MaxOverlapOfBalls * Math.Min(body.Radius, other.Radius))
+                if (BallPairs.AreOverlapping(body, other, MaxOverlapOfBalls))
                 {
-                    var radii = $"radii {body.Radius:R} and {other.Radius:R}";
-                    Assert.Fail($"{body.Name} and {other.Name} overlap by {-gap:R} after {world.StepCount} steps: {radii}");
+                    Assert.Fail($"{body.Name} and {other.Name} overlap after {world.StepCount} steps: radii {body.Radius} and {other.Radius}");
                 }
             }
         }

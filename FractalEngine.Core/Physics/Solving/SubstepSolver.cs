@@ -194,6 +194,8 @@ internal sealed class SubstepSolver
 
         RunAll(_keepInFront);
         RunAll(_store);
+        // Balls of compounds turn to where no contact is.
+        HasDeepOverlaps |= island.HasCompound;
         foreach (var group in Groups)
         {
             HasDeepOverlaps |= group.Overlap > IslandMover.MaxOverlap;
