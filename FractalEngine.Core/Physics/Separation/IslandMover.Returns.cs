@@ -208,10 +208,7 @@ internal sealed partial class IslandMover
         body.Position = body.PlannedStart;
         _places[body.Index] = _places[body.Index] with { Position = body.Position };
         _grid.Update(body.Index);
-        if (body.IsCompound)
-        {
-            body.SetOrientation(body.PlannedStartOrientation);
-        }
+        body.SetOrientation(body.PlannedStartOrientation);
     }
 
     /// <summary>Where a body is: pairs are compared without the bodies.</summary>

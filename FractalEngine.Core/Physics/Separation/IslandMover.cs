@@ -123,10 +123,9 @@ internal sealed partial class IslandMover
     /// <param name="hit">What it has met.</param>
     public void AddSurface(Body body, in Contact hit)
     {
-        var ball = body.IsCompound ? body.PlannedHitBall : 0;
-        var offset = body.IsCompound ? body.PlannedOffset(ball) : Vector.Zero;
+        var offset = body.PlannedOffset(body.PlannedHitBall);
         body.IsHeld = false;
-        var radius = body.BallRadius(ball);
+        var radius = body.BallRadius(body.PlannedHitBall);
         _unplanned.Add(new()
         {
             First = body.Index, Second = ContactRow.Immovable, Offset = hit.PointToCentre(body.PlannedStart + offset), MinDistance = radius,
