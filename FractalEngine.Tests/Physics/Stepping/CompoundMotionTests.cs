@@ -113,6 +113,22 @@ public sealed class CompoundMotionTests
         Assert.Equal((1, 1), (ball, hit.BodyIndex));
     }
 
+    /// <summary>A solve leaves a little of what it should keep: a ball that touches something may be in it by 1e-7 of its radius.</summary>
+    [Theory]
+    [InlineData(0.9, false, true)]
+    [InlineData(0.9, true, false)]
+    [InlineData(1.1, true, true)]
+    public void TryFindImpact_OfBallsThatTouch_LeavesThemIn(double depth, bool isTouching, bool isHit)
+    {
+        var (sweep, body, _) = Create(new(0, 0.5, 0));
+        body.Balls[1].IsOnSurface = isTouching;
+        body.Balls[0].IsOnSurface = isTouching;
+        var motion = new SphereMotion(body.Position, depth * -0.5e-7 * Vector.J, Vector.Zero);
+        sweep.ResetStepBudget();
+        Assert.Equal(isHit, sweep.TryFindImpact(body, in motion, Vector.Zero, 1, out var hit, out _, out _));
+        Near.Equal(isHit ? 0.5 : 0, hit.CombinedRadius, 1e-15);
+    }
+
     /// <summary>A circle is farthest from its chord in the middle: by an eighth of its radius times the squared angle.</summary>
     [Fact]
     public void IsOnWay_OfATurn_IsTrueWhereTheBallsAreOnTheirWays()
