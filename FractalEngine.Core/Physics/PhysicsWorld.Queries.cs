@@ -81,15 +81,7 @@ public sealed partial class PhysicsWorld
         body.RequireFinite(impulse, nameof(impulse));
         body.RequireFinite(point ?? Vector.Zero, nameof(point));
         _islands.Wake(body);
-        var arm = (point ?? body.Position) - body.Position;
-        if (body.IsCompound)
-        {
-            body.ApplyImpulse(arm, impulse);
-            return;
-        }
-
-        body.Velocity += impulse / body.Description.Mass;
-        body.AngularVelocity += body.InverseInertia * Vector.Cross(arm, impulse);
+        body.ApplyImpulse((point ?? body.Position) - body.Position, impulse);
     }
 
     /// <summary>

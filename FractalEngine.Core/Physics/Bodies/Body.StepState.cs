@@ -9,12 +9,6 @@ public sealed partial class Body
     /// <summary>Stands for the index of an island where the body is in none.</summary>
     internal const int NoIsland = -1;
 
-    /// <summary>Surfaces and bodies that this body touches.</summary>
-    internal ContactSet Contacts { get; } = new();
-
-    /// <summary>Known lower bound on the distance to all surfaces.</summary>
-    internal SafeDistance SafeDistance { get; } = new();
-
     /// <summary>Time in seconds for which the body has barely moved.</summary>
     internal double SleepTimer { get; set; }
 
@@ -32,9 +26,6 @@ public sealed partial class Body
 
     /// <summary>True for a body that neither moves nor turns, and that contacts hold.</summary>
     internal bool IsResting => NetAcceleration == Vector.Zero && Velocity == Vector.Zero && AngularVelocity == Vector.Zero;
-
-    /// <summary>1/(kilogram · unit²); 0 for a body that does not turn. Of a compound, at least that about any axis.</summary>
-    internal double InverseInertia => IsCompound && !Description.IsRotationLocked ? MaxInverseInertia : _inverseInertia;
 
     /// <summary>Energy of motion and rotation, joules.</summary>
     internal double KineticEnergy => (0.5 * Description.Mass * Velocity.LengthSquared()) + SpinEnergy;
@@ -104,8 +95,6 @@ public sealed partial class Body
     /// <summary>True once it has ended its step together with others, and has still to tell those around it.</summary>
     internal bool IsFinished { get; set; }
 
-    /// <summary>Faces that the body touches or may meet in this step, and no contact knows of.</summary>
-    internal NearSurfaceList NearSurfaces { get; } = new();
 
     /// <summary>True once these faces have been searched for in this step.</summary>
     internal bool AreNearSurfacesKnown { get; set; }

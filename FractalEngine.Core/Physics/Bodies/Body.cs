@@ -12,9 +12,6 @@ public sealed partial class Body
 {
     private double _scale;
 
-    // These are of a ball; those of compounds change as they turn.
-    private double _inverseInertia;
-
     /// <summary>Creates a body in its initial state.</summary>
     /// <param name="description">Already validated.</param>
     /// <param name="index">Index among the bodies of the world.</param>
@@ -23,7 +20,7 @@ public sealed partial class Body
     {
         Description = description;
         Index = index;
-        Balls = description.Shape is { } shape ? [.. shape.Balls.Select(static _ => new BodyBall())] : [];
+        Balls = [.. Enumerable.Range(0, description.Shape?.Balls.Length ?? 1).Select(static _ => new BodyBall())];
         Reset(acceleration);
     }
 
@@ -68,8 +65,7 @@ public sealed partial class Body
         {
             _scale = value;
             Radius = value * Description.Radius;
-            _inverseInertia =
-                Description.IsRotationLocked ? 0 : 1 / (Description.InertiaFactor * Description.Mass * Radius * Radius);
+            UpdateBalls();
         }
     }
 
@@ -153,7 +149,6 @@ public sealed partial class Body
         JammedSteps = 0;
         NetAcceleration = acceleration;
         DiscardSurfaces();
-        UpdateBalls();
     }
 
     /// <summary>Takes over the movement of a body with the same description, and discards everything that is known of surfaces.</summary>
@@ -170,7 +165,6 @@ public sealed partial class Body
         PreviousScale = other.PreviousScale;
         IsOverlapResolved = false;
         MayTouchBodies = true;
-        UpdateBalls();
     }
 
     /// <summary>Saves the state before a step, and sets the costs to 0.</summary>
@@ -191,7 +185,11 @@ public sealed partial class Body
         IslandIndex = NoIsland;
         IsMovedAhead = false;
         IsFinished = false;
-        NearSurfaces.Clear();
+        foreach (var ball in Balls)
+        {
+            ball.NearSurfaces.Clear();
+        }
+
         AreNearSurfacesKnown = false;
         KinematicPush = 0;
         SpinBefore = AngularVelocity;
@@ -201,12 +199,7 @@ public sealed partial class Body
     /// <param name="stepLength">Seconds.</param>
     internal void Turn(double stepLength)
     {
-        if (IsCompound)
-        {
-            return;
-        }
-
-        if (AngularVelocity != Vector.Zero || SpinBefore != Vector.Zero)
+        if (!IsCompound && (AngularVelocity != Vector.Zero || SpinBefore != Vector.Zero))
         {
             Orientation = Orientation.TurnedBy(0.5 * stepLength * (SpinBefore + AngularVelocity));
         }

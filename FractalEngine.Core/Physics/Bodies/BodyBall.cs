@@ -2,7 +2,7 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Physics.Bodies;
 
-/// <summary>One ball of a moving compound: where it is now, and what it touches.</summary>
+/// <summary>One ball of a body: where it is now, and what it touches.</summary>
 internal sealed class BodyBall
 {
     /// <summary>Centre relative to the body's position, world space.</summary>
@@ -11,8 +11,11 @@ internal sealed class BodyBall
     /// <summary>Present radius, scene units.</summary>
     public double Radius { get; set; }
 
-    /// <summary>True where the closest surface is touched, as far as it was searched for.</summary>
+    /// <summary>True for a compound's ball that touches the closest surface, as far as it was searched for.</summary>
     public bool IsOnSurface { get; set; }
+
+    /// <summary>True where the ball touches a surface, or another body that it has met by itself.</summary>
+    public bool IsTouching => IsOnSurface || Contacts.Count > 0;
 
     /// <summary>Surfaces that the ball touches.</summary>
     public ContactSet Contacts { get; } = new();

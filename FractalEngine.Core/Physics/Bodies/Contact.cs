@@ -21,6 +21,9 @@ internal readonly record struct Contact(Vector FixedPoint, double CombinedRadius
     /// <summary>The kinematic object whose surface it is; null for everything else.</summary>
     public KinematicObject? Kinematic { get; init; }
 
+    /// <summary>Index of the other body's ball; 0 for what is no body.</summary>
+    public byte BodyBall { get; init; }
+
     /// <summary>The closest point of a surface, or the centre of another sphere, where it is now; world space.</summary>
     public Vector Point => Kinematic is null ? FixedPoint : Kinematic.ToWorld(FixedPoint);
 
@@ -42,6 +45,10 @@ internal readonly record struct Contact(Vector FixedPoint, double CombinedRadius
     /// <param name="position">Position of the mover, world space.</param>
     public Vector SurfaceVelocity(Vector position) =>
         Kinematic is null ? Vector.Zero : Kinematic.SurfaceVelocityAt(Point, Normal(position));
+
+    /// <summary>Velocity of the touched ball's centre.</summary>
+    /// <param name="other">The other body.</param>
+    public Vector VelocityOf(Body other) => other.VelocityAt(other.BallOffset(BodyBall));
 
     /// <summary>Unit vector away from the obstacle; zero where the centre is on it.</summary>
     /// <param name="position">Position of the mover, world space.</param>

@@ -21,20 +21,20 @@ internal sealed partial class ContactSet
     /// <param name="negligibleSpeed">
     /// Speed below which a body does not leave a surface: gravity would return it at once, and several edges could pass it back and forth.
     /// </param>
-    /// <param name="treatBodiesAsStatic">Other bodies count as left only by a velocity away from where they are.</param>
     /// <returns>The velocity; where it leaves a surface too slowly, only its part along all surfaces.</returns>
-    public Vector RemoveSeparating(Vector position, Vector velocity, List<Body> bodies, double negligibleSpeed, bool treatBodiesAsStatic)
+    /// <remarks>Other bodies count as left only by a velocity away from where they are.</remarks>
+    public Vector RemoveSeparating(Vector position, Vector velocity, List<Body> bodies, double negligibleSpeed)
     {
         var isSeparatingSlowly = false;
         for (var i = Count - 1; i >= 0; i--)
         {
             var isSurface = !_contacts[i].IsBody;
             var relative = velocity
-                - (isSurface ? _contacts[i].SurfaceVelocity(position) : VelocityOf(bodies, in _contacts[i]));
+                - (isSurface ? _contacts[i].SurfaceVelocity(position) : _contacts[i].VelocityOf(bodies[_contacts[i].BodyIndex]));
             var normal = _contacts[i].Normal(position);
             var rounding = RelativeTolerance * Math.Max(relative.MaxAbsComponent(), velocity.MaxAbsComponent());
             var separationSpeed = Vector.Dot(relative, normal);
-            separationSpeed = treatBodiesAsStatic && !isSurface ? Math.Min(separationSpeed, Vector.Dot(velocity, normal)) : separationSpeed;
+            separationSpeed = isSurface ? separationSpeed : Math.Min(separationSpeed, Vector.Dot(velocity, normal));
             if (separationSpeed > negligibleSpeed + rounding)
             {
                 RemoveAt(i);
@@ -107,18 +107,16 @@ internal sealed partial class ContactSet
     }
 
     /// <summary>
-    /// Projects an acceleration onto those that lead into no contact. Other bodies give way by their own acceleration, and a body that
-    /// slides over another follows its sphere: a = −v²/r along the normal.
+    /// Projects an acceleration onto those that lead into no contact. Other bodies do not give way, and a body that slides over another
+    /// follows its sphere: a = −v²/r along the normal.
     /// </summary>
     /// <param name="acceleration">World space.</param>
     /// <param name="position">Position of the body, world space.</param>
     /// <param name="velocity">Velocity of the body.</param>
-    /// <param name="bodies">All bodies.</param>
     /// <param name="planes">Scratch memory, overwritten.</param>
-    /// <param name="treatBodiesAsStatic">Other bodies do not give way.</param>
     /// <param name="validDuration">Seconds for which the result holds: until the path over another body has turned by 1/64.</param>
-    public Vector ProjectAcceleration(Vector acceleration, Vector position, Vector velocity, List<Body> bodies, HalfSpaces planes,
-        bool treatBodiesAsStatic, out double validDuration)
+    public Vector ProjectAcceleration(
+        Vector acceleration, Vector position, Vector velocity, HalfSpaces planes, out double validDuration)
     {
         validDuration = double.PositiveInfinity;
         planes.Clear();
@@ -128,11 +126,8 @@ internal sealed partial class ContactSet
             var minNormalAcceleration = 0.0;
             if (_contacts[i].IsBody)
             {
-                var other = bodies[_contacts[i].BodyIndex];
-                var relative = treatBodiesAsStatic ? velocity : velocity - other.Velocity;
-                var tangentialVelocity = relative - (Vector.Dot(relative, normal) * normal);
-                minNormalAcceleration = (treatBodiesAsStatic ? 0 : Vector.Dot(normal, other.NetAcceleration))
-                    - (tangentialVelocity.LengthSquared() / _contacts[i].CombinedRadius);
+                var tangentialVelocity = velocity - (Vector.Dot(velocity, normal) * normal);
+                minNormalAcceleration -= tangentialVelocity.LengthSquared() / _contacts[i].CombinedRadius;
                 validDuration = Math.Min(validDuration, MaxTurnAngle * _contacts[i].CombinedRadius / tangentialVelocity.Length());
             }
             else if (_contacts[i].Kinematic is { } kinematic && kinematic.AngularVelocity != Vector.Zero)
@@ -145,12 +140,6 @@ internal sealed partial class ContactSet
         }
 
         return ProjectWithoutRounding(acceleration, planes);
-    }
-
-    private static Vector VelocityOf(List<Body> bodies, in Contact contact)
-    {
-        var other = bodies[contact.BodyIndex];
-        return other.VelocityAt(contact.Point - other.Position);
     }
 
     private static Vector ProjectWithoutRounding(Vector vector, HalfSpaces planes)

@@ -26,38 +26,37 @@ internal sealed partial class ContactSet
     public void Add(in Contact contact, Vector position)
     {
         var normal = contact.Normal(position);
-        for (var i = 0; i < Count; i++)
+        var index = IndexOfSame(in contact, normal, position, Count);
+        if (index < 0)
+        {
+            if (Count == _contacts.Length)
+            {
+                RemoveAt(0);
+            }
+
+            index = Count++;
+        }
+
+        _contacts[index] = contact with { CachedNormal = normal };
+    }
+
+    /// <summary>Finds the first of some contacts with the same obstacle and normal; negative where there is none.</summary>
+    private int IndexOfSame(in Contact contact, Vector normal, Vector position, int count)
+    {
+        for (var i = 0; i < count; i++)
         {
             if (_contacts[i].BodyIndex == contact.BodyIndex
                 && (_contacts[i].Normal(position) - normal).LengthSquared() < SameNormalToleranceSquared)
             {
-                _contacts[i] = contact with { CachedNormal = normal };
-                return;
+                return i;
             }
         }
 
-        if (Count == _contacts.Length)
-        {
-            RemoveAt(0);
-        }
-
-        _contacts[Count++] = contact with { CachedNormal = normal };
+        return -1;
     }
 
     /// <summary>True where another body is touched.</summary>
-    public bool HasBody
-    {
-        get
-        {
-            var hasBody = false;
-            for (var i = 0; i < Count; i++)
-            {
-                hasBody |= _contacts[i].IsBody;
-            }
-
-            return hasBody;
-        }
-    }
+    public bool HasBody => SurfaceCount < Count;
 
     /// <summary>Number of surfaces among the contacts.</summary>
     public int SurfaceCount
@@ -146,14 +145,7 @@ internal sealed partial class ContactSet
     {
         for (var i = Count - 1; i > 0; i--)
         {
-            var isKnown = false;
-            for (var j = 0; j < i; j++)
-            {
-                isKnown |= _contacts[i].BodyIndex == _contacts[j].BodyIndex
-                    && (_contacts[i].Normal(position) - _contacts[j].Normal(position)).LengthSquared() < SameNormalToleranceSquared;
-            }
-
-            if (isKnown)
+            if (IndexOfSame(in _contacts[i], _contacts[i].Normal(position), position, i) >= 0)
             {
                 RemoveAt(i);
             }

@@ -52,11 +52,6 @@ internal sealed partial class ContactGraph
         {
             _count = firstRow + CapsuleRows.RemoveInner(_rows.AsSpan(firstRow, _count - firstRow));
         }
-
-        if (!body.IsCompound)
-        {
-            AddSurfaces(body, 0, body.Contacts, body.NearSurfaces);
-        }
     }
 
     private void AddSurfaces(Body body, int ball, ContactSet contacts, NearSurfaceList nearSurfaces)

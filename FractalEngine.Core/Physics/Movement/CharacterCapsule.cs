@@ -106,7 +106,7 @@ internal sealed class CharacterCapsule
         if (!_isOverlapResolved || _obstacles.TryFindNearKinematic(Position, -MaxKinematicOverlap * _player.Radius, out _))
         {
             var position = Position;
-            _isOverlapResolved = _overlapResolver.TryResolve(ref position, Contact.NoBody);
+            _isOverlapResolved = _overlapResolver.TryResolve(ref position, body: null);
             Position = position;
         }
 

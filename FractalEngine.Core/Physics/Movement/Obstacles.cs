@@ -229,6 +229,6 @@ internal sealed partial class Obstacles(
     private Contact CreateBodyContact(int candidate, int ball, Vector sphere)
     {
         var other = bodies[candidate];
-        return new(other.BallCentre(ball), _radius + other.BallRadius(ball), sphere, candidate, IsFlat: false);
+        return new(other.BallCentre(ball), _radius + other.BallRadius(ball), sphere, candidate, IsFlat: false) { BodyBall = (byte)ball };
     }
 }

@@ -3,7 +3,7 @@ using FractalEngine.Core.Physics.Bodies;
 
 namespace FractalEngine.Core.Physics.Movement;
 
-/// <summary>Moves an overlapping mover to the closest free position, if there is one that can be reached.</summary>
+/// <summary>Moves an overlapping mover to the closest free position, without turning it, if there is one that can be reached.</summary>
 internal sealed class OverlapResolver(Obstacles obstacles)
 {
     private const int MaxPushes = 32;
@@ -22,23 +22,28 @@ internal sealed class OverlapResolver(Obstacles obstacles)
 
     /// <summary>Finds a free position. It keeps clear of all obstacles that were met so far at once, not only of the last one.</summary>
     /// <param name="position">Position of the mover; receives the free position, and is unchanged where there is none.</param>
-    /// <param name="excludedIndex">Index of the mover itself, or <see cref="Contact.NoBody"/>.</param>
+    /// <param name="body">The mover itself; null for the spheres of the obstacles.</param>
     /// <param name="ignoresBodies">True where only surfaces are in the way.</param>
     /// <returns>False where the mover is closed in.</returns>
-    public bool TryResolve(ref Vector position, int excludedIndex, bool ignoresBodies = false)
+    public bool TryResolve(ref Vector position, Body? body, bool ignoresBodies = false)
     {
         var touchTolerance = obstacles.TouchTolerance(position);
-        var start = MoveOutOfSurface(position);
+        var start = body is { IsCompound: true } ? position : MoveOutOfSurface(position);
         var current = start;
         _planes.Clear();
         for (var push = 0; push < MaxPushes; push++)
         {
             if (!ignoresBodies)
             {
-                obstacles.CollectNearbyBodies(new(current, Vector.Zero, Vector.Zero), 0, excludedIndex);
+                if (body is not null)
+                {
+                    obstacles.SelectBall(body.Radius, body.SafeDistance);
+                }
+
+                obstacles.CollectNearbyBodies(new(current, Vector.Zero, Vector.Zero), 0, body?.Index ?? Contact.NoBody);
             }
 
-            if (!obstacles.TryFindClosestContact(current, 0, out var overlap) || overlap.Gap(current) >= -touchTolerance)
+            if (!TryFindOverlap(body, current, touchTolerance, out var overlap))
             {
                 position = current;
                 return true;
@@ -50,7 +55,7 @@ internal sealed class OverlapResolver(Obstacles obstacles)
                 : Vector.J;
             var offset = Vector.Dot(normal, overlap.Point - overlap.SphereOffset) + overlap.CombinedRadius + (0.5 * touchTolerance);
             _planes.Add(normal, offset);
-            if (!_planes.TryProject(start, out var next) || !IsReachable(current, next))
+            if (!_planes.TryProject(start, out var next) || !IsReachable(body, current, next))
             {
                 return false;
             }
@@ -59,6 +64,44 @@ internal sealed class OverlapResolver(Obstacles obstacles)
         }
 
         return false;
+    }
+
+    /// <summary>Finds what the mover overlaps most, if anything by more than a tolerance.</summary>
+    private bool TryFindOverlap(Body? body, Vector position, double tolerance, out Contact overlap)
+    {
+        if (body is null)
+        {
+            return obstacles.TryFindClosestContact(position, 0, out overlap) && overlap.Gap(position) < -tolerance;
+        }
+
+        overlap = default;
+        var minGap = 0.0;
+        foreach (var ball in body.Balls)
+        {
+            var centre = position + ball.Offset;
+            obstacles.SelectBall(ball.Radius, ball.SafeDistance);
+            if (obstacles.TryFindClosestContact(centre, minGap, out var found) && found.Gap(centre) < Math.Min(minGap, -tolerance))
+            {
+                overlap = found with { SphereOffset = ball.Offset };
+                minGap = found.Gap(centre);
+            }
+        }
+
+        return minGap < 0;
+    }
+
+    private bool IsReachable(Body? body, Vector from, Vector to)
+    {
+        foreach (var ball in body?.Balls ?? [])
+        {
+            obstacles.SelectBall(ball.Radius, ball.SafeDistance);
+            if (!IsReachable(from + ball.Offset, to + ball.Offset))
+            {
+                return false;
+            }
+        }
+
+        return body is not null || IsReachable(from, to);
     }
 
     /// <summary>The position itself; or one just in front of the surface, where it is on a surface or inside a solid.</summary>

@@ -2,59 +2,68 @@ using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics.Bodies;
 using FractalEngine.Core.Physics.Events;
 using FractalEngine.Core.Physics.Movement;
+using FractalEngine.Core.Physics.Solving;
 using FractalEngine.Core.Physics.Statics;
 
 namespace FractalEngine.Core.Physics.Stepping;
 
 /// <summary>
-/// Moves a body through one step: free flight to the moment of an impact, the response there, and the same again with the remaining time.
-/// What a body rests on cancels its part of the acceleration, so that nothing is pressed in and pushed out again.
+/// Moves a body through one step: alone from impact to impact, or as its island has been planned. Obstacles must be set up for the body.
 /// </summary>
-internal sealed partial class BodyMover
+internal sealed class BodyMover
 {
     private const int MaxImpacts = 1000;
+
+    // Where there is no end of tiny impacts, as on the dust of an infinite fractal, a compound loses the time that is left.
+    private const int MaxImpactsOfCompound = 60;
 
     // Impacts without time in between: more of them are a corner that leaves no path.
     private const int MaxSimultaneousImpacts = 16;
 
-    // Relative to the step: an advance shorter than this makes no progress.
-    private const double NegligibleTimeFraction = 1e-3;
-
-    // Relative to the speed: a body that leads more into another, which will give way, waits until it has.
-    private const double MaxBlockedSpeedRatio = 0.01;
-
-    // Relative to the restitution threshold: a body that leaves more slowly does not leave.
-    private const double NegligibleSpeedFraction = 1e-4;
-
-    // Relative to the touch tolerance: overlaps up to this are taken back as rounding.
-    private const double MaxRoundingOverlap = 10;
-
-    // Relative to the squared speeds: what rounding adds.
-    private const double EnergyRounding = 1e-12;
-
-    private readonly List<Body> _bodies;
     private readonly Obstacles _obstacles;
-    private readonly ContactResponse _response;
-    private readonly ContactLog _contactLog;
-    private readonly SpinFriction _spinFriction;
-    private readonly SphereSweep _sweep;
+    private readonly BodySweep _sweep;
+    private readonly BodyContacts _contacts;
+    private readonly BallFlight _ballFlight;
+    private readonly CompoundFlight _compoundFlight;
     private readonly OverlapResolver _overlapResolver;
-    private readonly NearSurfaceSearch _nearSurfaceSearch;
-    private readonly HalfSpaces _planes = new();
 
-    public BodyMover(List<Body> bodies, Obstacles obstacles, SleepIslands islands, ContactLog contactLog)
+    public BodyMover(List<Body> bodies, Obstacles obstacles, SleepIslands islands, IslandPlanner planner, ContactLog contactLog)
     {
-        _bodies = bodies;
         _obstacles = obstacles;
-        _response = new(bodies, islands, contactLog);
-        _contactLog = contactLog;
-        _spinFriction = new(bodies);
         _sweep = new(obstacles);
+        _contacts = new(obstacles, _sweep);
+        _ballFlight = new(bodies, obstacles, _sweep, islands, planner, contactLog);
+        _compoundFlight = new(bodies, obstacles, _sweep, _contacts, islands, planner);
         _overlapResolver = new(obstacles);
-        _nearSurfaceSearch = new(obstacles);
     }
 
-    /// <summary>Moves a body that touches no other, or only such as do not move. The obstacles must be set up for it.</summary>
+    /// <summary>
+    /// Updates what a body touches of surfaces, at the beginning of a step. One that overlaps something is pushed out, or it stops.
+    /// </summary>
+    /// <param name="body">Awake.</param>
+    /// <param name="stepLength">Seconds.</param>
+    public void Prepare(Body body, double stepLength)
+    {
+        // What has moved may have come to overlap a body that had nowhere to go.
+        body.IsOverlapResolved &= !_contacts.IsOverrun(body);
+        if (body.IsOverlapResolved || TryResolveOverlap(body))
+        {
+            _contacts.Refresh(body);
+            _contacts.FindKinematicPush(body, stepLength);
+        }
+    }
+
+    /// <summary>Finds the faces that a body of an island touches or may meet in the step.</summary>
+    /// <param name="body">Awake and prepared.</param>
+    /// <param name="reach">How far it may move.</param>
+    /// <param name="stepLength">Seconds.</param>
+    public void FindNearSurfaces(Body body, double reach, double stepLength) =>
+        _contacts.FindNearSurfaces(body, reach, stepLength * body.AngularVelocity.Length(), stepLength);
+
+    /// <summary>
+    /// Moves a body that touches no other, or only such as do not move: free flight to the moment of an impact, the response there, and the
+    /// same again with the remaining time.
+    /// </summary>
     /// <param name="body">Awake and prepared.</param>
     /// <param name="stepLength">Seconds.</param>
     public void Move(Body body, double stepLength)
@@ -64,197 +73,120 @@ internal sealed partial class BodyMover
             return;
         }
 
-        var position = body.Position;
         _sweep.ResetStepBudget();
-        _obstacles.CollectNearbyBodies(new(position, Vector.Zero, Vector.Zero), 0, body.Index);
-        _obstacles.AddTouchedBodies(position, _obstacles.ContactSlop(position), body.Contacts);
-        body.MayTouchBodies |= body.Contacts.HasBody;
-        MoveOn(body, ref position, stepLength, stepLength);
-        body.Position = position;
-    }
+        if (!body.IsCompound)
+        {
+            _contacts.AddTouchedBodies(body);
+            _ballFlight.Begin(body, stepLength);
+        }
 
-    /// <summary>Moves a body from contact to contact.</summary>
-    private void MoveOn(Body body, ref Vector position, double timeLeft, double stepLength)
-    {
-        var contacts = body.Contacts;
-        var acceleration = body.FreeAcceleration;
-        var restitutionThreshold = body.RestitutionThreshold;
         var simultaneousImpacts = 0;
-        var isBlocked = false;
-        var negligibleSpeed = NegligibleSpeedFraction * restitutionThreshold;
-        for (var impact = 0; impact < MaxImpacts && simultaneousImpacts < MaxSimultaneousImpacts && timeLeft > 0; impact++)
+        var timeLeft = stepLength;
+        var maxImpacts = body.IsCompound ? MaxImpactsOfCompound : MaxImpacts;
+        for (var impact = 0; impact < maxImpacts && simultaneousImpacts < MaxSimultaneousImpacts && timeLeft > 0; impact++)
         {
             _obstacles.Time = stepLength - timeLeft;
-            var velocityBefore = body.Velocity;
-            _response.ResolveContacts(body, position, restitutionThreshold);
-            body.Velocity = contacts.RemoveSeparating(position, body.Velocity, _bodies, negligibleSpeed, true);
-            var hasResponded = (body.Velocity - velocityBefore).MaxAbsComponent() > negligibleSpeed;
-            var elapsed = Advance(body, acceleration, ref position, timeLeft, negligibleSpeed, isBlocked);
+            var elapsed = body.IsCompound ? _compoundFlight.Advance(body, timeLeft) : _ballFlight.Advance(body, timeLeft);
             timeLeft -= elapsed;
             simultaneousImpacts = elapsed > 0 ? 0 : simultaneousImpacts + 1;
-            // A body that is run into gives way, but in its own turn. Until then it is immovable: this one slides or waits.
-            isBlocked |= !hasResponded && elapsed < NegligibleTimeFraction * stepLength && contacts.HasAwakeBody(_bodies);
         }
     }
 
-    /// <summary>Chooses where contacts let the body go, and moves it there.</summary>
-    /// <param name="body">Leads into nothing that it touches.</param>
-    /// <param name="acceleration">By gravity and forces.</param>
-    /// <param name="position">Position of the body; receives the new one.</param>
-    /// <param name="duration">Seconds.</param>
-    /// <param name="negligibleSpeed">Speed below which a body without acceleration rests.</param>
-    /// <param name="isBlocked">Other bodies do not give way.</param>
-    /// <returns>The time that has passed.</returns>
-    private double Advance(Body body, Vector acceleration, ref Vector position, double duration, double negligibleSpeed, bool isBlocked)
+    /// <summary>
+    /// Moves a body whose island has been solved to its target, or as far as surfaces and the character let it. Bodies are not in the way:
+    /// those that it may meet are in the plan.
+    /// </summary>
+    /// <param name="body">Awake, prepared and planned.</param>
+    /// <param name="stepLength">Seconds.</param>
+    public void MovePlanned(Body body, double stepLength)
     {
-        var contacts = body.Contacts;
-        var start = position;
-        var energy = body.KineticEnergy;
-        var mayGain = (contacts.HasBody || (body.Description is { Friction: > 0, IsRotationLocked: false } && contacts.Count > 0))
-            && !contacts.HasMovingSurface;
-        var projectedVelocity = isBlocked ? contacts.ProjectVelocity(body.Velocity, position, _planes) : body.Velocity;
-        var blockedVelocity = body.Velocity - projectedVelocity;
-        if (blockedVelocity.Length() > MaxBlockedSpeedRatio * projectedVelocity.Length())
+        body.SetOrientation(body.PlannedStartOrientation);
+        var way = body.Target - body.PlannedStart;
+        if (way == Vector.Zero && body.PlannedTurn == Vector.Zero
+            && _obstacles.MaxKinematicSpeed(new(body.PlannedStart, Vector.Zero, Vector.Zero), 0) == 0)
         {
-            // It would go another path than its own.
-            return duration;
+            body.Position = body.Target;
+            return;
         }
 
-        body.Velocity = projectedVelocity;
-        var netAcceleration = contacts.ProjectAcceleration(acceleration, position, projectedVelocity, _bodies, _planes, true,
-            out var validDuration);
-        var elapsed =
-            AdvanceAlong(body, netAcceleration, acceleration, ref position, Math.Min(duration, validDuration), negligibleSpeed);
-        body.Velocity += blockedVelocity;
-        _contactLog.AddRest(body, position, acceleration, netAcceleration, Math.Min(elapsed, duration));
-        if (mayGain)
+        // Straight: its plan keeps the ends of the way before the surfaces that it touches, and so all that lies between.
+        var motion = new SphereMotion(body.PlannedStart, way / stepLength, Vector.Zero);
+        _sweep.ResetStepBudget();
+        var duration = stepLength;
+        var elapsed = 0.0;
+        Contact? met = null;
+        var metBall = 0;
+        for (var plan = 0; plan < BodySweep.MaxPlans; plan++)
         {
-            LimitEnergy(body, energy + (body.Description.Mass * Vector.Dot(acceleration, position - start)));
-        }
-
-        return elapsed;
-    }
-
-    /// <summary>Takes back what contacts have added to the energy of a body: what is immovable does no work.</summary>
-    private static void LimitEnergy(Body body, double limit)
-    {
-        var energy = body.KineticEnergy;
-        if (energy > 0 && energy > limit + (EnergyRounding * (energy + Math.Abs(limit))))
-        {
-            var scale = Math.Sqrt(Math.Max(0, limit) / energy);
-            body.Velocity *= scale;
-            body.AngularVelocity *= scale;
-        }
-    }
-
-    /// <summary>Moves the body until it touches something new, friction has stopped or turned it, or the time is up.</summary>
-    /// <param name="body">Leads into nothing that it touches.</param>
-    /// <param name="netAcceleration">What the contacts leave of the acceleration.</param>
-    /// <param name="acceleration">By gravity and forces.</param>
-    /// <param name="position">Position of the body; receives the new one.</param>
-    /// <param name="duration">Seconds.</param>
-    /// <param name="negligibleSpeed">Speed below which a body without acceleration rests.</param>
-    /// <returns>The time that has passed; infinite where the sweep needed too many advances, which loses the remaining time.</returns>
-    private double AdvanceAlong(
-        Body body, Vector netAcceleration, Vector acceleration, ref Vector position, double duration, double negligibleSpeed)
-    {
-        var contacts = body.Contacts;
-        var isStopping = false;
-        var stoppedVelocity = Vector.Zero;
-        var spinAcceleration = Vector.Zero;
-        var maxDuration = duration;
-        var isCarried = contacts.HasMovingSurface;
-        if (body.Description.Friction > 0 && contacts.Count > 0)
-        {
-            if (body.Description.IsRotationLocked)
+            var turn = duration / stepLength * body.PlannedTurn;
+            _obstacles.Time = 0;
+            if (!_sweep.TryFindImpact(body, in motion, turn, duration, out var hit, out var ball, out elapsed))
             {
-                isStopping = ApplyFriction(body, position, acceleration, ref netAcceleration, ref duration, out stoppedVelocity);
+                break;
             }
-            else
+
+            (met, metBall) = (hit, ball);
+            if (BodySweep.IsOnWay(body, turn, elapsed / duration))
             {
-                _spinFriction.Apply(body, position, acceleration, ref netAcceleration, ref duration, out spinAcceleration);
+                break;
             }
+
+            // The balls of a compound are there only where their ways end.
+            duration = elapsed;
+            elapsed = 0;
         }
 
-        var isSlow = contacts.Count > 0 && !isCarried && body.Velocity.MaxAbsComponent() <= negligibleSpeed;
-        body.Velocity = netAcceleration == Vector.Zero && isSlow ? Vector.Zero : body.Velocity;
-        body.NetAcceleration = netAcceleration;
-        var motion = new SphereMotion(position, body.Velocity, netAcceleration);
-        if (body.Velocity == Vector.Zero && netAcceleration == Vector.Zero && _obstacles.MaxKinematicSpeed(in motion, duration) == 0)
+        body.IsHeld = met is not null || elapsed < stepLength;
+        body.Position = body.IsHeld ? motion.PositionAt(elapsed) : body.Target;
+        body.SetOrientation(body.PlannedStartOrientation.TurnedBy(elapsed / stepLength * body.PlannedTurn));
+        if (met is { } contact)
         {
-            body.AngularVelocity += (spinAcceleration == Vector.Zero ? 0 : duration) * spinAcceleration;
-            return spinAcceleration == Vector.Zero ? maxDuration : duration;
+            _sweep.RemoveRoundingOverlap(body, metBall, in contact);
+            body.Balls[metBall].Contacts.Add(in contact, body.BallCentre(metBall));
+            body.PlanStop(metBall, in contact);
         }
-
-        _obstacles.CollectNearbyBodies(in motion, duration, body.Index);
-        var isHit = _sweep.TryFindImpact(in motion, duration, out var hit, out var elapsed);
-        position = motion.PositionAt(elapsed);
-        body.Velocity = motion.VelocityAt(elapsed);
-        body.AngularVelocity += elapsed * spinAcceleration;
-        if (isHit)
-        {
-            position = RemoveRoundingOverlap(position, in hit);
-            contacts.Add(in hit, position);
-            if (hit.IsBody)
-            {
-                body.MayTouchBodies = true;
-                _bodies[hit.BodyIndex].MayTouchBodies = true;
-            }
-        }
-        else if (isStopping)
-        {
-            body.Velocity = stoppedVelocity;
-        }
-
-        _obstacles.UpdateAfterMove(contacts, position);
-        return isHit || elapsed >= duration ? elapsed : double.PositiveInfinity;
     }
 
-    /// <summary>Slows down a body that does not turn, relative to what carries it.</summary>
-    /// <returns>True when the body has the velocity of what carries it after that time.</returns>
-    private static bool ApplyFriction(
-        Body body, Vector position, Vector acceleration, ref Vector netAcceleration, ref double duration, out Vector stoppedVelocity)
+    /// <summary>Moves a ball whose island has been solved to its target, on the way to which there is nothing.</summary>
+    public static void MoveFreely(Body body)
     {
-        var maxDuration = duration;
-        var carrying = body.Contacts.CarryingVelocity(position, out var carryingAcceleration);
-        netAcceleration -= carryingAcceleration;
-        var isStopping = ContactResponse.ApplyFriction(
-            body, body.Velocity - carrying, acceleration - carryingAcceleration, ref netAcceleration, ref duration);
-        netAcceleration += carryingAcceleration;
-        if (body.Contacts.HasMovingSurface && !(duration > 0))
-        {
-            // It goes along already.
-            duration = maxDuration;
-        }
+        body.IsHeld = false;
+        body.Position = body.Target;
+    }
 
-        stoppedVelocity = carrying + (duration * carryingAcceleration);
-        return isStopping;
+    /// <summary>Updates what a body touches after its planned way.</summary>
+    public void FinishPlanned(Body body) => _contacts.UpdateAfterMove(body);
+
+    /// <summary>
+    /// Moves a body on that a kinematic object overlaps at the end of the step: others were in its way, and are pushed in the next one.
+    /// </summary>
+    /// <param name="body">The obstacles must be those of the end of the step.</param>
+    public void PushOut(Body body)
+    {
+        var position = body.Position;
+        if (_contacts.IsOverrun(body) && _overlapResolver.TryResolve(ref position, body, ignoresBodies: true))
+        {
+            body.Position = position;
+            body.Contacts.Clear();
+        }
     }
 
     /// <summary>Pushes a body out that overlaps something; one that cannot be pushed out stops.</summary>
     private bool TryResolveOverlap(Body body)
     {
         var position = body.Position;
-        body.SafeDistance.Invalidate();
-        body.Contacts.Clear();
-        body.IsStuck = !_overlapResolver.TryResolve(ref position, body.Index);
+        body.DiscardSurfaces();
+        body.IsStuck = !_overlapResolver.TryResolve(ref position, body);
         body.IsOverlapResolved = !body.IsStuck;
         body.Position = position;
         if (body.IsStuck)
         {
             body.Velocity = Vector.Zero;
             body.NetAcceleration = Vector.Zero;
+            // A ball that turns in place pushes nothing along its normals.
+            body.AngularVelocity = body.IsCompound ? Vector.Zero : body.AngularVelocity;
         }
 
         return body.IsOverlapResolved;
-    }
-
-    /// <summary>Moves a position out of an obstacle that it overlaps by no more than rounding.</summary>
-    private Vector RemoveRoundingOverlap(Vector position, in Contact contact)
-    {
-        var gap = contact.Gap(position);
-        return gap < 0 && -gap <= MaxRoundingOverlap * _obstacles.TouchTolerance(position)
-            ? position - (gap * contact.Normal(position))
-            : position;
     }
 }

@@ -32,7 +32,6 @@ internal sealed class BodyStepper
     private readonly SleepIslands _islands;
     private readonly QueryContext _queryContext;
     private readonly BodyMover _mover;
-    private readonly CompoundMover _compoundMover;
 
     public BodyStepper(
         PhysicsSettings settings, List<Body> bodies, BodyGrid grid, NearbyBodies nearbyBodies, Obstacles obstacles, SleepIslands islands,
@@ -44,8 +43,7 @@ internal sealed class BodyStepper
         _obstacles = obstacles;
         _islands = islands;
         _queryContext = queryContext;
-        _mover = new(bodies, obstacles, islands, contactLog);
-        _compoundMover = new(bodies, obstacles, islands, planner);
+        _mover = new(bodies, obstacles, islands, planner, contactLog);
     }
 
     /// <summary>Makes room for so many bodies near one.</summary>
@@ -64,12 +62,10 @@ internal sealed class BodyStepper
     public void Prepare(Body body, StaticColliders? staticColliders, CharacterController? character, Vector gravity, double stepLength)
     {
         body.IsPrepared = true;
-        var (faceTests, boundTests) = BeginCount();
         var description = body.Description;
         if (body.IsShrinking)
         {
             body.Scale = Math.Max(description.MinScale, body.Scale - (body.Shrinkage * stepLength));
-            body.UpdateBalls();
         }
 
         var acceleration = gravity + ((body.Force + body.StepForce) / description.Mass);
@@ -81,30 +77,21 @@ internal sealed class BodyStepper
 
         if (body.StepTorque != Vector.Zero)
         {
-            body.AngularVelocity += stepLength * (body.IsCompound
-                ? body.InverseInertiaTensor * body.StepTorque : body.InverseInertia * body.StepTorque);
+            body.AngularVelocity += stepLength * body.SpinChange(body.StepTorque);
         }
 
         body.FreeAcceleration = acceleration;
         body.RestitutionThreshold =
             _settings.RestitutionThreshold ?? RestitutionThresholdFraction * acceleration.Length() * stepLength;
         var wasResolved = body.IsOverlapResolved;
-        SetMover(body, staticColliders, character, stepLength);
-        if (body.IsCompound)
-        {
-            _compoundMover.Prepare(body, stepLength);
-        }
-        else
-        {
-            _mover.Prepare(body, stepLength);
-        }
-
+        Begin(body, staticColliders, character, stepLength);
+        _mover.Prepare(body, stepLength);
         if (!wasResolved)
         {
             _grid.Update(body.Index);
         }
 
-        EndCount(body, faceTests, boundTests);
+        End(body);
     }
 
     /// <summary>Tells whether a kinematic object may come to touch a body that sleeps.</summary>
@@ -130,18 +117,9 @@ internal sealed class BodyStepper
             return;
         }
 
-        var (faceTests, boundTests) = BeginCount();
-        SetMover(body, staticColliders, character: null, stepLength);
-        if (body.IsCompound)
-        {
-            _compoundMover.FindNearSurfaces(body, reach, stepLength);
-        }
-        else
-        {
-            _mover.FindNearSurfaces(body, reach, stepLength);
-        }
-
-        EndCount(body, faceTests, boundTests);
+        Begin(body, staticColliders, character: null, stepLength);
+        _mover.FindNearSurfaces(body, reach, stepLength);
+        End(body);
     }
 
     /// <summary>Makes the step of a body that is awake and of no island.</summary>
@@ -153,22 +131,12 @@ internal sealed class BodyStepper
     /// <exception cref="InvalidOperationException">The body has left the range of a double; the message names it.</exception>
     public void Step(Body body, StaticColliders? staticColliders, CharacterController? character, double stepLength, long stepIndex)
     {
-        var (faceTests, boundTests) = BeginCount();
         var motion = new SphereMotion(body.Position, body.Velocity, body.FreeAcceleration);
         body.HasHeapMargin = false;
-        SetMover(body, staticColliders, character, stepLength);
-        if (body.IsCompound)
-        {
-            _ = _nearbyBodies.Prepare(motion.SweptBox(stepLength), body.Radius * ContactTolerances.NeighbourRadiusFactor, body.Index);
-            _compoundMover.Move(body, stepLength);
-        }
-        else
-        {
-            _obstacles.PrepareNearbyBodies(in motion, stepLength, body.Index);
-            _mover.Move(body, stepLength);
-        }
-
-        EndCount(body, faceTests, boundTests);
+        Begin(body, staticColliders, character, stepLength);
+        _obstacles.PrepareNearbyBodies(in motion, stepLength, body.Index);
+        _mover.Move(body, stepLength);
+        End(body);
         Finish(body, stepLength, stepIndex);
         CommitPosition(body);
     }
@@ -183,39 +151,21 @@ internal sealed class BodyStepper
             return;
         }
 
-        var (faceTests, boundTests) = BeginCount();
-        SetMover(body, staticColliders, character, stepLength);
-        if (body.IsCompound)
-        {
-            _compoundMover.MovePlanned(body, stepLength);
-        }
-        else
-        {
-            _mover.MovePlanned(body, stepLength);
-        }
-
-        EndCount(body, faceTests, boundTests);
+        Begin(body, staticColliders, character, stepLength);
+        _mover.MovePlanned(body, stepLength);
+        End(body);
     }
 
     /// <summary>Ends the step of a body of an island, whose position is known. Its position has to be committed then.</summary>
     /// <inheritdoc cref="Step"/>
     public void FinishPlanned(Body body, StaticColliders? staticColliders, double stepLength, long stepIndex)
     {
-        if (body.IsCompound || body.Contacts.Count > 0)
+        var hasMoved = body.Position != body.PlannedStart || body.Contacts.HasMovingSurface;
+        if (body.IsCompound || (hasMoved && body.Contacts.Count > 0))
         {
-            var (faceTests, boundTests) = BeginCount();
-            SetMover(body, staticColliders, character: null, stepLength);
-            _obstacles.Time = stepLength;
-            if (body.IsCompound)
-            {
-                _compoundMover.FinishPlanned(body);
-            }
-            else
-            {
-                _mover.FinishPlanned(body);
-            }
-
-            EndCount(body, faceTests, boundTests);
+            Begin(body, staticColliders, character: null, stepLength, stepLength);
+            _mover.FinishPlanned(body);
+            End(body);
         }
 
         Finish(body, stepLength, stepIndex);
@@ -239,17 +189,10 @@ internal sealed class BodyStepper
     /// <param name="stepLength">Seconds, positive.</param>
     public void PushOut(Body body, StaticColliders? staticColliders, double stepLength)
     {
-        var (faceTests, boundTests) = BeginCount();
-        SetMover(body, staticColliders, character: null, stepLength);
+        Begin(body, staticColliders, character: null, stepLength, stepLength);
         body.MayTouchBodies = true;
-        _obstacles.Time = stepLength;
-        if (!body.IsCompound)
-        {
-            // A compound is moved on when its next step begins.
-            _mover.PushOut(body);
-        }
-
-        EndCount(body, faceTests, boundTests);
+        _mover.PushOut(body);
+        End(body);
         _grid.Update(body.Index);
     }
 
@@ -277,22 +220,21 @@ internal sealed class BodyStepper
     private bool IsFree(Body body, Vector start, double way) =>
         !body.IsCompound && !_obstacles.HasKinematics && body.SafeDistance.LowerBoundAt(start) - body.Radius > way;
 
-    /// <summary>Makes a body the mover of the obstacles.</summary>
-    /// <returns>How far it may move in free flight.</returns>
-    private double SetMover(Body body, StaticColliders? staticColliders, CharacterController? character, double stepLength)
+    /// <summary>Makes a body the mover of the obstacles, and begins to count its tests.</summary>
+    private void Begin(
+        Body body, StaticColliders? staticColliders, CharacterController? character, double stepLength, double time = 0)
     {
         var maxTravel = new SphereMotion(body.Position, body.Velocity, body.FreeAcceleration).MaxTravelDistance(stepLength);
         var margin = (2 * maxTravel) + (SearchMargin * body.Radius);
         _obstacles.SetMover(staticColliders, SingleSphereOffset, body.Radius, body.SafeDistance, margin, character);
-        _obstacles.Time = 0;
-        return maxTravel;
+        _obstacles.Time = time;
+        body.FaceTests -= _queryContext.Statistics.FaceTests;
+        body.BoundTests -= _queryContext.Statistics.BoundTests;
     }
 
-    private (long FaceTests, long BoundTests) BeginCount() => (_queryContext.Statistics.FaceTests, _queryContext.Statistics.BoundTests);
-
-    private void EndCount(Body body, long faceTestsBefore, long boundTestsBefore)
+    private void End(Body body)
     {
-        body.FaceTests += _queryContext.Statistics.FaceTests - faceTestsBefore;
-        body.BoundTests += _queryContext.Statistics.BoundTests - boundTestsBefore;
+        body.FaceTests += _queryContext.Statistics.FaceTests;
+        body.BoundTests += _queryContext.Statistics.BoundTests;
     }
 }

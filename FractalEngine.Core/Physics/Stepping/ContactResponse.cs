@@ -1,13 +1,15 @@
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics.Bodies;
 using FractalEngine.Core.Physics.Events;
+using FractalEngine.Core.Physics.Rows;
+using FractalEngine.Core.Physics.Solving;
 
 namespace FractalEngine.Core.Physics.Stepping;
 
 /// <summary>
 /// How contacts change the velocity of a body: the paper's response v ← −e·vₙ + vₛ (§4.4.4), and friction.
 /// </summary>
-internal sealed class ContactResponse(List<Body> bodies, SleepIslands islands, ContactLog contactLog)
+internal sealed class ContactResponse(List<Body> bodies, SleepIslands islands, IslandPlanner planner, ContactLog contactLog)
 {
     // Bounces at the same moment, one after the other: more of them are a corner that leaves no path.
     private const int MaxBounces = 16;
@@ -16,12 +18,11 @@ internal sealed class ContactResponse(List<Body> bodies, SleepIslands islands, C
     private const double RelativeTolerance = 1e-13;
 
     private readonly HalfSpaces _planes = new();
+    private readonly ContactRow[] _rows = new ContactRow[1];
 
     /// <summary>Makes the velocity of a body lead into none of its contacts: by bouncing where the approach is fast enough.</summary>
-    /// <param name="body">Its contacts must be up to date.</param>
-    /// <param name="position">Position of the body, world space.</param>
-    /// <param name="restitutionThreshold">Approach speed below which it does not bounce, units per second.</param>
-    public void ResolveContacts(Body body, Vector position, double restitutionThreshold)
+    /// <param name="body">A ball, whose contacts must be up to date.</param>
+    public void ResolveContacts(Body body)
     {
         var contacts = body.Contacts;
         for (var bounce = 0; bounce < MaxBounces; bounce++)
@@ -30,10 +31,10 @@ internal sealed class ContactResponse(List<Body> bodies, SleepIslands islands, C
             var fastestSpeed = 0.0;
             for (var i = 0; i < contacts.Count; i++)
             {
-                var velocity = RelativeVelocity(body, contacts[i], position);
-                var speed = Vector.Dot(velocity, contacts[i].Normal(position));
+                var velocity = RelativeVelocity(body, in contacts[i]);
+                var speed = Vector.Dot(velocity, contacts[i].Normal(body.Position));
                 if (speed < fastestSpeed && speed < -RelativeTolerance * velocity.MaxAbsComponent()
-                    && (contacts[i].IsBody || -speed > restitutionThreshold))
+                    && (contacts[i].IsBody || -speed > body.RestitutionThreshold))
                 {
                     fastestIndex = i;
                     fastestSpeed = speed;
@@ -45,15 +46,15 @@ internal sealed class ContactResponse(List<Body> bodies, SleepIslands islands, C
                 break;
             }
 
-            Bounce(body, contacts[fastestIndex], position, -fastestSpeed, restitutionThreshold);
+            Bounce(body, in contacts[fastestIndex], -fastestSpeed);
         }
 
         // Slow approaches to surfaces, all at once.
         var velocityBefore = body.Velocity;
-        body.Velocity = contacts.ProjectVelocity(body.Velocity, position, _planes, onlySurfaces: true);
+        body.Velocity = contacts.ProjectVelocity(body.Velocity, body.Position, _planes, onlySurfaces: true);
         if (body.Velocity != velocityBefore)
         {
-            contactLog.AddSum(body, position, body.Description.Mass * (body.Velocity - velocityBefore));
+            contactLog.AddSum(body, body.Position, body.Description.Mass * (body.Velocity - velocityBefore));
         }
     }
 
@@ -101,46 +102,44 @@ internal sealed class ContactResponse(List<Body> bodies, SleepIslands islands, C
         return true;
     }
 
-    private Vector RelativeVelocity(Body body, in Contact contact, Vector position) => body.Velocity
-        - (contact.IsBody ? bodies[contact.BodyIndex].VelocityAt(ArmOf(in contact)) : contact.SurfaceVelocity(position));
+    private Vector RelativeVelocity(Body body, in Contact contact) =>
+        body.Velocity - (contact.IsBody ? contact.VelocityOf(bodies[contact.BodyIndex]) : contact.SurfaceVelocity(body.Position));
 
-    /// <summary>Centre of the touched ball relative to its body.</summary>
-    private Vector ArmOf(in Contact contact) => contact.Point - bodies[contact.BodyIndex].Position;
-
-    private void Bounce(Body body, in Contact contact, Vector position, double approachSpeed, double restitutionThreshold)
+    private void Bounce(Body body, in Contact contact, double approachSpeed)
     {
-        var normal = contact.Normal(position);
+        var normal = contact.Normal(body.Position);
         var other = contact.IsBody ? bodies[contact.BodyIndex] : null;
-        if (other is { IsAsleep: true } && approachSpeed > restitutionThreshold)
+        if (other is { IsAsleep: true } && approachSpeed > body.RestitutionThreshold)
         {
             islands.Wake(other);
         }
 
         // A body that sleeps on is as immovable as the ground.
         var movable = other is { IsAsleep: false, IsStuck: false } ? other : null;
-        var inverseMass = 1 / body.Description.Mass;
-        var otherInverseMass = movable is null ? 0
-            : movable.IsCompound ? movable.InverseMassAt(ArmOf(in contact), normal) : 1 / movable.Description.Mass;
-        var restitution = approachSpeed > restitutionThreshold ? CombinedRestitution(body, other) : 0;
-        var impulse = (1 + restitution) * approachSpeed / (inverseMass + otherInverseMass) * normal;
-        contactLog.Add(body, in contact, position, impulse.Length());
-        var friction = other is null ? body.Description.Friction : Math.Min(body.Description.Friction, other.Description.Friction);
         if (movable is { IsCompound: true })
         {
-            BounceOffCompound(body, movable, in contact, position, impulse, friction);
+            ContactRow.Clear(ref _rows[0]);
+            ContactRows.SetBalls(ref _rows[0], body, ball: 0, movable, contact.BodyBall, isImmovable: false, isAhead: false);
+            planner.StopApproachesOf([body.Index, movable.Index], _rows);
             return;
         }
 
+        var inverseMass = 1 / body.Description.Mass;
+        var otherInverseMass = movable is null ? 0 : 1 / movable.Description.Mass;
+        var description = other?.Description ?? body.Description;
+        var restitution =
+            approachSpeed > body.RestitutionThreshold ? Math.Min(body.Description.Restitution, description.Restitution) : 0;
+        var impulse = (1 + restitution) * approachSpeed / (inverseMass + otherInverseMass) * normal;
+        contactLog.Add(body, in contact, body.Position, impulse.Length());
+        var friction = Math.Min(body.Description.Friction, description.Friction);
         if (friction > 0)
         {
-            var relative = RelativeVelocity(body, in contact, position);
-            var otherRadius = other is { IsCompound: true } ? contact.CombinedRadius - body.Radius : other?.Radius ?? 0;
-            var across = StopSlip(body, other, otherRadius, movable, relative, normal, friction * impulse.Length());
+            var across = StopSlip(body, other, movable, RelativeVelocity(body, in contact), normal, friction * impulse.Length());
             impulse += across;
-            Turn(body, body.Radius, normal, across);
+            Turn(body, normal, across);
             if (movable is not null)
             {
-                Turn(movable, movable.Radius, normal, across);
+                Turn(movable, normal, across);
             }
         }
 
@@ -151,32 +150,15 @@ internal sealed class ContactResponse(List<Body> bodies, SleepIslands islands, C
         }
     }
 
-    /// <summary>Gives a ball and a compound the impulse of a bounce, then that of friction: both together could add energy.</summary>
-    private void BounceOffCompound(Body body, Body other, in Contact contact, Vector position, Vector impulse, double friction)
-    {
-        var normal = contact.Normal(position);
-        var arm = ArmOf(in contact) + ((contact.CombinedRadius - body.Radius) * normal);
-        body.Velocity += impulse / body.Description.Mass;
-        other.ApplyImpulse(arm, -impulse);
-        if (friction > 0)
-        {
-            var relative = RelativeVelocity(body, in contact, position);
-            var across = StopSlip(body, other, contact.CombinedRadius - body.Radius, other, relative, normal, friction * impulse.Length());
-            Turn(body, body.Radius, normal, across);
-            body.Velocity += across / body.Description.Mass;
-            other.ApplyImpulse(arm, -across);
-        }
-    }
-
     /// <summary>Impulse across the normal that stops the slip of the touching points, as far as friction allows.</summary>
-    private static Vector StopSlip(
-        Body body, Body? other, double otherRadius, Body? movable, Vector relative, Vector normal, double limit)
+    private static Vector StopSlip(Body body, Body? other, Body? movable, Vector relative, Vector normal, double limit)
     {
         var spin = body.Radius * body.AngularVelocity;
         var inverseMass = InverseMassAcross(body);
         if (other is not null)
         {
-            spin += otherRadius * other.AngularVelocity;
+            // A compound that does not give way does not turn.
+            spin += other.Radius * other.AngularVelocity;
             inverseMass += movable is null ? 0 : InverseMassAcross(movable);
         }
 
@@ -190,11 +172,7 @@ internal sealed class ContactResponse(List<Body> bodies, SleepIslands islands, C
     private static double InverseMassAcross(Body body) =>
         (1 / body.Description.Mass) + (body.InverseInertia * body.Radius * body.Radius);
 
-    /// <summary>Turns a body by an impulse at its touching point; both bodies of a contact turn alike.</summary>
-    private static void Turn(Body body, double radius, Vector normal, Vector across) =>
-        body.AngularVelocity -= body.InverseInertia * radius * Vector.Cross(normal, across);
-
-    private static double CombinedRestitution(Body body, Body? other) => other is null
-        ? body.Description.Restitution
-        : Math.Min(body.Description.Restitution, other.Description.Restitution);
+    /// <summary>Turns a ball by an impulse at its touching point; both bodies of a contact turn alike.</summary>
+    private static void Turn(Body body, Vector normal, Vector across) =>
+        body.AngularVelocity -= body.InverseInertia * body.Radius * Vector.Cross(normal, across);
 }

@@ -25,13 +25,10 @@ internal sealed class SpinFriction(List<Body> bodies)
 
     /// <summary>Finds the accelerations, constant for a time.</summary>
     /// <param name="body">Touches something, and leads into none of it.</param>
-    /// <param name="position">Position of the body, world space.</param>
-    /// <param name="acceleration">By gravity and forces.</param>
     /// <param name="netAcceleration">What the contacts leave of it without friction; receives what they leave with it.</param>
     /// <param name="duration">Seconds; receives the time until the body begins to roll, if that is sooner.</param>
     /// <param name="spinAcceleration">Receives the angular acceleration, radians per second².</param>
-    public void Apply(
-        Body body, Vector position, Vector acceleration, ref Vector netAcceleration, ref double duration, out Vector spinAcceleration)
+    public void Apply(Body body, ref Vector netAcceleration, ref double duration, out Vector spinAcceleration)
     {
         spinAcceleration = Vector.Zero;
         if (duration < MinDuration)
@@ -39,43 +36,41 @@ internal sealed class SpinFriction(List<Body> bodies)
             return;
         }
 
+        _solver.Load(0, body);
         ref var solverBody = ref _solver.Bodies[0];
-        solverBody = new()
-        {
-            Velocity = body.Velocity, Spin = body.AngularVelocity, InverseMass = 1 / body.Description.Mass,
-            InverseInertia = body.InverseInertia,
-        };
         var rows = _rows.AsSpan(0, body.Contacts.Count);
         for (var i = 0; i < rows.Length; i++)
         {
-            rows[i] = CreateRow(body, body.Contacts[i], position);
-            if (body.Contacts[i].Kinematic is not null)
-            {
-                rows[i].SetSurface(body.Contacts[i].SurfaceVelocity(position), Vector.Zero);
-            }
-
+            rows[i] = CreateRow(body, in body.Contacts[i]);
             _solver.ComputeMasses(ref rows[i]);
         }
 
         if (rows.Length == 1)
         {
-            LimitToSlide(body, in rows[0], position, acceleration, netAcceleration, ref duration);
+            LimitToSlide(body, in rows[0], netAcceleration, ref duration);
         }
 
-        SetFinalSurfaceVelocities(body, position, rows, duration);
-        foreach (ref var row in rows)
+        for (var i = 0; i < rows.Length; i++)
         {
+            ref var row = ref rows[i];
+            if (body.Contacts[i].Kinematic is { } kinematic && kinematic.AngularVelocity != Vector.Zero)
+            {
+                // What turns has other velocities where the body will be.
+                var change = duration * Vector.Cross(kinematic.AngularVelocity, body.Velocity - kinematic.Velocity);
+                row.SetSurface(row.SurfaceVelocity + change, kinematic.AngularVelocity);
+            }
+
             // What is left of the acceleration along the normal, as without friction.
             row.MinNormalVelocity = Vector.Dot(
                 body.Velocity - row.SurfaceVelocity + (duration * Math.Min(0, Vector.Dot(netAcceleration, row.Normal)) * row.Normal),
                 row.Normal);
         }
 
-        solverBody.Velocity += duration * acceleration;
+        solverBody.Velocity += duration * body.FreeAcceleration;
         _ = _solver.Solve(rows);
         netAcceleration = (solverBody.Velocity - body.Velocity) / duration;
         spinAcceleration = (solverBody.Spin - body.AngularVelocity) / duration;
-        var negligible = RestFraction * acceleration.Length();
+        var negligible = RestFraction * body.FreeAcceleration.Length();
         if (netAcceleration.MaxAbsComponent() <= negligible && spinAcceleration.MaxAbsComponent() * body.Radius <= negligible)
         {
             netAcceleration = Vector.Zero;
@@ -90,47 +85,27 @@ internal sealed class SpinFriction(List<Body> bodies)
         return solver;
     }
 
-    /// <summary>What turns has other velocities where the body will be.</summary>
-    private static void SetFinalSurfaceVelocities(Body body, Vector position, Span<ContactRow> rows, double duration)
+    private ContactRow CreateRow(Body body, in Contact contact)
     {
-        for (var i = 0; i < rows.Length; i++)
-        {
-            if (body.Contacts[i].Kinematic is { } kinematic && kinematic.AngularVelocity != Vector.Zero)
-            {
-                rows[i].SetSurface(
-                    rows[i].SurfaceVelocity + (duration * Vector.Cross(kinematic.AngularVelocity, body.Velocity - kinematic.Velocity)),
-                    kinematic.AngularVelocity);
-            }
-        }
-    }
-
-    private ContactRow CreateRow(Body body, in Contact contact, Vector position)
-    {
-        var normal = contact.Normal(position);
-        var friction = body.Description.Friction;
+        var row = ContactRows.OfSurface(body, ball: 0, in contact, isAhead: false);
+        row.First = 0;
         if (contact.IsBody)
         {
             // One that moves would drive this body without being slowed down. Both are solved together in the next step.
             var other = bodies[contact.BodyIndex];
-            friction = other.IsAsleep ? Math.Min(friction, other.Description.Friction) : 0;
+            row.Friction = other.IsAsleep ? Math.Min(row.Friction, other.Description.Friction) : 0;
         }
 
-        return new()
-        {
-            First = 0, Second = ContactRow.Immovable, Normal = normal, FirstRadius = body.Radius, Friction = friction,
-            RollingArm = body.Description.RollingFriction * body.Radius,
-            SpinningArm = body.Description.SpinningFriction * body.Radius,
-        };
+        return row;
     }
 
     /// <summary>Ends the time when friction has stopped the slip: |w + s·t| = f·t, as for a body that does not turn.</summary>
-    private void LimitToSlide(
-        Body body, in ContactRow row, Vector position, Vector acceleration, Vector netAcceleration, ref double duration)
+    private void LimitToSlide(Body body, in ContactRow row, Vector netAcceleration, ref double duration)
     {
         var slip = _solver.Slip(in row);
-        _ = body.Contacts.CarryingVelocity(position, out var surfaceAcceleration);
+        _ = body.Contacts.CarryingVelocity(body.Position, out var surfaceAcceleration);
         var slipAcceleration = netAcceleration - (Vector.Dot(netAcceleration, row.Normal) * row.Normal) - surfaceAcceleration;
-        var normalAcceleration = Math.Max(0, Vector.Dot(netAcceleration - acceleration, row.Normal));
+        var normalAcceleration = Math.Max(0, Vector.Dot(netAcceleration - body.FreeAcceleration, row.Normal));
         var deceleration = row.Friction * normalAcceleration * body.Description.Mass / row.FrictionMass;
         var excess = (deceleration * deceleration) - slipAcceleration.LengthSquared();
         var dot = Vector.Dot(slip, slipAcceleration);
