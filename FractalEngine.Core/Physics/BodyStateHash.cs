@@ -1,5 +1,5 @@
-using System.Buffers.Binary;
 using System.Security.Cryptography;
+using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics.Bodies;
 using FractalEngine.Core.Physics.Statics;
 
@@ -8,12 +8,6 @@ namespace FractalEngine.Core.Physics;
 /// <summary>Computes a hash of the state of bodies, to compare runs bit for bit.</summary>
 internal static class BodyStateHash
 {
-    // Three coordinates of the position, three of the velocity, and the scale with the sleep as its sign.
-    private const int NumbersPerBody = 7;
-
-    // Position, orientation, velocity, angular velocity and belt.
-    private const int NumbersPerKinematic = 16;
-
     // The hash is shown as its first bytes, of the 32 of a SHA-256.
     private const int HashBytes = 8;
 
@@ -21,44 +15,32 @@ internal static class BodyStateHash
     /// <returns>16 hexadecimal digits.</returns>
     public static string Compute(IReadOnlyList<Body> bodies, IReadOnlyList<KinematicObject> kinematics)
     {
-        var bytes = new byte[((bodies.Count * NumbersPerBody) + (kinematics.Count * NumbersPerKinematic)) * sizeof(double)];
-        var remaining = bytes.AsSpan();
+        using var state = new MemoryStream();
+        // It writes numbers in the order of little-endian machines on all of them.
+        using var writer = new BinaryWriter(state);
         foreach (var body in bodies)
         {
-            double[] numbers =
-            [
-                body.Position.X, body.Position.Y, body.Position.Z,
-                body.Velocity.X, body.Velocity.Y, body.Velocity.Z,
-                body.IsAsleep ? -body.Scale : body.Scale,
-            ];
-            remaining = Write(numbers, remaining);
+            Write(writer, body.Position, body.Velocity);
+            writer.Write(body.IsAsleep ? -body.Scale : body.Scale);
         }
 
         foreach (var moved in kinematics)
         {
-            double[] numbers =
-            [
-                moved.Pose.Position.X, moved.Pose.Position.Y, moved.Pose.Position.Z,
-                moved.Pose.Orientation.Cosine,
-                moved.Pose.Orientation.Axis.X, moved.Pose.Orientation.Axis.Y, moved.Pose.Orientation.Axis.Z,
-                moved.Velocity.X, moved.Velocity.Y, moved.Velocity.Z,
-                moved.AngularVelocity.X, moved.AngularVelocity.Y, moved.AngularVelocity.Z,
-                moved.Belt.X, moved.Belt.Y, moved.Belt.Z,
-            ];
-            remaining = Write(numbers, remaining);
+            Write(writer, moved.Pose.Position);
+            writer.Write(moved.Pose.Orientation.Cosine);
+            Write(writer, moved.Pose.Orientation.Axis, moved.Velocity, moved.AngularVelocity, moved.Belt);
         }
 
-        return Convert.ToHexStringLower(SHA256.HashData(bytes).AsSpan(0, HashBytes));
+        return Convert.ToHexStringLower(SHA256.HashData(state.ToArray()).AsSpan(0, HashBytes));
     }
 
-    private static Span<byte> Write(double[] numbers, Span<byte> remaining)
+    private static void Write(BinaryWriter writer, params ReadOnlySpan<Vector> vectors)
     {
-        foreach (var number in numbers)
+        foreach (var vector in vectors)
         {
-            BinaryPrimitives.WriteDoubleLittleEndian(remaining, number);
-            remaining = remaining[sizeof(double)..];
+            writer.Write(vector.X);
+            writer.Write(vector.Y);
+            writer.Write(vector.Z);
         }
-
-        return remaining;
     }
 }

@@ -119,14 +119,9 @@ public static class PhysicsLimits
     private static void RequireRadius(Body body)
     {
         var coordinate = body.Position.MaxAbsComponent();
-        if (!(coordinate <= MaxCoordinate))
-        {
-            // That is the limit which such a body exceeds.
-            return;
-        }
-
         var smallest = body.Description.Shrinkage > 0 ? body.Description.MinScale : 1;
-        for (var ball = 0; ball < body.BallCount; ball++)
+        // A body beyond the largest coordinate exceeds that limit.
+        for (var ball = 0; ball < body.BallCount && coordinate <= MaxCoordinate; ball++)
         {
             if (smallest * body.BallRadius(ball) < MinRadiusShare * coordinate)
             {

@@ -14,7 +14,7 @@ namespace FractalEngine.Core.Physics;
 
 /// <summary>Casts spheres and rays through a world as it is between two steps.</summary>
 internal sealed class WorldQueries(
-    List<Body> bodies, StaticObjectSet statics, Obstacles obstacles, KinematicSet kinematics, QueryContext queryContext)
+    List<Body> bodies, StaticObjectSet statics, Obstacles obstacles, QueryContext queryContext)
 {
     // Relative to the radius: contacts that a sphere begins with.
     private const double TouchFraction = 1e-9;
@@ -29,8 +29,8 @@ internal sealed class WorldQueries(
     {
         _safeDistance.Invalidate();
         obstacles.SetMover(colliders, BodyStepper.SingleSphereOffset, radius, _safeDistance, 0);
-        kinematics.Time = 0;
-        kinematics.IsFrozen = true;
+        statics.Kinematics.Time = 0;
+        statics.Kinematics.IsFrozen = true;
         try
         {
             var motion = new SphereMotion(start, way, Vector.Zero);
@@ -47,7 +47,7 @@ internal sealed class WorldQueries(
         }
         finally
         {
-            kinematics.IsFrozen = false;
+            statics.Kinematics.IsFrozen = false;
         }
     }
 
@@ -76,14 +76,6 @@ internal sealed class WorldQueries(
         }
 
         return isHit;
-    }
-
-    /// <summary>Finds the static object whose surface is at a point.</summary>
-    /// <returns>Its index; −1 where there is none.</returns>
-    public int FindObjectAt(StaticColliders? colliders, Vector point, double tolerance)
-    {
-        obstacles.SetMover(colliders, BodyStepper.SingleSphereOffset, 0, _safeDistance, 0);
-        return obstacles.TryFindObject(point, tolerance, out var index) ? index : -1;
     }
 
     private bool TryHitObject(StaticObject target, Ray ray, ref double maxDistance, ref CastHit hit)
@@ -160,8 +152,6 @@ internal sealed class WorldQueries(
         }
 
         var tolerance = (1e-6 * radius) + (1e-12 * centre.MaxAbsComponent());
-        return new(
-            distance, contact.Point, normal, null,
-            obstacles.TryFindObject(contact.Point, tolerance, out var index) ? statics.Objects[index] : null);
+        return new(distance, contact.Point, normal, null, obstacles.FindClosestPoint(contact.Point, tolerance, out _));
     }
 }

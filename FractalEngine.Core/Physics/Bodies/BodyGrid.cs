@@ -25,7 +25,6 @@ internal sealed class BodyGrid
     // Marks a large body, which is in no bucket, and the end of a bucket's chain.
     private const int None = -1;
 
-    private readonly List<int> _largeBodies = [];
     private int[] _heads = [];
     private int[] _previous = [];
     private Entry[] _entries = [];
@@ -37,14 +36,14 @@ internal sealed class BodyGrid
     public long Version { get; private set; }
 
     /// <summary>The bodies that are in no cell, since they are wider than one.</summary>
-    public List<int> LargeBodies => _largeBodies;
+    public List<int> LargeBodies { get; } = [];
 
     /// <summary>Builds the grid anew for all bodies. Cost O(n·log n).</summary>
     public void Build(List<Body> bodies)
     {
         Version++;
         _bodies = bodies;
-        _largeBodies.Clear();
+        LargeBodies.Clear();
         var bucketCount = MinBuckets;
         while (bucketCount < BucketsPerBody * bodies.Count)
         {
@@ -65,16 +64,15 @@ internal sealed class BodyGrid
         _maxGridRadius = 0;
         for (var i = 0; i < bodies.Count; i++)
         {
-            var (position, radius) = (bodies[i].Position, bodies[i].Radius);
-            _entries[i] = new() { Position = position, Radius = radius, Cell = CellAt(position), Bucket = None };
-            if (2 * radius > _cellSize)
+            _entries[i] = CreateEntry(bodies[i]);
+            if (2 * bodies[i].Radius > _cellSize)
             {
-                _largeBodies.Add(i);
+                LargeBodies.Add(i);
             }
             else
             {
-                _maxGridRadius = Math.Max(_maxGridRadius, radius);
-                Insert(i, HashOf(_entries[i].Cell));
+                _maxGridRadius = Math.Max(_maxGridRadius, bodies[i].Radius);
+                Insert(i);
             }
         }
     }
@@ -104,12 +102,9 @@ internal sealed class BodyGrid
         }
 
         Version++;
-        ref var entry = ref _entries[index];
-        entry.Position = _bodies[index].Position;
-        entry.Radius = _bodies[index].Radius;
-        entry.Cell = CellAt(entry.Position);
         Remove(index);
-        Insert(index, HashOf(entry.Cell));
+        _entries[index] = CreateEntry(_bodies[index]);
+        Insert(index);
     }
 
     /// <summary>Finds the cells of all bodies that a moving sphere may meet.</summary>
@@ -125,35 +120,8 @@ internal sealed class BodyGrid
     /// <param name="cells">The cells.</param>
     /// <param name="results">Receives the indices: cell by cell in the order of their coordinates, the last to enter a cell first.</param>
     /// <returns>False where that would take longer than to test all bodies: then nothing is collected.</returns>
-    public bool TryCollect(in CellRange cells, List<int> results)
-    {
-        if (!(cells.Count <= _bodies.Count))
-        {
-            return false;
-        }
-
-        var entries = _entries;
-        for (var x = cells.Min.X; x <= cells.Max.X; x++)
-        {
-            for (var y = cells.Min.Y; y <= cells.Max.Y; y++)
-            {
-                for (var z = cells.Min.Z; z <= cells.Max.Z; z++)
-                {
-                    for (var i = _heads[Hash(x, y, z)]; i >= 0; i = entries[i].Next)
-                    {
-                        // Other cells may have the same hash.
-                        ref readonly var cell = ref entries[i].Cell;
-                        if (cell.X == x && cell.Y == y && cell.Z == z)
-                        {
-                            results.Add(i);
-                        }
-                    }
-                }
-            }
-        }
-
-        return true;
-    }
+    public bool TryCollect(in CellRange cells, List<int> results) =>
+        TryCollect(in cells, Vector.Zero, double.PositiveInfinity, None, results);
 
     /// <summary>Collects all bodies of cells that a sphere overlaps.</summary>
     /// <param name="centre">Its centre, world space.</param>
@@ -161,16 +129,18 @@ internal sealed class BodyGrid
     /// <param name="excludedIndex">Index of a body that is left out.</param>
     /// <param name="results">Receives the indices, in no particular order, but always in the same.</param>
     /// <returns>False where that would take longer than to test all bodies: then nothing is collected.</returns>
-    public bool TryCollectOverlaps(Vector centre, double radius, int excludedIndex, List<int> results)
+    public bool TryCollectOverlaps(Vector centre, double radius, int excludedIndex, List<int> results) =>
+        TryCollect(CellsAround(new(centre, centre), radius), centre, radius, excludedIndex, results);
+
+    private bool TryCollect(in CellRange cells, Vector centre, double radius, int excludedIndex, List<int> results)
     {
-        var margin = (radius + _maxGridRadius) * Vector.One;
-        var (min, max) = (CellAt(centre - margin), CellAt(centre + margin));
-        if (!(new CellRange(min, max).Count <= _bodies.Count))
+        if (!(cells.Count <= _bodies.Count))
         {
             return false;
         }
 
         var entries = _entries;
+        var (min, max) = cells;
         for (var x = min.X; x <= max.X; x++)
         {
             for (var y = min.Y; y <= max.Y; y++)
@@ -228,17 +198,20 @@ internal sealed class BodyGrid
     private long CellCoordinate(double coordinate) =>
         (long)Math.Clamp(Math.Floor(coordinate / _cellSize), -MaxCellCoordinate, MaxCellCoordinate);
 
-    private int HashOf(in Cell cell) => Hash(cell.X, cell.Y, cell.Z);
+    private Entry CreateEntry(Body body) =>
+        new() { Position = body.Position, Radius = body.Radius, Cell = CellAt(body.Position), Bucket = None };
 
     // Three primes spread the coordinates; a multiplication by 2^64 divided by the golden ratio mixes the bits.
     private int Hash(long x, long y, long z) =>
         (int)(((ulong)((x * 73856093) ^ (y * 19349663) ^ (z * 83492791)) * 0x9E3779B97F4A7C15) >> 40) & (_heads.Length - 1);
 
-    private void Insert(int index, int bucket)
+    private void Insert(int index)
     {
+        ref var entry = ref _entries[index];
+        var bucket = Hash(entry.Cell.X, entry.Cell.Y, entry.Cell.Z);
         var head = _heads[bucket];
-        _entries[index].Bucket = bucket;
-        _entries[index].Next = head;
+        entry.Bucket = bucket;
+        entry.Next = head;
         _previous[index] = None;
         _heads[bucket] = index;
         if (head >= 0)

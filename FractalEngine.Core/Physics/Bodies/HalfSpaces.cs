@@ -52,11 +52,10 @@ internal sealed class HalfSpaces
             return true;
         }
 
-        var bestDistanceSquared = double.PositiveInfinity;
-        var bestPoint = target;
+        var minDistanceSquared = double.PositiveInfinity;
         for (var i = 0; i < Count; i++)
         {
-            UpdateIfCloser(ProjectOntoPlane(target, i), target, ref bestDistanceSquared, ref bestPoint);
+            UpdateIfCloser(ProjectOntoPlane(target, i), target, ref minDistanceSquared, ref closest);
             for (var j = i + 1; j < Count; j++)
             {
                 if (!TryProjectOntoLine(target, i, j, out var onLine))
@@ -64,31 +63,30 @@ internal sealed class HalfSpaces
                     continue;
                 }
 
-                UpdateIfCloser(onLine, target, ref bestDistanceSquared, ref bestPoint);
+                UpdateIfCloser(onLine, target, ref minDistanceSquared, ref closest);
                 for (var k = j + 1; k < Count; k++)
                 {
                     if (TryIntersect(i, j, k, out var corner))
                     {
-                        UpdateIfCloser(corner, target, ref bestDistanceSquared, ref bestPoint);
+                        UpdateIfCloser(corner, target, ref minDistanceSquared, ref closest);
                     }
                 }
             }
         }
 
-        closest = bestPoint;
-        return bestDistanceSquared < double.PositiveInfinity;
+        return minDistanceSquared < double.PositiveInfinity;
     }
 
     /// <summary>Projects a vector onto the intersection; the zero vector where that is empty.</summary>
     public Vector ProjectOrZero(Vector vector) => TryProject(vector, out var projected) ? projected : Vector.Zero;
 
-    private void UpdateIfCloser(Vector candidate, Vector target, ref double bestDistanceSquared, ref Vector bestPoint)
+    private void UpdateIfCloser(Vector candidate, Vector target, ref double minDistanceSquared, ref Vector closest)
     {
         var distanceSquared = (candidate - target).LengthSquared();
-        if (distanceSquared < bestDistanceSquared && Satisfies(candidate, target))
+        if (distanceSquared < minDistanceSquared && Satisfies(candidate, target))
         {
-            bestDistanceSquared = distanceSquared;
-            bestPoint = candidate;
+            minDistanceSquared = distanceSquared;
+            closest = candidate;
         }
     }
 

@@ -6,11 +6,10 @@ namespace FractalEngine.Core.Physics.Bodies;
 /// <summary>Puts slow bodies to sleep, and wakes whole islands: a body with all that touch it, directly or through others.</summary>
 internal sealed class SleepIslands(List<Body> bodies, NearbyBodies nearbyBodies)
 {
-    // Initial capacity of the lists of neighbours; beyond it they grow.
+    // Initial capacity of the list of neighbours; beyond it it grows.
     private const int InitialNeighbourCapacity = 256;
 
     private readonly List<int> _neighbours = new(InitialNeighbourCapacity);
-    private readonly List<int> _candidates = new(InitialNeighbourCapacity);
     private readonly Stack<Body> _stack = [];
 
     /// <summary>True where a body may sleep; else nothing need be woken.</summary>
@@ -55,21 +54,7 @@ internal sealed class SleepIslands(List<Body> bodies, NearbyBodies nearbyBodies)
     public void Wake(Body body)
     {
         body.Wake();
-        _stack.Push(body);
-        while (_stack.TryPop(out var next))
-        {
-            _neighbours.Clear();
-            nearbyBodies.CollectOverlaps(
-                next.Position, next.Radius * ContactTolerances.SupportRadiusFactor, next.Index, _neighbours);
-            foreach (var index in _neighbours)
-            {
-                if (bodies[index].IsAsleep)
-                {
-                    bodies[index].Wake();
-                    _stack.Push(bodies[index]);
-                }
-            }
-        }
+        WakeOverlapping(body.Position, body.Radius, body.Index);
     }
 
     /// <summary>Gives a body another velocity, and wakes it and its whole island.</summary>
@@ -87,13 +72,24 @@ internal sealed class SleepIslands(List<Body> bodies, NearbyBodies nearbyBodies)
     /// <param name="excludedIndex">Index of the body that the sphere belongs to.</param>
     public void WakeOverlapping(Vector centre, double radius, int excludedIndex = Contact.NoBody)
     {
-        _candidates.Clear();
-        nearbyBodies.CollectOverlaps(centre, radius * ContactTolerances.SupportRadiusFactor, excludedIndex, _candidates);
-        foreach (var index in _candidates)
+        WakeTouching(centre, radius, excludedIndex);
+        while (_stack.TryPop(out var next))
+        {
+            WakeTouching(next.Position, next.Radius, next.Index);
+        }
+    }
+
+    /// <summary>Wakes the bodies that touch a sphere, and keeps them: others may touch them.</summary>
+    private void WakeTouching(Vector centre, double radius, int excludedIndex)
+    {
+        _neighbours.Clear();
+        nearbyBodies.CollectOverlaps(centre, radius * ContactTolerances.SupportRadiusFactor, excludedIndex, _neighbours);
+        foreach (var index in _neighbours)
         {
             if (bodies[index].IsAsleep)
             {
-                Wake(bodies[index]);
+                bodies[index].Wake();
+                _stack.Push(bodies[index]);
             }
         }
     }

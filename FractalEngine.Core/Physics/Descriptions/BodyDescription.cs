@@ -92,13 +92,11 @@ public sealed record BodyDescription(Vector Position, double Radius)
     public static BodyDescription FromPhysicsObject(PlacedModel placed, PhysicsObject declared, int index)
     {
         var shape = declared.Shape == BodyShape.Ball ? null : CompoundFit.Fit(placed, declared.Shape);
-        var offset = shape?.Centre ?? Vector.Zero;
-        return FromPhysicsObject(placed, declared, index, shape?.Radius ?? BodyRadius.Compute(placed), offset) with { Shape = shape };
-    }
-
-    private static BodyDescription FromPhysicsObject(PlacedModel placed, PhysicsObject declared, int index, double radius, Vector centre) =>
-        new(centre == Vector.Zero ? placed.ObjectToWorld.Translation : placed.ObjectToWorld.Translation + centre, radius)
+        var centre = shape?.Centre ?? Vector.Zero;
+        var position = placed.ObjectToWorld.Translation;
+        return new(centre == Vector.Zero ? position : position + centre, shape?.Radius ?? BodyRadius.Compute(placed))
         {
+            Shape = shape,
             ObjectOffset = Vector.Zero - centre,
             Name = declared.Name,
             Velocity = declared.Velocity,
@@ -116,6 +114,7 @@ public sealed record BodyDescription(Vector Position, double Radius)
             ObjectIndex = index,
             LinearPart = placed.ObjectToWorld.Linear,
         };
+    }
 
     /// <summary>Throws for a description that no body can have.</summary>
     /// <exception cref="ArgumentException">A number is not finite, or outside its range; the message names it and the body.</exception>

@@ -48,11 +48,7 @@ internal static class BodyRadius
         var maxDistance = 0.0;
         for (var corner = 0; corner < 8; corner++)
         {
-            var point = new Vector(
-                (corner & 1) == 0 ? box.Minimum.X : box.Maximum.X,
-                (corner & 2) == 0 ? box.Minimum.Y : box.Maximum.Y,
-                (corner & 4) == 0 ? box.Minimum.Z : box.Maximum.Z);
-            maxDistance = Math.Max(maxDistance, (map * point).Length());
+            maxDistance = Math.Max(maxDistance, (map * box.Corner(corner)).Length());
         }
 
         return maxDistance;

@@ -43,9 +43,9 @@ public sealed class CompoundShape
     public static CompoundShape OfBalls(IEnumerable<CompoundBall> balls)
     {
         var all = balls.ToImmutableArray();
-        Require(all.Length is > 0 and <= MaxBalls, $"expected 1 to {MaxBalls} balls");
-        Require(all.All(static ball => ball.Offset.IsFinite()), "the offsets of balls must be finite");
-        Require(all.All(static ball => ball.Radius > 0 && double.IsFinite(ball.Radius)), "the radii of balls must be positive");
+        ArgumentCheck.Require(all.Length is > 0 and <= MaxBalls, $"expected 1 to {MaxBalls} balls");
+        ArgumentCheck.Require(all.All(static ball => ball.Offset.IsFinite()), "the offsets of balls must be finite");
+        ArgumentCheck.Require(all.All(static ball => ball.Radius > 0 && double.IsFinite(ball.Radius)), "the radii of balls must be positive");
         // Relative to the largest radius, so that no volume is too small or large for a double.
         var unit = all.Max(static ball => ball.Radius);
         var volume = all.Sum(ball => Cube(ball.Radius / unit));
@@ -79,12 +79,12 @@ public sealed class CompoundShape
     /// </exception>
     public static CompoundShape Capsule(Vector from, Vector to, double radius)
     {
-        Require(from.IsFinite() && to.IsFinite(), "the ends of a capsule must be finite");
-        Require(radius > 0 && double.IsFinite(radius), "the radius of a capsule must be positive");
+        ArgumentCheck.Require(from.IsFinite() && to.IsFinite(), "the ends of a capsule must be finite");
+        ArgumentCheck.Require(radius > 0 && double.IsFinite(radius), "the radius of a capsule must be positive");
         var segment = to - from;
         var length = segment.Length();
         var gaps = Math.Ceiling(length / (CapsuleSpacing * radius));
-        Require(
+        ArgumentCheck.Require(
             gaps < MaxBalls, FormattableString.Invariant($"a capsule may be {(MaxBalls - 1) * CapsuleSpacing} radii longer than its ends"));
         var balls = Enumerable.Range(0, (int)gaps + 1).Select(i => new CompoundBall(from + (i / Math.Max(1, gaps) * segment), radius));
         return new(balls, 0.5 * (from + to), CapsuleInertia(segment, length, radius)) { IsCapsule = true };
@@ -105,6 +105,4 @@ public sealed class CompoundShape
     }
 
     private static double Cube(double number) => number * number * number;
-
-    private static void Require(bool isMet, string requirement) => ArgumentCheck.Require(isMet, requirement);
 }

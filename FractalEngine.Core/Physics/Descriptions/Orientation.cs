@@ -61,6 +61,10 @@ public readonly record struct Orientation(double Cosine, Vector Axis)
     /// <summary>Rotates a vector from the body's present axes to its initial ones.</summary>
     public Vector RotateBack(Vector vector) => new Orientation(Cosine, -Axis).Rotate(vector);
 
+    /// <summary>Turns a placement about its position.</summary>
+    internal Transformation Turn(Transformation placement) =>
+        placement with { Rotation = 180 / Math.PI * (ToMatrix() * placement.Rotation.LocalAxesFromDegrees()).EulerAngles() };
+
     private Orientation Normalized()
     {
         var length = Math.Sqrt((Cosine * Cosine) + Axis.LengthSquared());

@@ -20,8 +20,8 @@ internal sealed class ContactLog(List<Body> bodies, StaticObjectSet statics)
     /// <summary>What has happened in the last step, in the order of the bodies.</summary>
     public List<ContactEvent> Events { get; } = [];
 
-    /// <summary>Number of contacts that have been collected in this step.</summary>
-    public int Count => _records.Count;
+    /// <summary>The contacts that have been collected in this step, which may be replaced while it is not finished.</summary>
+    public Span<ContactRecord> Records => CollectionsMarshal.AsSpan(_records);
 
     /// <summary>Makes room for the contacts of a step.</summary>
     public void Reserve(int contactCount)
@@ -110,15 +110,12 @@ internal sealed class ContactLog(List<Body> bodies, StaticObjectSet statics)
         }
     }
 
-    /// <summary>A record of the step, which may be replaced while it is not finished.</summary>
-    public ref ContactRecord Record(int index) => ref CollectionsMarshal.AsSpan(_records)[index];
-
     /// <summary>Ends the step: records of the same two are joined, and compared with those of the step before.</summary>
     public void Finish()
     {
         Events.Clear();
         KeepSleepers();
-        _records.Sort(ContactRecord.Order);
+        _records.Sort(ContactRecord.Compare);
         Join();
         var old = 0;
         foreach (var record in _records)
@@ -159,7 +156,7 @@ internal sealed class ContactLog(List<Body> bodies, StaticObjectSet statics)
     private void Join()
     {
         var count = 0;
-        foreach (var record in CollectionsMarshal.AsSpan(_records))
+        foreach (var record in Records)
         {
             if (record.Second == ContactRecord.Unknown)
             {

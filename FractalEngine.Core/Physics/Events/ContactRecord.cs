@@ -19,9 +19,6 @@ internal readonly record struct ContactRecord(int First, int Second, Vector Poin
     public static int OfObject(int index) => -2 - index;
 
     /// <summary>The order of records: by their bodies, then by what these touch.</summary>
-    public static readonly Comparison<ContactRecord> Order = Compare;
-
-    /// <summary>The order of records: by their bodies, then by what these touch.</summary>
     public static int Compare(ContactRecord record1, ContactRecord record2) => record1.First != record2.First
         ? record1.First.CompareTo(record2.First) : record1.Second.CompareTo(record2.Second);
 }

@@ -20,10 +20,10 @@ internal sealed class AirMovement(CharacterCapsule capsule)
     {
         var timeLeft = stepLength;
         isGrounded = false;
-        capsule.ClearPlanes();
+        capsule.Planes.Clear();
         for (var hits = 0; hits < CharacterCapsule.MaxHits && timeLeft > 0; hits++)
         {
-            var netAcceleration = capsule.ProjectVelocity(gravity);
+            var netAcceleration = capsule.Planes.ProjectOrZero(gravity);
             if (velocity == Vector.Zero && netAcceleration == Vector.Zero)
             {
                 break;
@@ -38,7 +38,7 @@ internal sealed class AirMovement(CharacterCapsule capsule)
             }
 
             var normal = contact.Normal(capsule.Position);
-            capsule.AddPlane(normal);
+            capsule.Planes.Add(normal, 0);
             capsule.PushBody(in contact, normal, velocity);
             if (capsule.IsWalkable(in contact, normal))
             {
@@ -50,11 +50,11 @@ internal sealed class AirMovement(CharacterCapsule capsule)
                 capsule.AddWallPlane(normal);
             }
 
-            velocity = capsule.ProjectVelocity(velocity);
+            velocity = capsule.Planes.ProjectOrZero(velocity);
         }
 
-        isGrounded |= capsule.PlaneCount > 0 && gravity != Vector.Zero
-            && capsule.ProjectVelocity(gravity).LengthSquared() <= RestingAccelerationSquared * gravity.LengthSquared();
+        isGrounded |= capsule.Planes.Count > 0 && gravity != Vector.Zero
+            && capsule.Planes.ProjectOrZero(gravity).LengthSquared() <= RestingAccelerationSquared * gravity.LengthSquared();
         return velocity;
     }
 }

@@ -17,12 +17,10 @@ public sealed class CharacterController
     // Seconds for which a jump waits for ground.
     private const double JumpBufferTime = 0.1;
 
-    private readonly CharacterCapsule _capsule;
     private readonly GroundMovement _groundMovement;
     private readonly AirMovement _airMovement;
     private double _jumpBufferTime;
     private Vector _positionBeforeCarry;
-    private bool _isActive;
 
     /// <summary>Creates a character at the position of its description, not active.</summary>
     /// <param name="bodies">The world's bodies.</param>
@@ -33,9 +31,10 @@ public sealed class CharacterController
     internal CharacterController(List<Body> bodies, SleepIslands islands, Obstacles obstacles, Player player, Vector gravity)
     {
         Description = player;
-        _capsule = new(bodies, islands, obstacles, player, gravity);
-        _groundMovement = new(_capsule, player.StepHeight);
-        _airMovement = new(_capsule);
+        Capsule = new(bodies, islands, obstacles, player);
+        Capsule.AlignWithGravity(gravity);
+        _groundMovement = new(Capsule, player.StepHeight);
+        _airMovement = new(Capsule);
         Reset();
     }
 
@@ -43,10 +42,10 @@ public sealed class CharacterController
     public Player Description { get; }
 
     /// <summary>Direction against gravity, of length 1; the y-axis where there is no gravity.</summary>
-    public Vector Up => _capsule.Up;
+    public Vector Up => Capsule.Up;
 
     /// <summary>Current position of the capsule's centre, world space.</summary>
-    public Vector Position => _capsule.Position;
+    public Vector Position => Capsule.Position;
 
     /// <summary>Position of the centre before the last step, for interpolation between steps.</summary>
     public Vector PreviousPosition { get; private set; }
@@ -69,15 +68,15 @@ public sealed class CharacterController
     /// <summary>Whether the character takes part in the world. While it does not, nothing touches or moves it.</summary>
     public bool IsActive
     {
-        get => _isActive;
+        get;
         set
         {
-            if (_isActive != value)
+            if (field != value)
             {
-                _isActive = value;
+                field = value;
                 // Something may have come to lie here; or lies on the character that leaves.
-                InvalidateSurroundings();
-                _capsule.WakeTouchingBodies(Position);
+                Capsule.InvalidateSurroundings();
+                Capsule.WakeTouchingBodies(Position);
             }
         }
     }
@@ -87,8 +86,8 @@ public sealed class CharacterController
     /// </summary>
     public Vector MoveInput { get; set; }
 
-    /// <summary>Offsets of the capsule's spheres from its position.</summary>
-    internal ReadOnlySpan<Vector> SphereOffsets => _capsule.SphereOffsets;
+    /// <summary>Where it is, and what it touches.</summary>
+    internal CharacterCapsule Capsule { get; }
 
     /// <summary>Jumps now, or as soon as there is ground to jump from within a tenth of a second.</summary>
     public void Jump() => _jumpBufferTime = JumpBufferTime;
@@ -101,15 +100,15 @@ public sealed class CharacterController
     public void Teleport(Vector position)
     {
         ArgumentCheck.RequireFinite(position, nameof(position));
-        _capsule.Position = position;
+        Capsule.Position = position;
         PreviousPosition = position;
         Velocity = Vector.Zero;
         IsGrounded = false;
         CarriedAngle = 0;
         PreviousCarriedAngle = 0;
-        _capsule.ForgetGround();
+        Capsule.Ground = null;
         _jumpBufferTime = 0;
-        InvalidateSurroundings();
+        Capsule.InvalidateSurroundings();
     }
 
     /// <summary>Returns the character to its initial position, at rest.</summary>
@@ -128,12 +127,6 @@ public sealed class CharacterController
         IsActive = other.IsActive;
     }
 
-    /// <summary>Turns the capsule against gravity.</summary>
-    internal void AlignWithGravity(Vector gravity) => _capsule.AlignWithGravity(gravity);
-
-    /// <summary>Discards what is known of surfaces, and lets the next step check for overlaps.</summary>
-    internal void InvalidateSurroundings() => _capsule.InvalidateSurroundings();
-
     /// <summary>True where an object may come near the capsule in a step.</summary>
     internal bool IsNear(BoundingBox bounds) => bounds.DistanceSquared(Position) <= Description.Height * Description.Height;
 
@@ -149,7 +142,7 @@ public sealed class CharacterController
     internal void Carry(double stepLength)
     {
         _positionBeforeCarry = Position;
-        CarriedAngle += IsGrounded ? _capsule.Carry(stepLength) : 0;
+        CarriedAngle += IsGrounded ? Capsule.Carry(stepLength) : 0;
     }
 
     /// <summary>Moves the character through one step, or a part of one.</summary>
@@ -159,8 +152,7 @@ public sealed class CharacterController
     internal void Step(StaticColliders? colliders, Vector gravity, double stepLength)
     {
         var speed = Math.Max(Description.WalkingSpeed, Velocity.Length());
-        var previousPosition = _positionBeforeCarry;
-        if (!_capsule.TryBeginStep(colliders, (2 * stepLength * speed) + Description.StepHeight))
+        if (!Capsule.TryBeginStep(colliders, (2 * stepLength * speed) + Description.StepHeight))
         {
             Velocity = Vector.Zero;
             return;
@@ -174,30 +166,30 @@ public sealed class CharacterController
         bool isGrounded;
         if (IsGrounded && !isJumping)
         {
-            Velocity = _groundMovement.Walk(desiredVelocity, stepLength, previousPosition, out isGrounded);
+            Velocity = _groundMovement.Walk(desiredVelocity, stepLength, _positionBeforeCarry, out isGrounded);
         }
         else
         {
             // A jump from a lift begins with its speed; below a walker, ground that falls away takes none along.
-            var liftSpeed = isJumping ? Math.Max(0, Vector.Dot(Position - previousPosition, Up) / stepLength) : 0;
+            var liftSpeed = isJumping ? Math.Max(0, Vector.Dot(Position - _positionBeforeCarry, Up) / stepLength) : 0;
             var speedUpwards = isJumping ? Description.JumpSpeed(gravity.Length()) + liftSpeed : Vector.Dot(Velocity, Up);
-            _capsule.ForgetGround();
+            Capsule.Ground = null;
             Velocity = _airMovement.Fly(desiredVelocity + (speedUpwards * Up), gravity, stepLength, out isGrounded);
         }
 
         IsGrounded = isGrounded;
         if (!isGrounded)
         {
-            _capsule.ForgetGround();
+            Capsule.Ground = null;
         }
 
-        if ((Position - start).MaxAbsComponent() <= _capsule.MinMoveDistance)
+        if ((Position - start).MaxAbsComponent() <= Capsule.MinMoveDistance)
         {
-            _capsule.Position = start;
+            Capsule.Position = start;
         }
         else
         {
-            _capsule.WakeTouchingBodies(previousPosition);
+            Capsule.WakeTouchingBodies(_positionBeforeCarry);
         }
     }
 }

@@ -20,11 +20,11 @@ internal sealed class GroundMovement(CharacterCapsule capsule, double stepHeight
     {
         var up = capsule.Up;
         var timeLeft = stepLength;
-        capsule.ClearPlanes();
+        capsule.Planes.Clear();
         var velocity = desiredVelocity;
         for (var hits = 0; hits < CharacterCapsule.MaxHits && timeLeft > 0 && velocity != Vector.Zero; hits++)
         {
-            if (!capsule.MoveStraight(velocity, ref timeLeft, out var contact))
+            if (!capsule.MoveAlong(new(capsule.Position, velocity, Vector.Zero), ref timeLeft, out var contact, out _))
             {
                 break;
             }
@@ -33,7 +33,7 @@ internal sealed class GroundMovement(CharacterCapsule capsule, double stepHeight
             var isGround = capsule.IsWalkable(in contact, normal);
             if (isGround)
             {
-                capsule.AddPlane(normal);
+                capsule.Planes.Add(normal, 0);
             }
             else if (!contact.IsBody && TryStepUp(timeLeft * desiredVelocity))
             {
@@ -46,7 +46,7 @@ internal sealed class GroundMovement(CharacterCapsule capsule, double stepHeight
                 capsule.PushBody(in contact, normal, velocity);
             }
 
-            velocity = capsule.ProjectVelocity(desiredVelocity);
+            velocity = capsule.Planes.ProjectOrZero(desiredVelocity);
             if (isGround && velocity != Vector.Zero)
             {
                 // Up a slope as fast as on the level.

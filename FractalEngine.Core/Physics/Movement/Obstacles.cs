@@ -1,4 +1,5 @@
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Geometry.Triangles;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics.Bodies;
 using FractalEngine.Core.Physics.Descriptions;
@@ -11,11 +12,18 @@ namespace FractalEngine.Core.Physics.Movement;
 /// Everything that one mover can collide with: static surfaces, nearby bodies and the character. Set up anew for each mover and step. A
 /// mover is one sphere, or several at fixed offsets from its position.
 /// </summary>
-internal sealed partial class Obstacles(
+internal sealed class Obstacles(
     List<Body> bodies, NearbyBodies nearbyBodies, QueryContext queryContext, KinematicSet kinematics)
 {
     // Relative to the radius: so far from where a query was made, its result is as good as another one.
     private const double NegligibleDistance = 0.01;
+
+    // Relative to the radius: where from the centre towards a contact the search for its present closest point begins, and how far it goes.
+    private const double UpdateDepth = 0.5;
+    private const double UpdateSearchRadius = 0.6;
+
+    // Relative to the combined radius: a gap within it needs no other closest point.
+    private const double GapTolerance = 1e-13;
 
     private readonly List<int> _candidates = [];
     private StaticColliders? _staticColliders;
@@ -122,8 +130,10 @@ internal sealed partial class Obstacles(
         var known = _safeDistance.LowerBoundAt(position) - _radius;
         if (known >= sufficientDistance || _safeDistance.IsKnownNear(position, NegligibleDistance * _radius))
         {
-            var distance = Math.Min(maxDistance, FreeDistanceToBodies(position, Math.Min(known, maxDistance)));
-            return TryFindCloserKinematic(position, ref distance, out var kinematic) ? kinematic.Gap(position) : distance;
+            var toBodies = Math.Min(known, maxDistance);
+            var distance = Math.Min(
+                maxDistance, TryFindClosestBody(position, ref toBodies, out var body) ? body.Gap(position) : toBodies);
+            return TryFindNearKinematic(position, distance, out var kinematic) ? kinematic.Gap(position) : distance;
         }
 
         return TryFindClosestContact(position, maxDistance, out var closestContact) ? closestContact.Gap(position) : maxDistance;
@@ -151,7 +161,7 @@ internal sealed partial class Obstacles(
             isFound = true;
         }
 
-        if (TryFindCloserKinematic(position, ref maxDistance, out var kinematic))
+        if (TryFindNearKinematic(position, maxDistance, out var kinematic))
         {
             closestContact = kinematic;
             isFound = true;
@@ -179,9 +189,6 @@ internal sealed partial class Obstacles(
         }
     }
 
-    private double FreeDistanceToBodies(Vector position, double maxDistance) =>
-        TryFindClosestBody(position, ref maxDistance, out var closestContact) ? closestContact.Gap(position) : maxDistance;
-
     private bool TryFindClosestBody(Vector position, ref double maxDistance, out Contact closestContact)
     {
         closestContact = default;
@@ -204,7 +211,7 @@ internal sealed partial class Obstacles(
 
         // To bodies, the character is as immovable as a wall.
         var combinedRadius = _radius + character.Description.Radius;
-        foreach (var sphere in character.SphereOffsets)
+        foreach (var sphere in character.Capsule.SphereOffsets)
         {
             var contact = new Contact(character.Position + sphere, combinedRadius, Vector.Zero, Contact.NoBody, IsFlat: false);
             isFound |= TryUpdateClosest(in contact, position, ref maxDistance, ref closestContact);
@@ -230,5 +237,256 @@ internal sealed partial class Obstacles(
     {
         var other = bodies[candidate];
         return new(other.BallCentre(ball), _radius + other.BallRadius(ball), sphere, candidate, IsFlat: false) { BodyBall = (byte)ball };
+    }
+
+    /// <summary>Seconds since the beginning of the step, at which kinematic objects are asked for.</summary>
+    public double Time
+    {
+        get => kinematics.Time;
+        set
+        {
+            if (HasKinematics)
+            {
+                // Threads share it: a time that none asks for would be passed to and fro between their caches.
+                kinematics.Time = value;
+            }
+        }
+    }
+
+    /// <summary>True where there are objects that move by themselves.</summary>
+    public bool HasKinematics => kinematics.Objects.Count > 0;
+
+    /// <summary>Largest speed of the kinematic objects that the mover may meet; 0 where there are none.</summary>
+    /// <param name="motion">Path of the mover.</param>
+    /// <param name="duration">Seconds that it takes.</param>
+    public double MaxKinematicSpeed(in SphereMotion motion, double duration)
+    {
+        if (!HasKinematics || _staticColliders is null)
+        {
+            return 0;
+        }
+
+        var reach = 0.0;
+        foreach (var sphere in _sphereOffsets)
+        {
+            reach = Math.Max(reach, sphere.Length());
+        }
+
+        return kinematics.MaxSpeedNear(in motion, duration, (_radius * ContactTolerances.NeighbourRadiusFactor) + reach);
+    }
+
+    /// <summary>Finds the closest kinematic object.</summary>
+    /// <param name="position">Position of the mover, world space.</param>
+    /// <param name="maxDistance">Largest free distance of interest.</param>
+    /// <param name="contact">The surface, if there is one.</param>
+    /// <returns>False where none is within the distance.</returns>
+    public bool TryFindNearKinematic(Vector position, double maxDistance, out Contact contact)
+    {
+        contact = default;
+        var isFound = false;
+        if (_staticColliders is null || !HasKinematics)
+        {
+            return false;
+        }
+
+        ClosestPoint closest = default;
+        foreach (var sphere in _sphereOffsets)
+        {
+            if (_staticColliders.FindCloserKinematic(position + sphere, maxDistance + _radius, queryContext, ref closest) is { } found)
+            {
+                contact = CreateSurfaceContact(in closest, sphere, found);
+                maxDistance = closest.Distance - _radius;
+                isFound = true;
+            }
+        }
+
+        return isFound;
+    }
+
+    private Contact CreateSurfaceContact(in ClosestPoint closest, Vector sphere, KinematicObject? kinematic)
+    {
+        var point = kinematic?.ToReference(closest.Point) ?? closest.Point;
+        return new(point, _radius, sphere, Contact.NoBody, closest.Feature == TriangleFeature.Interior) { Kinematic = kinematic };
+    }
+
+    /// <summary>Finds the closest surface.</summary>
+    /// <param name="position">Position of the mover, world space.</param>
+    /// <param name="maxDistance">Largest free distance of interest.</param>
+    /// <param name="contact">The surface, if there is one.</param>
+    /// <returns>False where no surface is within the distance.</returns>
+    public bool TryFindNearSurface(Vector position, double maxDistance, out Contact contact)
+    {
+        contact = default;
+        return _safeDistance.LowerBoundAt(position) - _radius <= maxDistance && TryFindClosestSurface(position, maxDistance, out contact);
+    }
+
+    /// <summary>Finds the face closest to a point, if the mover's sphere is near its plane.</summary>
+    /// <param name="point">Where the search begins, world space.</param>
+    /// <param name="position">Position of the mover, world space.</param>
+    /// <param name="maxDistance">Largest free distance from the plane of interest.</param>
+    /// <param name="contact">The face, with the mover's foot on its plane.</param>
+    /// <param name="normal">Unit normal towards the mover.</param>
+    public bool TryFindFace(Vector point, Vector position, double maxDistance, out Contact contact, out Vector normal)
+    {
+        contact = default;
+        normal = Vector.Zero;
+        if (FindClosestPoint(point, _radius + maxDistance, out var closest) is not { } target
+            || closest.Feature != TriangleFeature.Interior)
+        {
+            return false;
+        }
+
+        normal = (point - closest.Point).UnitVectorOrZero();
+        var height = Vector.Dot(position - closest.Point, normal);
+        contact = CreateSurfaceContact(closest with { Point = position - (height * normal) }, Vector.Zero, target.Kinematic);
+        return height > 0 && height <= _radius + maxDistance;
+    }
+
+    /// <summary>Finds the object with the surface point closest to a point, whatever the mover.</summary>
+    /// <returns>Null where none is within the distance.</returns>
+    public StaticObject? FindClosestPoint(Vector point, double maxDistance, out ClosestPoint closest)
+    {
+        closest = default;
+        return _staticColliders?.FindClosest(point, maxDistance, queryContext, out closest);
+    }
+
+    /// <summary>Distance from the closest centre of the mover's spheres to a surface, at most a maximum.</summary>
+    /// <param name="position">Position of the mover, world space.</param>
+    /// <param name="maxDistance">Largest distance of interest.</param>
+    public double SurfaceDistance(Vector position, double maxDistance)
+    {
+        foreach (var sphere in _sphereOffsets)
+        {
+            maxDistance = FindClosestPoint(position + sphere, maxDistance, out var closest) is null ? maxDistance : closest.Distance;
+        }
+
+        return maxDistance;
+    }
+
+    /// <summary>Finds the new closest points of surfaces after a move, and removes contacts that are not touched any more.</summary>
+    /// <param name="contacts">Contacts of the mover.</param>
+    /// <param name="position">New position of the mover, world space.</param>
+    public void UpdateAfterMove(ContactSet contacts, Vector position)
+    {
+        var contactSlop = ContactSlop(position);
+        for (var i = contacts.Count - 1; i >= 0; i--)
+        {
+            ref readonly var contact = ref contacts[i];
+            if (!contact.IsBody)
+            {
+                var gap = contact.Gap(position);
+                if (Math.Abs(gap) > GapTolerance * contact.CombinedRadius && TryUpdateContact(position, in contact, out var updated))
+                {
+                    contacts.Replace(i, in updated);
+                }
+            }
+
+            if (contact.Gap(position) > contactSlop)
+            {
+                contacts.RemoveAt(i);
+            }
+        }
+    }
+
+    /// <summary>
+    /// Finds the present closest point of a surface that was touched. The search begins half-way between the centre and the old point,
+    /// where nothing else is as close.
+    /// </summary>
+    /// <param name="position">Position of the mover, world space.</param>
+    /// <param name="contact">Contact with a surface, as it was.</param>
+    /// <param name="updated">The contact as it is now.</param>
+    /// <returns>False when the surface is not there any more.</returns>
+    public bool TryUpdateContact(Vector position, in Contact contact, out Contact updated)
+    {
+        updated = contact;
+        var halfway = position + contact.SphereOffset - (UpdateDepth * _radius * contact.CachedNormal);
+        if (FindClosestPoint(halfway, UpdateSearchRadius * _radius, out var closest) is not { Kinematic: var kinematic })
+        {
+            return false;
+        }
+
+        updated = contact with
+        {
+            FixedPoint = kinematic?.ToReference(closest.Point) ?? closest.Point,
+            Kinematic = kinematic,
+            IsFlat = closest.Feature == TriangleFeature.Interior,
+        };
+        updated = updated with { CachedNormal = updated.Normal(position) };
+        return true;
+    }
+
+    /// <summary>Finds the surface closest to a position, and the side of it on which the position is.</summary>
+    /// <param name="position">Position of the mover, world space.</param>
+    /// <param name="closest">The closest point within the radius, with its normal out of the object.</param>
+    /// <param name="isInside">True within a closed solid, whose closest point from inside is always interior to a face.</param>
+    /// <returns>False when no surface is within the radius.</returns>
+    public bool TryFindSurfaceSide(Vector position, out ClosestPoint closest, out bool isInside)
+    {
+        isInside = false;
+        if (FindClosestPoint(position, _radius, out closest) is not { WindingSign: var windingSign } target)
+        {
+            return false;
+        }
+
+        closest = windingSign < 0 ? closest with { Normal = -closest.Normal } : closest;
+        isInside = windingSign != 0 && closest.Feature == TriangleFeature.Interior
+            && Vector.Dot(position - closest.Point, closest.Normal) < 0 && target.IsSolid;
+        return true;
+    }
+
+    private bool TryFindClosestSurface(Vector position, double maxDistance, out Contact contact)
+    {
+        contact = default;
+        var maxCentreDistance = maxDistance + _radius;
+        return _staticColliders is { } colliders && (_sphereOffsets is [var sphere]
+            ? TryFindClosestSurface(colliders, position, sphere, maxCentreDistance, out contact)
+            : TryFindClosestSurfaceOfMany(colliders, position, maxCentreDistance, out contact));
+    }
+
+    /// <summary>Finds the closest surface of a mover of one sphere, unless that is known.</summary>
+    private bool TryFindClosestSurface(
+        StaticColliders colliders, Vector position, Vector sphere, double maxCentreDistance, out Contact contact)
+    {
+        if (!_safeDistance.TryRecall(position, out var distance, out var point, out var isFlat))
+        {
+            distance = maxCentreDistance + _searchMargin;
+            if (!colliders.Scene.TryFindClosest(position + sphere, distance, queryContext, out var closest))
+            {
+                contact = default;
+                _safeDistance.Store(position, distance);
+                return false;
+            }
+
+            distance = closest.Distance;
+            point = closest.Point;
+            isFlat = closest.Feature == TriangleFeature.Interior;
+            _safeDistance.StoreClosest(position, distance, point, isFlat);
+        }
+
+        contact = new(point, _radius, sphere, Contact.NoBody, isFlat);
+        return distance <= maxCentreDistance;
+    }
+
+    private bool TryFindClosestSurfaceOfMany(
+        StaticColliders colliders, Vector position, double maxCentreDistance, out Contact contact)
+    {
+        contact = default;
+        var isFound = false;
+        var searchDistance = maxCentreDistance + _searchMargin;
+        foreach (var sphere in _sphereOffsets)
+        {
+            if (colliders.Scene.TryFindClosest(position + sphere, searchDistance, queryContext, out var closest))
+            {
+                searchDistance = closest.Distance;
+                if (searchDistance <= maxCentreDistance)
+                {
+                    contact = CreateSurfaceContact(in closest, sphere, kinematic: null);
+                    isFound = true;
+                }
+            }
+        }
+
+        _safeDistance.Store(position, searchDistance);
+        return isFound;
     }
 }

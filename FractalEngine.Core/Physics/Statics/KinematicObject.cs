@@ -1,4 +1,5 @@
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Geometry.Triangles;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics.Descriptions;
 using FractalEngine.Core.Scenes;
@@ -14,7 +15,6 @@ internal sealed class KinematicObject
 {
     private readonly KinematicSet _set;
     private readonly ObjectMotion? _path;
-    private readonly Vector _initialBelt;
     private BoundingBox _bounds;
     private double _radius;
     private RigidPose _origin;
@@ -24,7 +24,6 @@ internal sealed class KinematicObject
     private RigidPose _end;
     private RigidPose _now;
     private double _nowTime;
-    private Vector _belt;
 
     /// <summary>Creates an object at its reference placement, with the motion that the scene declares.</summary>
     /// <param name="set">Has the time within the step.</param>
@@ -33,9 +32,7 @@ internal sealed class KinematicObject
     {
         _set = set;
         _path = target.Reference.Declaration.Motion;
-        _initialBelt = target.Reference.Declaration.Belt;
         Target = target;
-        Reference = target.Reference;
         Reset(0);
     }
 
@@ -43,7 +40,7 @@ internal sealed class KinematicObject
     public StaticObject Target { get; }
 
     /// <summary>The object where its collider is.</summary>
-    public PlacedModel Reference { get; private set; }
+    public PlacedModel Reference => Target.Reference;
 
     /// <summary>Where it is at the beginning of the step, or between steps.</summary>
     public RigidPose Pose { get; private set; }
@@ -58,11 +55,7 @@ internal sealed class KinematicObject
     public Vector AngularVelocity { get; private set; }
 
     /// <summary>Velocity of its surface besides its motion, in the axes of the reference placement.</summary>
-    public Vector Belt
-    {
-        get => _belt;
-        set => _belt = value;
-    }
+    public Vector Belt { get; set; }
 
     /// <summary>Upper bound on the speed of its points, units per second.</summary>
     public double MaxSpeed { get; private set; }
@@ -74,7 +67,7 @@ internal sealed class KinematicObject
     public bool IsMoving => Velocity != Vector.Zero || AngularVelocity != Vector.Zero;
 
     /// <summary>True while it carries what lies on it.</summary>
-    public bool IsCarrying => IsMoving || _belt != Vector.Zero;
+    public bool IsCarrying => IsMoving || Belt != Vector.Zero;
 
     private RigidPose Now
     {
@@ -94,29 +87,25 @@ internal sealed class KinematicObject
     /// <param name="time">The world's time, which may be later: then the object is where that motion has led.</param>
     public void Reset(double time)
     {
-        _belt = _initialBelt;
-        Place(Target.Reference, 0);
-        _originVelocity = _path?.Velocity ?? Vector.Zero;
+        Belt = Target.Reference.Declaration.Belt;
+        Place(0);
         // The angles of placements turn the other way than angular velocities do.
-        AngularVelocity = -Math.PI / 180 * (_path?.Spin ?? Vector.Zero);
+        SetMotion(_path?.Velocity ?? Vector.Zero, -Math.PI / 180 * (_path?.Spin ?? Vector.Zero), 0);
         _isOnPath = _path?.From is not null;
-        Velocity = _originVelocity;
         _end = PoseAt(time);
         EndPart();
         PreviousPose = Pose;
     }
 
-    /// <summary>Puts the object elsewhere, at rest. Its surface moves on.</summary>
-    /// <param name="placed">The new reference placement.</param>
+    /// <summary>Puts the object at the reference placement, at rest. Its surface moves on.</summary>
     /// <param name="time">The world's time.</param>
-    public void Place(PlacedModel placed, double time)
+    public void Place(double time)
     {
-        Reference = placed;
-        _bounds = placed.Bounds;
-        var corner = Vector.Max((_bounds.Maximum - placed.ObjectToWorld.Translation).Absolute(),
-            (_bounds.Minimum - placed.ObjectToWorld.Translation).Absolute());
+        _bounds = Reference.Bounds;
+        var origin = Reference.ObjectToWorld.Translation;
+        var corner = Vector.Max((_bounds.Maximum - origin).Absolute(), (_bounds.Minimum - origin).Absolute());
         _radius = _bounds.IsEmpty ? 0 : corner.Length();
-        Pose = new(placed.ObjectToWorld.Translation, Orientation.Identity);
+        Pose = new(origin, Orientation.Identity);
         PreviousPose = Pose;
         SetMotion(Vector.Zero, Vector.Zero, time);
     }
@@ -169,6 +158,10 @@ internal sealed class KinematicObject
             ? reference + (now.Position - origin) : now.Position + now.Orientation.Rotate(reference - origin);
     }
 
+    /// <summary>Where a closest point of the reference placement is now.</summary>
+    public ClosestPoint ToWorld(in ClosestPoint reference) =>
+        reference with { Point = ToWorld(reference.Point), Normal = Rotate(reference.Normal) };
+
     /// <summary>Where a point of the world is at the reference placement.</summary>
     public Vector ToReference(Vector world)
     {
@@ -183,11 +176,8 @@ internal sealed class KinematicObject
         Now.Orientation == Orientation.Identity ? reference : Now.Orientation.Rotate(reference);
 
     /// <summary>The direction at the reference placement of a vector of the world.</summary>
-    public Vector RotateBack(Vector world)
-    {
-        var orientation = Now.Orientation;
-        return orientation == Orientation.Identity ? world : new Orientation(orientation.Cosine, -orientation.Axis).Rotate(world);
-    }
+    public Vector RotateBack(Vector world) =>
+        Now.Orientation == Orientation.Identity ? world : Now.Orientation.RotateBack(world);
 
     /// <summary>True where a point of the reference placement is no farther from its box than a distance.</summary>
     public bool IsNear(Vector reference, double maxDistance) =>
@@ -204,8 +194,7 @@ internal sealed class KinematicObject
     public double NormalAccelerationAt(Vector point, Vector normal, Vector velocity)
     {
         var along = VelocityAt(point);
-        var turning = Vector.Cross(AngularVelocity, (2 * (velocity - along)) + (along - Velocity));
-        return Vector.Dot(normal, turning);
+        return Vector.Dot(normal, Vector.Cross(AngularVelocity, (2 * (velocity - along)) + (along - Velocity)));
     }
 
     /// <summary>Velocity of the surface at a point of the world: that of the material, and of a belt along the surface.</summary>
@@ -214,12 +203,12 @@ internal sealed class KinematicObject
     public Vector SurfaceVelocityAt(Vector point, Vector normal)
     {
         var velocity = VelocityAt(point);
-        if (_belt == Vector.Zero)
+        if (Belt == Vector.Zero)
         {
             return velocity;
         }
 
-        var belt = Rotate(_belt);
+        var belt = Rotate(Belt);
         return velocity + belt - (Vector.Dot(belt, normal) * normal);
     }
 

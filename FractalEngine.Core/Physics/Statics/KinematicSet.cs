@@ -5,8 +5,6 @@ namespace FractalEngine.Core.Physics.Statics;
 /// <summary>All kinematic objects of a world, and the time within a part of a step at which they are asked for.</summary>
 internal sealed class KinematicSet
 {
-    private readonly List<KinematicObject> _objects = [];
-
     /// <summary>Seconds since the beginning of the step's present part.</summary>
     public double Time
     {
@@ -24,20 +22,18 @@ internal sealed class KinematicSet
     public bool IsFrozen { get; set; }
 
     /// <summary>The objects, in the order in which they became kinematic.</summary>
-    public List<KinematicObject> Objects => _objects;
+    public List<KinematicObject> Objects { get; } = [];
 
     /// <summary>True while an object moves.</summary>
-    public bool IsMoving
-    {
-        get
-        {
-            var isMoving = false;
-            foreach (var candidate in _objects)
-            {
-                isMoving |= candidate.IsMoving;
-            }
+    public bool IsMoving => Objects.Exists(static candidate => candidate.IsMoving);
 
-            return isMoving;
+    /// <summary>Lets all objects move as the scene declares it, from where that has led at a time.</summary>
+    /// <param name="time">The world's time.</param>
+    public void Reset(double time)
+    {
+        foreach (var moved in Objects)
+        {
+            moved.Reset(time);
         }
     }
 
@@ -46,11 +42,7 @@ internal sealed class KinematicSet
     /// <param name="seconds">Length of the step.</param>
     public void BeginStep(double time, double seconds)
     {
-        foreach (var moved in _objects)
-        {
-            moved.BeginStep();
-        }
-
+        Objects.ForEach(static moved => moved.BeginStep());
         BeginPart(time, seconds);
     }
 
@@ -60,7 +52,7 @@ internal sealed class KinematicSet
     public void BeginPart(double time, double seconds)
     {
         Time = 0;
-        foreach (var moved in _objects)
+        foreach (var moved in Objects)
         {
             moved.PlanPart(time, seconds);
         }
@@ -70,10 +62,7 @@ internal sealed class KinematicSet
     public void EndPart()
     {
         Time = 0;
-        foreach (var moved in _objects)
-        {
-            moved.EndPart();
-        }
+        Objects.ForEach(static moved => moved.EndPart());
     }
 
     /// <summary>Largest speed of the objects that a mover may meet; 0 where there are none.</summary>
@@ -83,14 +72,14 @@ internal sealed class KinematicSet
     public double MaxSpeedNear(in SphereMotion motion, double duration, double reach)
     {
         var maxSpeed = 0.0;
-        if (_objects.Count == 0 || IsFrozen)
+        if (IsFrozen)
         {
             return maxSpeed;
         }
 
         var box = motion.SweptBox(duration);
         var margin = reach * Vector.One;
-        foreach (var candidate in _objects)
+        foreach (var candidate in Objects)
         {
             var bounds = candidate.SweptBounds;
             var gap = Vector.Max(bounds.Minimum - box.Maximum - margin, box.Minimum - margin - bounds.Maximum);

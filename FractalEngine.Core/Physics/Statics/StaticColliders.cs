@@ -10,7 +10,7 @@ namespace FractalEngine.Core.Physics.Statics;
 /// <summary>The static objects of a world as colliders of one kind see them.</summary>
 internal sealed class StaticColliders
 {
-    private readonly StaticObjectSet _set;
+    private readonly List<StaticObject> _objects;
 
     /// <summary>Creates the view of a set. No collider is built yet.</summary>
     /// <param name="set">The objects, at least one.</param>
@@ -18,55 +18,71 @@ internal sealed class StaticColliders
     /// <param name="cache">Colliders of other worlds; null for none.</param>
     public StaticColliders(StaticObjectSet set, ColliderKind kind, ColliderCache? cache)
     {
-        _set = set;
-        Scene = new(new LoadedScene(new(), [.. set.Objects.Select(static placed => placed.Reference)]), kind, cache);
-        foreach (var kinematic in set.Objects.Select(static candidate => candidate.Kinematic).OfType<KinematicObject>())
+        _objects = set.Objects;
+        Scene = new(new LoadedScene(new(), [.. _objects.Select(static placed => placed.Reference)]), kind, cache);
+        foreach (var kinematic in _objects.Select(static candidate => candidate.Kinematic).OfType<KinematicObject>())
         {
             AddKinematic(kinematic);
         }
     }
 
-    private StaticColliders(StaticColliders all, Func<StaticObject, bool> condition)
+    /// <summary>Creates the view of the objects that stop what has a layer and a mask.</summary>
+    public StaticColliders(StaticColliders all, int layer, uint mask)
     {
-        _set = all._set;
+        _objects = all._objects;
         Scene = all.Scene;
-        foreach (var hidden in _set.Objects.Where(candidate => candidate.Kinematic is null && !condition(candidate)))
+        foreach (var hidden in _objects.Where(one => one.Kinematic is null && !StaticObjectSet.CanMeet(one, layer, mask)))
         {
             Scene = Scene.WithoutObject(hidden.Index, out _);
         }
 
-        Kinematics.AddRange(all.Kinematics.Where(pair => condition(pair.Object.Target)));
+        Kinematics.AddRange(all.Kinematics.Where(pair => StaticObjectSet.CanMeet(pair.Object.Target, layer, mask)));
     }
-
-    /// <summary>The same colliders without those of some objects.</summary>
-    public StaticColliders Where(Func<StaticObject, bool> condition) => new(this, condition);
 
     /// <summary>Finds the closest point of one object.</summary>
     public bool TryFindClosestOf(
         StaticObject target, Vector position, double maxDistance, QueryContext context, out ClosestPoint closest)
     {
-        var collider = FindCollider(target);
-        if (target.Kinematic is not { } kinematic)
-        {
-            return collider.TryFindClosest(position, maxDistance, context, out closest, epsilon: 0);
-        }
-
-        var isFound = collider.TryFindClosest(kinematic.ToReference(position), maxDistance, context, out closest, epsilon: 0);
-        closest = closest with { Point = kinematic.ToWorld(closest.Point), Normal = kinematic.Rotate(closest.Normal) };
-        return isFound;
-    }
-
-    private ColliderInstance FindCollider(StaticObject target)
-    {
         foreach (var (kinematic, collider) in Kinematics)
         {
             if (kinematic.Target == target)
             {
-                return collider;
+                var isFound = collider.TryFindClosest(kinematic.ToReference(position), maxDistance, context, out closest, epsilon: 0);
+                closest = kinematic.ToWorld(in closest);
+                return isFound;
             }
         }
 
-        return Scene.ColliderOf(target.Index);
+        return Scene.ColliderOf(target.Index).TryFindClosest(position, maxDistance, context, out closest, epsilon: 0);
+    }
+
+    /// <summary>Finds the object with the closest point, where all of them are now.</summary>
+    /// <returns>Null where none is within the distance.</returns>
+    public StaticObject? FindClosest(Vector point, double maxDistance, QueryContext context, out ClosestPoint closest)
+    {
+        var found = Scene.TryFindClosest(point, maxDistance, context, out closest) ? _objects[context.ObjectIndex] : null;
+        return FindCloserKinematic(point, found is null ? maxDistance : closest.Distance, context, ref closest)?.Target ?? found;
+    }
+
+    /// <summary>Finds the kinematic object with the closest point.</summary>
+    /// <returns>Null where none is within the distance; then the point stays as it is.</returns>
+    public KinematicObject? FindCloserKinematic(Vector point, double maxDistance, QueryContext context, ref ClosestPoint closest)
+    {
+        KinematicObject? found = null;
+        foreach (var (kinematic, collider) in Kinematics)
+        {
+            var local = kinematic.ToReference(point);
+            if (maxDistance >= 0 && kinematic.IsNear(local, maxDistance)
+                && collider.TryFindClosest(local, maxDistance, context, out var candidate, epsilon: 0)
+                && (found is null || candidate.Distance < maxDistance))
+            {
+                closest = kinematic.ToWorld(in candidate);
+                maxDistance = candidate.Distance;
+                found = kinematic;
+            }
+        }
+
+        return found;
     }
 
     /// <summary>Answers queries for the closest point, in world space.</summary>
@@ -75,22 +91,14 @@ internal sealed class StaticColliders
     /// <summary>The kinematic objects, which <see cref="Scene"/> has not, each with its collider at the reference placement.</summary>
     public List<(KinematicObject Object, ColliderInstance Collider)> Kinematics { get; } = [];
 
-    /// <summary>
-    /// Tells whether an object is a closed solid, or consists of such. What is behind its faces is then inside it.
-    /// </summary>
-    public bool IsSolid(int index) => _set.IsSolid(_set.Objects[index].Model.Mesh);
-
-    /// <summary>Sign of an object's winding, see <see cref="StaticObject.WindingSign"/>.</summary>
-    public int WindingSign(int index) => _set.Objects[index].WindingSign;
-
     /// <summary>Builds all colliders now, and finds which objects are solid, instead of at their first queries.</summary>
     public void Build(CancellationToken cancellation)
     {
         Scene.Build(cancellation);
-        for (var i = 0; i < _set.Objects.Count; i++)
+        foreach (var target in _objects)
         {
             cancellation.ThrowIfCancellationRequested();
-            IsSolid(i);
+            _ = target.IsSolid;
         }
     }
 

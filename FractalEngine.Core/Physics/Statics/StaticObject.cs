@@ -92,13 +92,25 @@ public sealed class StaticObject
     public BoundingBox Bounds => Placed.Bounds;
 
     /// <summary>The object as a scene would hold it, at its current placement.</summary>
-    internal PlacedModel Placed => Kinematic is null ? _placed : PlaceKinematic();
+    internal PlacedModel Placed
+    {
+        get
+        {
+            if (Kinematic is { Pose: var pose } && pose != _placedPose)
+            {
+                _placedPose = pose;
+                _placed = PlaceAt(1);
+            }
+
+            return _placed;
+        }
+    }
 
     /// <summary>The object where its collider is, from which one that moves by itself may have gone.</summary>
     internal PlacedModel Reference { get; private set; }
 
-    /// <summary>True while the object is where the world first had it.</summary>
-    internal bool IsAtInitialPlacement => ReferenceEquals(Reference, _initial);
+    /// <summary>True for a closed solid, or what consists of such. What is behind its faces is then inside it.</summary>
+    internal bool IsSolid => _set.IsSolid(Model.Mesh);
 
     /// <summary>
     /// 1 where faces look out of the object as they are wound, −1 where its matrix mirrors it, 0 where its instances differ.
@@ -121,14 +133,26 @@ public sealed class StaticObject
     public void MoveTo(Transformation placement)
     {
         ArgumentCheck.RequirePlacement(placement, nameof(placement));
-        Reference = _placed = new(_initial.Declaration with { Placement = placement }, Model);
-        Kinematic?.Place(Reference, _set.Time);
-        _set.Refresh(this);
+        Place(new(_initial.Declaration with { Placement = placement }, Model));
+        Kinematic?.Place(_set.Clock.Time);
         _set.InvalidateSurroundings(mayOverlap: true);
     }
 
-    /// <summary>Returns to the initial placement, of which the caller tells the colliders.</summary>
-    internal void ResetPlacement() => Reference = _placed = _initial;
+    /// <summary>Returns to the initial placement. Its motion is left to the caller.</summary>
+    internal void ResetPlacement()
+    {
+        if (!ReferenceEquals(Reference, _initial))
+        {
+            Place(_initial);
+        }
+    }
+
+    private void Place(PlacedModel placed)
+    {
+        Reference = placed;
+        _placed = placed;
+        _set.Refresh(this);
+    }
 
     /// <summary>Velocity in units per second, see <see cref="SetMotion"/>; on a path the mean of the last step.</summary>
     public Vector Velocity => Kinematic?.Velocity ?? Vector.Zero;
@@ -152,7 +176,7 @@ public sealed class StaticObject
         ArgumentCheck.RequireFinite(velocity, nameof(velocity));
         ArgumentCheck.RequireFinite(angularVelocity, nameof(angularVelocity));
         Kinematic ??= _set.AddKinematic(this);
-        Kinematic.SetMotion(velocity, angularVelocity, _set.Time);
+        Kinematic.SetMotion(velocity, angularVelocity, _set.Clock.Time);
         _set.InvalidateSurroundings(mayOverlap: false);
     }
 
@@ -200,25 +224,8 @@ public sealed class StaticObject
 
         var map = InterpolatedMap(alpha);
         var placement = Reference.Declaration.Placement with { Position = map.Translation };
-        if (map.Linear != Reference.ObjectToWorld.Linear)
-        {
-            var orientation = Orientation.Interpolate(Kinematic.PreviousPose.Orientation, Kinematic.Pose.Orientation, alpha);
-            var axes = orientation.ToMatrix() * placement.Rotation.LocalAxesFromDegrees();
-            placement = placement with { Rotation = 180 / Math.PI * axes.EulerAngles() };
-        }
-
+        placement = map.Linear == Reference.ObjectToWorld.Linear ? placement
+            : Orientation.Interpolate(Kinematic.PreviousPose.Orientation, Kinematic.Pose.Orientation, alpha).Turn(placement);
         return new(Reference.Declaration with { Placement = placement }, Model);
-    }
-
-    private PlacedModel PlaceKinematic()
-    {
-        var pose = Kinematic!.Pose;
-        if (pose != _placedPose)
-        {
-            _placedPose = pose;
-            _placed = PlaceAt(1);
-        }
-
-        return _placed;
     }
 }

@@ -12,24 +12,32 @@ using FractalEngine.Core.Scenes;
 namespace FractalEngine.Core.Physics.Statics;
 
 /// <summary>The static objects of a world with their colliders, which are built when they are first queried.</summary>
-/// <param name="kinematics">Receives the objects that begin to move by themselves.</param>
-/// <param name="clock">Has the world's time.</param>
 /// <param name="invalidateSurroundings">Is called when surfaces have changed, with whether bodies may overlap them now.</param>
 /// <param name="cache">Colliders of other worlds; null for none.</param>
-internal sealed class StaticObjectSet(KinematicSet kinematics, StepClock clock, Action<bool> invalidateSurroundings, ColliderCache? cache)
+internal sealed class StaticObjectSet(Action<bool> invalidateSurroundings, ColliderCache? cache)
 {
-    private readonly List<StaticObject> _objects = [];
     private readonly Dictionary<ColliderKind, StaticColliders> _colliders = [];
     private readonly Dictionary<(ColliderKind Kind, int Layer, uint Mask), StaticColliders> _filtered = [];
     private readonly Dictionary<object, Model> _models = [];
     private readonly Dictionary<Mesh, bool> _isSolid = new(ReferenceEqualityComparer.Instance);
-    private bool _hasFilters;
+
+    /// <summary>The world's time, which says where objects are that move by themselves.</summary>
+    public StepClock Clock;
 
     /// <summary>All static objects, in the order in which they were added.</summary>
-    public IReadOnlyList<StaticObject> Objects => _objects;
+    public List<StaticObject> Objects { get; } = [];
 
-    /// <summary>The world's time, seconds.</summary>
-    public double Time => clock.Time;
+    /// <summary>The objects that move by themselves.</summary>
+    public KinematicSet Kinematics { get; } = new();
+
+    /// <summary>Collider of all bodies instead of their own; null for their own.</summary>
+    public ColliderKind? ColliderOverride { get; set; }
+
+    /// <summary>Kind of collider that the character meets.</summary>
+    public ColliderKind CharacterKind => ColliderOverride ?? ColliderKind.Exact;
+
+    /// <summary>True once an object has another layer or mask than others.</summary>
+    public bool HasFilters { get; private set; }
 
     /// <summary>The model of a fractal: the same one for equal fractals, so that they share a collider.</summary>
     public Model ModelOf(Fractal fractal) =>
@@ -42,49 +50,31 @@ internal sealed class StaticObjectSet(KinematicSet kinematics, StepClock clock, 
     /// <param name="added">Its <see cref="StaticObject.Index"/> must be the next one.</param>
     public void Add(StaticObject added)
     {
-        _objects.Add(added);
+        Objects.Add(added);
         _models.TryAdd(added.Model is FractalModel { Fractal: var fractal } ? fractal : added.Model.Mesh, added.Model);
-        foreach (var colliders in _colliders.Values)
-        {
-            colliders.Add(added.Placed);
-        }
-
-        _filtered.Clear();
+        TellColliders(colliders => colliders.Add(added.Placed));
     }
 
     /// <summary>Tells the colliders that an object has moved.</summary>
-    public void Refresh(StaticObject moved)
-    {
-        foreach (var colliders in _colliders.Values)
-        {
-            colliders.Replace(moved.Index, moved.Reference);
-        }
-
-        _filtered.Clear();
-    }
+    public void Refresh(StaticObject moved) => TellColliders(colliders => colliders.Replace(moved.Index, moved.Reference));
 
     /// <summary>Lets an object move by itself from now on.</summary>
     public KinematicObject AddKinematic(StaticObject target)
     {
-        var kinematic = new KinematicObject(kinematics, target);
-        kinematics.Objects.Add(kinematic);
-        foreach (var colliders in _colliders.Values)
-        {
-            colliders.AddKinematic(kinematic);
-        }
-
-        _filtered.Clear();
+        var kinematic = new KinematicObject(Kinematics, target);
+        Kinematics.Objects.Add(kinematic);
+        TellColliders(colliders => colliders.AddKinematic(kinematic));
         return kinematic;
     }
 
-    /// <summary>Returns all objects to their initial placements.</summary>
-    public void Reset()
+    private void TellColliders(Action<StaticColliders> change)
     {
-        foreach (var moved in _objects.Where(static candidate => !candidate.IsAtInitialPlacement))
+        foreach (var colliders in _colliders.Values)
         {
-            moved.ResetPlacement();
-            Refresh(moved);
+            change(colliders);
         }
+
+        _filtered.Clear();
     }
 
     /// <summary>True where an object stops what has a layer and a mask.</summary>
@@ -99,7 +89,7 @@ internal sealed class StaticObjectSet(KinematicSet kinematics, StepClock clock, 
     public void ChangeFilters()
     {
         _filtered.Clear();
-        _hasFilters = _objects.Exists(static candidate => candidate.IsTrigger || candidate.Layer != 0 || candidate.Mask != Layers.All);
+        HasFilters = Objects.Exists(static candidate => candidate.IsTrigger || candidate.Layer != 0 || candidate.Mask != Layers.All);
         InvalidateSurroundings(mayOverlap: true);
     }
 
@@ -111,7 +101,7 @@ internal sealed class StaticObjectSet(KinematicSet kinematics, StepClock clock, 
     /// <param name="point">Receives the closest point of the surface.</param>
     public bool TryEnter(StaticObject target, Vector centre, double radius, QueryContext context, out Vector point)
     {
-        var isSolid = IsSolid(target.Model.Mesh) && target.WindingSign != 0;
+        var isSolid = target.IsSolid && target.WindingSign != 0;
         var colliders = AllCollidersOf(ColliderKind.Exact)!;
         var isNear = colliders.TryFindClosestOf(target, centre, isSolid ? double.PositiveInfinity : radius, context, out var closest);
         point = closest.Point;
@@ -119,62 +109,31 @@ internal sealed class StaticObjectSet(KinematicSet kinematics, StepClock clock, 
             && target.WindingSign * Vector.Dot(centre - closest.Point, closest.Normal) < 0));
     }
 
-    /// <summary>True once an object has another layer or mask than others.</summary>
-    public bool HasFilters => _hasFilters;
+    /// <summary>Kind of the colliders that a body meets.</summary>
+    public ColliderKind KindFor(BodyDescription body) => ColliderOverride ?? body.Collider;
+
+    /// <summary>The colliders that a body meets; null where there are no objects.</summary>
+    public StaticColliders? CollidersOf(BodyDescription body) => CollidersOf(KindFor(body), body.Layer, body.Mask);
 
     /// <summary>The colliders of one kind for what has a layer and a mask; null where there are no objects.</summary>
     public StaticColliders? CollidersOf(ColliderKind kind, int layer = 0, uint mask = Layers.All)
     {
-        if (!_hasFilters && mask == Layers.All)
-        {
-            return AllCollidersOf(kind);
-        }
-
-        return _filtered.TryGetValue((kind, layer, mask), out var colliders) ? colliders : CreateFiltered(kind, layer, mask);
+        var all = AllCollidersOf(kind);
+        return all is null || (!HasFilters && mask == Layers.All) ? all
+            : _filtered.TryGetValue((kind, layer, mask), out var colliders) ? colliders
+            : _filtered[(kind, layer, mask)] = new(all, layer, mask);
     }
 
     /// <summary>The colliders of one kind for all objects; null where there are no objects.</summary>
-    public StaticColliders? AllCollidersOf(ColliderKind kind)
-    {
-        if (_objects.Count == 0)
-        {
-            return null;
-        }
-
-        if (!_colliders.TryGetValue(kind, out var colliders))
-        {
-            colliders = new(this, kind, cache);
-            _colliders[kind] = colliders;
-        }
-
-        return colliders;
-    }
-
-    private StaticColliders? CreateFiltered(ColliderKind kind, int layer, uint mask)
-    {
-        var colliders = AllCollidersOf(kind)?.Where(target => CanMeet(target, layer, mask));
-        if (colliders is not null)
-        {
-            _filtered[(kind, layer, mask)] = colliders;
-        }
-
-        return colliders;
-    }
+    public StaticColliders? AllCollidersOf(ColliderKind kind) => Objects.Count == 0 ? null
+        : _colliders.TryGetValue(kind, out var colliders) ? colliders
+        : _colliders[kind] = new(this, kind, cache);
 
     /// <summary>Number of colliders of one kind that have been built, and how many there are.</summary>
     public (int Built, int All) CountColliders(ColliderKind kind) => _colliders.TryGetValue(kind, out var colliders)
         ? colliders.Scene.ColliderCounts
-        : (0, _objects.Select(static candidate => candidate.Model).Distinct().Count());
+        : (0, Objects.Select(static candidate => candidate.Model).Distinct().Count());
 
     /// <summary>Tells whether a mesh is a closed solid. Found at the first call, in O(faces).</summary>
-    public bool IsSolid(Mesh mesh)
-    {
-        if (!_isSolid.TryGetValue(mesh, out var isSolid))
-        {
-            isSolid = ClosedSurface.IsSolid(mesh);
-            _isSolid[mesh] = isSolid;
-        }
-
-        return isSolid;
-    }
+    public bool IsSolid(Mesh mesh) => _isSolid.TryGetValue(mesh, out var isSolid) ? isSolid : _isSolid[mesh] = ClosedSurface.IsSolid(mesh);
 }

@@ -4,7 +4,7 @@ namespace FractalEngine.Core.Physics.Statics;
 /// <remarks>
 /// A run of equal steps is multiplied, not summed: n steps of 1/60 s make exactly n · (1/60) seconds, without accumulated rounding.
 /// </remarks>
-internal sealed class StepClock
+internal struct StepClock
 {
     private double _runStartTime;
     private double _runStepLength;
@@ -14,7 +14,7 @@ internal sealed class StepClock
     public long StepCount { get; private set; }
 
     /// <summary>Seconds since the beginning: the sum of all steps.</summary>
-    public double Time => _runStartTime + (_runStepCount * _runStepLength);
+    public readonly double Time => _runStartTime + (_runStepCount * _runStepLength);
 
     /// <summary>Counts one step and adds its length.</summary>
     /// <param name="seconds">Length of the step, positive.</param>
@@ -29,23 +29,5 @@ internal sealed class StepClock
 
         _runStepCount++;
         StepCount++;
-    }
-
-    /// <summary>Sets the clock to another one.</summary>
-    public void ContinueFrom(StepClock other)
-    {
-        _runStartTime = other._runStartTime;
-        _runStepLength = other._runStepLength;
-        _runStepCount = other._runStepCount;
-        StepCount = other.StepCount;
-    }
-
-    /// <summary>Sets the clock to the beginning.</summary>
-    public void Reset()
-    {
-        _runStartTime = 0;
-        _runStepLength = 0;
-        _runStepCount = 0;
-        StepCount = 0;
     }
 }

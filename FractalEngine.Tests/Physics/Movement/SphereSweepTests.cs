@@ -176,7 +176,7 @@ public sealed class SphereSweepTests
             var grid = new BodyGrid();
             grid.Build(bodies);
             Obstacles = new(bodies, new NearbyBodies(grid, bodies), new QueryContext(), new KinematicSet());
-            var statics = new StaticObjectSet(new(), new(), static _ => { }, null);
+            var statics = new StaticObjectSet(static _ => { }, null);
             if (mesh is not null)
             {
                 statics.Add(new PhysicsWorld().AddStatic(mesh));

@@ -52,13 +52,13 @@ public class SphereMotionTests
         clock.Tick(0.5);
         clock.Tick(0.5);
         Assert.Equal((101.0, 1002L), (clock.Time, clock.StepCount));
-        copy.ContinueFrom(clock);
+        copy = clock;
         clock.Tick(0.25);
         Assert.Equal((101.25, 1003L), (clock.Time, clock.StepCount));
         Assert.Equal((101.0, 1002L), (copy.Time, copy.StepCount));
         copy.Tick(0.5);
         Assert.Equal((101.5, 1003L), (copy.Time, copy.StepCount));
-        copy.Reset();
+        copy = default;
         Assert.Equal((0.0, 0L), (copy.Time, copy.StepCount));
         copy.Tick(0.5);
         Assert.Equal((0.5, 1L), (copy.Time, copy.StepCount));

@@ -22,7 +22,7 @@ public sealed class StepClockTests
     }
 
     [Fact]
-    public void ContinueFrom_AnotherClock_GoesOnAsItDoes()
+    public void Copy_OfAClock_GoesOnAsItDoes()
     {
         var first = new StepClock();
         first.Tick(1);
@@ -30,7 +30,7 @@ public sealed class StepClockTests
         first.Tick(0.1);
         var second = new StepClock();
         second.Tick(7);
-        second.ContinueFrom(first);
+        second = first;
         Assert.Equal((first.Time, 3L), (second.Time, second.StepCount));
         first.Tick(0.1);
         second.Tick(0.1);
@@ -43,12 +43,12 @@ public sealed class StepClockTests
     [InlineData(0.5)]
     [InlineData(1)]
     [InlineData(3)]
-    public void Reset_AfterSteps_IsANewClock(double step)
+    public void Default_AfterSteps_IsANewClock(double step)
     {
         var clock = new StepClock();
         clock.Tick(3);
         clock.Tick(0.5);
-        clock.Reset();
+        clock = default;
         Assert.Equal((0.0, 0L), (clock.Time, clock.StepCount));
         clock.Tick(step);
         Assert.Equal((step, 1L), (clock.Time, clock.StepCount));

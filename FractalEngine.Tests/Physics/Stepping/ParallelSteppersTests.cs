@@ -59,7 +59,7 @@ public sealed class ParallelSteppersTests
         List<Body> bodies = [new(new(Vector.Zero, 1), 0, Vector.Zero)];
         var grid = new BodyGrid();
         var nearby = new NearbyBodies(grid, bodies);
-        var log = new ContactLog(bodies, new StaticObjectSet(new(), new(), static _ => { }, null));
+        var log = new ContactLog(bodies, new StaticObjectSet(static _ => { }, null));
         var obstacles = new Obstacles(bodies, nearby, context, new KinematicSet());
         var planner = new IslandPlanner(bodies, nearby, log, new(), 1);
         return new(new(), bodies, grid, nearby, obstacles, new SleepIslands(bodies, nearby), planner, context, log);
