@@ -14,6 +14,12 @@ internal static class ContactTolerances
     /// </summary>
     public const double HeapMargin = 1e-3;
 
+    /// <summary>
+    /// Relative to the radius: edges and corners within it act as planes, and bodies of islands keep surfaces within it as contacts. Else
+    /// what others push would leave one edge and fall onto the next, again and again.
+    /// </summary>
+    public const double SurfaceMargin = 0.05;
+
     /// <summary>Factor on a radius that finds all that may rest on a body, or support it.</summary>
     public const double SupportRadiusFactor = NeighbourRadiusFactor + HeapMargin;
 

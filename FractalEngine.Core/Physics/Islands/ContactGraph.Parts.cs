@@ -118,7 +118,7 @@ internal sealed partial class ContactGraph
             {
                 if (body.Contacts[i] is { IsBody: false } contact)
                 {
-                    _rows[place++] = ContactRows.OfSurface(body, 0, in contact, isAhead: false);
+                    _rows[place++] = ContactRows.OfSurface(body, 0, in contact);
                 }
             }
 

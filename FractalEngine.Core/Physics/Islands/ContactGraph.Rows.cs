@@ -60,7 +60,7 @@ internal sealed partial class ContactGraph
         {
             if (contacts[i] is { IsBody: false } contact)
             {
-                AddRow() = ContactRows.OfSurface(body, ball, in contact, isAhead: false);
+                AddRow() = ContactRows.OfSurface(body, ball, in contact);
             }
         }
 

@@ -75,14 +75,8 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
     public bool HasDeviated(int body, Vector way)
     {
         var limit = DeviationLimit(in _states[body]);
-        return (way - (_stepLength * _states[body].Velocity)).LengthSquared() > limit * limit;
-    }
-
-    /// <summary>True for a body of an island that is farther from where it was than any pair foresees.</summary>
-    public bool IsBeyondReach(Body body)
-    {
-        var reach = _states[body.Index].Reach;
-        return (body.Position - body.PlannedStart).LengthSquared() > reach * reach;
+        return (way - (_stepLength * _states[body].Velocity)).LengthSquared() > limit * limit
+            || way.LengthSquared() > _states[body].Reach * _states[body].Reach;
     }
 
     /// <summary>Joins the bodies that touch, for the impulses of what approaches.</summary>

@@ -10,9 +10,6 @@ internal sealed class NearSurfaceSearch(Obstacles obstacles)
     // Relative to the radius.
     private const double MaxLift = 0.5;
 
-    // Relative to the radius: an edge or corner at so small a gap stands for the plane across it, since a ball may fall onto it.
-    private const double NearEdge = 0.05;
-
     // Cosine of an angle that rounding cannot tell from 0.
     private const double SameDirection = 1 - 1e-12;
 
@@ -35,7 +32,7 @@ internal sealed class NearSurfaceSearch(Obstacles obstacles)
 
         var surface = closest;
         var lift = surface.Normal(centre);
-        if (surface.IsFlat || surface.Gap(centre) < NearEdge * obstacles.Radius)
+        if (surface.IsFlat || surface.Gap(centre) < ContactTolerances.SurfaceMargin * obstacles.Radius)
         {
             surfaces.Add(in surface, lift, contacts, centre);
         }

@@ -366,9 +366,9 @@ internal sealed class Obstacles(
     /// <summary>Finds the new closest points of surfaces after a move, and removes contacts that are not touched any more.</summary>
     /// <param name="contacts">Contacts of the mover.</param>
     /// <param name="position">New position of the mover, world space.</param>
-    public void UpdateAfterMove(ContactSet contacts, Vector position)
+    /// <param name="contactSlop">Largest gap of a contact, scene units.</param>
+    public void UpdateAfterMove(ContactSet contacts, Vector position, double contactSlop)
     {
-        var contactSlop = ContactSlop(position);
         for (var i = contacts.Count - 1; i >= 0; i--)
         {
             ref readonly var contact = ref contacts[i];

@@ -14,8 +14,7 @@ internal static class ContactRows
     /// <param name="body">The body.</param>
     /// <param name="ball">Index of its ball.</param>
     /// <param name="contact">The surface.</param>
-    /// <param name="isAhead">True where it is not touched yet.</param>
-    public static ContactRow OfSurface(Body body, int ball, in Contact contact, bool isAhead)
+    public static ContactRow OfSurface(Body body, int ball, in Contact contact)
     {
         var row = new ContactRow
         {
@@ -26,7 +25,7 @@ internal static class ContactRows
             FirstRadius = body.BallRadius(ball),
             Friction = body.Description.Friction,
             Restitution = body.Description.Restitution,
-            IsAhead = isAhead,
+            IsAhead = contact.Gap(body.BallCentre(ball)) > ContactTolerances.Slop(body.BallRadius(ball), body.BallCentre(ball)),
             RollingArm = body.Description.RollingFriction * body.BallRadius(ball),
             SpinningArm = body.Description.SpinningFriction * body.BallRadius(ball),
             FeatureId = ball,
@@ -52,9 +51,8 @@ internal static class ContactRows
     public static ContactRow OfNearSurface(Body body, int ball, in Contact face)
     {
         var centre = body.BallCentre(ball);
-        var gap = Vector.Dot(face.PointToCentre(centre), face.CachedNormal) - body.BallRadius(ball);
-        var row = OfSurface(body, ball, in face, gap > ContactTolerances.Slop(body.BallRadius(ball), centre));
-        row.Normal = face.CachedNormal;
+        var row = OfSurface(body, ball, in face) with { Normal = face.CachedNormal };
+        row.IsAhead = Vector.Dot(row.Offset, row.Normal) - row.MinDistance > ContactTolerances.Slop(row.MinDistance, centre);
         return row;
     }
 

@@ -107,20 +107,9 @@ internal sealed class IslandMover
             }
         }
 
-        while (ReturnPairs() | ReturnUnforeseen())
+        while (ReturnOnce())
         {
         }
-    }
-
-    private bool ReturnPairs()
-    {
-        var hasReturned = false;
-        foreach (ref readonly var pair in _graph.Pairs)
-        {
-            hasReturned |= Return(_bodies[pair.First], _bodies[pair.Second]);
-        }
-
-        return hasReturned;
     }
 
     /// <summary>Puts both of two bodies back that overlap, unless they do so less than before.</summary>
@@ -132,16 +121,13 @@ internal sealed class IslandMover
 
     private static Vector StartOf(Body body) => body.IslandIndex >= 0 ? body.PlannedStart : body.Position;
 
-    /// <summary>
-    /// Puts bodies back that overlap others of which no pair tells: where one has got farther than was foreseen, or was of no island and
-    /// has moved ahead.
-    /// </summary>
-    private bool ReturnUnforeseen()
+    /// <summary>Looks once for what bodies overlap that have gone a way: of islands, and of none that have moved ahead.</summary>
+    private bool ReturnOnce()
     {
         var hasReturned = false;
         foreach (var body in _bodies)
         {
-            if (body.IslandIndex >= 0 ? _graph.IsBeyondReach(body) : body.HasMoved)
+            if (body.IslandIndex >= 0 ? HasGone(body) : body.HasMoved)
             {
                 hasReturned |= ReturnAmongAll(body);
             }
@@ -149,6 +135,9 @@ internal sealed class IslandMover
 
         return hasReturned;
     }
+
+    private static bool HasGone(Body body) =>
+        body.Position != body.PlannedStart || (body.IsCompound && body.Orientation != body.PlannedStartOrientation);
 
     private bool ReturnAmongAll(Body body)
     {
@@ -165,14 +154,15 @@ internal sealed class IslandMover
 
     private bool Return(Body body)
     {
-        if (body.IslandIndex < 0
-            || (body.Position == body.PlannedStart && (!body.IsCompound || body.Orientation == body.PlannedStartOrientation)))
+        if (body.IslandIndex < 0 || !HasGone(body))
         {
             return false;
         }
 
         ReturnCount++;
         PutBack(body);
+        // It has gone no way on which anything could have made it faster.
+        body.LimitEnergy(body.PlannedStartEnergy);
         return true;
     }
 

@@ -146,7 +146,7 @@ internal sealed class BallFlight(
             body.Velocity = stoppedVelocity;
         }
 
-        obstacles.UpdateAfterMove(contacts, body.Position);
+        obstacles.UpdateAfterMove(contacts, body.Position, obstacles.ContactSlop(body.Position));
         return isHit || elapsed >= duration ? elapsed : double.PositiveInfinity;
     }
 

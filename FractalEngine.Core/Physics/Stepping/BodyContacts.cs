@@ -1,5 +1,6 @@
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics.Bodies;
+using FractalEngine.Core.Physics.Descriptions;
 using FractalEngine.Core.Physics.Movement;
 using FractalEngine.Core.Physics.Statics;
 
@@ -26,7 +27,7 @@ internal sealed class BodyContacts(Obstacles obstacles, BodySweep sweep)
         foreach (var ball in body.Balls)
         {
             var centre = Select(body, ball);
-            ball.Contacts.Refresh(centre, obstacles.ContactSlop(centre), ball.Radius);
+            ball.Contacts.Refresh(centre, SlopOf(body, ball, centre), ball.Radius);
         }
     }
 
@@ -143,13 +144,16 @@ internal sealed class BodyContacts(Obstacles obstacles, BodySweep sweep)
         foreach (var ball in body.Balls)
         {
             var centre = Select(body, ball);
-            obstacles.UpdateAfterMove(ball.Contacts, centre);
+            obstacles.UpdateAfterMove(ball.Contacts, centre, SlopOf(body, ball, centre));
             if (body.IsCompound)
             {
                 ball.Contacts.RemoveDuplicates(centre);
             }
         }
     }
+
+    private double SlopOf(Body body, BodyBall ball, Vector centre) =>
+        body.HasHeapMargin ? ContactTolerances.SurfaceMargin * ball.Radius : obstacles.ContactSlop(centre);
 
     /// <summary>Moves a compound out of what it overlaps by no more than rounding.</summary>
     public void TakeBackRounding(Body body)

@@ -73,6 +73,13 @@ internal sealed class BodyMover
             return;
         }
 
+        if (body.HasHeapMargin)
+        {
+            // It has left its island, and touches only what it does without a margin.
+            body.HasHeapMargin = false;
+            _contacts.Refresh(body);
+        }
+
         _sweep.ResetStepBudget();
         if (!body.IsCompound)
         {

@@ -132,7 +132,6 @@ internal sealed class BodyStepper
     public void Step(Body body, StaticColliders? staticColliders, CharacterController? character, double stepLength, long stepIndex)
     {
         var motion = new SphereMotion(body.Position, body.Velocity, body.FreeAcceleration);
-        body.HasHeapMargin = false;
         Begin(body, staticColliders, character, stepLength);
         _obstacles.PrepareNearbyBodies(in motion, stepLength, body.Index);
         _mover.Move(body, stepLength);

@@ -82,7 +82,7 @@ internal sealed class CompoundFlight(
                 }
                 else
                 {
-                    _rows.Add(ContactRows.OfSurface(body, i, ball.Contacts[j], isAhead: false));
+                    _rows.Add(ContactRows.OfSurface(body, i, ball.Contacts[j]));
                 }
             }
 

@@ -87,7 +87,7 @@ internal sealed class SpinFriction(List<Body> bodies)
 
     private ContactRow CreateRow(Body body, in Contact contact)
     {
-        var row = ContactRows.OfSurface(body, ball: 0, in contact, isAhead: false);
+        var row = ContactRows.OfSurface(body, ball: 0, in contact);
         row.First = 0;
         if (contact.IsBody)
         {

@@ -22,12 +22,12 @@ public sealed class ContactRowsTests
     {
         var body = new Body(Ball, 4, Vector.Zero);
         var contact = new Contact(new(1, 1.5, 3), 0.5, Vector.Zero, Contact.NoBody, IsFlat: true);
-        var row = ContactRows.OfSurface(body, 0, in contact, isAhead: true);
+        var row = ContactRows.OfSurface(body, 0, in contact);
         Assert.Equal((4, ContactRow.Immovable, 0, true), (row.First, row.Second, row.FeatureId, row.IsAhead));
         Assert.Equal((new(0, 0.5, 0), Vector.J, 0.5, 0.5), (row.Offset, row.Normal, row.MinDistance, row.FirstRadius));
         Assert.Equal((0.75, 0.25, 0.0625, 0.25), (row.Friction, row.Restitution, row.RollingArm, row.SpinningArm));
         Assert.False(row.IsBall || row.HasArms || row.IsOnMovingSurface);
-        Assert.False(ContactRows.OfSurface(body, 0, in contact, isAhead: false).IsAhead);
+        Assert.False(ContactRows.OfSurface(body, 0, in contact).IsAhead);
     }
 
     [Fact]
@@ -35,7 +35,7 @@ public sealed class ContactRowsTests
     {
         var body = new Body(new(new(1, 2, 3), Dumbbell) { RollingFriction = 0.5, SpinningFriction = 0.25 }, 0, Vector.Zero);
         var contact = new Contact(new(3, 1.25, 3), 0.5, Vector.Zero, Contact.NoBody, IsFlat: true);
-        var row = ContactRows.OfSurface(body, 1, in contact, isAhead: false);
+        var row = ContactRows.OfSurface(body, 1, in contact);
         Assert.True(row.HasArms);
         Near.Equal(2 * Vector.I, row.FirstArm, 1e-15);
         Assert.Equal((Vector.Zero, 1), (row.SecondArm, row.FeatureId));
@@ -52,7 +52,7 @@ public sealed class ContactRowsTests
         plate.SetBelt(new(8, 0, 0));
         var body = new Body(Ball, 0, Vector.Zero);
         var contact = new Contact(new(1.25, 1.5, 3), 0.5, Vector.Zero, Contact.NoBody, IsFlat: true) { Kinematic = plate.Kinematic };
-        var row = ContactRows.OfSurface(body, 0, in contact, isAhead: false);
+        var row = ContactRows.OfSurface(body, 0, in contact);
         // The point turns about the plate's centre, 0.25 beside it.
         Near.Equal(new(0, 0.5, 0), row.SurfaceSpin, 1e-15);
         var normal = new Vector(-0.25, 0.5, 0).UnitVector();
