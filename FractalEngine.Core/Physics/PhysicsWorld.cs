@@ -279,11 +279,7 @@ public sealed class PhysicsWorld
     {
         ArgumentNullException.ThrowIfNull(player);
         ArgumentCheck.Require(player.FindFault() is null, player.FindFault() ?? "", null, nameof(player));
-        if (Character is { } previous)
-        {
-            previous.IsActive = false;
-        }
-
+        Character?.IsActive = false;
         return Character = CreateCharacter(player);
     }
 
@@ -502,8 +498,7 @@ public sealed class PhysicsWorld
         ArgumentCheck.RequireFinite(displacement, nameof(displacement));
         ArgumentCheck.Require(radius > 0 && double.IsFinite(radius), "the radius must be positive", null, nameof(radius));
         ArgumentCheck.RequireLayer(layer, nameof(layer));
-        var colliders = _statics.CollidersOf(ColliderKind.Exact, layer, mask);
-        return _queries.TryCastSphere(colliders, start, radius, displacement, layer, mask, out hit);
+        return _queries.TryCastSphere(start, radius, displacement, layer, mask, out hit);
     }
 
     /// <summary>Finds what a ray meets first, as the world is now: faces from both sides, and the balls of bodies.</summary>

@@ -1,3 +1,4 @@
+using FractalEngine.Core.Colliders;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics.Bodies;
@@ -24,9 +25,9 @@ internal sealed class WorldQueries(
     private readonly Dictionary<StaticObject, (PlacedModel Placed, SceneRayCaster Caster)> _rayCasters = [];
 
     /// <summary>Finds what a sphere meets first on a straight way.</summary>
-    public bool TryCastSphere(
-        StaticColliders? colliders, Vector start, double radius, Vector way, int layer, uint mask, out CastHit hit)
+    public bool TryCastSphere(Vector start, double radius, Vector way, int layer, uint mask, out CastHit hit)
     {
+        var colliders = statics.CollidersOf(ColliderKind.Exact, layer, mask);
         _safeDistance.Invalidate();
         obstacles.SetMover(colliders, BodyStepper.SingleSphereOffset, radius, _safeDistance, 0);
         statics.Kinematics.Time = 0;
@@ -57,9 +58,8 @@ internal sealed class WorldQueries(
         hit = default;
         var direction = RayCaster.CheckedUnitDirection(in ray, 0, maxDistance);
         var isHit = false;
-        for (var i = 0; i < statics.Objects.Count; i++)
+        foreach (var target in statics.Objects)
         {
-            var target = statics.Objects[i];
             isHit |= StaticObjectSet.CanMeet(target, layer, mask) && TryHitObject(target, ray, ref maxDistance, ref hit);
         }
 

@@ -26,7 +26,6 @@ internal sealed class BodyGrid
     private const int None = -1;
 
     private int[] _heads = [];
-    private int[] _previous = [];
     private Entry[] _entries = [];
     private double _cellSize = 1;
     private double _maxGridRadius;
@@ -51,7 +50,6 @@ internal sealed class BodyGrid
         }
 
         _heads = new int[bucketCount];
-        _previous = new int[bodies.Count];
         _entries = new Entry[bodies.Count];
         Array.Fill(_heads, None);
         if (bodies.Count == 0)
@@ -208,35 +206,21 @@ internal sealed class BodyGrid
     private void Insert(int index)
     {
         ref var entry = ref _entries[index];
-        var bucket = Hash(entry.Cell.X, entry.Cell.Y, entry.Cell.Z);
-        var head = _heads[bucket];
-        entry.Bucket = bucket;
-        entry.Next = head;
-        _previous[index] = None;
-        _heads[bucket] = index;
-        if (head >= 0)
-        {
-            _previous[head] = index;
-        }
+        entry.Bucket = Hash(entry.Cell.X, entry.Cell.Y, entry.Cell.Z);
+        entry.Next = _heads[entry.Bucket];
+        _heads[entry.Bucket] = index;
     }
 
     private void Remove(int index)
     {
-        var next = _entries[index].Next;
-        var previous = _previous[index];
-        if (previous >= 0)
+        // No longer than a search of the cell takes.
+        ref var link = ref _heads[_entries[index].Bucket];
+        while (link != index)
         {
-            _entries[previous].Next = next;
-        }
-        else
-        {
-            _heads[_entries[index].Bucket] = next;
+            link = ref _entries[link].Next;
         }
 
-        if (next >= 0)
-        {
-            _previous[next] = previous;
-        }
+        link = _entries[index].Next;
     }
 
     /// <summary>Integer coordinates of a cell.</summary>

@@ -4,21 +4,10 @@ using FractalEngine.Core.Physics.Descriptions;
 namespace FractalEngine.Core.Physics.Bodies;
 
 /// <summary>The contacts of one body, kept from step to step so that they need not be found again.</summary>
-internal sealed partial class ContactSet
+internal sealed partial class ContactSet() : ContactList(HalfSpaces.Capacity)
 {
     // Squared difference of unit normals below which two contacts are the same.
     private const double SameNormalToleranceSquared = 1e-12;
-
-    private readonly Contact[] _contacts = new Contact[HalfSpaces.Capacity];
-
-    /// <summary>Number of contacts at present.</summary>
-    public int Count { get; private set; }
-
-    /// <summary>The contact at an index from 0 to <see cref="Count"/> − 1.</summary>
-    public ref readonly Contact this[int index] => ref _contacts[index];
-
-    /// <summary>Removes all contacts of the body.</summary>
-    public void Clear() => Count = 0;
 
     /// <summary>Adds a contact. It replaces one with the same obstacle and normal, or the oldest one where there is no room.</summary>
     /// <param name="contact">Contact of the body.</param>
@@ -70,21 +59,6 @@ internal sealed partial class ContactSet
             }
 
             return count;
-        }
-    }
-
-    /// <summary>True where a surface is touched that moves.</summary>
-    public bool HasMovingSurface
-    {
-        get
-        {
-            var hasMoving = false;
-            for (var i = 0; i < Count; i++)
-            {
-                hasMoving |= _contacts[i].Kinematic is { IsCarrying: true };
-            }
-
-            return hasMoving;
         }
     }
 

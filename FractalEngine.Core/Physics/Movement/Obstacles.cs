@@ -434,59 +434,43 @@ internal sealed class Obstacles(
         return true;
     }
 
+    /// <summary>Finds the closest surface of what moves not by itself, unless that is known.</summary>
     private bool TryFindClosestSurface(Vector position, double maxDistance, out Contact contact)
     {
         contact = default;
-        var maxCentreDistance = maxDistance + _radius;
-        return _staticColliders is { } colliders && (_sphereOffsets is [var sphere]
-            ? TryFindClosestSurface(colliders, position, sphere, maxCentreDistance, out contact)
-            : TryFindClosestSurfaceOfMany(colliders, position, maxCentreDistance, out contact));
-    }
-
-    /// <summary>Finds the closest surface of a mover of one sphere, unless that is known.</summary>
-    private bool TryFindClosestSurface(
-        StaticColliders colliders, Vector position, Vector sphere, double maxCentreDistance, out Contact contact)
-    {
-        if (!_safeDistance.TryRecall(position, out var distance, out var point, out var isFlat))
+        if (_staticColliders is not { } colliders)
         {
-            distance = maxCentreDistance + _searchMargin;
-            if (!colliders.Scene.TryFindClosest(position + sphere, distance, queryContext, out var closest))
-            {
-                contact = default;
-                _safeDistance.Store(position, distance);
-                return false;
-            }
-
-            distance = closest.Distance;
-            point = closest.Point;
-            isFlat = closest.Feature == TriangleFeature.Interior;
-            _safeDistance.StoreClosest(position, distance, point, isFlat);
+            return false;
         }
 
-        contact = new(point, _radius, sphere, Contact.NoBody, isFlat);
-        return distance <= maxCentreDistance;
-    }
+        var maxCentreDistance = maxDistance + _radius;
+        if (_safeDistance.TryRecall(position, out var distance, out var point, out var isFlat))
+        {
+            contact = new(point, _radius, _sphereOffsets[0], Contact.NoBody, isFlat);
+            return distance <= maxCentreDistance;
+        }
 
-    private bool TryFindClosestSurfaceOfMany(
-        StaticColliders colliders, Vector position, double maxCentreDistance, out Contact contact)
-    {
-        contact = default;
+        distance = maxCentreDistance + _searchMargin;
         var isFound = false;
-        var searchDistance = maxCentreDistance + _searchMargin;
         foreach (var sphere in _sphereOffsets)
         {
-            if (colliders.Scene.TryFindClosest(position + sphere, searchDistance, queryContext, out var closest))
+            if (colliders.Scene.TryFindClosest(position + sphere, distance, queryContext, out var closest))
             {
-                searchDistance = closest.Distance;
-                if (searchDistance <= maxCentreDistance)
-                {
-                    contact = CreateSurfaceContact(in closest, sphere, kinematic: null);
-                    isFound = true;
-                }
+                isFound = true;
+                distance = closest.Distance;
+                contact = CreateSurfaceContact(in closest, sphere, kinematic: null);
             }
         }
 
-        _safeDistance.Store(position, searchDistance);
-        return isFound;
+        if (isFound && _sphereOffsets.Length == 1)
+        {
+            _safeDistance.StoreClosest(position, distance, contact.FixedPoint, contact.IsFlat);
+        }
+        else
+        {
+            _safeDistance.Store(position, distance);
+        }
+
+        return isFound && distance <= maxCentreDistance;
     }
 }

@@ -14,13 +14,11 @@ namespace FractalEngine.Core.Physics.Statics;
 internal sealed class KinematicObject
 {
     private readonly KinematicSet _set;
-    private readonly ObjectMotion? _path;
+    private ObjectMotion? _path;
     private BoundingBox _bounds;
     private double _radius;
     private RigidPose _origin;
     private double _originTime;
-    private Vector _originVelocity;
-    private bool _isOnPath;
     private RigidPose _end;
     private RigidPose _now;
     private double _nowTime;
@@ -31,7 +29,6 @@ internal sealed class KinematicObject
     public KinematicObject(KinematicSet set, StaticObject target)
     {
         _set = set;
-        _path = target.Reference.Declaration.Motion;
         Target = target;
         Reset(0);
     }
@@ -87,11 +84,12 @@ internal sealed class KinematicObject
     /// <param name="time">The world's time, which may be later: then the object is where that motion has led.</param>
     public void Reset(double time)
     {
-        Belt = Target.Reference.Declaration.Belt;
+        var motion = Reference.Declaration.Motion ?? new();
+        Belt = Reference.Declaration.Belt;
         Place(0);
         // The angles of placements turn the other way than angular velocities do.
-        SetMotion(_path?.Velocity ?? Vector.Zero, -Math.PI / 180 * (_path?.Spin ?? Vector.Zero), 0);
-        _isOnPath = _path?.From is not null;
+        SetMotion(motion.Velocity, -Math.PI / 180 * motion.Spin, 0);
+        _path = motion.From is null ? null : motion;
         _end = PoseAt(time);
         EndPart();
         PreviousPose = Pose;
@@ -118,12 +116,10 @@ internal sealed class KinematicObject
     {
         _origin = Pose;
         _originTime = time;
-        _originVelocity = velocity;
-        _isOnPath = false;
+        _path = null;
         AngularVelocity = angularVelocity;
         Velocity = velocity;
-        _end = Pose;
-        EndPart();
+        _nowTime = double.NaN;
     }
 
     /// <summary>Saves where the object is before a step.</summary>
@@ -135,7 +131,7 @@ internal sealed class KinematicObject
     public void PlanPart(double time, double seconds)
     {
         _end = PoseAt(time + seconds);
-        Velocity = _isOnPath ? (_end.Position - Pose.Position) / seconds : _originVelocity;
+        Velocity = _path is null ? Velocity : (_end.Position - Pose.Position) / seconds;
         MaxSpeed = Velocity.Length() + (AngularVelocity.Length() * _radius);
         var bounds = BoundsAt(Pose);
         SweptBounds = IsMoving ? BoundingBox.Union(bounds, BoundsAt(_end)) : bounds;
@@ -216,7 +212,7 @@ internal sealed class KinematicObject
     {
         var elapsed = time - _originTime;
         return new(
-            _isOnPath ? _path!.PositionAt(_origin.Position, elapsed) : _origin.Position + (elapsed * _originVelocity),
+            _path?.PositionAt(_origin.Position, elapsed) ?? _origin.Position + (elapsed * Velocity),
             _origin.Orientation.TurnedBy(elapsed * AngularVelocity));
     }
 
