@@ -79,30 +79,22 @@ internal static class TriangleFrames
     /// <param name="faces">Face indices of the triangles.</param>
     /// <param name="rows">Receives the rows of the leaf.</param>
     /// <returns>The length of the longest edge.</returns>
+    [MethodImpl(MethodImplOptions.AggressiveOptimization)]
     public static double Write(Mesh mesh, Vector origin, double scale, ReadOnlySpan<int> faces, Span<float> rows)
     {
         var simdOrigin = SimdAffineMap.ToVector256(origin);
         var simdScale = Vector256.Create(scale);
-        var positions = mesh.Positions.AsSpan();
-        var indices = mesh.VertexIndices.AsSpan();
         var longestEdge = 0.0;
         for (var i = 0; i < faces.Length; i++)
         {
-            var face = indices.Slice(3 * faces[i], 3);
+            var (a, b, c) = mesh.Face(faces[i]);
             var length = Write(
-                (LoadVertex(positions, face[0]) - simdOrigin) * simdScale, (LoadVertex(positions, face[1]) - simdOrigin) * simdScale,
-                (LoadVertex(positions, face[2]) - simdOrigin) * simdScale, rows[i..], faces.Length);
+                (SimdAffineMap.ToVector256(a) - simdOrigin) * simdScale, (SimdAffineMap.ToVector256(b) - simdOrigin) * simdScale,
+                (SimdAffineMap.ToVector256(c) - simdOrigin) * simdScale, rows[i..], faces.Length);
             longestEdge = Math.Max(longestEdge, length);
         }
 
         return longestEdge;
-    }
-
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private static Vector256<double> LoadVertex(ReadOnlySpan<double> positions, int vertex)
-    {
-        var v = positions.Slice(3 * vertex, 3);
-        return Vector256.Create(v[0], v[1], v[2], 0);
     }
 
     // A mesh is built once, often before the tiers of the compiler have warmed up.

@@ -156,15 +156,20 @@ public sealed record Mesh
     /// <inheritdoc/>
     public override int GetHashCode() => HashCode.Combine(VertexCount, FaceCount, Bounds);
 
+    // The first collider of a mesh waits for this, mostly before the tiers of the compiler have warmed up.
+    [MethodImpl(MethodImplOptions.AggressiveOptimization)]
     private BoundingBox ComputeUsedBounds()
     {
-        var box = BoundingBox.Empty;
+        var minimum = Vector256.Create(double.PositiveInfinity);
+        var maximum = -minimum;
         foreach (var vertex in VertexIndices)
         {
-            box = box.Including(Vertex(vertex));
+            var position = SimdAffineMap.ToVector256(Vertex(vertex));
+            minimum = Vector256.Min(minimum, position);
+            maximum = Vector256.Max(maximum, position);
         }
 
-        return box;
+        return new(SimdAffineMap.ToVector(minimum), SimdAffineMap.ToVector(maximum));
     }
 
     private static bool HaveSameBits(ImmutableArray<double> numbers1, ImmutableArray<double> numbers2) =>

@@ -63,10 +63,16 @@ public class FractalExpansionTests
         Assert.Equal(distinct, Keys(maps).Count);
     }
 
-    [Fact]
-    public void Expand_OfAppendixBAtDepthThree_IsTheSetOfAllItsChains() => Assert.Equal(
-        NaiveFractal.Chains(Samples.AppendixBAt(3).Description).Select(Key).ToHashSet(),
-        Keys(FractalGenerator.Expand(Samples.AppendixBAt(3), Budget)));
+    [Theory]
+    [InlineData(2)]
+    public void Expand_OfAppendixB_IsTheSetOfAllItsChains(int depth) => Assert.Equal(
+        NaiveFractal.Chains(Samples.AppendixBAt(depth).Description).Select(Key).ToHashSet(),
+        Keys(FractalGenerator.Expand(Samples.AppendixBAt(depth), Budget)));
+
+    [Theory]
+    [InlineData(3)]
+    [Trait("Category", "Soak")]
+    public void Expand_OfDeepAppendixB_IsTheSetOfAllItsChains(int depth) => Expand_OfAppendixB_IsTheSetOfAllItsChains(depth);
 
     [Fact]
     public void Expand_OfAppendixBComponentwiseAtDepthSix_HasNineteenThousandSixHundred() =>
@@ -104,13 +110,20 @@ public class FractalExpansionTests
         Assert.Equal(7, FractalGenerator.Expand(fractal, Budget).Length);
     }
 
-    [Fact]
-    public void Expand_OfTinyInstancesFarFromEachOther_KeepsAll()
+    // Instances are a millionth of the base mesh's size, as far from their neighbours as they are large.
+    [Theory]
+    [InlineData(10, 0.25)]
+    public void Expand_OfTinyInstancesFarFromEachOther_KeepsAll(int depth, double scale)
     {
-        // At depth 20 instances are a millionth of the base mesh's size.
-        var fractal = Samples.Repeated(20, Samples.MoveAndScale(0, 0, 0, 0.5), Samples.MoveAndScale(0.5, 0, 0, 0.5));
-        Assert.Equal(1 << 20, FractalGenerator.Expand(fractal, 1 << 20).Length);
+        var fractal = Samples.Repeated(depth, Samples.MoveAndScale(0, 0, 0, scale), Samples.MoveAndScale(scale, 0, 0, scale));
+        Assert.Equal(1 << depth, FractalGenerator.Expand(fractal, 1 << depth).Length);
     }
+
+    [Theory]
+    [InlineData(20, 0.5)]
+    [Trait("Category", "Soak")]
+    public void Expand_OfAMillionTinyInstances_KeepsAll(int depth, double scale) =>
+        Expand_OfTinyInstancesFarFromEachOther_KeepsAll(depth, scale);
 
     [Fact]
     public void Expand_BeyondTheBudget_NamesTheLimit()

@@ -34,6 +34,7 @@ internal sealed class SahSplitter(TriangleBounds[] triangles, int maxLeafTriangl
     /// <param name="depth">Depth of the node that they are to be children of.</param>
     /// <param name="total">Number of triangles in the node.</param>
     /// <returns>The place of the range; −1 when all are small enough for leaves.</returns>
+    [MethodImpl(MethodImplOptions.AggressiveOptimization)]
     public int FindLargestSplittable(ReadOnlySpan<TriangleRange> ranges, int depth, int total)
     {
         var maxCount = total > 8 * maxLeafTriangles ? 8 * maxLeafTriangles : maxLeafTriangles;
@@ -112,6 +113,7 @@ internal sealed class SahSplitter(TriangleBounds[] triangles, int maxLeafTriangl
         return (CreateRange(range.Start, half), CreateRange(range.Start + half, range.Count - half));
     }
 
+    [MethodImpl(MethodImplOptions.AggressiveOptimization)]
     private TriangleRange CreateRange(int start, int count)
     {
         var bounds = SimdBoundingBox.Empty;
@@ -231,6 +233,7 @@ internal sealed class SahSplitter(TriangleBounds[] triangles, int maxLeafTriangl
         Unsafe.Add(ref counts, z)++;
     }
 
+    [MethodImpl(MethodImplOptions.AggressiveOptimization)]
     private static SimdBoundingBox UnionOf(ReadOnlySpan<SimdBoundingBox> boxes)
     {
         var union = SimdBoundingBox.Empty;

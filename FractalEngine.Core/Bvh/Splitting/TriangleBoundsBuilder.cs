@@ -37,17 +37,16 @@ internal sealed class TriangleBoundsBuilder(Mesh mesh, Vector origin, double sca
     [MethodImpl(MethodImplOptions.AggressiveOptimization)]
     private TriangleRange ComputeChunk(TriangleBounds[] triangles, int start, int count)
     {
-        var positions = mesh.Positions.AsSpan();
-        var indices = mesh.VertexIndices.AsSpan();
-        var simdOrigin = Vector256.Create(origin.X, origin.Y, origin.Z, 0);
+        var simdOrigin = SimdAffineMap.ToVector256(origin);
         var simdScale = Vector256.Create(scale);
         var bounds = SimdBoundingBox.Empty;
         var doubledCentreBounds = SimdBoundingBox.Empty;
         for (var face = start; face < start + count; face++)
         {
-            var a = LoadVertex(positions, indices[3 * face]);
-            var b = LoadVertex(positions, indices[(3 * face) + 1]);
-            var c = LoadVertex(positions, indices[(3 * face) + 2]);
+            var (vertexA, vertexB, vertexC) = mesh.Face(face);
+            var a = SimdAffineMap.ToVector256(vertexA);
+            var b = SimdAffineMap.ToVector256(vertexB);
+            var c = SimdAffineMap.ToVector256(vertexC);
             var minimum = Vector256.MinNative(Vector256.MinNative(a, b), c);
             var maximum = Vector256.MaxNative(Vector256.MaxNative(a, b), c);
             var lower = FloatRounding.Down((minimum - simdOrigin) * simdScale).AsInt32().WithElement(3, face).AsSingle();
@@ -59,12 +58,5 @@ internal sealed class TriangleBoundsBuilder(Mesh mesh, Vector origin, double sca
         }
 
         return new(start, count, bounds, doubledCentreBounds);
-    }
-
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private static Vector256<double> LoadVertex(ReadOnlySpan<double> positions, int vertex)
-    {
-        var v = positions.Slice(3 * vertex, 3);
-        return Vector256.Create(v[0], v[1], v[2], 0);
     }
 }

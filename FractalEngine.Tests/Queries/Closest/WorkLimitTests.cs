@@ -19,21 +19,18 @@ public class WorkLimitTests
         Assert.Equal(0.25, collider.FindClosest(new(-0.25, 0, 0)).Distance, 1e-9);
     }
 
+    /// <summary>By default, <see cref="App.Commands.RecordedProcessTests"/> has the distance and the bound from height 5.</summary>
     [Theory]
     [InlineData(5)]
+    [InlineData(0.5)]
+    [InlineData(0)]
+    [Trait("Category", "Soak")]
     public void FindClosest_BeyondTheLimitOfWork_HasAPointAndAnHonestBound(double height)
     {
         Assert.True(Collider.For(TurningWalk()).TryFindClosest(new(0, 0, height), double.PositiveInfinity, new(), out var closest));
         Assert.InRange(closest.Distance, 0, 1);
         Assert.InRange(closest.ErrorBound, 0, closest.Distance + 1e-9);
     }
-
-    [Theory]
-    [InlineData(0.5)]
-    [InlineData(0)]
-    [Trait("Category", "Soak")]
-    public void FindClosest_BeyondTheLimitOfWorkElsewhere_HasAPointAndAnHonestBound(double height) =>
-        FindClosest_BeyondTheLimitOfWork_HasAPointAndAnHonestBound(height);
 
     [Fact]
     public void TryFindClosest_BeyondTheLimitOfWorkWithoutAPoint_DoesNotSayThatThereIsNone() =>
