@@ -23,11 +23,13 @@ public sealed class ContactRowsTests
         var body = new Body(Ball, 4, Vector.Zero);
         var contact = new Contact(new(1, 1.5, 3), 0.5, Vector.Zero, Contact.NoBody, IsFlat: true);
         var row = ContactRows.OfSurface(body, 0, in contact);
-        Assert.Equal((4, ContactRow.Immovable, 0, true), (row.First, row.Second, row.FeatureId, row.IsAhead));
+        Assert.Equal((4, ContactRow.Immovable, 0, false), (row.First, row.Second, row.FeatureId, row.IsAhead));
         Assert.Equal((new(0, 0.5, 0), Vector.J, 0.5, 0.5), (row.Offset, row.Normal, row.MinDistance, row.FirstRadius));
         Assert.Equal((0.75, 0.25, 0.0625, 0.25), (row.Friction, row.Restitution, row.RollingArm, row.SpinningArm));
         Assert.False(row.IsBall || row.HasArms || row.IsOnMovingSurface);
-        Assert.False(ContactRows.OfSurface(body, 0, in contact).IsAhead);
+        // A millionth of the radius counts as touching.
+        Assert.False(ContactRows.OfSurface(body, 0, contact with { Point = new(1, 1.5 - 4e-7, 3) }).IsAhead);
+        Assert.True(ContactRows.OfSurface(body, 0, contact with { Point = new(1, 1.5 - 6e-7, 3) }).IsAhead);
     }
 
     [Fact]
