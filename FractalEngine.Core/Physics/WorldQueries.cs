@@ -57,10 +57,12 @@ internal sealed class WorldQueries(
     {
         hit = default;
         var direction = RayCaster.CheckedUnitDirection(in ray, 0, maxDistance);
-        var isHit = false;
         foreach (var target in statics.Objects)
         {
-            isHit |= StaticObjectSet.CanMeet(target, layer, mask) && TryHitObject(target, ray, ref maxDistance, ref hit);
+            if (StaticObjectSet.CanMeet(target, layer, mask) && !target.Reference.Bounds.IsEmpty)
+            {
+                HitObject(target, ray, ref maxDistance, ref hit);
+            }
         }
 
         foreach (var body in bodies)
@@ -71,47 +73,37 @@ internal sealed class WorldQueries(
                 maxDistance = distance;
                 var point = ray.Origin + (distance * direction);
                 hit = new(distance, point, (point - centre).UnitVectorOrZero(), body, null);
-                isHit = true;
             }
         }
 
-        return isHit;
+        return hit is not { Body: null, StaticObject: null };
     }
 
-    private bool TryHitObject(StaticObject target, Ray ray, ref double maxDistance, ref CastHit hit)
+    /// <summary>Finds where a ray meets an object, if it does so up to a distance.</summary>
+    private void HitObject(StaticObject target, Ray ray, ref double maxDistance, ref CastHit hit)
     {
-        if (target.Reference.Bounds.IsEmpty)
-        {
-            return false;
-        }
-
         var kinematic = target.Kinematic;
         var local = kinematic is null
             ? ray : new Ray(kinematic.ToReference(ray.Origin), kinematic.RotateBack(ray.Direction));
-        if (!CasterOf(target).TryFindNearest(local, queryContext, out var found, 0, maxDistance))
+        if (CasterOf(target).TryFindNearest(local, queryContext, out var found, 0, maxDistance))
         {
-            return false;
+            maxDistance = found.Distance;
+            var normal = found.IsFrontFace ? found.Normal : -found.Normal;
+            hit = new(
+                found.Distance, kinematic?.ToWorld(found.Point) ?? found.Point, kinematic?.Rotate(normal) ?? normal, null, target);
         }
-
-        maxDistance = found.Distance;
-        var normal = found.IsFrontFace ? found.Normal : -found.Normal;
-        hit = new(
-            found.Distance, kinematic?.ToWorld(found.Point) ?? found.Point, kinematic?.Rotate(normal) ?? normal, null, target);
-        return true;
     }
 
     private SceneRayCaster CasterOf(StaticObject target)
     {
-        if (!_rayCasters.TryGetValue(target, out var prepared))
+        var prepared = _rayCasters.GetValueOrDefault(target);
+        if (!ReferenceEquals(prepared.Placed, target.Reference))
         {
-            prepared = (target.Reference, new(new LoadedScene(new(), [target.Reference])));
-        }
-        else if (!ReferenceEquals(prepared.Placed, target.Reference))
-        {
-            prepared = (target.Reference, prepared.Caster.WithObject(0, target.Reference));
+            var caster = prepared.Caster?.WithObject(0, target.Reference) ?? new(new LoadedScene(new(), [target.Reference]));
+            prepared = (target.Reference, caster);
+            _rayCasters[target] = prepared;
         }
 
-        _rayCasters[target] = prepared;
         return prepared.Caster;
     }
 

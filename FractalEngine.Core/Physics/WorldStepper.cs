@@ -160,7 +160,7 @@ internal sealed class WorldStepper
         LastCost = default;
     }
 
-    /// <summary>Makes one step.</summary>
+    /// <summary>Takes all bodies and the character through one step.</summary>
     /// <param name="character">The active character; null for none.</param>
     /// <param name="gravity">Units per second².</param>
     /// <param name="seconds">Length of the step, positive and finite.</param>

@@ -47,7 +47,7 @@ internal sealed class WorldRecorder(string name, PhysicsWorld world)
     {
         var (faces, bounds) = world.LastStepCost;
         _tests = (_tests.Faces + faces, _tests.Bounds + bounds);
-        var graph = PlannerOf(world).Graph;
+        var graph = PlannerOf(StepperOf(world)).Graph;
         _pairs += graph.Pairs.Length + (1000L * graph.JoinedCount);
         for (var i = 0; i < graph.Islands.Count; i++)
         {
@@ -118,13 +118,12 @@ internal sealed class WorldRecorder(string name, PhysicsWorld world)
             CultureInfo.InvariantCulture,
             $"{name} {world.StepCount}: at {places} by {velocities} turned {turns} spin {spins} force {_forces} events {_eventCount} "
             + $"{_events} tests {_tests.Faces} {_tests.Bounds} solves {solves} {rounds} {unconverged} islands {_islands} pairs {_pairs} "
-            + $"returns {MoverOf(world).ReturnCount} bodies {_bodies} asleep {world.Bodies.Count(static body => body.IsAsleep)} "
+            + $"returns {MoverOf(StepperOf(world)).ReturnCount} bodies {_bodies} asleep {world.Bodies.Count(static body => body.IsAsleep)} "
             + $"{world.IsMoving}");
     }
 
     /// <summary>Number of faces and bounds that have been tested since the world was made, those of queries included.</summary>
-    [UnsafeAccessor(UnsafeAccessorKind.Method, Name = "CountTests")]
-    public static extern (long Faces, long Bounds) CountTests(PhysicsWorld world);
+    public static (long Faces, long Bounds) CountTests(PhysicsWorld world) => CountTests(StepperOf(world));
 
     private static int Identify(in ContactEvent one) =>
         ((int)one.Phase * 7) + (one.Body.Index * 3) + ((one.OtherBody?.Index ?? -1) * 5) + ((one.StaticObject?.Index ?? -1) * 11);
@@ -140,11 +139,17 @@ internal sealed class WorldRecorder(string name, PhysicsWorld world)
         return bits;
     }
 
+    [UnsafeAccessor(UnsafeAccessorKind.Method, Name = "CountTests")]
+    private static extern (long Faces, long Bounds) CountTests(WorldStepper stepper);
+
+    [UnsafeAccessor(UnsafeAccessorKind.Field, Name = "_stepper")]
+    private static extern ref WorldStepper StepperOf(PhysicsWorld world);
+
     [UnsafeAccessor(UnsafeAccessorKind.Field, Name = "_planner")]
-    private static extern ref IslandPlanner PlannerOf(PhysicsWorld world);
+    private static extern ref IslandPlanner PlannerOf(WorldStepper stepper);
 
     [UnsafeAccessor(UnsafeAccessorKind.Field, Name = "_islandMover")]
-    private static extern ref IslandMover MoverOf(PhysicsWorld world);
+    private static extern ref IslandMover MoverOf(WorldStepper stepper);
 
     /// <summary>
     /// A sum in which each number has another weight between 1 and 2, so that none can stand for another. It begins at 1: a tolerance is

@@ -1,6 +1,6 @@
 namespace FractalEngine.Core.Physics.Bodies;
 
-/// <summary>A few contacts of a ball.</summary>
+/// <summary>A few contacts of one ball, in an array that is made once.</summary>
 /// <param name="capacity">Maximum number of contacts.</param>
 internal abstract class ContactList(int capacity)
 {
@@ -27,6 +27,6 @@ internal abstract class ContactList(int capacity)
         }
     }
 
-    /// <summary>Removes all contacts.</summary>
+    /// <summary>Removes all contacts of the list.</summary>
     public void Clear() => Count = 0;
 }

@@ -57,15 +57,6 @@ internal sealed class SleepIslands(List<Body> bodies, NearbyBodies nearbyBodies)
         WakeOverlapping(body.Position, body.Radius, body.Index);
     }
 
-    /// <summary>Gives a body another velocity, and wakes it and its whole island.</summary>
-    /// <exception cref="ArgumentException">The velocity is not finite.</exception>
-    public void SetVelocity(Body body, Vector velocity)
-    {
-        body.RequireFinite(velocity, nameof(velocity));
-        Wake(body);
-        body.Velocity = velocity;
-    }
-
     /// <summary>Wakes the islands of all bodies that touch a sphere.</summary>
     /// <param name="centre">World space.</param>
     /// <param name="radius">Scene units.</param>

@@ -45,7 +45,8 @@ public sealed class CompoundShape
         var all = balls.ToImmutableArray();
         ArgumentCheck.Require(all.Length is > 0 and <= MaxBalls, $"expected 1 to {MaxBalls} balls");
         ArgumentCheck.Require(all.All(static ball => ball.Offset.IsFinite()), "the offsets of balls must be finite");
-        ArgumentCheck.Require(all.All(static ball => ball.Radius > 0 && double.IsFinite(ball.Radius)), "the radii of balls must be positive");
+        ArgumentCheck.Require(
+            all.All(static ball => ball.Radius > 0 && double.IsFinite(ball.Radius)), "the radii of balls must be positive");
         // Relative to the largest radius, so that no volume is too small or large for a double.
         var unit = all.Max(static ball => ball.Radius);
         var volume = all.Sum(ball => Cube(ball.Radius / unit));

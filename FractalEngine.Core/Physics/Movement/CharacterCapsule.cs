@@ -192,7 +192,10 @@ internal sealed class CharacterCapsule(List<Body> bodies, SleepIslands islands, 
         var approachSpeed = Vector.Dot(velocity - body.Velocity, normal);
         if (approachSpeed < 0)
         {
-            islands.SetVelocity(body, body.Velocity + (approachSpeed * normal));
+            var pushed = body.Velocity + (approachSpeed * normal);
+            body.RequireFinite(pushed, nameof(velocity));
+            islands.Wake(body);
+            body.Velocity = pushed;
         }
     }
 
