@@ -28,8 +28,8 @@ public sealed class ContactRowsTests
         Assert.Equal((0.75, 0.25, 0.0625, 0.25), (row.Friction, row.Restitution, row.RollingArm, row.SpinningArm));
         Assert.False(row.IsBall || row.HasArms || row.IsOnMovingSurface);
         // A millionth of the radius counts as touching.
-        Assert.False(ContactRows.OfSurface(body, 0, contact with { Point = new(1, 1.5 - 4e-7, 3) }).IsAhead);
-        Assert.True(ContactRows.OfSurface(body, 0, contact with { Point = new(1, 1.5 - 6e-7, 3) }).IsAhead);
+        Assert.False(ContactRows.OfSurface(body, 0, new(new(1, 1.5 - 4e-7, 3), 0.5, Vector.Zero, Contact.NoBody, IsFlat: true)).IsAhead);
+        Assert.True(ContactRows.OfSurface(body, 0, new(new(1, 1.5 - 6e-7, 3), 0.5, Vector.Zero, Contact.NoBody, IsFlat: true)).IsAhead);
     }
 
     [Fact]
