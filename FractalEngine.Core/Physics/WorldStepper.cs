@@ -429,10 +429,6 @@ internal sealed class WorldStepper
         foreach (var island in Graph.Islands)
         {
             _energyGuard.FinishVelocities(in island);
-            if (!island.IsFree)
-            {
-                _islandMover.DampJammed(in island, _seconds);
-            }
 
             _island = island;
             _ = RunOnBodies(island.BodyCount, island.BodyCount, _finishPlanned);

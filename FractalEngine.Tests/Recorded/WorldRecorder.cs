@@ -65,7 +65,7 @@ internal sealed class WorldRecorder(string name, PhysicsWorld world)
         foreach (var body in world.Bodies)
         {
             _bodies += (body.Index + 1) * (body.FaceTests + (2 * body.BoundTests) + (3 * body.Contacts.Count)
-                + (5 * body.NearSurfaces.Count) + (7 * body.SleepCount) + (9 * body.JammedSteps)
+                + (5 * body.NearSurfaces.Count) + (7 * body.SleepCount)
                 + Bits(body.IsAsleep, body.IsStuck, body.IsIdle, body.MayTouchBodies, body.HasHeapMargin, body.IsTouching));
             _forces.Add(body.NetAcceleration);
             _forces.Add(body.SleepTimer);

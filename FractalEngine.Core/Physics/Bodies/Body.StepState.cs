@@ -62,9 +62,6 @@ public sealed partial class Body
     /// <summary>True where the body may touch others: it has met one, was of an island, or has just come.</summary>
     internal bool MayTouchBodies { get; set; }
 
-    /// <summary>Number of steps in a row in which the body has got nowhere near as far as its speed says.</summary>
-    internal int JammedSteps { get; set; }
-
     /// <summary>True once a body of no island has made its step.</summary>
     internal bool HasMoved { get; set; }
 

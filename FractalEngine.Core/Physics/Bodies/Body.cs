@@ -146,7 +146,6 @@ public sealed partial class Body
         IsOverlapResolved = false;
         MayTouchBodies = true;
         HasHeapMargin = false;
-        JammedSteps = 0;
         NetAcceleration = acceleration;
         DiscardSurfaces();
     }

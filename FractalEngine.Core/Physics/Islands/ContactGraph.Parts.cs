@@ -27,22 +27,7 @@ internal sealed partial class ContactGraph
     public ReadOnlySpan<int> PartEndsOf(in Island island) => island.PartCount == 1 ? []
         : CollectionsMarshal.AsSpan(_partEnds).Slice(island.FirstPartEnd, island.PartCount + 1);
 
-    /// <summary>The contacts of a part of an island, or those between its parts.</summary>
-    /// <param name="island">The island.</param>
-    /// <param name="part">Index of the part; the number of parts for the contacts between them.</param>
-    public Span<ContactRow> RowsOfPart(in Island island, int part)
-    {
-        if (island.PartCount == 1)
-        {
-            return part == 0 ? RowsOf(in island) : [];
-        }
-
-        var ends = PartEndsOf(in island);
-        var start = part > 0 ? ends[part - 1] : 0;
-        return _rows.AsSpan(island.FirstRow + start, ends[part] - start);
-    }
-
-    /// <summary>Number of ranges that <see cref="RowsOfPart"/> cuts an island's contacts into.</summary>
+    /// <summary>Number of groups of an island's contacts: one for each part, and one for those between several.</summary>
     public static int GroupCountOf(in Island island) => island.PartCount == 1 ? 1 : island.PartCount + 1;
 
     /// <summary>The part of a body of an island that has several.</summary>

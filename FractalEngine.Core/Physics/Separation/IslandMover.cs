@@ -14,10 +14,6 @@ internal sealed class IslandMover
     // Relative to the distance at which two touch.
     private const double NegligibleOverlap = 3e-7;
 
-    // Relative to the way that the speed tells: a body that gets less far is held up, and for how many steps it may be.
-    private const double JamFraction = 0.5;
-    private const int MaxJammedSteps = 8;
-
     private readonly List<Body> _bodies;
     private readonly ContactGraph _graph;
     private readonly BodyGrid _grid;
@@ -61,25 +57,6 @@ internal sealed class IslandMover
         }
 
         return null;
-    }
-
-    /// <summary>Slows down bodies that others have held up for some steps in a row: in a jam they would push for ever.</summary>
-    /// <param name="island">Has moved, and its bodies have their new velocities.</param>
-    /// <param name="stepLength">Seconds.</param>
-    public void DampJammed(in Island island, double stepLength)
-    {
-        foreach (var index in _graph.BodiesOf(in island))
-        {
-            var body = _bodies[index];
-            var way = JamFraction * stepLength * body.Velocity;
-            var isJammed = (body.Position - body.PlannedStart).LengthSquared() < way.LengthSquared();
-            body.JammedSteps = isJammed ? body.JammedSteps + 1 : 0;
-            if (body.JammedSteps >= MaxJammedSteps)
-            {
-                body.Velocity *= 0.5;
-                body.AngularVelocity *= 0.5;
-            }
-        }
     }
 
     /// <summary>

@@ -43,14 +43,4 @@ internal struct BallState
         Velocity = SimdAffineMap.ToVector256(velocity);
         Spin = SimdAffineMap.ToVector256(spin);
     }
-
-    /// <summary>Energy of motion and rotation, joules.</summary>
-    public readonly double KineticEnergy
-    {
-        get
-        {
-            var energy = Vector256.Dot(Velocity, Velocity) / InverseMass;
-            return 0.5 * (InverseInertia > 0 ? energy + (Vector256.Dot(Spin, Spin) / InverseInertia) : energy);
-        }
-    }
 }

@@ -49,7 +49,6 @@ internal sealed class SubstepSolver
     // What goes several radii in a step may end deep in others: more pushes, and searches for what they make balls meet.
     private const double DeepOverlap = 0.15;
     private const int MaxDeepPushes = 200;
-    private const int MaxSearches = 3;
 
     // Relative to what gravity and forces add to the speed, and to the radius: less is what the rounds leave of it, and the ball rests.
     private const double RestFraction = 1e-10;
@@ -80,8 +79,6 @@ internal sealed class SubstepSolver
 
     // The last group has the contacts between parts.
     private readonly Group[] _groups = [.. Enumerable.Range(0, IslandParts.MaxCount + 1).Select(static _ => new Group())];
-    private readonly List<BallContact> _unplanned = [];
-    private readonly List<int> _neighbours = [];
     private BallState[] _states = [];
     private BallContact[] _contacts = [];
     private TurnFriction[] _turns = [];
@@ -96,9 +93,7 @@ internal sealed class SubstepSolver
     private Island _island;
     private double _stepLength;
     private double _substep;
-    private double _scale;
     private double _share;
-    private Vector256<double> _centreVelocity;
     private int _substepCount;
     private int _surfaceCount;
     private bool _isLarge;
@@ -139,8 +134,6 @@ internal sealed class SubstepSolver
             _states = new BallState[(2 * bodyCount) + RestingSurfaces];
         }
 
-        _unplanned.EnsureCapacity(bodyCount);
-        _neighbours.EnsureCapacity(bodyCount);
         if (_contacts.Length < contactCount)
         {
             _contacts = new BallContact[Math.Max(contactCount, 2 * _contacts.Length)];
@@ -179,18 +172,12 @@ internal sealed class SubstepSolver
         for (var i = 0; i < _substepCount; i++)
         {
             RunAll(_accelerate);
-            var energy = SumEnergy(out _);
             RunAll(_begin);
             isConverged &= MakeRounds();
-            LimitEnergy(energy);
             RunAll(_integrate);
         }
 
-        for (var search = 0; search < MaxSearches && (search == 0 || _unplanned.Count > 0); search++)
-        {
-            FindUnplanned();
-            PushApart();
-        }
+        PushApart();
 
         RunAll(_keepInFront);
         RunAll(_store);
@@ -280,7 +267,7 @@ internal sealed class SubstepSolver
         for (var i = 0; worst > (i < maxPushes ? MaxOverlap : DeepOverlap) && i < MaxDeepPushes; i++)
         {
             RunAll(_push);
-            worst = Push(CollectionsMarshal.AsSpan(_unplanned));
+            worst = 0;
             foreach (var group in Groups)
             {
                 worst = Math.Max(worst, group.Overlap);
@@ -491,42 +478,6 @@ internal sealed class SubstepSolver
         }
     }
 
-    /// <summary>Energy of motion and rotation of all balls: about the centre of mass, if nothing immovable is touched.</summary>
-    private double SumEnergy(out Vector256<double> centreVelocity)
-    {
-        centreVelocity = Vector256<double>.Zero;
-        if (_island.HasMovingSurface)
-        {
-            return double.PositiveInfinity;
-        }
-
-        var (energy, mass) = (0.0, 0.0);
-        var momentum = Vector256<double>.Zero;
-        foreach (var body in _graph!.BodiesOf(in _island))
-        {
-            ref readonly var state = ref _states[body];
-            energy += state.KineticEnergy;
-            energy += _island.HasCompound ? _turned[body].SpinEnergy(SimdAffineMap.ToVector(state.Spin)) : 0;
-            mass += 1 / state.InverseMass;
-            momentum += state.Velocity / Vector256.Create(state.InverseMass);
-        }
-
-        if (!_island.IsFree)
-        {
-            return energy;
-        }
-
-        centreVelocity = momentum / Vector256.Create(mass);
-        return energy - (0.5 * mass * Vector256.Dot(centreVelocity, centreVelocity));
-    }
-
-    /// <summary>Takes back what a solve that has not converged has added to an energy.</summary>
-    private void LimitEnergy(double limit)
-    {
-        var energy = SumEnergy(out _centreVelocity);
-        _scale = energy > limit ? Math.Sqrt(Math.Max(0, limit) / energy) : 1;
-    }
-
     private void Integrate(int index)
     {
         var group = _groups[index];
@@ -539,12 +490,6 @@ internal sealed class SubstepSolver
         foreach (var body in BodiesOf(index))
         {
             ref var state = ref _states[body];
-            if (_scale < 1)
-            {
-                state.Velocity = _centreVelocity + (Vector256.Create(_scale) * (state.Velocity - _centreVelocity));
-                state.Spin *= Vector256.Create(_scale);
-            }
-
             state.Displacement += time * state.Velocity;
             if (_bodies[body].IsCompound)
             {
@@ -586,52 +531,6 @@ internal sealed class SubstepSolver
         }
 
         return worst;
-    }
-
-    /// <summary>Finds what balls meet that have got farther than was foreseen when contacts were made: it only pushes.</summary>
-    private void FindUnplanned()
-    {
-        _unplanned.Clear();
-        var maxWay = 0.0;
-        foreach (var index in _graph!.BodiesOf(in _island))
-        {
-            maxWay = Math.Max(maxWay, SimdAffineMap.ToVector(_states[index].Displacement).Length());
-        }
-
-        foreach (var index in _graph!.BodiesOf(in _island))
-        {
-            var way = SimdAffineMap.ToVector(_states[index].Displacement);
-            if (!_bodies[index].IsCompound && _graph.HasDeviated(index, way))
-            {
-                FindUnplanned(_bodies[index], way, maxWay);
-            }
-        }
-    }
-
-    private void FindUnplanned(Body body, Vector way, double maxWay)
-    {
-        _neighbours.Clear();
-        _graph!.CollectOverlaps(body.Position + way, body.Radius + maxWay, body.Index, _neighbours);
-        foreach (var neighbour in _neighbours)
-        {
-            // One of another island, or of none, moves later or has moved: this one keeps away from where it was.
-            var other = _bodies[neighbour];
-            if (other.IsCompound)
-            {
-                continue;
-            }
-
-            var second = other.IslandIndex == body.IslandIndex ? neighbour : FirstSurface;
-            var offset = body.Position - other.Position;
-            var distance = body.Radius + other.Radius;
-            if ((offset + way - SimdAffineMap.ToVector(_states[second].Displacement)).LengthSquared() < distance * distance)
-            {
-                var row = new ContactRow { First = body.Index };
-                ContactRows.SetBalls(ref row, offset, body.Radius, other.Radius);
-                var inverseMass = _states[body.Index].InverseMass + _states[second].InverseMass;
-                _unplanned.Add(new(in row, second, (inverseMass, 0, 0), willBounce: false, impulseShare: 0));
-            }
-        }
     }
 
     /// <summary>Ends all ways before the planes of surfaces, which are the first contacts of a part and give way to nothing.</summary>

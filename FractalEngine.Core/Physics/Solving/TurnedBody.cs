@@ -25,9 +25,6 @@ internal struct TurnedBody(Body body)
     /// <summary>The whole turn as a rotation vector, radians.</summary>
     public readonly Vector RotationVector => _sum.Length() <= MaxDirectAngle ? Turned.RotationVector : _sum;
 
-    /// <summary>Energy of rotation of a compound, joules; 0 of a ball, whose state has it.</summary>
-    public readonly double SpinEnergy(Vector spin) => 0.5 * Vector.Dot(spin, Momentum(spin));
-
     /// <summary>Turns a compound on, whose angular momentum nothing changes meanwhile.</summary>
     /// <param name="spin">Angular velocity at the beginning.</param>
     /// <param name="time">Seconds.</param>

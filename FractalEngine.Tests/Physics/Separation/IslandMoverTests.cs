@@ -92,32 +92,6 @@ public sealed class IslandMoverTests
         Assert.Equal(stays ? 0.5 + way : 0.5, setup.Bodies[0].Position.X);
     }
 
-    /// <summary>Who gets less than half as far as its speed tells, eight times in a row, loses half of it.</summary>
-    [Theory]
-    [InlineData(0.49, true)]
-    [InlineData(0.51, false)]
-    public void DampJammed_AfterEightSteps_HalvesTheSpeed(double share, bool isJammed)
-    {
-        var setup = Create(9);
-        var body = setup.Bodies[0];
-        body.Velocity = new(0, 4, 0);
-        body.AngularVelocity = new(2, 0, 0);
-        setup.BeginMove();
-        body.Position += share * Step * body.Velocity;
-        var island = setup.Graph.Islands[0];
-        for (var step = 0; step < 7; step++)
-        {
-            setup.Mover.DampJammed(in island, Step);
-        }
-
-        Assert.Equal((new(0, 4, 0), isJammed ? 7 : 0), (body.Velocity, body.JammedSteps));
-        setup.Mover.DampJammed(in island, Step);
-        Assert.Equal((new(0, isJammed ? 2 : 4, 0), new(isJammed ? 1 : 2, 0, 0)), (body.Velocity, body.AngularVelocity));
-        body.Position += body.Velocity;
-        setup.Mover.DampJammed(in island, Step);
-        Assert.Equal((0, new(0, isJammed ? 2 : 4, 0)), (body.JammedSteps, body.Velocity));
-    }
-
     private static GraphOfBodies Create(double thirdPlace, bool isFirstCompound = false)
     {
         var first = isFirstCompound ? new(Vector.Zero, CompoundShape.OfBalls([new(Vector.Zero, 0.5)])) : Ball(0);
