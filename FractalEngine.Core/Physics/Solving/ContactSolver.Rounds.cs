@@ -7,8 +7,7 @@ namespace FractalEngine.Core.Physics.Solving;
 internal sealed partial class ContactSolver
 {
     /// <summary>Solves each contact once in the order of the list, and once in the opposite one.</summary>
-    /// <remarks>Both together make the round symmetric, as conjugate directions need it.</remarks>
-    private bool MakeRound(Span<ContactRow> rows, double tolerance, out double norm)
+    private bool MakeRound(Span<ContactRow> rows, double tolerance)
     {
         for (var i = 0; i < rows.Length; i++)
         {
@@ -16,14 +15,12 @@ internal sealed partial class ContactSolver
             SolveContact(ref rows[i], ref _changes[i]);
         }
 
-        norm = 0;
         var maxChange = 0.0;
         var maxImpulse = 0.0;
         for (var i = rows.Length - 1; i >= 0; i--)
         {
             ref var change = ref _changes[i];
             SolveContact(ref rows[i], ref change);
-            norm += ((change.Normal * change.Normal) + change.Across.LengthSquared()) / rows[i].NormalMass;
             maxChange = Math.Max(maxChange, Math.Max(Math.Abs(change.Normal), change.Across.MaxAbsComponent()));
             maxImpulse = Math.Max(maxImpulse, rows[i].NormalImpulse);
         }
@@ -77,47 +74,6 @@ internal sealed partial class ContactSolver
         row.TurnImpulse += turnChange;
         ApplyTurn(in row, turnChange);
         return turnChange;
-    }
-
-    /// <summary>Goes on along the direction of the rounds before; at a share of 0 it begins anew.</summary>
-    private void Extrapolate(Span<ContactRow> rows, double share)
-    {
-        for (var i = 0; i < rows.Length; i++)
-        {
-            ref var direction = ref _directions[i];
-            ref readonly var change = ref _changes[i];
-            if (share > 0)
-            {
-                ref var row = ref rows[i];
-                direction.Normal *= share;
-                if (direction.Normal != 0)
-                {
-                    row.NormalImpulse += direction.Normal;
-                    ApplyAlongNormal(in row, direction.Normal);
-                }
-
-                direction.Normal += change.Normal;
-                if (row.Friction > 0)
-                {
-                    direction.Across *= share;
-                    row.FrictionImpulse += direction.Across;
-                    ApplyAcross(in row, direction.Across);
-                    direction.Across += change.Across;
-                }
-
-                if (row.IsSlowedDown)
-                {
-                    direction.Turn *= share;
-                    row.TurnImpulse += direction.Turn;
-                    ApplyTurn(in row, direction.Turn);
-                    direction.Turn += change.Turn;
-                }
-            }
-            else
-            {
-                direction = change;
-            }
-        }
     }
 
     /// <summary>A change of the impulse of one contact.</summary>

@@ -8,10 +8,7 @@ namespace FractalEngine.Core.Physics.Solving;
 /// Finds the impulses of all contacts of an island at once: along each normal the bodies come apart at least as fast as demanded, the
 /// impulse pushes only, and pushes nothing that is faster. Across the normal it stops the slip, or is as large as friction allows.
 /// </summary>
-/// <remarks>
-/// Projected Gauss–Seidel, whose changes are taken as the gradients of a nonlinear conjugate gradient method (Silcowitz, Niebe and
-/// Erleben 2010). Plain rounds pass a load on by one body each; with the conjugate directions far fewer are needed.
-/// </remarks>
+/// <remarks>Projected Gauss–Seidel, for the few contacts of one body.</remarks>
 internal sealed partial class ContactSolver
 {
     // Relative to the largest impulse: a round that changes less has converged.
@@ -32,7 +29,6 @@ internal sealed partial class ContactSolver
     private double _rounding;
     private SolverBody[] _bodies = [];
     private Direction[] _changes = [];
-    private Direction[] _directions = [];
 
     /// <summary>Bodies by their index in the world.</summary>
     public Span<SolverBody> Bodies => _bodies;
@@ -150,23 +146,18 @@ internal sealed partial class ContactSolver
     {
         ReserveContacts(rows.Length);
         _rounding = ComputeRounding(rows);
-        var previousNorm = 0.0;
         _frictionShare = 1;
         for (Rounds = 1; Rounds < MaxRounds; Rounds++)
         {
-            if (MakeRound(rows, Rounds <= FineRounds ? FineTolerance : Tolerance, out var norm))
+            if (MakeRound(rows, Rounds <= FineRounds ? FineTolerance : Tolerance))
             {
                 return true;
             }
 
             _frictionShare = Rounds < MaxRounds / 2 ? 1 : LateFrictionShare;
-            // Directions that have not led to the end by now may never do so where balls begin and cease to slip.
-            var isConjugate = previousNorm > 0 && norm <= previousNorm && Rounds < MaxRounds / 2;
-            Extrapolate(rows, isConjugate ? norm / previousNorm : 0);
-            previousNorm = norm;
         }
 
-        return MakeRound(rows, Tolerance, out _);
+        return MakeRound(rows, Tolerance);
     }
 
 
@@ -175,7 +166,6 @@ internal sealed partial class ContactSolver
         if (_changes.Length < count)
         {
             _changes = new Direction[Math.Max(count, 2 * _changes.Length)];
-            _directions = new Direction[_changes.Length];
         }
     }
 
