@@ -48,8 +48,16 @@ internal sealed partial class ContactGraph
             }
             else
             {
-                AddSurfaces(BodiesOf(_islands[island]));
-                AddPairs(pairs);
+                foreach (var body in BodiesOf(_islands[island]))
+                {
+                    AddSurfaces(bodies[body]);
+                }
+
+                foreach (var pair in pairs)
+                {
+                    AddPair(in CollectionsMarshal.AsSpan(_pairs)[pair]);
+                }
+
                 kinds = Examine(_rows.AsSpan(firstRow, _count - firstRow));
             }
 

@@ -27,12 +27,6 @@ internal sealed partial class ContactGraph
     public ReadOnlySpan<int> PartEndsOf(in Island island) => island.PartCount == 1 ? []
         : CollectionsMarshal.AsSpan(_partEnds).Slice(island.FirstPartEnd, island.PartCount + 1);
 
-    /// <summary>Number of groups of an island's contacts: one for each part, and one for those between several.</summary>
-    public static int GroupCountOf(in Island island) => island.PartCount == 1 ? 1 : island.PartCount + 1;
-
-    /// <summary>The part of a body of an island that has several.</summary>
-    public int PartOf(int body) => _parts.PartOf(body);
-
     /// <summary>Makes the contacts of an island part by part, and those across its cuts last. Threads share the parts.</summary>
     private RowKinds AddParts(ReadOnlySpan<int> island, ReadOnlySpan<int> pairs, int partCount)
     {
@@ -98,19 +92,7 @@ internal sealed partial class ContactGraph
         var place = _partRows[part];
         foreach (var index in BodiesOfPart(part))
         {
-            var body = bodies[index];
-            for (var i = 0; i < body.Contacts.Count; i++)
-            {
-                if (body.Contacts[i] is { IsBody: false } contact)
-                {
-                    _rows[place++] = ContactRows.OfSurface(body, 0, in contact);
-                }
-            }
-
-            for (var i = 0; i < body.NearSurfaces.Count; i++)
-            {
-                _rows[place++] = ContactRows.OfNearSurface(body, 0, in body.NearSurfaces[i]);
-            }
+            FillSurfaces(bodies[index], ball: 0, ref place);
         }
 
         var firstPair = place;

@@ -24,28 +24,13 @@ internal sealed partial class ContactGraph
         return kinds;
     }
 
-    private void AddSurfaces(ReadOnlySpan<int> island)
-    {
-        foreach (var index in island)
-        {
-            AddSurfaces(bodies[index]);
-        }
-    }
-
-    private void AddPairs(ReadOnlySpan<int> pairs)
-    {
-        foreach (var pair in pairs)
-        {
-            AddPair(in CollectionsMarshal.AsSpan(_pairs)[pair]);
-        }
-    }
-
     private void AddSurfaces(Body body)
     {
         var firstRow = _count;
         for (var ball = 0; ball < body.Balls.Length; ball++)
         {
-            AddSurfaces(body, ball, body.Balls[ball].Contacts, body.Balls[ball].NearSurfaces);
+            ReserveRows(_count + body.Balls[ball].Contacts.SurfaceCount + body.Balls[ball].NearSurfaces.Count);
+            FillSurfaces(body, ball, ref _count);
         }
 
         if (body.Description.Shape is { IsCapsule: true })
@@ -54,19 +39,21 @@ internal sealed partial class ContactGraph
         }
     }
 
-    private void AddSurfaces(Body body, int ball, ContactSet contacts, NearSurfaceList nearSurfaces)
+    /// <summary>Makes the contacts of a ball with surfaces, in places for which room has been made.</summary>
+    private void FillSurfaces(Body body, int ball, ref int place)
     {
+        var (contacts, nearSurfaces) = (body.Balls[ball].Contacts, body.Balls[ball].NearSurfaces);
         for (var i = 0; i < contacts.Count; i++)
         {
-            if (contacts[i] is { IsBody: false } contact)
+            if (!contacts[i].IsBody)
             {
-                AddRow() = ContactRows.OfSurface(body, ball, in contact);
+                _rows[place++] = ContactRows.OfSurface(body, ball, in contacts[i]);
             }
         }
 
         for (var i = 0; i < nearSurfaces.Count; i++)
         {
-            AddRow() = ContactRows.OfNearSurface(body, ball, in nearSurfaces[i]);
+            _rows[place++] = ContactRows.OfNearSurface(body, ball, in nearSurfaces[i]);
         }
     }
 

@@ -1,5 +1,6 @@
 using System.Runtime.CompilerServices;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics.Bodies;
 using FractalEngine.Core.Physics.Rows;
 
 namespace FractalEngine.Core.Physics.Solving;
@@ -9,7 +10,7 @@ namespace FractalEngine.Core.Physics.Solving;
 /// impulse pushes only, and pushes nothing that is faster. Across the normal it stops the slip, or is as large as friction allows.
 /// </summary>
 /// <remarks>Projected Gauss–Seidel, for the few contacts of one body.</remarks>
-internal sealed partial class ContactSolver
+internal sealed class ContactSolver
 {
     // Relative to the largest impulse: a round that changes less has converged.
     private const double Tolerance = 1e-9;
@@ -19,16 +20,14 @@ internal sealed partial class ContactSolver
     private const int FineRounds = 32;
     private const int MaxRounds = 250;
 
-    // Relative to a change of friction, in late rounds: where balls pass their slip to and fro, smaller changes come to an end.
-    private const double LateFrictionShare = 0.5;
-
     // Relative to the momentum of a contact's bodies.
     private const double RelativeRounding = 1e-14;
 
-    private double _frictionShare = 1;
     private double _rounding;
     private SolverBody[] _bodies = [];
     private Direction[] _changes = [];
+
+    private Matrix[] _inverseInertias = [];
 
     /// <summary>Bodies by their index in the world.</summary>
     public Span<SolverBody> Bodies => _bodies;
@@ -146,20 +145,16 @@ internal sealed partial class ContactSolver
     {
         ReserveContacts(rows.Length);
         _rounding = ComputeRounding(rows);
-        _frictionShare = 1;
         for (Rounds = 1; Rounds < MaxRounds; Rounds++)
         {
             if (MakeRound(rows, Rounds <= FineRounds ? FineTolerance : Tolerance))
             {
                 return true;
             }
-
-            _frictionShare = Rounds < MaxRounds / 2 ? 1 : LateFrictionShare;
         }
 
         return MakeRound(rows, Tolerance);
     }
-
 
     private void ReserveContacts(int count)
     {
@@ -191,5 +186,169 @@ internal sealed partial class ContactSolver
         {
             _bodies[row.Second].Spin -= SpinChange(row.Second, turn);
         }
+    }
+
+    /// <summary>Sets the velocities and inverse masses of a body.</summary>
+    public void Load(int index, Body body)
+    {
+        _bodies[index] = new()
+        {
+            Velocity = body.Velocity, Spin = body.AngularVelocity, InverseMass = 1 / body.Description.Mass,
+            InverseInertia = body.InverseInertia, IsCompound = body.IsCompound,
+        };
+        if (body.IsCompound)
+        {
+            _inverseInertias[index] = body.InverseInertiaTensor;
+        }
+    }
+
+    /// <summary>Change of a body's angular velocity by an angular impulse.</summary>
+    private Vector SpinChange(int body, Vector turn) =>
+        _bodies[body].IsCompound ? _inverseInertias[body] * turn : _bodies[body].InverseInertia * turn;
+
+    private void ComputeMassesOfArms(ref ContactRow row)
+    {
+        var alongNormal = _bodies[row.First].InverseMass + InverseInertiaAlong(row.First, row.FirstArm, row.Normal);
+        var inverseInertia = _bodies[row.First].InverseInertia;
+        var tangent = Vector.Cross(row.Normal, Math.Abs(row.Normal.X) < 0.5 ? Vector.I : Vector.J).UnitVector();
+        var bitangent = Vector.Cross(row.Normal, tangent);
+        var across = AcrossMatrix(row.First, row.FirstArm - (row.FirstRadius * row.Normal), tangent, bitangent);
+        if (row.Second >= 0)
+        {
+            alongNormal += _bodies[row.Second].InverseMass + InverseInertiaAlong(row.Second, row.SecondArm, row.Normal);
+            inverseInertia += _bodies[row.Second].InverseInertia;
+            across += AcrossMatrix(row.Second, row.SecondArm + (row.SecondRadius * row.Normal), tangent, bitangent);
+        }
+
+        row.NormalMass = 1 / alongNormal;
+        row.TurnInertia = 1 / inverseInertia;
+        // Friction is as heavy in one direction as in the other only for balls. The lighter one keeps each change from going too far.
+        row.FrictionMass = 1 / ((0.5 * (across.X + across.Z)) + double.Hypot(0.5 * (across.X - across.Z), across.Y));
+    }
+
+    private double InverseInertiaAlong(int body, Vector arm, Vector direction)
+    {
+        var torque = Vector.Cross(arm, direction);
+        return Vector.Dot(torque, SpinChange(body, torque));
+    }
+
+    /// <summary>
+    /// The symmetric 2 × 2 matrix of inverse masses across the normal: both diagonal entries, and in between the other one.
+    /// </summary>
+    private Vector AcrossMatrix(int body, Vector arm, Vector tangent, Vector bitangent)
+    {
+        var first = Vector.Cross(arm, tangent);
+        var second = Vector.Cross(arm, bitangent);
+        var change = SpinChange(body, first);
+        var inverseMass = _bodies[body].InverseMass;
+        return new(
+            inverseMass + Vector.Dot(first, change),
+            Vector.Dot(second, change),
+            inverseMass + Vector.Dot(second, SpinChange(body, second)));
+    }
+
+    /// <summary>Velocity of the first ball's centre relative to the second's.</summary>
+    private Vector RelativeVelocityOfArms(in ContactRow row)
+    {
+        ref readonly var first = ref _bodies[row.First];
+        var velocity = first.Velocity + Vector.Cross(first.Spin, row.FirstArm);
+        if (row.Second >= 0)
+        {
+            ref readonly var second = ref _bodies[row.Second];
+            return velocity - second.Velocity - Vector.Cross(second.Spin, row.SecondArm);
+        }
+
+        return velocity - row.SurfaceVelocity;
+    }
+
+    /// <summary>Gives both bodies an impulse where they touch.</summary>
+    private void ApplyToArms(in ContactRow row, Vector impulse)
+    {
+        ref var first = ref _bodies[row.First];
+        first.Velocity += first.InverseMass * impulse;
+        first.Spin += SpinChange(row.First, Vector.Cross(row.FirstArm - (row.FirstRadius * row.Normal), impulse));
+        if (row.Second >= 0)
+        {
+            ref var second = ref _bodies[row.Second];
+            second.Velocity -= second.InverseMass * impulse;
+            second.Spin -= SpinChange(row.Second, Vector.Cross(row.SecondArm + (row.SecondRadius * row.Normal), impulse));
+        }
+    }
+
+    /// <summary>Solves each contact once in the order of the list, and once in the opposite one.</summary>
+    private bool MakeRound(Span<ContactRow> rows, double tolerance)
+    {
+        for (var i = 0; i < rows.Length; i++)
+        {
+            _changes[i] = default;
+            SolveContact(ref rows[i], ref _changes[i]);
+        }
+
+        var maxChange = 0.0;
+        var maxImpulse = 0.0;
+        for (var i = rows.Length - 1; i >= 0; i--)
+        {
+            ref var change = ref _changes[i];
+            SolveContact(ref rows[i], ref change);
+            maxChange = Math.Max(maxChange, Math.Max(Math.Abs(change.Normal), change.Across.MaxAbsComponent()));
+            maxImpulse = Math.Max(maxImpulse, rows[i].NormalImpulse);
+        }
+
+        return maxChange <= Math.Max(tolerance * maxImpulse, _rounding);
+    }
+
+    private void SolveContact(ref ContactRow row, ref Direction change)
+    {
+        var missing = row.MinNormalVelocity - Vector.Dot(RelativeVelocity(in row), row.Normal);
+        var impulse = Math.Max(0, row.NormalImpulse + (row.NormalMass * missing));
+        var normalChange = impulse - row.NormalImpulse;
+        if (normalChange != 0)
+        {
+            row.NormalImpulse = impulse;
+            change.Normal += normalChange;
+            ApplyAlongNormal(in row, normalChange);
+        }
+
+        if (row.Friction > 0 && (impulse > 0 || row.FrictionImpulse != Vector.Zero))
+        {
+            var across = row.FrictionImpulse - (row.FrictionMass * Slip(in row));
+            var lengthSquared = across.LengthSquared();
+            var limit = row.Friction * impulse;
+            across = lengthSquared > limit * limit ? limit / Math.Sqrt(lengthSquared) * across : across;
+            var acrossChange = across - row.FrictionImpulse;
+            row.FrictionImpulse = across;
+            change.Across += acrossChange;
+            ApplyAcross(in row, acrossChange);
+        }
+
+        if (row.IsSlowedDown && double.IsFinite(row.TurnInertia))
+        {
+            change.Turn += StopTurning(ref row);
+        }
+    }
+
+    /// <summary>Slows down rolling and spinning as far as the normal impulse allows.</summary>
+    private Vector StopTurning(ref ContactRow row)
+    {
+        var spin = _bodies[row.First].Spin - (row.Second >= 0 ? _bodies[row.Second].Spin : row.SurfaceSpin);
+        var turn = row.TurnImpulse - (row.TurnInertia * spin);
+        var about = Vector.Dot(turn, row.Normal);
+        var rolling = turn - (about * row.Normal);
+        var length = rolling.Length();
+        var limit = row.RollingArm * row.NormalImpulse;
+        rolling = length > limit ? limit / length * rolling : rolling;
+        var spinningLimit = row.SpinningArm * row.NormalImpulse;
+        var turnChange = rolling + (Math.Clamp(about, -spinningLimit, spinningLimit) * row.Normal) - row.TurnImpulse;
+        row.TurnImpulse += turnChange;
+        ApplyTurn(in row, turnChange);
+        return turnChange;
+    }
+
+    /// <summary>A change of the impulse of one contact.</summary>
+    private struct Direction
+    {
+        public double Normal;
+        public Vector Across;
+        public Vector Turn;
     }
 }

@@ -25,15 +25,6 @@ internal sealed class ImpulseCache
 
     public ImpulseCache() => _storeRows = StoreRows;
 
-    /// <summary>Gives contacts the impulses that they had in the step before; 0 to new ones.</summary>
-    public void Recall(Span<ContactRow> rows)
-    {
-        foreach (ref var row in rows)
-        {
-            Recall(ref row);
-        }
-    }
-
     /// <summary>Gives a contact the impulses that it had in the step before; 0 to a new one.</summary>
     public void Recall(ref ContactRow row)
     {

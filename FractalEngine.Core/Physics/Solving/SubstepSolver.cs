@@ -97,7 +97,6 @@ internal sealed class SubstepSolver
     private int _substepCount;
     private int _surfaceCount;
     private bool _isLarge;
-    private bool _hasTurns;
 
     public SubstepSolver(List<Body> bodies, ImpulseCache cache, int maxThreads)
     {
@@ -122,7 +121,7 @@ internal sealed class SubstepSolver
     /// <summary>True once balls may end deep in others, see <see cref="Separation.IslandMover.ReturnOverlapping"/>.</summary>
     public bool HasDeepOverlaps { get; set; }
 
-    private ReadOnlySpan<Group> Groups => _groups.AsSpan(0, ContactGraph.GroupCountOf(in _island));
+    private ReadOnlySpan<Group> Groups => _groups.AsSpan(0, _island.PartCount == 1 ? 1 : _island.PartCount + 1);
 
     private int FirstSurface => _bodies.Count;
 
@@ -200,7 +199,6 @@ internal sealed class SubstepSolver
         _isLarge = island.RowCount >= MinContactsOfLarge;
         _substepCount = _isLarge ? Substeps : SubstepsOfSmall;
         _substep = stepLength / _substepCount;
-        _hasTurns = false;
         _surfaceCount = 0;
         Array.Clear(_states, FirstSurface, RestingSurfaces);
         var ends = graph.PartEndsOf(in island);
@@ -322,7 +320,6 @@ internal sealed class SubstepSolver
             if (_contacts[i].SlowsTurns)
             {
                 _turns[i] = new(in row, inertia, 1.0 / _substepCount);
-                _hasTurns = true;
             }
 
             if (row.HasArms)
@@ -425,7 +422,7 @@ internal sealed class SubstepSolver
             ref var contact = ref _contacts[i];
             _changes[i] = contact.HasArms ? SolveArms(i, ref contact)
                 : contact.Solve(ref _states[contact.First], ref _states[contact.Second]);
-            if (_hasTurns && contact.SlowsTurns)
+            if (contact.SlowsTurns)
             {
                 _ = StopTurning(i, in contact);
             }
@@ -445,7 +442,7 @@ internal sealed class SubstepSolver
             change = Vector256.MaxNative(change, Vector256.Abs(_changes[i]));
             norm += contact.NormOf(_changes[i]);
             impulse = Math.Max(impulse, contact.NormalImpulse);
-            if (_hasTurns && contact.SlowsTurns)
+            if (contact.SlowsTurns)
             {
                 var turn = StopTurning(i, in contact);
                 change = Vector256.MaxNative(change, Vector256.Abs(turn) / Vector256.Create(contact.SmallerRadius));

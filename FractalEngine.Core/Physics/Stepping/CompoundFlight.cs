@@ -182,7 +182,7 @@ internal sealed class CompoundFlight(
             }
 
             contacts.UpdateAfterMove(body);
-            planner.Report(CollectionsMarshal.AsSpan(_rows));
+            planner.Log(CollectionsMarshal.AsSpan(_rows));
             if (!isCarried && !body.HasMovingSurface)
             {
                 // What moves does work.
@@ -208,7 +208,7 @@ internal sealed class CompoundFlight(
             return planned;
         }
 
-        var end = planner.FindForcesOn([body.Index], CollectionsMarshal.AsSpan(_rows), duration, out planned);
+        var end = planner.FindForcesOn(body, CollectionsMarshal.AsSpan(_rows), duration, out planned);
         var negligible = RestFraction * duration * body.FreeAcceleration.Length();
         if (planned.Velocity.MaxAbsComponent() <= negligible && body.Velocity.MaxAbsComponent() <= negligible
             && planned.Spin.MaxAbsComponent() * body.Radius <= negligible

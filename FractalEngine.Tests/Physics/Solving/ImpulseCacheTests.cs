@@ -47,7 +47,11 @@ public sealed class ImpulseCacheTests
         cache.Store(graph, 1);
         var angle = degrees * Math.PI / 180;
         ContactRow[] rows = [graph.Row(0) with { Normal = new(Math.Sin(angle), Math.Cos(angle), 0) }, graph.Row(0)];
-        cache.Recall(rows);
+        foreach (ref var row in rows.AsSpan())
+        {
+            cache.Recall(ref row);
+        }
+
         Assert.Equal((isSame ? 7 : 0, 7.0), (rows[0].NormalImpulse, rows[1].NormalImpulse));
     }
 
