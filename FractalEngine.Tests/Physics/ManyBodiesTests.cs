@@ -77,7 +77,8 @@ public class ManyBodiesTests
 
     /// <summary>Balls and compounds of very different sizes and masses that go many radii in a step.</summary>
     [Fact]
-    public void Crowd_OfAnySpeedAndMass_StaysApartAndGainsNoEnergy() => Seeded.Run(6, random => CheckCrowd(random, 60, 40, hasCompounds: random.Next(2) == 0));
+    public void Crowd_OfAnySpeedAndMass_StaysApartAndGainsNoEnergy() =>
+        Seeded.Run(6, random => CheckCrowd(random, 60, 40, hasCompounds: random.Next(2) == 0));
 
     [Fact]
     [Trait("Category", "Soak")]
@@ -104,8 +105,11 @@ public class ManyBodiesTests
                     ? new BodyDescription(position, shape) : new BodyDescription(position, radius);
                 world.Add(description with
                 {
-                    Velocity = random.Vector(speed), Mass = Math.Pow(10, random.Between(-1.5, 1.5)), Friction = random.Next(2) * 0.5,
-                    Restitution = random.Next(2) * random.NextDouble(), AngularVelocity = random.Vector(10),
+                    Velocity = random.Vector(speed),
+                    Mass = Math.Pow(10, random.Between(-1.5, 1.5)),
+                    Friction = random.Next(2) * 0.5,
+                    Restitution = random.Next(2) * random.NextDouble(),
+                    AngularVelocity = random.Vector(10),
                 });
             }
         }
@@ -123,7 +127,8 @@ public class ManyBodiesTests
                 for (var ball = 0; ball < body.BallCount; ball++)
                 {
                     var end = body.BallCentre(ball).MaxAbsComponent() + body.BallRadius(ball);
-                    Assert.True(end <= Half + (MaxOverlap * body.BallRadius(ball)), $"{body.Name} ends at {end:R} in step {world.StepCount}");
+                    Assert.True(
+                        end <= Half + (MaxOverlap * body.BallRadius(ball)), $"{body.Name} ends at {end:R} in step {world.StepCount}");
                 }
             }
 
@@ -174,7 +179,8 @@ public class ManyBodiesTests
             {
                 if (BallPairs.AreOverlapping(body, other, MaxOverlapOfBalls))
                 {
-                    Assert.Fail($"{body.Name} and {other.Name} overlap after {world.StepCount} steps: radii {body.Radius} and {other.Radius}");
+                    Assert.Fail(FormattableString.Invariant(
+                        $"{body.Name} and {other.Name} overlap after {world.StepCount} steps: radii {body.Radius} and {other.Radius}"));
                 }
             }
         }

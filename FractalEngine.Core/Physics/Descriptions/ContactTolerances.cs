@@ -14,6 +14,9 @@ internal static class ContactTolerances
     /// </summary>
     public const double HeapMargin = 1e-3;
 
+    /// <summary>Relative to the smaller radius: the largest overlap of two bodies of islands, unless they began deeper.</summary>
+    public const double MaxOverlap = 0.05;
+
     /// <summary>
     /// Relative to the radius: edges and corners within it act as planes, and bodies of islands keep surfaces within it as contacts. Else
     /// what others push would leave one edge and fall onto the next, again and again.

@@ -1,5 +1,3 @@
-using System.Runtime.InteropServices;
-using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics.Bodies;
 using FractalEngine.Core.Physics.Descriptions;
 using FractalEngine.Core.Physics.Rows;
@@ -69,7 +67,8 @@ internal sealed partial class ContactGraph
         var other = bodies[pair.Second];
         var limit = DeviationLimit(in _states[pair.First]) + (_stepLength * body.AngularVelocity.Length() * body.MaxArm)
             + (_stepLength * RelativeVelocity(in pair).Length());
-        limit += pair.IsSecondImmovable ? 0 : DeviationLimit(in _states[pair.Second]) + (_stepLength * other.AngularVelocity.Length() * other.MaxArm);
+        limit += pair.IsSecondImmovable ? 0
+            : DeviationLimit(in _states[pair.Second]) + (_stepLength * other.AngularVelocity.Length() * other.MaxArm);
         for (var i = 0; i < body.BallCount; i++)
         {
             for (var j = 0; j < other.BallCount; j++)

@@ -69,7 +69,9 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
     /// <summary>How far a body that can move may get in the step. Never 0, which is for bodies that do not move.</summary>
     public double ReachOf(int body) => _states[body].Reach;
 
-    /// <summary>True for a body that gets farther from where it would be alone than was foreseen: it may meet what no contact knows of.</summary>
+    /// <summary>
+    /// True for a body that gets farther from where it would be alone than was foreseen: it may meet what no contact knows of.
+    /// </summary>
     /// <param name="body">Index of the body.</param>
     /// <param name="way">From where it is when the step begins.</param>
     public bool HasDeviated(int body, Vector way)

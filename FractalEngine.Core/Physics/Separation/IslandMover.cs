@@ -1,5 +1,6 @@
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics.Bodies;
+using FractalEngine.Core.Physics.Descriptions;
 using FractalEngine.Core.Physics.Islands;
 using FractalEngine.Core.Physics.Rows;
 
@@ -8,9 +9,6 @@ namespace FractalEngine.Core.Physics.Separation;
 /// <summary>What keeps bodies of islands from each other where their plans do not work out.</summary>
 internal sealed class IslandMover
 {
-    /// <summary>Relative to the smaller radius: overlaps for which bodies of islands return.</summary>
-    public const double MaxOverlap = 0.05;
-
     // Relative to the distance at which two touch.
     private const double NegligibleOverlap = 3e-7;
 
@@ -91,7 +89,7 @@ internal sealed class IslandMover
 
     /// <summary>Puts both of two bodies back that overlap, unless they do so less than before.</summary>
     private bool Return(Body first, Body second) => (first.IslandIndex >= 0 || second.IslandIndex >= 0)
-        && BallPairs.AreOverlapping(first, second, MaxOverlap)
+        && BallPairs.AreOverlapping(first, second, ContactTolerances.MaxOverlap)
         && (first.IsCompound || second.IsCompound
             || (first.Position - second.Position).LengthSquared() < (StartOf(first) - StartOf(second)).LengthSquared())
         && (Return(first) | Return(second));

@@ -26,7 +26,7 @@ internal struct BallContact
     /// <summary>True where <see cref="ContactArms"/> belong to it.</summary>
     public readonly bool HasArms;
 
-    /// <summary>Coulomb's coefficient.</summary>
+    /// <summary>Coulomb's coefficient of this pair.</summary>
     public readonly double Friction;
 
     /// <summary>Radius of the first ball.</summary>

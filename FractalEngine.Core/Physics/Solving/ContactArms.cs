@@ -65,7 +65,8 @@ internal struct ContactArms(in ContactRow row)
         {
             var relative = RelativeVelocity(in first, in second);
             var oldAcross = old.WithElement(BallContact.NormalLane, 0);
-            across = oldAcross - (Vector256.Create(_frictionMass) * (relative - (Vector256.Create(Vector256.Dot(relative, normal)) * normal)));
+            var slip = relative - (Vector256.Create(Vector256.Dot(relative, normal)) * normal);
+            across = oldAcross - (Vector256.Create(_frictionMass) * slip);
             var squared = Vector256.Dot(across, across);
             var limit = contact.Friction * alongNormal;
             across *= Vector256.Create(squared > limit * limit ? limit / Math.Sqrt(squared) : 1);

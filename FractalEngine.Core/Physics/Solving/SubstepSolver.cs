@@ -1,10 +1,9 @@
-using System.Runtime.InteropServices;
 using System.Runtime.Intrinsics;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics.Bodies;
+using FractalEngine.Core.Physics.Descriptions;
 using FractalEngine.Core.Physics.Islands;
 using FractalEngine.Core.Physics.Rows;
-using FractalEngine.Core.Physics.Separation;
 using FractalEngine.Core.Threading;
 
 namespace FractalEngine.Core.Physics.Solving;
@@ -118,7 +117,7 @@ internal sealed class SubstepSolver
     /// <summary>Rounds of the last solve.</summary>
     public int Rounds { get; private set; }
 
-    /// <summary>True once balls may end deep in others, see <see cref="Separation.IslandMover.ReturnOverlapping"/>.</summary>
+    /// <summary>True once bodies may end deep in others, so that they are looked at when all have moved.</summary>
     public bool HasDeepOverlaps { get; set; }
 
     private ReadOnlySpan<Group> Groups => _groups.AsSpan(0, _island.PartCount == 1 ? 1 : _island.PartCount + 1);
@@ -184,7 +183,7 @@ internal sealed class SubstepSolver
         HasDeepOverlaps |= island.HasCompound;
         foreach (var group in Groups)
         {
-            HasDeepOverlaps |= group.Overlap > IslandMover.MaxOverlap;
+            HasDeepOverlaps |= group.Overlap > ContactTolerances.MaxOverlap;
         }
 
         return isConverged || _isLarge;

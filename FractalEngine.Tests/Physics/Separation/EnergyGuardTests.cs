@@ -1,6 +1,5 @@
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics.Descriptions;
-using FractalEngine.Core.Physics.Rows;
 using FractalEngine.Core.Physics.Separation;
 using FractalEngine.Tests.Physics.Islands;
 using FractalEngine.Tests.Support;

@@ -1,8 +1,6 @@
 using FractalEngine.Core.Maths;
-using FractalEngine.Core.Physics.Bodies;
 using FractalEngine.Core.Physics.Descriptions;
 using FractalEngine.Tests.Physics.Islands;
-using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Physics.Separation;
 
