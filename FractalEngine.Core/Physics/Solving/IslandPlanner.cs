@@ -8,12 +8,12 @@ using FractalEngine.Core.Physics.Rows;
 namespace FractalEngine.Core.Physics.Solving;
 
 /// <summary>
-/// Plans the step of all bodies that touch others: the impulses of what approaches, then the forces that all contacts exert during the
-/// step. Both are solved for a whole island at once.
+/// Plans the step of all bodies that touch others: bounces, and then the substeps of each island. For compounds that touch no other body,
+/// it finds what their contacts do.
 /// </summary>
 /// <remarks>
-/// The forces are constant during the step, so that each body follows a parabola. They act along the mean of the line of contact before
-/// and after the step. Along it, two balls that stay in touch do not come closer, so that the forces between them do no work.
+/// The forces on one compound are constant during its plan, so that it follows a parabola. They act along the mean of the line of contact
+/// before and after it.
 /// </remarks>
 internal sealed class IslandPlanner(
     List<Body> bodies, NearbyBodies nearbyBodies, ContactLog contactLog, ImpulseCache cache, int maxThreads)
@@ -67,20 +67,17 @@ internal sealed class IslandPlanner(
         _substeps.Reserve(bodyCount, contactCount);
     }
 
-    /// <summary>Takes away all approaching velocities of bodies that touch. They must have been joined.</summary>
+    /// <summary>Lets bodies that touch bounce. They must have been joined.</summary>
     public void StopApproaches()
     {
         Graph.Group(onlyImpacts: true);
         foreach (var island in Graph.Islands)
         {
-            var rows = Graph.RowsOf(in island);
-            if (rows.Length == 0)
+            if (Graph.RowsOf(in island) is { Length: > 0 } rows)
             {
-                continue;
+                // What then still approaches is stopped by the solve of the step.
+                Bounce(in island, rows);
             }
-
-            // What then still approaches is stopped by the solve of the step.
-            Bounce(in island, rows);
         }
     }
 
@@ -153,32 +150,6 @@ internal sealed class IslandPlanner(
         {
             _solver.ComputeMasses(ref row);
         }
-    }
-
-    /// <summary>Takes away all approaching velocities: by bounces where they are fast enough, else by one solve.</summary>
-    private bool StopApproaches(Span<ContactRow> rows)
-    {
-        BounceAll(rows);
-        var isApproaching = false;
-        foreach (ref var row in rows)
-        {
-            isApproaching |= !row.IsAhead && NormalVelocity(in row) < -Rounding(in row);
-        }
-
-        if (!isApproaching)
-        {
-            return true;
-        }
-
-        // What does not touch yet exerts no impulse.
-        foreach (ref var row in rows)
-        {
-            row.MinNormalVelocity = row.IsAhead ? double.NegativeInfinity : 0;
-        }
-
-        var isConverged = Solve(rows);
-        Log(rows);
-        return isConverged;
     }
 
     /// <summary>Reports the contacts that the last forces came from.</summary>
@@ -291,13 +262,27 @@ internal sealed class IslandPlanner(
         }
     }
 
-    /// <summary>Takes away all approaching velocities of a few bodies, of which one may be immovable to all others.</summary>
-    /// <param name="members">Indices of the bodies.</param>
+    /// <summary>Takes away all approaching velocities of a few bodies: by bounces where they are fast enough, else by one solve.</summary>
+    /// <param name="members">Indices of the bodies, of which one may be immovable to all others.</param>
     /// <param name="rows">Their contacts.</param>
     public void StopApproachesOf(ReadOnlySpan<int> members, Span<ContactRow> rows)
     {
         Load(members, rows);
-        _ = StopApproaches(rows);
+        BounceAll(rows);
+        var isApproaching = false;
+        foreach (ref var row in rows)
+        {
+            isApproaching |= !row.IsAhead && NormalVelocity(in row) < -Rounding(in row);
+            // What does not touch yet exerts no impulse.
+            row.MinNormalVelocity = row.IsAhead ? double.NegativeInfinity : 0;
+        }
+
+        if (isApproaching)
+        {
+            _ = Solve(rows);
+            Log(rows);
+        }
+
         StoreVelocities(members);
     }
 
@@ -353,7 +338,7 @@ internal sealed class IslandPlanner(
         return (solverBody.Velocity, solverBody.Spin);
     }
 
-    /// <summary>Demands that two bodies be at least as far apart after the step as when they touch.</summary>
+    /// <summary>Demands that a compound be at least as far from what it touches at the end of its plan as when they touch.</summary>
     /// <returns>By how much the line of contact has turned, radians.</returns>
     private double SetConstraint(ref ContactRow row, double stepLength, bool isFirst)
     {

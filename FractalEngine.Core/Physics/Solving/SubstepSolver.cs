@@ -14,8 +14,8 @@ namespace FractalEngine.Core.Physics.Solving;
 /// </summary>
 /// <remarks>
 /// Many small steps with few rounds beat few large ones with many rounds (Macklin et al. 2019, "Small steps in physics simulation"). Rounds
-/// are projected Gauss–Seidel, forwards and backwards. Impulses take energy away, or leave it, up to what does not converge: where a
-/// substep ends with more than it began with, its velocities are scaled down. Pushes leave velocities as they are.
+/// are projected Gauss–Seidel, forwards and backwards. Impulses take energy away, or leave it, up to what does not converge: that is taken
+/// back at the end of the step. Pushes leave velocities as they are.
 /// </remarks>
 internal sealed class SubstepSolver
 {
@@ -45,7 +45,7 @@ internal sealed class SubstepSolver
     private const int MaxPushes = 40;
     private const int PushedContacts = 60_000;
 
-    // What goes several radii in a step may end deep in others: more pushes, and searches for what they make balls meet.
+    // What goes several radii in a step may end deep in others: more pushes.
     private const double DeepOverlap = 0.15;
     private const int MaxDeepPushes = 200;
 
@@ -153,11 +153,11 @@ internal sealed class SubstepSolver
     public double ImpulseOf(int contact) => _impulses[contact];
 
     /// <summary>
-    /// Finds the velocities and targets of the balls of an island at the end of a step. None of the targets is behind a plane that a ball
-    /// touches or may meet.
+    /// Finds the velocities and targets of the bodies of an island at the end of a step. None of the targets is behind a plane that one
+    /// of their balls touches or may meet.
     /// </summary>
     /// <param name="graph">Has the contacts, which receive their last impulses.</param>
-    /// <param name="island">An island of balls.</param>
+    /// <param name="island">The island.</param>
     /// <param name="stepLength">Seconds.</param>
     /// <returns>False for a small island that has not converged.</returns>
     public bool Solve(ContactGraph graph, in Island island, double stepLength)
@@ -176,7 +176,6 @@ internal sealed class SubstepSolver
         }
 
         PushApart();
-
         RunAll(_keepInFront);
         RunAll(_store);
         // Balls of compounds turn to where no contact is.
@@ -509,24 +508,17 @@ internal sealed class SubstepSolver
         }
     }
 
+    /// <summary>Pushes apart what overlaps, and finds the largest overlap before, relative to the smaller radius.</summary>
     private void Push(int index)
     {
         var group = _groups[index];
-        group.Overlap = Push(_contacts.AsSpan(group.First..group.End));
-    }
-
-    /// <summary>Pushes apart what overlaps.</summary>
-    /// <returns>The largest overlap before, relative to the smaller radius.</returns>
-    private double Push(Span<BallContact> contacts)
-    {
-        var worst = 0.0;
-        foreach (ref var contact in contacts)
+        group.Overlap = 0;
+        for (var i = group.First; i < group.End; i++)
         {
+            ref var contact = ref _contacts[i];
             var gap = contact.Place(ref _states[contact.First], ref _states[contact.Second], PushShare, Slop);
-            worst = Math.Max(worst, -gap / contact.SmallerRadius);
+            group.Overlap = Math.Max(group.Overlap, -gap / contact.SmallerRadius);
         }
-
-        return worst;
     }
 
     /// <summary>Ends all ways before the planes of surfaces, which are the first contacts of a part and give way to nothing.</summary>
