@@ -33,6 +33,9 @@ internal sealed class SubstepSolver
     private const double Tolerance = 1e-6;
     private const double FineTolerance = 1e-13;
 
+    // Rounds that a few bodies need to converge as far as numbers go: more are for heaps, which nobody sees as far.
+    private const int FineRounds = 16;
+
     // Relative to the momentum of a contact's bodies.
     private const double RelativeRounding = 1e-14;
 
@@ -243,7 +246,8 @@ internal sealed class SubstepSolver
                 rounding = Math.Max(rounding, group.Rounding);
             }
 
-            if (round == maxRounds || change <= Math.Max(FineTolerance * impulse, rounding))
+            var tolerance = round < FineRounds ? FineTolerance : Tolerance;
+            if (round == maxRounds || change <= Math.Max(tolerance * impulse, rounding))
             {
                 return change <= Math.Max(Tolerance * impulse, rounding);
             }
