@@ -374,8 +374,9 @@ internal sealed class Obstacles(
             ref readonly var contact = ref contacts[i];
             if (!contact.IsBody)
             {
-                var gap = contact.Gap(position);
-                if (Math.Abs(gap) > GapTolerance * contact.CombinedRadius && TryUpdateContact(position, in contact, out var updated))
+                var isStale = contact.Kinematic is { AngularVelocity: var turn } && turn != Vector.Zero
+                    || Math.Abs(contact.Gap(position)) > GapTolerance * contact.CombinedRadius;
+                if (isStale && TryUpdateContact(position, in contact, out var updated))
                 {
                     contacts.Replace(i, in updated);
                 }
@@ -405,11 +406,20 @@ internal sealed class Obstacles(
             return false;
         }
 
+        var isFlat = closest.Feature == TriangleFeature.Interior;
+        var point = closest.Point;
+        if (isFlat && kinematic is not null)
+        {
+            // The search began along the normal of before, and the face may have turned since.
+            var centre = position + contact.SphereOffset;
+            point = centre - (Vector.Dot(centre - point, closest.Normal) * closest.Normal);
+        }
+
         updated = contact with
         {
-            FixedPoint = kinematic?.ToReference(closest.Point) ?? closest.Point,
+            FixedPoint = kinematic?.ToReference(point) ?? point,
             Kinematic = kinematic,
-            IsFlat = closest.Feature == TriangleFeature.Interior,
+            IsFlat = isFlat,
         };
         updated = updated with { CachedNormal = updated.Normal(position) };
         return true;

@@ -147,6 +147,12 @@ internal sealed class BallFlight(
         }
 
         obstacles.UpdateAfterMove(contacts, body.Position, obstacles.ContactSlop(body.Position));
+        if (hit.Kinematic is not null)
+        {
+            // A face that turns is met again where it has turned to.
+            contacts.RemoveDuplicates(body.Position);
+        }
+
         return isHit || elapsed >= duration ? elapsed : double.PositiveInfinity;
     }
 

@@ -17,6 +17,9 @@ internal sealed class SpinFriction(List<Body> bodies)
     // Relative to the duration: a shorter time makes no progress.
     private const double MinFraction = 1e-9;
 
+    // What turns makes a body slip anew all the time.
+    private const double MinFractionOnTurning = 1e-3;
+
     // Seconds: in a shorter time friction does nothing that rounding does not.
     private const double MinDuration = 1e-12;
 
@@ -53,17 +56,18 @@ internal sealed class SpinFriction(List<Body> bodies)
         for (var i = 0; i < rows.Length; i++)
         {
             ref var row = ref rows[i];
+            var minAcceleration = 0.0;
             if (body.Contacts[i].Kinematic is { } kinematic && kinematic.AngularVelocity != Vector.Zero)
             {
                 // What turns has other velocities where the body will be.
+                minAcceleration = kinematic.NormalAccelerationAt(body.Position, row.Normal, body.Velocity);
                 var change = duration * Vector.Cross(kinematic.AngularVelocity, body.Velocity - kinematic.Velocity);
                 row.SetSurface(row.SurfaceVelocity + change, kinematic.AngularVelocity);
             }
 
             // What is left of the acceleration along the normal, as without friction.
-            row.MinNormalVelocity = Vector.Dot(
-                body.Velocity - row.SurfaceVelocity + (duration * Math.Min(0, Vector.Dot(netAcceleration, row.Normal)) * row.Normal),
-                row.Normal);
+            minAcceleration = Math.Min(minAcceleration, Vector.Dot(netAcceleration, row.Normal));
+            row.MinNormalVelocity = Vector.Dot(body.Velocity - row.SurfaceVelocity, row.Normal) + (duration * minAcceleration);
         }
 
         solverBody.Velocity += duration * body.FreeAcceleration;
@@ -113,7 +117,7 @@ internal sealed class SpinFriction(List<Body> bodies)
         {
             var time = (dot + Math.Sqrt((dot * dot) + (excess * slip.LengthSquared()))) / excess;
             // A time that is lost in rounding makes no progress: the slip of so short a time is none.
-            duration = time > MinFraction * duration ? Math.Min(duration, time) : duration;
+            duration = time > (surfaceAcceleration == Vector.Zero ? MinFraction : MinFractionOnTurning) * duration ? Math.Min(duration, time) : duration;
         }
     }
 }
