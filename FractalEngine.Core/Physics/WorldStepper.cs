@@ -84,8 +84,8 @@ internal sealed class WorldStepper
         var maxThreads = settings.MaxThreads ?? Environment.ProcessorCount;
         _planner = new(bodies, _nearbyBodies, ContactLog, new(), maxThreads);
         _stepper = CreateStepper(_nearbyBodies, Obstacles, QueryContext);
-        _islandMover = new(bodies, _planner.Graph, _grid, _nearbyBodies);
-        _energyGuard = new(bodies, _planner.Graph);
+        _islandMover = new(bodies, _planner.Islands, _grid, _nearbyBodies);
+        _energyGuard = new(bodies, _planner.Islands);
         _parallel = new(
             context =>
             {
@@ -123,7 +123,9 @@ internal sealed class WorldStepper
 
     private long StepCount => _statics.Clock.StepCount;
 
-    private ContactGraph Graph => _planner.Graph;
+    private IslandSet IslandSet => _planner.Islands;
+
+    private ContactGraph Graph => IslandSet.Graph;
 
     private BodyStepper CreateStepper(NearbyBodies nearbyBodies, Obstacles obstacles, QueryContext context) =>
         new(_settings, _bodies, _grid, nearbyBodies, obstacles, Islands, _planner, context, ContactLog);
@@ -259,7 +261,7 @@ internal sealed class WorldStepper
         WakeNearKinematics();
         PlanIslands();
         MoveIslands();
-        for (var i = 0; Graph.IslandBodyCount < _bodies.Count && i < _bodies.Count; i++)
+        for (var i = 0; IslandSet.BodyCount < _bodies.Count && i < _bodies.Count; i++)
         {
             if (_bodies[i] is { IsAsleep: false, HasMoved: false, IslandIndex: < 0 })
             {
@@ -275,7 +277,7 @@ internal sealed class WorldStepper
             }
         }
 
-        Graph.PutToSleep(_settings.TimeBeforeSleep);
+        IslandSet.PutToSleep(_settings.TimeBeforeSleep);
         if (_character is { } character)
         {
             StepCharacter(character);
@@ -342,9 +344,9 @@ internal sealed class WorldStepper
         Graph.JoinTouching();
         _planner.StopApproaches();
         Graph.JoinForStep();
-        if (Graph.JoinedCount > 0)
+        if (Graph.Sets.JoinedCount > 0)
         {
-            _ = RunOnBodies(_bodies.Count, Graph.JoinedCount, _findNearSurfaces);
+            _ = RunOnBodies(_bodies.Count, Graph.Sets.JoinedCount, _findNearSurfaces);
         }
 
         _planner.Plan(_seconds);
@@ -408,10 +410,10 @@ internal sealed class WorldStepper
     /// <summary>Finds the surfaces that a body of an island may meet, unless they are known.</summary>
     private void FindNearSurfaces(BodyStepper stepper, int index)
     {
-        if (Graph.IsJoined(index) && !_bodies[index].AreNearSurfacesKnown && MayAct(stepper, _bodies[index], out var colliders))
+        if (Graph.Sets.IsJoined(index) && !_bodies[index].AreNearSurfacesKnown && MayAct(stepper, _bodies[index], out var colliders))
         {
             _bodies[index].AreNearSurfacesKnown = true;
-            stepper.FindNearSurfaces(_bodies[index], colliders, Graph.ReachOf(index), _seconds);
+            stepper.FindNearSurfaces(_bodies[index], colliders, Graph.Copies[index].Reach, _seconds);
         }
     }
 
@@ -419,14 +421,14 @@ internal sealed class WorldStepper
     private void MoveIslands()
     {
         var hasMovedAhead = MoveObstructing();
-        foreach (var island in Graph.Islands)
+        foreach (var island in IslandSet.All)
         {
             _island = island;
             _ = RunOnBodies(island.BodyCount, island.BodyCount, _movePlanned);
         }
 
         _islandMover.ReturnOverlapping(_planner.HasDeepOverlaps || hasMovedAhead);
-        foreach (var island in Graph.Islands)
+        foreach (var island in IslandSet.All)
         {
             _energyGuard.FinishVelocities(in island);
 
@@ -469,7 +471,7 @@ internal sealed class WorldStepper
 
     private void MovePlanned(BodyStepper stepper, int place)
     {
-        var body = _bodies[Graph.BodiesOf(in _island)[place]];
+        var body = _bodies[IslandSet.BodiesOf(in _island)[place]];
         if (!body.IsMovedAhead && MayAct(stepper, body, out var colliders))
         {
             body.IsMovedAhead = true;
@@ -480,7 +482,7 @@ internal sealed class WorldStepper
     /// <summary>Ends the step of a body of an island.</summary>
     private void FinishPlanned(BodyStepper stepper, int place)
     {
-        var body = _bodies[Graph.BodiesOf(in _island)[place]];
+        var body = _bodies[IslandSet.BodiesOf(in _island)[place]];
         if (!body.IsFinished && MayAct(stepper, body, out var colliders))
         {
             stepper.FinishPlanned(body, colliders, _seconds, StepCount);

@@ -47,14 +47,14 @@ internal sealed class WorldRecorder(string name, PhysicsWorld world)
     {
         var (faces, bounds) = world.LastStepCost;
         _tests = (_tests.Faces + faces, _tests.Bounds + bounds);
-        var graph = PlannerOf(StepperOf(world)).Graph;
-        _pairs += graph.Pairs.Length + (1000L * graph.JoinedCount);
-        for (var i = 0; i < graph.Islands.Count; i++)
+        var islands = PlannerOf(StepperOf(world)).Islands;
+        _pairs += islands.Graph.Pairs.Length + (1000L * islands.Graph.Sets.JoinedCount);
+        for (var i = 0; i < islands.All.Count; i++)
         {
-            var island = graph.Islands[i];
+            var island = islands.All[i];
             _islands += (i + 1) * (island.RowCount + (3 * island.BodyCount) + (7 * island.PartCount)
                 + Bits(island.IsFree, island.HasMovingSurface, island.HasCompound));
-            foreach (ref readonly var row in graph.RowsOf(in island))
+            foreach (ref readonly var row in islands.RowsOf(in island))
             {
                 _forces.Add(row.NormalImpulse);
                 _forces.Add(row.FrictionImpulse);

@@ -12,7 +12,7 @@ internal struct GraphBody
     /// <summary>Radius of the sphere that holds the body.</summary>
     public double Radius;
 
-    /// <summary>How far the body may get in the step; 0 for one that does not move.</summary>
+    /// <summary>How far the body may get in the step: 0 for one that does not move, and only for such.</summary>
     public double Reach;
 
     /// <summary>True once it is known what the body may meet.</summary>

@@ -8,13 +8,13 @@ namespace FractalEngine.Core.Physics.Separation;
 /// Takes back what an island has gained in its planned motion: by rounding, by forces that did not converge, or since a body was stopped
 /// by something that no plan knew. Its velocities are scaled, about that of its centre of mass where it touches nothing immovable.
 /// </summary>
-internal sealed class EnergyGuard(List<Body> bodies, ContactGraph graph)
+internal sealed class EnergyGuard(List<Body> bodies, IslandSet islands)
 {
     /// <summary>Gives the bodies of an island, all of which have moved, their new velocities, and checks their energy.</summary>
     public void FinishVelocities(in Island island)
     {
         var gain = 0.0;
-        foreach (var index in graph.BodiesOf(in island))
+        foreach (var index in islands.BodiesOf(in island))
         {
             // The energy of motion, less the work of gravity and forces.
             var body = bodies[index];
@@ -41,7 +41,7 @@ internal sealed class EnergyGuard(List<Body> bodies, ContactGraph graph)
         var centreVelocity = island.IsFree ? CentreVelocity(in island) : Vector.Zero;
         var energy = EnergyAbout(in island, centreVelocity);
         var scale = energy > gain ? Math.Sqrt(1 - (gain / energy)) : 0;
-        foreach (var index in graph.BodiesOf(in island))
+        foreach (var index in islands.BodiesOf(in island))
         {
             bodies[index].Velocity = centreVelocity + (scale * (bodies[index].Velocity - centreVelocity));
             bodies[index].AngularVelocity *= scale;
@@ -52,7 +52,7 @@ internal sealed class EnergyGuard(List<Body> bodies, ContactGraph graph)
     {
         var mass = 0.0;
         var momentum = Vector.Zero;
-        foreach (var index in graph.BodiesOf(in island))
+        foreach (var index in islands.BodiesOf(in island))
         {
             mass += bodies[index].Description.Mass;
             momentum += bodies[index].Description.Mass * bodies[index].Velocity;
@@ -64,7 +64,7 @@ internal sealed class EnergyGuard(List<Body> bodies, ContactGraph graph)
     private double EnergyAbout(in Island island, Vector centreVelocity)
     {
         var energy = 0.0;
-        foreach (var index in graph.BodiesOf(in island))
+        foreach (var index in islands.BodiesOf(in island))
         {
             energy += 0.5 * bodies[index].Description.Mass * (bodies[index].Velocity - centreVelocity).LengthSquared();
             energy += bodies[index].SpinEnergy;

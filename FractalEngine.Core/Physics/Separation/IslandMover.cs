@@ -13,15 +13,15 @@ internal sealed class IslandMover
     private const double NegligibleOverlap = 3e-7;
 
     private readonly List<Body> _bodies;
-    private readonly ContactGraph _graph;
+    private readonly IslandSet _islands;
     private readonly BodyGrid _grid;
     private readonly NearbyBodies _nearbyBodies;
     private readonly List<int> _neighbours = [];
 
-    public IslandMover(List<Body> bodies, ContactGraph graph, BodyGrid grid, NearbyBodies nearbyBodies)
+    public IslandMover(List<Body> bodies, IslandSet islands, BodyGrid grid, NearbyBodies nearbyBodies)
     {
         _bodies = bodies;
-        _graph = graph;
+        _islands = islands;
         _grid = grid;
         _nearbyBodies = nearbyBodies;
     }
@@ -37,13 +37,13 @@ internal sealed class IslandMover
     /// <returns>Null where there is none left.</returns>
     public Body? FindObstructing(ref int pairIndex)
     {
-        var pairs = _graph.Islands is [var only] && only.BodyCount == _bodies.Count ? [] : _graph.Pairs;
+        var pairs = _islands.All is [var only] && only.BodyCount == _bodies.Count ? [] : _islands.Graph.Pairs;
         while (pairIndex < pairs.Length)
         {
             ref readonly var pair = ref pairs[pairIndex++];
-            if (!pair.IsSecondImmovable && (_graph.IslandOf(pair.First) >= 0) != (_graph.IslandOf(pair.Second) >= 0))
+            if (!pair.IsSecondImmovable && (_islands.IslandOf(pair.First) >= 0) != (_islands.IslandOf(pair.Second) >= 0))
             {
-                var isFirstMember = _graph.IslandOf(pair.First) >= 0;
+                var isFirstMember = _islands.IslandOf(pair.First) >= 0;
                 var member = _bodies[isFirstMember ? pair.First : pair.Second];
                 var single = _bodies[isFirstMember ? pair.Second : pair.First];
                 var distance = (member.Radius + single.Radius) * (1 - NegligibleOverlap);
@@ -74,9 +74,9 @@ internal sealed class IslandMover
             return;
         }
 
-        foreach (var island in _graph.Islands)
+        foreach (var island in _islands.All)
         {
-            foreach (var index in _graph.BodiesOf(in island))
+            foreach (var index in _islands.BodiesOf(in island))
             {
                 _grid.Update(index);
             }

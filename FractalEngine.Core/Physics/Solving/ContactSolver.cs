@@ -10,7 +10,7 @@ namespace FractalEngine.Core.Physics.Solving;
 /// impulse pushes only, and pushes nothing that is faster. Across the normal it stops the slip, or is as large as friction allows.
 /// </summary>
 /// <remarks>Projected Gauss–Seidel, for the few contacts of one body.</remarks>
-internal sealed class ContactSolver
+internal sealed class ContactSolver(int bodyCount = 0)
 {
     // Relative to the largest impulse: a round that changes less has converged.
     private const double Tolerance = 1e-9;
@@ -24,10 +24,8 @@ internal sealed class ContactSolver
     private const double RelativeRounding = 1e-14;
 
     private double _rounding;
-    private SolverBody[] _bodies = [];
-    private Direction[] _changes = [];
-
-    private Matrix[] _inverseInertias = [];
+    private SolverBody[] _bodies = new SolverBody[bodyCount];
+    private Matrix[] _inverseInertias = new Matrix[bodyCount];
 
     /// <summary>Bodies by their index in the world.</summary>
     public Span<SolverBody> Bodies => _bodies;
@@ -35,12 +33,11 @@ internal sealed class ContactSolver
     /// <summary>Rounds of the last solve.</summary>
     public int Rounds { get; private set; }
 
-    /// <summary>Makes room for the bodies of a world and their contacts.</summary>
-    public void Reserve(int bodyCount, int contactCount)
+    /// <summary>Makes room for the bodies of a world.</summary>
+    public void Reserve(int count)
     {
-        _bodies = new SolverBody[bodyCount];
-        _inverseInertias = new Matrix[bodyCount];
-        ReserveContacts(contactCount);
+        _bodies = new SolverBody[count];
+        _inverseInertias = new Matrix[count];
     }
 
     /// <summary>Computes the masses of a contact from those of its bodies.</summary>
@@ -143,7 +140,6 @@ internal sealed class ContactSolver
     /// <returns>False where it has not converged: then the impulses are those of the last round.</returns>
     public bool Solve(Span<ContactRow> rows)
     {
-        ReserveContacts(rows.Length);
         _rounding = ComputeRounding(rows);
         for (Rounds = 1; Rounds < MaxRounds; Rounds++)
         {
@@ -154,14 +150,6 @@ internal sealed class ContactSolver
         }
 
         return MakeRound(rows, Tolerance);
-    }
-
-    private void ReserveContacts(int count)
-    {
-        if (_changes.Length < count)
-        {
-            _changes = new Direction[Math.Max(count, 2 * _changes.Length)];
-        }
     }
 
     /// <summary>Impulses that rounding cannot tell from 0: those of bodies that barely approach have no larger digits.</summary>
@@ -278,34 +266,32 @@ internal sealed class ContactSolver
     /// <summary>Solves each contact once in the order of the list, and once in the opposite one.</summary>
     private bool MakeRound(Span<ContactRow> rows, double tolerance)
     {
-        for (var i = 0; i < rows.Length; i++)
+        foreach (ref var row in rows)
         {
-            _changes[i] = default;
-            SolveContact(ref rows[i], ref _changes[i]);
+            _ = SolveContact(ref row);
         }
 
-        var maxChange = 0.0;
-        var maxImpulse = 0.0;
+        var (maxChange, maxImpulse) = (0.0, 0.0);
         for (var i = rows.Length - 1; i >= 0; i--)
         {
-            ref var change = ref _changes[i];
-            SolveContact(ref rows[i], ref change);
-            maxChange = Math.Max(maxChange, Math.Max(Math.Abs(change.Normal), change.Across.MaxAbsComponent()));
+            maxChange = Math.Max(maxChange, SolveContact(ref rows[i]));
             maxImpulse = Math.Max(maxImpulse, rows[i].NormalImpulse);
         }
 
         return maxChange <= Math.Max(tolerance * maxImpulse, _rounding);
     }
 
-    private void SolveContact(ref ContactRow row, ref Direction change)
+    /// <summary>Corrects the impulses of a contact.</summary>
+    /// <returns>By how much they have changed.</returns>
+    private double SolveContact(ref ContactRow row)
     {
         var missing = row.MinNormalVelocity - Vector.Dot(RelativeVelocity(in row), row.Normal);
         var impulse = Math.Max(0, row.NormalImpulse + (row.NormalMass * missing));
         var normalChange = impulse - row.NormalImpulse;
+        var change = Math.Abs(normalChange);
         if (normalChange != 0)
         {
             row.NormalImpulse = impulse;
-            change.Normal += normalChange;
             ApplyAlongNormal(in row, normalChange);
         }
 
@@ -317,18 +303,20 @@ internal sealed class ContactSolver
             across = lengthSquared > limit * limit ? limit / Math.Sqrt(lengthSquared) * across : across;
             var acrossChange = across - row.FrictionImpulse;
             row.FrictionImpulse = across;
-            change.Across += acrossChange;
+            change = Math.Max(change, acrossChange.MaxAbsComponent());
             ApplyAcross(in row, acrossChange);
         }
 
         if (row.IsSlowedDown && double.IsFinite(row.TurnInertia))
         {
-            change.Turn += StopTurning(ref row);
+            StopTurning(ref row);
         }
+
+        return change;
     }
 
     /// <summary>Slows down rolling and spinning as far as the normal impulse allows.</summary>
-    private Vector StopTurning(ref ContactRow row)
+    private void StopTurning(ref ContactRow row)
     {
         var spin = _bodies[row.First].Spin - (row.Second >= 0 ? _bodies[row.Second].Spin : row.SurfaceSpin);
         var turn = row.TurnImpulse - (row.TurnInertia * spin);
@@ -341,14 +329,5 @@ internal sealed class ContactSolver
         var turnChange = rolling + (Math.Clamp(about, -spinningLimit, spinningLimit) * row.Normal) - row.TurnImpulse;
         row.TurnImpulse += turnChange;
         ApplyTurn(in row, turnChange);
-        return turnChange;
-    }
-
-    /// <summary>A change of the impulse of one contact.</summary>
-    private struct Direction
-    {
-        public double Normal;
-        public Vector Across;
-        public Vector Turn;
     }
 }

@@ -18,7 +18,7 @@ internal sealed class ImpulseCache
     private const int SlotBits = 3;
 
     private readonly Action<int> _storeRows;
-    private ContactGraph? _graph;
+    private IslandSet? _islands;
     private Entry[] _entries = [];
     private int[] _slots = [];
     private int _mask;
@@ -47,20 +47,20 @@ internal sealed class ImpulseCache
     }
 
     /// <summary>Stores the impulses of all contacts that push, on all threads.</summary>
-    public void Store(ContactGraph graph, int maxThreads)
+    public void Store(IslandSet islands, int maxThreads)
     {
-        Reserve(graph.RowCapacity);
+        Reserve(islands.RowCapacity);
         Array.Fill(_slots, None);
-        _graph = graph;
-        WorkerSet.Shared.Run((graph.RowCount + RowsPerJob - 1) / RowsPerJob, maxThreads, _storeRows);
+        _islands = islands;
+        WorkerSet.Shared.Run((islands.RowCount + RowsPerJob - 1) / RowsPerJob, maxThreads, _storeRows);
     }
 
     private void StoreRows(int job)
     {
-        var end = Math.Min(_graph!.RowCount, (job + 1) * RowsPerJob);
+        var end = Math.Min(_islands!.RowCount, (job + 1) * RowsPerJob);
         for (var i = job * RowsPerJob; i < end; i++)
         {
-            ref readonly var row = ref _graph.Row(i);
+            ref readonly var row = ref _islands.Row(i);
             if (row.NormalImpulse > 0)
             {
                 _entries[i] = new()

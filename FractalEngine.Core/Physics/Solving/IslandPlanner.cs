@@ -42,8 +42,8 @@ internal sealed class IslandPlanner(
     private readonly ContactSolver _solver = new();
     private readonly SubstepSolver _substeps = new(bodies, cache, maxThreads);
 
-    /// <summary>The contacts and islands of this step.</summary>
-    public ContactGraph Graph { get; } = new(bodies, nearbyBodies, maxThreads);
+    /// <summary>The islands of this step, with their contacts.</summary>
+    public IslandSet Islands { get; } = new(bodies, nearbyBodies, maxThreads);
 
     /// <summary>What has been solved so far.</summary>
     public IslandStatistics Statistics { get; private set; }
@@ -61,8 +61,8 @@ internal sealed class IslandPlanner(
     /// <summary>Makes room for the bodies of a world and their contacts, before the first step with them.</summary>
     public void Reserve(int bodyCount, int contactCount)
     {
-        Graph.Reserve(bodyCount, contactCount);
-        _solver.Reserve(bodyCount, contactCount);
+        Islands.Reserve(bodyCount, contactCount);
+        _solver.Reserve(bodyCount);
         cache.Reserve(contactCount);
         _substeps.Reserve(bodyCount, contactCount);
     }
@@ -70,10 +70,10 @@ internal sealed class IslandPlanner(
     /// <summary>Lets bodies that touch bounce. They must have been joined.</summary>
     public void StopApproaches()
     {
-        Graph.Group(onlyImpacts: true);
-        foreach (var island in Graph.Islands)
+        Islands.Group(onlyImpacts: true);
+        foreach (var island in Islands.All)
         {
-            if (Graph.RowsOf(in island) is { Length: > 0 } rows)
+            if (Islands.RowsOf(in island) is { Length: > 0 } rows)
             {
                 // What then still approaches is stopped by the solve of the step.
                 Bounce(in island, rows);
@@ -85,29 +85,29 @@ internal sealed class IslandPlanner(
     /// <param name="stepLength">Seconds.</param>
     public void Plan(double stepLength)
     {
-        Graph.Group(onlyImpacts: false);
+        Islands.Group(onlyImpacts: false);
         _substeps.HasDeepOverlaps = false;
-        for (var index = 0; index < Graph.Islands.Count; index++)
+        for (var index = 0; index < Islands.All.Count; index++)
         {
-            var island = Graph.Islands[index];
+            var island = Islands.All[index];
             var isConverged = Plan(index, in island, stepLength);
             Statistics = new(Statistics.Solves + 1, Statistics.Rounds, Statistics.Unconverged + (isConverged ? 0 : 1));
         }
 
-        cache.Store(Graph, maxThreads);
+        cache.Store(Islands, maxThreads);
     }
 
     private bool Plan(int index, in Island island, double stepLength)
     {
-        var rows = Graph.RowsOf(in island);
-        if (Graph.MayBounce(Graph.BodiesOf(in island)))
+        var rows = Islands.RowsOf(in island);
+        if (Islands.MayBounce(Islands.BodiesOf(in island)))
         {
             // Bodies that have joined without touching another may run into surfaces.
             Bounce(in island, rows);
         }
 
         Join(in island, index);
-        var isConverged = _substeps.Solve(Graph, in island, stepLength);
+        var isConverged = _substeps.Solve(Islands, in island, stepLength);
         for (var i = 0; contactLog.IsEnabled && i < rows.Length; i++)
         {
             if (_substeps.ImpulseOf(i) > 0 || !rows[i].IsAhead)
@@ -122,15 +122,15 @@ internal sealed class IslandPlanner(
 
     private void Bounce(in Island island, Span<ContactRow> rows)
     {
-        Load(Graph.BodiesOf(in island), rows);
+        Load(Islands.BodiesOf(in island), rows);
         BounceAll(rows);
-        StoreVelocities(Graph.BodiesOf(in island));
+        StoreVelocities(Islands.BodiesOf(in island));
     }
 
     /// <summary>Tells bodies which island they are of.</summary>
     private void Join(in Island island, int islandIndex)
     {
-        foreach (var index in Graph.BodiesOf(in island))
+        foreach (var index in Islands.BodiesOf(in island))
         {
             bodies[index].IslandIndex = islandIndex;
             bodies[index].MayTouchBodies = true;

@@ -91,7 +91,7 @@ internal sealed class SubstepSolver
     private double[] _impulses = [];
     private Vector256<double>[] _changes = [];
     private Vector256<double>[] _directions = [];
-    private ContactGraph? _graph;
+    private IslandSet? _islands;
     private Island _island;
     private double _stepLength;
     private double _substep;
@@ -159,13 +159,13 @@ internal sealed class SubstepSolver
     /// Finds the velocities and targets of the bodies of an island at the end of a step. None of the targets is behind a plane that one
     /// of their balls touches or may meet.
     /// </summary>
-    /// <param name="graph">Has the contacts, which receive their last impulses.</param>
+    /// <param name="islands">Has the contacts, which receive their last impulses.</param>
     /// <param name="island">The island.</param>
     /// <param name="stepLength">Seconds.</param>
     /// <returns>False for a small island that has not converged.</returns>
-    public bool Solve(ContactGraph graph, in Island island, double stepLength)
+    public bool Solve(IslandSet islands, in Island island, double stepLength)
     {
-        SetIsland(graph, in island, stepLength);
+        SetIsland(islands, in island, stepLength);
         Rounds = 0;
         WorkerSet.Shared.Run(island.PartCount, island.HasMovingSurface ? 1 : _maxThreads, _load);
         RunBetween(_load);
@@ -191,10 +191,10 @@ internal sealed class SubstepSolver
         return isConverged || _isLarge;
     }
 
-    private void SetIsland(ContactGraph graph, in Island island, double stepLength)
+    private void SetIsland(IslandSet islands, in Island island, double stepLength)
     {
         Reserve(_bodies.Count, island.RowCount);
-        _graph = graph;
+        _islands = islands;
         _island = island;
         _stepLength = stepLength;
         _isLarge = island.RowCount >= MinContactsOfLarge;
@@ -202,7 +202,7 @@ internal sealed class SubstepSolver
         _substep = stepLength / _substepCount;
         _surfaceCount = 0;
         Array.Clear(_states, FirstSurface, RestingSurfaces);
-        var ends = graph.PartEndsOf(in island);
+        var ends = islands.PartEndsOf(in island);
         var first = 0;
         for (var i = 0; i < Groups.Length; i++)
         {
@@ -275,7 +275,7 @@ internal sealed class SubstepSolver
         }
     }
 
-    private ReadOnlySpan<int> BodiesOf(int part) => part < _island.PartCount ? _graph!.BodiesOfPart(in _island, part) : [];
+    private ReadOnlySpan<int> BodiesOf(int part) => part < _island.PartCount ? _islands!.BodiesOfPart(in _island, part) : [];
 
     private void Load(int index)
     {
@@ -289,7 +289,7 @@ internal sealed class SubstepSolver
         }
 
         var group = _groups[index];
-        var rows = _graph!.RowsOf(in _island);
+        var rows = _islands!.RowsOf(in _island);
         var rounding = 0.0;
         for (var i = group.First; i < group.End; i++)
         {
@@ -551,7 +551,7 @@ internal sealed class SubstepSolver
             var body = _bodies[i];
             var (velocity, spin) = (SimdAffineMap.ToVector(state.Velocity), SimdAffineMap.ToVector(state.Spin));
             var displacement = SimdAffineMap.ToVector(state.Displacement);
-            group.Overlap = _graph!.HasDeviated(i, displacement) ? double.PositiveInfinity : group.Overlap;
+            group.Overlap = _islands!.Graph.HasDeviated(i, displacement) ? double.PositiveInfinity : group.Overlap;
             var negligible = RestFraction * _stepLength * body.FreeAcceleration.Length();
             if (Math.Max(velocity.MaxAbsComponent(), body.Velocity.MaxAbsComponent()) <= negligible
                 && spin.MaxAbsComponent() * body.Radius <= negligible && displacement.MaxAbsComponent() <= RestFraction * body.Radius)
@@ -578,7 +578,7 @@ internal sealed class SubstepSolver
             body.IsHeld = false;
         }
 
-        var rows = _graph!.RowsOf(in _island);
+        var rows = _islands!.RowsOf(in _island);
         for (var i = group.First; i < group.End; i++)
         {
             ref readonly var contact = ref _contacts[i];

@@ -23,7 +23,7 @@ internal sealed class SpinFriction(List<Body> bodies)
     // Seconds: in a shorter time friction does nothing that rounding does not.
     private const double MinDuration = 1e-12;
 
-    private readonly ContactSolver _solver = CreateSolver();
+    private readonly ContactSolver _solver = new(bodyCount: 1);
     private readonly ContactRow[] _rows = new ContactRow[HalfSpaces.Capacity];
 
     /// <summary>Finds the accelerations, constant for a time.</summary>
@@ -82,13 +82,6 @@ internal sealed class SpinFriction(List<Body> bodies)
         }
     }
 
-    private static ContactSolver CreateSolver()
-    {
-        var solver = new ContactSolver();
-        solver.Reserve(bodyCount: 1, HalfSpaces.Capacity);
-        return solver;
-    }
-
     private ContactRow CreateRow(Body body, in Contact contact)
     {
         var row = ContactRows.OfSurface(body, ball: 0, in contact);
@@ -117,7 +110,8 @@ internal sealed class SpinFriction(List<Body> bodies)
         {
             var time = (dot + Math.Sqrt((dot * dot) + (excess * slip.LengthSquared()))) / excess;
             // A time that is lost in rounding makes no progress: the slip of so short a time is none.
-            duration = time > (surfaceAcceleration == Vector.Zero ? MinFraction : MinFractionOnTurning) * duration ? Math.Min(duration, time) : duration;
+            var minFraction = surfaceAcceleration == Vector.Zero ? MinFraction : MinFractionOnTurning;
+            duration = time > minFraction * duration ? Math.Min(duration, time) : duration;
         }
     }
 }

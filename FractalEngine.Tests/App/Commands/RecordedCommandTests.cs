@@ -52,7 +52,7 @@ public sealed class RecordedCommandTests : IDisposable
         folder.Write("rays.txt", "0 0 5 0 0 -1\n0.1 0.2 -4, 0 0 2\n9 9 9 1 0 0\n");
         folder.Write("one.txt", "0 0 5\n");
         folder.Write(
-            "walk.fdo", "v 1 0 0\nv 0 13 7\nv -1 .3 0\nx. \"cube.obj\"\nt.a. (a, 2, #)\nz<x>. [t.1, t.3] x\n<$>. z 1000\n");
+            "walk.fdo", "v 1 0 0\nv 0 13 7\nv -1 .3 0\nx. \"cube.obj\"\nt.a. (a, 2, #)\nz<x>. [t.1, t.3] x\n<$>. z 100\n");
         folder.Write("none.txt", "# nothing\n");
         folder.Write("bad.txt", "1 2 3\n4 five 6\n");
         folder.Write("m.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl a\nf 1/1 2/1 3/1\nusemtl b\nf 1 3 2\n");

@@ -86,11 +86,11 @@ public sealed class SleepIslandsTests
         setup.Bodies[0].SleepTimer = first;
         setup.Bodies[1].SleepTimer = second;
         setup.Bodies[2].SleepTimer = 99;
-        setup.Graph.PutToSleep(0.5);
+        setup.Islands.PutToSleep(0.5);
         Assert.Equal([sleeps, sleeps, false], setup.Bodies.Select(static body => body.IsAsleep));
         setup.Bodies[0].SleepTimer = 0;
         setup.Bodies[0].Wake();
-        setup.Graph.PutToSleep(0);
+        setup.Islands.PutToSleep(0);
         Assert.False(setup.Bodies[0].IsAsleep);
     }
 

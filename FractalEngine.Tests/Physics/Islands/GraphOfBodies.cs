@@ -15,9 +15,9 @@ internal sealed class GraphOfBodies
         Grid.Build(Bodies);
         Nearby = new(Grid, Bodies);
         Sleep = new(Bodies, Nearby);
-        Graph = new(Bodies, Nearby, 1);
-        Graph.Reserve(Bodies.Count, 8 * Bodies.Count);
-        Mover = new(Bodies, Graph, Grid, Nearby);
+        Islands = new(Bodies, Nearby, 1);
+        Islands.Reserve(Bodies.Count, 8 * Bodies.Count);
+        Mover = new(Bodies, Islands, Grid, Nearby);
         Mover.Reserve(Bodies.Count);
     }
 
@@ -29,7 +29,9 @@ internal sealed class GraphOfBodies
 
     public SleepIslands Sleep { get; }
 
-    public ContactGraph Graph { get; }
+    public IslandSet Islands { get; }
+
+    public ContactGraph Graph => Islands.Graph;
 
     public IslandMover Mover { get; }
 
@@ -54,10 +56,10 @@ internal sealed class GraphOfBodies
 
         Graph.JoinTouching();
         Graph.JoinForStep();
-        Graph.Group(onlyImpacts: false);
+        Islands.Group(onlyImpacts: false);
         foreach (var body in Bodies)
         {
-            body.IslandIndex = Graph.IslandOf(body.Index);
+            body.IslandIndex = Islands.IslandOf(body.Index);
         }
 
         return true;

@@ -16,7 +16,7 @@ public sealed class EnergyGuardTests
         setup.Bodies[0].PlannedChange = new(1, 2, 3);
         setup.Bodies[1].PlannedSpinChange = new(4, 5, 6);
         setup.Bodies[0].PlannedStartEnergy = 1000;
-        guard.FinishVelocities(setup.Graph.Islands[0]);
+        guard.FinishVelocities(setup.Islands.All[0]);
         Assert.Equal((new(1, 2, 3), Vector.Zero), (setup.Bodies[0].Velocity, setup.Bodies[0].AngularVelocity));
         Assert.Equal((Vector.Zero, new(4, 5, 6)), (setup.Bodies[1].Velocity, setup.Bodies[1].AngularVelocity));
     }
@@ -36,7 +36,7 @@ public sealed class EnergyGuardTests
         var energy = setup.Bodies.Sum(static body => body.KineticEnergy);
         setup.Bodies[0].PlannedStartEnergy = setup.Bodies[0].KineticEnergy - gain;
         setup.Bodies[1].PlannedStartEnergy = setup.Bodies[1].KineticEnergy;
-        guard.FinishVelocities(setup.Graph.Islands[0]);
+        guard.FinishVelocities(setup.Islands.All[0]);
         Near.Equal(momentum, setup.Bodies[0].Velocity + (3 * setup.Bodies[1].Velocity), 1e-13);
         // No less than that of the centre's motion is left.
         var least = momentum.LengthSquared() / 8;
@@ -61,7 +61,7 @@ public sealed class EnergyGuardTests
             body.Position -= 0.25 * Vector.J;
         }
 
-        var island = setup.Graph.Islands[0] with { IsFree = false };
+        var island = setup.Islands.All[0] with { IsFree = false };
         guard.FinishVelocities(in island);
         Assert.All(setup.Bodies, body => Near.Equal(new(0, -speed * share, 0), body.Velocity, 1e-14));
     }
@@ -72,7 +72,7 @@ public sealed class EnergyGuardTests
     {
         var setup = Create(out var guard);
         setup.Bodies[0].Velocity = new(0, 5, 0);
-        var island = setup.Graph.Islands[0] with { IsFree = false, HasMovingSurface = true };
+        var island = setup.Islands.All[0] with { IsFree = false, HasMovingSurface = true };
         guard.FinishVelocities(in island);
         Assert.Equal(new Vector(0, 5, 0), setup.Bodies[0].Velocity);
     }
@@ -82,7 +82,7 @@ public sealed class EnergyGuardTests
         var setup = new GraphOfBodies(new BodyDescription(Vector.Zero, 0.5), new BodyDescription(Vector.I, 0.5) { Mass = 3 });
         Assert.True(setup.TryGroup(0.25));
         setup.BeginMove();
-        guard = new(setup.Bodies, setup.Graph);
+        guard = new(setup.Bodies, setup.Islands);
         return setup;
     }
 }

@@ -22,7 +22,7 @@ public sealed class IslandMoverTests
         // Both touch, and the third one goes away from them.
         var setup = new GraphOfBodies(Ball(0), Ball(1), Ball(2.2) with { Velocity = Vector.I });
         Assert.True(setup.TryGroup(Step));
-        Assert.Equal(2, Assert.Single(setup.Graph.Islands).BodyCount);
+        Assert.Equal(2, Assert.Single(setup.Islands.All).BodyCount);
         Assert.Equal(2, setup.Graph.Pairs.Length);
         setup.BeginMove();
         setup.Bodies[2].HasMoved = hasMoved;
@@ -95,7 +95,7 @@ public sealed class IslandMoverTests
         var first = isFirstCompound ? new(Vector.Zero, CompoundShape.OfBalls([new(Vector.Zero, 0.5)])) : Ball(0);
         var setup = new GraphOfBodies(first, Ball(1), Ball(thirdPlace));
         Assert.True(setup.TryGroup(Step));
-        Assert.Equal(2, Assert.Single(setup.Graph.Islands).BodyCount);
+        Assert.Equal(2, Assert.Single(setup.Islands.All).BodyCount);
         return setup;
     }
 

@@ -30,7 +30,7 @@ public sealed class ContactSolverTests
     [InlineData(12)]
     public void Solve_OfTwoBallsThatMeet_LeavesThemTheVelocityOfTheirCentre(int count)
     {
-        var solver = Create(2 * count, count);
+        var solver = new ContactSolver(2 * count);
         var rows = new ContactRow[count];
         for (var i = 0; i < count; i++)
         {
@@ -56,7 +56,7 @@ public sealed class ContactSolverTests
     [InlineData(12)]
     public void Solve_OfAUnitImpulse_StopsTheBall(int count)
     {
-        var solver = Create(count, count);
+        var solver = new ContactSolver(count);
         var rows = new ContactRow[count];
         for (var i = 0; i < count; i++)
         {
@@ -77,7 +77,7 @@ public sealed class ContactSolverTests
     [InlineData(12)]
     public void Solve_OfWhatSeparates_DoesNotPull(int count)
     {
-        var solver = Create(count, count);
+        var solver = new ContactSolver(count);
         var rows = new ContactRow[count];
         for (var i = 0; i < count; i++)
         {
@@ -106,7 +106,7 @@ public sealed class ContactSolverTests
     [InlineData(12, 0, 7.0)]
     public void Solve_OfABallThatFallsObliquely_RollsOrSlides(int count, double friction, double speed)
     {
-        var solver = Create(count, count);
+        var solver = new ContactSolver(count);
         var rows = new ContactRow[count];
         for (var i = 0; i < count; i++)
         {
@@ -133,7 +133,7 @@ public sealed class ContactSolverTests
     [InlineData(12)]
     public void Solve_OfTwoBallsThatSpin_StopsTheirSlip(int count)
     {
-        var solver = Create(2 * count, count);
+        var solver = new ContactSolver(2 * count);
         var rows = new ContactRow[count];
         for (var i = 0; i < count; i++)
         {
@@ -165,7 +165,7 @@ public sealed class ContactSolverTests
     [InlineData(12)]
     public void Solve_OnASurfaceThatMoves_TakesTheBallAlong(int count)
     {
-        var solver = Create(count, count);
+        var solver = new ContactSolver(count);
         var rows = new ContactRow[count];
         for (var i = 0; i < count; i++)
         {
@@ -197,7 +197,7 @@ public sealed class ContactSolverTests
     [InlineData(12, 9, 9)]
     public void Solve_OfABallThatTurns_SlowsDownRollingAndSpinning(int count, double rollingArm, double spinningArm)
     {
-        var solver = Create(count, count);
+        var solver = new ContactSolver(count);
         var rows = new ContactRow[count];
         for (var i = 0; i < count; i++)
         {
@@ -224,7 +224,7 @@ public sealed class ContactSolverTests
     [InlineData(12)]
     public void Solve_OfTwoBallsThatRollOnEachOther_LeavesOneAngularVelocity(int count)
     {
-        var solver = Create(2 * count, count);
+        var solver = new ContactSolver(2 * count);
         var rows = new ContactRow[count];
         for (var i = 0; i < count; i++)
         {
@@ -248,7 +248,7 @@ public sealed class ContactSolverTests
     [InlineData(12)]
     public void Solve_OfARowThatIsHit_LetsAllGoOnTogether(int count)
     {
-        var solver = Create(count, count);
+        var solver = new ContactSolver(count);
         for (var i = 0; i < count; i++)
         {
             solver.Bodies[i] = new() { Velocity = i == 0 ? count * Vector.I : Vector.Zero, InverseMass = 1 };
@@ -271,7 +271,7 @@ public sealed class ContactSolverTests
     [Fact]
     public void Solve_OfARow_TakesSeveralRounds()
     {
-        var solver = Create(4, 3);
+        var solver = new ContactSolver(4);
         for (var i = 0; i < 4; i++)
         {
             solver.Bodies[i] = new() { Velocity = i == 0 ? Vector.I : Vector.Zero, InverseMass = 1 };
@@ -291,7 +291,7 @@ public sealed class ContactSolverTests
     [Fact]
     public void Solve_OfACompound_TurnsItAboutItsBall()
     {
-        var solver = Create(1, 1);
+        var solver = new ContactSolver(1);
         var shape = CompoundShape.OfBalls([new(-Vector.I, 0.5), new(Vector.I, 0.5)]);
         var body = new Body(new(Vector.Zero, shape) { Mass = 2, Velocity = -Vector.J }, 0, Vector.Zero);
         solver.Load(0, body);
@@ -316,7 +316,7 @@ public sealed class ContactSolverTests
     [InlineData(false)]
     public void Solve_OfACompoundAndABall_KeepsMomentumAndStopsSlip(bool isCompoundFirst)
     {
-        var solver = Create(2, 1);
+        var solver = new ContactSolver(2);
         var shape = CompoundShape.OfBalls([new(-Vector.I, 0.5), new(Vector.I, 0.5)]);
         var compound = new Body(new(Vector.Zero, shape) { Mass = 2, AngularVelocity = new(1, 0, 0.5) }, 0, Vector.Zero);
         var ball = new Body(new(new(1, 0.75, 0), 0.25) { Velocity = new(0.5, -9, 1) }, 1, Vector.Zero);
@@ -345,20 +345,13 @@ public sealed class ContactSolverTests
     [Fact]
     public void ApplyTurn_OfTwoBodies_TurnsThemAgainstEachOther()
     {
-        var solver = Create(2, 1);
+        var solver = new ContactSolver(2);
         solver.Bodies[0] = new() { Spin = Vector.I, InverseInertia = 2 };
         solver.Bodies[1] = new() { Spin = Vector.J, InverseInertia = 4 };
         solver.ApplyTurn(new ContactRow { First = 1, Second = 0 }, new(1, 2, 3));
         Assert.Equal((new(-1, -4, -6), new(4, 9, 12)), (solver.Bodies[0].Spin, solver.Bodies[1].Spin));
         solver.ApplyTurn(new ContactRow { First = 0, Second = ContactRow.Immovable }, new(1, 2, 3));
         Assert.Equal((Vector.I, new(4, 9, 12)), (solver.Bodies[0].Spin, solver.Bodies[1].Spin));
-    }
-
-    private static ContactSolver Create(int bodyCount, int rowCount)
-    {
-        var solver = new ContactSolver();
-        solver.Reserve(bodyCount, rowCount);
-        return solver;
     }
 
     private static ContactRow Row(int first, int second, Vector normal) =>

@@ -13,19 +13,19 @@ public sealed class ImpulseCacheTests
     [Fact]
     public void Recall_OfTheSameContact_HasItsImpulses()
     {
-        var (graph, cache) = Create();
-        for (var i = 0; i < graph.RowCount; i++)
+        var (islands, cache) = Create();
+        for (var i = 0; i < islands.RowCount; i++)
         {
-            graph.Row(i).NormalImpulse = i + 1;
-            graph.Row(i).FrictionImpulse = new(i, 2, 3);
-            graph.Row(i).RollingArm = 1;
-            graph.Row(i).TurnImpulse = new(4, i, 5);
+            islands.Row(i).NormalImpulse = i + 1;
+            islands.Row(i).FrictionImpulse = new(i, 2, 3);
+            islands.Row(i).RollingArm = 1;
+            islands.Row(i).TurnImpulse = new(4, i, 5);
         }
 
-        cache.Store(graph, 1);
-        for (var i = 0; i < graph.RowCount; i++)
+        cache.Store(islands, 1);
+        for (var i = 0; i < islands.RowCount; i++)
         {
-            var row = graph.Row(i) with { NormalImpulse = 99, FrictionImpulse = Vector.One };
+            var row = islands.Row(i) with { NormalImpulse = 99, FrictionImpulse = Vector.One };
             cache.Recall(ref row);
             Assert.Equal((i + 1.0, new(i, 2, 3), new(4, i, 5)), (row.NormalImpulse, row.FrictionImpulse, row.TurnImpulse));
             var another = row with { First = row.First + 200 };
@@ -41,12 +41,12 @@ public sealed class ImpulseCacheTests
     [InlineData(9, false)]
     public void Recall_OfANormalThatHasTurned_IsForAFewDegrees(double degrees, bool isSame)
     {
-        var (graph, cache) = Create();
-        graph.Row(0).NormalImpulse = 7;
-        graph.Row(0).Normal = Vector.J;
-        cache.Store(graph, 1);
+        var (islands, cache) = Create();
+        islands.Row(0).NormalImpulse = 7;
+        islands.Row(0).Normal = Vector.J;
+        cache.Store(islands, 1);
         var angle = degrees * Math.PI / 180;
-        ContactRow[] rows = [graph.Row(0) with { Normal = new(Math.Sin(angle), Math.Cos(angle), 0) }, graph.Row(0)];
+        ContactRow[] rows = [islands.Row(0) with { Normal = new(Math.Sin(angle), Math.Cos(angle), 0) }, islands.Row(0)];
         foreach (ref var row in rows.AsSpan())
         {
             cache.Recall(ref row);
@@ -58,28 +58,28 @@ public sealed class ImpulseCacheTests
     [Fact]
     public void Recall_OfWhatDidNotPush_HasNone()
     {
-        var (graph, cache) = Create();
-        graph.Row(0).FrictionImpulse = Vector.I;
-        graph.Row(1).NormalImpulse = 1;
-        cache.Store(graph, 1);
-        AssertForgotten(cache, graph.Row(0));
+        var (islands, cache) = Create();
+        islands.Row(0).FrictionImpulse = Vector.I;
+        islands.Row(1).NormalImpulse = 1;
+        cache.Store(islands, 1);
+        AssertForgotten(cache, islands.Row(0));
         cache.Clear();
-        AssertForgotten(cache, graph.Row(1));
-        cache.Store(graph, 1);
-        graph.Row(1).NormalImpulse = 0;
-        cache.Store(graph, 1);
-        AssertForgotten(cache, graph.Row(1) with { NormalImpulse = 3 });
+        AssertForgotten(cache, islands.Row(1));
+        cache.Store(islands, 1);
+        islands.Row(1).NormalImpulse = 0;
+        cache.Store(islands, 1);
+        AssertForgotten(cache, islands.Row(1) with { NormalImpulse = 3 });
     }
 
     /// <summary>Two contacts of one key and nearly one normal: the first one counts.</summary>
     [Fact]
     public void Recall_OfTwoThatAreTheSame_HasThoseOfTheFirst()
     {
-        var (graph, cache) = Create();
-        graph.Row(0).NormalImpulse = 1;
-        graph.Row(2) = graph.Row(0) with { NormalImpulse = 3 };
-        cache.Store(graph, 1);
-        var row = graph.Row(2);
+        var (islands, cache) = Create();
+        islands.Row(0).NormalImpulse = 1;
+        islands.Row(2) = islands.Row(0) with { NormalImpulse = 3 };
+        cache.Store(islands, 1);
+        var row = islands.Row(2);
         cache.Recall(ref row);
         Assert.Equal(1, row.NormalImpulse);
     }
@@ -90,14 +90,14 @@ public sealed class ImpulseCacheTests
         Assert.Equal((0.0, Vector.Zero, Vector.Zero), (row.NormalImpulse, row.FrictionImpulse, row.TurnImpulse));
     }
 
-    private static (ContactGraph Graph, ImpulseCache Cache) Create()
+    private static (IslandSet Islands, ImpulseCache Cache) Create()
     {
         // A row of forty balls that touch.
         var setup = new GraphOfBodies([.. Enumerable.Range(0, 40).Select(static i => new BodyDescription(new(i, 0, 0), 0.5))]);
         Assert.True(setup.TryGroup(0.25));
-        Assert.Equal(39, setup.Graph.RowCount);
+        Assert.Equal(39, setup.Islands.RowCount);
         var cache = new ImpulseCache();
         cache.Reserve(1);
-        return (setup.Graph, cache);
+        return (setup.Islands, cache);
     }
 }

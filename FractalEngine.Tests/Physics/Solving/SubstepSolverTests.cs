@@ -83,7 +83,7 @@ public sealed class SubstepSolverTests
     {
         var setup = new GraphOfBodies(Ball(Vector.Zero), Ball(distance * Vector.I) with { Velocity = 5 * Vector.I });
         Assert.True(setup.TryGroup(Step));
-        Assert.Equal(islands, setup.Graph.Islands.Count);
+        Assert.Equal(islands, setup.Islands.All.Count);
     }
 
     [Fact]
@@ -145,6 +145,6 @@ public sealed class SubstepSolverTests
         var cache = new ImpulseCache();
         cache.Reserve(64);
         var solver = new SubstepSolver(setup.Bodies, cache, maxThreads: 1);
-        return solver.Solve(setup.Graph, setup.Graph.Islands[0], Step);
+        return solver.Solve(setup.Islands, setup.Islands.All[0], Step);
     }
 }

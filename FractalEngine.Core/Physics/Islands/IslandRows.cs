@@ -4,13 +4,35 @@ using FractalEngine.Core.Physics.Rows;
 
 namespace FractalEngine.Core.Physics.Islands;
 
-/// <content>How contacts are made of pairs and surfaces.</content>
-internal sealed partial class ContactGraph
+/// <summary>The contacts of islands, which are made of pairs and of surfaces that bodies touch or may meet.</summary>
+internal sealed class IslandRows(List<Body> bodies, BodyCopies copies)
 {
     private ContactRow[] _rows = [];
     private int _count;
 
-    private static RowKinds Examine(ReadOnlySpan<ContactRow> rows)
+    /// <summary>What is among contacts: something immovable, and surfaces that move.</summary>
+    [Flags]
+    internal enum RowKinds
+    {
+        None = 0,
+        Immovable = 1,
+        Moving = 2,
+    }
+
+    /// <summary>Number of contacts that there is room for.</summary>
+    public int Capacity => _rows.Length;
+
+    /// <summary>Number of contacts so far. Room is made for more by <see cref="Reserve"/>.</summary>
+    public int Count { get => _count; set => _count = value; }
+
+    /// <summary>A contact by its index.</summary>
+    public ref ContactRow this[int index] => ref _rows[index];
+
+    /// <summary>Some contacts in a row.</summary>
+    public Span<ContactRow> Range(int first, int count) => _rows.AsSpan(first, count);
+
+    /// <summary>Tells what is among contacts.</summary>
+    public static RowKinds Examine(ReadOnlySpan<ContactRow> rows)
     {
         var kinds = RowKinds.None;
         foreach (ref readonly var row in rows)
@@ -22,12 +44,13 @@ internal sealed partial class ContactGraph
         return kinds;
     }
 
-    private void AddSurfaces(Body body)
+    /// <summary>Adds the contacts of a body with surfaces.</summary>
+    public void AddSurfaces(Body body)
     {
         var firstRow = _count;
         for (var ball = 0; ball < body.Balls.Length; ball++)
         {
-            ReserveRows(_count + body.Balls[ball].Contacts.SurfaceCount + body.Balls[ball].NearSurfaces.Count);
+            Reserve(_count + body.Balls[ball].Contacts.SurfaceCount + body.Balls[ball].NearSurfaces.Count);
             FillSurfaces(body, ball, ref _count);
         }
 
@@ -38,7 +61,7 @@ internal sealed partial class ContactGraph
     }
 
     /// <summary>Makes the contacts of a ball with surfaces, in places for which room has been made.</summary>
-    private void FillSurfaces(Body body, int ball, ref int place)
+    public void FillSurfaces(Body body, int ball, ref int place)
     {
         var (contacts, nearSurfaces) = (body.Balls[ball].Contacts, body.Balls[ball].NearSurfaces);
         for (var i = 0; i < contacts.Count; i++)
@@ -55,9 +78,10 @@ internal sealed partial class ContactGraph
         }
     }
 
-    private void AddPair(in BodyPair pair)
+    /// <summary>Adds the contacts of two bodies.</summary>
+    public void AddPair(in BodyPair pair)
     {
-        if (!_states[pair.First].IsCompound && !_states[pair.Second].IsCompound)
+        if (!copies[pair.First].IsCompound && !copies[pair.Second].IsCompound)
         {
             SetBalls(ref AddRow(), in pair);
             return;
@@ -65,10 +89,10 @@ internal sealed partial class ContactGraph
 
         var body = bodies[pair.First];
         var other = bodies[pair.Second];
-        var limit = DeviationLimit(in _states[pair.First]) + (_stepLength * body.AngularVelocity.Length() * body.MaxArm)
-            + (_stepLength * RelativeVelocity(in pair).Length());
+        var limit = BodyCopies.DeviationLimit(in copies[pair.First]) + (copies.StepLength * body.AngularVelocity.Length() * body.MaxArm)
+            + (copies.StepLength * copies.RelativeVelocity(in pair).Length());
         limit += pair.IsSecondImmovable ? 0
-            : DeviationLimit(in _states[pair.Second]) + (_stepLength * other.AngularVelocity.Length() * other.MaxArm);
+            : BodyCopies.DeviationLimit(in copies[pair.Second]) + (copies.StepLength * other.AngularVelocity.Length() * other.MaxArm);
         for (var i = 0; i < body.BallCount; i++)
         {
             for (var j = 0; j < other.BallCount; j++)
@@ -90,43 +114,35 @@ internal sealed partial class ContactGraph
     }
 
     /// <summary>Sets the contact of two bodies that are one ball each.</summary>
-    private void SetBalls(ref ContactRow row, in BodyPair pair)
+    public void SetBalls(ref ContactRow row, in BodyPair pair)
     {
-        ref readonly var first = ref _states[pair.First];
-        ref readonly var second = ref _states[pair.Second];
+        ref readonly var first = ref copies[pair.First];
+        ref readonly var second = ref copies[pair.Second];
         row.First = pair.First;
         row.Second = pair.IsSecondImmovable ? ContactRow.Immovable : pair.Second;
         row.IsAhead = !pair.IsTouching;
         ContactRows.SetBalls(ref row, first.Position - second.Position, first.Radius, second.Radius);
-        ContactRows.SetMaterials(ref row, in _materials[pair.First], in _materials[pair.Second]);
+        ContactRows.SetMaterials(ref row, in copies.MaterialOf(pair.First), in copies.MaterialOf(pair.Second));
         RemoveRestitution(ref row, in pair);
     }
 
     /// <summary>What bounces first goes as far as it touches only, and would be overrun by what is pushed.</summary>
     private void RemoveRestitution(ref ContactRow row, in BodyPair pair) =>
-        row.Restitution = row.IsAhead && IsPushed(in pair) ? 0 : row.Restitution;
+        row.Restitution = row.IsAhead && copies.IsPushed(in pair) ? 0 : row.Restitution;
 
     private ref ContactRow AddRow()
     {
-        ReserveRows(_count + 1);
+        Reserve(_count + 1);
         ContactRow.Clear(ref _rows[_count]);
         return ref _rows[_count++];
     }
 
-    private void ReserveRows(int count)
+    /// <summary>Makes room for so many contacts.</summary>
+    public void Reserve(int count)
     {
         if (_rows.Length < count)
         {
             Array.Resize(ref _rows, Math.Max(count, 2 * _rows.Length));
         }
-    }
-
-    /// <summary>What is among contacts: something immovable, and surfaces that move.</summary>
-    [Flags]
-    private enum RowKinds
-    {
-        None = 0,
-        Immovable = 1,
-        Moving = 2,
     }
 }

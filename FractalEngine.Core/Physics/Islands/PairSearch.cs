@@ -7,69 +7,48 @@ using FractalEngine.Core.Threading;
 
 namespace FractalEngine.Core.Physics.Islands;
 
-/// <content>How the pairs that touch are found, on all threads.</content>
-internal sealed partial class ContactGraph
+/// <summary>Finds the pairs of bodies that touch, and those that are near, on all threads.</summary>
+internal sealed class PairSearch(List<Body> bodies, NearbyBodies nearbyBodies, int maxThreads)
 {
-    // Bodies are searched for in groups, each of which has its own lists: at most so many groups, of at least so many bodies.
-    private const int MaxSearches = 64;
-    private const int MinBodiesOfSearch = 64;
-
     // More than rounding takes from a distance.
     private const double RoundingFactor = 1 - 1e-9;
 
-    private readonly Search[] _searches = [.. Enumerable.Range(0, MaxSearches).Select(static _ => new Search())];
+    private readonly NeighbourGrid _grid = new();
+    private GroupSearch[] _searches = [];
     private Action<int>? _runSearch;
-    private int _bodiesPerSearch = MinBodiesOfSearch;
-    private int _searchCount;
+
+    /// <summary>The bodies as they were copied when the step began.</summary>
+    public BodyCopies Copies { get; } = new(bodies, maxThreads);
+
+    /// <summary>What the groups of bodies have found, in their order.</summary>
+    public ReadOnlySpan<GroupSearch> Results => _searches.AsSpan(0, Copies.Groups.Length);
+
+    /// <summary>Makes room for the bodies of a world, and their pairs.</summary>
+    public void Reserve(int bodyCount, int pairCount)
+    {
+        _runSearch ??= RunSearch;
+        Copies.Reserve(bodyCount);
+        _grid.Reserve(bodyCount);
+        var groupCount = Copies.Groups.Length;
+        _searches = [.. Enumerable.Range(0, 2 * groupCount).Select(_ => new GroupSearch(pairCount / groupCount))];
+    }
 
     /// <summary>Finds all pairs of bodies that touch. Only those search that may: most bodies in flight have met no other.</summary>
-    /// <param name="islands">Wakes bodies that sleep and are hit.</param>
-    /// <param name="stepLength">Seconds.</param>
-    /// <returns>True where bodies were woken, and the pairs must be collected again.</returns>
-    public bool CollectTouching(SleepIslands islands, double stepLength)
+    /// <returns>Index of a body that sleeps and is hit; negative for none.</returns>
+    public int Run()
     {
-        Begin(stepLength);
-        if (!_mayHavePairs)
-        {
-            return false;
-        }
-
-        WorkerSet.Shared.Run(_searchCount, _grid.IsBuilt ? maxThreads : 1, _runSearch!);
-        foreach (var search in _searches.AsSpan(0, _searchCount))
+        _grid.Build(nearbyBodies.HasFilters ? [] : Copies.All, Copies.Bounds);
+        WorkerSet.Shared.Run(Copies.Groups.Length, _grid.IsBuilt ? maxThreads : 1, _runSearch!);
+        foreach (var search in Results)
         {
             if (search.Sleeper >= 0)
             {
-                islands.Wake(bodies[search.Sleeper]);
-                return true;
+                return search.Sleeper;
             }
-
-            _pairs.AddRange(search.Pairs);
         }
 
-        return PassPushes(islands);
+        return -1;
     }
-
-    private void ReserveSearches(int pairCount)
-    {
-        SetSearches();
-        foreach (var search in _searches.AsSpan(0, Math.Min(2 * _searchCount, MaxSearches)))
-        {
-            // Some may have more than their share.
-            search.Neighbours.EnsureCapacity(pairCount / _searchCount);
-            search.NearPairs.EnsureCapacity(2 * pairCount / _searchCount);
-            search.Pairs.EnsureCapacity(2 * pairCount / _searchCount);
-        }
-    }
-
-    /// <summary>Sets the groups in which bodies are searched for.</summary>
-    private void SetSearches()
-    {
-        _bodiesPerSearch = Math.Max(MinBodiesOfSearch, (bodies.Count + MaxSearches - 1) / MaxSearches);
-        _searchCount = (bodies.Count + _bodiesPerSearch - 1) / _bodiesPerSearch;
-    }
-
-    private (int First, int End) BodiesOfSearch(int index) =>
-        (index * _bodiesPerSearch, Math.Min(bodies.Count, (index + 1) * _bodiesPerSearch));
 
     private void RunSearch(int index)
     {
@@ -77,39 +56,27 @@ internal sealed partial class ContactGraph
         search.Pairs.Clear();
         search.NearPairs.Clear();
         search.Sleeper = -1;
-        var (first, end) = BodiesOfSearch(index);
+        var (first, end) = Copies.BodiesOf(index);
         for (var i = first; i < end && search.Sleeper < 0; i++)
         {
-            if (_states[i].MaySearch)
+            if (Copies[i].MaySearch)
             {
                 CollectTouching(i, search);
             }
         }
     }
 
-    private static double TouchDistanceOf(in GraphBody body) =>
-        (body.HasHeapMargin ? ContactTolerances.HeapMargin * body.Radius : 0) + ContactTolerances.Slop(body.Radius, body.Position);
-
-    /// <summary>What a body may meet lies among the neighbours that it may touch, unless it is fast.</summary>
-    private void SetSearchDistance(ref GraphBody body)
-    {
-        var reach = body.CanMove ? ReachOf(in body) : 0;
-        var isFast = 2 * reach > MaxEarlyDistance * body.Radius;
-        body.SearchReach = isFast ? 0 : reach;
-        body.NearDistance = body.MaySearch ? Math.Max(TouchDistanceOf(in body), 2 * body.SearchReach) : double.NegativeInfinity;
-    }
-
     /// <summary>Finds the pairs of a body that touch, and those that are near, each of them once among all bodies.</summary>
-    private void CollectTouching(int index, Search search)
+    private void CollectTouching(int index, GroupSearch search)
     {
-        ref readonly var body = ref _states[index];
-        var maxTouchGap = 2 * TouchDistanceOf(in body);
+        ref readonly var body = ref Copies[index];
+        var maxTouchGap = 2 * BodyCopies.TouchDistanceOf(in body);
         search.Neighbours.Clear();
         CollectOverlaps(body.Position, body.Radius + body.NearDistance, index, search.Neighbours);
         var (firstPair, firstNear) = (search.Pairs.Count, search.NearPairs.Count);
         foreach (var neighbour in CollectionsMarshal.AsSpan(search.Neighbours))
         {
-            ref readonly var other = ref _states[neighbour];
+            ref readonly var other = ref Copies[neighbour];
             if (neighbour < index && IsFoundBy(in other, in body))
             {
                 continue;
@@ -140,7 +107,7 @@ internal sealed partial class ContactGraph
         // By the other body's index, whichever way it was found.
         SortByBodies(CollectionsMarshal.AsSpan(search.Pairs)[firstPair..]);
         SortByBodies(CollectionsMarshal.AsSpan(search.NearPairs)[firstNear..]);
-        if (HasSleeping)
+        if (Copies.HasSleeping)
         {
             FindSleeper(index, CollectionsMarshal.AsSpan(search.Pairs)[firstPair..], search);
         }
@@ -154,7 +121,7 @@ internal sealed partial class ContactGraph
     }
 
     /// <summary>Finds a body that sleeps and is hit.</summary>
-    private void FindSleeper(int index, ReadOnlySpan<BodyPair> pairs, Search search)
+    private void FindSleeper(int index, ReadOnlySpan<BodyPair> pairs, GroupSearch search)
     {
         foreach (ref readonly var pair in pairs)
         {
@@ -168,7 +135,7 @@ internal sealed partial class ContactGraph
     }
 
     /// <summary>Sorts the few pairs of a body.</summary>
-    private static void SortByBodies<T>(Span<T> pairs)
+    public static void SortByBodies<T>(Span<T> pairs)
         where T : struct, IBodyPair
     {
         for (var i = 1; i < pairs.Length; i++)
@@ -184,7 +151,6 @@ internal sealed partial class ContactGraph
         }
     }
 
-    /// <summary>Collects the bodies that a sphere overlaps where they were when they were copied.</summary>
     /// <summary>Collects the bodies that a sphere overlaps, where they are at the beginning of the step.</summary>
     public void CollectOverlaps(Vector centre, double radius, int excludedIndex, List<int> results)
     {
@@ -199,49 +165,37 @@ internal sealed partial class ContactGraph
     }
 
     /// <summary>Free distance between the spheres that hold two bodies, the same bits whichever of them searches.</summary>
-    private double GapOf(int index, int neighbour, bool isInOrder)
+    public double GapOf(int index, int neighbour, bool isInOrder)
     {
-        ref readonly var first = ref _states[isInOrder ? index : neighbour];
-        ref readonly var second = ref _states[isInOrder ? neighbour : index];
+        ref readonly var first = ref Copies[isInOrder ? index : neighbour];
+        ref readonly var second = ref Copies[isInOrder ? neighbour : index];
         return (first.Position - second.Position).Length() - first.Radius - second.Radius;
     }
 
     /// <summary>True where two bodies touch, the first of which stands for the position of both.</summary>
-    private bool AreTouching(int index, int neighbour, bool isInOrder, double gap)
+    public bool AreTouching(int index, int neighbour, bool isInOrder, double gap)
     {
         var (firstIndex, secondIndex) = isInOrder ? (index, neighbour) : (neighbour, index);
-        ref readonly var first = ref _states[firstIndex];
-        ref readonly var second = ref _states[secondIndex];
+        ref readonly var first = ref Copies[firstIndex];
+        ref readonly var second = ref Copies[secondIndex];
         return first.IsCompound || second.IsCompound ? BallPairs.AreTouching(bodies[firstIndex], bodies[secondIndex])
             : gap <= ContactTolerances.TouchDistance(
                 Math.Min(first.Radius, second.Radius), first.Rounding, first.HasHeapMargin && second.HasHeapMargin);
     }
 
     /// <summary>What a group of bodies has found.</summary>
-    private sealed class Search
+    internal sealed class GroupSearch(int capacity)
     {
         /// <summary>The bodies near one of the group.</summary>
-        public List<int> Neighbours { get; } = [];
+        public List<int> Neighbours { get; } = new(capacity);
 
-        /// <summary>The pairs that touch, in the order of their searching body.</summary>
-        public List<BodyPair> Pairs { get; } = [];
+        /// <summary>The pairs that touch, in the order of their searching body. Some groups have more than their share.</summary>
+        public List<BodyPair> Pairs { get; } = new(2 * capacity);
 
         /// <summary>The pairs that are near and do not touch, in the order of their searching body.</summary>
-        public List<NearPair> NearPairs { get; } = [];
+        public List<NearPair> NearPairs { get; } = new(2 * capacity);
 
         /// <summary>Index of a body that sleeps and is hit; negative for none.</summary>
         public int Sleeper { get; set; }
-
-        /// <summary>True where some of the group may sleep.</summary>
-        public bool HasSleeping { get; set; }
-
-        /// <summary>True where some must look for what they may meet once more, since they are faster than was known.</summary>
-        public bool HasFaster { get; set; }
-
-        /// <summary>True where kinematic objects push some.</summary>
-        public bool HasPushed { get; set; }
-
-        /// <summary>The box of the group's centres, and its largest radius.</summary>
-        public GridBounds Bounds { get; set; }
     }
 }
