@@ -109,6 +109,32 @@ public class MovingObjectTests
     public void Blade_ThatTurnsInManyWorlds_CutsThroughNothing(double angularSpeed, double friction) =>
         CheckBlade(angularSpeed, friction, worlds: 10, steps: 240);
 
+    /// <summary>
+    /// Without gravity a blade throws a ball off its end, 4 from its axis. Friction slows down its way outwards, and costs little: the ball
+    /// follows the face.
+    /// </summary>
+    [Theory]
+    [InlineData(20, 0.3)]
+    [InlineData(-20, 0.5)]
+    public void Blade_WithFriction_ThrowsABallNoFasterThanWithout(double angularSpeed, double friction)
+    {
+        var (speed, cost) = ThrowByBlade(angularSpeed, friction);
+        var (smoothSpeed, smoothCost) = ThrowByBlade(angularSpeed, 0);
+        Assert.InRange(speed, 4 * Math.Abs(angularSpeed), 0.99 * smoothSpeed);
+        Assert.InRange(cost, 1, 2 * smoothCost);
+    }
+
+    private static (double Speed, long Cost) ThrowByBlade(double angularSpeed, double friction)
+    {
+        var world = new PhysicsWorld { Gravity = Vector.Zero };
+        var blade = world.AddStatic(PhysicsMeshes.Cube, Box(new(0, 1, 0), new(8, 2, 0.1)));
+        var body = world.Add(new(new(2, 1, 0.5), 0.3) { Friction = friction });
+        blade.SetMotion(Vector.Zero, new(0, angularSpeed, 0));
+        var cost = 0L;
+        world.Run(30, () => cost += world.LastStepCost.FaceTests + world.LastStepCost.BoundTests);
+        return (body.Velocity.Length(), cost);
+    }
+
     [Theory]
     [InlineData(-1, 0)]
     [InlineData(-1, 0.5)]
