@@ -153,9 +153,8 @@ run_tests() {
     if env --default-signal=INT true 2>/dev/null; then
         command=(env --default-signal=INT "${command[@]}")
     fi
-    # Most code of tests runs for a moment: profiles for the compiler, pages that are written and then run, and collections of little
-    # garbage cost more than they gain.
-    DOTNET_TieredPGO=0 DOTNET_EnableWriteXorExecute=0 DOTNET_GCgen0size=0x4000000 "${command[@]}" </dev/null || status=$?
+    # Profiles for the compiler cost tests more than they gain: most code runs for a moment.
+    DOTNET_TieredPGO=0 "${command[@]}" </dev/null || status=$?
     passed="$(count_results "$results" Passed)"
     failed="$(count_results "$results" Failed)"
     skipped="$(count_results "$results" NotExecuted)"

@@ -9,8 +9,10 @@ namespace FractalEngine.Core.Physics.Islands;
 /// <summary>What searches and contacts read of bodies, copied on all threads: they read those of many.</summary>
 internal sealed class BodyCopies(List<Body> bodies, int maxThreads)
 {
-    // Bodies are copied and searched for in groups: at most so many, of at least so many bodies.
-    private const int MaxGroups = 64;
+    /// <summary>Bodies are copied and searched for in groups: at most so many.</summary>
+    public const int MaxGroups = 64;
+
+    // Smaller groups cost more than they save.
     private const int MinBodiesOfGroup = 64;
 
     // Relative to the radius: how much farther than its free path a body is expected to get, pushed by others.
@@ -49,10 +51,10 @@ internal sealed class BodyCopies(List<Body> bodies, int maxThreads)
     /// <summary>What a grid of all bodies holds.</summary>
     public GridBounds Bounds { get; private set; }
 
-    /// <summary>A body by its index.</summary>
+    /// <summary>The copy of a body by its index in the world.</summary>
     public ref GraphBody this[int body] => ref _states[body];
 
-    /// <summary>The material of a body.</summary>
+    /// <summary>Friction, restitution and the like of a body, by its index in the world.</summary>
     public ref readonly BodyMaterial MaterialOf(int body) => ref _materials[body];
 
     /// <summary>Indices of the bodies of a group, the last one excluded.</summary>

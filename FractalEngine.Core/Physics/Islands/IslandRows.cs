@@ -25,10 +25,10 @@ internal sealed class IslandRows(List<Body> bodies, BodyCopies copies)
     /// <summary>Number of contacts so far. Room is made for more by <see cref="Reserve"/>.</summary>
     public int Count { get => _count; set => _count = value; }
 
-    /// <summary>A contact by its index.</summary>
+    /// <summary>A contact by its index among those of all islands.</summary>
     public ref ContactRow this[int index] => ref _rows[index];
 
-    /// <summary>Some contacts in a row.</summary>
+    /// <summary>The contacts of one island or part, which stand side by side.</summary>
     public Span<ContactRow> Range(int first, int count) => _rows.AsSpan(first, count);
 
     /// <summary>Tells what is among contacts.</summary>

@@ -148,7 +148,7 @@ internal sealed class IslandSet
         }
     }
 
-    /// <summary>Makes an island of each set of two or more bodies, and lists its _bodies.</summary>
+    /// <summary>Makes an island of each set of two or more bodies, and lists its bodies.</summary>
     private void CollectBodies()
     {
         Array.Fill(_islandOf, -1, 0, _bodies.Count);

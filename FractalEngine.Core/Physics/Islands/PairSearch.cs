@@ -30,7 +30,8 @@ internal sealed class PairSearch(List<Body> bodies, NearbyBodies nearbyBodies, i
         Copies.Reserve(bodyCount);
         _grid.Reserve(bodyCount);
         var groupCount = Copies.Groups.Length;
-        _searches = [.. Enumerable.Range(0, 2 * groupCount).Select(_ => new GroupSearch(pairCount / groupCount))];
+        var searchCount = Math.Min(2 * groupCount, BodyCopies.MaxGroups);
+        _searches = [.. Enumerable.Range(0, searchCount).Select(_ => new GroupSearch(pairCount / groupCount))];
     }
 
     /// <summary>Finds all pairs of bodies that touch. Only those search that may: most bodies in flight have met no other.</summary>
