@@ -9,7 +9,11 @@ namespace FractalEngine.Render.Gl;
 /// </summary>
 internal sealed class GlResources
 {
+    // More than all scenes of an hour of work need; the driver keeps some ten kilobytes for each.
+    private const int MaxIdlePrograms = 64;
+
     private readonly Lock _lock = new();
+    private readonly List<((string Vertex, string Fragment) Sources, int Name)> _idlePrograms = [];
     private readonly HashSet<GlObject> _liveObjects = [];
     private readonly List<GlObject> _pendingDeletion = [];
     private readonly int _threadId = Environment.CurrentManagedThreadId;
@@ -61,6 +65,38 @@ internal sealed class GlResources
         }
 
         return leaks;
+    }
+
+    /// <summary>
+    /// Takes a linked program that its owner has disposed: compiling one takes longer than all else that is needed to show a scene again.
+    /// Its uniforms have the values that they had.
+    /// </summary>
+    /// <param name="sources">Texts of its shaders.</param>
+    /// <param name="name">GL's name of the program.</param>
+    /// <returns>False where there is none of these sources.</returns>
+    public bool TryTakeProgram((string Vertex, string Fragment) sources, out int name)
+    {
+        var index = _idlePrograms.FindIndex(program => program.Sources == sources);
+        name = index < 0 ? 0 : _idlePrograms[index].Name;
+        if (index >= 0)
+        {
+            _idlePrograms.RemoveAt(index);
+        }
+
+        return index >= 0;
+    }
+
+    /// <summary>Keeps a linked program for others of the same sources, until the context ends.</summary>
+    /// <returns>False where too many are kept.</returns>
+    public bool TryKeepProgram((string Vertex, string Fragment) sources, int name)
+    {
+        var isKept = _idlePrograms.Count < MaxIdlePrograms;
+        if (isKept)
+        {
+            _idlePrograms.Add((sources, name));
+        }
+
+        return isKept;
     }
 
     /// <summary>Turns GL's error flag into an exception.</summary>

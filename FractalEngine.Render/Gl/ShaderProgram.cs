@@ -7,10 +7,12 @@ namespace FractalEngine.Render.Gl;
 /// <summary>A linked program of a vertex shader and a fragment shader.</summary>
 internal class ShaderProgram : GlObject
 {
+    private readonly (string Vertex, string Fragment) _sources;
     private readonly int _name;
+    private readonly bool _isLinked;
     private readonly Dictionary<string, int> _locations = [];
 
-    /// <summary>Compiles and links sources.</summary>
+    /// <summary>Compiles and links sources, unless the context has kept a program of them.</summary>
     /// <param name="resources">Resources of the current context.</param>
     /// <param name="vertex">File name, for messages, and source text of the vertex shader.</param>
     /// <param name="fragment">File name and source text of the fragment shader.</param>
@@ -18,8 +20,14 @@ internal class ShaderProgram : GlObject
     public ShaderProgram(GlResources resources, (string File, string Text) vertex, (string File, string Text) fragment)
         : base(resources, $"{vertex.File} + {fragment.File}")
     {
-        _name = GL.CreateProgram();
-        DisposeOnFailure(this, () => Build(vertex, fragment));
+        _sources = (vertex.Text, fragment.Text);
+        _isLinked = resources.TryTakeProgram(_sources, out _name);
+        if (!_isLinked)
+        {
+            _name = GL.CreateProgram();
+            DisposeOnFailure(this, () => Build(vertex, fragment));
+            _isLinked = true;
+        }
     }
 
     /// <summary>Builds the embedded files <c>Shaders/name.vert</c> and <c>Shaders/name.frag</c>.</summary>
@@ -78,7 +86,13 @@ internal class ShaderProgram : GlObject
     }
 
     /// <inheritdoc/>
-    protected sealed override void Delete() => Resources.State.DeleteProgram(_name);
+    protected sealed override void Delete()
+    {
+        if (!_isLinked || !Resources.TryKeepProgram(_sources, _name))
+        {
+            Resources.State.DeleteProgram(_name);
+        }
+    }
 
     private static (string File, string Text) Read(string file, IReadOnlyList<string> symbols) => (file, ShaderSource.Read(file, symbols));
 

@@ -1,4 +1,5 @@
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
 using FractalEngine.Render.Gl;
 using FractalEngine.Render.Gl.State;
 using FractalEngine.Render.Upload;
@@ -9,6 +10,8 @@ namespace FractalEngine.Render.Shadows;
 /// <summary>The program that draws depths alone, with or without holes of a texture.</summary>
 internal sealed class CasterProgram : ShaderProgram
 {
+    private static readonly SectionPlane Uncut = new(Vector.Zero, 1);
+
     private readonly int _sectionLocation;
     private readonly float[] _rows = new float[9];
 
@@ -39,10 +42,8 @@ internal sealed class CasterProgram : ShaderProgram
         Set("viewScale", 1 / view.HalfWidth, 1 / view.HalfHeight);
         var (zByDepth, z, wByDepth, w) = view.DepthScale;
         Set("depthScale", zByDepth, z, wByDepth, w);
-        if (view.Section is { } section)
-        {
-            ViewUniforms.SetSection(_sectionLocation, section);
-        }
+        // The last section may still be set, and Mesa's llvmpipe cuts by it also where that is off.
+        ViewUniforms.SetSection(_sectionLocation, view.Section ?? Uncut);
     }
 
     /// <summary>Sets how texture coordinates are moved. The program must be in use.</summary>

@@ -507,7 +507,7 @@ public sealed class MaterialTests : IDisposable
     [InlineData(Shading.PerPixel)]
     public void Draw_NothingChanged_AllocatesNothing(Shading shading)
     {
-        using var context = GlTests.OpenContext();
+        using var context = new SharedContext();
         var glass = TexturedScenes.WithMaterial(RenderScenes.Sphere(4), new("m") { Opacity = 0.5, Specular = Colour.White });
         var textured = TexturedScenes.CreateSquare(1, new("t") { Texture = CreateQuarteredTexture() });
         var scene = RenderScenes.Scene(

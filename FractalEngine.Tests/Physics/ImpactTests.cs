@@ -10,7 +10,13 @@ public class ImpactTests
     private const double Rounding = 1e-11;
 
     [Fact]
-    public void HeadOn_WithAnyMasses_SeparatesAsTheFormulaSays() => Seeded.Run(300, random =>
+    public void HeadOn_WithAnyMasses_SeparatesAsTheFormulaSays() => CheckHeadOn(100);
+
+    [Fact]
+    [Trait("Category", "Soak")]
+    public void HeadOn_WithManyMasses_SeparatesAsTheFormulaSays() => CheckHeadOn(3000);
+
+    private static void CheckHeadOn(int count) => Seeded.Run(count, random =>
     {
         var m1 = Math.Pow(10, random.Between(-2, 2));
         var m2 = Math.Pow(10, random.Between(-2, 2));

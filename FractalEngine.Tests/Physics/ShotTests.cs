@@ -106,7 +106,7 @@ public class ShotTests
     }
 
     [Fact]
-    public void Shot_InAClosedBox_StaysInside() => ShootInside(2000);
+    public void Shot_InAClosedBox_StaysInside() => ShootInside(1000);
 
     [Fact]
     [Trait("Category", "Soak")]

@@ -199,7 +199,7 @@ public sealed class CullingDrawingTests
         // The bounds stay those of the first scene, and with them the default lights.
         var expected = positions.Select(position => RenderScenes.Draw(
             scene with { Objects = SceneAt(position).Objects }, view, Width, Height, EveryInstance)).ToArray();
-        using var context = GlTests.OpenContext();
+        using var context = new SharedContext();
         using var frame = new FrameRenderer(context);
         using var renderer = new SceneRenderer(context, DrawableScene.Prepare(scene, Culled));
         frame.Draw(renderer, view, Width, Height, Culled);
@@ -221,7 +221,7 @@ public sealed class CullingDrawingTests
         var scene = RenderScenes.Scene(new Scene(), (RenderScenes.Menger(3), Transformation.Identity, null),
             (LoadModel("tree", 5), RenderScenes.TranslatedTo(0, 0, 2), null));
         var view = new View(ObliqueCamera, Projection.Perspective);
-        using var context = GlTests.OpenContext();
+        using var context = new SharedContext();
         using var frame = new FrameRenderer(context);
         using var renderer = new SceneRenderer(context, DrawableScene.Prepare(scene, Culled));
         frame.Draw(renderer, view, Width, Height, Culled);
@@ -379,7 +379,7 @@ public sealed class CullingDrawingTests
     {
         var scene = RenderScenes.Scene(new Scene { Projection = projection }, (model, Transformation.Identity, null));
         var view = View.Of(scene, (double)Width / Height);
-        using var context = GlTests.OpenContext();
+        using var context = new SharedContext();
         using var frame = new FrameRenderer(context);
         using var everyInstance = new SceneRenderer(context, DrawableScene.Prepare(scene, EveryInstance));
         using var culled = new SceneRenderer(context, DrawableScene.Prepare(scene, Culled));
@@ -406,7 +406,7 @@ public sealed class CullingDrawingTests
 
     private static void AssertSameImages(LoadedScene scene, View[] views)
     {
-        using var context = GlTests.OpenContext();
+        using var context = new SharedContext();
         using var frame = new FrameRenderer(context);
         using var everyInstance = new SceneRenderer(context, DrawableScene.Prepare(scene, EveryInstance));
         using var culled = new SceneRenderer(context, DrawableScene.Prepare(scene, Culled));

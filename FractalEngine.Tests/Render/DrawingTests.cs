@@ -151,7 +151,7 @@ public sealed class DrawingTests
     [InlineData(4)]
     public void Background_EveryGrey_IsExactAndUniform(int samples)
     {
-        using var context = GlTests.OpenContext();
+        using var context = new SharedContext();
         using var frame = new FrameRenderer(context);
         for (var grey = 0; grey < 256; grey += 5)
         {
@@ -202,7 +202,7 @@ public sealed class DrawingTests
     [SkippableFact]
     public void Move_Object_IsDrawnAtItsNewPosition()
     {
-        using var context = GlTests.OpenContext();
+        using var context = new SharedContext();
         var scene = DrawableScene.Prepare(RenderScenes.WhiteOnBlack(RenderScenes.Cube(0.2), Transformation.Identity), new());
         using var renderer = new SceneRenderer(context, scene);
         using var frame = new FrameRenderer(context);
@@ -217,7 +217,7 @@ public sealed class DrawingTests
     [SkippableFact]
     public void Draw_NothingChanged_AllocatesNothing()
     {
-        using var context = GlTests.OpenContext();
+        using var context = new SharedContext();
         var scene = RenderScenes.Scene(
             new Scene { Lights = [new PointLight(new(0, 3, -3), Colour.White, 1, 30)] },
             (RenderScenes.Menger(1), Transformation.Identity, null));

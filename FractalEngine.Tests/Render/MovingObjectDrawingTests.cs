@@ -23,7 +23,7 @@ public sealed class MovingObjectDrawingTests
     [SkippableFact]
     public void Frame_OfMovedBodies_IsThatOfStaticObjectsThere()
     {
-        using var context = GlTests.OpenContext();
+        using var context = new SharedContext();
         using var frame = new FrameRenderer(context);
         var first = RenderScenes.TranslatedTo(-2, 0.5, -1);
         var second = RenderScenes.TranslatedTo(1.5, 0.5, -2);
@@ -38,7 +38,7 @@ public sealed class MovingObjectDrawingTests
     [SkippableFact]
     public void Frame_WhileOnlyBodiesMove_DoesNotCullAgain()
     {
-        using var context = GlTests.OpenContext();
+        using var context = new SharedContext();
         using var frame = new FrameRenderer(context);
         var scene = CreateScene(RenderScenes.TranslatedTo(-2, 0.5, -1), isBody: true);
         using var renderer = new SceneRenderer(context, DrawableScene.Prepare(scene, Settings));
@@ -64,7 +64,7 @@ public sealed class MovingObjectDrawingTests
     [InlineData(Projection.Orthographic, -3.5)]
     public void Frame_OfABodyFarOutOfTheScene_ShowsItWhileItIsInView(Projection projection, double z)
     {
-        using var context = GlTests.OpenContext();
+        using var context = new SharedContext();
         using var frame = new FrameRenderer(context);
         var cube = RenderScenes.Model(RenderScenes.Cube(0.5), "cube.obj");
         var scene = new LoadedScene(
@@ -96,7 +96,7 @@ public sealed class MovingObjectDrawingTests
     [SkippableFact]
     public void Spheres_AreRoundAndAtTheirPositions()
     {
-        using var context = GlTests.OpenContext();
+        using var context = new SharedContext();
         using var frame = new FrameRenderer(context);
         var scene = CreateScene(RenderScenes.TranslatedTo(-2, 0.5, -1), isBody: true);
         using var renderer = new SceneRenderer(context, DrawableScene.Prepare(scene, Settings));
@@ -126,7 +126,7 @@ public sealed class MovingObjectDrawingTests
     [SkippableFact]
     public void Bounds_OfASphereAboveAFlatScene_IncludeIt()
     {
-        using var context = GlTests.OpenContext();
+        using var context = new SharedContext();
         var flat = new MeshModel(Shapes.Square());
         var scene = new LoadedScene(new Scene(), [new(new SceneObject("flat", Transformation.Identity), flat)]);
         using var renderer = new SceneRenderer(context, DrawableScene.Prepare(scene, Settings));

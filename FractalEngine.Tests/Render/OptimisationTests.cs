@@ -152,7 +152,7 @@ public sealed class OptimisationTests : IDisposable
             preparation.PrepareAll(null, CancellationToken.None);
         }
 
-        using var context = GlTests.OpenContext();
+        using var context = new SharedContext();
         using var frame = new FrameRenderer(context);
         using var renderer = new SceneRenderer(context, preparation.Scene);
         for (var i = 0; i < 2; i++)

@@ -73,7 +73,7 @@ internal static class RenderScenes
 
     public static PixelImage Draw(LoadedScene scene, View view, int width = 200, int height = 150, RenderSettings? settings = null)
     {
-        using var context = GlTests.OpenContext();
+        using var context = new SharedContext();
         using var renderer = new SceneRenderer(context, DrawableScene.Prepare(scene, settings ?? new()));
         using var frame = new FrameRenderer(context);
         frame.Draw(renderer, view, width, height, settings ?? new());

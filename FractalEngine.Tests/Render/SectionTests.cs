@@ -6,6 +6,8 @@ using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Scenes.Cameras;
 using FractalEngine.Core.Scenes.Lights;
 using FractalEngine.Core.Views;
+using FractalEngine.Render;
+using FractalEngine.Render.Preparation;
 using FractalEngine.Render.Tracing;
 using FractalEngine.Render.Views;
 
@@ -103,6 +105,24 @@ public sealed class SectionTests
             // A slanted plane keeps the floor and cuts off the right of the cube, whose shadow is gone there.
             Assert.False(IsDark(draw(slanted), slanted, new(0.45, 0, -0.3)));
             Assert.True(IsDark(draw(slanted), slanted, new(-0.45, 0, -0.3)));
+        }
+    }
+
+    [SkippableFact]
+    public void Section_SwitchedOff_LeavesTheShadowsWhole()
+    {
+        var view = FromFront(Projection.Perspective);
+        using var context = new SharedContext();
+        using var renderer = new SceneRenderer(context, DrawableScene.Prepare(SceneOf("sponge"), new()));
+        using var frame = new FrameRenderer(context);
+        var whole = Draw(view);
+        Assert.NotEqual(whole.Pixels, Draw(view with { Section = SectionPlane.Of(new(-0.25, 0.1, -1), 0.13) }).Pixels);
+        Assert.Equal(whole.Pixels, Draw(view).Pixels);
+
+        PixelImage Draw(View shown)
+        {
+            frame.Draw(renderer, shown, Width, Height, new());
+            return frame.Capture();
         }
     }
 

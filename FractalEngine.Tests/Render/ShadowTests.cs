@@ -140,7 +140,7 @@ public sealed class ShadowTests
     public void Maps_WhileNothingMoves_AreKept()
     {
         var scene = CubeOverFloor(LightOf("sun", 1, Vector.Zero), 1, Vector.Zero);
-        using var context = GlTests.OpenContext();
+        using var context = new SharedContext();
         using var renderer = new SceneRenderer(context, DrawableScene.Prepare(scene, new()));
         using var frame = new FrameRenderer(context);
         var (view, settings) = (FromAbove(1, Vector.Zero), new RenderSettings { FitShadowsToView = false });
@@ -169,7 +169,7 @@ public sealed class ShadowTests
             RenderScenes.Model(RenderScenes.Cube(0.5)));
         var standing = CubeOverFloor(light, 1, Vector.Zero);
         var scene = standing with { Objects = [standing.Objects[0], body] };
-        using var context = GlTests.OpenContext();
+        using var context = new SharedContext();
         using var renderer = new SceneRenderer(context, DrawableScene.Prepare(scene, new()));
         using var frame = new FrameRenderer(context);
         foreach (var x in (double[])[-2, 1, 0.5, 0])
@@ -189,7 +189,7 @@ public sealed class ShadowTests
         foreach (var lights in (Light[][])[[new AmbientLight(Colour.White, 1)], [new DirectionalLight(-Vector.J, Colour.White, 0)]])
         {
             var scene = CubeOverFloor(lights[0], 1, Vector.Zero);
-            using var context = GlTests.OpenContext();
+            using var context = new SharedContext();
             using var renderer = new SceneRenderer(context, DrawableScene.Prepare(scene, new()));
             using var frame = new FrameRenderer(context);
             frame.Draw(renderer, FromAbove(1, Vector.Zero), 50, 50, new());

@@ -95,7 +95,7 @@ public sealed class SkyTests
         var scene = RenderScenes.Scene(
             new Scene { Fog = new(100), Lights = [RenderScenes.FullLight] },
             (RenderScenes.Model(RenderScenes.Cube(1)), Transformation.Identity, new Colour(1, 0, 0)));
-        using var context = GlTests.OpenContext();
+        using var context = new SharedContext();
         using var renderer = new SceneRenderer(context, DrawableScene.Prepare(scene, new()));
         using var frame = new FrameRenderer(context);
         foreach (var background in (Colour[])[new(0, 1, 0), new(0, 0, 1)])

@@ -84,7 +84,7 @@ public sealed class CameraStabilityTests(ITestOutputHelper output)
         var model = new FractalModel(FractalAddressTests.CreateInfinite(name)) { SourcePath = "a.fdo" };
         var scene = new LoadedScene(new() { Background = Colour.Black, Lights = [.. lights] }, [new(item, model)]);
         var drawable = DrawableScene.Prepare(scene, Settings);
-        using var context = GlTests.OpenContext();
+        using var context = new SharedContext();
         using var renderer = new SceneRenderer(context, drawable);
         using var frame = new FrameRenderer(context);
         var dive = new FractalDive(drawable.Objects[0].Model.LodHierarchy!, 0, AffineMap.Identity, Direction);

@@ -49,7 +49,7 @@ public sealed class ScenePreparationTests
     [SkippableFact]
     public void Update_WithAModelThatBecameVisible_DrawsAsIfPreparedAtOnce()
     {
-        using var context = GlTests.OpenContext();
+        using var context = new SharedContext();
         using var frame = new FrameRenderer(context);
         var preparation = new ScenePreparation(Scene, new());
         preparation.PrepareVisible(RenderScenes.FrontView, 1.5);

@@ -143,7 +143,7 @@ public sealed class OverlayTests
 
     private static PixelImage Draw(int width, int height, params ReadOnlySpan<OverlayPanel> panels)
     {
-        using var context = GlTests.OpenContext();
+        using var context = new SharedContext();
         using var frame = new FrameRenderer(context);
         frame.Draw(null, RenderScenes.FrontView, width, height, new() { Background = Colour.Black });
         return frame.Capture(panels.ToArray());

@@ -16,7 +16,6 @@ using FractalEngine.Render;
 using FractalEngine.Render.Cameras;
 using FractalEngine.Render.Preparation;
 using FractalEngine.Render.Views;
-using FractalEngine.Render.Windowing;
 using FractalEngine.Render.Windowing.Events;
 using FractalEngine.Render.Windowing.Keyboard;
 using FractalEngine.Tests.Fractals;
@@ -317,7 +316,7 @@ public sealed class DeepZoomDrawingTests
     /// <summary>One fractal on black, with its renderers.</summary>
     private sealed class Stage : IDisposable
     {
-        private readonly OffscreenContext _context;
+        private readonly SharedContext _context;
         private readonly SceneRenderer _renderer;
         private readonly FrameRenderer _frame;
         private readonly LoadedScene _scene;
@@ -338,7 +337,7 @@ public sealed class DeepZoomDrawingTests
             _scene = scene;
             var drawable = DrawableScene.Prepare(scene, Settings);
             Hierarchy = drawable.Objects[0].Model.LodHierarchy!;
-            _context = GlTests.OpenContext();
+            _context = new();
             _renderer = new(_context, drawable);
             _frame = new(_context);
             Placement = placement.ToAffineMap();

@@ -34,7 +34,7 @@ public class ImageLayerTests
     [SkippableFact]
     public void Capture_AfterAnImage_IsTheFrameAgain()
     {
-        using var context = GlTests.OpenContext();
+        using var context = new SharedContext();
         using var frame = new FrameRenderer(context);
         frame.Draw(null, RenderScenes.FrontView, Width, Height, new() { Background = new(0.2, 0.4, 0.6) });
         var before = frame.Capture();
@@ -46,7 +46,7 @@ public class ImageLayerTests
 
     private static PixelImage Draw(Colour background, ImageLayer layer)
     {
-        using var context = GlTests.OpenContext();
+        using var context = new SharedContext();
         using var frame = new FrameRenderer(context);
         frame.Draw(null, RenderScenes.FrontView, Width, Height, new() { Background = background });
         var image = frame.Capture(layer);

@@ -223,7 +223,7 @@ public sealed class HandednessTests : IDisposable
 
     private static PixelImage DrawScene(LoadedScene scene, Camera camera, Projection projection, RenderSettings settings)
     {
-        using var context = GlTests.OpenContext();
+        using var context = new SharedContext();
         using var renderer = new SceneRenderer(context, DrawableScene.Prepare(scene, settings));
         using var frame = new FrameRenderer(context);
         var mirror = scene.Scene.Handedness == Handedness.Right ? 1 : -1;

@@ -41,7 +41,7 @@ public sealed class EmitterTests
     [SkippableFact]
     public void Incoming_OfRandomLights_IsThatOfTheShaders()
     {
-        using var context = GlTests.OpenContext();
+        using var context = new SharedContext();
         using var program = new ShaderProgram(
             context.Resources, ("test.vert", Vertex),
             ("test.frag", Fragment.Replace("#include \"lighting.glsl\"", EmbeddedResource.ReadText("Shaders/lighting.glsl"),

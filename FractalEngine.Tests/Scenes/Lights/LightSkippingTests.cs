@@ -89,7 +89,7 @@ public sealed class LightSkippingTests
     public void Cube_ThatIsEntered_GetsItsMap()
     {
         // From outside the cube needs none; the map of the whole scene is drawn once the camera is within.
-        using var context = GlTests.OpenContext();
+        using var context = new SharedContext();
         var settings = new RenderSettings { FitShadowsToView = false };
         using var renderer = new SceneRenderer(
             context, DrawableScene.Prepare(RenderScenes.Scene(new() { Lights = [Sun] }, CubeAt(0, 0, 0, 10)), settings));
@@ -111,7 +111,7 @@ public sealed class LightSkippingTests
             RenderScenes.Model(RenderScenes.Cube(0.5)));
         var standing = FloorWith([Sun], CubeAt(0, 1, 0));
         var scene = standing with { Objects = [.. standing.Objects, body] };
-        using var context = GlTests.OpenContext();
+        using var context = new SharedContext();
         using var renderer = new SceneRenderer(context, DrawableScene.Prepare(scene, new()));
         using var frame = new FrameRenderer(context);
         PixelImage DrawWith(RenderSettings settings)
@@ -201,7 +201,7 @@ public sealed class LightSkippingTests
 
     private static (PixelImage Image, OptimisationStatistics Statistics) Draw(LoadedScene scene, RenderSettings settings, View? view = null)
     {
-        using var context = GlTests.OpenContext();
+        using var context = new SharedContext();
         using var renderer = new SceneRenderer(context, DrawableScene.Prepare(scene, settings));
         using var frame = new FrameRenderer(context);
         frame.Draw(renderer, view ?? View, Width, Height, settings);
