@@ -10,9 +10,9 @@ public static class PhysicsLimits
 {
     /// <summary>The limit of <see cref="MaxOverlappingPairs"/>.</summary>
     public static Limit OverlappingPairs { get; } = new(
-        "overlapping-pairs", 500_000, "pairs of bodies that overlap at the start", "half a second a step, until they are apart");
+        "overlapping-pairs", 20_000, "pairs of bodies that overlap at the start", "two tenths of a second a step, until they are apart");
 
-    /// <summary>Maximum number of pairs of bodies that overlap at the start. A thousand bodies at one place are as many.</summary>
+    /// <summary>Maximum number of pairs of bodies that overlap at the start. Two hundred bodies at one place are as many.</summary>
     public static int MaxOverlappingPairs => (int)OverlappingPairs.Value;
 
     /// <summary>Largest coordinate of positions, velocities and gravity in size: the squares of larger ones leave a double.</summary>

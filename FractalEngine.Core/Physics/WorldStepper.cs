@@ -50,7 +50,6 @@ internal sealed class WorldStepper
     private readonly EnergyGuard _energyGuard;
     private readonly PhysicsSettings _settings;
     private readonly ParallelSteppers _parallel;
-    private readonly Action<int> _beginPart;
     private readonly Action<BodyStepper, int> _prepare;
     private readonly Action<BodyStepper, int> _findNearSurfaces;
     private readonly Action<BodyStepper, int> _movePlanned;
@@ -93,7 +92,6 @@ internal sealed class WorldStepper
                 return CreateStepper(nearbyBodies, new(bodies, nearbyBodies, context, _kinematics), context);
             },
             maxThreads);
-        _beginPart = BeginPart;
         _prepare = Prepare;
         _findNearSurfaces = FindNearSurfaces;
         _movePlanned = MovePlanned;
@@ -247,7 +245,8 @@ internal sealed class WorldStepper
     private void StepPart(double time)
     {
         _awakeCount = 0;
-        WorkerSet.Shared.Run((_bodies.Count + BodiesPerJob - 1) / BodiesPerJob, _parallel.MaxThreads, _beginPart);
+        WorkerSet.Shared.Run(
+            (_bodies.Count + BodiesPerJob - 1) / BodiesPerJob, _parallel.MaxThreads, this, static (stepper, job) => stepper.BeginPart(job));
         Islands.HasSleeping = _awakeCount < _bodies.Count;
         var wasAtRest = _isAtRest;
         _isAtRest = _awakeCount == 0 && _character is null && _kinematics.Objects.Count == 0;

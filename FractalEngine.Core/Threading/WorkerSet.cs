@@ -1,3 +1,4 @@
+using System.Runtime.CompilerServices;
 using System.Runtime.ExceptionServices;
 
 namespace FractalEngine.Core.Threading;
@@ -33,7 +34,9 @@ internal sealed class WorkerSet
     private long _state;
     private int _pending;
     private int _helpers;
-    private Action<int>? _job;
+    private object? _target;
+    private Delegate? _job;
+    private Action<object, Delegate, int>? _invoke;
     private ExceptionDispatchInfo? _fault;
     private int _faultIndex;
 
@@ -43,15 +46,17 @@ internal sealed class WorkerSet
     /// <summary>Does jobs, and returns when all are done.</summary>
     /// <param name="count">Number of jobs, less than 65,536.</param>
     /// <param name="maxThreads">Number of threads that may work on them, the caller's included.</param>
-    /// <param name="job">Does the job of an index.</param>
+    /// <param name="target">What the job is done by.</param>
+    /// <param name="job">Does the job of an index. A static lambda is made once, and needs no field that keeps it.</param>
     /// <exception cref="Exception">That of the job with the lowest index that failed.</exception>
-    public void Run(int count, int maxThreads, Action<int> job)
+    public void Run<T>(int count, int maxThreads, T target, Action<T, int> job)
+        where T : class
     {
         if (count < 2 || maxThreads < 2 || Interlocked.Exchange(ref _isBusy, 1) != 0)
         {
             for (var i = 0; i < count; i++)
             {
-                job(i);
+                job(target, i);
             }
 
             return;
@@ -59,7 +64,8 @@ internal sealed class WorkerSet
 
         try
         {
-            RunOnAll(count, Math.Min(maxThreads, count), job);
+            (_target, _job, _invoke) = (target, job, Invoker<T>.Invoke);
+            RunOnAll(count, Math.Min(maxThreads, count));
         }
         finally
         {
@@ -67,10 +73,9 @@ internal sealed class WorkerSet
         }
     }
 
-    private void RunOnAll(int count, int threadCount, Action<int> job)
+    private void RunOnAll(int count, int threadCount)
     {
         Start(threadCount - 1);
-        _job = job;
         _helpers = threadCount - 1;
         _fault = null;
         _pending = count;
@@ -97,7 +102,7 @@ internal sealed class WorkerSet
             }
         }
 
-        _job = null;
+        (_target, _job) = (null, null);
         _fault?.Throw();
     }
 
@@ -184,7 +189,7 @@ internal sealed class WorkerSet
     {
         try
         {
-            _job!(index);
+            _invoke!(_target!, _job!, index);
         }
         catch (Exception exception)
         {
@@ -202,5 +207,13 @@ internal sealed class WorkerSet
         {
             Interlocked.Decrement(ref _pending);
         }
+    }
+
+    /// <summary>Calls a job of whose types the threads know nothing.</summary>
+    private static class Invoker<T>
+        where T : class
+    {
+        public static readonly Action<object, Delegate, int> Invoke =
+            static (target, job, index) => Unsafe.As<Action<T, int>>(job)(Unsafe.As<T>(target), index);
     }
 }

@@ -120,9 +120,9 @@ public sealed class CommandResultTests : IDisposable
     [Fact]
     public void Simulate_OfManyBodiesAtOnePlace_IsRefused()
     {
-        _folder.Write("bodies.sdo", string.Concat(Enumerable.Repeat("p \"cube.obj\" # 0.5\n", 1_001)));
+        _folder.Write("bodies.sdo", string.Concat(Enumerable.Repeat("p \"cube.obj\" # 0.5\n", 201)));
         var (exitCode, _, error) = Run("simulate", "bodies.sdo", "--seconds", "1");
-        Assert.Equal((3, "error: the bodies overlap each other in more than the limit of 500000 pairs"), (exitCode, error.Trim()));
+        Assert.Equal((3, "error: the bodies overlap each other in more than the limit of 20000 pairs"), (exitCode, error.Trim()));
     }
 
     [Fact]

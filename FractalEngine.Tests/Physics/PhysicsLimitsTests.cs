@@ -9,21 +9,21 @@ namespace FractalEngine.Tests.Physics;
 /// <summary>The limits of physics: what is exactly at one is accepted, and the next number refused.</summary>
 public class PhysicsLimitsTests
 {
-    /// <summary>A thousand bodies at one place are 499,500 pairs, 32 at another are 496, and four pairs lie elsewhere.</summary>
+    /// <summary>Two hundred bodies at one place are 19,900 pairs, 14 at another are 91, and nine pairs lie elsewhere.</summary>
     [Theory]
-    [InlineData(4, null)]
-    [InlineData(5, "the bodies overlap each other in more than the limit of 500000 pairs")]
+    [InlineData(9, null)]
+    [InlineData(10, "the bodies overlap each other in more than the limit of 20000 pairs")]
     public void Require_OfPairs_AcceptsTheirLimit(int pairs, string? expected)
     {
         var world = new PhysicsWorld();
         world.AddRange(
         [
-            .. Enumerable.Repeat(new BodyDescription(Vector.Zero, 0.1), 1000),
-            .. Enumerable.Repeat(new BodyDescription(new(5, 0, 0), 0.1), 32),
+            .. Enumerable.Repeat(new BodyDescription(Vector.Zero, 0.1), 200),
+            .. Enumerable.Repeat(new BodyDescription(new(5, 0, 0), 0.1), 14),
             .. Enumerable.Range(0, 2 * pairs).Select(static i => new BodyDescription(new(10 + (i / 2), 0, 0), 0.1)),
         ]);
         Assert.Equal(expected, Record.Exception(() => PhysicsLimits.Require(world.Bodies))?.Message);
-        Assert.Equal(500_000, PhysicsLimits.MaxOverlappingPairs);
+        Assert.Equal(20_000, PhysicsLimits.MaxOverlappingPairs);
         Assert.Same(PhysicsLimits.OverlappingPairs, Assert.Single(PhysicsLimits.All));
     }
 
@@ -36,8 +36,8 @@ public class PhysicsLimitsTests
         var world = new PhysicsWorld();
         world.AddRange(
         [
-            .. Enumerable.Repeat(new BodyDescription(Vector.Zero, 0.1), 700),
-            .. Enumerable.Repeat(new BodyDescription(new(0.2 - overlap, 0, 0), 0.1), 700),
+            .. Enumerable.Repeat(new BodyDescription(Vector.Zero, 0.1), 141),
+            .. Enumerable.Repeat(new BodyDescription(new(0.2 - overlap, 0, 0), 0.1), 141),
         ]);
         Assert.Equal(isAccepted, Record.Exception(() => PhysicsLimits.Require(world.Bodies)) is null);
     }

@@ -15,8 +15,9 @@ namespace FractalEngine.Tests.Physics;
 /// <summary>A mesh or fractal to shoot at, with an independent way to find its distance.</summary>
 internal sealed class ShotTarget
 {
-    // A body's position is rounded, and so are the corners of faces: a part of their coordinates that tells for tiny spheres far away.
-    private const double Rounding = 2e-15;
+    // A body's position is rounded at each of its impacts, and so are the corners of faces. What is nearer than this part of the
+    // coordinates counts as touched, which tells for tiny spheres far away.
+    private const double Rounding = 1e-14;
 
     private readonly PlacedModel _placed;
     private readonly Mesh _mesh;

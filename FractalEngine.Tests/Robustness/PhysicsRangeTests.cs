@@ -66,13 +66,13 @@ public sealed class PhysicsRangeTests
     }
 
     [Theory]
-    [InlineData(1_000, 0, true)]
-    [InlineData(1_001, 0, false)]
+    [InlineData(200, 0, true)]
+    [InlineData(201, 0, false)]
     [InlineData(10_000, 0.2, false)]
-    public void Require_OfBodiesThatOverlapEachOther_RefusesMoreThanHalfAMillionPairs(int count, double halfSize, bool isAccepted) =>
+    public void Require_OfBodiesThatOverlapEachOther_RefusesMoreThanTwentyThousandPairs(int count, double halfSize, bool isAccepted) =>
         CheckOverlaps(Enumerable.Range(0, count).Select(i => new BodyDescription(new Random(i).Vector(halfSize), 0.05)), isAccepted);
 
-    /// <summary>Six hundred balls on an axis, each of which touches all of a thousand dots on a circle about it.</summary>
+    /// <summary>A hundred and fifty balls on an axis, each of which touches all of a thousand dots on a circle about it.</summary>
     [Theory]
     [InlineData(1, true)]
     [InlineData(1.01, false)]
@@ -81,7 +81,7 @@ public sealed class PhysicsRangeTests
         const double Dot = 1e-3;
         var dots = Enumerable.Range(0, 1_000).Select(static i => Math.Tau / 1_000 * i)
             .Select(angle => new BodyDescription(new(Math.Cos(angle), Math.Sin(angle), 0), growth * Dot));
-        var balls = Enumerable.Range(0, 600).Select(static i => 0.01 * i)
+        var balls = Enumerable.Range(0, 150).Select(static i => 0.01 * i)
             .Select(static height => new BodyDescription(new(0, 0, height), double.Hypot(1, height) - Dot));
         CheckOverlaps(dots.Concat(balls), isAccepted);
     }
@@ -155,7 +155,7 @@ public sealed class PhysicsRangeTests
         Assert.Equal(isAccepted, exception is null);
         if (exception is not null)
         {
-            Assert.Equal("the bodies overlap each other in more than the limit of 500000 pairs", exception.Message);
+            Assert.Equal("the bodies overlap each other in more than the limit of 20000 pairs", exception.Message);
         }
     }
 }

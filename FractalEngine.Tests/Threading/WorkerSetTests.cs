@@ -123,3 +123,10 @@ public class WorkerSetTests
         Assert.Equal(Enumerable.Range(0, count), order);
     }
 }
+
+/// <summary>Jobs that need no target.</summary>
+internal static class WorkerSetExtensions
+{
+    public static void Run(this WorkerSet workers, int count, int maxThreads, Action<int> job) =>
+        workers.Run(count, maxThreads, job, static (act, index) => act(index));
+}

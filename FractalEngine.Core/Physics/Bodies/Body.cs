@@ -188,6 +188,7 @@ public sealed class Body
         IsPrepared = false;
         HasMoved = false;
         IslandIndex = NoIsland;
+        BeganDeep = false;
         IsMovedAhead = false;
         IsFinished = false;
         foreach (var ball in Balls)
@@ -470,6 +471,9 @@ public sealed class Body
 
     /// <summary>Where the planned path leads.</summary>
     internal Vector Target { get; set; }
+
+    /// <summary>True where the body is deep in another one when its planned path begins: it must get out, past whatever is there.</summary>
+    internal bool BeganDeep { get; set; }
 
     /// <summary>True where something stops the body on its planned path that no plan knew.</summary>
     internal bool IsHeld { get; set; }

@@ -25,8 +25,6 @@ internal sealed class BodyCopies(List<Body> bodies, int maxThreads)
     private GraphBody[] _states = [];
     private BodyMaterial[] _materials = [];
     private BodyDescription?[] _descriptions = [];
-    private Action<int>? _copy;
-    private Action<int>? _update;
     private int _bodiesPerGroup = MinBodiesOfGroup;
     private int _groupCount;
 
@@ -61,11 +59,9 @@ internal sealed class BodyCopies(List<Body> bodies, int maxThreads)
     public (int First, int End) BodiesOf(int group) =>
         (group * _bodiesPerGroup, Math.Min(bodies.Count, (group + 1) * _bodiesPerGroup));
 
-    /// <summary>Makes room for the bodies of a world, and makes what threads run.</summary>
+    /// <summary>Makes room for the bodies of a world.</summary>
     public void Reserve(int bodyCount)
     {
-        _copy ??= Copy;
-        _update ??= Update;
         _states = new GraphBody[bodyCount];
         _materials = new BodyMaterial[bodyCount];
         _descriptions = new BodyDescription?[bodyCount];
@@ -80,7 +76,7 @@ internal sealed class BodyCopies(List<Body> bodies, int maxThreads)
     public void CopyAll()
     {
         SetGroups();
-        WorkerSet.Shared.Run(_groupCount, maxThreads, _copy!);
+        WorkerSet.Shared.Run(_groupCount, maxThreads, this, static (copies, group) => copies.Copy(group));
         (HasSleeping, ArePushed) = (false, false);
         Bounds = GridBounds.None;
         foreach (var group in Groups)
@@ -92,7 +88,7 @@ internal sealed class BodyCopies(List<Body> bodies, int maxThreads)
     }
 
     /// <summary>Copies what impacts have changed, and tells bodies whether they touch others.</summary>
-    public void UpdateAll() => WorkerSet.Shared.Run(_groupCount, maxThreads, _update!);
+    public void UpdateAll() => WorkerSet.Shared.Run(_groupCount, maxThreads, this, static (copies, group) => copies.Update(group));
 
     /// <summary>True for a body that moves by itself, and gives way.</summary>
     public static bool CanMove(Body body) => !body.IsAsleep && !body.IsStuck && body.IsOverlapResolved;

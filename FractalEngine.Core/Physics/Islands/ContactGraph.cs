@@ -19,9 +19,6 @@ internal sealed class ContactGraph(List<Body> bodies, NearbyBodies nearbyBodies,
     private readonly List<int> _neighbours = [];
     private readonly List<BodyPair> _pairs = [];
     private readonly List<BodyPair> _found = [];
-    private Action<int>? _takeNear;
-    private Action<int>? _testPairs;
-    private Action<int>? _testMeeting;
     private bool _mayHavePairs;
 
     /// <summary>The bodies that are joined with others.</summary>
@@ -36,9 +33,6 @@ internal sealed class ContactGraph(List<Body> bodies, NearbyBodies nearbyBodies,
     /// <summary>Makes room for the bodies of a world and their contacts.</summary>
     public void Reserve(int bodyCount, int contactCount)
     {
-        _takeNear ??= TakeNear;
-        _testPairs ??= TestPairs;
-        _testMeeting ??= TestMeeting;
         _search.Reserve(bodyCount, contactCount);
         Sets.Reserve(bodyCount);
         _neighbours.EnsureCapacity(bodyCount);
@@ -118,7 +112,7 @@ internal sealed class ContactGraph(List<Body> bodies, NearbyBodies nearbyBodies,
         }
 
         CollectNearPushed();
-        RunOnPairs(_testPairs!);
+        RunOnPairs(static (graph, job) => graph.TestPairs(job));
         var hasChanged = false;
         foreach (ref var pair in CollectionsMarshal.AsSpan(_pairs))
         {
@@ -168,7 +162,7 @@ internal sealed class ContactGraph(List<Body> bodies, NearbyBodies nearbyBodies,
     /// <summary>Adds the pairs that the search for what touches has found too, of bodies that have been joined since.</summary>
     private void AddFoundPairs()
     {
-        WorkerSet.Shared.Run(_search.Results.Length, maxThreads, _takeNear!);
+        WorkerSet.Shared.Run(_search.Results.Length, maxThreads, this, static (graph, i) => graph.TakeNear(i));
         foreach (var search in _search.Results)
         {
             foreach (ref var near in CollectionsMarshal.AsSpan(search.NearPairs))
@@ -229,7 +223,7 @@ internal sealed class ContactGraph(List<Body> bodies, NearbyBodies nearbyBodies,
 
     /// <summary>True where the search for what touches has found a pair as one that is near.</summary>
     private static bool IsFound(in GraphBody body, in GraphBody other, double gap) =>
-        gap <= Math.Max(body.NearDistance, other.NearDistance) && gap <= body.SearchReach + other.SearchReach;
+        gap <= Math.Max(body.NearDistance, other.NearDistance);
 
     private void Add(BodyPair pair, double push)
     {
@@ -255,7 +249,7 @@ internal sealed class ContactGraph(List<Body> bodies, NearbyBodies nearbyBodies,
     /// <returns>True where a body was joined that was alone: only such look for what they may meet.</returns>
     private bool JoinNear()
     {
-        RunOnPairs(_testMeeting!);
+        RunOnPairs(static (graph, job) => graph.TestMeeting(job));
         var joinedBefore = Sets.JoinedCount;
         foreach (ref var pair in CollectionsMarshal.AsSpan(_pairs))
         {
@@ -287,7 +281,8 @@ internal sealed class ContactGraph(List<Body> bodies, NearbyBodies nearbyBodies,
         }
     }
 
-    private void RunOnPairs(Action<int> job) => WorkerSet.Shared.Run((_pairs.Count + PairsPerJob - 1) / PairsPerJob, maxThreads, job);
+    private void RunOnPairs(Action<ContactGraph, int> job) =>
+        WorkerSet.Shared.Run((_pairs.Count + PairsPerJob - 1) / PairsPerJob, maxThreads, this, job);
 
     private Span<BodyPair> PairsOfJob(int job) =>
         CollectionsMarshal.AsSpan(_pairs)[(job * PairsPerJob)..Math.Min(_pairs.Count, (job + 1) * PairsPerJob)];

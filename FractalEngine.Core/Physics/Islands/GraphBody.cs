@@ -51,7 +51,10 @@ internal struct GraphBody
     /// <summary>How far a kinematic object pushes the body, see <see cref="Body.KinematicPush"/>.</summary>
     public double KinematicPush;
 
-    /// <summary>Free distance up to which the search for what touches finds all bodies; negative where there is none.</summary>
+    /// <summary>
+    /// Free distance up to which the search for what touches finds all bodies; negative where there is none. It is twice
+    /// <see cref="SearchReach"/>: each finds what gets no farther than itself, and whoever gets farther than that looks once more.
+    /// </summary>
     public double NearDistance;
 
     /// <summary>Reach up to which that search finds what the body may meet.</summary>

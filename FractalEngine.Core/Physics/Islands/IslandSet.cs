@@ -31,8 +31,10 @@ internal sealed class IslandSet
     private readonly int[] _partBodyEnds = new int[IslandParts.MaxCount];
     private readonly int[] _partRows = new int[IslandParts.MaxCount + 1];
     private readonly IslandRows.RowKinds[] _partKinds = new IslandRows.RowKinds[IslandParts.MaxCount + 1];
-    private readonly Action<int> _countSurfaces;
-    private readonly Action<int> _fillPart;
+    private readonly Func<int, int> _islandOfBody;
+    private readonly Func<int, int> _islandOfPair;
+    private readonly Func<int, int> _partOfBody;
+    private readonly Func<int, int> _partOfPair;
 
     public IslandSet(List<Body> bodies, NearbyBodies nearbyBodies, int maxThreads)
     {
@@ -40,8 +42,10 @@ internal sealed class IslandSet
         _maxThreads = maxThreads;
         Graph = new(bodies, nearbyBodies, maxThreads);
         _rows = new(bodies, Graph.Copies);
-        _countSurfaces = CountSurfaces;
-        _fillPart = FillPart;
+        _islandOfBody = IslandOf;
+        _islandOfPair = pair => Graph.Pairs[pair].IsRow ? IslandOf(Graph.Pairs[pair].First) : -1;
+        _partOfBody = _parts.PartOf;
+        _partOfPair = pair => _parts.PartOf(in Graph.Pairs[pair], _cutIsland.PartCount);
     }
 
     /// <summary>The bodies that touch or may meet.</summary>
@@ -104,7 +108,8 @@ internal sealed class IslandSet
             return;
         }
 
-        SortPairs();
+        // Their order within an island stays.
+        CountingSort.Sort(Graph.Pairs.Length, [], _islandOfPair, _next.AsSpan(0, All.Count), _sortedPairs);
         for (var island = 0; island < All.Count; island++)
         {
             var firstRow = _rows.Count;
@@ -174,50 +179,10 @@ internal sealed class IslandSet
             }
         }
 
-        var firstBody = 0;
+        CountingSort.Sort(All.Count > 0 ? _bodies.Count : 0, [], _islandOfBody, _next.AsSpan(0, All.Count), _islandBodies);
         for (var island = 0; island < All.Count; island++)
         {
-            All[island] = All[island] with { FirstBody = firstBody };
-            _next[island] = firstBody;
-            firstBody += All[island].BodyCount;
-        }
-
-        CollectionsMarshal.SetCount(_islandBodies, firstBody);
-        for (var i = 0; firstBody > 0 && i < _bodies.Count; i++)
-        {
-            if (_islandOf[i] >= 0)
-            {
-                _islandBodies[_next[_islandOf[i]]++] = i;
-            }
-        }
-    }
-
-    /// <summary>Sorts the pairs that are contacts by islands, and keeps their order within each.</summary>
-    private void SortPairs()
-    {
-        Array.Clear(_next, 0, All.Count + 1);
-        var pairs = Graph.Pairs;
-        foreach (ref readonly var pair in pairs)
-        {
-            if (pair.IsRow && _islandOf[pair.First] >= 0)
-            {
-                _next[_islandOf[pair.First] + 1]++;
-            }
-        }
-
-        for (var island = 0; island < All.Count; island++)
-        {
-            _next[island + 1] += _next[island];
-        }
-
-        CollectionsMarshal.SetCount(_sortedPairs, _next[All.Count]);
-        for (var i = 0; i < pairs.Length; i++)
-        {
-            if (pairs[i].IsRow && _islandOf[pairs[i].First] >= 0)
-            {
-                // Each entry is the end of its island afterwards.
-                _sortedPairs[_next[_islandOf[pairs[i].First]]++] = i;
-            }
+            All[island] = All[island] with { FirstBody = _next[island] - All[island].BodyCount };
         }
     }
 
@@ -265,9 +230,9 @@ internal sealed class IslandSet
     {
         var firstRow = _rows.Count;
         _parts.Cut(island, partCount, Graph.Copies.All);
-        SortByParts(pairs, partCount);
+        CountingSort.Sort(pairs.Length, pairs, _partOfPair, _partStarts.AsSpan(1, partCount + 1), _partPairs);
         SortBodiesByParts(island, partCount);
-        WorkerSet.Shared.Run(partCount, _maxThreads, _countSurfaces);
+        WorkerSet.Shared.Run(partCount, _maxThreads, this, static (set, part) => set.CountSurfaces(part));
         _partRows[partCount] = 0;
         for (var part = 0; part <= partCount; part++)
         {
@@ -278,7 +243,7 @@ internal sealed class IslandSet
         }
 
         _rows.Reserve(_rows.Count);
-        WorkerSet.Shared.Run(partCount + 1, _maxThreads, _fillPart);
+        WorkerSet.Shared.Run(partCount + 1, _maxThreads, this, static (set, part) => set.FillPart(part));
         var kinds = IslandRows.RowKinds.None;
         foreach (var part in _partKinds.AsSpan(0, partCount + 1))
         {
@@ -338,55 +303,12 @@ internal sealed class IslandSet
 
     private void SortBodiesByParts(ReadOnlySpan<int> island, int partCount)
     {
-        Array.Clear(_partBodyEnds);
-        foreach (var index in island)
-        {
-            _partBodyEnds[_parts.PartOf(index)]++;
-        }
-
-        var start = 0;
-        for (var part = 0; part < partCount; part++)
-        {
-            (_partBodyEnds[part], start) = (start, start + _partBodyEnds[part]);
-        }
-
-        CollectionsMarshal.SetCount(_partBodies, island.Length);
-        var sorted = CollectionsMarshal.AsSpan(_partBodies);
-        foreach (var index in island)
-        {
-            // Each entry is the end of its part afterwards.
-            sorted[_partBodyEnds[_parts.PartOf(index)]++] = index;
-        }
-
+        CountingSort.Sort(island.Length, island, _partOfBody, _partBodyEnds.AsSpan(0, partCount), _partBodies);
         for (var part = 0; part <= partCount; part++)
         {
             _allPartBodyEnds.Add(_partBodyEnds[Math.Min(part, partCount - 1)]);
         }
 
-        sorted.CopyTo(CollectionsMarshal.AsSpan(_islandBodies)[_cutIsland.FirstBody..]);
-    }
-
-    private void SortByParts(ReadOnlySpan<int> pairs, int partCount)
-    {
-        var known = Graph.Pairs;
-        Array.Clear(_partStarts);
-        foreach (var pair in pairs)
-        {
-            _partStarts[_parts.PartOf(in known[pair], partCount)]++;
-        }
-
-        var end = 0;
-        for (var part = 0; part <= partCount; part++)
-        {
-            end += _partStarts[part];
-            _partStarts[part] = end;
-        }
-
-        _partStarts[partCount + 1] = end;
-        CollectionsMarshal.SetCount(_partPairs, pairs.Length);
-        for (var i = pairs.Length - 1; i >= 0; i--)
-        {
-            _partPairs[--_partStarts[_parts.PartOf(in known[pairs[i]], partCount)]] = pairs[i];
-        }
+        CollectionsMarshal.AsSpan(_partBodies).CopyTo(CollectionsMarshal.AsSpan(_islandBodies)[_cutIsland.FirstBody..]);
     }
 }

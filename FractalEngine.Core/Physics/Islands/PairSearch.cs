@@ -15,7 +15,6 @@ internal sealed class PairSearch(List<Body> bodies, NearbyBodies nearbyBodies, i
 
     private readonly NeighbourGrid _grid = new();
     private GroupSearch[] _searches = [];
-    private Action<int>? _runSearch;
 
     /// <summary>The bodies as they were copied when the step began.</summary>
     public BodyCopies Copies { get; } = new(bodies, maxThreads);
@@ -26,7 +25,6 @@ internal sealed class PairSearch(List<Body> bodies, NearbyBodies nearbyBodies, i
     /// <summary>Makes room for the bodies of a world, and their pairs.</summary>
     public void Reserve(int bodyCount, int pairCount)
     {
-        _runSearch ??= RunSearch;
         Copies.Reserve(bodyCount);
         _grid.Reserve(bodyCount);
         var groupCount = Copies.Groups.Length;
@@ -39,7 +37,8 @@ internal sealed class PairSearch(List<Body> bodies, NearbyBodies nearbyBodies, i
     public int Run()
     {
         _grid.Build(nearbyBodies.HasFilters ? [] : Copies.All, Copies.Bounds);
-        WorkerSet.Shared.Run(Copies.Groups.Length, _grid.IsBuilt ? maxThreads : 1, _runSearch!);
+        WorkerSet.Shared.Run(
+            Copies.Groups.Length, _grid.IsBuilt ? maxThreads : 1, this, static (search, group) => search.RunSearch(group));
         foreach (var search in Results)
         {
             if (search.Sleeper >= 0)
@@ -83,8 +82,7 @@ internal sealed class PairSearch(List<Body> bodies, NearbyBodies nearbyBodies, i
                 continue;
             }
 
-            var maxNearGap = Math.Min(body.NearDistance, body.SearchReach + other.SearchReach);
-            var maxDistance = body.Radius + other.Radius + Math.Max(maxTouchGap, maxNearGap);
+            var maxDistance = body.Radius + other.Radius + Math.Max(maxTouchGap, body.NearDistance);
             if (!((body.Position - other.Position).LengthSquared() <= maxDistance * maxDistance))
             {
                 continue;
@@ -99,7 +97,7 @@ internal sealed class PairSearch(List<Body> bodies, NearbyBodies nearbyBodies, i
             {
                 search.Pairs.Add(isInOrder ? new(index, neighbour, isImmovable, true) : new(neighbour, index, false, true));
             }
-            else if (!isTouching && gap <= maxNearGap && !(neighbour < index && gap <= other.NearDistance))
+            else if (!isTouching && gap <= body.NearDistance && !(neighbour < index && gap <= other.NearDistance))
             {
                 search.NearPairs.Add(new(isInOrder ? new(index, neighbour, isImmovable, false) : new(neighbour, index, false, false), gap));
             }

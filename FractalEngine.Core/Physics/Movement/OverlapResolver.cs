@@ -3,7 +3,10 @@ using FractalEngine.Core.Physics.Bodies;
 
 namespace FractalEngine.Core.Physics.Movement;
 
-/// <summary>Moves an overlapping mover to the closest free position, without turning it, if there is one that can be reached.</summary>
+/// <summary>
+/// Moves an overlapping mover to the closest free position, without turning it, if there is one that can be reached. Bodies give way to
+/// bodies as those of an island do, and only to surfaces and the character here; the character gives way to all.
+/// </summary>
 internal sealed class OverlapResolver(Obstacles obstacles)
 {
     private const int MaxPushes = 32;
@@ -23,9 +26,8 @@ internal sealed class OverlapResolver(Obstacles obstacles)
     /// <summary>Finds a free position. It keeps clear of all obstacles that were met so far at once, not only of the last one.</summary>
     /// <param name="position">Position of the mover; receives the free position, and is unchanged where there is none.</param>
     /// <param name="body">The mover itself; null for the spheres of the obstacles.</param>
-    /// <param name="ignoresBodies">True where only surfaces are in the way.</param>
     /// <returns>False where the mover is closed in.</returns>
-    public bool TryResolve(ref Vector position, Body? body, bool ignoresBodies = false)
+    public bool TryResolve(ref Vector position, Body? body)
     {
         var touchTolerance = obstacles.TouchTolerance(position);
         var start = body is { IsCompound: true } ? position : MoveOutOfSurface(position);
@@ -33,14 +35,9 @@ internal sealed class OverlapResolver(Obstacles obstacles)
         _planes.Clear();
         for (var push = 0; push < MaxPushes; push++)
         {
-            if (!ignoresBodies)
+            if (body is null)
             {
-                if (body is not null)
-                {
-                    obstacles.SelectBall(body.Radius, body.SafeDistance);
-                }
-
-                obstacles.CollectNearbyBodies(new(current, Vector.Zero, Vector.Zero), 0, body?.Index ?? Contact.NoBody);
+                obstacles.CollectNearbyBodies(new(current, Vector.Zero, Vector.Zero), 0, Contact.NoBody);
             }
 
             if (!TryFindOverlap(body, current, touchTolerance, out var overlap))

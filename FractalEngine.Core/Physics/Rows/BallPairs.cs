@@ -20,6 +20,12 @@ internal static class BallPairs
     /// <summary>True where two bodies overlap by more than a share of the smaller ball's radius.</summary>
     public static bool AreOverlapping(Body body, Body other, double share)
     {
+        var touchDistance = body.Radius + other.Radius;
+        if ((body.Position - other.Position).LengthSquared() > touchDistance * touchDistance)
+        {
+            return false;
+        }
+
         for (var i = 0; i < body.BallCount; i++)
         {
             for (var j = 0; j < other.BallCount; j++)

@@ -83,11 +83,21 @@ internal static class ContactRows
     public static void SetBalls(ref ContactRow row, Vector offset, double firstRadius, double secondRadius)
     {
         row.Offset = offset;
-        row.Normal = offset.UnitVectorOrZero();
+        row.Normal = offset == Vector.Zero ? AnyDirection(row.First, row.Second) : offset.UnitVector();
         row.MinDistance = firstRadius + secondRadius;
         row.FirstRadius = firstRadius;
         row.SecondRadius = secondRadius;
         row.IsBall = true;
+    }
+
+    /// <summary>Two balls at one place come apart in a direction of their own: many would be pushed into a tower otherwise.</summary>
+    private static Vector AnyDirection(int first, int second)
+    {
+        // Multiples of irrational numbers spread evenly.
+        var (sine, cosine) = double.SinCosPi(Math.Sqrt(5) * (first + (Math.Sqrt(2) * second)));
+        var height = 2 * Math.IEEERemainder(Math.Sqrt(2) * (first + (Math.Sqrt(3) * second)), 1);
+        var across = Math.Sqrt(1 - (height * height));
+        return new(across * cosine, height, across * sine);
     }
 
     /// <summary>Sets what the materials of two balls make of their contact, whose radii must be known.</summary>

@@ -18,6 +18,10 @@ internal sealed class IslandMover
     private readonly NearbyBodies _nearbyBodies;
     private readonly List<int> _neighbours = [];
 
+    // In which round of the step a body has returned, counted from 1.
+    private int[] _returnedIn = [];
+    private int _round;
+
     public IslandMover(List<Body> bodies, IslandSet islands, BodyGrid grid, NearbyBodies nearbyBodies)
     {
         _bodies = bodies;
@@ -30,7 +34,11 @@ internal sealed class IslandMover
     public long ReturnCount { get; private set; }
 
     /// <summary>Makes room for the bodies of a world.</summary>
-    public void Reserve(int bodyCount) => _neighbours.EnsureCapacity(bodyCount);
+    public void Reserve(int bodyCount)
+    {
+        _neighbours.EnsureCapacity(bodyCount);
+        _returnedIn = new int[bodyCount];
+    }
 
     /// <summary>Finds a body of no island that stands where one of an island will be. It has to go first.</summary>
     /// <param name="pairIndex">Index of the pair from which to search; receives that after the one found.</param>
@@ -82,6 +90,8 @@ internal sealed class IslandMover
             }
         }
 
+        Array.Clear(_returnedIn, 0, _bodies.Count);
+        _round = 0;
         while (ReturnOnce())
         {
         }
@@ -96,13 +106,26 @@ internal sealed class IslandMover
 
     private static Vector StartOf(Body body) => body.IslandIndex >= 0 ? body.PlannedStart : body.Position;
 
-    /// <summary>Looks once for what bodies overlap that have gone a way: of islands, and of none that have moved ahead.</summary>
+    /// <summary>
+    /// Looks for what bodies overlap that have gone a way; after the first round, for what those overlap that returned in the one before.
+    /// Pairs are known, but for those of bodies that got farther than was foreseen, or are of no island and have moved ahead.
+    /// </summary>
+    /// <returns>True where a body has returned.</returns>
     private bool ReturnOnce()
     {
+        var last = _round++;
         var hasReturned = false;
+        foreach (ref readonly var pair in _islands.Graph.Pairs)
+        {
+            if (last == 0 || _returnedIn[pair.First] == last || _returnedIn[pair.Second] == last)
+            {
+                hasReturned |= Return(_bodies[pair.First], _bodies[pair.Second]);
+            }
+        }
+
         foreach (var body in _bodies)
         {
-            if (body.IslandIndex >= 0 ? HasGone(body) : body.HasMoved)
+            if (last == 0 ? MayMeetUnknown(body) : _returnedIn[body.Index] == last)
             {
                 hasReturned |= ReturnAmongAll(body);
             }
@@ -111,8 +134,11 @@ internal sealed class IslandMover
         return hasReturned;
     }
 
-    private static bool HasGone(Body body) =>
-        body.Position != body.PlannedStart || (body.IsCompound && body.Orientation != body.PlannedStartOrientation);
+    private bool MayMeetUnknown(Body body) =>
+        HasGone(body) ? _islands.Graph.HasDeviated(body.Index, body.Position - body.PlannedStart) : body.HasMoved;
+
+    private static bool HasGone(Body body) => body.IslandIndex >= 0
+        && (body.Position != body.PlannedStart || (body.IsCompound && body.Orientation != body.PlannedStartOrientation));
 
     private bool ReturnAmongAll(Body body)
     {
@@ -129,12 +155,13 @@ internal sealed class IslandMover
 
     private bool Return(Body body)
     {
-        if (body.IslandIndex < 0 || !HasGone(body))
+        if (!HasGone(body) || body.BeganDeep)
         {
             return false;
         }
 
         ReturnCount++;
+        _returnedIn[body.Index] = _round;
         PutBack(body);
         // It has gone no way on which anything could have made it faster.
         body.LimitEnergy(body.PlannedStartEnergy);

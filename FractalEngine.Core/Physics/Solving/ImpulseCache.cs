@@ -17,13 +17,10 @@ internal sealed class ImpulseCache
     private const int RowsPerJob = 1024;
     private const int SlotBits = 3;
 
-    private readonly Action<int> _storeRows;
     private IslandSet? _islands;
     private Entry[] _entries = [];
     private int[] _slots = [];
     private int _mask;
-
-    public ImpulseCache() => _storeRows = StoreRows;
 
     /// <summary>Gives a contact the impulses that it had in the step before; 0 to a new one.</summary>
     public void Recall(ref ContactRow row)
@@ -52,7 +49,8 @@ internal sealed class ImpulseCache
         Reserve(islands.RowCapacity);
         Array.Fill(_slots, None);
         _islands = islands;
-        WorkerSet.Shared.Run((islands.RowCount + RowsPerJob - 1) / RowsPerJob, maxThreads, _storeRows);
+        var jobs = (islands.RowCount + RowsPerJob - 1) / RowsPerJob;
+        WorkerSet.Shared.Run(jobs, maxThreads, this, static (cache, job) => cache.StoreRows(job));
     }
 
     private void StoreRows(int job)

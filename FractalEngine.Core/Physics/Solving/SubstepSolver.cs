@@ -17,7 +17,7 @@ namespace FractalEngine.Core.Physics.Solving;
 /// are projected Gauss–Seidel, forwards and backwards. Impulses take energy away, or leave it, up to what does not converge: that is taken
 /// back at the end of the step. Pushes leave velocities as they are.
 /// </remarks>
-internal sealed class SubstepSolver
+internal sealed class SubstepSolver(List<Body> bodies, ImpulseCache cache, int maxThreads)
 {
     // Contacts from which on bodies may overlap by what can't be seen, so that the rounds suffice.
     private const int MinContactsOfLarge = 300;
@@ -48,9 +48,10 @@ internal sealed class SubstepSolver
     private const int MaxPushes = 40;
     private const int PushedContacts = 60_000;
 
-    // What goes several radii in a step may end deep in others: more pushes.
+    // What goes several radii in a step may end deep in others: more pushes, of so many contacts.
     private const double DeepOverlap = 0.15;
     private const int MaxDeepPushes = 200;
+    private const int DeepPushedContacts = 600_000;
 
     // Relative to what gravity and forces add to the speed, and to the radius: less is what the rounds leave of it, and the ball rests.
     private const double RestFraction = 1e-10;
@@ -65,19 +66,6 @@ internal sealed class SubstepSolver
     private const int SurfaceStride = 2;
     private const int RestingSurfaces = SurfaceStride * (IslandParts.MaxCount + 1);
 
-    private readonly List<Body> _bodies;
-    private readonly ImpulseCache _cache;
-    private readonly int _maxThreads;
-    private readonly Action<int> _load;
-    private readonly Action<int> _accelerate;
-    private readonly Action<int> _begin;
-    private readonly Action<int> _forwards;
-    private readonly Action<int> _backwards;
-    private readonly Action<int> _extrapolate;
-    private readonly Action<int> _integrate;
-    private readonly Action<int> _push;
-    private readonly Action<int> _keepInFront;
-    private readonly Action<int> _store;
 
     // The last group has the contacts between parts.
     private readonly Group[] _groups = [.. Enumerable.Range(0, IslandParts.MaxCount + 1).Select(static _ => new Group())];
@@ -100,23 +88,6 @@ internal sealed class SubstepSolver
     private int _surfaceCount;
     private bool _isLarge;
 
-    public SubstepSolver(List<Body> bodies, ImpulseCache cache, int maxThreads)
-    {
-        _bodies = bodies;
-        _cache = cache;
-        _maxThreads = maxThreads;
-        _load = Load;
-        _accelerate = Accelerate;
-        _begin = Begin;
-        _forwards = SolveForwards;
-        _backwards = SolveBackwards;
-        _extrapolate = Extrapolate;
-        _integrate = Integrate;
-        _push = Push;
-        _keepInFront = KeepInFront;
-        _store = Store;
-    }
-
     /// <summary>Rounds of the last solve.</summary>
     public int Rounds { get; private set; }
 
@@ -125,7 +96,7 @@ internal sealed class SubstepSolver
 
     private ReadOnlySpan<Group> Groups => _groups.AsSpan(0, _island.PartCount == 1 ? 1 : _island.PartCount + 1);
 
-    private int FirstSurface => _bodies.Count;
+    private int FirstSurface => bodies.Count;
 
     /// <summary>Makes room for the bodies of a world and their contacts.</summary>
     public void Reserve(int bodyCount, int contactCount)
@@ -144,7 +115,7 @@ internal sealed class SubstepSolver
             _directions = new Vector256<double>[_contacts.Length];
         }
 
-        if (_bodies.Exists(static body => body.IsCompound) && (_turned.Length < _states.Length || _arms.Length < _contacts.Length))
+        if (bodies.Exists(static body => body.IsCompound) && (_turned.Length < _states.Length || _arms.Length < _contacts.Length))
         {
             _turned = new TurnedBody[_states.Length];
             _arms = new ContactArms[_contacts.Length];
@@ -167,20 +138,20 @@ internal sealed class SubstepSolver
     {
         SetIsland(islands, in island, stepLength);
         Rounds = 0;
-        WorkerSet.Shared.Run(island.PartCount, island.HasMovingSurface ? 1 : _maxThreads, _load);
-        RunBetween(_load);
+        WorkerSet.Shared.Run(island.PartCount, island.HasMovingSurface ? 1 : maxThreads, this, static (solver, part) => solver.Load(part));
+        RunBetween(static (solver, part) => solver.Load(part));
         var isConverged = true;
         for (var i = 0; i < _substepCount; i++)
         {
-            RunAll(_accelerate);
-            RunAll(_begin);
+            RunAll(static (solver, part) => solver.Accelerate(part));
+            RunAll(static (solver, part) => solver.Begin(part));
             isConverged &= MakeRounds();
-            RunAll(_integrate);
+            RunAll(static (solver, part) => solver.Integrate(part));
         }
 
         PushApart();
-        RunAll(_keepInFront);
-        RunAll(_store);
+        RunAll(static (solver, part) => solver.KeepInFront(part));
+        RunAll(static (solver, part) => solver.Store(part));
         // Balls of compounds turn to where no contact is.
         HasDeepOverlaps |= island.HasCompound;
         foreach (var group in Groups)
@@ -193,7 +164,7 @@ internal sealed class SubstepSolver
 
     private void SetIsland(IslandSet islands, in Island island, double stepLength)
     {
-        Reserve(_bodies.Count, island.RowCount);
+        Reserve(bodies.Count, island.RowCount);
         _islands = islands;
         _island = island;
         _stepLength = stepLength;
@@ -213,17 +184,17 @@ internal sealed class SubstepSolver
     }
 
     /// <summary>Does something for all parts, on all threads, and then for the contacts between them.</summary>
-    private void RunAll(Action<int> act)
+    private void RunAll(Action<SubstepSolver, int> act)
     {
-        WorkerSet.Shared.Run(_island.PartCount, _maxThreads, act);
+        WorkerSet.Shared.Run(_island.PartCount, maxThreads, this, act);
         RunBetween(act);
     }
 
-    private void RunBetween(Action<int> act)
+    private void RunBetween(Action<SubstepSolver, int> act)
     {
         if (_island.PartCount > 1)
         {
-            act(_island.PartCount);
+            act(this, _island.PartCount);
         }
     }
 
@@ -234,9 +205,9 @@ internal sealed class SubstepSolver
         for (var round = 1; ; round++)
         {
             Rounds++;
-            RunAll(_forwards);
-            RunBetween(_backwards);
-            WorkerSet.Shared.Run(_island.PartCount, _maxThreads, _backwards);
+            RunAll(static (solver, part) => solver.SolveForwards(part));
+            RunBetween(static (solver, part) => solver.SolveBackwards(part));
+            WorkerSet.Shared.Run(_island.PartCount, maxThreads, this, static (solver, part) => solver.SolveBackwards(part));
             var (change, impulse, rounding, norm) = (0.0, 0.0, 0.0, 0.0);
             foreach (var group in Groups)
             {
@@ -254,7 +225,7 @@ internal sealed class SubstepSolver
 
             // Directions that have not led to the end by now may never do so where balls begin and cease to slip.
             _share = previousNorm > 0 && norm <= previousNorm && round < maxRounds / 2 ? norm / previousNorm : 0;
-            RunAll(_extrapolate);
+            RunAll(static (solver, part) => solver.Extrapolate(part));
             previousNorm = norm;
         }
     }
@@ -264,9 +235,10 @@ internal sealed class SubstepSolver
     {
         var worst = double.PositiveInfinity;
         var maxPushes = Math.Clamp(PushedContacts / Math.Max(1, _island.RowCount), MinPushes, MaxPushes);
-        for (var i = 0; worst > (i < maxPushes ? MaxOverlap : DeepOverlap) && i < MaxDeepPushes; i++)
+        var maxDeepPushes = Math.Clamp(DeepPushedContacts / Math.Max(1, _island.RowCount), MinPushes, MaxDeepPushes);
+        for (var i = 0; worst > (i < maxPushes ? MaxOverlap : DeepOverlap) && i < maxDeepPushes; i++)
         {
-            RunAll(_push);
+            RunAll(static (solver, part) => solver.Push(part));
             worst = 0;
             foreach (var group in Groups)
             {
@@ -281,10 +253,10 @@ internal sealed class SubstepSolver
     {
         foreach (var body in BodiesOf(index))
         {
-            _states[body] = new(_bodies[body], _substep);
+            _states[body] = new(bodies[body], _substep);
             if (_island.HasCompound)
             {
-                _turned[body] = new(_bodies[body]);
+                _turned[body] = new(bodies[body]);
             }
         }
 
@@ -294,9 +266,9 @@ internal sealed class SubstepSolver
         for (var i = group.First; i < group.End; i++)
         {
             ref var row = ref rows[i];
-            _cache.Recall(ref row);
-            var first = _bodies[row.First];
-            var other = row.Second >= 0 ? _bodies[row.Second] : null;
+            cache.Recall(ref row);
+            var first = bodies[row.First];
+            var other = row.Second >= 0 ? bodies[row.Second] : null;
             var (mass, inertia) = (1 / first.Description.Mass, first.InverseInertia);
             var spin = inertia * row.FirstRadius * row.FirstRadius;
             var velocity = first.VelocityAt(row.FirstArm);
@@ -306,6 +278,11 @@ internal sealed class SubstepSolver
                 inertia += other.InverseInertia;
                 spin += other.InverseInertia * row.SecondRadius * row.SecondRadius;
                 velocity -= other.VelocityAt(row.SecondArm);
+                var maxOverlap = ContactTolerances.MaxOverlap * Math.Min(row.FirstRadius, row.SecondRadius);
+                if (Vector.Dot(row.Offset, row.Normal) < row.MinDistance - maxOverlap)
+                {
+                    (first.BeganDeep, other.BeganDeep) = (true, true);
+                }
             }
             else if (row.IsOnMovingSurface)
             {
@@ -490,7 +467,7 @@ internal sealed class SubstepSolver
         {
             ref var state = ref _states[body];
             state.Displacement += time * state.Velocity;
-            if (_bodies[body].IsCompound)
+            if (bodies[body].IsCompound)
             {
                 state.Spin = SimdAffineMap.ToVector256(_turned[body].Advance(SimdAffineMap.ToVector(state.Spin), _substep));
             }
@@ -548,7 +525,7 @@ internal sealed class SubstepSolver
         foreach (var i in BodiesOf(index))
         {
             ref readonly var state = ref _states[i];
-            var body = _bodies[i];
+            var body = bodies[i];
             var (velocity, spin) = (SimdAffineMap.ToVector(state.Velocity), SimdAffineMap.ToVector(state.Spin));
             var displacement = SimdAffineMap.ToVector(state.Displacement);
             group.Overlap = _islands!.Graph.HasDeviated(i, displacement) ? double.PositiveInfinity : group.Overlap;

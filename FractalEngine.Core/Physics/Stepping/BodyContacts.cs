@@ -155,28 +155,44 @@ internal sealed class BodyContacts(Obstacles obstacles, BodySweep sweep)
     private double SlopOf(Body body, BodyBall ball, Vector centre) =>
         body.HasHeapMargin ? ContactTolerances.SurfaceMargin * ball.Radius : obstacles.ContactSlop(centre);
 
-    /// <summary>Moves a compound out of what it overlaps by no more than rounding.</summary>
+    /// <summary>Moves a compound out of what it overlaps by no more than rounding, and into nothing else that is near.</summary>
     public void TakeBackRounding(Body body)
     {
         _planes.Clear();
+        var isOverlapping = false;
         foreach (var ball in body.Balls)
         {
             var centre = body.Position + ball.Offset;
             for (var i = 0; i < ball.Contacts.Count; i++)
             {
-                var gap = ball.Contacts[i].Gap(centre);
-                if (gap < 0 && gap >= -MaxRoundingOverlap * ball.Radius)
-                {
-                    // Relative to the way of the whole body.
-                    _planes.Add(ball.Contacts[i].Normal(centre), -gap);
-                }
+                isOverlapping |= AddPlane(ball.Contacts[i].Normal(centre), ball.Contacts[i].Gap(centre), ball.Radius);
+            }
+
+            for (var i = 0; i < ball.NearSurfaces.Count; i++)
+            {
+                var face = ball.NearSurfaces[i];
+                isOverlapping |= AddPlane(
+                    face.CachedNormal, Vector.Dot(face.PointToCentre(centre), face.CachedNormal) - ball.Radius, ball.Radius);
             }
         }
 
-        if (_planes.Count > 0)
+        if (isOverlapping)
         {
             body.Position += _planes.ProjectOrZero(Vector.Zero);
         }
+    }
+
+    /// <summary>Adds a plane that the way of the whole body must not pass, where it is so near.</summary>
+    /// <returns>True where it is overlapped.</returns>
+    private bool AddPlane(Vector normal, double gap, double radius)
+    {
+        var isNear = Math.Abs(gap) <= MaxRoundingOverlap * radius;
+        if (isNear)
+        {
+            _planes.Add(normal, -gap);
+        }
+
+        return isNear && gap < 0;
     }
 
     private Vector Select(Body body, BodyBall ball)

@@ -171,7 +171,7 @@ internal sealed class BodyMover
     public void PushOut(Body body)
     {
         var position = body.Position;
-        if (_contacts.IsOverrun(body) && _overlapResolver.TryResolve(ref position, body, ignoresBodies: true))
+        if (_contacts.IsOverrun(body) && _overlapResolver.TryResolve(ref position, body))
         {
             body.Position = position;
             body.Contacts.Clear();

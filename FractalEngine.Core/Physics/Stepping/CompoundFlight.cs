@@ -31,10 +31,10 @@ internal sealed class CompoundFlight(
     /// <returns>The time that has passed; infinite where the remaining time is lost.</returns>
     public double Advance(Body body, double timeLeft)
     {
-        contacts.TakeBackRounding(body);
         var speed = body.Velocity.Length() + (timeLeft * body.FreeAcceleration.Length());
         var turn = Math.Min(MaxTurn, timeLeft * body.AngularVelocity.Length());
         contacts.FindNearSurfaces(body, timeLeft * speed, turn, timeLeft);
+        contacts.TakeBackRounding(body);
         contacts.AddTouchedBodies(body);
         if (!TryRespond(body))
         {

@@ -18,7 +18,6 @@ internal sealed class ParallelSteppers(Func<QueryContext, BodyStepper> createSte
 
     private readonly List<(BodyStepper Stepper, QueryContext Context)> _steppers = [];
     private Action<BodyStepper, int>? _act;
-    private Action<int>? _runGroup;
     private int _count;
     private int _bodiesPerGroup;
 
@@ -44,7 +43,6 @@ internal sealed class ParallelSteppers(Func<QueryContext, BodyStepper> createSte
     /// <summary>Makes the steppers for so many bodies, and for fewer, if they are many.</summary>
     public void Reserve(int bodyCount)
     {
-        _runGroup ??= RunGroup;
         for (var missing = AreMany(bodyCount) ? SetGroups(bodyCount) - _steppers.Count : 0; missing > 0; missing--)
         {
             var context = new QueryContext();
@@ -65,7 +63,7 @@ internal sealed class ParallelSteppers(Func<QueryContext, BodyStepper> createSte
     {
         _act = act;
         _count = count;
-        WorkerSet.Shared.Run(SetGroups(count), maxThreads, _runGroup!);
+        WorkerSet.Shared.Run(SetGroups(count), maxThreads, this, static (steppers, group) => steppers.RunGroup(group));
     }
 
     /// <summary>Sets how many bodies are in a group.</summary>

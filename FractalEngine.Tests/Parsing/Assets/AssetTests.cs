@@ -3,7 +3,6 @@ using System.Numerics;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Physics;
-using FractalEngine.Core.Physics.Bodies;
 using FractalEngine.Core.SceneQueries;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Assets;

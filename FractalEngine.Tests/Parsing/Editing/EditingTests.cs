@@ -155,10 +155,11 @@ public sealed class EditingTests : IDisposable
         const string Text = "o \"cube.obj\" #\n";
         foreach (var name in (string[])["a\"b", "a\nb", "a\rb"])
         {
-            Assert.Throws<ArgumentException>(() => SceneEditor.Change(Text, scene => scene with
+            var error = Assert.Throws<ArgumentException>(() => SceneEditor.Change(Text, scene => scene with
             {
                 Objects = [scene.Objects[0] with { Name = name }],
             }));
+            Assert.Equal($"a name in a scene can't have a quote or a line break: {name}", error.Message);
             Assert.Throws<ArgumentException>(() => SceneEditor.Change(Text, scene => scene with
             {
                 Objects = scene.Objects.Add(new(name, FractalEngine.Core.Maths.Transformation.Identity)),

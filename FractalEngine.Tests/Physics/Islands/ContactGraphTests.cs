@@ -49,6 +49,38 @@ public sealed class ContactGraphTests
         }
     }
 
+    /// <summary>
+    /// Bodies of islands that may come together are pairs, whatever their sizes and speeds: a small fast one that looks about itself, and a
+    /// large one that gets farther.
+    /// </summary>
+    [Fact]
+    public void Pairs_OfIslands_AreAllThatReachEachOther()
+    {
+        var checkedCount = 0;
+        Seeded.Run(200, random =>
+        {
+            var (size, speed) = (Math.Pow(10, random.Between(-1, 0)), Math.Pow(10, random.Between(-1, 1)));
+            var setup = new GraphOfBodies([.. Enumerable.Range(0, 60).Select(_ =>
+                new BodyDescription(random.Vector(1.5), size * Math.Pow(10, random.Between(-1, 0))) { Velocity = random.Vector(speed) })]);
+            Assert.True(setup.TryGroup(0.1));
+            var copies = setup.Graph.Copies;
+            var known = setup.Graph.Pairs.ToArray().Select(static pair => (pair.First, pair.Second)).ToHashSet();
+            for (var i = 0; i < 60; i++)
+            {
+                for (var j = i + 1; j < 60; j++)
+                {
+                    var gap = (copies[i].Position - copies[j].Position).Length() - copies[i].Radius - copies[j].Radius;
+                    if (setup.Graph.Sets.IsJoined(i) && setup.Graph.Sets.IsJoined(j) && gap < copies[i].Reach + copies[j].Reach - 1e-9)
+                    {
+                        Assert.True(known.Contains((i, j)), $"{i} and {j} are {gap} apart");
+                        checkedCount++;
+                    }
+                }
+            }
+        });
+        Assert.InRange(checkedCount, 10_000, int.MaxValue);
+    }
+
     /// <summary>What comes meets in the step, as far as its way leads and the margins reach.</summary>
     [Theory]
     [InlineData(3, 0.8, true)]

@@ -155,18 +155,6 @@ public sealed class CompoundMotionTests
         Near.Equal(new(0, 0.5, 0), position, 1e-8);
     }
 
-    /// <summary>On its way up it comes to overlap a ball, and gives way to the side.</summary>
-    [Fact]
-    public void TryResolve_BelowABall_GivesWayToTheSide()
-    {
-        var other = new Vector(-1.3, 0.9, 0);
-        var (_, body, obstacles) = Create(new(0, 0.25, 0), new BodyDescription(other, 0.125));
-        var position = body.Position;
-        Assert.True(new OverlapResolver(obstacles).TryResolve(ref position, body));
-        Near.Equal(0.5, position.Y, 1e-8);
-        Assert.InRange((position + body.BallOffset(0) - other).Length(), 0.625 - 1e-8, 0.7);
-    }
-
     private static (BodySweep Sweep, Body Body, Obstacles Obstacles) Create(Vector position, params BodyDescription[] others)
     {
         BodyDescription[] all = [new(position, Dumbbell), .. others];
