@@ -174,6 +174,7 @@ internal sealed class WorldStepper
         character?.BeginStep();
         var parts = CountParts(seconds);
         _seconds = seconds / parts;
+        _planner.PartsOfStep = parts;
         for (var part = 0; part < parts; part++)
         {
             _isFirstPart = part == 0;

@@ -48,6 +48,9 @@ internal sealed class IslandPlanner(
     /// <summary>What has been solved so far.</summary>
     public IslandStatistics Statistics { get; private set; }
 
+    /// <summary>Number of equal parts that the step is made in, which need fewer substeps each.</summary>
+    public int PartsOfStep { get; set; } = 1;
+
     /// <summary>True once balls of the islands of this step may end deep in others.</summary>
     public bool HasDeepOverlaps => _substeps.HasDeepOverlaps;
 
@@ -107,7 +110,7 @@ internal sealed class IslandPlanner(
         }
 
         Join(in island, index);
-        var isConverged = _substeps.Solve(Islands, in island, stepLength);
+        var isConverged = _substeps.Solve(Islands, in island, stepLength, PartsOfStep);
         for (var i = 0; contactLog.IsEnabled && i < rows.Length; i++)
         {
             if (_substeps.ImpulseOf(i) > 0 || !rows[i].IsAhead)

@@ -133,10 +133,11 @@ internal sealed class SubstepSolver(List<Body> bodies, ImpulseCache cache, int m
     /// <param name="islands">Has the contacts, which receive their last impulses.</param>
     /// <param name="island">The island.</param>
     /// <param name="stepLength">Seconds.</param>
+    /// <param name="parts">Number of such steps that one is made in: so many fewer substeps are needed.</param>
     /// <returns>False for a small island that has not converged.</returns>
-    public bool Solve(IslandSet islands, in Island island, double stepLength)
+    public bool Solve(IslandSet islands, in Island island, double stepLength, int parts = 1)
     {
-        SetIsland(islands, in island, stepLength);
+        SetIsland(islands, in island, stepLength, parts);
         Rounds = 0;
         WorkerSet.Shared.Run(island.PartCount, island.HasMovingSurface ? 1 : maxThreads, this, static (solver, part) => solver.Load(part));
         RunBetween(static (solver, part) => solver.Load(part));
@@ -162,14 +163,14 @@ internal sealed class SubstepSolver(List<Body> bodies, ImpulseCache cache, int m
         return isConverged || _isLarge;
     }
 
-    private void SetIsland(IslandSet islands, in Island island, double stepLength)
+    private void SetIsland(IslandSet islands, in Island island, double stepLength, int parts)
     {
         Reserve(bodies.Count, island.RowCount);
         _islands = islands;
         _island = island;
         _stepLength = stepLength;
         _isLarge = island.RowCount >= MinContactsOfLarge;
-        _substepCount = _isLarge ? Substeps : SubstepsOfSmall;
+        _substepCount = Math.Max(1, (_isLarge ? Substeps : SubstepsOfSmall) / parts);
         _substep = stepLength / _substepCount;
         _surfaceCount = 0;
         Array.Clear(_states, FirstSurface, RestingSurfaces);
