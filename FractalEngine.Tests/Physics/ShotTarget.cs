@@ -77,7 +77,8 @@ internal sealed class ShotTarget
         // It arrives within ten steps.
         var startDistance = Math.Max(1.5 * radius, Math.Min(random.Between(0.1, 1) * size, 10 * speed * world.Settings.TimeStep));
         var start = aim + (startDistance * random.Direction());
-        if (distance(start) < radius * (1 + 1e-6) || isInside?.Invoke(start) == true)
+        // Some random fractals are smaller than the rounding of where they are.
+        if (start == aim || distance(start) < radius * (1 + 1e-6) || isInside?.Invoke(start) == true)
         {
             return false;
         }
