@@ -9,7 +9,7 @@ namespace FractalEngine.Render.Gl;
 /// </summary>
 internal sealed class GlResources
 {
-    // More than all scenes of an hour of work need; the driver keeps some ten kilobytes for each.
+    // More than the programs of one scene.
     private const int MaxIdlePrograms = 64;
 
     private readonly Lock _lock = new();
@@ -86,17 +86,15 @@ internal sealed class GlResources
         return index >= 0;
     }
 
-    /// <summary>Keeps a linked program for others of the same sources, until the context ends.</summary>
-    /// <returns>False where too many are kept.</returns>
-    public bool TryKeepProgram((string Vertex, string Fragment) sources, int name)
+    /// <summary>Keeps a linked program for others of the same sources, and deletes the oldest one where too many are kept.</summary>
+    public void KeepProgram((string Vertex, string Fragment) sources, int name)
     {
-        var isKept = _idlePrograms.Count < MaxIdlePrograms;
-        if (isKept)
+        _idlePrograms.Add((sources, name));
+        if (_idlePrograms.Count > MaxIdlePrograms)
         {
-            _idlePrograms.Add((sources, name));
+            State.DeleteProgram(_idlePrograms[0].Name);
+            _idlePrograms.RemoveAt(0);
         }
-
-        return isKept;
     }
 
     /// <summary>Turns GL's error flag into an exception.</summary>

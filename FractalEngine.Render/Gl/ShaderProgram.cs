@@ -88,7 +88,11 @@ internal class ShaderProgram : GlObject
     /// <inheritdoc/>
     protected sealed override void Delete()
     {
-        if (!_isLinked || !Resources.TryKeepProgram(_sources, _name))
+        if (_isLinked)
+        {
+            Resources.KeepProgram(_sources, _name);
+        }
+        else
         {
             Resources.State.DeleteProgram(_name);
         }
