@@ -207,8 +207,8 @@ internal sealed class WorldStepper
     }
 
     /// <summary>
-    /// Number of equal parts that a step is made in: several where an object goes far, compared with the bodies before it. In each of them
-    /// those that it pushes together find each other.
+    /// Number of equal parts that a step is made in: several where an object goes far past the bodies before it, compared with them. In
+    /// each part those that it pushes together find each other. Bodies that it carries along need none.
     /// </summary>
     private int CountParts(double seconds)
     {
@@ -228,7 +228,8 @@ internal sealed class WorldStepper
 
             foreach (var index in BodiesNear(moved.SweptBounds))
             {
-                parts = Math.Max(parts, Math.Ceiling(distance / (MaxKinematicTravel * _bodies[index].Radius)));
+                var beside = seconds * moved.MaxSpeedBeside(_bodies[index].Velocity);
+                parts = Math.Max(parts, Math.Ceiling(beside / (MaxKinematicTravel * _bodies[index].Radius)));
             }
         }
 

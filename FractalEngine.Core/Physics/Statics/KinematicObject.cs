@@ -145,6 +145,10 @@ internal sealed class KinematicObject
         _nowTime = double.NaN;
     }
 
+    /// <summary>Upper bound on the speed of its points as what moves along with a velocity sees them, no more than their own.</summary>
+    public double MaxSpeedBeside(Vector velocity) =>
+        Math.Min(MaxSpeed, (Velocity - velocity).Length() + (AngularVelocity.Length() * _radius));
+
     /// <summary>Where a point of the reference placement is now.</summary>
     public Vector ToWorld(Vector reference)
     {
