@@ -96,6 +96,22 @@ public class MovingObjectTests
         Assert.All(world.Bodies, static body => Assert.False(body.IsStuck));
     }
 
+    /// <summary>Balls that do not bounce go on with the plate, in steps that are no longer made in parts.</summary>
+    [Fact]
+    public void Plate_ThatCarriesBallsAlong_GivesThemItsSpeed()
+    {
+        var world = new PhysicsWorld();
+        world.AddStatic(PhysicsMeshes.Cube, Box(new(0, -0.5, 0), new(4000, 1, 40)));
+        var plate = world.AddStatic(PhysicsMeshes.Cube, Box(new(-3.3, 2.05, 0), new(0.1, 4, 8)));
+        world.AddRange(from i in Enumerable.Range(0, 5) select new BodyDescription(new(1.02 * i, 0.5, 0), 0.5) { Friction = 0.3 });
+        plate.SetMotion(new(200, 0, 0));
+        world.Run(10);
+        var solves = world.IslandStatistics.Solves;
+        world.Run(20);
+        Assert.Equal(20, world.IslandStatistics.Solves - solves);
+        Assert.All(world.Bodies, static body => Assert.Equal(200, body.Velocity.X, 1e-3));
+    }
+
     [Theory]
     [InlineData(20, 0.3)]
     public void Blade_ThatTurns_CutsThroughNothing(double angularSpeed, double friction) =>
