@@ -3,6 +3,7 @@ using System.Text;
 using FractalEngine.Core;
 using FractalEngine.Core.Files;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Generation;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Assets;
@@ -74,6 +75,11 @@ public static class FractalFile
         if (FractalCheck.FindBoundsFault(fractal) is { } fault)
         {
             throw new FractalEngineException($"the fractal can't be written as a file: {fault}");
+        }
+
+        if (BaseShapes.NameOf(fractal.BaseMesh) is { } shape)
+        {
+            return Encoding.UTF8.GetBytes(FractalWriter.Write(fractal.Description, shape));
         }
 
         if (fractal.BaseMeshPath is not { } meshPath || !File.Exists(meshPath))

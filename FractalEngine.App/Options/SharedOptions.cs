@@ -1,3 +1,4 @@
+using System.Collections.Immutable;
 using System.CommandLine;
 using System.Globalization;
 using FractalEngine.App.Shell;
@@ -32,6 +33,15 @@ internal sealed class SharedOptions
         "--composition", "How to compose the transformations of fractals, overriding their files.",
         ("affine", Core.Fractals.Descriptions.Composition.Affine), ("componentwise", Core.Fractals.Descriptions.Composition.Componentwise));
 
+    /// <summary>The option that sets named numbers of fractals.</summary>
+    public Option<string[]> Values { get; } = new("--set")
+    {
+        Description = "Set a number that a fractal file declares by name; repeatable.",
+        HelpName = "NAME=VALUE",
+        Arity = ArgumentArity.OneOrMore,
+        AllowMultipleArgumentsPerToken = false,
+    };
+
     /// <summary>Adds the input file and the options of loading to a command.</summary>
     public void AddTo(Command command, bool hasComposition = true)
     {
@@ -39,6 +49,7 @@ internal sealed class SharedOptions
         command.Add(AllowOutside);
         if (hasComposition)
         {
+            command.Add(Values);
             command.Add(Composition);
         }
     }
@@ -53,11 +64,21 @@ internal sealed class SharedOptions
     }
 
     /// <summary>Returns the load options that the command line asks for.</summary>
-    public LoadOptions LoadOptions(ParseResult result) => new()
+    /// <exception cref="UsageException">A named number is set to no number.</exception>
+    public LoadOptions LoadOptions(ParseResult result)
     {
-        AllowOutsideFiles = result.GetValue(AllowOutside),
-        Composition = result.CommandResult.Command.Options.Contains(Composition) ? result.GetValue(Composition) : null,
-    };
+        var options = new LoadOptions { AllowOutsideFiles = result.GetValue(AllowOutside) };
+        return !result.CommandResult.Command.Options.Contains(Composition) ? options : options with
+        {
+            Composition = result.GetValue(Composition),
+            Values = ImmutableDictionary.CreateRange((result.GetValue(Values) ?? []).Select(ParseValue)),
+        };
+    }
+
+    private static KeyValuePair<string, double> ParseValue(string text) => text.Split('=', 2) is [{ Length: > 0 } name, var number]
+        && double.TryParse(number, NumberStyles.Float, CultureInfo.InvariantCulture, out var value) && double.IsFinite(value)
+            ? new(name.Trim(), value)
+            : throw new UsageException($"--set '{text}': expected NAME=VALUE, such as angle=30");
 
     /// <summary>Creates an argument for an input file. Names that begin with a dash need the prefix <c>./</c>.</summary>
     public static Argument<string> FileArgument(string description) => new("FILE")

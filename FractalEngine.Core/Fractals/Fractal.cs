@@ -125,10 +125,12 @@ public sealed class Fractal : IEquatable<Fractal>
     public Fractal Apply(IEnumerable<Transformation> transformations) => Prepend(TransformationSet.Of(transformations));
 
     /// <summary>Makes the same fractal with chains composed in another way.</summary>
-    /// <exception cref="ArgumentException">An infinite fractal can't be composed componentwise: its positions don't shrink.</exception>
-    public Fractal WithComposition(Composition composition) => composition == Composition.Componentwise && Description.IsInfinite
+    /// <exception cref="ArgumentException">
+    /// The fractal can't be composed componentwise, see <see cref="FractalDescription.CanBeComponentwise"/>.
+    /// </exception>
+    public Fractal WithComposition(Composition composition) => composition == Composition.Componentwise && !Description.CanBeComponentwise
         ? throw new ArgumentException(
-            "an infinite fractal can't be composed componentwise: its positions don't shrink", nameof(composition))
+            "what is infinite, or has maps other than transformations, can't be composed componentwise", nameof(composition))
         : With(Description with { Composition = composition });
 
     /// <summary>Makes the same fractal at another depth, see <see cref="FractalDescription.WithDepth"/>.</summary>

@@ -121,7 +121,7 @@ public static class FractalGenerator
         for (var level = 0L; level < fractal.LevelCount; level++)
         {
             var set = fractal.LevelAt(level);
-            if (set.Transformations is not [{ IsIdentity: true }])
+            if (!set.IsIdentity)
             {
                 yield return set;
             }

@@ -42,6 +42,22 @@ public readonly record struct AffineMap(Matrix Linear, Vector Translation)
         return new(inverse, -(inverse * Translation));
     }
 
+    /// <summary>Applies the map so many times, in about log₂ of that many products.</summary>
+    /// <param name="exponent">0 gives the identity, negative ones the powers of the inverse.</param>
+    /// <exception cref="SingularMatrixException">The exponent is negative, and the map has no inverse.</exception>
+    public AffineMap Power(int exponent)
+    {
+        var square = exponent < 0 ? Inverse() : this;
+        var power = Identity;
+        for (var left = Math.Abs((long)exponent); left > 0; left >>= 1)
+        {
+            power = (left & 1) != 0 ? power * square : power;
+            square = left > 1 ? square * square : square;
+        }
+
+        return power;
+    }
+
     /// <summary>Tells whether all entries are finite numbers.</summary>
     public bool IsFinite() => Linear.IsFinite() && Translation.IsFinite();
 

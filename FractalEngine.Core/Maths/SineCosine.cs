@@ -1,7 +1,9 @@
 namespace FractalEngine.Core.Maths;
 
 /// <summary>The sine and cosine of one angle, computed once and used in every entry of a rotation.</summary>
-internal readonly record struct SineCosine(double Sine, double Cosine)
+/// <param name="Sine">The sine of the angle.</param>
+/// <param name="Cosine">The cosine of the angle.</param>
+public readonly record struct SineCosine(double Sine, double Cosine)
 {
     /// <summary>Computes both for an angle in radians.</summary>
     public static SineCosine FromRadians(double angle)

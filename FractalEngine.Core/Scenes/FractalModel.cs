@@ -1,3 +1,4 @@
+using System.Collections.Immutable;
 using System.Numerics;
 using FractalEngine.Core.Colliders;
 using FractalEngine.Core.Fractals;
@@ -12,6 +13,9 @@ public sealed class FractalModel(Fractal fractal) : Model
 {
     /// <summary>The fractal that the model shows.</summary>
     public Fractal Fractal { get; } = fractal ?? throw new ArgumentNullException(nameof(fractal));
+
+    /// <summary>Names of the numbers that its file declares, which can be set; empty for a fractal made in code.</summary>
+    public ImmutableArray<string> NumberNames { get; init; } = [];
 
     /// <inheritdoc/>
     public override Mesh Mesh => Fractal.BaseMesh;

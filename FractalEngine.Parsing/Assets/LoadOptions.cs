@@ -19,6 +19,9 @@ public sealed record LoadOptions
     /// </summary>
     public int? Depth { get; init; }
 
+    /// <summary>Values that named numbers of fractals have in place of those that the files give them; finite.</summary>
+    public ImmutableDictionary<string, double> Values { get; init; } = ImmutableDictionary<string, double>.Empty;
+
     /// <summary>
     /// Text of a scene or fractal that takes the place of the file, whatever its name ends in; null to read the file. A text with a result
     /// <c>&lt;$&gt;</c> is a fractal. Names in it are relative to the folder of the path.

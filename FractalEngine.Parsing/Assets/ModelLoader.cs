@@ -2,6 +2,7 @@ using System.Collections.Immutable;
 using FractalEngine.Core.Files;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Fractals.Descriptions;
+using FractalEngine.Core.Generation;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Assets.References;
@@ -116,9 +117,15 @@ internal sealed class ModelLoader
     {
         var parsed = ReadOrFindFractal(fullPath, displayName);
         Warnings.AddRange(parsed.Warnings);
-        var (basePath, baseDisplayName) = _references.Resolve(parsed.Source, parsed.BaseFileNameOffset, fullPath, parsed.BaseFile);
+        var basePath = (string?)null;
+        var baseDisplayName = "";
+        if (!parsed.IsBaseShape)
+        {
+            (basePath, baseDisplayName) = _references.Resolve(parsed.Source, parsed.BaseFileNameOffset, fullPath, parsed.BaseFile);
+        }
+
         var description = ApplyOptions(parsed);
-        var contents = ReadMesh(basePath, baseDisplayName);
+        var contents = basePath is null ? ShapeOf(parsed.BaseFile) : ReadMesh(basePath, baseDisplayName);
         var fractal = new Fractal(description, contents.Mesh) { BaseMeshPath = basePath };
         if (FractalCheck.FindBoundsFault(fractal) is { } fault)
         {
@@ -126,8 +133,18 @@ internal sealed class ModelLoader
         }
 
         var byteCount = parsed.Source.ByteCount + contents.ByteCount;
-        return new(fractal) { SourcePath = fullPath, FileBytes = byteCount, Materials = contents.Materials };
+        return new(fractal)
+        {
+            SourcePath = fullPath,
+            FileBytes = byteCount,
+            Materials = contents.Materials,
+            NumberNames = parsed.NumberNames,
+        };
     }
+
+    private static MeshContents ShapeOf(string name) => BaseShapes.TryFind(name, out var mesh)
+        ? new(mesh, ImmutableDictionary<string, Material>.Empty, 0, ImmutableDictionary<string, FileStamp>.Empty)
+        : throw new ArgumentException($"'{name}' is no shape", nameof(name));
 
     /// <summary>Returns the description in a file with the overrides of the options.</summary>
     private FractalDescription ApplyOptions(ParsedFractal parsed)
@@ -138,9 +155,8 @@ internal sealed class ModelLoader
             description = description.WithDepth(depth);
         }
 
-        return FractalCheck.IsComposable(description)
-            ? description
-            : throw parsed.Source.Error(parsed.ResultOffset, FractalCheck.NotComposableMessage);
+        return FractalCheck.FindCompositionFault(description) is not { } fault
+            ? description : throw parsed.Source.Error(parsed.ResultOffset, fault);
     }
 
     private MeshContents ReadMesh(string fullPath, string displayName)
@@ -173,7 +189,8 @@ internal sealed class ModelLoader
         _textBytes = bytesBefore + parsed.Source.ByteCount;
         return parsed;
 
-        ParsedFractal Read() => FractalParser.Parse(ReadText(fullPath, displayName, ParsingLimits.DescriptionBytes.Value));
+        ParsedFractal Read() =>
+            FractalParser.Parse(ReadText(fullPath, displayName, ParsingLimits.DescriptionBytes.Value), _options.Values);
     }
 
     private ParsedObj ReadOrFindMesh(string fullPath, string displayName) =>

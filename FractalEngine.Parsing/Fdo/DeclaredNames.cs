@@ -1,4 +1,5 @@
 using FractalEngine.Core;
+using FractalEngine.Core.Generation;
 using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.Parsing.Fdo;
@@ -9,6 +10,9 @@ internal sealed class DeclaredNames(SourceText source)
 {
     private readonly Dictionary<string, (TransformationFunction Value, int Offset)> _functions = [];
     private readonly Dictionary<string, (DeclaredObject Value, int Offset)> _objects = [];
+
+    // A file may declare another object of such a name.
+    private readonly Dictionary<string, DeclaredObject> _shapes = [];
 
     /// <summary>The transformations, in the order of the file.</summary>
     public IEnumerable<TransformationFunction> Functions => _functions.Values.Select(static declared => declared.Value);
@@ -26,7 +30,23 @@ internal sealed class DeclaredNames(SourceText source)
     /// <exception cref="SourceException">There is none above the cursor: the message proposes another name.</exception>
     public DeclaredObject FindObject(Cursor cursor, string name) =>
         _objects.TryGetValue(name, out var declared) ? declared.Value
+        : FindShape(cursor, name) is { } shape ? shape
         : throw source.Error(cursor.Offset, $"the object '{name}' is not declared above{AskAboutObject(name)}");
+
+    /// <summary>Tells whether a recursive has a name.</summary>
+    public bool IsRecursive(string name) => _objects.GetValueOrDefault(name).Value is DeclaredRecursive;
+
+    /// <summary>Returns the one object of a shape, wherever it is named; null for other names.</summary>
+    private DeclaredObject? FindShape(Cursor cursor, string name)
+    {
+        if (!_shapes.TryGetValue(name, out var shape) && BaseShapes.TryFind(name, out _))
+        {
+            shape = new(name, cursor.Offset, DeclaredSteps.None) { IsBaseShape = true };
+            _shapes.Add(name, shape);
+        }
+
+        return shape;
+    }
 
     /// <summary>Returns the transformation with a name.</summary>
     /// <exception cref="SourceException">There is none above the cursor: the message proposes another name.</exception>
@@ -57,9 +77,9 @@ internal sealed class DeclaredNames(SourceText source)
         }
 
         var (stem, digits) = SplitDigits(name);
-        return digits.Length > 0 && _objects.GetValueOrDefault(stem).Value is DeclaredRecursive
+        return digits.Length > 0 && IsRecursive(stem)
             ? $": did you mean '{stem} {digits}'?"
-            : NameSuggestion.Ask(name, _objects.Keys);
+            : NameSuggestion.Ask(name, [.. _objects.Keys, .. BaseShapes.Names]);
     }
 
     private string AskAboutFunction(string name)

@@ -8,13 +8,11 @@ namespace FractalEngine.Parsing.Fdo;
 /// <summary>Rejects fractals whose description is well-formed but defines no bounded set of instances.</summary>
 internal static class FractalCheck
 {
-    /// <summary>Message for a description that <see cref="IsComposable"/> rejects.</summary>
-    public const string NotComposableMessage =
-        "an infinite fractal can't be composed componentwise: its positions don't shrink; give it a depth";
-
-    /// <summary>Returns whether the composition is defined for the number of levels.</summary>
-    public static bool IsComposable(FractalDescription description) =>
-        !description.IsInfinite || description.Composition != Composition.Componentwise;
+    /// <summary>Returns why a fractal can't be composed componentwise, where it is; null if it can, or is not.</summary>
+    public static string? FindCompositionFault(FractalDescription description) =>
+        description.Composition != Composition.Componentwise || description.CanBeComponentwise ? null
+        : description.IsInfinite ? "an infinite fractal can't be composed componentwise: its positions don't shrink; give it a depth"
+        : "matrices, powers and products of maps can't be composed componentwise: that adds positions and rotations";
 
     /// <summary>Returns what is wrong with the bounds of a fractal; null if they are finite.</summary>
     public static string? FindBoundsFault(Fractal fractal)

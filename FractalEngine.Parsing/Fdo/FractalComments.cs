@@ -8,7 +8,8 @@ namespace FractalEngine.Parsing.Fdo;
 public static partial class FractalComments
 {
     /// <summary>
-    /// Finds the comment of each number: that above its line, or above the lines before it that begin with the same word.
+    /// Finds the comment of each number: that behind it in its line, that above the line, or above the lines before it that begin with the
+    /// same word.
     /// </summary>
     /// <param name="text">Text of the file.</param>
     /// <param name="offsets">Where the numbers begin in it.</param>
@@ -24,15 +25,19 @@ public static partial class FractalComments
         for (var i = 0; i < lines.Length; i++)
         {
             starts[i] = i == 0 ? 0 : starts[i - 1] + lines[i - 1].Length + 1;
-            if (lines[i].StartsWith('#'))
+            if (lines[i].StartsWith('#') || lines[i].TrimStart().StartsWith("//", StringComparison.Ordinal))
             {
-                above.Add(lines[i].TrimStart('#').Trim());
+                above.Add(lines[i].TrimStart('#', '/', ' ', '\t').Trim());
                 continue;
             }
 
+            var behind = lines[i].IndexOf("//", StringComparison.Ordinal);
+
             var isContinued = i > 0 && above.Count == 0 && FirstWord(lines[i]) == word;
             word = FirstWord(lines[i]);
-            comments[i] = isContinued ? comments[i - 1] : above.Exists(static line => line.Length > 0) ? string.Join(' ', above) : null;
+            comments[i] = behind >= 0 ? lines[i][(behind + 2)..].Trim()
+                : isContinued ? comments[i - 1]
+                : above.Exists(static line => line.Length > 0) ? string.Join(' ', above) : null;
             above.Clear();
         }
 

@@ -20,7 +20,11 @@ internal static class FractalMistakes
         CommonMistakes.ExplainNumbers(failure)
         // t.a. (a, #, 0.5)
         ?? failure.Explain(
-            @"\n[-+.(0-9]", "values stand in a vector 'v x y z', and here stands the number of that vector", VectorNumber)
+            @"\n[-+.0-9]", "numbers stand in parentheses, as in '(0.5)' or '(0, 1, 0)', but for that of a vector", VectorNumber)
+        // (0 1 0) as an output
+        ?? failure.Explain(@"\([^()]*\n[-+.(0-9\p{L}]", "commas stand between the components of a vector, as in '(0, 1, 0)'", "','", "')'")
+        // [t.^1.5]
+        ?? failure.Explain(@"\^-?[0-9]+\n\.", "the power of a map is a whole number")
         // [t.1 2]
         ?? failure.Explain(
             @"(?<call>\w+(\.[0-9]+)+)\.?[ \t]*,?[ \t]*\n(?<digit>[0-9])",

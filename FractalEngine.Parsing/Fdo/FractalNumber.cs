@@ -7,7 +7,8 @@ namespace FractalEngine.Parsing.Fdo;
 /// <summary>A number in the text of a fractal file that can be turned.</summary>
 /// <param name="Role">What the number means.</param>
 /// <param name="Name">
-/// The vector's number behind a <c>v</c>, the name of the recursive, or the called function with the number of the call in the file.
+/// The name of the number or vector, the vector's number behind a <c>v</c>, the function that has the vector as an output, the name of
+/// the recursive, or the called function with the number of the call in the file.
 /// </param>
 /// <param name="Component">0, 1 and 2 for x, y and z of a vector; the index of an argument; 0 for a depth.</param>
 /// <param name="Offset">Where the number begins in the text, in characters.</param>
@@ -21,9 +22,18 @@ public sealed record FractalNumber(FractalNumberRole Role, string Name, int Comp
     /// </summary>
     public (int Set, int Index, int SetSize)? Call { get; init; }
 
+    /// <summary>Number of the vector that a component is of, from 1; null for a vector with a name, and for what is no component.</summary>
+    public int? Vector { get; init; }
+
+    /// <summary>True where the number stands for three equal components.</summary>
+    public bool IsEven { get; init; }
+
+    /// <summary>Ends that the file gives to the slider of a named number; null for other numbers, and where it gives none.</summary>
+    public (double From, double To)? Range { get; init; }
+
     /// <summary>
-    /// Lists the numbers of a fractal in their order: all components of its vectors, the arguments of its calls, and the depths of its
-    /// recursives.
+    /// Lists the numbers of a fractal in their order: named ones, components of its vectors, the arguments of its calls, and the depths of
+    /// its recursives.
     /// </summary>
     /// <param name="source">A text that is a fractal.</param>
     /// <exception cref="SourceException">The text is not a fractal, or has no valid meaning.</exception>

@@ -7,17 +7,20 @@ namespace FractalEngine.Parsing.Fdo;
 /// <summary>Lists the numbers of a fractal file with their places, for programs that turn them.</summary>
 internal sealed class FractalNumberList
 {
-    private readonly List<(FractalNumber Number, int Vector)> _numbers = [];
-    private readonly Dictionary<int, FractalNumberRole> _vectorRoles = [];
+    private readonly List<FractalNumber> _numbers = [];
+    private readonly Dictionary<string, FractalNumberRole> _vectorRoles = [];
     private int _callCount;
     private int _setCount;
 
     /// <summary>Returns the numbers of a file that was parsed whole: only then it is known what its vectors mean.</summary>
     public ImmutableArray<FractalNumber> Complete() =>
     [
-        .. _numbers.Select(listed => listed.Number.Role != FractalNumberRole.Vector ? listed.Number
-            : listed.Number with { Role = _vectorRoles.GetValueOrDefault(listed.Vector, FractalNumberRole.Vector) }),
+        .. _numbers.Select(number => number.Role != FractalNumberRole.Vector ? number
+            : number with { Role = _vectorRoles.GetValueOrDefault(number.Name, FractalNumberRole.Vector) }),
     ];
+
+    /// <summary>Name of a vector that has a number only.</summary>
+    public static string NameOf(int vector) => FormattableString.Invariant($"v{vector}");
 
     /// <summary>Lists the components of a vector.</summary>
     /// <param name="vector">Number of the vector, from 1.</param>
@@ -33,15 +36,37 @@ internal sealed class FractalNumberList
             }
 
             NumberReader.TryRead(start.Rest[..(end.Offset - start.Offset)], out var value, out var length);
-            var name = FormattableString.Invariant($"v{vector}");
-            _numbers.Add((new(FractalNumberRole.Vector, name, component, start.Offset, length, value), vector));
+            _numbers.Add(new(FractalNumberRole.Vector, NameOf(vector), component, start.Offset, length, value) { Vector = vector });
             start = start.Advance(length);
         }
     }
 
+    /// <summary>Lists a component of a vector that stands in parentheses.</summary>
+    /// <param name="name">Name of the vector, or of the function that has it as an output.</param>
+    /// <param name="component">From 0 to 2 for x, y and z.</param>
+    /// <param name="start">Position of the number.</param>
+    /// <param name="end">Position behind it.</param>
+    /// <param name="value">The number.</param>
+    /// <param name="role">What it means; null for what the file makes of the named vector.</param>
+    /// <param name="isEven">True where all components are this number.</param>
+    public void AddComponent(string name, int component, Cursor start, Cursor end, double value, FractalNumberRole? role, bool isEven) =>
+        _numbers.Add(new(role ?? FractalNumberRole.Vector, name, component, start.Offset, end.Offset - start.Offset, value)
+        {
+            IsEven = isEven,
+        });
+
+    /// <summary>Lists a named number.</summary>
+    /// <param name="name">The name.</param>
+    /// <param name="start">Position of its expression.</param>
+    /// <param name="end">Position behind that.</param>
+    /// <param name="value">The value of the expression.</param>
+    /// <param name="range">Ends of its slider; null where the file has none.</param>
+    public void AddNamed(string name, Cursor start, Cursor end, double value, (double From, double To)? range) =>
+        _numbers.Add(new(FractalNumberRole.Named, name, 0, start.Offset, end.Offset - start.Offset, value) { Range = range });
+
     /// <summary>Lists the depth of a recursive.</summary>
     public void AddDepth(string name, Cursor start, Cursor end, int depth) =>
-        _numbers.Add((new(FractalNumberRole.Depth, name, 0, start.Offset, end.Offset - start.Offset, depth), 0));
+        _numbers.Add(new(FractalNumberRole.Depth, name, 0, start.Offset, end.Offset - start.Offset, depth));
 
     /// <summary>Lists an argument of a call, and records what its vector means by what the function makes of it.</summary>
     /// <param name="name">Name of the function.</param>
@@ -53,7 +78,7 @@ internal sealed class FractalNumberList
     /// <param name="callIndex">Number of entries before the call in its set.</param>
     public void AddArgument(string name, Cursor start, Cursor end, int vector, int index, TransformationFunction function, int callIndex)
     {
-        if (index >= function.ParameterCount)
+        if (index >= function.Parameters.Count)
         {
             return;
         }
@@ -61,7 +86,13 @@ internal sealed class FractalNumberList
         _callCount += index == 0 ? 1 : 0;
         var callName = FormattableString.Invariant($"{name} {_callCount}");
         var number = new FractalNumber(FractalNumberRole.Argument, callName, index, start.Offset, end.Offset - start.Offset, vector);
-        _numbers.Add((number with { Call = (_setCount, callIndex, 0) }, vector));
+        _numbers.Add(number with { Call = (_setCount, callIndex, 0) });
+        AddRoles(NameOf(vector), index, function);
+    }
+
+    /// <summary>Records what a vector means that is an argument.</summary>
+    public void AddRoles(string vector, int index, TransformationFunction function)
+    {
         foreach (var (output, role) in function.Outputs)
         {
             if (output.Parameter == index)
@@ -75,15 +106,15 @@ internal sealed class FractalNumberList
     /// <param name="size">Number of entries of the set.</param>
     public void EndSet(int size)
     {
-        for (var i = _numbers.Count - 1; i >= 0 && _numbers[i].Number.Call is { SetSize: 0 } call; i--)
+        for (var i = _numbers.Count - 1; i >= 0 && _numbers[i].Call is { SetSize: 0 } call; i--)
         {
-            _numbers[i] = _numbers[i] with { Number = _numbers[i].Number with { Call = call with { SetSize = size } } };
+            _numbers[i] = _numbers[i] with { Call = call with { SetSize = size } };
         }
 
         _setCount++;
     }
 
     /// <summary>Records what a vector means that a function uses itself.</summary>
-    public void AddRole(int vector, FractalNumberRole role) =>
+    public void AddRole(string vector, FractalNumberRole role) =>
         _vectorRoles[vector] = _vectorRoles.TryGetValue(vector, out var known) && known != role ? FractalNumberRole.Vector : role;
 }

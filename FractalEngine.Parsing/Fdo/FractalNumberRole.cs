@@ -20,4 +20,7 @@ public enum FractalNumberRole
 
     /// <summary>An argument of a call in a set: the number of a vector, from 1.</summary>
     Argument,
+
+    /// <summary>A number with a name, whatever expressions make of it.</summary>
+    Named,
 }

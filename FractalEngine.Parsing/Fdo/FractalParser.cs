@@ -18,7 +18,7 @@ public sealed class FractalParser : TransformationParser
     private bool _hasDeclaration;
     private long _repeatedStepCount;
 
-    private protected override string? Explain(SyntaxFailure failure) => FractalMistakes.Explain(failure);
+    private protected override string? Explain(SyntaxFailure failure) => ExplainOutput(failure) ?? FractalMistakes.Explain(failure);
 
     private FractalParser(SourceText source, FractalNumberList? numbers)
         : base(source, numbers)
@@ -26,8 +26,11 @@ public sealed class FractalParser : TransformationParser
     }
 
     /// <summary>Parses a whole fractal file. The file of the base mesh is not read.</summary>
+    /// <param name="source">Text of the file.</param>
+    /// <param name="values">Numbers that take the place of those that the file gives to names; null for none.</param>
     /// <exception cref="SourceException">The text is not a fractal, or has no valid meaning.</exception>
-    public static ParsedFractal Parse(SourceText source) => new FractalParser(source, null).ParseFile();
+    public static ParsedFractal Parse(SourceText source, IReadOnlyDictionary<string, double>? values = null) =>
+        new FractalParser(source, null) { Overrides = values }.ParseFile();
 
     /// <summary>Parses a file, and lists its numbers.</summary>
     internal static ImmutableArray<FractalNumber> FindNumbers(SourceText source)
@@ -57,12 +60,17 @@ public sealed class FractalParser : TransformationParser
 
         var steps = result.Object.Steps;
         var description = new FractalDescription(steps.Take(steps.Count), _composition?.Composition ?? Composition.Affine);
-        if (!FractalCheck.IsComposable(description))
+        if (FractalCheck.FindCompositionFault(description) is { } fault)
         {
-            throw Source.Error(result.Offset, FractalCheck.NotComposableMessage);
+            throw Source.Error(result.Offset, fault);
         }
 
-        return new(Source, description, result.Object.BaseFile, result.Object.BaseFileNameOffset, result.Offset) { Warnings = Hints };
+        return new(Source, description, result.Object.BaseFile, result.Object.BaseFileNameOffset, result.Offset)
+        {
+            IsBaseShape = result.Object.IsBaseShape,
+            NumberNames = [.. NumberNames],
+            Warnings = Hints,
+        };
     }
 
     private bool ParseLine(Cursor cursor, out Cursor rest)
@@ -78,6 +86,8 @@ public sealed class FractalParser : TransformationParser
         return ParseVectorDeclaration(cursor, out rest)
             || ParseResult(cursor, out rest)
             || ParseComposition(cursor, out rest)
+            || ParseValueDeclaration(cursor, out rest)
+            || ParseMatrix(cursor, out rest)
             || ParseFunction(cursor, out rest)
             || ParseRecursive(cursor, out rest)
             || ParseObjectDeclaration(cursor, out rest);
@@ -170,7 +180,7 @@ public sealed class FractalParser : TransformationParser
         RequireLimit(
             body.Steps.LevelCount - baseObject.Steps.LevelCount, FractalLimits.Levels.Value, "the fractal", "levels", bodyStart);
         RequireLimit(_repeatedStepCount += stepCount, ParsingLimits.RepeatedSteps.Value, "the file", "steps in all recursives", bodyStart);
-        Names.Add(cursor, name, new DeclaredRecursive(baseObject, body.Steps.Take(stepCount)));
+        Names.Add(cursor, name, new DeclaredRecursive(baseObject, body.Steps.Take(stepCount)) { IsBaseShape = baseObject.IsBaseShape });
         return true;
     }
 
@@ -213,7 +223,7 @@ public sealed class FractalParser : TransformationParser
         if (sets.Count > 0)
         {
             var steps = sets.AsEnumerable().Reverse().Aggregate(value.Steps, (inner, step) => inner.Prepend(step));
-            value = new(value.BaseFile, value.BaseFileNameOffset, steps) { Origin = value };
+            value = new(value.BaseFile, value.BaseFileNameOffset, steps) { Origin = value, IsBaseShape = value.IsBaseShape };
         }
 
         RequireStepLimits(value.Steps, cursor);
@@ -250,7 +260,8 @@ public sealed class FractalParser : TransformationParser
             throw Error(depthStart, "the depth of a recursive must not be negative");
         }
 
-        if (depthStart.Offset == rest.Offset || !ParseInteger(depthStart, "a depth", out var depth, out rest))
+        if (depthStart.Offset == rest.Offset || (depthStart.Current == '(' && !Names.IsRecursive(name))
+            || !ParseDepth(depthStart, out var depth, out rest))
         {
             return Fail(depthStart, SyntaxFailure.EndOfLine);
         }
@@ -265,9 +276,32 @@ public sealed class FractalParser : TransformationParser
             throw Error(depthStart, $"the depth is more than the limit of {FractalLimits.Depth.Value}", isLimitExceeded: true);
         }
 
-        value = recursive.WithDepth(depth);
-        Numbers?.AddDepth(name, depthStart, rest, depth);
+        value = recursive.WithDepth((int)depth);
+        if (depthStart.Current != '(')
+        {
+            Numbers?.AddDepth(name, depthStart, rest, (int)depth);
+        }
+
         return true;
+    }
+
+    /// <summary>Parses the depth of a recursive: an integer, or an expression in parentheses.</summary>
+    private bool ParseDepth(Cursor cursor, out double depth, out Cursor rest)
+    {
+        if (cursor.Current != '(')
+        {
+            var isInteger = ParseInteger(cursor, "a depth", out var integer, out rest);
+            depth = integer;
+            return isInteger;
+        }
+
+        if (!ParseParenthesized(cursor, out depth, out rest))
+        {
+            return false;
+        }
+
+        return depth >= 0 && Math.Floor(depth) == depth ? true
+            : throw Error(cursor, FormattableString.Invariant($"a depth is a whole number that is not negative, not {depth:R}"));
     }
 
     private void RequireFinite(Cursor cursor, string name, DeclaredObject value)

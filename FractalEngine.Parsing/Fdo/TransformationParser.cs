@@ -8,28 +8,22 @@ using FractalEngine.Parsing.Text.Numbers;
 namespace FractalEngine.Parsing.Fdo;
 
 /// <summary>Parses the vectors and transformation functions of fractal files, and the sets that call these.</summary>
-public abstract class TransformationParser : Parser
+public abstract class TransformationParser : ExpressionParser
 {
     private const int MaxParameters = 3;
 
     private readonly List<Vector> _vectors = [];
 
     // The arguments of the call that is read.
-    private readonly Vector[] _arguments = new Vector[MaxParameters];
+    private readonly FractalValue[] _arguments = new FractalValue[MaxParameters];
+    private (int Offset, string Name)? _unknownOutput;
     private long _mapCount;
 
     private protected TransformationParser(SourceText source, FractalNumberList? numbers)
-        : base(source)
-    {
-        Numbers = numbers;
-        Names = new(source);
-    }
+        : base(source, numbers) => Names = new(source);
 
-    /// <summary>The names that were declared so far.</summary>
+    /// <summary>The names of objects and transformations that were declared so far.</summary>
     private protected DeclaredNames Names { get; }
-
-    /// <summary>Receives the numbers of the file; null where nobody asks for them.</summary>
-    private protected FractalNumberList? Numbers { get; }
 
     /// <summary>Parses a vector: <c>v x y z</c>.</summary>
     private protected bool ParseVectorDeclaration(Cursor cursor, out Cursor rest)
@@ -45,21 +39,72 @@ public abstract class TransformationParser : Parser
         return true;
     }
 
-    /// <summary>Parses <c>t.a.b. (out, out, out)</c>; each output is a parameter, the number of a vector, or '#'.</summary>
+    /// <summary>Parses <c>m.matrix (x axis) (y axis) (z axis) (translation)</c>: a map by what it makes of the axes.</summary>
+    private protected bool ParseMatrix(Cursor cursor, out Cursor rest)
+    {
+        if (!ParseName(cursor, "a declaration", out var name, out rest) || !ParseChar(rest, '.', out rest)
+            || !ParseWord(rest, "matrix", out rest) || !ParseSeparator(rest, out var start) || !ParseVectorTerm(start, out var x, out rest)
+            || !ParseSeparator(rest, out rest) || !ParseVectorTerm(rest, out var y, out rest)
+            || !ParseSeparator(rest, out rest) || !ParseVectorTerm(rest, out var z, out rest)
+            || !ParseSeparator(rest, out rest) || !ParseVectorTerm(rest, out var translation, out rest))
+        {
+            return false;
+        }
+
+        var map = new AffineMap(new(x, y, z), translation);
+        RequireInvertible(start, map);
+        Names.Add(cursor, name, new TransformationFunction(FractalParameters.None, default, default, default) { Matrix = map });
+        return true;
+    }
+
+    /// <summary>Parses a vector in parentheses, or the name of one.</summary>
+    private bool ParseVectorTerm(Cursor cursor, out Vector vector, out Cursor rest)
+    {
+        vector = default;
+        if (cursor.Current == '(')
+        {
+            return ParseVectorValue(cursor, null, null, out vector, out rest);
+        }
+
+        Fail(cursor, "'('");
+        return ParseName(cursor, "the name of a vector", out var name, out rest) && Set(ref vector, FindVector(cursor, name));
+    }
+
+    private Vector FindVector(Cursor cursor, string name) => TryFindValue(name, out var value) ? RequireVector(cursor, name, value)
+        : throw Error(cursor, $"the vector '{name}' is not declared above{AskAboutValue(name, isNumber: false)}");
+
+    /// <summary>Parses <c>t.a.b. (out, out, out)</c>; each output is a parameter, a vector or its number or name, or '#'.</summary>
     private protected bool ParseFunction(Cursor cursor, out Cursor rest)
     {
         if (!ParseName(cursor, "a declaration", out var name, out rest) || !ParseChar(rest, '.', out rest)
-            || !ParseParameters(rest, out var parameters, out rest)
-            || !ParseBlanks(rest, out rest) || !ParseChar(rest, '(', out rest)
-            || !ParseBlanks(rest, out rest) || !ParseOutput(rest, parameters, FractalNumberRole.Position, out var position, out rest)
-            || !ParseSeparator(rest, out rest) || !ParseOutput(rest, parameters, FractalNumberRole.Rotation, out var rotation, out rest)
-            || !ParseSeparator(rest, out rest) || !ParseOutput(rest, parameters, FractalNumberRole.Scale, out var scale, out rest)
+            || !ParseParameters(rest, out var parameters, out rest) || !ParseBlanks(rest, out rest) || !ParseChar(rest, '(', out rest))
+        {
+            return false;
+        }
+
+        Parameters = new(parameters);
+        var isParsed = ParseOutputs(rest, name, out var function, out rest);
+        Parameters = FractalParameters.None;
+        if (isParsed)
+        {
+            Names.Add(cursor, name, function);
+        }
+
+        return isParsed;
+    }
+
+    private bool ParseOutputs(Cursor cursor, string name, out TransformationFunction function, out Cursor rest)
+    {
+        function = new(Parameters, default, default, default);
+        if (!ParseBlanks(cursor, out rest) || !ParseOutput(rest, name, FractalNumberRole.Position, out var position, out rest)
+            || !ParseSeparator(rest, out rest) || !ParseOutput(rest, name, FractalNumberRole.Rotation, out var rotation, out rest)
+            || !ParseSeparator(rest, out rest) || !ParseOutput(rest, name, FractalNumberRole.Scale, out var scale, out rest)
             || !ParseBlanks(rest, out rest) || !ParseChar(rest, ')', out rest))
         {
             return false;
         }
 
-        Names.Add(cursor, name, new TransformationFunction(parameters.Count, position, rotation, scale));
+        function = new(Parameters, position, rotation, scale);
         return true;
     }
 
@@ -90,10 +135,9 @@ public abstract class TransformationParser : Parser
         return true;
     }
 
-    private bool ParseOutput(
-        Cursor cursor, List<string> parameters, FractalNumberRole role, out FunctionOutput output, out Cursor rest)
+    private bool ParseOutput(Cursor cursor, string function, FractalNumberRole role, out FunctionOutput output, out Cursor rest)
     {
-        output = new(null, null, role == FractalNumberRole.Scale ? Vector.One : Vector.Zero, cursor);
+        output = new(role == FractalNumberRole.Scale ? Vector.One : Vector.Zero, cursor);
         rest = cursor;
         if (char.IsAsciiDigit(cursor.Current) && !IsDecimal(cursor))
         {
@@ -108,16 +152,19 @@ public abstract class TransformationParser : Parser
             }
 
             output = output with { VectorNumber = number };
-            Numbers?.AddRole(number, role);
+            Numbers?.AddRole(FractalNumberList.NameOf(number), role);
             return true;
         }
 
-        if (char.IsLetter(cursor.Current) && ParseName(cursor, "a parameter", out var name, out var afterName)
-            && parameters.IndexOf(name) is >= 0 and var index)
+        if (cursor.Current == '(')
         {
-            output = output with { Parameter = index };
+            return ParseVectorValue(cursor, function, role, out var vector, out rest) && Set(ref output, output with { Value = vector });
+        }
+
+        if (char.IsLetter(cursor.Current) && ParseName(cursor, "a parameter", out var name, out var afterName))
+        {
             rest = afterName;
-            return true;
+            return ParseNamedOutput(cursor, name, role, ref output);
         }
 
         if (cursor.Current == '#')
@@ -126,10 +173,42 @@ public abstract class TransformationParser : Parser
             return true;
         }
 
+        return FailOutput(cursor);
+    }
+
+    private bool ParseNamedOutput(Cursor cursor, string name, FractalNumberRole role, ref FunctionOutput output)
+    {
+        if (Parameters.IndexOf(name) is >= 0 and var index)
+        {
+            RequireUse(cursor, index, asNumber: false);
+            output = output with { Parameter = index };
+            return true;
+        }
+
+        if (TryFindValue(name, out var value))
+        {
+            output = output with { Value = RequireVector(cursor, name, value) };
+            Numbers?.AddRole(name, role);
+            return true;
+        }
+
+        _unknownOutput = (cursor.Offset, name);
+        return FailOutput(cursor);
+    }
+
+    private bool FailOutput(Cursor cursor)
+    {
         Fail(cursor, FractalMistakes.VectorNumber);
-        Fail(cursor, "a parameter");
+        Fail(cursor, "a name");
+        Fail(cursor, "'('");
         return Fail(cursor, "'#'");
     }
+
+    /// <summary>Explains an output that is the name of nothing; null for other failures.</summary>
+    private protected string? ExplainOutput(SyntaxFailure failure) =>
+        _unknownOutput is { } unknown && unknown.Offset == failure.Position.Offset
+        && AskAboutValue(unknown.Name, isNumber: false) is { Length: > 0 } question
+            ? $"no parameter or vector has this name{question}" : null;
 
     /// <summary>Tells whether a number with a point and decimals begins here, such as 0.5.</summary>
     private static bool IsDecimal(Cursor cursor) =>
@@ -162,35 +241,142 @@ public abstract class TransformationParser : Parser
         return Error(start, $"vector {TextBetween(start, end)} of {_vectors.Count}: {fault}");
     }
 
-    /// <summary>Parses a set of calls: <c>[#, t.1, u.6.10]</c>.</summary>
+    /// <summary>Parses a set of maps: <c>[#, t.1, u.up.(2), s.^0..3 * r.]</c>.</summary>
     private protected bool ParseSet(Cursor cursor, out TransformationSet set, out Cursor rest)
     {
-        set = new([]);
+        set = new(ImmutableArray<Transformation>.Empty);
         if (!ParseChar(cursor, '[', out rest) || !ParseBlanks(rest, out rest))
         {
             return false;
         }
 
-        var transformations = ImmutableArray.CreateBuilder<Transformation>((int)Math.Min(CountCalls(rest), ParsingLimits.Maps.Value));
-
+        var maps = new MapCollector((int)Math.Min(CountCalls(rest), ParsingLimits.Maps.Value));
         for (var first = true; rest.Current != ']'; first = false)
         {
-            if ((!first && !ParseSeparator(rest, out rest)) || !ParseCall(rest, transformations.Count, out var transformation, out rest))
+            if ((!first && !ParseSeparator(rest, out rest)) || !ParseProduct(rest, maps.Count, out var product, out rest))
             {
                 return false;
             }
 
-            RequireLimit(++_mapCount, ParsingLimits.Maps.Value, "the file", "transformations in all sets", rest);
-            transformations.Add(transformation);
+            _mapCount += product.Count;
+            RequireLimit(_mapCount, ParsingLimits.Maps.Value, "the file", "transformations in all sets", rest);
+            maps.Add(in product);
             if (ParseBlanks(rest, out var next) && next.Current == ']')
             {
                 rest = next;
             }
         }
 
-        Numbers?.EndSet(transformations.Count);
-        set = new(transformations.DrainToImmutable());
+        Numbers?.EndSet(maps.Count);
+        set = maps.ToSet();
         return ParseChar(rest, ']', out rest);
+    }
+
+    /// <summary>Parses maps that are applied one after the other, the right one first: <c>m * r.^2</c>.</summary>
+    private bool ParseProduct(Cursor cursor, int index, out MapFactor product, out Cursor rest)
+    {
+        if (!ParsePower(cursor, index, out product, out rest))
+        {
+            return false;
+        }
+
+        while (ParseBlanks(rest, out var sign) && sign.Current == '*')
+        {
+            if (!ParseBlanks(sign.Advance(1), out rest) || !ParsePower(rest, index, out var factor, out rest))
+            {
+                return false;
+            }
+
+            RequireMapCount((long)product.Count * factor.Count, sign);
+            product = product.Times(in factor);
+            RequireInvertible(sign, product.Maps);
+        }
+
+        return true;
+    }
+
+    /// <summary>Parses a call, and the power or the range of powers behind it: <c>t.1^-2..2</c>.</summary>
+    private bool ParsePower(Cursor cursor, int index, out MapFactor power, out Cursor rest)
+    {
+        if (!ParseCall(cursor, index, out power, out rest) || rest.Current != '^')
+        {
+            return rest.Offset > cursor.Offset;
+        }
+
+        var sign = rest;
+        if (!ParseExponent(sign.Advance(1), out var from, out rest))
+        {
+            return false;
+        }
+
+        var to = from;
+        if (rest.Current == '.' && rest.Peek(1) == '.' && !ParseExponent(rest.Advance(2), out to, out rest))
+        {
+            return false;
+        }
+
+        if (to < from)
+        {
+            throw Error(sign, "a range of powers begins at the smaller one, as in '^-2..2'");
+        }
+
+        RequireMapCount((long)to - from + 1, sign);
+        power = power.ToPowers(from, to);
+        RequireInvertible(sign, power.Maps);
+        return true;
+    }
+
+    private void RequireMapCount(long count, Cursor cursor) =>
+        RequireLimit(_mapCount + count, ParsingLimits.Maps.Value, "the file", "transformations in all sets", cursor);
+
+    /// <summary>Parses the exponent of a map: an integer, or an expression in parentheses.</summary>
+    private bool ParseExponent(Cursor cursor, out int exponent, out Cursor rest)
+    {
+        exponent = 0;
+        double value;
+        if (cursor.Current == '(')
+        {
+            if (!ParseParenthesized(cursor, out value, out rest))
+            {
+                return false;
+            }
+        }
+        else
+        {
+            var isNegative = cursor.Current == '-';
+            var digits = isNegative ? cursor.Advance(1) : cursor;
+            if (!ParseInteger(digits, "a whole number or an expression in parentheses", out var size, out rest))
+            {
+                return false;
+            }
+
+            value = isNegative ? -(double)size : size;
+        }
+
+        if (Math.Floor(value) != value)
+        {
+            throw Error(cursor, FormattableString.Invariant($"the power of a map is a whole number, not {value:R}"));
+        }
+
+        if (Math.Abs(value) > FractalLimits.Depth.Value)
+        {
+            throw Error(cursor, $"the power is more than the limit of {FractalLimits.Depth.Value}", isLimitExceeded: true);
+        }
+
+        exponent = (int)value;
+        return true;
+    }
+
+    private void RequireInvertible(Cursor cursor, params ReadOnlySpan<AffineMap> maps)
+    {
+        foreach (ref readonly var map in maps)
+        {
+            if (!map.Translation.IsFinite() || !ScaleCheck.IsInvertible(map.Linear))
+            {
+                throw Error(cursor, $"{(maps.Length == 1 ? "the map" : "one of the maps")} has no inverse, or one beyond all sizes: "
+                    + "each factor must lie between 1e-100 and 1e100 in size");
+            }
+        }
     }
 
     /// <summary>Counts what may be the calls of a set, so that wide sets are collected without copies.</summary>
@@ -210,10 +396,10 @@ public abstract class TransformationParser : Parser
         return count;
     }
 
-    /// <summary>Parses <c>#</c>, or a function with the numbers of its arguments: <c>t.4</c>, <c>u.6.10</c>, <c>r.</c></summary>
-    private bool ParseCall(Cursor cursor, int index, out Transformation transformation, out Cursor rest)
+    /// <summary>Parses <c>#</c>, or a function with its arguments: <c>t.4</c>, <c>u.up.(2, 0, k)</c>, <c>r.</c></summary>
+    private bool ParseCall(Cursor cursor, int index, out MapFactor factor, out Cursor rest)
     {
-        transformation = Transformation.Identity;
+        factor = new(Transformation.Identity);
         if (cursor.Current == '#')
         {
             rest = cursor.Advance(1);
@@ -227,39 +413,16 @@ public abstract class TransformationParser : Parser
         }
 
         var function = Names.FindFunction(cursor, name);
-        var argumentCount = 0;
-        if (!ParseChar(rest, '.', out rest))
+        if (!ParseChar(rest, '.', out rest) || !ParseArguments(name, function, index, out var argumentCount, ref rest))
         {
+            rest = cursor;
             return false;
         }
 
-        while (char.IsAsciiDigit(rest.Current))
-        {
-            var start = rest;
-            if (!ParseVectorNumber(rest, out var number, out var argument, out rest))
-            {
-                return false;
-            }
-
-            Numbers?.AddArgument(name, start, rest, number, argumentCount, function, index);
-            if (argumentCount < MaxParameters)
-            {
-                _arguments[argumentCount] = argument;
-            }
-
-            argumentCount++;
-            if (rest.Current != '.')
-            {
-                break;
-            }
-
-            rest = rest.Advance(1);
-        }
-
-        if (argumentCount != function.ParameterCount)
+        if (argumentCount != function.Parameters.Count)
         {
             var hint = char.IsAsciiDigit(rest.Advance(1).Current) && rest.Current is ' ' or '\t' ? ": no blank stands within a call" : "";
-            throw Error(cursor, $"'{name}' takes {ArgumentCountText(function.ParameterCount)}, not {argumentCount}{hint}");
+            throw Error(cursor, $"'{name}' takes {ArgumentCountText(function.Parameters.Count)}, not {argumentCount}{hint}");
         }
 
         if (function.Last.VectorNumber > _vectors.Count)
@@ -267,11 +430,134 @@ public abstract class TransformationParser : Parser
             throw VectorError(function.Last.Start, $" above the call in line {Source.LineOf(cursor.Offset)}");
         }
 
-        transformation = function.Apply(_arguments, _vectors);
+        if (function.Matrix is { } matrix)
+        {
+            factor = new([matrix]);
+            return true;
+        }
+
+        var transformation = Apply(function, cursor.Offset);
+        factor = new(transformation);
         Hint(cursor, RotationUnits.DescribeRadians(transformation.Rotation));
         return ScaleCheck.IsInvertible(transformation.Scale)
             ? true
             : throw Error(cursor, ScaleCheck.SingularScaleMessage(transformation.Scale));
+    }
+
+    /// <summary>Parses the arguments of a call, with dots between them and perhaps one behind.</summary>
+    private bool ParseArguments(string name, TransformationFunction function, int index, out int count, ref Cursor rest)
+    {
+        for (count = 0; char.IsAsciiDigit(rest.Current) || rest.Current is '(' or '_' || char.IsLetter(rest.Current); count++)
+        {
+            var start = rest;
+            var isNumber = count < function.Parameters.Count ? function.Parameters.IsNumber(count) : null;
+            if (!ParseArgument(start, name, function, count, isNumber, out var argument, out rest))
+            {
+                return false;
+            }
+
+            if (char.IsAsciiDigit(start.Current))
+            {
+                // Its text is that of an integer, since it was parsed as one.
+                ParseInteger(start, FractalMistakes.VectorNumber, out var number, out _);
+                Numbers?.AddArgument(name, start, rest, number, count, function, index);
+            }
+
+            if (count < MaxParameters)
+            {
+                _arguments[count] = argument;
+            }
+
+            if (rest.Current != '.')
+            {
+                count++;
+                return true;
+            }
+
+            rest = rest.Advance(1);
+        }
+
+        return true;
+    }
+
+    private bool ParseArgument(
+        Cursor cursor, string name, TransformationFunction function, int index, bool? isNumber, out FractalValue value, out Cursor rest)
+    {
+        value = default;
+        if (char.IsAsciiDigit(cursor.Current))
+        {
+            if (!ParseVectorNumber(cursor, out var number, out var listed, out rest))
+            {
+                return false;
+            }
+
+            value = FractalValue.Of(listed);
+            return isNumber != true ? true : throw Error(
+                cursor, $"the parameter '{function.Parameters.NameOf(index)}' of '{name}' is a number, as in '{name}.({number})'");
+        }
+
+        if (cursor.Current == '(' && isNumber == true)
+        {
+            return ParseParenthesized(cursor, out var result, out rest) && Set(ref value, FractalValue.Of(result));
+        }
+
+        if (cursor.Current == '(')
+        {
+            return ParseVectorValue(cursor, null, null, out var vector, out rest) && Set(ref value, FractalValue.Of(vector));
+        }
+
+        if (!ParseName(cursor, "the name of a number or vector", out var valueName, out rest))
+        {
+            return false;
+        }
+
+        if (!TryFindValue(valueName, out value))
+        {
+            throw Error(cursor, $"the value '{valueName}' is not declared above{AskAboutValue(valueName, isNumber == true)}");
+        }
+
+        if (isNumber == true && !value.IsNumber)
+        {
+            throw Error(cursor, $"'{valueName}' is a vector, and '{function.Parameters.NameOf(index)}' of '{name}' is a number");
+        }
+
+        if (isNumber == false)
+        {
+            _ = RequireVector(cursor, valueName, value);
+            Numbers?.AddRoles(valueName, index, function);
+        }
+
+        return true;
+    }
+
+    /// <summary>Parses a number in parentheses.</summary>
+    private protected bool ParseParenthesized(Cursor cursor, out double value, out Cursor rest)
+    {
+        value = 0;
+        if (!ParseChar(cursor, '(', out rest) || !ParseBlanks(rest, out rest) || !ParseExpression(rest, out value, out rest)
+            || !ParseBlanks(rest, out rest))
+        {
+            return false;
+        }
+
+        return rest.Current != ',' ? ParseChar(rest, ')', out rest) : throw Error(cursor, "here stands a number, and this is a vector");
+    }
+
+    /// <summary>Computes the transformation of a call, whose arguments have been read.</summary>
+    private Transformation Apply(TransformationFunction function, int callOffset)
+    {
+        (Parameters, Arguments, CallOffset) = (function.Parameters, _arguments, callOffset);
+        var transformation = new Transformation(Resolve(function.Position), Resolve(function.Rotation), Resolve(function.Scale));
+        (Parameters, Arguments) = (FractalParameters.None, null);
+        return transformation;
+    }
+
+    private Vector Resolve(in FunctionOutput output)
+    {
+        var vector = output.Parameter is { } index ? _arguments[index].Vector
+            : output.VectorNumber is { } number ? _vectors[number - 1]
+            : output.Value;
+        return output.HasParameters && ParseVectorValue(output.Start, null, null, out var computed, out _) ? computed : vector;
     }
 
     private static string ArgumentCountText(int count) => count == 1 ? "1 argument" : $"{count} arguments";
@@ -282,14 +568,6 @@ public abstract class TransformationParser : Parser
         if (Names.Functions.FirstOrDefault(function => function.Last.VectorNumber > _vectors.Count) is { } uncalled)
         {
             throw VectorError(uncalled.Last.Start, "");
-        }
-    }
-
-    private protected void RequireLimit(double? count, long limit, string owner, string things, Cursor cursor)
-    {
-        if (count > limit)
-        {
-            throw Error(cursor, $"{owner} has more than the limit of {limit} {things}", isLimitExceeded: true);
         }
     }
 }

@@ -124,7 +124,7 @@ internal sealed class FractalPanel(WindowActions actions)
         }
 
         string? name = null;
-        var vectorCount = _numbers.Count(static number => number.Component == 2 && number.Role is not FractalNumberRole.Argument);
+        var vectorCount = _numbers.Max(static number => number.Vector) ?? 0;
         for (var i = 0; i < _numbers.Length; i++)
         {
             var number = _numbers[i];
@@ -140,15 +140,25 @@ internal sealed class FractalPanel(WindowActions actions)
                 continue;
             }
 
-            if (name != number.Name)
+            if (number.Role == FractalNumberRole.Named)
             {
-                name = number.Name;
+                var ends = number.Range ?? (RangeOf(number).Minimum, RangeOf(number).Maximum);
+                ui.Row(1);
+                BuildSlider(ui, i, number.Name, ends.From, ends.To, 0);
+                Explain(ui, i);
+                continue;
+            }
+
+            var title = $"{number.Role} {number.Name}";
+            if (name != title)
+            {
+                name = title;
                 BuildTitle(ui, i);
                 ui.Row(1, 1, 1);
             }
 
             var (minimum, maximum, step) = RangeOf(_numbers[i]);
-            BuildSlider(ui, i, Axes[number.Component].ToString(), minimum, maximum, step);
+            BuildSlider(ui, i, number.IsEven ? Axes : Axes[number.Component].ToString(), minimum, maximum, step);
             Explain(ui, i);
         }
     }
@@ -162,15 +172,14 @@ internal sealed class FractalPanel(WindowActions actions)
     }
 
     /// <summary>Returns what the file says about one vector; null where it says nothing, or the same about all.</summary>
-    private string? About(int index) => _comments[index] is { } comment && _numbers[index].Name.StartsWith('v')
-        && int.TryParse(_numbers[index].Name.AsSpan(1), CultureInfo.InvariantCulture, out var vector)
-            ? FractalComments.About(comment, vector) : null;
+    private string? About(int index) => _comments[index] is { } comment && _numbers[index].Vector is { } vector
+        ? FractalComments.About(comment, vector) : null;
 
     /// <summary>Adds what a vector means, marked where it places the selected instance.</summary>
     private void BuildTitle(UserInterface ui, int index)
     {
         var number = _numbers[index];
-        var vector = number.Name.TrimStart('v');
+        var vector = number.Vector?.ToString(CultureInfo.InvariantCulture) ?? number.Name;
         var meaning = $"{number.Role.ToString().ToLowerInvariant()} {vector}";
         // Of several vectors that the file explains together, the first one has the words.
         var title = About(index) is { } about && (index < 3 || About(index - 3) != about) ? $"{vector}: {about}" : meaning;

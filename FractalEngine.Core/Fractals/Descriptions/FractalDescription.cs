@@ -17,6 +17,12 @@ public sealed record FractalDescription(ImmutableArray<FractalStep> Steps, Compo
     /// <summary>True when there is a repetition whose depth can be changed.</summary>
     public bool HasDepth => Steps.Any(step => step is Repetition);
 
+    /// <summary>
+    /// True when the steps can be composed componentwise: they end, since positions don't shrink, and have a position, a rotation and a
+    /// scale each.
+    /// </summary>
+    public bool CanBeComponentwise => !IsInfinite && Steps.All(HasTransformations);
+
     /// <summary>True when no transformation mirrors, so that all instances are wound as the base mesh is.</summary>
     public bool PreservesOrientation => Steps.All(StepPreservesOrientation);
 
@@ -53,6 +59,13 @@ public sealed record FractalDescription(ImmutableArray<FractalStep> Steps, Compo
 
     /// <inheritdoc/>
     public override int GetHashCode() => HashCode.Combine(Composition, FractalStep.HashOf(Steps));
+
+    private static bool HasTransformations(FractalStep step) => step switch
+    {
+        Repetition repetition => repetition.Round.All(HasTransformations),
+        TransformationSet set => set.HasTransformations,
+        _ => false,
+    };
 
     private static bool StepPreservesOrientation(FractalStep step) => step switch
     {

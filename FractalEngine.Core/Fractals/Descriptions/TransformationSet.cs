@@ -1,5 +1,6 @@
 using System.Collections.Immutable;
 using System.Numerics;
+using System.Runtime.CompilerServices;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Fractals.Descriptions;
@@ -9,6 +10,7 @@ public sealed class TransformationSet : FractalStep
 {
     /// <summary>Makes a set in the order of its declaration; a transformation may occur more than once.</summary>
     /// <exception cref="ArgumentException">A number is not finite.</exception>
+    [OverloadResolutionPriority(1)] // An empty collection expression is then not ambiguous.
     public TransformationSet(ImmutableArray<Transformation> transformations)
     {
         Transformations = !transformations.IsDefault && transformations.All(static one => one.IsFinite())
@@ -16,11 +18,27 @@ public sealed class TransformationSet : FractalStep
         Maps = ImmutableArray.CreateRange(transformations, static one => one.ToAffineMap());
     }
 
-    /// <summary>The transformations as they were declared.</summary>
+    /// <summary>Makes a set of any affine maps, such as shears; such a set can't be composed componentwise.</summary>
+    /// <exception cref="ArgumentException">A number is not finite.</exception>
+    public TransformationSet(ImmutableArray<AffineMap> maps)
+    {
+        Maps = !maps.IsDefault && maps.All(static map => map.IsFinite())
+            ? maps : throw new ArgumentException("expected maps of finite numbers", nameof(maps));
+        Transformations = [];
+    }
+
+    /// <summary>The transformations as they were declared; empty for a set of other maps.</summary>
     public ImmutableArray<Transformation> Transformations { get; }
 
     /// <summary>The transformations as affine maps, in the same order.</summary>
     public ImmutableArray<AffineMap> Maps { get; }
+
+    /// <summary>True where all maps were declared by position, rotation and scale.</summary>
+    public bool HasTransformations => Transformations.Length == Maps.Length;
+
+    /// <summary>True for the identity alone, in either composition.</summary>
+    internal bool IsIdentity =>
+        HasTransformations ? Transformations is [{ IsIdentity: true }] : Maps is [var only] && only == AffineMap.Identity;
 
     /// <summary>Makes the set of one transformation, such as that of an object as a whole (the paper's m).</summary>
     public static TransformationSet Of(Transformation placement) => new([placement]);
@@ -32,7 +50,7 @@ public sealed class TransformationSet : FractalStep
     public override long? LevelCount => 1;
 
     /// <inheritdoc/>
-    public override BigInteger? InstanceCount => Transformations.Length;
+    public override BigInteger? InstanceCount => Maps.Length;
 
     /// <inheritdoc/>
     public override int NestingDepth => 0;
@@ -41,12 +59,15 @@ public sealed class TransformationSet : FractalStep
     public override TransformationSet LevelAt(long level) => this;
 
     /// <inheritdoc/>
-    internal override BigInteger CountUpTo(long limit) => Transformations.Length;
+    internal override BigInteger CountUpTo(long limit) => Maps.Length;
 
     /// <inheritdoc/>
     public override bool Equals(FractalStep? other) =>
-        other is TransformationSet set && Transformations.AsSpan().SequenceEqual(set.Transformations.AsSpan());
+        other is TransformationSet set && Transformations.AsSpan().SequenceEqual(set.Transformations.AsSpan())
+        && (HasTransformations ? set.HasTransformations : Maps.AsSpan().SequenceEqual(set.Maps.AsSpan()));
 
     /// <inheritdoc/>
-    public override int GetHashCode() => Transformations.Take(4).Aggregate(Transformations.Length, HashCode.Combine);
+    public override int GetHashCode() => HasTransformations
+        ? Transformations.Take(4).Aggregate(Transformations.Length, HashCode.Combine)
+        : Maps.Take(4).Aggregate(Maps.Length, HashCode.Combine);
 }

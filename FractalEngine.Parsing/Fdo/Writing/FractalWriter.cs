@@ -2,6 +2,7 @@ using System.Collections.Immutable;
 using System.Text;
 using FractalEngine.Core;
 using FractalEngine.Core.Fractals.Descriptions;
+using FractalEngine.Core.Generation;
 using FractalEngine.Core.Maths;
 using FractalEngine.Parsing.Text;
 
@@ -24,6 +25,7 @@ public sealed class FractalWriter
     private readonly FractalVectors _vectors = new();
     private readonly Dictionary<TransformationSet, FractalSetForm> _forms = new(ReferenceEqualityComparer.Instance);
     private readonly Dictionary<string, string> _functionNames = [];
+    private readonly Dictionary<string, string> _matrixNames = [];
     private readonly HashSet<FractalStep> _collectedSteps = new(ReferenceEqualityComparer.Instance);
     private readonly List<FractalSetForm> _orderedForms = [];
     private long _setCharacters;
@@ -36,7 +38,9 @@ public sealed class FractalWriter
 
     /// <summary>Returns the text of a fractal file.</summary>
     /// <param name="description">Steps and composition of the fractal.</param>
-    /// <param name="baseFile">Name of the base mesh's file, relative to the fractal file; that of a mesh.</param>
+    /// <param name="baseFile">
+    /// Name of the base mesh's file, relative to the fractal file, or one of the <see cref="BaseShapes"/>.
+    /// </param>
     /// <exception cref="FractalEngineException">
     /// The language can't express the fractal: a scale is singular, steps follow an infinite repetition, or a limit is exceeded.
     /// </exception>
@@ -104,7 +108,7 @@ public sealed class FractalWriter
         WriteVectors("rotation in degrees", "rotations in degrees", form => form.Vectors(FractalSetForm.Rotation));
         WriteVectors("scale", "scales", form => form.Vectors(FractalSetForm.Scale));
         AppendLine(_vectors.Count > 0 ? "" : null);
-        AppendLine($"x. \"{baseFile}\"");
+        AppendLine(BaseShapes.TryFind(baseFile, out _) ? $"x. {baseFile}" : $"x. \"{baseFile}\"");
         var result = WriteSteps(description.Steps, "x");
         AppendLine($"<$>. {result}");
         return _text.ToString();
@@ -187,7 +191,10 @@ public sealed class FractalWriter
     private string FormatSet(FractalSetForm form)
     {
         var function = form.HasTransformations ? FunctionFor(form) : "";
-        var text = $"[{string.Join(", ", form.Set.Transformations.Select(transformation => FormatCall(form, function, transformation)))}]";
+        var calls = form.Set.HasTransformations
+            ? form.Set.Transformations.Select(transformation => FormatCall(form, function, transformation))
+            : form.Set.Maps.Select(MatrixFor);
+        var text = $"[{string.Join(", ", calls)}]";
         _setCharacters += text.Length;
         RequireLength(_setCharacters);
         return text;
@@ -219,6 +226,20 @@ public sealed class FractalWriter
         }
 
         return name;
+    }
+
+    /// <summary>Returns the call of a map, and declares its matrix if it is new.</summary>
+    private string MatrixFor(AffineMap map)
+    {
+        var definition = string.Join(' ', new[] { map.Linear.V1, map.Linear.V2, map.Linear.V3, map.Translation });
+        if (!_matrixNames.TryGetValue(definition, out var name))
+        {
+            name = FormattableString.Invariant($"m{_matrixNames.Count + 1}");
+            _matrixNames.Add(definition, name);
+            AppendLine($"{name}.matrix {definition}");
+        }
+
+        return $"{name}.";
     }
 
     private static string NextName(string letter, ref int count)

@@ -17,5 +17,18 @@ internal static class ScaleCheck
     public static string SingularScaleMessage(Vector scale) =>
         $"the scale {scale} is singular: each factor must lie between 1e-100 and 1e100 in size";
 
+    /// <summary>Tells the same of a map by its columns.</summary>
+    public static bool IsInvertible(Matrix linear)
+    {
+        try
+        {
+            return linear.MaxAbsEntry() <= MaxFactor && linear.Inverse().MaxAbsEntry() <= 1 / MinFactor;
+        }
+        catch (SingularMatrixException)
+        {
+            return false;
+        }
+    }
+
     private static bool IsInvertible(double factor) => Math.Abs(factor) is >= MinFactor and <= MaxFactor;
 }

@@ -383,21 +383,44 @@ public class FractalParserErrorTests
         Assert.Contains($"{FractalLimits.Levels.Value}", error.Message, StringComparison.Ordinal);
     }
 
+    private const string Language = """
+        k0 = 2  // a base
+        k = (1 + sin(30))^2/max(k0, 3) from 0 to 9
+        up = (0, k, -1)
+        m.matrix (1) up (0, 0, 2) (k)
+        t.p.n. (p, (n*2, 0, mod(n, 7)), (0.5))
+        z<box>. [t.up.(3)^-1..2 * m., #, t.(1, 2, 3).k] [t.up.(k - 1)] box
+        <$>. [m.^-2..(k0), t.up.(0)*m.] z (k0*2)
+        """;
+
     [Fact]
-    public void Parse_OfAnyText_EndsInAResultOrOneProperError()
+    public void Parse_OfAnyText_EndsInAResultOrOneProperError() => CheckMutations(Samples.AppendixB, 3000);
+
+    [Fact]
+    public void Parse_OfAnyExpressions_EndsInAResultOrOneProperError() => CheckMutations(Language, 3000);
+
+    [Theory]
+    [InlineData(false)]
+    [InlineData(true)]
+    [Trait("Category", "Soak")]
+    public void Parse_OfAMillionTexts_EndsInAResultOrOneProperError(bool isOfLanguage) =>
+        CheckMutations(isOfLanguage ? Language : Samples.AppendixB, 1_000_000);
+
+    private static void CheckMutations(string original, int count)
     {
         var parsedCount = 0;
-        Seeded.Run(3000, random =>
+        Seeded.Run(count, random =>
         {
-            var text = new StringBuilder(Samples.AppendixB);
+            var text = new StringBuilder(original);
             for (var change = random.Next(1, 6); change > 0; change--)
             {
-                const string characters = "\0\t\n\r \"#$(),-.0159<>[]aetuvxyz§\uD83D";
+                const string characters = "\0\t\n\r \"#$(),-.0159<>[]aetuvxyz§\uD83D=+*/^kmpsin";
                 var offset = random.Next(text.Length);
-                _ = random.Next(3) switch
+                _ = random.Next(4) switch
                 {
                     0 => text.Remove(offset, Math.Min(random.Next(1, 20), text.Length - offset)),
                     1 => text.Insert(offset, characters[random.Next(characters.Length)]),
+                    2 => text.Insert(offset, original.AsSpan(random.Next(original.Length - 10), random.Next(1, 10))),
                     _ => text.Replace(text[offset], characters[random.Next(characters.Length)], offset, 1),
                 };
             }
@@ -413,7 +436,7 @@ public class FractalParserErrorTests
             }
         });
         // Both happen, so that neither check is empty.
-        Assert.InRange(parsedCount, 100, 2900);
+        Assert.InRange(parsedCount, count / 100, count - (count / 30));
     }
 
     private static string Repeat(string text, int count) => new StringBuilder().Insert(0, text, count).ToString();
@@ -423,7 +446,7 @@ public class FractalParserErrorTests
     [Fact]
     public void Function_WithAnUnknownOutput_IsTheManualsExample() => Errors.AssertMessage(
         """
-        assets/fractals/tree.fdo:4:12: error: unexpected 'x', expected a vector number, a parameter or '#'
+        assets/fractals/tree.fdo:4:12: error: unexpected 'x', expected a vector number, a name, '(' or '#'
           t.a.b. (a, x, b)
                      ^
         """,

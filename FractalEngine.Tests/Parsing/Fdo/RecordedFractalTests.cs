@@ -20,6 +20,8 @@ public class RecordedFractalTests
         Small, "composition componentwise\nv 1 1 1\nt.a.b.c. (c, b, a)\nx. \"b.ply\"\nz<x>. [t.1.1.1] x\nw<x>. z 2\n<$>. w 3\n",
         "<$>. \"a.obj\"", "v 0.5, 0.5, 0.5\nt.a. (#, #, a)\nx. \"b.stl\"\nz<x>. [t.1] x\n<$>. z\n",
         "composition affine\n# c\n\nx. \"a.obj.gz\"\nmy-y. [] x\n<$>. my-y",
+        "k0 = 2\nk = (1 + sin(30))^2/max(k0, 3) from 0 to 9 // c\nup = (0, k, -1)\nm.matrix (1) up (0, 0, 2) (k)\n"
+            + "t.p.n. (p, (n*2), (0.5))\nz<box>. [t.up.(3)^-1..2 * m., #] box\n<$>. z (2*k0)\n",
     ];
 
     [Fact]

@@ -179,20 +179,20 @@ public class TypicalMistakeTests
             u.a. (a, #, 0.5)
             """,
             """
-            tree.fdo:6:13: error: unexpected '0.5': values stand in a vector 'v x y z', and here stands the number of that vector
+            tree.fdo:6:13: error: unexpected '0.5': numbers stand in parentheses, as in '(0.5)' or '(0, 1, 0)', but for that of a vector
               u.a. (a, #, 0.5)
                           ^
             """
         },
         {
-            "a vector as vector number",
+            "a vector without commas",
             """
-            u.a. (a, #, (0.5, 0.5, 0.5))
+            u.a. (a, #, (0.5 0.5 0.5))
             """,
             """
-            tree.fdo:6:13: error: unexpected '(': values stand in a vector 'v x y z', and here stands the number of that vector
-              u.a. (a, #, (0.5, 0.5, 0.5))
-                          ^
+            tree.fdo:6:18: error: unexpected '0.5': commas stand between the components of a vector, as in '(0, 1, 0)'
+              u.a. (a, #, (0.5 0.5 0.5))
+                               ^
             """
         },
         {
