@@ -71,7 +71,7 @@ public class RecursiveRaysTests
                 (1, () => new AffineMap(Math.Pow(10, random.Next(-6, 3)) * map.Linear, map.Translation)))();
         });
 
-    /// <summary>Casts rays at faces that are no needles, from above: flattened ones that a ray sees edge on are not certain to be hit.</summary>
+    /// <summary>Casts rays at faces that are no needles, from above: one that a ray sees edge on is not certain to be hit.</summary>
     private static bool CheckFlattened(Random random)
     {
         var recursives = RandomRecursives.Create(random);
@@ -139,7 +139,8 @@ public class RecursiveRaysTests
         return Check(random, recursives, 200, root: last, maxLevels: 1);
     }
 
-    private static bool Check(Random random, FractalRecursive[] recursives, int rays, int? root = null, int maxLevels = 4, bool mayBePart = false)
+    private static bool Check(
+        Random random, FractalRecursive[] recursives, int rays, int? root = null, int maxLevels = 4, bool mayBePart = false)
     {
         var (top, levels) = (root ?? random.Next(recursives.Length), random.Next(1, maxLevels + 1));
         var start = RecursiveChain.Begin(top, levels);
