@@ -81,7 +81,7 @@ public sealed class DeepZoomRayCaster : InstanceRayCaster
 
     // Cameras come to levels that searches from the whole fractal skip.
     private static FractalRayCaster WholeOf(Fractal fractal) =>
-        new(fractal, fractal.BuildHierarchy(doublesPowers: false, keepsAllLevels: true));
+        new(fractal.BuildHierarchy(doublesPowers: false, keepsAllLevels: true));
 
     private static ObjectBvh? BuildInstances(FractalRayCaster whole, ImmutableArray<LodRoot> roots)
     {

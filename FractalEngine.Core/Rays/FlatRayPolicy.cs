@@ -58,6 +58,7 @@ internal struct FlatRayPolicy(LocalRay ray, RaySearch search) : ITraversalPolicy
         }
 
         Search.Face = face;
+        Search.MeshIndex = leaf.BaseIndex;
         Search.Proxy = null;
         Path = path.ToArray();
         return !Search.StopsAtFirst;

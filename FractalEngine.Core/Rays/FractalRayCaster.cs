@@ -1,7 +1,6 @@
 using System.Numerics;
 using System.Runtime.CompilerServices;
 using FractalEngine.Core.Bvh;
-using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Fractals.Levels;
 using FractalEngine.Core.Fractals.Levels.Rays;
 using FractalEngine.Core.Geometry;
@@ -20,14 +19,13 @@ namespace FractalEngine.Core.Rays;
 /// Sub-fractals smaller than <see cref="LevelPrecision.RelativePrecision"/> of the whole are replaced by the base mesh, and so is
 /// what a ray still has to visit after a million bounds. Why no hit is lost is explained in docs/rays.md.
 /// </remarks>
-/// <param name="fractal">In affine composition.</param>
-/// <param name="hierarchy">Its levels.</param>
+/// <param name="hierarchy">The levels of the fractal.</param>
 /// <param name="rootLevels">Remaining levels of the sub-fractal that rays are cast at, which the hierarchy must have kept.</param>
-/// <param name="bvh">The hierarchy of the base mesh.</param>
+/// <param name="bvhs">The hierarchies of the base meshes.</param>
 /// <param name="rayLevels">The bounds of all levels.</param>
-/// <param name="basePlanes">The planes around the base mesh.</param>
+/// <param name="basePlanes">The planes around each base mesh.</param>
 internal sealed class FractalRayCaster(
-    Fractal fractal, FractalHierarchy hierarchy, long rootLevels, TriangleBvh bvh, RayLevels rayLevels, RayPlanes basePlanes)
+    FractalHierarchy hierarchy, long rootLevels, TriangleBvh[] bvhs, RayLevels rayLevels, RayPlanes[] basePlanes)
     : ShapeRayCaster
 {
     // About a fifth of a second.
@@ -46,23 +44,19 @@ internal sealed class FractalRayCaster(
 
     private readonly SubFractal _root = hierarchy.At(rootLevels);
     private readonly double _minRadius = LevelPrecision.MinRadius(hierarchy.At(rootLevels));
-    private readonly ShapeTree _tree = new(hierarchy, [bvh], LevelPrecision.MinRadius(hierarchy.At(rootLevels)));
+    private readonly ShapeTree _tree = new(hierarchy, bvhs, LevelPrecision.MinRadius(hierarchy.At(rootLevels)));
 
-    /// <summary>Prepares a fractal in affine composition.</summary>
-    public FractalRayCaster(Fractal fractal)
-        : this(fractal, fractal.Hierarchy)
-    {
-    }
-
-    /// <summary>Prepares a fractal with another hierarchy than its own.</summary>
-    public FractalRayCaster(Fractal fractal, FractalHierarchy hierarchy)
-        : this(fractal, hierarchy, hierarchy.Levels, TriangleBvh.For(fractal.BaseMesh), new(hierarchy), new(fractal.BaseMesh))
+    /// <summary>Prepares a fractal, perhaps of several base meshes.</summary>
+    public FractalRayCaster(FractalHierarchy hierarchy)
+        : this(
+            hierarchy, hierarchy.Levels, Array.ConvertAll(hierarchy.BaseMeshes, TriangleBvh.For), new(hierarchy),
+            Array.ConvertAll(hierarchy.BaseMeshes, static mesh => new RayPlanes(mesh)))
     {
     }
 
     /// <summary>The caster of a sub-fractal in its own frame. It shares what is kept with that of the whole.</summary>
     /// <param name="levels">Its remaining levels, which the hierarchy must have kept.</param>
-    public FractalRayCaster At(long levels) => new(fractal, hierarchy, levels, bvh, rayLevels, basePlanes);
+    public FractalRayCaster At(long levels) => new(hierarchy, levels, bvhs, rayLevels, basePlanes);
 
     /// <summary>The maps of the outermost set of a sub-fractal.</summary>
     /// <param name="levels">Its remaining levels, at least 1.</param>
@@ -72,13 +66,14 @@ internal sealed class FractalRayCaster(
     public BoundingBox Box => _root.Box;
 
     /// <inheritdoc/>
-    public override long StorageBytes => hierarchy.StorageBytes + bvh.StorageBytes + rayLevels.StorageBytes + basePlanes.StorageBytes;
-
-    /// <inheritdoc/>
-    internal override Mesh Mesh => fractal.BaseMesh;
+    public override long StorageBytes => hierarchy.StorageBytes + rayLevels.StorageBytes
+        + bvhs.Sum(static bvh => bvh.StorageBytes) + basePlanes.Sum(static planes => planes.StorageBytes);
 
     /// <inheritdoc/>
     private protected override double ShapeMagnitude { get; } = hierarchy.At(rootLevels).Box.MaxAbsCoordinate();
+
+    /// <inheritdoc/>
+    internal override Mesh MeshOf(in RaySearch search) => hierarchy.BaseMeshes[search.MeshIndex];
 
     /// <inheritdoc/>
     internal override SimdAffineMap ResolveInstance(
@@ -100,9 +95,9 @@ internal sealed class FractalRayCaster(
 
         // Below the rounding of the ray, all that it comes near seems hit.
         var minRadius = Math.Max(ray.Scale * _minRadius, MinRadiusInErrors * search.Error);
-        if (rootLevels == 0 || ray.Scale * _root.Radius <= minRadius)
+        if (hierarchy.IsBase(rootLevels) || ray.Scale * _root.Radius <= minRadius)
         {
-            var isRootHit = TryIntersectBase(in ray, ref search);
+            var isRootHit = TryIntersectBase(in ray, _root.BaseIndex, null, ref search);
             pathLength = isRootHit ? 0 : pathLength;
             return isRootHit;
         }
@@ -190,11 +185,12 @@ internal sealed class FractalRayCaster(
 
             bool isLeafHit;
             var radius = inner.Scale * bounds.Radius;
-            if (inner.RemainingLevels != 0 && radius < search.Footprint.RadiusAt(inner.Start))
+            var isBase = hierarchy.IsBase(inner.RemainingLevels);
+            if (!isBase && radius < search.Footprint.RadiusAt(inner.Start))
             {
                 isLeafHit = TryIntersectProxy(depth, in inner, bounds, ref search, context, ref pathLength);
             }
-            else if (inner.RemainingLevels == 0 || radius <= minRadius || inner.PathLength >= InstanceResolver.MaxDepth
+            else if (isBase || radius <= minRadius || inner.PathLength >= InstanceResolver.MaxDepth
                 || search.BoundTests >= MaxBoundTests)
             {
                 isLeafHit = TryIntersectLeaf(in ray, depth, in inner, bounds, ref search, context, ref pathLength);
@@ -280,22 +276,21 @@ internal sealed class FractalRayCaster(
         return true;
     }
 
-    /// <summary>Tests the base mesh, stretched to the box of a sub-fractal.</summary>
+    /// <summary>Tests a base mesh, stretched to the box of a sub-fractal.</summary>
     private bool TryIntersectProxy(
         int depth, in RayFrame frame, RayBounds bounds, ref RaySearch search, QueryContext context, ref int pathLength)
     {
         var local = frame.ToLocal(bounds.Box).Transform(in bounds.Proxy.Inverse, 1, 1);
-        if (!bvh.Rays.TryIntersect(in local, ref search))
+        if (!TryIntersectBase(in local, bounds.BaseIndex, bounds.Proxy, ref search))
         {
             return false;
         }
 
-        search.Proxy = bounds.Proxy;
         pathLength = CopyPath(depth, in frame, context);
         return true;
     }
 
-    /// <summary>Tests the base mesh at the end of a path.</summary>
+    /// <summary>Tests a base mesh at the end of a path.</summary>
     private bool TryIntersectLeaf(
         in LocalRay ray, int depth, in RayFrame frame, RayBounds bounds, ref RaySearch search, QueryContext context, ref int pathLength)
     {
@@ -328,26 +323,27 @@ internal sealed class FractalRayCaster(
 
     private bool TestBase(in RayFrame frame, RayBounds bounds, ref RaySearch search)
     {
-        if (frame.RemainingLevels == 0 && !basePlanes.IsEmpty)
+        if (hierarchy.IsBase(frame.RemainingLevels) && basePlanes[bounds.BaseIndex] is { IsEmpty: false } planes)
         {
             search.BoundTests++;
-            if (!basePlanes.MayHit(in frame, in search))
+            if (!planes.MayHit(in frame, in search))
             {
                 return false;
             }
         }
 
-        return TryIntersectBase(frame.ToLocal(bounds.Box), ref search);
+        return TryIntersectBase(frame.ToLocal(bounds.Box), bounds.BaseIndex, null, ref search);
     }
 
-    private bool TryIntersectBase(in LocalRay ray, ref RaySearch search)
+    private bool TryIntersectBase(in LocalRay ray, int baseIndex, RayProxy? proxy, ref RaySearch search)
     {
-        if (!bvh.Rays.TryIntersect(in ray, ref search))
+        if (!bvhs[baseIndex].Rays.TryIntersect(in ray, ref search))
         {
             return false;
         }
 
-        search.Proxy = null;
+        search.MeshIndex = baseIndex;
+        search.Proxy = proxy;
         return true;
     }
 }

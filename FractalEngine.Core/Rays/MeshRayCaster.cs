@@ -33,10 +33,10 @@ internal sealed class MeshRayCaster(Mesh mesh, Mesh faces) : ShapeRayCaster
     public override long StorageBytes => _bvh.StorageBytes + (_instances.Length * (long)Unsafe.SizeOf<AffineMap>());
 
     /// <inheritdoc/>
-    internal override Mesh Mesh { get; } = mesh;
+    private protected override double ShapeMagnitude { get; } = QueryScale.Magnitude(faces);
 
     /// <inheritdoc/>
-    private protected override double ShapeMagnitude { get; } = QueryScale.Magnitude(faces);
+    internal override Mesh MeshOf(in RaySearch search) => mesh;
 
     /// <inheritdoc/>
     internal override bool TryIntersect(in LocalRay ray, ref RaySearch search, QueryContext context, ref int pathLength)
@@ -50,7 +50,7 @@ internal sealed class MeshRayCaster(Mesh mesh, Mesh faces) : ShapeRayCaster
         if (_instances.Length > 0)
         {
             pathLength = 1;
-            (context.BestPathBuffer(1)[0], search.Face) = Math.DivRem(search.Face, Mesh.FaceCount);
+            (context.BestPathBuffer(1)[0], search.Face) = Math.DivRem(search.Face, mesh.FaceCount);
         }
 
         return true;

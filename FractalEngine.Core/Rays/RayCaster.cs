@@ -63,7 +63,7 @@ public abstract class RayCaster
     {
         ArgumentNullException.ThrowIfNull(fractal);
         return fractal.Description.Composition == Composition.Affine
-            ? new FractalRayCaster(fractal)
+            ? new FractalRayCaster(fractal.Hierarchy)
             : new MeshRayCaster(fractal);
     }
 
@@ -98,7 +98,7 @@ public abstract class RayCaster
         var shape = found?.Caster.Value ?? (ShapeRayCaster)this;
         ref readonly var map = ref found is null ? ref Identity : ref found.ObjectToWorld;
         hit = RayHitFactory.Create(
-            ray.Origin, direction, in search, minDistance, maxDistance, shape.Mesh,
+            ray.Origin, direction, in search, minDistance, maxDistance, shape.MeshOf(in search),
             shape.ResolveInstance(in search, pathLength, in map, context));
         context.ObjectIndex = found?.Index ?? 0;
         return true;

@@ -18,6 +18,12 @@ public readonly record struct RayHit(
     /// <summary>From the frame of the mesh, or of the fractal's base mesh, to that of the ray.</summary>
     public AffineMap InstanceMap { get; init; }
 
+    /// <summary>The mesh with the face: that of the shape, or a base mesh of the fractal.</summary>
+    public Mesh Mesh { get; init; } = Mesh.Empty;
+
+    /// <summary>Index of that mesh among the base meshes of the fractal; 0 where there is only one.</summary>
+    public int MeshIndex { get; init; }
+
     /// <summary>
     /// The instance that is hit, as in <see cref="QueryContext.InstancePath"/>. Empty where <c>TryFindNearest</c> has a context: that holds
     /// it then.
@@ -31,7 +37,8 @@ public readonly record struct RayHit(
     public bool Equals(RayHit other) =>
         Distance.Equals(other.Distance) && Point == other.Point && Normal == other.Normal && IsFrontFace == other.IsFrontFace
         && Barycentrics == other.Barycentrics && FaceIndex == other.FaceIndex && InstanceMap == other.InstanceMap
-        && ObjectIndex == other.ObjectIndex && InstancePath.AsSpan().SequenceEqual(other.InstancePath.AsSpan());
+        && MeshIndex == other.MeshIndex && ObjectIndex == other.ObjectIndex
+        && InstancePath.AsSpan().SequenceEqual(other.InstancePath.AsSpan());
 
     /// <inheritdoc/>
     public override int GetHashCode() => HashCode.Combine(Distance, Point, FaceIndex, ObjectIndex);

@@ -52,6 +52,8 @@ internal static class RayHitFactory
         return new(distance, point, normal, Vector.Dot(normal, direction) < 0, weights, search.Face)
         {
             InstanceMap = map.ToAffineMap(),
+            Mesh = mesh,
+            MeshIndex = search.MeshIndex,
         };
     }
 

@@ -8,8 +8,8 @@ namespace FractalEngine.Core.Rays;
 /// <summary>Casts rays at one mesh or fractal in its own frame, where <see cref="InstanceRayCaster"/> can place it.</summary>
 internal abstract class ShapeRayCaster : RayCaster
 {
-    /// <summary>The mesh that every instance of the shape shows.</summary>
-    internal abstract Mesh Mesh { get; }
+    /// <summary>The mesh of the face that a search has hit.</summary>
+    internal abstract Mesh MeshOf(in RaySearch search);
 
     /// <summary>Searches the nearest face of one shape along a ray, or any face where the search stops at the first.</summary>
     /// <param name="ray">In the shape's frame.</param>

@@ -12,8 +12,8 @@ namespace FractalEngine.Tests.Rays;
 /// <param name="name">The shape, for messages of failures.</param>
 /// <param name="caster">The caster of the shape.</param>
 /// <param name="oracle">The triangles of the shape.</param>
-/// <param name="resolve">Finds the triangle of an instance path and a face.</param>
-internal sealed class RayChecker(string name, RayCaster caster, RayOracle oracle, Func<int[], int, ExpandedTriangle> resolve)
+/// <param name="resolve">Finds the triangle of an instance path and a hit.</param>
+internal sealed class RayChecker(string name, RayCaster caster, RayOracle oracle, Func<int[], RayHit, ExpandedTriangle> resolve)
 {
     private const int RingCount = 8;
 
@@ -21,7 +21,7 @@ internal sealed class RayChecker(string name, RayCaster caster, RayOracle oracle
 
     /// <summary>Makes the checker of an expansion.</summary>
     public static RayChecker For(string name, RayCaster caster, ShapeExpansion shape) =>
-        new(name, caster, new(shape.Triangles), (path, face) => shape.Resolve(path, face));
+        new(name, caster, new(shape.Triangles), (path, hit) => shape.Resolve(path, hit.FaceIndex));
 
     /// <summary>Casts a ray for the nearest and for any hit, and fails unless both are right.</summary>
     /// <returns>True when the ray had to hit something.</returns>
@@ -101,7 +101,7 @@ internal sealed class RayChecker(string name, RayCaster caster, RayOracle oracle
         return true;
     }
 
-    private ExpandedTriangle Resolve(int[] path, RayHit hit) => oracle.WithReach(resolve(path, hit.FaceIndex));
+    private ExpandedTriangle Resolve(int[] path, RayHit hit) => oracle.WithReach(resolve(path, hit));
 
     private void ThrowUnless(bool condition, Ray ray, double minDistance, double maxDistance, FormattableString message)
     {

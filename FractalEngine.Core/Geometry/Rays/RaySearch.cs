@@ -31,6 +31,9 @@ internal struct RaySearch(double minDistance, double maxDistance, bool stopsAtFi
     /// <summary>Face index of the nearest hit; −1 for none.</summary>
     public int Face = -1;
 
+    /// <summary>Index of the mesh of that face, where the shape has several.</summary>
+    public int MeshIndex;
+
     /// <summary>Number of triangles that were tested.</summary>
     public long FaceTests;
 
@@ -42,5 +45,6 @@ internal struct RaySearch(double minDistance, double maxDistance, bool stopsAtFi
     public readonly RaySearch WithError(double error) => new(_minDistance, MaxDistance, StopsAtFirst, error, Footprint);
 
     /// <summary>Takes over the hit of a search with another rounding, but not its cost.</summary>
-    public void Accept(in RaySearch other) => (MaxDistance, Face, Proxy) = (other.MaxDistance, other.Face, other.Proxy);
+    public void Accept(in RaySearch other) =>
+        (MaxDistance, Face, MeshIndex, Proxy) = (other.MaxDistance, other.Face, other.MeshIndex, other.Proxy);
 }

@@ -41,7 +41,8 @@ internal sealed class RayBounds
     private const double MinThickness = 1e-9;
 
     private readonly float[] _rows;
-    private readonly int _rowCount;
+    private readonly ushort _rowCount;
+    private readonly ushort _baseIndex;
     private readonly byte[] _order;
     private readonly RayChild[] _children;
     private readonly RayNormals _normals;
@@ -65,7 +66,8 @@ internal sealed class RayBounds
         Single = single ?? this;
         _children = children;
         _normals = normals;
-        _rowCount = BoxRows + normals.Count;
+        _rowCount = (ushort)(BoxRows + normals.Count);
+        _baseIndex = (ushort)subFractal.BaseIndex;
         LanesPerOctant = (children.Length + LaneCount - 1) / LaneCount * LaneCount;
         (_rows, _order) = CreateRows(descendants);
         _planes = subFractal.Hull is { } hull ? CreatePlanes(hull, subFractal.Box.Centre, Box.InverseHalfExtent) : [];
@@ -89,6 +91,9 @@ internal sealed class RayBounds
 
     /// <summary>The base mesh, stretched to the box of the sub-fractal, so that it can stand for it.</summary>
     public RayProxy Proxy { get; }
+
+    /// <summary>Index of the base mesh that the sub-fractal is, or that can stand for it, see <see cref="SubFractal.BaseIndex"/>.</summary>
+    public int BaseIndex => _baseIndex;
 
     /// <summary>True where planes bound the sub-fractal better than its box.</summary>
     public bool HasPlanes => _planes.Length > 0;

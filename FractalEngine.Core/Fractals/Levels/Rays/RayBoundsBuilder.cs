@@ -1,4 +1,3 @@
-using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Geometry.Rays;
 
 namespace FractalEngine.Core.Fractals.Levels.Rays;
@@ -18,12 +17,11 @@ internal static class RayBoundsBuilder
     /// <summary>Builds the bounds of a level.</summary>
     /// <param name="hierarchy">The hierarchy.</param>
     /// <param name="level">Remaining levels.</param>
-    /// <param name="baseBox">The box of the base mesh.</param>
-    public static RayBounds Build(FractalHierarchy hierarchy, long level, BoundingBox baseBox)
+    public static RayBounds Build(FractalHierarchy hierarchy, long level)
     {
         var subFractal = hierarchy.At(level);
         var children = RayDescendant.ChildrenOf(subFractal, level, hierarchy).ToArray();
-        var single = Create(subFractal, children, null, double.PositiveInfinity, hierarchy, baseBox);
+        var single = Create(subFractal, children, null, double.PositiveInfinity, hierarchy);
         var minInnerRadius = double.PositiveInfinity;
         for (var i = 1; i < MaxGenerations && TryMerge(children, subFractal.Radius, ref minInnerRadius, hierarchy) is { } merged; i++)
         {
@@ -31,7 +29,7 @@ internal static class RayBoundsBuilder
         }
 
         return minInnerRadius < double.PositiveInfinity
-            ? Create(subFractal, children, single, minInnerRadius, hierarchy, baseBox)
+            ? Create(subFractal, children, single, minInnerRadius, hierarchy)
             : single;
     }
 
@@ -69,8 +67,7 @@ internal static class RayBoundsBuilder
     }
 
     private static RayBounds Create(
-        SubFractal subFractal, RayDescendant[] descendants, RayBounds? single, double minInnerRadius, FractalHierarchy hierarchy,
-        BoundingBox baseBox)
+        SubFractal subFractal, RayDescendant[] descendants, RayBounds? single, double minInnerRadius, FractalHierarchy hierarchy)
     {
         var box = new RayBox(subFractal.Box);
         var normals = RayNormals.Of(subFractal, descendants);
@@ -79,12 +76,12 @@ internal static class RayBoundsBuilder
         {
             var (target, level) = (descendants[i].Target, descendants[i].RemainingLevels);
             var group = descendants[i].IsGroup
-                ? Create(
-                    target, [.. RayDescendant.ChildrenOf(target, level, hierarchy)], null, double.PositiveInfinity, hierarchy, baseBox)
+                ? Create(target, [.. RayDescendant.ChildrenOf(target, level, hierarchy)], null, double.PositiveInfinity, hierarchy)
                 : null;
             children[i] = new(descendants[i], box, group?.Box ?? new(target.Box), group, normals.Contain(descendants[i]));
         }
 
+        var baseBox = hierarchy.AllLevels.Items[subFractal.BaseIndex].Box;
         return new(subFractal, baseBox, descendants, children, normals, single, minInnerRadius * box.InverseHalfExtent);
     }
 }

@@ -1,5 +1,4 @@
 using System.Runtime.CompilerServices;
-using FractalEngine.Core.Geometry;
 
 namespace FractalEngine.Core.Fractals.Levels.Rays;
 
@@ -12,7 +11,6 @@ internal sealed class RayLevels
     private const int MaxLowestLevel = 63;
 
     private readonly FractalHierarchy _hierarchy;
-    private readonly BoundingBox _baseBox;
     private readonly int[] _slotsOfRegions;
     private readonly int[] _sharedOffsets;
     private readonly RayBounds?[] _slots;
@@ -22,7 +20,6 @@ internal sealed class RayLevels
     public RayLevels(FractalHierarchy hierarchy)
     {
         _hierarchy = hierarchy;
-        _baseBox = hierarchy.AllLevels.Items[0].Box;
         var regions = hierarchy.AllLevels.Regions;
         _slotsOfRegions = new int[regions.Length];
         _sharedOffsets = new int[regions.Length];
@@ -63,7 +60,7 @@ internal sealed class RayLevels
         var shared = _sharedOffsets[region];
         var slot = _slotsOfRegions[region] + (int)(offset < shared ? offset : shared + ((offset - shared) % regions[region].Period));
         // Where two threads make the same bounds, one of them goes on with its own.
-        var bounds = _slots[slot] ??= RayBoundsBuilder.Build(_hierarchy, level, _baseBox);
+        var bounds = _slots[slot] ??= RayBoundsBuilder.Build(_hierarchy, level);
         if (level < _lowest.Length)
         {
             _lowest[level] = bounds;

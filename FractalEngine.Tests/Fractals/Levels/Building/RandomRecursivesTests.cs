@@ -1,6 +1,5 @@
 using FractalEngine.Core.Colliders;
 using FractalEngine.Core.Fractals.Levels.Building;
-using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Tests.Support;
 using static FractalEngine.Tests.Fractals.Levels.Building.RecursiveChecks;
@@ -25,20 +24,9 @@ public class RandomRecursivesTests
     public void FindClosest_OfPointsOfManyRandomDeepRecursives_IsAtThem() =>
         Seeded.RunMostInParallel(5_000, CheckRandomDeep, minShare: 0.6);
 
-    private static FractalRecursive[] RandomRecursives(Random random)
-    {
-        var isSimilar = random.Next(2) == 0;
-        Mesh[] meshes = [Samples.Tetrahedron, Roof, Samples.Triangle, Mesh.Empty];
-        var count = random.Next(1, 5);
-        return [.. Enumerable.Range(0, count).Select(_ => new FractalRecursive(
-            meshes[random.Next(meshes.Length)],
-            [.. Enumerable.Range(0, random.Next(random.Next(8) == 0 ? 0 : 1, 4)).Select(_ => new RecursiveCall(
-                RandomMap(random, isSimilar), random.Next(count), random.Next(4) == 0 ? 2 : 1))]))];
-    }
-
     private static bool CheckRandomDeep(Random random)
     {
-        var recursives = RandomRecursives(random);
+        var recursives = RandomRecursives.Create(random);
         var root = random.Next(recursives.Length);
         // Where a base mesh is empty, recursives may alternate between faces and none, so that there is no limit.
         var isInfinite = random.Next(2) == 0 && recursives.All(static recursive => recursive.BaseMesh.FaceCount > 0);
@@ -95,7 +83,7 @@ public class RandomRecursivesTests
 
     private static bool CheckRandom(Random random)
     {
-        var recursives = RandomRecursives(random);
+        var recursives = RandomRecursives.Create(random);
         var (root, levels) = (random.Next(recursives.Length), random.Next(6));
         var (hierarchy, expanded) = Create(recursives, root, levels);
         Assert.Equal((expanded.Instances.Count, expanded.FaceCount), Count(hierarchy));
@@ -116,8 +104,4 @@ public class RandomRecursivesTests
 
         return true;
     }
-
-    private static AffineMap RandomMap(Random random, bool isSimilar) => MapOf(isSimilar
-        ? new(random.Vector(1.5), random.Degrees(), random.Between(0.3, 0.8) * Vector.One)
-        : random.Transformation());
 }
