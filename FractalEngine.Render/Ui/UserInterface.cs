@@ -1,3 +1,4 @@
+using System.Globalization;
 using System.Collections.Immutable;
 using System.Runtime.InteropServices;
 using FractalEngine.Core.Geometry;
@@ -56,7 +57,7 @@ public sealed class UserInterface
         _widgets = new(_input, _painter, _layout, _targets, _tooltip);
         _textField = new(
             _input, _painter, _layout, _targets, _focus, readClipboard ?? (static () => ""), writeClipboard ?? (static _ => { }));
-        _slider = new(_input, _painter, _layout, _targets, _focus, _tooltip, _textField);
+        _slider = new(_input, _painter, _layout, _targets, _focus, _tooltip, _textField, text => ReadNumber(text));
         _marks = new(_input, _painter, _targets);
         _menus = new(_input, _painter, _layout, _targets, _focus, _areas);
         _panelBody = new(_input, _painter, _layout, _targets, _focus);
@@ -64,6 +65,11 @@ public sealed class UserInterface
         _dialogs = new(_input, _painter, _layout, _targets, _focus, _menus, _widgets, _panelBody);
         _events = new(_input, _targets, _focus, _menus, _dialogs, Rebuild);
     }
+
+    /// <summary>Reads the finite number that was typed on a slider; null for a text that is none, which then changes nothing.</summary>
+    public Func<string, double?> ReadNumber { get; set; } = static text =>
+        double.TryParse(text.Trim(), NumberStyles.Float, CultureInfo.InvariantCulture, out var value) && double.IsFinite(value)
+            ? value : null;
 
     /// <summary>Colours of all widgets.</summary>
     public UiTheme Theme { get => _painter.Theme; set => _painter.Theme = value; }

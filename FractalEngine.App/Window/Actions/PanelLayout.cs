@@ -1,3 +1,5 @@
+using FractalEngine.Parsing.Fdo;
+using FractalEngine.Parsing.Text;
 using FractalEngine.Render.Ui;
 using FractalEngine.Render.Ui.Overlays;
 using FractalEngine.Render.Windowing;
@@ -33,7 +35,21 @@ internal sealed class PanelLayout
         _report = report;
         _settings = WindowSettings.Read(settingsPath, report);
         Bindings = new(_settings.Keys);
-        Ui = new(build, () => window.ClipboardText, text => window.ClipboardText = text);
+        Ui = new(build, () => window.ClipboardText, text => window.ClipboardText = text) { ReadNumber = ReadNumber };
+    }
+
+    /// <summary>Reads a number that was typed, or tells why it is none.</summary>
+    private double? ReadNumber(string text)
+    {
+        try
+        {
+            return NumberExpression.Compute(text);
+        }
+        catch (SourceException exception)
+        {
+            _report($"'{text}' is no number: {exception.Diagnostic.Message}");
+            return null;
+        }
     }
 
     /// <summary>The widgets as they were built last.</summary>

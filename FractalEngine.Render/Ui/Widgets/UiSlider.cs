@@ -7,7 +7,8 @@ namespace FractalEngine.Render.Ui.Widgets;
 
 /// <summary>Sliders, on which numbers are typed, too.</summary>
 internal sealed class UiSlider(
-    UiInput input, UiPainter painter, UiLayout layout, UiTargets targets, UiFocus focus, UiTooltip tooltip, UiTextField field)
+    UiInput input, UiPainter painter, UiLayout layout, UiTargets targets, UiFocus focus, UiTooltip tooltip, UiTextField field,
+    Func<string, double?> readNumber)
 {
     // Ends of sliders that may be left are remembered for so many at most.
     private const int MaxRanges = 1000;
@@ -24,7 +25,7 @@ internal sealed class UiSlider(
         var before = value;
         if (focus.IsEditing(id))
         {
-            if (field.Edit(id, bar) is { } typed && ParseNumber(typed) is { } number)
+            if (field.Edit(id, bar) is { } typed && readNumber(typed) is { } number)
             {
                 value = isBounded ? Math.Clamp(number, minimum, maximum) : number;
             }
@@ -118,9 +119,4 @@ internal sealed class UiSlider(
     private static string ShortNumber(double value) => value.ToString("0.######", CultureInfo.InvariantCulture) is { Length: <= 12 } text
         ? text
         : value.ToString("G6", CultureInfo.InvariantCulture);
-
-    private static double? ParseNumber(string text) =>
-        double.TryParse(text.Trim(), NumberStyles.Float, CultureInfo.InvariantCulture, out var value) && double.IsFinite(value)
-            ? value
-            : null;
 }

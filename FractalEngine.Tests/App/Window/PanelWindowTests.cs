@@ -81,7 +81,11 @@ public sealed class PanelWindowTests : IDisposable
         window.Type("99999999999999");
         window.Send("key Return");
         window.ClickText("1.5");
-        window.Type("0.125");
+        window.Type("1/0");
+        window.Send("key Return");
+        window.WaitForError("'1/0' is no number: division by zero");
+        window.ClickText("1.5");
+        window.Type("1/8");
         window.Send("key Return");
         window.WaitForTitle("row.fdo*");
         window.Send("key ctrl+s");

@@ -49,6 +49,20 @@ public class FractalLanguageTests
     });
 
     [Theory]
+    [InlineData(" 1/3 ", 1 / 3.0)]
+    [InlineData("-2.5e3", -2500)]
+    [InlineData("max(sqrt(2), 0)*pi", 4.442882938158366)]
+    public void Number_ThatStandsAlone_IsComputed(string text, double expected) => Assert.Equal(expected, NumberExpression.Compute(text));
+
+    [Theory]
+    [InlineData("", "unexpected end of file, expected '(', the name of a number or a number")]
+    [InlineData("1 2", "unexpected '2', expected the end of the line")]
+    [InlineData("x", "the number 'x' is not declared above")]
+    [InlineData("1/0", "division by zero")]
+    public void Text_ThatIsNoNumber_IsRefused(string text, string message) => Assert.StartsWith(
+        message, Assert.Throws<SourceException>(() => NumberExpression.Compute(text)).Diagnostic.Message, StringComparison.Ordinal);
+
+    [Theory]
     [InlineData("t.1.", "(1, 2, 3)")]
     [InlineData("t.up", "(4, 5, 6)")]
     [InlineData("t.(7, 1 + 7, 3^2)", "(7, 8, 9)")]
