@@ -15,18 +15,10 @@ public sealed record FractalTemplate(string Name, string Help)
         new("cubes", "cubes on the sides of cubes"),
     ];
 
-    /// <summary>OBJ text of the base mesh.</summary>
-    public string MeshText => Read(MeshFile);
-
-    private string MeshFile => $"{Name}-base.obj";
-
-    /// <summary>Returns the text of the fractal.</summary>
-    /// <param name="meshFile">File name of the base mesh, in the same folder.</param>
-    public string TextWith(string meshFile) => Read($"{Name}.fdo").Replace(MeshFile, meshFile, StringComparison.Ordinal);
-
-    private static string Read(string file)
+    /// <summary>Reads the text of the fractal, which needs no other file.</summary>
+    public string ReadText()
     {
-        using var reader = new StreamReader(typeof(FractalTemplate).Assembly.GetManifestResourceStream($"Templates/{file}")!);
+        using var reader = new StreamReader(typeof(FractalTemplate).Assembly.GetManifestResourceStream($"Templates/{Name}.fdo")!);
         return reader.ReadToEnd();
     }
 }

@@ -10,10 +10,10 @@ public static class NewFractalFile
     /// <summary>Returns a name for a fractal in a folder that no other file has.</summary>
     /// <param name="template">What the fractal begins with.</param>
     /// <param name="folder">Full path of the folder.</param>
-    public static string Propose(FractalTemplate template, string folder) => NewFile.Propose(
-        Path.Combine(folder, template.Name), Extension, static path => !Path.Exists(path) && !Path.Exists(FractalFile.BaseMeshPath(path)));
+    public static string Propose(FractalTemplate template, string folder) =>
+        NewFile.Propose(Path.Combine(folder, template.Name), Extension, static path => !Path.Exists(path));
 
-    /// <summary>Writes a fractal, and its base mesh beside it.</summary>
+    /// <summary>Writes a fractal that needs no other file.</summary>
     /// <param name="template">What the fractal begins with.</param>
     /// <param name="path">Full path of the new file.</param>
     /// <exception cref="IOException">A name is taken or has another ending, or a file can't be written.</exception>
@@ -21,15 +21,7 @@ public static class NewFractalFile
     {
         NewFile.RequireEnding(path, "fractal", Extension);
         NewFile.RequireFolder(path);
-        if (path.IndexOfAny(['"', '\n', '\r']) >= 0)
-        {
-            throw new IOException("the name of a fractal has no quote and no line break");
-        }
-
-        var meshPath = FractalFile.BaseMeshPath(path);
         NewFile.RequireFree(path);
-        NewFile.RequireFree(meshPath);
-        NewFile.Write(meshPath, template.MeshText);
-        NewFile.Write(path, template.TextWith(Path.GetFileName(meshPath)));
+        NewFile.Write(path, template.ReadText());
     }
 }

@@ -1,3 +1,5 @@
+using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Parsing.Editing;
 using FractalEngine.Tests.Support;
@@ -22,7 +24,8 @@ public sealed class NewFractalFileTests : IDisposable
         NewFractalFile.Write(template, path);
         var file = AssetLoader.Load(path);
         Assert.Empty(file.Warnings);
-        Assert.InRange(file.Scene.Models.Single().FaceCount!.Value, 100, 200_000);
+        var fractal = Assert.IsType<FractalModel>(file.Scene.Models.Single()).Fractal;
+        Assert.InRange(DistinctInstances.Count(fractal)!.Value * fractal.BaseMesh.FaceCount, 100, 200_000);
     }
 
     [Fact]
@@ -31,23 +34,18 @@ public sealed class NewFractalFileTests : IDisposable
         var template = FractalTemplate.All[0];
         Assert.Equal(_folder["tree.fdo"], NewFractalFile.Propose(template, _folder.Path));
         _folder.Write("tree.fdo", "");
-        // The base mesh would replace this one.
-        _folder.Write("tree-2-base.obj", "");
-        Assert.Equal(_folder["tree-3.fdo"], NewFractalFile.Propose(template, _folder.Path));
+        Assert.Equal(_folder["tree-2.fdo"], NewFractalFile.Propose(template, _folder.Path));
     }
 
     [Theory]
     [InlineData("taken.fdo", "taken.fdo exists already, and is not replaced")]
-    [InlineData("new.fdo", "new-base.obj exists already, and is not replaced")]
     [InlineData("new.obj", "the name of a fractal ends in .fdo")]
-    [InlineData("a\"b.fdo", "the name of a fractal has no quote and no line break")]
     public void Write_WhereItCanNot_SaysWhyAndChangesNothing(string name, string message)
     {
         _folder.Write("taken.fdo", "kept");
-        _folder.Write("new-base.obj", "kept");
         var exception = Assert.Throws<IOException>(() => NewFractalFile.Write(FractalTemplate.All[0], _folder[name]));
         Assert.Equal(message, exception.Message);
-        Assert.Equal(["new-base.obj", "taken.fdo"], Directory.GetFiles(_folder.Path).Select(Path.GetFileName).Order());
+        Assert.Equal(["taken.fdo"], Directory.GetFiles(_folder.Path).Select(Path.GetFileName).Order());
         Assert.All(Directory.GetFiles(_folder.Path), static path => Assert.Equal("kept", File.ReadAllText(path)));
     }
 }
