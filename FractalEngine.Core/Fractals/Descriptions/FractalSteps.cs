@@ -26,7 +26,7 @@ public static class FractalSteps
     private static double EstimateDigits(FractalStep step) => step switch
     {
         Repetition { Count: { } count } repetition => count * EstimateDigits(repetition.Round),
-        TransformationSet { Transformations.Length: > 0 and var length } => Math.Log10(length),
+        TransformationSet { Maps.Length: > 0 and var length } => Math.Log10(length),
         _ => 0,
     };
 

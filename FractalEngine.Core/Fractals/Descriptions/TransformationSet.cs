@@ -16,7 +16,13 @@ public sealed class TransformationSet : FractalStep
         Maps = ImmutableArray.CreateRange(transformations, static one => one.ToAffineMap());
     }
 
-    /// <summary>The transformations as they were declared.</summary>
+    private TransformationSet(ImmutableArray<AffineMap> maps)
+    {
+        Transformations = [];
+        Maps = maps;
+    }
+
+    /// <summary>The transformations as they were declared; none for a set that was made of maps.</summary>
     public ImmutableArray<Transformation> Transformations { get; }
 
     /// <summary>The transformations as affine maps, in the same order.</summary>
@@ -28,24 +34,31 @@ public sealed class TransformationSet : FractalStep
     /// <summary>Makes a set of transformations in their order.</summary>
     public static TransformationSet Of(IEnumerable<Transformation> transformations) => new([.. transformations]);
 
+    /// <summary>Makes a set of maps, which need not be those of transformations.</summary>
+    internal static TransformationSet OfMaps(ImmutableArray<AffineMap> maps) => new(maps);
+
     /// <inheritdoc/>
     public override long? LevelCount => 1;
 
     /// <inheritdoc/>
-    public override BigInteger? InstanceCount => Transformations.Length;
+    public override BigInteger? InstanceCount => Maps.Length;
 
     /// <inheritdoc/>
     public override int NestingDepth => 0;
 
     /// <inheritdoc/>
+    internal override IEnumerable<TransformationSet> Sets => [this];
+
+    /// <inheritdoc/>
     public override TransformationSet LevelAt(long level) => this;
 
     /// <inheritdoc/>
-    internal override BigInteger CountUpTo(long limit) => Transformations.Length;
+    internal override BigInteger CountUpTo(long limit) => Maps.Length;
 
     /// <inheritdoc/>
     public override bool Equals(FractalStep? other) =>
-        other is TransformationSet set && Transformations.AsSpan().SequenceEqual(set.Transformations.AsSpan());
+        other is TransformationSet set && Transformations.AsSpan().SequenceEqual(set.Transformations.AsSpan())
+        && (!Transformations.IsEmpty || Maps.AsSpan().SequenceEqual(set.Maps.AsSpan()));
 
     /// <inheritdoc/>
     public override int GetHashCode() => Transformations.Take(4).Aggregate(Transformations.Length, HashCode.Combine);

@@ -19,7 +19,7 @@ namespace FractalEngine.Core.Fractals.Levels.Building;
 /// Multiple of the usual tolerance for changes, at least 1. The choice of a hull's vertices may change a little from round to round without
 /// end.
 /// </param>
-/// <param name="arePhasesAlike">False for phases whose margins tell nothing of each other's.</param>
+/// <param name="arePhasesAlike">False for those of recursives, whose margins tell nothing of each other's.</param>
 /// <param name="maxRoundsDown">The largest number of rounds between a sub-fractal and its children, rounded up.</param>
 internal sealed class PeriodicBound(
     long topLevel, int period, Func<long, BoundingVolume> volumeAt, Func<long, ChildEdge[]> edgesAt, double toleranceFactor,
@@ -221,8 +221,12 @@ internal sealed class PeriodicBound(
         return coveredLevels;
     }
 
+    /// <summary>Lists what the bounds of a phase must contain. Recursives that call themselves by the identity contain that anyway.</summary>
     private CollapsedEdge[] CollapsedEdgesOf(int phase) => [.. edgesAt(FirstLevel + phase)
-        .Select(edge => CollapsedEdge.Collapse(edge, InductionLevel + phase, level => edgesAt(EquivalentLevel(level))))];
+        .Select(edge => CollapsedEdge.Collapse(
+            edge, InductionLevel + phase, level => edgesAt(EquivalentLevel(level)), arePhasesAlike ? 0 : FirstLevel))
+        .Where(edge => arePhasesAlike || edge.Map != AffineMap.Identity || edge.RemainingLevels < FirstLevel
+            || PhaseOf(edge.RemainingLevels) != phase)];
 
     private bool ContainsChildren(BoundingVolume[] volumes, int phase)
     {

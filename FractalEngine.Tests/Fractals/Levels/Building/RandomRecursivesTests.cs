@@ -1,4 +1,5 @@
 using FractalEngine.Core.Colliders;
+using FractalEngine.Core.Fractals.Graphs;
 using FractalEngine.Core.Fractals.Levels.Building;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
@@ -10,6 +11,8 @@ namespace FractalEngine.Tests.Fractals.Levels.Building;
 /// <summary>Recursives at random: up to four that call each other, some of them without faces or calls.</summary>
 public class RandomRecursivesTests
 {
+    private static readonly Mesh[] Meshes = [Samples.Tetrahedron, Roof, Samples.Triangle, Mesh.Empty];
+
     [Fact]
     public void Searches_InRandomRecursives_AgreeWithAllFaces() => Seeded.RunMost(60, CheckRandom, minShare: 0.7);
 
@@ -28,22 +31,24 @@ public class RandomRecursivesTests
     private static FractalRecursive[] RandomRecursives(Random random)
     {
         var isSimilar = random.Next(2) == 0;
-        Mesh[] meshes = [Samples.Tetrahedron, Roof, Samples.Triangle, Mesh.Empty];
         var count = random.Next(1, 5);
         return [.. Enumerable.Range(0, count).Select(_ => new FractalRecursive(
-            meshes[random.Next(meshes.Length)],
+            random.Next(Meshes.Length),
             [.. Enumerable.Range(0, random.Next(random.Next(8) == 0 ? 0 : 1, 4)).Select(_ => new RecursiveCall(
                 RandomMap(random, isSimilar), random.Next(count), random.Next(4) == 0 ? 2 : 1))]))];
     }
+
+    private static FractalGraph GraphOf(FractalRecursive[] recursives, int root, int? levels) =>
+        new([.. Meshes], [new RecursivePart([.. recursives], root, levels)]);
 
     private static bool CheckRandomDeep(Random random)
     {
         var recursives = RandomRecursives(random);
         var root = random.Next(recursives.Length);
         // Where a base mesh is empty, recursives may alternate between faces and none, so that there is no limit.
-        var isInfinite = random.Next(2) == 0 && recursives.All(static recursive => recursive.BaseMesh.FaceCount > 0);
-        var levels = isInfinite ? (long?)null : random.Next(20, 1000);
-        var collider = new ExactFractalCollider(FractalHierarchyBuilder.Build(HierarchyDescription.Of([.. recursives], root, levels)));
+        var isInfinite = random.Next(2) == 0 && recursives.All(static recursive => Meshes[recursive.BasePart].FaceCount > 0);
+        var levels = isInfinite ? (int?)null : random.Next(20, 1000);
+        var collider = new ExactFractalCollider(FractalHierarchyBuilder.Build(GraphOf(recursives, root, levels)));
         var found = 0;
         for (var query = 0; query < 10; query++)
         {
@@ -52,12 +57,12 @@ public class RandomRecursivesTests
             for (var left = levels ?? 1000; left > 0 && recursives[recursive].Calls.Length > 0;)
             {
                 var call = recursives[recursive].Calls[random.Next(recursives[recursive].Calls.Length)];
-                (recursive, map, left) = (call.Recursive, map * call.Map, left - call.LevelsLess);
+                (recursive, map, left) = (call.Target, map * call.Map, left - call.LevelsLess!.Value);
                 if (map.Linear.MaxAbsEntry() < 1e-18 || left <= 0)
                 {
-                    var hasFaces = map.Linear.MaxAbsEntry() < 1e-18 || recursives[recursive].BaseMesh.FaceCount > 0;
-                    var point = map.Translation + (hasFaces && left <= 0 && recursives[recursive].BaseMesh.FaceCount > 0
-                        ? map.Linear * recursives[recursive].BaseMesh.Vertex(0)
+                    var hasFaces = map.Linear.MaxAbsEntry() < 1e-18 || Meshes[recursives[recursive].BasePart].FaceCount > 0;
+                    var point = map.Translation + (hasFaces && left <= 0 && Meshes[recursives[recursive].BasePart].FaceCount > 0
+                        ? map.Linear * Meshes[recursives[recursive].BasePart].Vertex(0)
                         : Vector.Zero);
                     if (hasFaces && IsAlive(recursives, recursive, left))
                     {
@@ -74,10 +79,10 @@ public class RandomRecursivesTests
     }
 
     /// <summary>Tells whether a recursive with so many levels has faces at all.</summary>
-    private static bool IsAlive(FractalRecursive[] recursives, int recursive, long levels)
+    private static bool IsAlive(FractalRecursive[] recursives, int recursive, int levels)
     {
         // From the base meshes upwards; a chain of an infinite one is followed for a thousand levels.
-        var count = (int)Math.Max(levels, 0);
+        var count = Math.Max(levels, 0);
         var alive = new bool[count + 1, recursives.Length];
         for (var level = 0; level <= count; level++)
         {
@@ -85,8 +90,8 @@ public class RandomRecursivesTests
             {
                 var left = level;
                 alive[level, i] = level == 0
-                    ? recursives[i].BaseMesh.FaceCount > 0
-                    : recursives[i].Calls.Any(call => alive[Math.Max(0, left - call.LevelsLess), call.Recursive]);
+                    ? Meshes[recursives[i].BasePart].FaceCount > 0
+                    : recursives[i].Calls.Any(call => alive[Math.Max(0, left - call.LevelsLess!.Value), call.Target]);
             }
         }
 
@@ -97,7 +102,7 @@ public class RandomRecursivesTests
     {
         var recursives = RandomRecursives(random);
         var (root, levels) = (random.Next(recursives.Length), random.Next(6));
-        var (hierarchy, expanded) = Create(recursives, root, levels);
+        var (hierarchy, expanded) = Create(GraphOf(recursives, root, levels));
         Assert.Equal((expanded.Instances.Count, expanded.FaceCount), Count(hierarchy));
         if (expanded.FaceCount == 0)
         {
