@@ -31,7 +31,7 @@ internal sealed class GraphExpansion
     /// <param name="graph">The graph, which must be finite.</param>
     /// <param name="maxInstances">Maximum number of distinct instances of a base mesh, and of maps to a state of the graph.</param>
     /// <exception cref="FractalLimitException">The graph has more instances, or takes too long to expand.</exception>
-    /// <remarks>Two instances are the same when their images of one base mesh differ by rounding only (see <see cref="DistinctMaps"/>).</remarks>
+    /// <remarks>Instances are the same when their images of a base mesh differ by rounding only, see <see cref="DistinctMaps"/>.</remarks>
     public static ImmutableArray<MeshInstance> Expand(FractalGraph graph, long maxInstances) =>
         new GraphExpansion(graph, maxInstances).Expand();
 

@@ -4,7 +4,9 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Fractals.Graphs;
 
-/// <summary>A part of a <see cref="FractalGraph"/>, made of earlier parts: <see cref="SteppedPart"/> or <see cref="RecursivePart"/>.</summary>
+/// <summary>
+/// A part of a <see cref="FractalGraph"/>, made of earlier parts: a <see cref="SteppedPart"/> or a <see cref="RecursivePart"/>.
+/// </summary>
 internal abstract class FractalPart
 {
     /// <summary>True when the part itself goes on without end.</summary>

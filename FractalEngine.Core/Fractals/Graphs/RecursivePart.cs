@@ -53,8 +53,8 @@ internal sealed class RecursivePart : FractalPart
     public ImmutableArray<int> Order { get; }
 
     /// <summary>
-    /// The <see cref="RecursiveCall.LevelsLess"/> of all calls where one recursive calls itself, always with as many levels less, and nothing
-    /// else but constants; null for others.
+    /// The <see cref="RecursiveCall.LevelsLess"/> of all calls where one recursive calls itself, always with as many levels less, and
+    /// nothing else but constants; null for others.
     /// </summary>
     public int? LevelsLessOfLinear => Recursives is [var only]
         && only.Calls.Where(static call => !call.IsConstant).Select(static call => call.LevelsLess).Distinct().ToArray() is [var less]
@@ -145,7 +145,8 @@ internal sealed class RecursivePart : FractalPart
         }
 
         return known[recursive] = !reached.Contains(recursive)
-            ? Recursives[recursive].Calls.Select(call => call.IsConstant ? countAt(call.Target) : CountInfinite(call.Target, countAt, known))
+            ? Recursives[recursive].Calls
+                .Select(call => call.IsConstant ? countAt(call.Target) : CountInfinite(call.Target, countAt, known))
                 .Aggregate((BigInteger?)BigInteger.Zero, static (sum, term) => sum + term)
             : reached.SelectMany(index => Recursives[index].References).All(part => countAt(part) is { IsZero: true })
                 ? BigInteger.Zero

@@ -33,6 +33,7 @@ internal readonly record struct ScaledCount(double Mantissa, long Scale)
     public static ScaledCount operator *(ScaledCount count1, ScaledCount count2) =>
         Normalize(count1.Mantissa * count2.Mantissa, count1.Scale + count2.Scale);
 
-    private static ScaledCount Normalize(double mantissa, long scale) =>
-        mantissa < Math.ScaleB(1, BitsPerScale) ? new(mantissa, mantissa > 0 ? scale : 0) : new(Math.ScaleB(mantissa, -BitsPerScale), scale + 1);
+    private static ScaledCount Normalize(double mantissa, long scale) => mantissa < Math.ScaleB(1, BitsPerScale)
+        ? new(mantissa, mantissa > 0 ? scale : 0)
+        : new(Math.ScaleB(mantissa, -BitsPerScale), scale + 1);
 }

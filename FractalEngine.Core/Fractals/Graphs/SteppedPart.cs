@@ -30,7 +30,8 @@ internal sealed class SteppedPart(int inner, ImmutableArray<FractalStep> steps) 
     public override IEnumerable<int> References => [inner];
 
     /// <inheritdoc/>
-    public override IEnumerable<ImmutableArray<AffineMap>> MapSets => steps.SelectMany(static step => step.Sets).Select(static set => set.Maps);
+    public override IEnumerable<ImmutableArray<AffineMap>> MapSets =>
+        steps.SelectMany(static step => step.Sets).Select(static set => set.Maps);
 
     /// <inheritdoc/>
     public override BigInteger? CountInstances(Func<int, BigInteger?> countAt) =>

@@ -42,7 +42,8 @@ public class FractalGraphTests
         {
             var (hierarchy, expanded) = Create(Plant(levels));
             // Four calls of itself, and a constant at each level but the last.
-            Assert.Equal((int)((Math.Pow(4, levels) - 1) / 3), expanded.Instances.Count(static instance => ReferenceEquals(instance.Mesh, Roof)));
+            Assert.Equal(
+                (int)((Math.Pow(4, levels) - 1) / 3), expanded.Instances.Count(static instance => ReferenceEquals(instance.Mesh, Roof)));
             Assert.Equal((expanded.Instances.Count, expanded.FaceCount), Count(hierarchy));
             AssertBounds(hierarchy, expanded, maxLooseness: 0.05);
             var collider = new ExactFractalCollider(hierarchy);
@@ -82,7 +83,8 @@ public class FractalGraphTests
         RecursivePart part = new(
             [new(0, [RecursiveCall.ToPart(1), new(Step, 1)]), new(0, [new(Smaller, 1), RecursiveCall.ToPart(2)])], 0, null);
         AssertCounts(new(Meshes, [part]), null, 1, null);
-        AssertCounts(new(Meshes, [RecursivePart.Of(2, null, new RecursiveCall(Smaller, 0)), RecursivePart.Sum(RecursiveCall.ToPart(3))]), 0, 0, null);
+        var limit = RecursivePart.Of(2, null, new RecursiveCall(Smaller, 0));
+        AssertCounts(new(Meshes, [limit, RecursivePart.Sum(RecursiveCall.ToPart(3))]), 0, 0, null);
     }
 
     /// <summary>Parts that are referred to twice are built once, so that 2¹⁰⁰⁰ chains take a thousand levels.</summary>
@@ -193,8 +195,8 @@ public class FractalGraphTests
             Meshes, [infinite, joint, RecursivePart.Sum(RecursiveCall.ToPart(3), RecursiveCall.ToPart(far, 4), RecursiveCall.ToPart(2))]);
         Assert.True(graph.IsInfinite);
         var collider = new ExactFractalCollider(FractalHierarchyBuilder.Build(graph));
-        ExactFractalCollider[] terms =
-            [.. new FractalPart[] { infinite, joint }.Select(part => new ExactFractalCollider(FractalHierarchyBuilder.Build(new(Meshes, [part]))))];
+        var terms = Array.ConvertAll<FractalPart, ExactFractalCollider>(
+            [infinite, joint], static part => new(FractalHierarchyBuilder.Build(new(Meshes, [part]))));
         var triangle = new HierarchyCollider(Samples.Triangle);
         Seeded.Run(30, random =>
         {

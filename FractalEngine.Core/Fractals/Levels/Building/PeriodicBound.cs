@@ -232,7 +232,7 @@ internal sealed class PeriodicBound(
         return coveredLevels;
     }
 
-    /// <summary>Lists what the bounds of a phase must contain. Recursives that call themselves by the identity contain that anyway.</summary>
+    /// <summary>Lists what the bounds of a phase must contain, but itself, where a recursive calls itself by the identity.</summary>
     private CollapsedEdge[] CollapsedEdgesOf(int phase) => [.. edgesAt(FirstLevel + phase)
         .Select(edge => CollapsedEdge.Collapse(
             edge, InductionLevel + phase, level => edgesAt(EquivalentLevel(level)), arePhasesAlike ? 0 : FirstLevel))

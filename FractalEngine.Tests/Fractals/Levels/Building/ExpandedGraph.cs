@@ -6,7 +6,7 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Tests.Fractals.Levels.Building;
 
-/// <summary>All chains of a graph, found by following each map. It shares nothing with the hierarchy, nor with counts and expansions.</summary>
+/// <summary>All chains of a graph, found by following each map. It shares nothing with hierarchies, counts and expansions.</summary>
 internal sealed class ExpandedGraph
 {
     private readonly FractalGraph _graph;

@@ -216,8 +216,10 @@ public class RecursiveLevelsTests
         Assert.Throws<ArgumentException>(() => new FractalGraph([], []));
         Assert.Throws<ArgumentException>(() => new FractalGraph(Meshes, [new SteppedPart(3, [])]));
         Assert.Throws<ArgumentException>(() => new FractalGraph(Meshes, [RecursivePart.Sum(RecursiveCall.ToPart(-1))]));
-        Assert.Throws<ArgumentException>(() => new FractalGraph(Meshes, [infinite, new SteppedPart(3, Samples.Repeated(1).Description.Steps)]));
-        Assert.Throws<ArgumentException>(() => new FractalGraph(Meshes, [infinite, RecursivePart.Of(3, 2, new RecursiveCall(AffineMap.Identity, 0))]));
+        SteppedPart stepped = new(3, Samples.Repeated(1).Description.Steps);
+        Assert.Throws<ArgumentException>(() => new FractalGraph(Meshes, [infinite, stepped]));
+        var recursive = RecursivePart.Of(3, 2, new RecursiveCall(AffineMap.Identity, 0));
+        Assert.Throws<ArgumentException>(() => new FractalGraph(Meshes, [infinite, recursive]));
         Assert.True(new FractalGraph(Meshes, [infinite, RecursivePart.Sum(RecursiveCall.ToPart(3), RecursiveCall.ToPart(1))]).IsInfinite);
     }
 
