@@ -22,7 +22,7 @@ public sealed class TransformationSet : FractalStep
         Maps = maps;
     }
 
-    /// <summary>The transformations as they were declared; none for a set that was made of maps.</summary>
+    /// <summary>The transformations as they were declared.</summary>
     public ImmutableArray<Transformation> Transformations { get; }
 
     /// <summary>The transformations as affine maps, in the same order.</summary>

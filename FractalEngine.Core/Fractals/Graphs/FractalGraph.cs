@@ -13,9 +13,9 @@ namespace FractalEngine.Core.Fractals.Graphs;
 /// <remarks>Of n base meshes, parts 0 to n − 1 are the meshes themselves. The last part is the whole.</remarks>
 internal sealed class FractalGraph
 {
-    private readonly Lazy<ImmutableArray<BigInteger?>> _instanceCounts;
+    private readonly Lazy<ImmutableArray<BigInteger?>> _chainCounts;
 
-    /// <summary>Makes a graph.</summary>
+    /// <summary>Makes a graph of base meshes and parts.</summary>
     /// <param name="baseMeshes">The base meshes, at least one.</param>
     /// <param name="parts">The other parts, each of which refers to earlier ones.</param>
     /// <exception cref="ArgumentException">A part refers to a later one, or steps or recursives follow an infinite one.</exception>
@@ -41,11 +41,11 @@ internal sealed class FractalGraph
         }
 
         IsInfinite = infiniteParts.Contains(baseMeshes.Length + parts.Length - 1);
-        _instanceCounts = new(() => [.. Enumerable.Range(0, baseMeshes.Length).Select(counted => Evaluate<BigInteger?>(
+        _chainCounts = new(() => [.. Enumerable.Range(0, baseMeshes.Length).Select(counted => Evaluate<BigInteger?>(
             mesh => mesh == counted ? 1 : 0, static (part, countAt) => part.CountInstances(countAt)))]);
     }
 
-    /// <summary>The base meshes.</summary>
+    /// <summary>The base meshes, which are the first parts.</summary>
     public ImmutableArray<Mesh> BaseMeshes { get; }
 
     /// <summary>The parts other than base meshes.</summary>
@@ -61,7 +61,7 @@ internal sealed class FractalGraph
 
     /// <summary>Numbers of chains of maps that lead to each base mesh, equal ones counted; null for infinitely many.</summary>
     /// <remarks>Exact at any size: numbers of millions of digits take about a second.</remarks>
-    public ImmutableArray<BigInteger?> InstanceCounts => _instanceCounts.Value;
+    public ImmutableArray<BigInteger?> ChainCounts => _chainCounts.Value;
 
     /// <summary>Makes the graph of steps on one base mesh.</summary>
     public static FractalGraph Of(Mesh baseMesh, ImmutableArray<FractalStep> steps) => new([baseMesh], [new SteppedPart(0, steps)]);

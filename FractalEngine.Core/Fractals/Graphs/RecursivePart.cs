@@ -37,7 +37,7 @@ internal sealed class RecursivePart : FractalPart
         Order = SortByCalls();
     }
 
-    /// <summary>The recursives.</summary>
+    /// <summary>The recursives, which refer to each other by their indices.</summary>
     public ImmutableArray<FractalRecursive> Recursives { get; }
 
     /// <summary>Index of the recursive that the part is.</summary>

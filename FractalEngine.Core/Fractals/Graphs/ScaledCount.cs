@@ -19,7 +19,7 @@ internal readonly record struct ScaledCount(double Mantissa, long Scale)
         return new(Math.Pow(2, (digits / DigitsPerBit) - (scale * BitsPerScale)), (long)scale);
     }
 
-    /// <summary>Adds two numbers.</summary>
+    /// <summary>Adds two numbers of instances.</summary>
     public static ScaledCount operator +(ScaledCount count1, ScaledCount count2) => count1.Scale < count2.Scale
         ? count2 + count1
         : Normalize(count1.Mantissa + (count1.Scale - count2.Scale) switch
@@ -29,7 +29,7 @@ internal readonly record struct ScaledCount(double Mantissa, long Scale)
             _ => 0,
         }, count1.Scale);
 
-    /// <summary>Multiplies two numbers.</summary>
+    /// <summary>Multiplies two numbers of instances.</summary>
     public static ScaledCount operator *(ScaledCount count1, ScaledCount count2) =>
         Normalize(count1.Mantissa * count2.Mantissa, count1.Scale + count2.Scale);
 

@@ -23,7 +23,7 @@ internal sealed class FractalHierarchy(Mesh[] baseMeshes, LevelTable<HierarchyLe
     private readonly SubFractal?[] _lowest =
         [.. Enumerable.Range(0, (int)Math.Min(top, MaxLowestLevel) + 1).Select(level => levels.At(level).SubFractal)];
 
-    /// <summary>The base meshes.</summary>
+    /// <summary>The base meshes, by which the lowest states are numbered.</summary>
     public Mesh[] BaseMeshes { get; } = baseMeshes;
 
     /// <summary>Number of levels of the whole fractal, which is its state; a huge number where they are infinitely many.</summary>

@@ -93,7 +93,7 @@ public class FractalGraphTests
     {
         FractalGraph Chain(int count, double factor) => new([Roof], [.. Enumerable.Range(0, count).Select(i => RecursivePart.Sum(
             RecursiveCall.ToPart(AffineMap.Translate(Math.Pow(factor, i) * Vector.I), i), RecursiveCall.ToPart(i)))]);
-        Assert.Equal(BigInteger.Pow(2, 1000), Chain(1000, 1.01).InstanceCounts[0]);
+        Assert.Equal(BigInteger.Pow(2, 1000), Chain(1000, 1.01).ChainCounts[0]);
         var deep = FractalHierarchyBuilder.Build(Chain(1000, 1.01));
         Assert.Equal(1000, deep.Levels);
         Assert.InRange(deep.StorageBytes, 1, 30_000_000);
@@ -230,5 +230,5 @@ public class FractalGraphTests
 
     // Not by the assertion of equal numbers, which would write them out.
     private static void AssertCounts(FractalGraph graph, params BigInteger?[] counts) =>
-        Assert.True(graph.InstanceCounts.SequenceEqual(counts), "the counts differ");
+        Assert.True(graph.ChainCounts.SequenceEqual(counts), "the counts differ");
 }

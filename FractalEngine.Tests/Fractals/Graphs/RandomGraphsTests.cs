@@ -84,7 +84,7 @@ public class RandomGraphsTests
     private static void CheckCounts(FractalGraph graph, ExpandedGraph expanded)
     {
         var counts = graph.BaseMeshes.Select(mesh => expanded.Instances.Count(instance => ReferenceEquals(instance.Mesh, mesh))).ToArray();
-        Assert.Equal(counts.Select(static count => (BigInteger?)count), graph.InstanceCounts);
+        Assert.Equal(counts.Select(static count => (BigInteger?)count), graph.ChainCounts);
         Assert.True(graph.HasAtMostInstances(counts.Sum()));
         Assert.False(graph.HasAtMostInstances(counts.Sum() - 1));
         Near.Equal(Math.Log10(Math.Max(1, counts.Sum())), graph.EstimateDigits(), 1e-9);
