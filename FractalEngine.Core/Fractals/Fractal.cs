@@ -2,6 +2,7 @@ using System.Collections.Immutable;
 using System.Numerics;
 using System.Runtime.CompilerServices;
 using FractalEngine.Core.Fractals.Descriptions;
+using FractalEngine.Core.Fractals.Graphs;
 using FractalEngine.Core.Fractals.Levels;
 using FractalEngine.Core.Fractals.Levels.Building;
 using FractalEngine.Core.Geometry;
@@ -78,7 +79,7 @@ public sealed class Fractal : IEquatable<Fractal>
     /// <param name="keepsAllLevels">True to keep levels that no search from the whole fractal visits.</param>
     /// <exception cref="FractalLimitException">Bounds overflow a double, or don't converge; the message names the level.</exception>
     internal FractalHierarchy BuildHierarchy(bool doublesPowers = true, bool keepsAllLevels = false) =>
-        FractalHierarchyBuilder.Build(HierarchyDescription.Of(BaseMesh, Description.Steps), doublesPowers, keepsAllLevels);
+        FractalHierarchyBuilder.Build(FractalGraph.Of(BaseMesh, Description.Steps), doublesPowers, keepsAllLevels);
 
     /// <summary>Finds the set at one level, 0 being the outermost.</summary>
     public TransformationSet LevelAt(long level) => FractalSteps.LevelAt(Description.Steps, level);

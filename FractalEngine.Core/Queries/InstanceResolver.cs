@@ -63,9 +63,13 @@ internal static class InstanceResolver
             foreach (var edge in child.Edges)
             {
                 var childLevels = edge.RemainingLevels(remainingLevels);
-                if (edge.Set.IsOfCalls)
+                if (edge.Set.IsOfCalls || edge.Set == MapSet.Link)
                 {
-                    context.AppendToPath(edge.MapIndex);
+                    if (edge.Set.IsOfCalls)
+                    {
+                        context.AppendToPath(edge.MapIndex);
+                    }
+
                     remainingLevels = childLevels;
                     continue;
                 }

@@ -1,3 +1,4 @@
+using FractalEngine.Core.Fractals.Graphs;
 using FractalEngine.Core.Fractals.Levels;
 using FractalEngine.Core.Fractals.Levels.Building;
 using FractalEngine.Core.Geometry;
@@ -58,9 +59,9 @@ public class RecursiveRaysTests
         Seeded.RunMostInParallel(1_000, CheckDeep, minShare: 0.25);
 
     /// <summary>Recursives whose meshes have all sizes, places and shapes, and maps that lead far away or change the size.</summary>
-    private static FractalRecursive[] CreateUnusual(Random random) => RandomRecursives.Create(
+    private static RecursiveSystem CreateUnusual(Random random) => RandomRecursives.Create(
         random,
-        () => random.Next(6) == 0 ? Mesh.Empty : RandomMeshes.Create(random),
+        [.. Enumerable.Range(0, random.Next(1, 5)).Select(_ => random.Next(6) == 0 ? Mesh.Empty : RandomMeshes.Create(random))],
         () =>
         {
             var map = RandomRecursives.CreateMap(random, random.Next(2) == 0);
@@ -74,7 +75,8 @@ public class RecursiveRaysTests
     /// <summary>Casts rays at faces that are no needles, from above: one that a ray sees edge on is not certain to be hit.</summary>
     private static bool CheckFlattened(Random random)
     {
-        var recursives = RandomRecursives.Create(random);
+        var system = RandomRecursives.Create(random);
+        var recursives = system.Recursives;
         foreach (ref var recursive in recursives.AsSpan())
         {
             recursive = recursive with
@@ -85,14 +87,14 @@ public class RecursiveRaysTests
 
         var (root, levels) = (random.Next(recursives.Length), random.Next(1, 5));
         var start = RecursiveChain.Begin(root, levels);
-        var triangles = Triangles(recursives, start, new(recursives, root, levels)).ToArray();
+        var triangles = Triangles(system, start, new(system.GraphOf(root, levels))).ToArray();
         var targets = triangles.Where(HasHeight).ToArray();
         if (targets.Length is 0 or > MaxFaces)
         {
             return false;
         }
 
-        var caster = CreateCaster(recursives, root, levels, isPart: false, out var hierarchy);
+        var caster = CreateCaster(system, root, levels, isPart: false, out var hierarchy);
         var tolerance = 1e-11 * triangles.Max(static triangle => triangle.Reach);
         var context = new QueryContext();
         for (var i = 0; i < 40; i++)
@@ -103,7 +105,7 @@ public class RecursiveRaysTests
             var isFound = caster.TryFindNearest(new(origin, target - origin), context, out var hit);
             Assert.True(isFound, $"a ray from {origin} to {target} misses");
             Assert.InRange(hit.Distance, 0, (target - origin).Length() + tolerance);
-            var named = Resolve(recursives, hierarchy, start, context.InstancePath.ToArray(), hit);
+            var named = Resolve(system, hierarchy, start, context.InstancePath.ToArray(), hit);
             Assert.InRange(named.Distance(hit.Point), 0, tolerance);
         }
 
@@ -121,38 +123,41 @@ public class RecursiveRaysTests
     }
 
     private static IEnumerable<ExpandedTriangle> Triangles(
-        FractalRecursive[] recursives, RecursiveChain start, ExpandedRecursives expanded) =>
+        RecursiveSystem system, RecursiveChain start, ExpandedGraph expanded) =>
         from instance in expanded.Instances
-        let chain = start.Follow(recursives, instance.Path)
+        let chain = start.Follow(system.Recursives, instance.Path)
         from face in Enumerable.Range(0, instance.Mesh.FaceCount)
         select chain.Triangle(instance.Mesh, face);
 
     private static bool CheckWide(Random random)
     {
-        var recursives = RandomRecursives.Create(random);
+        var system = RandomRecursives.Create(random);
+        var recursives = system.Recursives;
         var last = recursives.Length - 1;
         recursives[last] = recursives[last] with
         {
             Calls = [.. Enumerable.Range(0, random.Next(65, 200)).Select(_ => new RecursiveCall(
                 RandomRecursives.CreateMap(random, random.Next(2) == 0) with { Translation = random.Vector(9) }, random.Next(last + 1)))],
         };
-        return Check(random, recursives, 200, root: last, maxLevels: 1);
+        return Check(random, system, 200, root: last, maxLevels: 1);
     }
 
     private static bool Check(
-        Random random, FractalRecursive[] recursives, int rays, int? root = null, int maxLevels = 4, bool mayBePart = false)
+        Random random, RecursiveSystem system, int rays, int? root = null, int maxLevels = 4, bool mayBePart = false)
     {
-        var (top, levels) = (root ?? random.Next(recursives.Length), random.Next(1, maxLevels + 1));
+        var (top, levels) = (root ?? random.Next(system.Recursives.Length), random.Next(1, maxLevels + 1));
         var start = RecursiveChain.Begin(top, levels);
-        var expanded = new ExpandedRecursives(recursives, top, levels);
+        var expanded = new ExpandedGraph(system.GraphOf(top, levels));
         if (expanded.FaceCount is 0 or > MaxFaces)
         {
             return false;
         }
 
-        var caster = CreateCaster(recursives, top, levels, mayBePart && random.Next(4) == 0, out var hierarchy);
-        var oracle = new RayOracle(Triangles(recursives, start, expanded));
-        var checker = new RayChecker("recursives", caster, oracle, (path, hit) => Resolve(recursives, hierarchy, start, path, hit));
+        // One recursive that calls itself only is built as a repetition, whose rounds need not be its levels.
+        var isPart = mayBePart && system.Recursives.Length > 1 && random.Next(4) == 0;
+        var caster = CreateCaster(system, top, levels, isPart, out var hierarchy);
+        var oracle = new RayOracle(Triangles(system, start, expanded));
+        var checker = new RayChecker("recursives", caster, oracle, (path, hit) => Resolve(system, hierarchy, start, path, hit));
         var source = new RandomRays(random, oracle);
         var context = new QueryContext();
         for (var i = 0; i < rays; i++)
@@ -182,25 +187,24 @@ public class RecursiveRaysTests
 
     /// <summary>Makes the caster of a hierarchy, or of one of the sub-fractals of a larger hierarchy.</summary>
     private static FractalRayCaster CreateCaster(
-        FractalRecursive[] recursives, int root, int levels, bool isPart, out FractalHierarchy hierarchy)
+        RecursiveSystem system, int root, int levels, bool isPart, out FractalHierarchy hierarchy)
     {
-        hierarchy = FractalHierarchyBuilder.Build(
-            HierarchyDescription.Of([.. recursives], root, levels + (isPart ? 2 : 0)), keepsAllLevels: isPart);
+        hierarchy = FractalHierarchyBuilder.Build(system.GraphOf(root, levels + (isPart ? 2 : 0)), keepsAllLevels: isPart);
         var caster = new FractalRayCaster(hierarchy);
-        return isPart ? caster.At((recursives.Length * levels) + root) : caster;
+        return isPart ? caster.At(hierarchy.Levels - (2 * system.Recursives.Length)) : caster;
     }
 
     /// <summary>Finds the triangle that a hit names, and fails where it names the wrong mesh.</summary>
     private static ExpandedTriangle Resolve(
-        FractalRecursive[] recursives, FractalHierarchy hierarchy, RecursiveChain start, int[] path, RayHit hit)
+        RecursiveSystem system, FractalHierarchy hierarchy, RecursiveChain start, int[] path, RayHit hit)
     {
-        var chain = start.Follow(recursives, path);
+        var chain = start.Follow(system.Recursives, path);
         Assert.Same(hierarchy.BaseMeshes[hit.MeshIndex], hit.Mesh);
         // What is below the precision shows some base mesh.
         if (chain.Levels <= 0)
         {
-            Assert.Equal(chain.Recursive, hit.MeshIndex);
-            Assert.Same(recursives[chain.Recursive].BaseMesh, hit.Mesh);
+            Assert.Equal(system.Recursives[chain.Recursive].BasePart, hit.MeshIndex);
+            Assert.Same(system.BaseMeshOf(chain.Recursive), hit.Mesh);
         }
 
         return chain.Triangle(hit.Mesh, hit.FaceIndex);
@@ -238,9 +242,10 @@ public class RecursiveRaysTests
 
     private static bool CheckDeep(Random random)
     {
-        var recursives = RandomRecursives.Create(random);
+        var system = RandomRecursives.Create(random);
+        var recursives = system.Recursives;
         var (root, levels) = (random.Next(recursives.Length), random.Next(5, 60));
-        var hierarchy = FractalHierarchyBuilder.Build(HierarchyDescription.Of([.. recursives], root, levels));
+        var hierarchy = FractalHierarchyBuilder.Build(system.GraphOf(root, levels));
         var caster = new FractalRayCaster(hierarchy);
         var start = RecursiveChain.Begin(root, levels);
         var context = new QueryContext();
@@ -253,7 +258,7 @@ public class RecursiveRaysTests
                 chain = chain.Call(recursives, random.Next(calls.Length));
             }
 
-            var mesh = recursives[chain.Recursive].BaseMesh;
+            var mesh = system.BaseMeshOf(chain.Recursive);
             if (chain.Levels > 0 || mesh.FaceCount == 0)
             {
                 continue;
@@ -277,7 +282,7 @@ public class RecursiveRaysTests
 
             if (isFound)
             {
-                var named = Resolve(recursives, hierarchy, start, context.InstancePath.ToArray(), hit);
+                var named = Resolve(system, hierarchy, start, context.InstancePath.ToArray(), hit);
                 Assert.Null(RayHitCheck.FindProblem(in projected, in hit, named with { Reach = Math.Max(named.Reach, magnitude) }));
             }
 

@@ -22,6 +22,9 @@ public abstract class FractalStep : IEquatable<FractalStep>
     /// <summary>Number of repetitions inside each other, this one included.</summary>
     public abstract int NestingDepth { get; }
 
+    /// <summary>The sets of this step, each once for each place where it stands; outermost first.</summary>
+    internal abstract IEnumerable<TransformationSet> Sets { get; }
+
     /// <summary>Finds the set at one level of this step.</summary>
     /// <param name="level">From 0, the outermost; less than <see cref="LevelCount"/>.</param>
     public abstract TransformationSet LevelAt(long level);

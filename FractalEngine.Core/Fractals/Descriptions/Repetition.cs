@@ -57,6 +57,9 @@ public sealed class Repetition : FractalStep
     };
 
     /// <inheritdoc/>
+    internal override IEnumerable<TransformationSet> Sets => Round.SelectMany(static step => step.Sets);
+
+    /// <inheritdoc/>
     public override TransformationSet LevelAt(long level) => FractalSteps.LevelAt(Round, level % LevelsPerRound);
 
     /// <summary>Makes the same round repeated another number of times.</summary>

@@ -56,6 +56,9 @@ public sealed class TransformationSet : FractalStep
     public override int NestingDepth => 0;
 
     /// <inheritdoc/>
+    internal override IEnumerable<TransformationSet> Sets => [this];
+
+    /// <inheritdoc/>
     public override TransformationSet LevelAt(long level) => this;
 
     /// <inheritdoc/>

@@ -8,12 +8,11 @@ namespace FractalEngine.Core.Fractals.Levels;
 /// hierarchy takes kilobytes at any depth.
 /// </summary>
 /// <remarks>
-/// A state is a recursive and its remaining levels. States are numbered such that maps lead from any to lower ones. The number is called
-/// remaining levels too, since that is what it is for a fractal of one recursive. The states of several recursives take turns:
-/// of k recursives, number k·n + r is recursive r with n remaining levels. The lowest states are the base meshes, and so many states have
-/// no children.
+/// A state is a level of a part of the fractal's graph, such as a recursive with its remaining levels. States are numbered such that maps
+/// lead from any to lower ones. The number is called remaining levels too, since that is what it is for steps on one mesh. The states of
+/// several recursives take turns. The lowest states are the base meshes, and so many states have no children.
 /// </remarks>
-/// <param name="baseMeshes">That of each recursive.</param>
+/// <param name="baseMeshes">The base meshes.</param>
 /// <param name="levels">The levels.</param>
 /// <param name="top">Number of levels of the whole fractal.</param>
 internal sealed class FractalHierarchy(Mesh[] baseMeshes, LevelTable<HierarchyLevel> levels, long top)
@@ -24,7 +23,7 @@ internal sealed class FractalHierarchy(Mesh[] baseMeshes, LevelTable<HierarchyLe
     private readonly SubFractal?[] _lowest =
         [.. Enumerable.Range(0, (int)Math.Min(top, MaxLowestLevel) + 1).Select(level => levels.At(level).SubFractal)];
 
-    /// <summary>The base meshes: that of each recursive.</summary>
+    /// <summary>The base meshes, by which the lowest states are numbered.</summary>
     public Mesh[] BaseMeshes { get; } = baseMeshes;
 
     /// <summary>Number of levels of the whole fractal, which is its state; a huge number where they are infinitely many.</summary>

@@ -49,6 +49,9 @@ internal sealed class MapSet
     /// <summary>The set that contains the identity alone.</summary>
     public static MapSet Identity { get; } = new([AffineMap.Identity]);
 
+    /// <summary>The set of an edge that leads to where the levels below a part go on, and is no part of a path.</summary>
+    public static MapSet Link { get; } = new([AffineMap.Identity]);
+
     /// <summary>The maps in the order of the set.</summary>
     public AffineMap[] Maps { get; }
 

@@ -135,7 +135,8 @@ internal sealed class ExpandedLevelSelector(FractalHierarchy hierarchy, Triangle
         var map = AffineMap.Identity;
         var level = hierarchy.Levels;
         var subFractal = hierarchy.Root;
-        while (level > 0)
+        // Some recursives have neither calls nor faces.
+        while (level > 0 && subFractal.Children.Length > 0)
         {
             var child = subFractal.Children[random.Next(subFractal.Children.Length)];
             map *= child.Map;

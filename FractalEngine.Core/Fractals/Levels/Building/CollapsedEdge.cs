@@ -15,14 +15,16 @@ internal readonly record struct CollapsedEdge(AffineMap Map, double OperatorNorm
     /// <param name="edge">The first edge.</param>
     /// <param name="parentLevels">Remaining levels of the parent.</param>
     /// <param name="edgesAt">Gives the edges of a level by its remaining levels.</param>
+    /// <param name="floor">No further edge of a level from here up is followed to below it, but one to a fixed level.</param>
     /// <remarks>A shear and a rotation may each lengthen what they shorten together, so that their product has the better bounds.</remarks>
-    public static CollapsedEdge Collapse(ChildEdge edge, long parentLevels, Func<long, ChildEdge[]> edgesAt)
+    public static CollapsedEdge Collapse(ChildEdge edge, long parentLevels, Func<long, ChildEdge[]> edgesAt, long floor = 0)
     {
         var map = edge.Map;
         var remainingLevels = edge.RemainingLevels(parentLevels);
         for (var collapsedCount = 0; collapsedCount < MaxCollapsedEdges && remainingLevels > 0; collapsedCount++)
         {
-            if (edgesAt(remainingLevels) is not [var only])
+            if (edgesAt(remainingLevels) is not [var only]
+                || (!only.LevelStep.IsAbsolute && remainingLevels >= floor && only.RemainingLevels(remainingLevels) < floor))
             {
                 break;
             }

@@ -1,17 +1,20 @@
+using System.Collections.Immutable;
 using FractalEngine.Core.Fractals.Descriptions;
+using FractalEngine.Core.Fractals.Graphs;
+using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Fractals.Levels.Building;
 
-/// <summary>Builds the sub-fractals of a <see cref="FractalHierarchy"/>, from the base mesh upwards.</summary>
+/// <summary>Builds the sub-fractals of a <see cref="FractalHierarchy"/>, from the base meshes upwards.</summary>
 /// <remarks>
 /// The identity is not a child like the others. Where all levels below have it, the base mesh belongs to the level itself, and a child may
 /// skip levels that have it. Each chain of the other maps is then reached by one path, on its earliest levels (docs/colliders.md).
 /// </remarks>
-/// <param name="description">What the hierarchy is built from.</param>
+/// <param name="graph">What the hierarchy is built from.</param>
 /// <param name="doublesPowers">
 /// True to double the levels of one map, see <see cref="MapPowers"/>; false for one level for each set, whose path colours need.
 /// </param>
-internal sealed class FractalHierarchyBuilder(HierarchyDescription description, bool doublesPowers)
+internal sealed class FractalHierarchyBuilder(FractalGraph graph, bool doublesPowers)
 {
     /// <summary>Stands for infinitely many rounds: no search descends so many levels.</summary>
     public const long EndlessRounds = 1L << 40;
@@ -19,46 +22,106 @@ internal sealed class FractalHierarchyBuilder(HierarchyDescription description, 
     // More are not compared, though a cycle of calls may take as many.
     private const int MaxPeriodInRounds = 16;
 
-    // A set without maps on any level leaves nothing, however often it is repeated.
-    private readonly bool _isEmpty = FractalSteps.CountUpTo(description.Steps, 1).IsZero;
+    // By parts: the level where each of those built is the whole.
+    private readonly List<long> _tops = [.. Enumerable.Range(0, graph.BaseMeshes.Length)];
     private readonly Dictionary<TransformationSet, MapSet> _sets = new(ReferenceEqualityComparer.Instance);
-    private readonly RecursiveLevels _recursives = new(description.Recursives);
-    private readonly LevelBuilder _levels = new(description);
+    private readonly LevelBuilder _levels = new(graph);
+
+    // A set without maps on any level leaves nothing, however often it is repeated.
+    private bool _isEmpty;
 
     private BuiltLevels Built => _levels.Built;
 
     private bool HasDoubledPowers { get; set; }
 
-    /// <summary>Builds the hierarchy of recursives and steps.</summary>
-    /// <param name="description">The recursives and the steps.</param>
+    /// <summary>Builds the hierarchy of a graph.</summary>
+    /// <param name="graph">The graph.</param>
     /// <param name="doublesPowers">False for one level for each set, see <see cref="MapPowers"/>.</param>
     /// <param name="keepsAllLevels">True to keep levels that no search from the whole fractal visits.</param>
     /// <exception cref="FractalLimitException">Bounds overflow a double, or don't converge; the message names the level.</exception>
-    public static FractalHierarchy Build(HierarchyDescription description, bool doublesPowers = true, bool keepsAllLevels = false) =>
-        new FractalHierarchyBuilder(description, doublesPowers).Build(keepsAllLevels);
+    public static FractalHierarchy Build(FractalGraph graph, bool doublesPowers = true, bool keepsAllLevels = false) =>
+        new FractalHierarchyBuilder(graph, doublesPowers).Build(keepsAllLevels);
 
-    /// <summary>Adds the levels of the recursives, and those of all steps, the innermost first.</summary>
+    /// <summary>Adds the levels of all parts, each on top of those before.</summary>
     private FractalHierarchy Build(bool keepsAllLevels)
     {
-        LevelBuilder.RequireAllowedChildren(description.Steps.Sum(CountWideChildren));
-        AddRecursives();
-        var baseIndex = _recursives.BaseIndexAt(Built.Top);
-        foreach (var step in description.Steps.Reverse())
+        LevelBuilder.RequireAllowedChildren(graph.Parts.OfType<SteppedPart>().Sum(part => part.Steps.Sum(CountWideChildren)));
+        foreach (var part in graph.Parts)
         {
-            AddStep(step, baseIndex);
+            _tops.Add(part switch
+            {
+                SteppedPart stepped => AddSteps(stepped.Steps, _tops[stepped.Inner]),
+                RecursivePart recursive => AddRecursives(recursive),
+                _ => throw new ArgumentException($"{part.GetType().Name} is no part of a fractal"),
+            });
         }
 
         var levels = Built.ToTable();
         if (!keepsAllLevels)
         {
-            ReachableLevels.RemoveOthers(levels, Built.Top);
+            ReachableLevels.RemoveOthers(levels, _tops[^1]);
         }
 
-        return new(_levels.BaseMeshes, levels, Built.Top)
+        return new([.. graph.BaseMeshes], levels, _tops[^1])
         {
-            HasOnlySimilarities = description.HasOnlySimilarities,
+            HasOnlySimilarities = graph.HasOnlySimilarities,
             HasDoubledPowers = HasDoubledPowers,
         };
+    }
+
+    /// <summary>Adds the levels of steps, the innermost first.</summary>
+    /// <param name="steps">The steps.</param>
+    /// <param name="inner">The level that they are applied to.</param>
+    /// <returns>The level of the whole.</returns>
+    private long AddSteps(ImmutableArray<FractalStep> steps, long inner)
+    {
+        if (FractalSteps.LevelCount(steps) == 0)
+        {
+            return inner;
+        }
+
+        _levels.BeginPart();
+        if (inner != Built.Top)
+        {
+            _levels.Add([new(MapSet.Link, 0, LevelStep.To(inner))], MapSet.Link);
+        }
+
+        _isEmpty = FractalSteps.CountUpTo(steps, 1).IsZero;
+        foreach (var step in steps.Reverse())
+        {
+            AddStep(step);
+        }
+
+        return Built.Top;
+    }
+
+    /// <summary>
+    /// Adds what a recursive is that calls nothing but itself, always with as many levels less, and constants. Its chains are those of a
+    /// repetition, and what identities make many times is known there.
+    /// </summary>
+    /// <remarks>With maps M, constants C and base b, n rounds are the union of ({1} ∪ M)ⁿ⁻¹·C and Mⁿ·b.</remarks>
+    private long AddLinear(FractalRecursive recursive, int levelsLess, int? levels)
+    {
+        var constants = recursive.Calls.Where(static call => call.IsConstant).Select(call => (call.Map, _tops[call.Target])).ToArray();
+        AffineMap[] maps = [.. recursive.Calls.Where(static call => !call.IsConstant).Select(static call => call.Map)];
+        // The base takes the place of a round that is begun.
+        var rounds = 1 + ((levels - 1) / levelsLess);
+        var ends = AddSteps(Repeated(maps, rounds), _tops[recursive.BasePart]);
+        return constants.Length == 0 ? ends : AddUnion(
+            (AffineMap.Identity, AddSteps(Repeated([AffineMap.Identity, .. maps], rounds - 1), AddUnion(constants))),
+            (AffineMap.Identity, ends));
+
+        static ImmutableArray<FractalStep> Repeated(AffineMap[] maps, int? rounds) =>
+            [new Repetition([new TransformationSet(ImmutableArray.Create(maps))], rounds)];
+    }
+
+    /// <summary>Adds the union of levels, each under a map.</summary>
+    private long AddUnion(params (AffineMap Map, long Level)[] terms)
+    {
+        MapSet set = new(Array.ConvertAll(terms, static term => term.Map)) { IsOfCalls = true };
+        _levels.RequireAllowedLevel(terms.Length);
+        _levels.Add([.. terms.Select((term, i) => new ChildEdge(set, i, LevelStep.To(term.Level)))], set);
+        return Built.Top;
     }
 
     /// <summary>
@@ -73,13 +136,13 @@ internal sealed class FractalHierarchyBuilder(HierarchyDescription description, 
         _ => 0,
     };
 
-    private void AddStep(FractalStep step, int baseIndex)
+    private void AddStep(FractalStep step)
     {
         var repetition = step as Repetition ?? new([step], 1);
         if (doublesPowers && MapPowers.TryCreate(repetition) is { } powers)
         {
             HasDoubledPowers = true;
-            powers.AddLevels(Built.Top, (edges, set) => _levels.Add(edges, set, baseIndex));
+            powers.AddLevels(Built.Top, _levels.Add);
             return;
         }
 
@@ -107,11 +170,11 @@ internal sealed class FractalHierarchyBuilder(HierarchyDescription description, 
             {
                 if (inner is TransformationSet set)
                 {
-                    AddLevel(levelsBelowRepetition, period, set, baseIndex);
+                    AddLevel(levelsBelowRepetition, period, set);
                 }
                 else
                 {
-                    AddStep(inner, baseIndex);
+                    AddStep(inner);
                     levelsBelowRepetition = Built.Top;
                 }
             }
@@ -124,8 +187,7 @@ internal sealed class FractalHierarchyBuilder(HierarchyDescription description, 
     /// <param name="levelsBelowRepetition">Remaining levels below the repetition that the level belongs to.</param>
     /// <param name="period">Number of levels after which the sets of the repetition recur.</param>
     /// <param name="set">The set of the level.</param>
-    /// <param name="baseIndex">Index of the base mesh.</param>
-    private void AddLevel(long levelsBelowRepetition, int period, TransformationSet set, int baseIndex)
+    private void AddLevel(long levelsBelowRepetition, int period, TransformationSet set)
     {
         _levels.RequireAllowedLevel(set.Maps.Length);
         if (!_sets.TryGetValue(set, out var mapSet))
@@ -135,7 +197,7 @@ internal sealed class FractalHierarchyBuilder(HierarchyDescription description, 
         }
 
         var edges = ChildInstanceBuilder.EdgesAt(Built.Top + 1, levelsBelowRepetition, period, mapSet, Built.MapSetAt);
-        _levels.Add(edges, mapSet, baseIndex);
+        _levels.Add(edges, mapSet);
     }
 
     /// <summary>The edges of a level of a repetition, built or above the last round.</summary>
@@ -146,24 +208,42 @@ internal sealed class FractalHierarchyBuilder(HierarchyDescription description, 
         Built.MapSetAt(bound.EquivalentLevel(level)),
         lower => Built.MapSetAt(bound.EquivalentLevel(lower)));
 
-    /// <summary>Adds the levels of the recursives in turns, up to that of the one that the steps are applied to.</summary>
-    private void AddRecursives()
+    /// <summary>Adds the levels of recursives in turns, up to that of the root.</summary>
+    /// <returns>The level of the whole.</returns>
+    private long AddRecursives(RecursivePart part)
     {
-        var period = _recursives.Period;
+        if (part.Levels == 0)
+        {
+            return _tops[part.Recursives[part.Root].BasePart];
+        }
+
+        if (part.LevelsLessOfLinear is { } levelsLess)
+        {
+            return AddLinear(part.Recursives[0], levelsLess, part.Levels);
+        }
+
+        _levels.BeginPart();
+        var recursives = new RecursiveLevels(part, Built.Top + 1, index => _tops[index]);
+        var period = recursives.Period;
         var nextAttempt = 0L;
-        for (var round = 0L; round < (description.Levels ?? EndlessRounds); round++)
+        for (var round = 0L; round < (part.Levels ?? EndlessRounds); round++)
         {
             // The last round ends with the turn of the root.
-            var levelCount = ((description.Levels - 1 - round ?? EndlessRounds) * period) + description.Root + 1;
+            var levelCount = ((part.Levels - 1 - round ?? EndlessRounds) * period) + part.Order.IndexOf(part.Root) + 1;
             if (round >= nextAttempt)
             {
                 // Recursives that call only each other alternate: they may have faces only as often as a cycle of calls comes round.
-                var maxPeriod = Math.Min(period * Math.Max(1, _recursives.MaxRoundsDown), MaxPeriodInRounds);
+                var maxPeriod = Math.Min(period * Math.Max(1, part.MaxLevelsLess), MaxPeriodInRounds);
                 for (var rounds = 1; rounds <= maxPeriod; rounds++)
                 {
-                    if (TryRepeatRounds(rounds, round, levelCount))
+                    // Two periods are compared, and in the last one calls lead down by as many levels as further up.
+                    if (round >= Math.Max(2 * rounds, part.MaxLevelsLess + rounds) && levelCount >= rounds * period
+                        && _levels.TryRepeatRound(
+                            _levels.CreatePeriodicBound(rounds * period, round, recursives.MaxExpandedRounds, arePhasesAlike: false),
+                            recursives.EdgesAt,
+                            levelCount))
                     {
-                        return;
+                        return Built.Top;
                     }
                 }
 
@@ -173,25 +253,12 @@ internal sealed class FractalHierarchyBuilder(HierarchyDescription description, 
             for (var turn = 0; turn < Math.Min(levelCount, period); turn++)
             {
                 var level = Built.Top + 1;
-                var set = _recursives.SetAt(level);
+                var set = recursives.SetAt(level);
                 _levels.RequireAllowedLevel(set.Maps.Length);
-                _levels.Add(_recursives.EdgesAt(level), set, _recursives.BaseIndexAt(level));
+                _levels.Add(recursives.EdgesAt(level), set);
             }
         }
-    }
 
-    /// <summary>Replaces all remaining levels of the recursives by rounds that are inflated a little, if that can be proved.</summary>
-    /// <param name="rounds">After so many rounds the bounds recur.</param>
-    /// <param name="builtRounds">Number of rounds that were built.</param>
-    /// <param name="levelCount">Number of the remaining levels.</param>
-    private bool TryRepeatRounds(int rounds, long builtRounds, long levelCount)
-    {
-        var period = rounds * _recursives.Period;
-        // Two periods are compared, and in the last one calls lead down by as many levels as further up.
-        return builtRounds >= Math.Max(2 * rounds, _recursives.MaxRoundsDown + rounds) && levelCount >= period
-            && _levels.TryRepeatRound(
-                _levels.CreatePeriodicBound(period, builtRounds, _recursives.MaxExpandedRounds, arePhasesAlike: false),
-                _recursives.EdgesAt,
-                levelCount);
+        return Built.Top;
     }
 }

@@ -1,4 +1,5 @@
 using FractalEngine.Core.Fractals.Descriptions;
+using FractalEngine.Core.Fractals.Graphs;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Geometry.Hulls;
 
@@ -16,24 +17,21 @@ internal sealed class LevelBuilder
     private readonly LevelUnion _union;
     private readonly SubFractalFactory _subFractalFactory;
     private long _childCount;
+    private int _firstOfPart;
 
     /// <summary>Begins with the base meshes, which have no remaining levels.</summary>
-    /// <param name="description">What the levels are of.</param>
-    public LevelBuilder(HierarchyDescription description)
+    /// <param name="graph">What the levels are of.</param>
+    public LevelBuilder(FractalGraph graph)
     {
-        BaseMeshes = [.. description.Recursives.Select(static recursive => recursive.BaseMesh)];
-        _childBuilder = new(BaseMeshes.Length);
-        _union = new(Built, new(description));
-        _subFractalFactory = new(BaseMeshes, description.HasOnlySimilarities);
-        for (var i = 0; i < BaseMeshes.Length; i++)
+        _childBuilder = new(graph.BaseMeshes.Length);
+        _union = new(Built, new(graph));
+        _subFractalFactory = new([.. graph.BaseMeshes], graph.HasOnlySimilarities);
+        for (var i = 0; i < graph.BaseMeshes.Length; i++)
         {
             var volume = _subFractalFactory.BaseVolumes[i];
             Built.Add(volume, new(null, volume.Box, [], static () => [], _subFractalFactory.CreateBase(i)));
         }
     }
-
-    /// <summary>The base meshes: that of each recursive.</summary>
-    public Mesh[] BaseMeshes { get; }
 
     /// <summary>The levels that were built so far.</summary>
     public BuiltLevels Built { get; } = new();
@@ -49,10 +47,13 @@ internal sealed class LevelBuilder
         }
     }
 
+    /// <summary>Begins the levels of another part, whose bounds may change on as many levels as those of the first.</summary>
+    public void BeginPart() => _firstOfPart = Built.Count - 1;
+
     /// <summary>Refuses a level on top of those before, if they or their children are too many.</summary>
     public void RequireAllowedLevel(int childCount)
     {
-        if (Built.Count > MaxSubFractals)
+        if (Built.Count - _firstOfPart > MaxSubFractals)
         {
             throw new FractalLimitException(
                 "exact search needs transformations that shrink, or less depth: "
@@ -66,15 +67,14 @@ internal sealed class LevelBuilder
     /// <summary>Adds one level on top of those before.</summary>
     /// <param name="edges">Its edges to lower levels.</param>
     /// <param name="mapSet">Its set.</param>
-    /// <param name="baseIndex">Index of its base mesh, see <see cref="SubFractal.BaseIndex"/>.</param>
-    public void Add(ChildEdge[] edges, MapSet mapSet, int baseIndex)
+    public void Add(ChildEdge[] edges, MapSet mapSet)
     {
         edges = _childBuilder.Share(edges);
         var level = Built.Top + 1;
         var volume = _union.Compute(edges, level);
         var children = _childBuilder.ExpandChildren(level, edges, Built.EdgesAt);
         var childVolumes = Array.ConvertAll(children, child => Built.VolumeAt(child.RemainingLevels(level)));
-        var subFractal = _subFractalFactory.Create(mapSet, children, childVolumes, volume, baseIndex);
+        var subFractal = _subFractalFactory.Create(mapSet, children, childVolumes, volume, BaseIndexOf(edges, level));
         Built.Add(volume, new(mapSet, volume.Box, edges, EdgeBoxesOf(edges, level, Built.VolumeAt), subFractal));
     }
 
@@ -133,6 +133,11 @@ internal sealed class LevelBuilder
         Built.Add(levelCount, round);
         return true;
     }
+
+    /// <summary>Finds the base mesh that replaces a level where it is too small: one with faces, if there is any.</summary>
+    private int BaseIndexOf(ChildEdge[] edges, long level) =>
+        edges.Select(edge => edge.RemainingLevels(level)).Where(target => !Built.VolumeAt(target).Box.IsEmpty)
+            .Select(Built.BaseIndexAt).FirstOrDefault();
 
     /// <summary>
     /// Makes the boxes of edges. Those of wide levels are computed at their use: they take much memory, and only drawing needs them.

@@ -1,5 +1,5 @@
 using System.Collections.Immutable;
-using FractalEngine.Core.Fractals.Descriptions;
+using FractalEngine.Core.Fractals.Graphs;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Geometry.Hulls;
 using FractalEngine.Core.Maths;
@@ -19,12 +19,11 @@ internal sealed class OutlierClusters
     private readonly bool _hasOutliers;
 
     /// <summary>Determines whether a fractal has such maps.</summary>
-    public OutlierClusters(HierarchyDescription description)
+    public OutlierClusters(FractalGraph graph)
     {
-        _baseDiagonal = description.Recursives.Where(static recursive => recursive.BaseMesh.FaceCount > 0)
-            .Select(static recursive => recursive.BaseMesh.UsedBounds.Diagonal).DefaultIfEmpty().Max();
-        _hasOutliers = description.Steps.Any(HasOutliers)
-            || description.Recursives.Any(recursive => HasOutliers([.. recursive.Calls.Select(static call => call.Map)]));
+        _baseDiagonal = graph.BaseMeshes.Where(static mesh => mesh.FaceCount > 0)
+            .Select(static mesh => mesh.UsedBounds.Diagonal).DefaultIfEmpty().Max();
+        _hasOutliers = graph.Parts.Any(part => part.MapSets.Any(HasOutliers));
     }
 
     /// <summary>Computes the clusters of the union of some parts: the bulk, then what outliers throw away, the farthest first.</summary>
@@ -70,10 +69,6 @@ internal sealed class OutlierClusters
 
         return [.. clusters.Where(cluster => !cluster.IsEmpty)];
     }
-
-    private bool HasOutliers(FractalStep step) => step is Repetition repetition
-        ? repetition.Round.Any(HasOutliers)
-        : HasOutliers(((TransformationSet)step).Maps);
 
     private bool HasOutliers(ImmutableArray<AffineMap> maps)
     {

@@ -19,7 +19,7 @@ namespace FractalEngine.Core.Fractals.Levels.Building;
 /// Multiple of the usual tolerance for changes, at least 1. The choice of a hull's vertices may change a little from round to round without
 /// end.
 /// </param>
-/// <param name="arePhasesAlike">False for phases whose margins tell nothing of each other's.</param>
+/// <param name="arePhasesAlike">False for those of recursives, whose margins tell nothing of each other's.</param>
 /// <param name="maxRoundsDown">The largest number of rounds between a sub-fractal and its children, rounded up.</param>
 internal sealed class PeriodicBound(
     long topLevel, int period, Func<long, BoundingVolume> volumeAt, Func<long, ChildEdge[]> edgesAt, double toleranceFactor,
@@ -38,6 +38,10 @@ internal sealed class PeriodicBound(
     private const double MaxInflation = 0.2;
 
     private const double ClusterInflation = 1e-3;
+
+    // Boxes of recursives grow until they hold those of others: a recursive may be tight in a hull, and its box be that of another box.
+    private const double BoxInflation = 1e-3;
+    private const int MaxBoxIterations = 32;
 
     private const int MaxMarginIterations = 300;
 
@@ -101,9 +105,16 @@ internal sealed class PeriodicBound(
         {
             BoundingVolume[] volumes = [.. volumesWithMargins.Select((volume, phase) =>
                 volume with { Box = Inflate(coveredLevels[phase].Select(level => volumeAt(level).Box), inflation) })];
-            if (Enumerable.Range(0, period).All(phase => ContainsChildren(volumes, phase)))
+            for (var iteration = 0; iteration <= (arePhasesAlike ? 0 : MaxBoxIterations); iteration++)
             {
-                return WithInvariantClusters(volumes, coveredLevels);
+                BoundingBox[] boxes = [.. Enumerable.Range(0, period).Select(phase => BoxWithChildren(volumes, phase))];
+                if (boxes.Zip(volumes).All(static item => item.First == item.Second.Box))
+                {
+                    return WithInvariantClusters(volumes, coveredLevels);
+                }
+
+                volumes = [.. volumes.Zip(boxes, static (volume, box) =>
+                    box == volume.Box ? volume : volume with { Box = Inflate([box], BoxInflation) })];
             }
         }
 
@@ -221,17 +232,17 @@ internal sealed class PeriodicBound(
         return coveredLevels;
     }
 
+    /// <summary>Lists what the bounds of a phase must contain, but itself, where a recursive calls itself by the identity.</summary>
     private CollapsedEdge[] CollapsedEdgesOf(int phase) => [.. edgesAt(FirstLevel + phase)
-        .Select(edge => CollapsedEdge.Collapse(edge, InductionLevel + phase, level => edgesAt(EquivalentLevel(level))))];
+        .Select(edge => CollapsedEdge.Collapse(
+            edge, InductionLevel + phase, level => edgesAt(EquivalentLevel(level)), arePhasesAlike ? 0 : FirstLevel))
+        .Where(edge => arePhasesAlike || edge.Map != AffineMap.Identity || edge.RemainingLevels < FirstLevel
+            || PhaseOf(edge.RemainingLevels) != phase)];
 
-    private bool ContainsChildren(BoundingVolume[] volumes, int phase)
-    {
-        var outerBox = volumes[phase].Box;
-        return CollapsedEdgesOf(phase)
-            .Select(edge => (Volume: VolumeAt(volumes, edge.RemainingLevels), Edge: edge)).Where(item => !item.Volume.Box.IsEmpty)
-            .Select(item => item.Volume.TransformedBox(item.Edge.Map, item.Edge.OperatorNormBound))
-            .All(box => BoundingBox.Union(outerBox, box) == outerBox);
-    }
+    private BoundingBox BoxWithChildren(BoundingVolume[] volumes, int phase) => CollapsedEdgesOf(phase)
+        .Select(edge => (Volume: VolumeAt(volumes, edge.RemainingLevels), Edge: edge)).Where(item => !item.Volume.Box.IsEmpty)
+        .Select(item => item.Volume.TransformedBox(item.Edge.Map, item.Edge.OperatorNormBound))
+        .Aggregate(volumes[phase].Box, BoundingBox.Union);
 
     /// <summary>Inflates clusters so that they contain those of the rounds above as well; removes them where that fails.</summary>
     private BoundingVolume[] WithInvariantClusters(BoundingVolume[] volumes, HashSet<long>[] coveredLevels)

@@ -1,67 +1,51 @@
-using System.Collections.Immutable;
+using FractalEngine.Core.Fractals.Graphs;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Fractals.Levels.Building;
 
 /// <summary>
-/// The lowest levels of a hierarchy: the states of recursives that call each other, in turns. Level k·n + r is recursive r of k with n
-/// remaining levels.
+/// The levels of recursives that call each other, in turns. Of k recursives, level first + k·(n − 1) + r is number r in their order with n
+/// remaining levels; without levels each is a level below.
 /// </summary>
 /// <remarks>
-/// So every call leads to a lower level, by a difference that does not depend on n. The sub-fractals recur with the period k, and all that
-/// holds for a repetition of k sets holds for them.
+/// So every call leads to a lower level, by a difference that does not depend on n, or to one level whatever n. The sub-fractals recur with
+/// the period k, and all that holds for a repetition of k sets holds for them.
 /// </remarks>
-/// <param name="recursives">The recursives.</param>
-internal sealed class RecursiveLevels(ImmutableArray<FractalRecursive> recursives)
+/// <param name="part">The recursives.</param>
+/// <param name="firstLevel">The lowest level.</param>
+/// <param name="levelOf">Gives the level of an earlier part.</param>
+internal sealed class RecursiveLevels(RecursivePart part, long firstLevel, Func<int, long> levelOf)
 {
-    private readonly ChildEdge[][] _edges = new ChildEdge[recursives.Length][];
+    private readonly ChildEdge[][] _edges = new ChildEdge[part.Recursives.Length][];
 
-    private readonly MapSet[] _sets =
-        [.. recursives.Select(static recursive => new MapSet([.. recursive.Calls.Select(static call => call.Map)]) { IsOfCalls = true })];
+    private readonly MapSet[] _sets = [.. part.MapSets.Select(static maps => new MapSet([.. maps]) { IsOfCalls = true })];
 
     /// <summary>Number of recursives, and so of the levels after which they recur.</summary>
-    public int Period => recursives.Length;
-
-    /// <summary>The largest number of rounds that a call goes down.</summary>
-    public int MaxRoundsDown { get; } = recursives.Max(static recursive => recursive.MaxLevelsLess);
+    public int Period => part.Recursives.Length;
 
     /// <summary>The largest number of rounds between a sub-fractal and its children: the last call may lead to a later turn.</summary>
-    public int MaxExpandedRounds => (ChildInstanceBuilder.MaxExpandedLevels * MaxRoundsDown) + (Period > 1 ? 1 : 0);
+    public int MaxExpandedRounds => (ChildInstanceBuilder.MaxExpandedLevels * part.MaxLevelsLess) + (Period > 1 ? 1 : 0);
 
     /// <summary>The maps of the calls of a level's recursive.</summary>
-    public MapSet SetAt(long level) => _sets[(int)(level % Period)];
+    public MapSet SetAt(long level) => _sets[part.Order[(int)((level - firstLevel) % Period)]];
 
-    /// <summary>Index of the base mesh that replaces a level smaller than the precision: one with faces, if there is any.</summary>
-    public int BaseIndexAt(long level)
-    {
-        var own = (int)(level % Period);
-        for (var i = 0; i < Period; i++)
-        {
-            if (recursives[(own + i) % Period].BaseMesh.FaceCount > 0)
-            {
-                return (own + i) % Period;
-            }
-        }
-
-        return own;
-    }
-
-    /// <summary>The edges of a level above the base meshes: one for each call, equal calls once.</summary>
+    /// <summary>The edges of a level: one for each call, equal calls once.</summary>
     public ChildEdge[] EdgesAt(long level)
     {
-        var (rounds, recursive) = Math.DivRem(level, Period);
-        return rounds >= MaxRoundsDown ? _edges[recursive] ??= CreateEdges(rounds, (int)recursive) : CreateEdges(rounds, (int)recursive);
+        var (rounds, turn) = Math.DivRem(level - firstLevel, Period);
+        return rounds >= part.MaxLevelsLess ? _edges[turn] ??= CreateEdges(rounds, (int)turn) : CreateEdges(rounds, (int)turn);
     }
 
-    private ChildEdge[] CreateEdges(long rounds, int recursive)
+    private ChildEdge[] CreateEdges(long rounds, int turn)
     {
         var edges = new List<ChildEdge>();
         var seen = new HashSet<(AffineMap Map, LevelStep Step)>();
-        foreach (var (i, call) in recursives[recursive].Calls.Index())
+        var recursive = part.Order[turn];
+        foreach (var (i, call) in part.Recursives[recursive].Calls.Index())
         {
-            var step = call.LevelsLess <= rounds
-                ? LevelStep.Down(((long)call.LevelsLess * Period) + recursive - call.Recursive)
-                : LevelStep.To(call.Recursive);
+            var step = call.LevelsLess is not { } less ? LevelStep.To(levelOf(call.Target))
+                : less <= rounds ? LevelStep.Down(((long)less * Period) + turn - part.Order.IndexOf(call.Target))
+                : LevelStep.To(levelOf(part.Recursives[call.Target].BasePart));
             if (seen.Add((call.Map, step)))
             {
                 edges.Add(new(_sets[recursive], i, step));

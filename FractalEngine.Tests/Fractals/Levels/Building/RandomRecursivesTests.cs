@@ -1,5 +1,7 @@
 using FractalEngine.Core.Colliders;
+using FractalEngine.Core.Fractals.Graphs;
 using FractalEngine.Core.Fractals.Levels.Building;
+using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Tests.Support;
 using static FractalEngine.Tests.Fractals.Levels.Building.RecursiveChecks;
@@ -9,6 +11,8 @@ namespace FractalEngine.Tests.Fractals.Levels.Building;
 /// <summary>Recursives at random: up to four that call each other, some of them without faces or calls.</summary>
 public class RandomRecursivesTests
 {
+    private static Mesh[] Meshes => RandomRecursives.Meshes;
+
     [Fact]
     public void Searches_InRandomRecursives_AgreeWithAllFaces() => Seeded.RunMost(60, CheckRandom, minShare: 0.7);
 
@@ -26,12 +30,13 @@ public class RandomRecursivesTests
 
     private static bool CheckRandomDeep(Random random)
     {
-        var recursives = RandomRecursives.Create(random);
+        var system = RandomRecursives.Create(random);
+        var recursives = system.Recursives;
         var root = random.Next(recursives.Length);
         // Where a base mesh is empty, recursives may alternate between faces and none, so that there is no limit.
-        var isInfinite = random.Next(2) == 0 && recursives.All(static recursive => recursive.BaseMesh.FaceCount > 0);
-        var levels = isInfinite ? (long?)null : random.Next(20, 1000);
-        var collider = new ExactFractalCollider(FractalHierarchyBuilder.Build(HierarchyDescription.Of([.. recursives], root, levels)));
+        var isInfinite = random.Next(2) == 0 && recursives.All(static recursive => Meshes[recursive.BasePart].FaceCount > 0);
+        var levels = isInfinite ? (int?)null : random.Next(20, 1000);
+        var collider = new ExactFractalCollider(FractalHierarchyBuilder.Build(system.GraphOf(root, levels)));
         var found = 0;
         for (var query = 0; query < 10; query++)
         {
@@ -40,12 +45,12 @@ public class RandomRecursivesTests
             for (var left = levels ?? 1000; left > 0 && recursives[recursive].Calls.Length > 0;)
             {
                 var call = recursives[recursive].Calls[random.Next(recursives[recursive].Calls.Length)];
-                (recursive, map, left) = (call.Recursive, map * call.Map, left - call.LevelsLess);
+                (recursive, map, left) = (call.Target, map * call.Map, left - call.LevelsLess!.Value);
                 if (map.Linear.MaxAbsEntry() < 1e-18 || left <= 0)
                 {
-                    var hasFaces = map.Linear.MaxAbsEntry() < 1e-18 || recursives[recursive].BaseMesh.FaceCount > 0;
-                    var point = map.Translation + (hasFaces && left <= 0 && recursives[recursive].BaseMesh.FaceCount > 0
-                        ? map.Linear * recursives[recursive].BaseMesh.Vertex(0)
+                    var hasFaces = map.Linear.MaxAbsEntry() < 1e-18 || Meshes[recursives[recursive].BasePart].FaceCount > 0;
+                    var point = map.Translation + (hasFaces && left <= 0 && Meshes[recursives[recursive].BasePart].FaceCount > 0
+                        ? map.Linear * Meshes[recursives[recursive].BasePart].Vertex(0)
                         : Vector.Zero);
                     if (hasFaces && IsAlive(recursives, recursive, left))
                     {
@@ -62,10 +67,10 @@ public class RandomRecursivesTests
     }
 
     /// <summary>Tells whether a recursive with so many levels has faces at all.</summary>
-    private static bool IsAlive(FractalRecursive[] recursives, int recursive, long levels)
+    private static bool IsAlive(FractalRecursive[] recursives, int recursive, int levels)
     {
         // From the base meshes upwards; a chain of an infinite one is followed for a thousand levels.
-        var count = (int)Math.Max(levels, 0);
+        var count = Math.Max(levels, 0);
         var alive = new bool[count + 1, recursives.Length];
         for (var level = 0; level <= count; level++)
         {
@@ -73,8 +78,8 @@ public class RandomRecursivesTests
             {
                 var left = level;
                 alive[level, i] = level == 0
-                    ? recursives[i].BaseMesh.FaceCount > 0
-                    : recursives[i].Calls.Any(call => alive[Math.Max(0, left - call.LevelsLess), call.Recursive]);
+                    ? Meshes[recursives[i].BasePart].FaceCount > 0
+                    : recursives[i].Calls.Any(call => alive[Math.Max(0, left - call.LevelsLess!.Value), call.Target]);
             }
         }
 
@@ -83,9 +88,9 @@ public class RandomRecursivesTests
 
     private static bool CheckRandom(Random random)
     {
-        var recursives = RandomRecursives.Create(random);
-        var (root, levels) = (random.Next(recursives.Length), random.Next(6));
-        var (hierarchy, expanded) = Create(recursives, root, levels);
+        var system = RandomRecursives.Create(random);
+        var (root, levels) = (random.Next(system.Recursives.Length), random.Next(6));
+        var (hierarchy, expanded) = Create(system.GraphOf(root, levels));
         Assert.Equal((expanded.Instances.Count, expanded.FaceCount), Count(hierarchy));
         if (expanded.FaceCount == 0)
         {

@@ -1,4 +1,4 @@
-using FractalEngine.Core.Fractals.Levels.Building;
+using FractalEngine.Core.Fractals.Graphs;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Tests.Queries.Regions;
@@ -20,7 +20,7 @@ internal readonly record struct RecursiveChain(int Recursive, long Levels, Affin
     {
         var call = recursives[Recursive].Calls[index];
         var map = Map * call.Map;
-        return new(call.Recursive, Levels - call.LevelsLess, map, Math.Max(Reach, map.Translation.MaxAbsComponent()));
+        return new(call.Target, Levels - call.LevelsLess!.Value, map, Math.Max(Reach, map.Translation.MaxAbsComponent()));
     }
 
     /// <summary>Follows a path of calls.</summary>

@@ -1,6 +1,7 @@
 using FractalEngine.Core.Colliders;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Fractals.Descriptions;
+using FractalEngine.Core.Fractals.Graphs;
 using FractalEngine.Core.Fractals.Levels;
 using FractalEngine.Core.Fractals.Levels.Building;
 using FractalEngine.Core.Geometry;
@@ -21,15 +22,15 @@ internal static class RecursiveChecks
     public static readonly Mesh Roof = new(
         [0, 0, 0, 1, 0, 0, 1, 0, 1, 0, 0, 1, 0.5, 0.8, 0, 0.5, 0.8, 1], [0, 4, 1, 3, 2, 5, 0, 3, 5, 0, 5, 4, 1, 4, 5, 1, 5, 2]);
 
-    public static (FractalHierarchy Hierarchy, ExpandedRecursives Expanded) Create(FractalRecursive[] recursives, int root, int levels) =>
-        (FractalHierarchyBuilder.Build(HierarchyDescription.Of([.. recursives], root, levels)), new(recursives, root, levels));
+    public static (FractalHierarchy Hierarchy, ExpandedGraph Expanded) Create(FractalGraph graph) =>
+        (FractalHierarchyBuilder.Build(graph), new(graph));
 
     public static (long Instances, long Faces) Count(FractalHierarchy hierarchy) => (
         new InstanceCounts(hierarchy, static _ => 1, 1L << 60).SumAt(hierarchy.Levels),
         new InstanceCounts(hierarchy, index => hierarchy.BaseMeshes[index].FaceCount, 1L << 60).SumAt(hierarchy.Levels));
 
     /// <summary>The box of the hierarchy holds all faces and is hardly larger; the searched one is exact.</summary>
-    public static void AssertBounds(FractalHierarchy hierarchy, ExpandedRecursives expanded, double maxLooseness)
+    public static void AssertBounds(FractalHierarchy hierarchy, ExpandedGraph expanded, double maxLooseness)
     {
         var (box, exact) = (hierarchy.Root.Box, expanded.Box);
         Near.Equal(box.Minimum, BoundingBox.Union(box, exact).Minimum, Tolerance);
@@ -41,7 +42,7 @@ internal static class RecursiveChecks
         Near.Equal(exact.Maximum, searched.Maximum, Tolerance * exact.Diagonal);
     }
 
-    public static void AssertClosest(ExactFractalCollider collider, ExpandedRecursives expanded, Vector position)
+    public static void AssertClosest(ExactFractalCollider collider, ExpandedGraph expanded, Vector position)
     {
         var context = new QueryContext();
         Assert.True(collider.TryFindClosest(position, double.PositiveInfinity, context, out var closest));
@@ -51,7 +52,7 @@ internal static class RecursiveChecks
         Assert.False(closest.Distance > 1e-9 && collider.TryFindClosest(position, closest.Distance - 1e-9, context, out _));
     }
 
-    public static void AssertAllWithin(ExactFractalCollider collider, ExpandedRecursives expanded, Vector position, double radius)
+    public static void AssertAllWithin(ExactFractalCollider collider, ExpandedGraph expanded, Vector position, double radius)
     {
         var expected = expanded.Distances(position).Where(distance => distance <= radius).Order().ToArray();
         var hits = collider.FindAllWithin(position, radius, 1_000_000);

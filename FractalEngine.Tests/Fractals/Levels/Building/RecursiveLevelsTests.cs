@@ -3,6 +3,7 @@ using FractalEngine.Core.Bvh;
 using FractalEngine.Core.Colliders;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Fractals.Descriptions;
+using FractalEngine.Core.Fractals.Graphs;
 using FractalEngine.Core.Fractals.Levels.Building;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
@@ -16,19 +17,21 @@ namespace FractalEngine.Tests.Fractals.Levels.Building;
 /// <summary>Recursives that call each other, with several base meshes, against all their faces.</summary>
 public class RecursiveLevelsTests
 {
+    private static readonly ImmutableArray<Mesh> Meshes = [Samples.Tetrahedron, Roof, Samples.Triangle];
+
     /// <summary>The first two call each other and themselves; the third is a sum of both, the second with two levels less.</summary>
     private static readonly FractalRecursive[] Similar =
     [
-        new(Samples.Tetrahedron, [Call(0, 0, 0, 10, 0.5, 0), Call(1.2, 0.1, 0, -25, 0.45, 1), Call(0, 0, 1.3, 40, 0.5, 0)]),
-        new(Roof, [Call(0.1, 1, 0, 35, 0.6, 1), Call(1, 0, 0.9, 80, 0.4, 0)]),
-        new(Samples.Triangle, [Call(0, 0, 0, 0, 1, 0), Call(3, 0.5, -1, 15, 0.8, 1, levelsLess: 2)]),
+        new(0, [Call(0, 0, 0, 10, 0.5, 0), Call(1.2, 0.1, 0, -25, 0.45, 1), Call(0, 0, 1.3, 40, 0.5, 0)]),
+        new(1, [Call(0.1, 1, 0, 35, 0.6, 1), Call(1, 0, 0.9, 80, 0.4, 0)]),
+        new(2, [Call(0, 0, 0, 0, 1, 0), Call(3, 0.5, -1, 15, 0.8, 1, levelsLess: 2)]),
     ];
 
     private static readonly FractalRecursive[] Skewed =
     [
-        new(Samples.Tetrahedron, [Skew(0, 0, 0, 0.5, 0.4, 0), Skew(1.2, 0.1, 0, 0.45, 0.6, 1), Skew(0, 0, 1.3, 0.5, 0.5, 0)]),
-        new(Roof, [Skew(0.1, 1, 0, 0.6, 0.5, 1), Skew(1, 0, 0.9, 0.4, 0.5, 0)]),
-        new(Samples.Triangle, [Skew(0, 0, 0, 1, 1, 0), Skew(3, 0.5, -1, 0.8, 0.7, 1, levelsLess: 2)]),
+        new(0, [Skew(0, 0, 0, 0.5, 0.4, 0), Skew(1.2, 0.1, 0, 0.45, 0.6, 1), Skew(0, 0, 1.3, 0.5, 0.5, 0)]),
+        new(1, [Skew(0.1, 1, 0, 0.6, 0.5, 1), Skew(1, 0, 0.9, 0.4, 0.5, 0)]),
+        new(2, [Skew(0, 0, 0, 1, 1, 0), Skew(3, 0.5, -1, 0.8, 0.7, 1, levelsLess: 2)]),
     ];
 
     /// <summary>Recursives, and the index of the one that is the fractal: each of both, and their sum.</summary>
@@ -41,7 +44,7 @@ public class RecursiveLevelsTests
     {
         for (var levels = 0; levels <= 6; levels++)
         {
-            var (hierarchy, expanded) = Create(isSimilar ? Similar : Skewed, root, levels);
+            var (hierarchy, expanded) = Create(GraphOf(isSimilar ? Similar : Skewed, root, levels));
             AssertBounds(hierarchy, expanded, maxLooseness: 0.01);
         }
     }
@@ -52,7 +55,7 @@ public class RecursiveLevelsTests
     {
         for (var levels = 0; levels <= 6; levels++)
         {
-            var (hierarchy, expanded) = Create(isSimilar ? Similar : Skewed, root, levels);
+            var (hierarchy, expanded) = Create(GraphOf(isSimilar ? Similar : Skewed, root, levels));
             Assert.Equal((expanded.Instances.Count, expanded.FaceCount), Count(hierarchy));
         }
     }
@@ -63,7 +66,7 @@ public class RecursiveLevelsTests
     {
         for (var levels = 0; levels <= 6; levels++)
         {
-            var (hierarchy, expanded) = Create(isSimilar ? Similar : Skewed, root, levels);
+            var (hierarchy, expanded) = Create(GraphOf(isSimilar ? Similar : Skewed, root, levels));
             var collider = new ExactFractalCollider(hierarchy);
             Seeded.Run(20, random => AssertClosest(collider, expanded, RandomPosition(random, expanded.Box)));
         }
@@ -75,7 +78,7 @@ public class RecursiveLevelsTests
     {
         for (var levels = 0; levels <= 6; levels++)
         {
-            var (hierarchy, expanded) = Create(isSimilar ? Similar : Skewed, root, levels);
+            var (hierarchy, expanded) = Create(GraphOf(isSimilar ? Similar : Skewed, root, levels));
             var collider = new ExactFractalCollider(hierarchy);
             Seeded.Run(10, random => AssertAllWithin(collider, expanded, RandomPosition(random, expanded.Box), random.Between(0, 2)));
         }
@@ -87,9 +90,9 @@ public class RecursiveLevelsTests
     {
         var fractal = Fractal.Of(Samples.Tetrahedron).Repeat([Samples.MoveAndScale(0, 0, 0, 0.5), Samples.MoveAndScale(1, 0, 0, 0.5)], 30);
         var maps = fractal.LevelAt(0).Maps;
-        var description = HierarchyDescription.Of(
-            [new(Samples.Tetrahedron, [.. maps.Select(static map => new RecursiveCall(map, 0))])], 0, 30);
-        var (expected, actual) = (fractal.Hierarchy, FractalHierarchyBuilder.Build(description));
+        FractalGraph graph = new(
+            [Samples.Tetrahedron], [RecursivePart.Of(0, 30, [.. maps.Select(static map => new RecursiveCall(map, 0))])]);
+        var (expected, actual) = (fractal.Hierarchy, FractalHierarchyBuilder.Build(graph));
         Assert.Equal((expected.Levels, expected.Root.Box), (actual.Levels, actual.Root.Box));
         var (colliders, contexts) = (new[] { new ExactFractalCollider(fractal), new(actual) }, new QueryContext[] { new(), new() });
         Seeded.Run(50, random =>
@@ -113,13 +116,13 @@ public class RecursiveLevelsTests
     {
         for (var root = 0; root < 3; root++)
         {
-            ImmutableArray<FractalRecursive> recursives = [.. isSimilar ? Similar : Skewed];
-            var deep = FractalHierarchyBuilder.Build(HierarchyDescription.Of(recursives, root, levels));
-            var limit = new ExactFractalCollider(FractalHierarchyBuilder.Build(HierarchyDescription.Of(recursives, root, 90)));
+            var recursives = isSimilar ? Similar : Skewed;
+            var deep = FractalHierarchyBuilder.Build(GraphOf(recursives, root, levels));
+            var limit = new ExactFractalCollider(FractalHierarchyBuilder.Build(GraphOf(recursives, root, 90)));
             var collider = new ExactFractalCollider(deep);
             Assert.Equal(root, (int)(deep.Levels % 3));
             Assert.InRange(collider.StorageBytes, 1, 400_000);
-            var box = new ExpandedRecursives(isSimilar ? Similar : Skewed, root, 5).Box;
+            var box = new ExpandedGraph(GraphOf(recursives, root, 5)).Box;
             Seeded.Run(20, random =>
             {
                 var position = RandomPosition(random, box);
@@ -132,7 +135,7 @@ public class RecursiveLevelsTests
     [MemberData(nameof(Roots))]
     public void BestFirstSearch_InRecursives_FindsTheClosestOfAllFaces(bool isSimilar, int root)
     {
-        var (hierarchy, expanded) = Create(isSimilar ? Similar : Skewed, root, 4);
+        var (hierarchy, expanded) = Create(GraphOf(isSimilar ? Similar : Skewed, root, 4));
         BestFirstSearch bestFirst = new(hierarchy, Array.ConvertAll(hierarchy.BaseMeshes, TriangleBvh.For));
         Seeded.Run(20, random =>
         {
@@ -148,12 +151,13 @@ public class RecursiveLevelsTests
     public void Steps_OnRecursives_ApplyToAllTheirFaces()
     {
         TransformationSet stairs = new([Transformation.Identity, new(new(0, 2, 0), new(0, 30, 0), 0.9 * Vector.One)]);
-        var hierarchy = FractalHierarchyBuilder.Build(HierarchyDescription.Of([.. Similar], 2, 4, [new Repetition([stairs], 3)]));
-        // The same as recursives: a chain of the steps, each a sum of what is below once and once more.
+        RecursivePart recursives = new([.. Similar], 2, 4);
+        var hierarchy = FractalHierarchyBuilder.Build(new(Meshes, [recursives, new SteppedPart(3, [new Repetition([stairs], 3)])]));
+        // The same as a sum of powers.
         var maps = Enumerable.Range(0, 4).Select(power => Enumerable.Repeat(stairs.Maps[1], power)
             .Aggregate(AffineMap.Identity, static (product, map) => product * map));
-        FractalRecursive top = new(Mesh.Empty, [.. maps.Select(static map => new RecursiveCall(map, 2))]);
-        var expanded = new ExpandedRecursives([.. Similar, top], 3, 5);
+        var sum = RecursivePart.Sum([.. maps.Select(static map => RecursiveCall.ToPart(map, 3))]);
+        var expanded = new ExpandedGraph(new(Meshes, [recursives, sum]));
         AssertBounds(hierarchy, expanded, maxLooseness: 0.02);
         Assert.Equal((expanded.Instances.Count, expanded.FaceCount), Count(hierarchy));
         var collider = new ExactFractalCollider(hierarchy);
@@ -167,7 +171,7 @@ public class RecursiveLevelsTests
     [Fact]
     public void FindClosestPair_OfRecursives_IsThatOfAllFaces()
     {
-        var (hierarchy, expanded) = Create(Similar, 2, 3);
+        var (hierarchy, expanded) = Create(GraphOf(Similar, 2, 3));
         var mesh = new HierarchyCollider(Roof);
         var collider = new ExactFractalCollider(hierarchy);
         Seeded.Run(10, random =>
@@ -186,24 +190,41 @@ public class RecursiveLevelsTests
     [Fact]
     public void Levels_OfRecursives_AreTheirStatesInTurns()
     {
-        var (hierarchy, _) = Create(Similar, 1, 4);
+        var (hierarchy, _) = Create(GraphOf(Similar, 1, 4));
         Assert.Equal((3 * 4) + 1, hierarchy.Levels);
         Assert.Equal([0, 1, 2], Enumerable.Range(0, 3).Select(level => hierarchy.AllLevels.Items[level].BaseIndex));
         Assert.Equal([true, true, true, false], Enumerable.Range(0, 4).Select(level => hierarchy.IsBase(level)));
     }
 
     [Fact]
-    public void Description_OfCallsThatLeadNowhere_IsRefused()
+    public void Part_OfCallsThatLeadNowhere_IsRefused()
     {
-        FractalRecursive Calling(int recursive, int levelsLess) =>
-            new(Samples.Triangle, [new(AffineMap.Identity, recursive, levelsLess)]);
-        Assert.Throws<ArgumentException>(() => HierarchyDescription.Of([Calling(1, 1)], 0, 3));
-        Assert.Throws<ArgumentException>(() => HierarchyDescription.Of([Calling(0, 0)], 0, 3));
-        var step = Samples.Repeated(1).Description.Steps[0];
-        Assert.Throws<ArgumentException>(() => HierarchyDescription.Of([Calling(0, 1)], 0, null, [step]));
-        Assert.Throws<ArgumentOutOfRangeException>(() => HierarchyDescription.Of([Calling(0, 1)], 1, 3));
-        Assert.Throws<ArgumentOutOfRangeException>(() => HierarchyDescription.Of([Calling(0, 1)], 0, -1));
+        static RecursivePart Calling(int root, int? levels, params RecursiveCall[] calls) =>
+            new([.. calls.Select(static call => new FractalRecursive(0, [call]))], root, levels);
+        Assert.Throws<ArgumentException>(() => Calling(0, 3, new RecursiveCall(AffineMap.Identity, 1)));
+        Assert.Throws<ArgumentException>(() => Calling(0, 3, new RecursiveCall(AffineMap.Identity, 0, -1)));
+        Assert.Throws<ArgumentException>(() => Calling(0, 3, new(AffineMap.Identity, 1, 0), new(AffineMap.Identity, 0, 0)));
+        Assert.Throws<ArgumentOutOfRangeException>(() => Calling(1, 3, new RecursiveCall(AffineMap.Identity, 0)));
+        Assert.Throws<ArgumentOutOfRangeException>(() => Calling(0, -1, new RecursiveCall(AffineMap.Identity, 0)));
+        Assert.Equal([1, 0], Calling(0, 3, new(AffineMap.Identity, 1, 0), new(AffineMap.Identity, 0)).Order.ToArray());
     }
+
+    [Fact]
+    public void Graph_OfLaterPartsOrOfInfiniteOnes_IsRefused()
+    {
+        var infinite = RecursivePart.Of(0, null, new RecursiveCall(AffineMap.Scale(0.5 * Vector.One, Vector.Zero), 0));
+        Assert.Throws<ArgumentException>(() => new FractalGraph([], []));
+        Assert.Throws<ArgumentException>(() => new FractalGraph(Meshes, [new SteppedPart(3, [])]));
+        Assert.Throws<ArgumentException>(() => new FractalGraph(Meshes, [RecursivePart.Sum(RecursiveCall.ToPart(-1))]));
+        SteppedPart stepped = new(3, Samples.Repeated(1).Description.Steps);
+        Assert.Throws<ArgumentException>(() => new FractalGraph(Meshes, [infinite, stepped]));
+        var recursive = RecursivePart.Of(3, 2, new RecursiveCall(AffineMap.Identity, 0));
+        Assert.Throws<ArgumentException>(() => new FractalGraph(Meshes, [infinite, recursive]));
+        Assert.True(new FractalGraph(Meshes, [infinite, RecursivePart.Sum(RecursiveCall.ToPart(3), RecursiveCall.ToPart(1))]).IsInfinite);
+    }
+
+    private static FractalGraph GraphOf(FractalRecursive[] recursives, int root, int? levels) =>
+        new(Meshes, [new RecursivePart([.. recursives], root, levels)]);
 
     private static RecursiveCall Call(double x, double y, double z, double degrees, double scale, int recursive, int levelsLess = 1) =>
         new(MapOf(new(new(x, y, z), new(degrees, 0.5 * degrees, 0), scale * Vector.One)), recursive, levelsLess);

@@ -1,0 +1,22 @@
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Fractals.Graphs;
+
+/// <summary>A map of a recursive, and what it is applied to: a recursive of the same group, or an earlier part of the graph.</summary>
+/// <param name="Map">From the frame of the target to that of the caller.</param>
+/// <param name="Target">Index of the recursive that is called; of an earlier part where the call is a constant.</param>
+/// <param name="LevelsLess">
+/// By how much fewer levels the target has. Where the caller has fewer, the target's base takes its place. Null for a constant: an earlier
+/// part, which stands at every level of the caller but 0.
+/// </param>
+internal readonly record struct RecursiveCall(AffineMap Map, int Target, int? LevelsLess = 1)
+{
+    /// <summary>True where the target is an earlier part of the graph.</summary>
+    public bool IsConstant => LevelsLess is null;
+
+    /// <summary>Makes a constant: an earlier part under a map.</summary>
+    public static RecursiveCall ToPart(AffineMap map, int part) => new(map, part, null);
+
+    /// <summary>Makes a constant: an earlier part as it is.</summary>
+    public static RecursiveCall ToPart(int part) => ToPart(AffineMap.Identity, part);
+}

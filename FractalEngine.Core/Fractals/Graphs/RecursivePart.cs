@@ -1,0 +1,184 @@
+using System.Collections.Immutable;
+using System.Numerics;
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Fractals.Graphs;
+
+/// <summary>
+/// Recursives that call each other and earlier parts, and one of them with so many levels as the whole. A sum is one recursive that calls
+/// earlier parts only, with one level.
+/// </summary>
+/// <remarks>
+/// A call may take no level where its target comes earlier in some order of the recursives. So a set of sets, or a sum in a set, is a
+/// recursive of its own, instead of all products.
+/// </remarks>
+internal sealed class RecursivePart : FractalPart
+{
+    /// <summary>Makes a part of recursives.</summary>
+    /// <param name="recursives">The recursives, which refer to each other by their indices: at least one.</param>
+    /// <param name="root">Index of the recursive that the part is.</param>
+    /// <param name="levels">Number of its levels; null for infinitely many.</param>
+    /// <exception cref="ArgumentException">A call leads to no recursive, or some call each other without end at the same level.</exception>
+    public RecursivePart(ImmutableArray<FractalRecursive> recursives, int root, int? levels)
+    {
+        ArgumentOutOfRangeException.ThrowIfNegative(levels ?? 0, nameof(levels));
+        ArgumentOutOfRangeException.ThrowIfNegative(root);
+        ArgumentOutOfRangeException.ThrowIfGreaterThanOrEqual(root, recursives.Length);
+        Recursives = recursives;
+        Root = root;
+        Levels = levels;
+        RecursiveCall[] calls = [.. recursives.SelectMany(static recursive => recursive.Calls).Where(static call => !call.IsConstant)];
+        MaxLevelsLess = calls.Select(static call => call.LevelsLess!.Value).DefaultIfEmpty().Max();
+        if (calls.Any(call => (uint)call.Target >= (uint)recursives.Length || call.LevelsLess < 0))
+        {
+            throw new ArgumentException("expected calls of the given recursives, with no more levels", nameof(recursives));
+        }
+
+        Order = SortByCalls();
+    }
+
+    /// <summary>The recursives, which refer to each other by their indices.</summary>
+    public ImmutableArray<FractalRecursive> Recursives { get; }
+
+    /// <summary>Index of the recursive that the part is.</summary>
+    public int Root { get; }
+
+    /// <summary>Number of its levels; null for infinitely many.</summary>
+    public int? Levels { get; }
+
+    /// <summary>The largest <see cref="RecursiveCall.LevelsLess"/> of the calls; 0 without calls.</summary>
+    public int MaxLevelsLess { get; }
+
+    /// <summary>Indices of the recursives such that calls that take no level lead to earlier ones.</summary>
+    public ImmutableArray<int> Order { get; }
+
+    /// <summary>
+    /// The <see cref="RecursiveCall.LevelsLess"/> of all calls where one recursive calls itself, always with as many levels less, and
+    /// nothing else but constants; null for others.
+    /// </summary>
+    public int? LevelsLessOfLinear => Recursives is [var only]
+        && only.Calls.Where(static call => !call.IsConstant).Select(static call => call.LevelsLess).Distinct().ToArray() is [var less]
+        ? less
+        : null;
+
+    /// <inheritdoc/>
+    public override bool IsInfinite => Levels is null;
+
+    /// <inheritdoc/>
+    public override bool IsSum => Levels == 1 && Recursives is [var only] && only.Calls.All(static call => call.IsConstant);
+
+    /// <inheritdoc/>
+    public override IEnumerable<int> References => Recursives.SelectMany(static recursive => recursive.References);
+
+    /// <inheritdoc/>
+    public override IEnumerable<ImmutableArray<AffineMap>> MapSets =>
+        Recursives.Select(static recursive => ImmutableArray.CreateRange(recursive.Calls, static call => call.Map));
+
+    /// <summary>Makes the union of earlier parts, each under a map.</summary>
+    /// <param name="terms">At least one constant.</param>
+    public static RecursivePart Sum(params ImmutableArray<RecursiveCall> terms) => new([new(terms[0].Target, terms)], 0, 1);
+
+    /// <summary>Makes one recursive that calls itself and earlier parts.</summary>
+    /// <param name="basePart">What it is without levels.</param>
+    /// <param name="levels">Number of its levels; null for infinitely many.</param>
+    /// <param name="calls">The calls.</param>
+    public static RecursivePart Of(int basePart, int? levels, params ImmutableArray<RecursiveCall> calls) =>
+        new([new(basePart, calls)], 0, levels);
+
+    /// <inheritdoc/>
+    public override BigInteger? CountInstances(Func<int, BigInteger?> countAt) => Levels is { } levels
+        ? LinearRecurrence.TermAt(
+            Ascend(countAt, BigInteger.Zero, static (sum, count) => sum + count).Select(values => values[Root]),
+            (Recursives.Length * Math.Max(1, MaxLevelsLess)) + 1, levels)
+        : CountInfinite(Root, countAt, []);
+
+    /// <inheritdoc/>
+    public override ScaledCount EstimateInstances(Func<int, ScaledCount> countAt) =>
+        Ascend(countAt, default, static (sum, count) => sum + count).ElementAt(Levels ?? 0)[Root];
+
+    /// <summary>Computes a value of each recursive with 0 levels, with 1, and so on without end.</summary>
+    /// <param name="valueAt">Gives the value of an earlier part.</param>
+    /// <param name="zero">The value of nothing.</param>
+    /// <param name="add">Adds a value to a sum.</param>
+    /// <returns>The values by recursives; valid until the next are asked for.</returns>
+    public IEnumerable<T[]> Ascend<T>(Func<int, T> valueAt, T zero, Func<T, T, T> add)
+    {
+        T[] bases = [.. Recursives.Select(recursive => valueAt(recursive.BasePart))];
+        yield return bases;
+        var latest = new T[MaxLevelsLess + 1][];
+        for (var levels = 1; ; levels++)
+        {
+            var values = latest[levels % latest.Length] ??= new T[Recursives.Length];
+            foreach (var caller in Order)
+            {
+                var sum = zero;
+                foreach (var call in Recursives[caller].Calls)
+                {
+                    sum = add(sum, call.LevelsLess is not { } less ? valueAt(call.Target)
+                        : less >= levels ? bases[call.Target]
+                        : latest[(levels - less) % latest.Length][call.Target]);
+                }
+
+                values[caller] = sum;
+            }
+
+            yield return values;
+        }
+    }
+
+    /// <summary>Counts the chains of infinitely many levels: what a cycle of calls leads to, it does so without end.</summary>
+    private BigInteger? CountInfinite(int recursive, Func<int, BigInteger?> countAt, Dictionary<int, BigInteger?> known)
+    {
+        if (known.TryGetValue(recursive, out var count))
+        {
+            return count;
+        }
+
+        var reached = new HashSet<int>();
+        var open = new Stack<int>([recursive]);
+        while (open.TryPop(out var caller))
+        {
+            foreach (var call in Recursives[caller].Calls.Where(call => !call.IsConstant && reached.Add(call.Target)))
+            {
+                open.Push(call.Target);
+            }
+        }
+
+        return known[recursive] = !reached.Contains(recursive)
+            ? Recursives[recursive].Calls
+                .Select(call => call.IsConstant ? countAt(call.Target) : CountInfinite(call.Target, countAt, known))
+                .Aggregate((BigInteger?)BigInteger.Zero, static (sum, term) => sum + term)
+            : reached.SelectMany(index => Recursives[index].References).All(part => countAt(part) is { IsZero: true })
+                ? BigInteger.Zero
+                : null;
+    }
+
+    private ImmutableArray<int> SortByCalls()
+    {
+        var order = ImmutableArray.CreateBuilder<int>(Recursives.Length);
+        var begun = new HashSet<int>();
+        for (var i = 0; i < Recursives.Length; i++)
+        {
+            Visit(i);
+        }
+
+        return order.MoveToImmutable();
+
+        void Visit(int recursive)
+        {
+            if (begun.Add(recursive))
+            {
+                foreach (var call in Recursives[recursive].Calls.Where(static call => call.LevelsLess == 0))
+                {
+                    Visit(call.Target);
+                }
+
+                order.Add(recursive);
+            }
+            else if (!order.Contains(recursive))
+            {
+                throw new ArgumentException("expected no cycle of calls that take no level", nameof(recursive));
+            }
+        }
+    }
+}
