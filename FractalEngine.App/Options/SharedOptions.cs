@@ -7,6 +7,8 @@ using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Scenes.Cameras;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Parsing.Assets.References;
+using FractalEngine.Parsing.Fdo;
+using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.App.Options;
 
@@ -71,14 +73,26 @@ internal sealed class SharedOptions
         return !result.CommandResult.Command.Options.Contains(Composition) ? options : options with
         {
             Composition = result.GetValue(Composition),
-            Values = ImmutableDictionary.CreateRange((result.GetValue(Values) ?? []).Select(ParseValue)),
+            Values = ImmutableDictionary<string, double>.Empty.SetItems((result.GetValue(Values) ?? []).Select(ParseValue)),
         };
     }
 
-    private static KeyValuePair<string, double> ParseValue(string text) => text.Split('=', 2) is [{ Length: > 0 } name, var number]
-        && double.TryParse(number, NumberStyles.Float, CultureInfo.InvariantCulture, out var value) && double.IsFinite(value)
-            ? new(name.Trim(), value)
-            : throw new UsageException($"--set '{text}': expected NAME=VALUE, such as angle=30");
+    private static KeyValuePair<string, double> ParseValue(string text)
+    {
+        if (text.Split('=', 2) is not [{ Length: > 0 } name, var number])
+        {
+            throw new UsageException($"--set '{text}': expected NAME=VALUE, such as angle=30");
+        }
+
+        try
+        {
+            return new(name.Trim(), NumberExpression.Compute(number));
+        }
+        catch (SourceException exception)
+        {
+            throw new UsageException($"--set '{text}': {exception.Diagnostic.Message}");
+        }
+    }
 
     /// <summary>Creates an argument for an input file. Names that begin with a dash need the prefix <c>./</c>.</summary>
     public static Argument<string> FileArgument(string description) => new("FILE")

@@ -1,5 +1,6 @@
 using FractalEngine.Core.Bvh.Objects;
 using FractalEngine.Core.Fractals.Descriptions;
+using FractalEngine.Core.Fractals.Levels;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using BigInteger = System.Numerics.BigInteger;
@@ -14,6 +15,9 @@ public static class DistinctInstances
 {
     // A proof visits every round until the boxes converge: those of sponges do so at once, others within a hundred rounds.
     private const int MaxProvedRounds = 1500;
+
+    // Numbers of deeper fractals have thousands of digits.
+    private const int MaxCountedLevels = 1000;
 
     // Images that touch overlap by the rounding of their coordinates.
     private const double TouchTolerance = 64 * 2.220446049250313e-16;
@@ -49,6 +53,37 @@ public static class DistinctInstances
         catch (FractalLimitException)
         {
             // More instances than are enumerated: their number is unknown.
+            return null;
+        }
+    }
+
+    /// <summary>
+    /// Finds an upper bound of the number of distinct instances, soon: those that no identity in a set repeats. It is exact where nothing
+    /// else coincides, and where few instances are expanded.
+    /// </summary>
+    /// <param name="fractal">Fractal of any composition and depth.</param>
+    /// <param name="budget">Maximum number of instances that are expanded.</param>
+    /// <returns>At most the number of chains; null for an infinite fractal.</returns>
+    public static BigInteger? CountAtMost(Fractal fractal, long budget = 20_000)
+    {
+        ArgumentNullException.ThrowIfNull(fractal);
+        return Count(fractal, budget) ?? (fractal.InstanceCount is { } chains ? CountWithoutIdentities(fractal) ?? chains : null);
+    }
+
+    private static BigInteger? CountWithoutIdentities(Fractal fractal)
+    {
+        if (fractal.Description.Composition != Composition.Affine || fractal.LevelCount > MaxCountedLevels)
+        {
+            return null;
+        }
+
+        try
+        {
+            return new InstanceCounts(fractal.Hierarchy, static _ => 1).SumAt(fractal.Hierarchy.Levels);
+        }
+        catch (Exception exception) when (exception is FractalLimitException or SingularMatrixException)
+        {
+            // Without a hierarchy, only chains are known.
             return null;
         }
     }

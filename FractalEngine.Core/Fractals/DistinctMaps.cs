@@ -35,7 +35,7 @@ internal static class DistinctMaps
     /// <param name="fractal">Has the base mesh, and the number of maps in a chain.</param>
     /// <param name="capacity">Number of maps for which there is room.</param>
     public static DistinctList<AffineMap> Images(Fractal fractal, int capacity) =>
-        Images(fractal.BaseMesh.UsedBounds, fractal.LevelCount, capacity);
+        Images(fractal.BaseMesh.UsedBounds, fractal.Description.HasOnlyTransformations ? fractal.LevelCount : null, capacity);
 
     /// <summary>Makes a list of the distinct images of a box under maps that are added to it.</summary>
     /// <param name="box">The box of a base mesh.</param>

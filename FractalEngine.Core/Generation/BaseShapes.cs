@@ -1,3 +1,4 @@
+using System.Collections.Immutable;
 using System.Diagnostics.CodeAnalysis;
 using FractalEngine.Core.Generation.Building;
 using FractalEngine.Core.Geometry;
@@ -11,29 +12,29 @@ public static class BaseShapes
     private const int Sides = 24;
     private const int BallSubdivisions = 2;
 
-    private static readonly Dictionary<string, Lazy<Mesh>> All = new()
-    {
-        ["box"] = new(Shapes.Cube),
-        ["ball"] = new(static () => Scale(Shapes.Sphere(BallSubdivisions), 0.5)),
-        ["plate"] = new(static () => Shapes.Square()),
-        ["tetrahedron"] = new(static () => Scale(Shapes.Tetrahedron(), 0.5 * Math.Sqrt(3))),
-        ["cylinder"] = new(static () => Column(isPointed: false)),
-        ["cone"] = new(static () => Column(isPointed: true)),
-    };
+    private static readonly ImmutableArray<(string Name, Lazy<Mesh> Mesh)> All =
+    [
+        ("box", new(Shapes.Cube)),
+        ("ball", new(static () => Scale(Shapes.Sphere(BallSubdivisions), 0.5))),
+        ("plate", new(static () => Shapes.Square())),
+        ("tetrahedron", new(static () => Scale(Shapes.Tetrahedron(), 0.5 * Math.Sqrt(3)))),
+        ("cylinder", new(static () => Column(isPointed: false))),
+        ("cone", new(static () => Column(isPointed: true))),
+    ];
 
     /// <summary>The names, in the order of a listing.</summary>
-    public static IEnumerable<string> Names => All.Keys;
+    public static IEnumerable<string> Names => All.Select(static shape => shape.Name);
 
     /// <summary>Finds the mesh of a shape, always the same one.</summary>
     public static bool TryFind(string name, [NotNullWhen(true)] out Mesh? mesh)
     {
-        mesh = All.GetValueOrDefault(name)?.Value;
+        mesh = All.FirstOrDefault(shape => shape.Name == name).Mesh?.Value;
         return mesh is not null;
     }
 
     /// <summary>Returns the name of the shape that a mesh was found as; null for other meshes.</summary>
     public static string? NameOf(Mesh mesh) =>
-        All.FirstOrDefault(shape => shape.Value.IsValueCreated && ReferenceEquals(shape.Value.Value, mesh)).Key;
+        All.FirstOrDefault(shape => shape.Mesh.IsValueCreated && ReferenceEquals(shape.Mesh.Value, mesh)).Name;
 
     private static Mesh Scale(Mesh mesh, double factor)
     {

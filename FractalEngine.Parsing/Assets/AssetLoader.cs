@@ -1,5 +1,4 @@
 using System.Collections.Immutable;
-using FractalEngine.Core;
 using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
@@ -118,28 +117,9 @@ public sealed class AssetLoader
         return CreateLoadedFile(kind, LoadedScene.Of(new() { Handedness = handedness, Objects = [declared] }), null);
     }
 
-    private LoadedFile CreateLoadedFile(FileKind kind, LoadedScene scene, ParsedScene? parsedScene)
-    {
-        RequireNumbers(scene);
-        return new(_fullPath, kind, scene, parsedScene, _models.StorageBytes,
+    private LoadedFile CreateLoadedFile(FileKind kind, LoadedScene scene, ParsedScene? parsedScene) =>
+        new(_fullPath, kind, scene, parsedScene, _models.StorageBytes,
             _options.ShareModels && !_isCached ? [.. _models.Warnings] : [.. _models.Warnings.Distinct()]);
-    }
-
-    /// <summary>Requires some fractal to declare each number that the options set.</summary>
-    private void RequireNumbers(LoadedScene scene)
-    {
-        if (_options.Values.IsEmpty)
-        {
-            return;
-        }
-
-        var names = scene.Objects.Select(static declared => declared.Model).OfType<FractalModel>()
-            .SelectMany(static model => model.NumberNames).ToHashSet();
-        if (_options.Values.Keys.FirstOrDefault(name => !names.Contains(name)) is { } unknown)
-        {
-            throw new SourceException(_path, $"no fractal declares the number '{unknown}'{NameSuggestion.Ask(unknown, names)}");
-        }
-    }
 
     private LoadedFile LoadScene()
     {

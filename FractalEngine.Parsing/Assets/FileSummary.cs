@@ -1,5 +1,6 @@
 using System.Globalization;
 using System.Text.Encodings.Web;
+using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using BigInteger = System.Numerics.BigInteger;
@@ -7,8 +8,8 @@ using BigInteger = System.Numerics.BigInteger;
 namespace FractalEngine.Parsing.Assets;
 
 /// <summary>
-/// The facts about a loaded file: kind, counts, bounds, size and times. Counts are exact, of the scene with all fractals expanded. A model
-/// counts once per object that shows it.
+/// The facts about a loaded file: kind, counts, bounds, size and times. Counts are of the scene with all fractals expanded, without what
+/// they make twice, and where that is not known of an upper bound. A model counts once per object that shows it.
 /// </summary>
 /// <param name="file">The loaded file.</param>
 /// <param name="loadTime">Time of parsing and checking all files, and of finding the bounds.</param>
@@ -25,17 +26,17 @@ public sealed class FileSummary(LoadedFile file, TimeSpan loadTime, TimeSpan? pr
     {
         var scene = file.Scene;
         var bounds = scene.Bounds;
-        var instances = scene.Sum(static model => model.InstanceCount);
-        var distinctCounts = scene.Models.ToDictionary(model => model, CountDistinctInstances);
+        var chains = scene.Sum(static model => model.InstanceCount);
+        var instances = scene.Models.ToDictionary(model => model, CountInstances);
         return
         [
             ("kind", format(file.Kind.ToString().ToLowerInvariant())),
             ("handed", format(scene.Scene.Handedness.ToString().ToLowerInvariant())),
-            ("vertices", FormatCount(scene.Sum(static model => model.VertexCount), format)),
-            ("faces", FormatCount(scene.Sum(static model => model.FaceCount), format)),
-            ("instances", FormatCount(instances, format)),
-            ("infinite", format(instances is null)),
-            ("distinctInstances", FormatCount(scene.Sum(model => distinctCounts[model]), format)),
+            ("vertices", FormatCount(scene.Sum(model => instances[model] * model.Mesh.VertexCount), format)),
+            ("faces", FormatCount(scene.Sum(model => instances[model] * model.Mesh.FaceCount), format)),
+            ("instances", FormatCount(scene.Sum(model => instances[model]), format)),
+            ("chains", FormatCount(chains, format)),
+            ("infinite", format(chains is null)),
             ("boundsMin", format(bounds.IsEmpty ? null : bounds.Minimum)),
             ("boundsMax", format(bounds.IsEmpty ? null : bounds.Maximum)),
             ("storageBytes", format(file.StorageBytes)),
@@ -70,9 +71,10 @@ public sealed class FileSummary(LoadedFile file, TimeSpan loadTime, TimeSpan? pr
         _ => string.Create(CultureInfo.InvariantCulture, $"{value}"),
     };
 
-    private static BigInteger? CountDistinctInstances(Model model) => model switch
+    private static BigInteger? CountInstances(Model model) => model switch
     {
-        FractalModel { Fractal: var fractal } => Core.Fractals.DistinctInstances.Count(fractal),
+        FractalModel { Fractal: var fractal } =>
+            DistinctInstances.Count(fractal) ?? DistinctInstances.CountAtMost(fractal, budget: 0),
         _ => BigInteger.One,
     };
 }

@@ -17,6 +17,7 @@ public abstract class ExpressionParser : Parser
 
     private readonly Dictionary<string, (FractalValue Value, int Offset)> _values = [];
     private int _nesting;
+    private long _termCount;
 
     private protected ExpressionParser(SourceText source, FractalNumberList? numbers)
         : base(source) => Numbers = numbers;
@@ -295,6 +296,7 @@ public abstract class ExpressionParser : Parser
     private bool ParsePrimary(Cursor cursor, out double value, out Cursor rest)
     {
         value = 0;
+        RequireLimit(++_termCount, ParsingLimits.ExpressionTerms.Value, "the file", "terms of expressions in all calls", cursor);
         if (cursor.Current == '(')
         {
             return ParseBlanks(cursor.Advance(1), out rest) && ParseExpression(rest, out value, out rest) && ParseBlanks(rest, out rest)
@@ -321,7 +323,8 @@ public abstract class ExpressionParser : Parser
             return true;
         }
 
-        if (_values.TryGetValue(name, out var declared))
+        // A function that is read again for a call knows what it knew where it stands.
+        if (_values.TryGetValue(name, out var declared) && declared.Offset < cursor.Offset)
         {
             value = declared.Value.Number;
             return declared.Value.IsNumber ? true : throw Error(cursor, $"'{name}' is a vector, and here stands a number");

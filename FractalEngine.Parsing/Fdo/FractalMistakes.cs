@@ -25,6 +25,9 @@ internal static class FractalMistakes
         ?? failure.Explain(@"\([^()]*\n[-+.(0-9\p{L}]", "commas stand between the components of a vector, as in '(0, 1, 0)'", "','", "')'")
         // [t.^1.5]
         ?? failure.Explain(@"\^-?[0-9]+\n\.", "the power of a map is a whole number")
+        // <$>. z k
+        ?? failure.Explain(
+            @"\n(?<name>[\p{L}_][\p{L}0-9_]*)[ \t]*\z", "a depth that is computed stands in parentheses, as in '(${name})'", "a depth")
         // [t.1 2]
         ?? failure.Explain(
             @"(?<call>\w+(\.[0-9]+)+)\.?[ \t]*,?[ \t]*\n(?<digit>[0-9])",

@@ -260,7 +260,7 @@ public sealed class FractalParser : TransformationParser
             throw Error(depthStart, "the depth of a recursive must not be negative");
         }
 
-        if (depthStart.Offset == rest.Offset || (depthStart.Current == '(' && !Names.IsRecursive(name))
+        if ((depthStart.Current == '(' ? !Names.IsRecursive(name) : depthStart.Offset == rest.Offset)
             || !ParseDepth(depthStart, out var depth, out rest))
         {
             return Fail(depthStart, SyntaxFailure.EndOfLine);

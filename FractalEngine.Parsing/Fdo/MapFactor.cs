@@ -29,7 +29,10 @@ internal readonly record struct MapFactor
         return new([.. Maps.SelectMany(map => others, static (map, inner) => map * inner)]);
     }
 
-    /// <summary>Makes a range of powers, from the smallest: each is the one nearer to the identity, times the map or its inverse.</summary>
+    /// <summary>
+    /// Makes a range of powers, from the smallest: each is the one nearer to the identity, times the map or its inverse. What comes back to
+    /// the identity, to rounding, is the identity, so that further turns are the same maps again.
+    /// </summary>
     /// <param name="from">The smallest exponent.</param>
     /// <param name="to">The largest exponent.</param>
     public MapFactor ToPowers(int from, int to)
@@ -38,17 +41,46 @@ internal readonly record struct MapFactor
         var powers = new AffineMap[to - from + 1];
         var nearest = Math.Clamp(0, from, to);
         powers[nearest - from] = map.Power(nearest);
+        var turn = new FullTurn();
         for (var exponent = nearest + 1; exponent <= to; exponent++)
         {
-            powers[exponent - from] = powers[exponent - from - 1] * map;
+            powers[exponent - from] = turn.Close(powers[exponent - from - 1] * map);
         }
 
         var inverse = from < nearest ? map.Inverse() : map;
+        turn = new();
         for (var exponent = nearest - 1; exponent >= from; exponent--)
         {
-            powers[exponent - from] = powers[exponent - from + 1] * inverse;
+            powers[exponent - from] = turn.Close(powers[exponent - from + 1] * inverse);
         }
 
         return new(powers);
+    }
+
+    /// <summary>Recognises powers that have come back to the identity, compared with how far the ones before were from it.</summary>
+    private struct FullTurn
+    {
+        // Roundings of a product, of which few add up.
+        private const double UnitsPerProduct = 8 * 2.220446049250313e-16;
+
+        private int _count;
+        private double _farthestLinear;
+        private double _farthestTranslation;
+
+        public AffineMap Close(in AffineMap power)
+        {
+            var linear = (power.Linear + (-1 * Matrix.Identity)).MaxAbsEntry();
+            var translation = power.Translation.MaxAbsComponent();
+            var tolerance = UnitsPerProduct * ++_count;
+            if (linear <= tolerance * _farthestLinear && translation <= tolerance * _farthestTranslation)
+            {
+                (_count, _farthestLinear, _farthestTranslation) = (0, 0, 0);
+                return AffineMap.Identity;
+            }
+
+            _farthestLinear = Math.Max(_farthestLinear, linear);
+            _farthestTranslation = Math.Max(_farthestTranslation, translation);
+            return power;
+        }
     }
 }

@@ -43,10 +43,9 @@ public abstract class TransformationParser : ExpressionParser
     private protected bool ParseMatrix(Cursor cursor, out Cursor rest)
     {
         if (!ParseName(cursor, "a declaration", out var name, out rest) || !ParseChar(rest, '.', out rest)
-            || !ParseWord(rest, "matrix", out rest) || !ParseSeparator(rest, out var start) || !ParseVectorTerm(start, out var x, out rest)
-            || !ParseSeparator(rest, out rest) || !ParseVectorTerm(rest, out var y, out rest)
-            || !ParseSeparator(rest, out rest) || !ParseVectorTerm(rest, out var z, out rest)
-            || !ParseSeparator(rest, out rest) || !ParseVectorTerm(rest, out var translation, out rest))
+            || !ParseWord(rest, "matrix", out rest) || !ParseBlanks(rest, out var start) || !ParseVectorTerm(start, out var x, out rest)
+            || !ParseNextVector(rest, out var y, out rest) || !ParseNextVector(rest, out var z, out rest)
+            || !ParseNextVector(rest, out var translation, out rest))
         {
             return false;
         }
@@ -55,6 +54,13 @@ public abstract class TransformationParser : ExpressionParser
         RequireInvertible(start, map);
         Names.Add(cursor, name, new TransformationFunction(FractalParameters.None, default, default, default) { Matrix = map });
         return true;
+    }
+
+    private bool ParseNextVector(Cursor cursor, out Vector vector, out Cursor rest)
+    {
+        ParseBlanks(cursor, out rest);
+        ParseBlanks(rest.Current == ',' ? rest.Advance(1) : rest, out rest);
+        return ParseVectorTerm(rest, out vector, out rest);
     }
 
     /// <summary>Parses a vector in parentheses, or the name of one.</summary>
@@ -207,8 +213,7 @@ public abstract class TransformationParser : ExpressionParser
     /// <summary>Explains an output that is the name of nothing; null for other failures.</summary>
     private protected string? ExplainOutput(SyntaxFailure failure) =>
         _unknownOutput is { } unknown && unknown.Offset == failure.Position.Offset
-        && AskAboutValue(unknown.Name, isNumber: false) is { Length: > 0 } question
-            ? $"no parameter or vector has this name{question}" : null;
+            ? $"no parameter and no vector above has this name{AskAboutValue(unknown.Name, isNumber: false)}" : null;
 
     /// <summary>Tells whether a number with a point and decimals begins here, such as 0.5.</summary>
     private static bool IsDecimal(Cursor cursor) =>
@@ -237,7 +242,7 @@ public abstract class TransformationParser : ExpressionParser
     {
         ParseInteger(start, FractalMistakes.VectorNumber, out var number, out var end);
         var fault = number == 0 ? "vectors are numbered from 1"
-            : $"it is not declared{place}, and values stand in vectors of their own";
+            : $"it is not declared{place}, and numbers stand in parentheses";
         return Error(start, $"vector {TextBetween(start, end)} of {_vectors.Count}: {fault}");
     }
 
@@ -369,12 +374,11 @@ public abstract class TransformationParser : ExpressionParser
 
     private void RequireInvertible(Cursor cursor, params ReadOnlySpan<AffineMap> maps)
     {
-        foreach (ref readonly var map in maps)
+        for (var i = 0; i < maps.Length; i++)
         {
-            if (!map.Translation.IsFinite() || !ScaleCheck.IsInvertible(map.Linear))
+            if (ScaleCheck.FindFault(in maps[i]) is { } fault)
             {
-                throw Error(cursor, $"{(maps.Length == 1 ? "the map" : "one of the maps")} has no inverse, or one beyond all sizes: "
-                    + "each factor must lie between 1e-100 and 1e100 in size");
+                throw Error(cursor, $"{(maps.Length == 1 ? "the map" : $"map {i + 1} of these {maps.Length}")} {fault}");
             }
         }
     }

@@ -34,6 +34,10 @@ public static class ParsingLimits
     public static Limit RepeatedSteps { get; } = new(
         "repeated-steps", 1_000_000, "steps that all recursives of a fractal file repeat", "8 MB");
 
+    /// <summary>Largest number of terms of expressions of a fractal file, those of a function counted at each call: some seconds.</summary>
+    public static Limit ExpressionTerms { get; } = new(
+        "expression-terms", 10_000_000, "terms of expressions of a fractal file, a function's at each call", "some seconds", 1_000_000_000);
+
     /// <summary>Largest size of a material file in bytes: 16 MiB.</summary>
     public static Limit MaterialBytes { get; } = new(
         "material-bytes", 1L << 24, "bytes of a material file", "far beyond what anyone writes");
@@ -57,7 +61,7 @@ public static class ParsingLimits
     /// <summary>All limits of parsers, in the order of a listing.</summary>
     public static ImmutableArray<Limit> All { get; } =
     [
-        ObjBytes, DescriptionBytes, SceneLines, PointsBytes, Maps, Names, RepeatedSteps, MaterialBytes, ImageBytes,
+        ObjBytes, DescriptionBytes, SceneLines, PointsBytes, Maps, Names, RepeatedSteps, ExpressionTerms, MaterialBytes, ImageBytes,
         ImageSide, TotalImagePixels, PolygonCorners,
     ];
 }

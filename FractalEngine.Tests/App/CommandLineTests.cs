@@ -29,7 +29,7 @@ public sealed class CommandLineTests : IDisposable
         Assert.Equal(64, info.RootElement.GetProperty("vertices").GetInt32());
         Assert.Equal(96, info.RootElement.GetProperty("faces").GetInt32());
         Assert.Equal(8, info.RootElement.GetProperty("instances").GetInt32());
-        Assert.Equal(8, info.RootElement.GetProperty("distinctInstances").GetInt32());
+        Assert.Equal(8, info.RootElement.GetProperty("chains").GetInt32());
         Assert.Equal(new FileInfo(_folder["row.fdo"]).Length + new FileInfo(_folder["cube.obj"]).Length,
             info.RootElement.GetProperty("storageBytes").GetInt64());
         Assert.Equal([-0.5, -0.0625, -0.0625], info.RootElement.GetProperty("boundsMin").EnumerateArray()

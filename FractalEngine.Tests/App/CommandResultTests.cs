@@ -64,7 +64,7 @@ public sealed class CommandResultTests : IDisposable
         Assert.Equal(0, exitCode);
         Assert.Contains($"\"instances\": {BigInteger.Pow(10, 100)},", output, StringComparison.Ordinal);
         // All chains repeat one map.
-        Assert.Contains("\"distinctInstances\": 1,", output, StringComparison.Ordinal);
+        Assert.Contains("\"chains\": 1,", output, StringComparison.Ordinal);
     }
 
     [Fact]

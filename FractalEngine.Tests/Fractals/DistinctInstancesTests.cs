@@ -11,6 +11,37 @@ namespace FractalEngine.Tests.Fractals;
 
 public class DistinctInstancesTests
 {
+    /// <summary>What identities repeat is counted once at any depth, without an expansion.</summary>
+    [Theory]
+    [InlineData(1, 200, 201)]
+    [InlineData(1, 1000, 1001)]
+    [InlineData(4, 7, 21_845)]
+    [InlineData(2, 40, (1L << 41) - 1)]
+    public void CountAtMost_OfTurnsAndIdentities_CountsThemOnce(int maps, int depth, long expected)
+    {
+        Transformation[] set =
+        [
+            Transformation.Identity,
+            .. Enumerable.Range(0, maps).Select(
+                static i => new Transformation(new(1, 0.1 * i, 0), new(0, 17 + (31 * i), 5), 0.45 * Vector.One)),
+        ];
+        var fractal = Fractal.Of(Samples.Tetrahedron).Repeat(set, depth);
+        Assert.Equal(expected, DistinctInstances.CountAtMost(fractal, budget: 10));
+    }
+
+    [Fact]
+    public void CountAtMost_IsBetweenTheDistinctAndAllChains() => Seeded.Run(100, random =>
+    {
+        var fractal = RandomShapes.Create(random);
+        var count = DistinctInstances.CountAtMost(fractal, budget: 0);
+        Assert.Equal(fractal.Description.IsInfinite, count is null);
+        Assert.True(count is null || (count <= fractal.InstanceCount && !(count < DistinctInstances.Count(fractal))), $"{count}");
+    });
+
+    [Fact]
+    public void CountAtMost_OfTheInfinite_IsNull() =>
+        Assert.Null(DistinctInstances.CountAtMost(Samples.Repeated(null, Samples.Move(1, 0, 0))));
+
     [Fact]
     public void Count_OfAppendixBAtDepthThree_IsTheEnumeratedOne()
     {

@@ -7,7 +7,6 @@ using FractalEngine.Core.Fractals.Levels;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Queries;
 using FractalEngine.Core.Visibility.Levels;
-using FractalEngine.Parsing.Fdo;
 using FractalEngine.Tests.Colliders;
 using FractalEngine.Tests.Support;
 using FractalEngine.Tests.Visibility.Frames;
@@ -389,15 +388,15 @@ public class FractalAddressTests
             new(new(-1, 0, 0), Vector.Zero, new(0.5, 0.5, 0.001)),
             new(new(1, 0, 0), Vector.Zero, new(0.1, 0.5, 0.5))),
         // Its outermost set is a map that is entered again and again, where the new form has sixteen powers.
-        "old fern" => new(OldFern(), AssetFractals.Load("fern", null).BaseMesh),
+        "old fern" => OldFern(),
         _ => AssetFractals.Load(name, null),
     };
 
-    private static FractalDescription OldFern()
+    private static Fractal OldFern()
     {
-        var text = File.ReadAllText(Repository.Full("FractalEngine.Tests/Parsing/Fdo/OldForms/fern.fdo"));
-        var steps = FractalParser.Parse(new("fern.fdo", text)).Description.Steps;
-        return new(steps.SetItem(0, ((Repetition)steps[0]).WithCount(null)));
+        var fern = OldForms.Load("fern");
+        var steps = fern.Description.Steps;
+        return new(new(steps.SetItem(0, ((Repetition)steps[0]).WithCount(null))), fern.BaseMesh);
     }
 
     internal static FractalDive CreateDive(string name, int mapIndex, AffineMap placement)

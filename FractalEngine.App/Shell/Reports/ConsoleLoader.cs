@@ -1,3 +1,4 @@
+using FractalEngine.Core;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Parsing.Text;
@@ -25,6 +26,12 @@ internal static class ConsoleLoader
         if (options.Composition is not null && !file.Scene.Models.Any(static model => model is FractalModel))
         {
             throw new UsageException($"{path} has no fractal, so --composition has no effect");
+        }
+
+        var numbers = file.Scene.Models.OfType<FractalModel>().SelectMany(static model => model.NumberNames).ToHashSet();
+        if (options.Values.Keys.FirstOrDefault(name => !numbers.Contains(name)) is { } unknown)
+        {
+            throw new UsageException($"--set: no fractal of {path} declares a number '{unknown}'{NameSuggestion.Ask(unknown, numbers)}");
         }
 
         foreach (var warning in file.Warnings.Where(warning => !(isTraced && warning.ConcernsDrawnFrames)))

@@ -21,7 +21,10 @@ public sealed record FractalDescription(ImmutableArray<FractalStep> Steps, Compo
     /// True when the steps can be composed componentwise: they end, since positions don't shrink, and have a position, a rotation and a
     /// scale each.
     /// </summary>
-    public bool CanBeComponentwise => !IsInfinite && Steps.All(HasTransformations);
+    public bool CanBeComponentwise => !IsInfinite && HasOnlyTransformations;
+
+    /// <summary>True when all maps were declared by position, rotation and scale; others may be products of many maps.</summary>
+    internal bool HasOnlyTransformations => Steps.All(HasTransformations);
 
     /// <summary>True when no transformation mirrors, so that all instances are wound as the base mesh is.</summary>
     public bool PreservesOrientation => Steps.All(StepPreservesOrientation);

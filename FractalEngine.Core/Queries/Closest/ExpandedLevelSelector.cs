@@ -3,6 +3,7 @@ using FractalEngine.Core.Fractals.Levels;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Geometry.Triangles;
 using FractalEngine.Core.Maths;
+using BigInteger = System.Numerics.BigInteger;
 
 namespace FractalEngine.Core.Queries.Closest;
 
@@ -36,8 +37,7 @@ internal sealed class ExpandedLevelSelector(FractalHierarchy hierarchy, Triangle
     // Where less is saved, the samples don't tell whether anything is.
     private const double MaxRelativeWork = 0.92;
 
-    // Enough to be too many, and no risk of an overflow.
-    private readonly InstanceCounts _instanceCounts = new(hierarchy, static _ => 1, MaxBytes);
+    private readonly InstanceCounts _instanceCounts = new(hierarchy, static _ => 1);
 
     /// <summary>Selects the levels that are expanded.</summary>
     /// <param name="hierarchy">The sub-fractals, all of whose maps are similarities.</param>
@@ -112,8 +112,9 @@ internal sealed class ExpandedLevelSelector(FractalHierarchy hierarchy, Triangle
         return found;
     }
 
-    private long MeasureBytes(long level) =>
-        _instanceCounts.SumAt(level) * ((BytesPerFace * bvh.Mesh.FaceCount) + (BytesPerVertex * bvh.Mesh.VertexCount));
+    /// <summary>Measures the bytes of an expanded level: so many that they are too many, or exactly.</summary>
+    private long MeasureBytes(long level) => (long)BigInteger.Min(_instanceCounts.SumAt(level), MaxBytes)
+        * ((BytesPerFace * bvh.Mesh.FaceCount) + (BytesPerVertex * bvh.Mesh.VertexCount));
 
     /// <summary>Makes positions anywhere in the box, and near the surface.</summary>
     private Vector[] SamplePositions()

@@ -23,6 +23,9 @@ public class FractalLanguageTests
     [InlineData("8/4/2", 1)]
     [InlineData("1 - 2 - 3", -4)]
     [InlineData("--3", 3)]
+    [InlineData("1 + 4*sin(30) + 4*sin(330) + 2*cos(60) + 2*cos(240) + tan(225) + tan(-45)", 1)]
+    [InlineData("mod(1e17, 3)", 1)]
+    [InlineData("mod(1, 0.1)", 0.09999999999999995)]
     [InlineData("sin(30)", 0.5)]
     [InlineData("cos(60) + sin(180)", 0.5)]
     [InlineData("tan(45)", 1)]
@@ -134,6 +137,64 @@ public class FractalLanguageTests
         Assert.True((powers.Bounds.Maximum - levels.Bounds.Maximum).Length() < 1e-12);
     }
 
+    /// <summary>Turns that come back are the same maps again, and few instances are left of many powers.</summary>
+    [Theory]
+    [InlineData("((1, 0, 0), (0, 30, 0), #)", "[t.^0..23]", 12)]
+    [InlineData("((1, 0, 0), (0, 30, 0), #)", "[t.^-60..59]", 12)]
+    [InlineData("((1, 0, 0), (0, 45, 0), #)", "[t.^0..15]", 8)]
+    [InlineData("(#, (0, 15, 0), #)", "[t.^0..47]", 24)]
+    [InlineData("((1, 0, 0), (0, 7.2, 0), #)", "[t.^0..99]", 50)]
+    [InlineData("((1, 0.3, 0), (10, 20, 30), #)", "[t.^-10..10] [t.^-10..10]", 41)]
+    [InlineData("((1e-20, 0, 0), (0, 1e-11, 0), #)", "[t.^0..99]", 100)]
+    public void Powers_ThatComeBack_AreTheSameInstances(string map, string sets, int expected) =>
+        Assert.Equal(expected, DistinctInstances.Count(FractalOf($"t. {map}\n<$>. {sets} box\n")));
+
+    /// <summary>A function means what it meant where it stands, whatever the file declares below it.</summary>
+    [Fact]
+    public void Function_KnowsTheNamesAboveIt()
+    {
+        var set = SetOf("""
+            k = 2
+            u.p. ((pi*p, mod(5, 3*p), k*p), #, #)
+            pi = 1
+            mod = 0
+            x. box
+            <$>. [u.(1)] x
+            """);
+        Assert.Equal(new(Math.PI, 2, 2), set.Transformations[0].Position);
+    }
+
+    [Fact]
+    public void Powers_OfAMapThatFlattens_AreRefusedFromOneOn()
+    {
+        const string Map = "m.matrix (1, 0.3, 0.1) (0.2, 0.1, 0) (0, 0.12, 1) (0)\n";
+        var accepted = Enumerable.Range(0, 60).Select(static power =>
+        {
+            try
+            {
+                return SetOf($"{Map}<$>. [m.^{power}] box\n").Maps.Length == 1;
+            }
+            catch (SourceException exception)
+            {
+                Assert.Contains("the map is flat to rounding", exception.Message, StringComparison.Ordinal);
+                return false;
+            }
+        }).ToArray();
+        Assert.Equal(accepted.OrderDescending(), accepted);
+        Assert.InRange(accepted.Count(static isAccepted => isAccepted), 8, 30);
+    }
+
+    [Fact]
+    public void Calls_OfLongFunctions_AreLimited()
+    {
+        var sum = string.Join('+', Enumerable.Repeat("p", 10_000));
+        var calls = string.Join(',', Enumerable.Repeat("t.(0)", 2_000));
+        var exception = Assert.Throws<SourceException>(
+            () => FractalParser.Parse(new("a.fdo", $"t.p. (({sum}, 0, 0), #, #)\n<$>. [{calls}] box\n")));
+        Assert.Contains("more than the limit of 10000000 terms of expressions in all calls", exception.Message, StringComparison.Ordinal);
+        Assert.True(exception.Diagnostic.IsLimitExceeded);
+    }
+
     [Fact]
     public void Matrix_IsGivenByItsColumns()
     {
@@ -225,7 +286,7 @@ public class FractalLanguageTests
     [InlineData("lean = 1\nt.a. (a, #, #)\n<$>. [t.leen] box", "3:9: error: the value 'leen' is not declared above")]
     [InlineData(
         "side = (0, 1, 0)\nt. (sied, #, #)",
-        "2:5: error: unexpected 'sied': no parameter or vector has this name: did you mean 'side'?")]
+        "2:5: error: unexpected 'sied': no parameter and no vector above has this name: did you mean 'side'?")]
     [InlineData("a = 1\nt. (a, #, #)", "2:5: error: 'a' is a number, and here stands a vector: '(a)' has it three times")]
     [InlineData("a = (1, 2, 3)\nb = a", "2:5: error: 'a' is a vector, and here stands a number")]
     [InlineData("t.a. ((a), a, #)", "1:12: error: the parameter 'a' is used as a vector and as a number")]
@@ -236,8 +297,10 @@ public class FractalLanguageTests
     [InlineData("t. (#, #, #)\n<$>. [t.^1.5] box", "2:11: error: unexpected '.': the power of a map is a whole number")]
     [InlineData("t. (#, #, #)\n<$>. [t.^(0.5)] box", "2:10: error: the power of a map is a whole number, not 0.5")]
     [InlineData("t. (#, #, #)\n<$>. [t.^2..1] box", "2:9: error: a range of powers begins at the smaller one")]
-    [InlineData("t. (#, #, (0.5))\n<$>. [t.^-400] box", "2:9: error: the map has no inverse, or one beyond all sizes")]
-    [InlineData("m.matrix (1, 0, 0) (2, 0, 0) (0, 0, 1) (0)", "1:10: error: the map has no inverse")]
+    [InlineData(
+        "t. (#, #, (0.5))\n<$>. [t.^-400] box",
+        "2:9: error: the map is beyond all sizes: it must make the axes between 1e-100 and 1e100 long")]
+    [InlineData("m.matrix (1, 0, 0) (2, 0, 0) (0, 0, 1) (0)", "1:10: error: the map is flat to rounding, so that it has no inverse")]
     [InlineData("t. (#, #, #)\n<$>. [t.^0..999999] box", "2:9: error: the file has more than the limit of 200000")]
     [InlineData("t. (#, #, #)\n<$>. [t.^9999999] box", "2:10: error: the power is more than the limit of 1000000")]
     [InlineData("z<box>. [#] box\n<$>. z (-1)", "2:8: error: a depth is a whole number that is not negative, not -1")]

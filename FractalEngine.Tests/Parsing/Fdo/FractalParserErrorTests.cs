@@ -66,9 +66,9 @@ public class FractalParserErrorTests
         """);
 
     [Theory]
-    [InlineData("19", "vector 19 of 2: it is not declared above, and values stand in vectors of their own")]
+    [InlineData("19", "vector 19 of 2: it is not declared above, and numbers stand in parentheses")]
     [InlineData("0", "vector 0 of 2: vectors are numbered from 1")]
-    [InlineData("3", "vector 3 of 2: it is not declared above, and values stand in vectors of their own")]
+    [InlineData("3", "vector 3 of 2: it is not declared above, and numbers stand in parentheses")]
     public void Call_WithAVectorNumberOutOfRange_SaysHowManyThereAre(string number, string message) =>
         Fails(Head + $"<$>. [t.{number}] x", $"""
         test.fdo:6:9: error: {message}
@@ -84,21 +84,21 @@ public class FractalParserErrorTests
 
     [Fact]
     public void Function_WithAVectorNumberOutOfRange_SaysHowManyThereAre() => Fails("v 1 1 1\nt. (1, 2, #)\n<$>. [t.] \"b.obj\"", """
-        test.fdo:2:8: error: vector 2 of 1: it is not declared above the call in line 3, and values stand in vectors of their own
+        test.fdo:2:8: error: vector 2 of 1: it is not declared above the call in line 3, and numbers stand in parentheses
           t. (1, 2, #)
                  ^
         """);
 
     [Fact]
     public void Function_CalledAboveItsVector_SaysWhichCall() => Fails("t. (2, 1, #)\nv 1 1 1\n<$>. [t.] \"b.obj\"\nv 2 2 2", """
-        test.fdo:1:5: error: vector 2 of 1: it is not declared above the call in line 3, and values stand in vectors of their own
+        test.fdo:1:5: error: vector 2 of 1: it is not declared above the call in line 3, and numbers stand in parentheses
           t. (2, 1, #)
               ^
         """);
 
     [Fact]
     public void Function_NeverCalledWithAVectorThatIsNeverDeclared_IsRefused() => Fails("t. (#, 1, 2)\nv 1 1 1\n<$>. \"b.obj\"", """
-        test.fdo:1:11: error: vector 2 of 1: it is not declared, and values stand in vectors of their own
+        test.fdo:1:11: error: vector 2 of 1: it is not declared, and numbers stand in parentheses
           t. (#, 1, 2)
                     ^
         """);
@@ -446,7 +446,7 @@ public class FractalParserErrorTests
     [Fact]
     public void Function_WithAnUnknownOutput_IsTheManualsExample() => Errors.AssertMessage(
         """
-        assets/fractals/tree.fdo:4:12: error: unexpected 'x', expected a vector number, a name, '(' or '#'
+        assets/fractals/tree.fdo:4:12: error: unexpected 'x': no parameter and no vector above has this name
           t.a.b. (a, x, b)
                      ^
         """,

@@ -1,4 +1,5 @@
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Maths;
 using FractalEngine.Parsing.Fdo;
 using FractalEngine.Parsing.Text;
@@ -17,8 +18,9 @@ public class OldFormTests
     [InlineData("shell", 128)]
     public void Fractal_HasTheInstancesOfItsOldForm(string name, int count)
     {
-        var expected = Expand($"FractalEngine.Tests/Parsing/Fdo/OldForms/{name}.fdo");
-        var maps = Expand($"assets/fractals/{name}.fdo");
+        var expected = Expand(OldForms.Read(name));
+        var path = Repository.Full($"assets/fractals/{name}.fdo");
+        var maps = Expand(FractalParser.Parse(SourceText.Read(path, path, 1 << 20)).Description);
         Assert.Equal(count, maps.Length);
         Assert.Equal(count, expected.Length);
         for (var i = 0; i < count; i++)
@@ -30,10 +32,6 @@ public class OldFormTests
         }
     }
 
-    private static AffineMap[] Expand(string file)
-    {
-        var path = Repository.Full(file);
-        var description = FractalParser.Parse(SourceText.Read(path, path, 1 << 20)).Description;
-        return [.. new Fractal(description.HasDepth ? description.WithDepth(2) : description, Samples.Tetrahedron).Expand(100_000)];
-    }
+    private static AffineMap[] Expand(FractalDescription description) =>
+        [.. new Fractal(description.HasDepth ? description.WithDepth(2) : description, Samples.Tetrahedron).Expand(100_000)];
 }

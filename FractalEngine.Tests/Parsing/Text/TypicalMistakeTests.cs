@@ -168,7 +168,7 @@ public class TypicalMistakeTests
             u.a. (a, 45, #)
             """,
             """
-            tree.fdo:6:10: error: vector 45 of 2: it is not declared, and values stand in vectors of their own
+            tree.fdo:6:10: error: vector 45 of 2: it is not declared, and numbers stand in parentheses
               u.a. (a, 45, #)
                        ^
             """

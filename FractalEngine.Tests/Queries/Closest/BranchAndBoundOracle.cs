@@ -151,12 +151,15 @@ internal sealed class BranchAndBoundOracle
         for (var level = 0L; level < steps.Sum(step => step.LevelCount!.Value); level++)
         {
             var set = FractalSteps.LevelAt(steps, level);
-            chains = [.. chains.SelectMany(chain => set.Maps.Zip(set.Transformations, (map, transformation) =>
-                (chain.Map * map, Math.Min(chain.Ratio * transformation.Scale.MaxAbsComponent(), FrobeniusNorm(chain.Map * map)))))];
+            chains = [.. chains.SelectMany(chain => set.Maps.Select((map, i) =>
+                (chain.Map * map, Math.Min(chain.Ratio * RatioOf(set, i), FrobeniusNorm(chain.Map * map)))))];
         }
 
         return chains;
     }
+
+    private static double RatioOf(TransformationSet set, int index) => set.HasTransformations
+        ? set.Transformations[index].Scale.MaxAbsComponent() : FrobeniusNorm(set.Maps[index]);
 
     /// <summary>Computes the root of the sum of the entries' squares.</summary>
     private static double FrobeniusNorm(AffineMap map) =>

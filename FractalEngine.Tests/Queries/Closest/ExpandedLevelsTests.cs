@@ -73,7 +73,7 @@ public class ExpandedLevelsTests
         CheckAgainstTheExpansion("identities", Fractal.Of(mesh).Repeat(maps, random.Next(1, 5)), 30);
     });
 
-    private static Fractal[] Selected => [AssetFractals.Load("shell"), OfSphere(AssetFractals.Load("snowflake", 3), 80)];
+    private static Fractal[] Selected => [OldForms.Load("shell"), OfSphere(AssetFractals.Load("snowflake", 3), 80)];
 
     private static Fractal OfSphere(Fractal fractal, int faces) =>
         new(fractal.Description, MeshGenerators.Create("icosphere", 1, faces));

@@ -6,7 +6,6 @@ using FractalEngine.Core.Fractals.Levels.Building;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Geometry.Hulls;
 using FractalEngine.Core.Maths;
-using FractalEngine.Core.Queries.Closest;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Fractals.Levels.Building;
@@ -242,12 +241,10 @@ public sealed class HierarchyPrimitivesTests
         for (var depth = 1; depth <= 70; depth++)
         {
             var fractal = Samples.Repeated(depth, Samples.Move(0, 0, 1), Transformation.Identity);
-            var counts = new InstanceCounts(fractal.Hierarchy, static _ => 1, long.MaxValue);
+            var counts = new InstanceCounts(fractal.Hierarchy, static _ => 1);
             Assert.Equal(depth + 1, counts.SumAt(fractal.Hierarchy.Levels));
             Assert.Equal(depth >= 8, fractal.Hierarchy.HasDoubledPowers);
             Assert.Equal(depth, fractal.BuildHierarchy(doublesPowers: false).Levels);
-            var limited = new InstanceCounts(fractal.Hierarchy, static _ => 1, 5);
-            Assert.Equal(Math.Min(5, depth + 1), limited.SumAt(fractal.Hierarchy.Levels));
         }
     }
 

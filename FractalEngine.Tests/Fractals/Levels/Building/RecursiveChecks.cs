@@ -8,7 +8,6 @@ using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Geometry.Triangles;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Queries;
-using FractalEngine.Core.Queries.Closest;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Fractals.Levels.Building;
@@ -26,8 +25,8 @@ internal static class RecursiveChecks
         (FractalHierarchyBuilder.Build(graph), new(graph));
 
     public static (long Instances, long Faces) Count(FractalHierarchy hierarchy) => (
-        new InstanceCounts(hierarchy, static _ => 1, 1L << 60).SumAt(hierarchy.Levels),
-        new InstanceCounts(hierarchy, index => hierarchy.BaseMeshes[index].FaceCount, 1L << 60).SumAt(hierarchy.Levels));
+        (long)new InstanceCounts(hierarchy, static _ => 1).SumAt(hierarchy.Levels),
+        (long)new InstanceCounts(hierarchy, index => hierarchy.BaseMeshes[index].FaceCount).SumAt(hierarchy.Levels));
 
     /// <summary>The box of the hierarchy holds all faces and is hardly larger; the searched one is exact.</summary>
     public static void AssertBounds(FractalHierarchy hierarchy, ExpandedGraph expanded, double maxLooseness)

@@ -1,6 +1,6 @@
-using FractalEngine.Core.Fractals.Levels;
+using System.Numerics;
 
-namespace FractalEngine.Core.Queries.Closest;
+namespace FractalEngine.Core.Fractals.Levels;
 
 /// <summary>
 /// Sums a number of the base meshes, such as that of their faces, over the instances in a sub-fractal. What equal maps or the identity in a
@@ -8,26 +8,25 @@ namespace FractalEngine.Core.Queries.Closest;
 /// </summary>
 /// <param name="hierarchy">The sub-fractals.</param>
 /// <param name="valueOfBase">The number of the base mesh with an index, not negative.</param>
-/// <param name="limit">Sums are no larger than this; at most 2⁶².</param>
 /// <remarks>Each sub-fractal is counted once. Recursive, so for no more than some thousand levels.</remarks>
-internal sealed class InstanceCounts(FractalHierarchy hierarchy, Func<int, long> valueOfBase, long limit)
+internal sealed class InstanceCounts(FractalHierarchy hierarchy, Func<int, long> valueOfBase)
 {
-    private readonly Dictionary<long, long> _sums = [];
+    private readonly Dictionary<long, BigInteger> _sums = [];
 
     /// <summary>Sums over the instances in a sub-fractal that a search can visit.</summary>
     /// <param name="level">Its remaining levels.</param>
-    public long SumAt(long level)
+    public BigInteger SumAt(long level)
     {
         if (hierarchy.IsBase(level))
         {
-            return Math.Min(valueOfBase(hierarchy.At(level).BaseIndex), limit);
+            return valueOfBase(hierarchy.At(level).BaseIndex);
         }
 
         if (!_sums.TryGetValue(level, out var sum))
         {
             foreach (var child in hierarchy.At(level).AllChildren())
             {
-                sum = child.Group is null ? Math.Min(sum + SumAt(child.RemainingLevels(level)), limit) : sum;
+                sum += child.Group is null ? SumAt(child.RemainingLevels(level)) : BigInteger.Zero;
             }
 
             _sums[level] = sum;
