@@ -34,9 +34,9 @@ public static class ParsingLimits
     public static Limit RepeatedSteps { get; } = new(
         "repeated-steps", 1_000_000, "steps that all recursives of a fractal file repeat", "8 MB");
 
-    /// <summary>Largest number of terms of expressions of a fractal file, those of a function counted at each call: some seconds.</summary>
+    /// <summary>Largest number of terms of expressions of a fractal file, a function's counted at each call: a second or two.</summary>
     public static Limit ExpressionTerms { get; } = new(
-        "expression-terms", 10_000_000, "terms of expressions of a fractal file, a function's at each call", "some seconds", 1_000_000_000);
+        "expression-terms", 5_000_000, "terms of expressions in all calls of a fractal file", "a second or two", 1_000_000_000);
 
     /// <summary>Largest size of a material file in bytes: 16 MiB.</summary>
     public static Limit MaterialBytes { get; } = new(

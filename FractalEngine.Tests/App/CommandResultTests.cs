@@ -62,9 +62,9 @@ public sealed class CommandResultTests : IDisposable
             .Replace("[t.1, t.2]", $"[{string.Join(", ", Enumerable.Repeat("t.1", 10))}]", StringComparison.Ordinal));
         var (exitCode, output, _) = Run("info", "googol.fdo", "--json");
         Assert.Equal(0, exitCode);
-        Assert.Contains($"\"instances\": {BigInteger.Pow(10, 100)},", output, StringComparison.Ordinal);
+        Assert.Contains($"\"chains\": {BigInteger.Pow(10, 100)},", output, StringComparison.Ordinal);
         // All chains repeat one map.
-        Assert.Contains("\"chains\": 1,", output, StringComparison.Ordinal);
+        Assert.Contains("\"instances\": 1,", output, StringComparison.Ordinal);
     }
 
     [Fact]
@@ -73,7 +73,7 @@ public sealed class CommandResultTests : IDisposable
         _folder.Write("infinite.fdo", SampleFiles.Row(""));
         var (exitCode, output, _) = Run("info", "infinite.fdo", "--json");
         Assert.Equal(0, exitCode);
-        Assert.Contains("\"instances\": null, \"infinite\": true", output, StringComparison.Ordinal);
+        Assert.Contains("\"instances\": null, \"chains\": null, \"infinite\": true", output, StringComparison.Ordinal);
     }
 
     [Fact]

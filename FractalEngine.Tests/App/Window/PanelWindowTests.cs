@@ -100,13 +100,13 @@ public sealed class PanelWindowTests : IDisposable
         using var window = Open("row.fdo");
         window.Send("key F4");
         window.FindText("instances");
-        Assert.True(window.ShowsText("8"));
+        // The identity repeats some of the eight chains: four cubes are distinct.
+        window.FindText("48");
         window.ClickText("depth of z", right: 120);
         window.Send("key Escape key Tab key shift+Tab");
         window.ClickText("depth of z", right: 120);
         window.Send("key 4 key Return");
-        window.FindText("16");
-        window.FindText("192");
+        window.FindText("60");
         Assert.Equal(0, window.CloseWith("key Escape key d"));
     }
 
