@@ -45,7 +45,13 @@ public abstract class ExpressionParser : Parser
     /// <remarks>A comment that begins with <c>//</c> is blank too.</remarks>
     protected override bool ParseBlanks(Cursor cursor, out Cursor rest)
     {
-        base.ParseBlanks(cursor, out rest);
+        // Where there is neither, which is often, nothing is called.
+        rest = cursor;
+        return cursor.Current is not (' ' or '\t' or '/') || (base.ParseBlanks(cursor, out rest) && ParseComments(ref rest));
+    }
+
+    private static bool ParseComments(ref Cursor rest)
+    {
         if (rest.Current == '/' && rest.Peek(1) == '/')
         {
             var length = rest.Rest.IndexOfAny('\n', '\r');

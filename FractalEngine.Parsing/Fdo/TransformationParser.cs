@@ -258,14 +258,11 @@ public abstract class TransformationParser : ExpressionParser
         var maps = new MapCollector((int)Math.Min(CountCalls(rest), ParsingLimits.Maps.Value));
         for (var first = true; rest.Current != ']'; first = false)
         {
-            if ((!first && !ParseSeparator(rest, out rest)) || !ParseProduct(rest, maps.Count, out var product, out rest))
+            if ((!first && !ParseSeparator(rest, out rest)) || !ParseMaps(rest, maps, out rest))
             {
                 return false;
             }
 
-            _mapCount += product.Count;
-            RequireLimit(_mapCount, ParsingLimits.Maps.Value, "the file", "transformations in all sets", rest);
-            maps.Add(in product);
             if (ParseBlanks(rest, out var next) && next.Current == ']')
             {
                 rest = next;
@@ -277,17 +274,54 @@ public abstract class TransformationParser : ExpressionParser
         return ParseChar(rest, ']', out rest);
     }
 
-    /// <summary>Parses maps that are applied one after the other, the right one first: <c>m * r.^2</c>.</summary>
-    private bool ParseProduct(Cursor cursor, int index, out MapFactor product, out Cursor rest)
+    /// <summary>Parses one entry of a set, and adds its maps: a call, which most entries are, or a product.</summary>
+    private bool ParseMaps(Cursor cursor, MapCollector maps, out Cursor rest)
     {
-        if (!ParsePower(cursor, index, out product, out rest))
+        if (!ParseCall(cursor, maps.Count, out var transformation, out var matrix, out rest))
+        {
+            return false;
+        }
+
+        if (matrix is null && rest.Current is ',' or ']')
+        {
+            RequireMapCount(1, rest);
+            _mapCount++;
+            maps.Add(in transformation);
+            return true;
+        }
+
+        if (!ParseProduct(rest, FactorOf(in transformation, matrix), maps.Count, out var product, out rest))
+        {
+            return false;
+        }
+
+        RequireMapCount(product.Count, rest);
+        _mapCount += product.Count;
+        maps.Add(in product);
+        return true;
+    }
+
+    private static MapFactor FactorOf(in Transformation transformation, TransformationFunction? matrix) =>
+        matrix?.Matrix is { } map ? new([map]) : new(transformation);
+
+    /// <summary>Parses what follows a call: powers, and maps that are applied before it, as in <c>m^2 * r.^2</c>.</summary>
+    private bool ParseProduct(Cursor cursor, MapFactor first, int index, out MapFactor product, out Cursor rest)
+    {
+        product = first;
+        if (!ParsePower(cursor, ref product, out rest))
         {
             return false;
         }
 
         while (ParseBlanks(rest, out var sign) && sign.Current == '*')
         {
-            if (!ParseBlanks(sign.Advance(1), out rest) || !ParsePower(rest, index, out var factor, out rest))
+            if (!ParseBlanks(sign.Advance(1), out rest) || !ParseCall(rest, index, out var transformation, out var matrix, out rest))
+            {
+                return false;
+            }
+
+            var factor = FactorOf(in transformation, matrix);
+            if (!ParsePower(rest, ref factor, out rest))
             {
                 return false;
             }
@@ -300,16 +334,16 @@ public abstract class TransformationParser : ExpressionParser
         return true;
     }
 
-    /// <summary>Parses a call, and the power or the range of powers behind it: <c>t.1^-2..2</c>.</summary>
-    private bool ParsePower(Cursor cursor, int index, out MapFactor power, out Cursor rest)
+    /// <summary>Parses the power of a map, or the range of its powers, if there is one: <c>^-2..2</c>.</summary>
+    private bool ParsePower(Cursor cursor, ref MapFactor power, out Cursor rest)
     {
-        if (!ParseCall(cursor, index, out power, out rest) || rest.Current != '^')
+        rest = cursor;
+        if (cursor.Current != '^')
         {
-            return rest.Offset > cursor.Offset;
+            return true;
         }
 
-        var sign = rest;
-        if (!ParseExponent(sign.Advance(1), out var from, out rest))
+        if (!ParseExponent(cursor.Advance(1), out var from, out rest))
         {
             return false;
         }
@@ -322,12 +356,12 @@ public abstract class TransformationParser : ExpressionParser
 
         if (to < from)
         {
-            throw Error(sign, "a range of powers begins at the smaller one, as in '^-2..2'");
+            throw Error(cursor, "a range of powers begins at the smaller one, as in '^-2..2'");
         }
 
-        RequireMapCount((long)to - from + 1, sign);
+        RequireMapCount((long)to - from + 1, cursor);
         power = power.ToPowers(from, to);
-        RequireInvertible(sign, power.Maps);
+        RequireInvertible(cursor, power.Maps);
         return true;
     }
 
@@ -401,9 +435,16 @@ public abstract class TransformationParser : ExpressionParser
     }
 
     /// <summary>Parses <c>#</c>, or a function with its arguments: <c>t.4</c>, <c>u.up.(2, 0, k)</c>, <c>r.</c></summary>
-    private bool ParseCall(Cursor cursor, int index, out MapFactor factor, out Cursor rest)
+    /// <param name="cursor">Position of the name.</param>
+    /// <param name="index">Number of maps before it in the set.</param>
+    /// <param name="transformation">Receives what the function makes of the arguments.</param>
+    /// <param name="matrix">Receives the function where it is a matrix; null for others.</param>
+    /// <param name="rest">Receives the position behind it.</param>
+    private bool ParseCall(
+        Cursor cursor, int index, out Transformation transformation, out TransformationFunction? matrix, out Cursor rest)
     {
-        factor = new(Transformation.Identity);
+        transformation = Transformation.Identity;
+        matrix = null;
         if (cursor.Current == '#')
         {
             rest = cursor.Advance(1);
@@ -419,7 +460,6 @@ public abstract class TransformationParser : ExpressionParser
         var function = Names.FindFunction(cursor, name);
         if (!ParseChar(rest, '.', out rest) || !ParseArguments(name, function, index, out var argumentCount, ref rest))
         {
-            rest = cursor;
             return false;
         }
 
@@ -434,14 +474,13 @@ public abstract class TransformationParser : ExpressionParser
             throw VectorError(function.Last.Start, $" above the call in line {Source.LineOf(cursor.Offset)}");
         }
 
-        if (function.Matrix is { } matrix)
+        if (function.Matrix is not null)
         {
-            factor = new([matrix]);
+            matrix = function;
             return true;
         }
 
-        var transformation = Apply(function, cursor.Offset);
-        factor = new(transformation);
+        Apply(function, cursor.Offset, out transformation);
         Hint(cursor, RotationUnits.DescribeRadians(transformation.Rotation));
         return ScaleCheck.IsInvertible(transformation.Scale)
             ? true
@@ -455,16 +494,26 @@ public abstract class TransformationParser : ExpressionParser
         {
             var start = rest;
             var isNumber = count < function.Parameters.Count ? function.Parameters.IsNumber(count) : null;
-            if (!ParseArgument(start, name, function, count, isNumber, out var argument, out rest))
-            {
-                return false;
-            }
-
+            FractalValue argument;
             if (char.IsAsciiDigit(start.Current))
             {
-                // Its text is that of an integer, since it was parsed as one.
-                ParseInteger(start, FractalMistakes.VectorNumber, out var number, out _);
+                if (!ParseVectorNumber(start, out var number, out var vector, out rest))
+                {
+                    return false;
+                }
+
+                if (isNumber == true)
+                {
+                    throw Error(
+                        start, $"the parameter '{function.Parameters.NameOf(count)}' of '{name}' is a number, as in '{name}.({number})'");
+                }
+
+                argument = new(vector, IsNumber: false);
                 Numbers?.AddArgument(name, start, rest, number, count, function, index);
+            }
+            else if (!ParseArgument(start, name, function, count, isNumber, out argument, out rest))
+            {
+                return false;
             }
 
             if (count < MaxParameters)
@@ -488,18 +537,6 @@ public abstract class TransformationParser : ExpressionParser
         Cursor cursor, string name, TransformationFunction function, int index, bool? isNumber, out FractalValue value, out Cursor rest)
     {
         value = default;
-        if (char.IsAsciiDigit(cursor.Current))
-        {
-            if (!ParseVectorNumber(cursor, out var number, out var listed, out rest))
-            {
-                return false;
-            }
-
-            value = FractalValue.Of(listed);
-            return isNumber != true ? true : throw Error(
-                cursor, $"the parameter '{function.Parameters.NameOf(index)}' of '{name}' is a number, as in '{name}.({number})'");
-        }
-
         if (cursor.Current == '(' && isNumber == true)
         {
             return ParseParenthesized(cursor, out var result, out rest) && Set(ref value, FractalValue.Of(result));
@@ -548,20 +585,23 @@ public abstract class TransformationParser : ExpressionParser
     }
 
     /// <summary>Computes the transformation of a call, whose arguments have been read.</summary>
-    private Transformation Apply(TransformationFunction function, int callOffset)
+    private void Apply(TransformationFunction function, int callOffset, out Transformation transformation)
     {
         (Parameters, Arguments, CallOffset) = (function.Parameters, _arguments, callOffset);
-        var transformation = new Transformation(Resolve(function.Position), Resolve(function.Rotation), Resolve(function.Scale));
+        transformation = new(Resolve(function.Position), Resolve(function.Rotation), Resolve(function.Scale));
         (Parameters, Arguments) = (FractalParameters.None, null);
-        return transformation;
     }
 
     private Vector Resolve(in FunctionOutput output)
     {
-        var vector = output.Parameter is { } index ? _arguments[index].Vector
-            : output.VectorNumber is { } number ? _vectors[number - 1]
+        if (output.Parameter is { } index)
+        {
+            return _arguments[index].Vector;
+        }
+
+        return output.VectorNumber is { } number ? _vectors[number - 1]
+            : output.HasParameters && ParseVectorValue(output.Start, null, null, out var computed, out _) ? computed
             : output.Value;
-        return output.HasParameters && ParseVectorValue(output.Start, null, null, out var computed, out _) ? computed : vector;
     }
 
     private static string ArgumentCountText(int count) => count == 1 ? "1 argument" : $"{count} arguments";
