@@ -59,15 +59,21 @@ public static class DistinctInstances
 
     /// <summary>
     /// Finds an upper bound of the number of distinct instances, soon: those that no identity in a set repeats. It is exact where nothing
-    /// else coincides, and where few instances are expanded.
+    /// else coincides, and where so few are left that they are expanded.
     /// </summary>
     /// <param name="fractal">Fractal of any composition and depth.</param>
     /// <param name="budget">Maximum number of instances that are expanded.</param>
     /// <returns>At most the number of chains; null for an infinite fractal.</returns>
-    public static BigInteger? CountAtMost(Fractal fractal, long budget = 20_000)
+    public static BigInteger? CountAtMost(Fractal fractal, long budget = 1000)
     {
         ArgumentNullException.ThrowIfNull(fractal);
-        return Count(fractal, budget) ?? (fractal.InstanceCount is { } chains ? CountWithoutIdentities(fractal) ?? chains : null);
+        if (fractal.InstanceCount is not { } chains)
+        {
+            return null;
+        }
+
+        var count = CountWithoutIdentities(fractal) ?? chains;
+        return count <= budget ? Count(fractal, budget) ?? count : count;
     }
 
     private static BigInteger? CountWithoutIdentities(Fractal fractal)

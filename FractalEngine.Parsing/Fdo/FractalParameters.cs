@@ -10,7 +10,7 @@ internal sealed class FractalParameters(IReadOnlyList<string> names)
     private readonly bool?[] _areNumbers = new bool?[names.Count];
 
     /// <summary>Number of parameters, from 0 to 3.</summary>
-    public int Count => names.Count;
+    public int Count { get; } = names.Count;
 
     /// <summary>Returns the index of a parameter, or −1.</summary>
     public int IndexOf(string name)
