@@ -117,15 +117,14 @@ internal sealed class ModelLoader
     {
         var parsed = ReadOrFindFractal(fullPath, displayName);
         Warnings.AddRange(parsed.Warnings);
-        var basePath = (string?)null;
-        var baseDisplayName = "";
-        if (!parsed.IsBaseShape)
-        {
-            (basePath, baseDisplayName) = _references.Resolve(parsed.Source, parsed.BaseFileNameOffset, fullPath, parsed.BaseFile);
-        }
-
+        // No name of a file is that of a shape, since it has an ending.
+        var isShape = BaseShapes.TryFind(parsed.BaseFile, out var shape);
+        var (basePath, baseDisplayName) = isShape
+            ? default : _references.Resolve(parsed.Source, parsed.BaseFileNameOffset, fullPath, parsed.BaseFile);
         var description = ApplyOptions(parsed);
-        var contents = basePath is null ? ShapeOf(parsed.BaseFile) : ReadMesh(basePath, baseDisplayName);
+        var contents = isShape
+            ? new(shape!, ImmutableDictionary<string, Material>.Empty, 0, ImmutableDictionary<string, FileStamp>.Empty)
+            : ReadMesh(basePath, baseDisplayName);
         var fractal = new Fractal(description, contents.Mesh) { BaseMeshPath = basePath };
         if (FractalCheck.FindBoundsFault(fractal) is { } fault)
         {
@@ -141,10 +140,6 @@ internal sealed class ModelLoader
             NumberNames = parsed.NumberNames,
         };
     }
-
-    private static MeshContents ShapeOf(string name) => BaseShapes.TryFind(name, out var mesh)
-        ? new(mesh, ImmutableDictionary<string, Material>.Empty, 0, ImmutableDictionary<string, FileStamp>.Empty)
-        : throw new ArgumentException($"'{name}' is no shape", nameof(name));
 
     /// <summary>Returns the description in a file with the overrides of the options.</summary>
     private FractalDescription ApplyOptions(ParsedFractal parsed)

@@ -41,7 +41,7 @@ internal sealed class DeclaredNames(SourceText source)
     {
         if (!_shapes.TryGetValue(name, out var shape) && BaseShapes.TryFind(name, out _))
         {
-            shape = new(name, cursor.Offset, DeclaredSteps.None) { IsBaseShape = true };
+            shape = new(name, cursor.Offset, DeclaredSteps.None);
             _shapes.Add(name, shape);
         }
 

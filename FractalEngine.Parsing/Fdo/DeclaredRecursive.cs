@@ -10,10 +10,6 @@ internal sealed record DeclaredRecursive(DeclaredObject Base, ImmutableArray<Fra
     : DeclaredObject(Base.BaseFile, Base.BaseFileNameOffset, Base.Steps.Prepend(new Repetition(IterationSteps, null)))
 {
     /// <summary>Returns the recursion to a finite depth: Sⁿ after the base. Depth 0 is the base itself.</summary>
-    public DeclaredObject WithDepth(int depth) => new(
-        BaseFile, BaseFileNameOffset, Base.Steps.Prepend(new Repetition(IterationSteps, depth)))
-    {
-        Origin = Base,
-        IsBaseShape = IsBaseShape,
-    };
+    public DeclaredObject WithDepth(int depth) =>
+        new(BaseFile, BaseFileNameOffset, Base.Steps.Prepend(new Repetition(IterationSteps, depth))) { Origin = Base };
 }

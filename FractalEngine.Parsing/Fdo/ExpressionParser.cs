@@ -38,7 +38,7 @@ public abstract class ExpressionParser : Parser
     /// <summary>The arguments of the call whose function is read; null in the declaration of the function.</summary>
     private protected FractalValue[]? Arguments { get; set; }
 
-    /// <summary>Where that call stands.</summary>
+    /// <summary>Place of the call whose function is read again, for messages.</summary>
     private protected int CallOffset { get; set; }
 
     /// <inheritdoc/>
@@ -399,5 +399,18 @@ public abstract class ExpressionParser : Parser
         {
             throw Error(cursor, $"{owner} has more than the limit of {limit} {things}", isLimitExceeded: true);
         }
+    }
+
+    /// <summary>Parses a number in parentheses.</summary>
+    private protected bool ParseParenthesized(Cursor cursor, out double value, out Cursor rest)
+    {
+        value = 0;
+        if (!ParseChar(cursor, '(', out rest) || !ParseBlanks(rest, out rest) || !ParseExpression(rest, out value, out rest)
+            || !ParseBlanks(rest, out rest))
+        {
+            return false;
+        }
+
+        return rest.Current != ',' ? ParseChar(rest, ')', out rest) : throw Error(cursor, "here stands a number, and this is a vector");
     }
 }

@@ -55,7 +55,7 @@ internal sealed class FractalNumberList
             IsEven = isEven,
         });
 
-    /// <summary>Lists a named number.</summary>
+    /// <summary>Lists a number that the file gives a name.</summary>
     /// <param name="name">The name.</param>
     /// <param name="start">Position of its expression.</param>
     /// <param name="end">Position behind that.</param>

@@ -27,7 +27,7 @@ internal sealed class FractalParameters(IReadOnlyList<string> names)
         return -1;
     }
 
-    /// <summary>Name of a parameter.</summary>
+    /// <summary>Name of a parameter, as the function declares it.</summary>
     public string NameOf(int index) => names[index];
 
     /// <summary>True for a parameter that is a number, false for a vector; null where nothing uses it.</summary>

@@ -9,7 +9,7 @@ namespace FractalEngine.Parsing.Fdo;
 /// Reads fractal files (paper §4.2.2): vectors, transformation functions, objects and recursives, and the one result marked by
 /// <c>&lt;$&gt;</c>. The grammar is in docs/manual.md. Nothing is expanded, so the result is as small as the file.
 /// </summary>
-public sealed class FractalParser : TransformationParser
+public sealed class FractalParser : MapSetParser
 {
     private static readonly DeclaredObject EmptyObject = new("", 0, DeclaredSteps.None);
 
@@ -67,7 +67,6 @@ public sealed class FractalParser : TransformationParser
 
         return new(Source, description, result.Object.BaseFile, result.Object.BaseFileNameOffset, result.Offset)
         {
-            IsBaseShape = result.Object.IsBaseShape,
             NumberNames = [.. NumberNames],
             Warnings = Hints,
         };
@@ -180,7 +179,7 @@ public sealed class FractalParser : TransformationParser
         RequireLimit(
             body.Steps.LevelCount - baseObject.Steps.LevelCount, FractalLimits.Levels.Value, "the fractal", "levels", bodyStart);
         RequireLimit(_repeatedStepCount += stepCount, ParsingLimits.RepeatedSteps.Value, "the file", "steps in all recursives", bodyStart);
-        Names.Add(cursor, name, new DeclaredRecursive(baseObject, body.Steps.Take(stepCount)) { IsBaseShape = baseObject.IsBaseShape });
+        Names.Add(cursor, name, new DeclaredRecursive(baseObject, body.Steps.Take(stepCount)));
         return true;
     }
 
@@ -223,7 +222,7 @@ public sealed class FractalParser : TransformationParser
         if (sets.Count > 0)
         {
             var steps = sets.AsEnumerable().Reverse().Aggregate(value.Steps, (inner, step) => inner.Prepend(step));
-            value = new(value.BaseFile, value.BaseFileNameOffset, steps) { Origin = value, IsBaseShape = value.IsBaseShape };
+            value = new(value.BaseFile, value.BaseFileNameOffset, steps) { Origin = value };
         }
 
         RequireStepLimits(value.Steps, cursor);

@@ -11,7 +11,7 @@ internal sealed class MapCollector(int capacity)
     private readonly ImmutableArray<Transformation>.Builder _transformations = ImmutableArray.CreateBuilder<Transformation>(capacity);
     private ImmutableArray<AffineMap>.Builder? _maps;
 
-    /// <summary>Number of maps so far.</summary>
+    /// <summary>Number of maps that were added, each power counted.</summary>
     public int Count => _maps?.Count ?? _transformations.Count;
 
     /// <summary>Adds one transformation, as most maps are.</summary>

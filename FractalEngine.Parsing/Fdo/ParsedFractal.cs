@@ -8,15 +8,12 @@ namespace FractalEngine.Parsing.Fdo;
 /// <summary>Contents of a parsed fractal file, whose base mesh is not loaded yet.</summary>
 /// <param name="Source">Text of the file.</param>
 /// <param name="Description">Steps and composition of the result.</param>
-/// <param name="BaseFile">Name of the base mesh's file, relative to the fractal file, or that of a shape.</param>
+/// <param name="BaseFile">Name of the base mesh's file, relative to the fractal file, or one of the <see cref="BaseShapes"/>.</param>
 /// <param name="BaseFileNameOffset">Offset of <see cref="BaseFile"/> in the text, in characters, for messages about the base mesh.</param>
 /// <param name="ResultOffset">Offset of the result's declaration in the text, in characters, for messages about the whole fractal.</param>
 public sealed record ParsedFractal(
     SourceText Source, FractalDescription Description, string BaseFile, int BaseFileNameOffset, int ResultOffset)
 {
-    /// <summary>True where the base mesh is a shape that needs no file, see <see cref="BaseShapes"/>.</summary>
-    public bool IsBaseShape { get; init; }
-
     /// <summary>Names of the numbers that the file declares, in their order.</summary>
     public ImmutableArray<string> NumberNames { get; init; } = [];
 

@@ -28,7 +28,7 @@ internal static class ConsoleLoader
             throw new UsageException($"{path} has no fractal, so --composition has no effect");
         }
 
-        var numbers = file.Scene.Models.OfType<FractalModel>().SelectMany(static model => model.NumberNames).ToHashSet();
+        var numbers = file.Scene.Models.OfType<FractalModel>().SelectMany(static model => model.NumberNames);
         if (options.Values.Keys.FirstOrDefault(name => !numbers.Contains(name)) is { } unknown)
         {
             throw new UsageException($"--set: no fractal of {path} declares a number '{unknown}'{NameSuggestion.Ask(unknown, numbers)}");

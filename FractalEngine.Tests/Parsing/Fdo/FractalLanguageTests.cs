@@ -211,7 +211,6 @@ public class FractalLanguageTests
         var written = FractalWriter.Write(parsed.Description, parsed.BaseFile);
         var again = FractalParser.Parse(new("b.fdo", written));
         Assert.Equal(parsed.Description, again.Description);
-        Assert.True(again.IsBaseShape);
         Assert.Equal("ball", again.BaseFile);
     }
 
@@ -239,7 +238,7 @@ public class FractalLanguageTests
             t.matrix. (matrix, #, (composition))
             <$>. [t.(from)] box
             """));
-        Assert.Equal(("b.obj", false), (parsed.BaseFile, parsed.IsBaseShape));
+        Assert.Equal("b.obj", parsed.BaseFile);
         Assert.Equal(new(Vector.One, Vector.Zero, new(6, 6, 6)), ((TransformationSet)parsed.Description.Steps[0]).Transformations[0]);
         Assert.Equal(["v", "pi", "from", "composition"], parsed.NumberNames.ToArray());
     }

@@ -93,7 +93,7 @@ internal sealed class ExpandedGraph
     public static double[] Distances(IEnumerable<Instance> instances, Vector position) =>
         [.. instances.SelectMany(instance => FacesOf(instance.Mesh, instance.Map)).Select(face => Distance(face, position))];
 
-    /// <summary>One mesh of all faces.</summary>
+    /// <summary>Makes one mesh of the faces of all instances.</summary>
     public Mesh Flatten() => new(
         [.. _faces.SelectMany(face => new[] { face.A, face.B, face.C }).SelectMany(v => new[] { v.X, v.Y, v.Z })],
         [.. Enumerable.Range(0, 3 * _faces.Count)]);

@@ -12,10 +12,10 @@ namespace FractalEngine.Tests.Fractals.Levels.Building;
 /// <param name="Reach">The largest absolute coordinate of a frame's origin on the way.</param>
 internal readonly record struct RecursiveChain(int Recursive, long Levels, AffineMap Map, double Reach)
 {
-    /// <summary>The chain without calls.</summary>
+    /// <summary>Makes the chain of a recursive itself, before any call.</summary>
     public static RecursiveChain Begin(int root, long levels) => new(root, levels, AffineMap.Identity, 0);
 
-    /// <summary>Follows one more call.</summary>
+    /// <summary>Makes the chain that one more call leads to.</summary>
     public RecursiveChain Call(FractalRecursive[] recursives, int index)
     {
         var call = recursives[Recursive].Calls[index];
@@ -23,7 +23,7 @@ internal readonly record struct RecursiveChain(int Recursive, long Levels, Affin
         return new(call.Target, Levels - call.LevelsLess!.Value, map, Math.Max(Reach, map.Translation.MaxAbsComponent()));
     }
 
-    /// <summary>Follows a path of calls.</summary>
+    /// <summary>Makes the chain that a path of calls leads to.</summary>
     public RecursiveChain Follow(FractalRecursive[] recursives, IEnumerable<int> path) =>
         path.Aggregate(this, (chain, index) => chain.Call(recursives, index));
 
