@@ -30,7 +30,7 @@ public sealed class FractalModel(Fractal fractal) : Model
             SourcePath = SourcePath,
             Materials = MaterialsAt(index),
         })]
-        : [this];
+        : base.Parts;
 
     /// <inheritdoc/>
     public override string MeshNameAt(int index) =>
