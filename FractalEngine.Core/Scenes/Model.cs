@@ -52,6 +52,16 @@ public abstract class Model
     /// <summary>Instances times vertices of their meshes; null for infinitely many.</summary>
     public BigInteger? VertexCount => Sum(static mesh => mesh.VertexCount);
 
+    /// <summary>
+    /// Number of distinct instances at most, see <see cref="DistinctInstances.CountAtMost"/>: what the identity in sets repeats counts
+    /// once. Computed by the first who asks.
+    /// </summary>
+    public virtual BigInteger? DistinctInstanceCount => InstanceCount;
+
+    /// <summary>Number of faces of distinct instances at most; null for infinitely many.</summary>
+    public BigInteger? DistinctFaceCount => Parts.Aggregate(
+        (BigInteger?)BigInteger.Zero, static (sum, part) => sum + (part.DistinctInstanceCount * part.Mesh.FaceCount));
+
     /// <summary>A box that holds the whole model in its own frame.</summary>
     public abstract BoundingBox Bounds { get; }
 

@@ -179,6 +179,7 @@ internal sealed class ModelLoader
 
         if (_innerFractals.TryGetValue(path, out var known))
         {
+            Record.AddRange(known.Files);
             return known;
         }
 
@@ -195,6 +196,7 @@ internal sealed class ModelLoader
                 isLimitExceeded: true);
         }
 
+        var filesBefore = Record.Position;
         var model = LoadFractal(path, displayName);
         if (model.Fractal.Description.Composition == Composition.Componentwise)
         {
@@ -204,7 +206,11 @@ internal sealed class ModelLoader
 
         var meshes = model.Fractal.BaseMeshes.Select((mesh, index) => new BaseMeshContents(
             mesh, model.MaterialsAt(index), model.Fractal.BaseMeshPaths[index]));
-        return _innerFractals[path] = new(path, model.Fractal.Description, [.. meshes], model.FileBytes, model.NumberNames);
+        return _innerFractals[path] = new(
+            path, model.Fractal.Description, [.. meshes], model.FileBytes, model.NumberNames)
+        {
+            Files = Record.Since(filesBefore),
+        };
     }
 
     /// <summary>Puts the fractals and meshes that a file names in the places of its base meshes.</summary>
@@ -330,7 +336,11 @@ internal sealed class ModelLoader
     /// <param name="NumberNames">Names of the numbers that can be set.</param>
     private sealed record LoadedBase(
         string Key, FractalDescription? Fractal, ImmutableArray<BaseMeshContents> Meshes, long ByteCount,
-        ImmutableArray<string> NumberNames);
+        ImmutableArray<string> NumberNames)
+    {
+        /// <summary>The files of another fractal, with their stamps.</summary>
+        public ImmutableDictionary<string, FileStamp> Files { get; init; } = ImmutableDictionary<string, FileStamp>.Empty;
+    }
 
     private sealed record BaseMeshContents(Mesh Mesh, ImmutableDictionary<string, Material> Materials, string? Path);
 

@@ -269,4 +269,32 @@ public sealed class SeveralMeshesTests : IDisposable
         Assert.Equal(BigInteger.Pow(2, 200), fractal.InstanceCount);
         Assert.True(fractal.Description.Parts.Length < 210);
     }
+
+    [Fact]
+    public void FractalFile_ThatChanges_ChangesAllThatAreMadeOfIt()
+    {
+        File.WriteAllText(_folder["inner.fdo"], "<$>. box");
+        File.WriteAllText(_folder["a.fdo"], "<$>. ball + \"inner.fdo\"");
+        File.WriteAllText(_folder["b.fdo"], "<$>. cone + \"inner.fdo\"");
+        File.WriteAllText(_folder["s.sdo"], "o \"a.fdo\" #\no \"b.fdo\" #\n");
+        var cache = new AssetCache();
+        BigInteger? Faces() => AssetLoader.Load(_folder["s.sdo"], null, cache: cache).Scene.Sum(static model => model.FaceCount);
+        var before = Faces();
+        Assert.Equal(before, Faces());
+        File.WriteAllText(_folder["inner.fdo"], "move. ((2, 0, 0), #, #)\n<$>. [move.^0..4] box");
+        Assert.Equal(before + (2 * 4 * 12), Faces());
+    }
+
+    [Fact]
+    public void Mesh_WithoutFaces_ShowsNothing()
+    {
+        File.WriteAllText(_folder["empty.obj"], "v 100 0 0\nv 0 100 0\n");
+        var fractal = Read(Head + "e. \"empty.obj\"\nz<e>. [half.] e + [move.] e + box\n<$>. z 4 + e");
+        Assert.Equal(15, fractal.InstanceCount);
+        Assert.False(fractal.HasSeveralMeshes);
+        // Two of them are the same.
+        Assert.Equal(14 * 12, fractal.Flatten(1000).FaceCount);
+        Assert.Equal(0.5, fractal.Bounds.Maximum.Y, 1e-12);
+        Assert.Equal(0.5, Collider.For(fractal).FindClosest(new(0, 1, 0)).Distance, 1e-12);
+    }
 }
