@@ -72,13 +72,14 @@ public static class DistinctInstances
             return null;
         }
 
-        var count = CountWithoutIdentities(fractal) ?? chains;
+        // What calls itself without end may leave no instance of one mesh.
+        var count = fractal.Description.IsInfinite ? chains : CountWithoutIdentities(fractal) ?? chains;
         return count <= budget ? Count(fractal, budget) ?? count : count;
     }
 
     private static BigInteger? CountWithoutIdentities(Fractal fractal)
     {
-        if (fractal.Description.Composition != Composition.Affine || fractal.LevelCount > MaxCountedLevels)
+        if (fractal.Description.Composition != Composition.Affine || !(fractal.LevelCount <= MaxCountedLevels))
         {
             return null;
         }

@@ -43,6 +43,9 @@ internal sealed class DistinctList<T>(EntryWriter<T> write, int capacity)
     private readonly int[] _first = EmptyChains(capacity);
     private long _comparisons;
 
+    /// <summary>Number of pairs of items that were compared.</summary>
+    public long Comparisons => _comparisons;
+
     /// <summary>Number of distinct items.</summary>
     public int Count { get; private set; }
 

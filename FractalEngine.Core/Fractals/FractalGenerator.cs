@@ -12,6 +12,9 @@ namespace FractalEngine.Core.Fractals;
 /// </summary>
 public static class FractalGenerator
 {
+    // Comparing takes less than composing. Where maps shrink to a point, each product is compared with many.
+    private const int ComparisonsPerProduct = 8;
+
     /// <summary>Expands a fractal into its distinct instances, as maps from the base mesh's frame to the fractal's.</summary>
     /// <param name="fractal">Fractal with finitely many levels.</param>
     /// <param name="maxInstances">
@@ -81,7 +84,9 @@ public static class FractalGenerator
     {
         // One that shows several meshes is expanded by these.
         _ = fractal.BaseMesh;
-        return [.. GraphExpansion.Expand(fractal.Graph, maxInstances).Select(static instance => instance.Map)];
+        return fractal.Description.IsInfinite
+            ? throw LimitError(fractal, maxInstances)
+            : [.. GraphExpansion.Expand(fractal.Graph, maxInstances).Select(static instance => instance.Map)];
     }
 
     /// <summary>Expands a fractal level by level, and removes the repeated instances of each level before the next.</summary>
@@ -99,7 +104,7 @@ public static class FractalGenerator
         }
 
         ReadOnlyMemory<AffineMap> instances = new[] { AffineMap.Identity };
-        var products = 0L;
+        var (products, comparisons) = (0L, 0L);
         using var level = LevelsOf(fractal).GetEnumerator();
         for (var exists = level.MoveNext(); exists;)
         {
@@ -112,13 +117,14 @@ public static class FractalGenerator
                 continue;
             }
 
-            if (products > maxProducts
+            if (products > maxProducts || comparisons / ComparisonsPerProduct > maxProducts
                 || DistinctMaps.Products(instances.Span, maps, exists ? null : fractal, maxInstances) is not { } distinct)
             {
                 return null;
             }
 
             instances = distinct.Items;
+            comparisons += distinct.Comparisons;
         }
 
         return MemoryMarshal.TryGetArray(instances, out var segment) && segment.Array!.Length == instances.Length

@@ -34,6 +34,12 @@ internal sealed class DeclaredNames(SourceText source, DeclaredBases bases)
         : FindShape(cursor, name) is { } shape ? shape
         : throw source.Error(cursor.Offset, $"the object '{name}' is not declared above{AskAboutObject(name)}");
 
+    /// <summary>Tells whether an object that was declared has a name.</summary>
+    public bool HasObject(string name) => _objects.ContainsKey(name);
+
+    /// <summary>Tells whether a transformation has a name.</summary>
+    public bool HasFunction(string name) => _functions.ContainsKey(name);
+
     /// <summary>Tells whether a recursive has a name.</summary>
     public bool IsRecursive(string name) => _objects.GetValueOrDefault(name).Value is DeclaredRecursion;
 
@@ -78,9 +84,15 @@ internal sealed class DeclaredNames(SourceText source, DeclaredBases bases)
         }
 
         var (stem, digits) = SplitDigits(name);
-        return digits.Length > 0 && IsRecursive(stem)
+        return name.ToUpperInvariant() switch
+        {
+            "SPHERE" => ": did you mean 'ball'?",
+            "CUBE" => ": did you mean 'box'?",
+            "PLANE" or "QUAD" or "SQUARE" => ": did you mean 'plate'?",
+            _ => null,
+        } ?? (digits.Length > 0 && IsRecursive(stem)
             ? $": did you mean '{stem} {digits}'?"
-            : NameSuggestion.Ask(name, [.. _objects.Keys, .. BaseShapes.Names]);
+            : NameSuggestion.Ask(name, [.. _objects.Keys, .. BaseShapes.Names]));
     }
 
     private string AskAboutFunction(string name)

@@ -17,7 +17,10 @@ internal static class FractalMistakes
 
     /// <inheritdoc cref="CommonMistakes.Explain"/>
     public static string? Explain(SyntaxFailure failure) =>
-        CommonMistakes.ExplainNumbers(failure)
+        // v 1 2 3 # the corner
+        failure.Explain(
+            @"\n#", "a comment in a line begins with '//', since '#' within a declaration is a value", SyntaxFailure.EndOfLine)
+        ?? CommonMistakes.ExplainNumbers(failure)
         // t.a. (a, #, 0.5)
         ?? failure.Explain(
             @"\n[-+.0-9]", "numbers stand in parentheses, as in '(0.5)' or '(0, 1, 0)', but for that of a vector", VectorNumber)
@@ -25,9 +28,11 @@ internal static class FractalMistakes
         ?? failure.Explain(@"\([^()]*\n[-+.(0-9\p{L}]", "commas stand between the components of a vector, as in '(0, 1, 0)'", "','", "')'")
         // [t.^1.5]
         ?? failure.Explain(@"\^-?[0-9]+\n\.", "the power of a map is a whole number")
-        // <$>. z k
+        // <$>. z k, or box ball
         ?? failure.Explain(
-            @"\n(?<name>[\p{L}_][\p{L}0-9_]*)[ \t]*\z", "a depth that is computed stands in parentheses, as in '(${name})'", "a depth")
+            @"\n(?<name>[\p{L}_][\p{L}0-9_]*)[ \t]*\z",
+            "objects have a plus sign between them, as in '+ ${name}', and a depth that is computed has parentheses, as in '(${name})'",
+            "a depth")
         // [t.1 2]
         ?? failure.Explain(
             @"(?<call>\w+(\.[0-9]+)+)\.?[ \t]*,?[ \t]*\n(?<digit>[0-9])",

@@ -24,6 +24,8 @@ public sealed class FractalParser : MapSetParser
 
     // While the bodies of recursives are read, their bases are the calls of these.
     private Dictionary<string, DeclaredObject>? _calls;
+    private List<RecursiveHead> _heads = [];
+    private string? _declared;
 
     private protected override string? Explain(SyntaxFailure failure) => ExplainOutput(failure) ?? FractalMistakes.Explain(failure);
 
@@ -196,6 +198,7 @@ public sealed class FractalParser : MapSetParser
 
         var bodies = new List<(DeclaredObject Value, Cursor Start)>();
         _calls = [];
+        _heads = heads;
         foreach (var (i, head) in heads.Index())
         {
             _calls.TryAdd(head.BaseName, new(Bases.Parts.AddCall(i), DeclaredSteps.None));
@@ -331,7 +334,7 @@ public sealed class FractalParser : MapSetParser
     private bool ParseObjectDeclaration(Cursor cursor, out Cursor rest)
     {
         if (!ParseName(cursor, "a declaration", out var name, out rest) || !ParseChar(rest, '.', out rest)
-            || !ParseBlanks(rest, out rest) || (rest.Current == '(' && !ParenthesizedObject.Begins(rest.Rest))
+            || !ParseBlanks(rest, out rest) || !Set(ref _declared, name) || (rest.Current == '(' && !ParenthesizedObject.Begins(rest.Rest))
             || !ParseSum(rest, out var value, out rest))
         {
             return false;
@@ -444,7 +447,7 @@ public sealed class FractalParser : MapSetParser
         var call = _calls?.GetValueOrDefault(name);
         if (IsAtEndOfTerm(depthStart))
         {
-            value = call ?? Names.FindObject(cursor, name);
+            value = call ?? FindObject(cursor, name);
             return true;
         }
 
@@ -464,7 +467,7 @@ public sealed class FractalParser : MapSetParser
             throw Error(depthStart, $"'{name}' is here the recursive with one level less, so it has no depth of its own");
         }
 
-        if (Names.FindObject(cursor, name) is not DeclaredRecursion recursive)
+        if (FindObject(cursor, name) is not DeclaredRecursion recursive)
         {
             throw Error(depthStart, $"'{name}' is no recursive, so it has no depth");
         }
@@ -483,6 +486,19 @@ public sealed class FractalParser : MapSetParser
         }
 
         return true;
+    }
+
+    /// <summary>Returns the object with a name. One that is being declared has a mistake of its own.</summary>
+    private DeclaredObject FindObject(Cursor cursor, string name)
+    {
+        if (!Names.HasObject(name) && _calls is not null && _heads.Find(head => head.Name == name) is { Name: not null } called)
+        {
+            throw Error(
+                cursor, $"within its own declaration, the recursive '{name}' is called by the name of its base, '{called.BaseName}'");
+        }
+
+        return Names.HasObject(name) || _calls is not null || name != _declared ? Names.FindObject(cursor, name)
+            : throw Error(cursor, $"'{name}' is declared by itself: what repeats itself is a recursive, as in '{name}<box>. [t.] box'");
     }
 
     /// <summary>Parses the depth of a recursive: an integer, or an expression in parentheses.</summary>

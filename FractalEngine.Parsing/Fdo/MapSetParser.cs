@@ -218,6 +218,11 @@ public abstract class MapSetParser : TransformationParser
             return false;
         }
 
+        if (!Names.HasFunction(name) && TryFindValue(name, out var value))
+        {
+            throw Error(cursor, $"'{name}' is a {(value.IsNumber ? "number" : "vector")}, and a set has calls of transformations");
+        }
+
         var function = Names.FindFunction(cursor, name);
         if (!ParseChar(rest, '.', out rest) || !ParseArguments(name, function, index, out var argumentCount, ref rest))
         {

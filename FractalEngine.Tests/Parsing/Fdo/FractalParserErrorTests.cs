@@ -59,15 +59,15 @@ public class FractalParserErrorTests
         """);
 
     [Fact]
-    public void Recursive_UsedInItsOwnBody_IsUnknown() => Fails("x. \"b.obj\"\nz<x>. [#] z\n<$>. z 2", """
-        test.fdo:2:11: error: the object 'z' is not declared above
+    public void Recursive_UsedInItsOwnBody_IsCalledByItsBase() => Fails("x. \"b.obj\"\nz<x>. [#] z\n<$>. z 2", """
+        test.fdo:2:11: error: within its own declaration, the recursive 'z' is called by the name of its base, 'x'
           z<x>. [#] z
                     ^
         """);
 
     [Theory]
     [InlineData("19", "vector 19 of 2: it is not declared above, and numbers stand in parentheses")]
-    [InlineData("0", "vector 0 of 2: vectors are numbered from 1")]
+    [InlineData("0", "vector 0 of 2: vectors are numbered from 1, and numbers stand in parentheses")]
     [InlineData("3", "vector 3 of 2: it is not declared above, and numbers stand in parentheses")]
     public void Call_WithAVectorNumberOutOfRange_SaysHowManyThereAre(string number, string message) =>
         Fails(Head + $"<$>. [t.{number}] x", $"""

@@ -75,6 +75,11 @@ public sealed class SeveralMeshesTests : IDisposable
 
     [Theory]
     [InlineData("<$>. box + boll", "4:12: error: the object 'boll' is not declared above: did you mean 'ball'?")]
+    [InlineData("<$>. [half.] box ball", "4:18: error: unexpected 'ball': objects have a plus sign between them, as in '+ ball'")]
+    [InlineData("r. box + [half.] r", "4:18: error: 'r' is declared by itself: what repeats itself is a recursive, as in 'r<box>")]
+    [InlineData("z<box>, w<ball>. [half.] box + w, ball", "4:32: error: within its own declaration, the recursive 'w' is called by the")]
+    [InlineData("<$>. sphere", "4:6: error: the object 'sphere' is not declared above: did you mean 'ball'?")]
+    [InlineData("up = (0, 1, 0)\n<$>. [up.] box", "5:7: error: 'up' is a vector, and a set has calls of transformations")]
     [InlineData("<$>. (box + ball", "4:17: error: unexpected end of file, expected ')'")]
     [InlineData("<$>. box + ", "4:12: error: unexpected end of file, expected")]
     [InlineData("z<box>, w<ball>. box + ball\n<$>. z 2", "4:1: error: 2 recursives have 2 bodies, with commas between them: found 1")]
@@ -254,6 +259,22 @@ public sealed class SeveralMeshesTests : IDisposable
         Assert.NotEqual(FractalFile.Read(_folder["a.fdo"]).Bounds, FractalFile.Read(_folder["a.fdo"], options).Bounds);
         var deeper = FractalFile.Read(_folder["a.fdo"], options with { Depth = 5 });
         Assert.Equal(1024, deeper.ByMesh.Max(static part => part.InstanceCount));
+    }
+
+    [Fact]
+    public void Count_OfAMeshThatIsNeverReached_IsZero()
+    {
+        var fractal = Read("t. ((1, 0, 0), #, (0.5))\na<box>, b<ball>. [t., #] box, [t., #] ball\n<$>. b");
+        Assert.Equal([null, (BigInteger?)0], fractal.ByMesh.Select(static part => part.InstanceCount).Order());
+        Assert.Contains(BigInteger.Zero, fractal.ByMesh.Select(static part => DistinctInstances.CountAtMost(part)));
+    }
+
+    [Fact]
+    public void Instances_ThatShrinkToAPoint_AreCountedSoon()
+    {
+        var fractal = Read("t. ((1, 0, 0), #, (0.5))\nb<box>. [#, t.] box\n<$>. b 1000");
+        Assert.Equal(1001, DistinctInstances.CountAtMost(fractal, budget: 0));
+        Assert.Null(DistinctInstances.Count(fractal));
     }
 
     [Fact]

@@ -25,7 +25,7 @@ public class TypicalMistakeTests
             v 1 2 3 # the corner
             """,
             """
-            tree.fdo:6:9: error: unexpected '#': a comment stands on a line of its own, since '#' within a declaration is a value
+            tree.fdo:6:9: error: unexpected '#': a comment in a line begins with '//', since '#' within a declaration is a value
               v 1 2 3 # the corner
                       ^
             """
@@ -36,7 +36,7 @@ public class TypicalMistakeTests
             <$>. z 6 # deep
             """,
             """
-            tree.fdo:6:10: error: unexpected '#': a comment stands on a line of its own, since '#' within a declaration is a value
+            tree.fdo:6:10: error: unexpected '#': a comment in a line begins with '//', since '#' within a declaration is a value
               <$>. z 6 # deep
                        ^
             """
