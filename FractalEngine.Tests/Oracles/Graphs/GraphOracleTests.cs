@@ -1,0 +1,45 @@
+using FractalEngine.Tests.Oracles.Graphs.Models;
+using static System.FormattableString;
+
+namespace FractalEngine.Tests.Oracles.Graphs;
+
+/// <summary>Random files of the language of fractals, against an expansion that shares nothing with the engine but its files.</summary>
+public class GraphOracleTests
+{
+    // Of rays between random places. More would mean that the oracle does not tell what it should.
+    private const double MaxAmbiguous = 1e-3;
+
+    private static readonly GraphOptions Linear = new() { IsLinear = true, HasIndirectCalls = true };
+
+    [Fact]
+    public void Answers_OfLinearFiles_AreThoseOfAllTriangles() => Check(60, 10, 10, Linear);
+
+    [Fact]
+    [Trait("Category", "Soak")]
+    public void Answers_OfManyLinearFiles_AreThoseOfAllTriangles() => Check(2000, 100, 100, Linear, inParallel: true);
+
+    [Fact]
+    public void Answers_OfRandomFiles_AreThoseOfAllTriangles() => Check(60, 10, 10, new());
+
+    [Fact]
+    [Trait("Category", "Soak")]
+    public void Answers_OfManyRandomFiles_AreThoseOfAllTriangles() => Check(2000, 100, 100, new(), inParallel: true);
+
+    /// <summary>Names that lead to a base are calls, as they are where sets stand on a base by another name.</summary>
+    [Fact]
+    public void Answers_OfFilesWithIndirectCalls_AreThoseOfAllTriangles() => Check(30, 10, 10, new() { HasIndirectCalls = true });
+
+    [Fact]
+    [Trait("Category", "Soak")]
+    public void Answers_OfManyFilesWithIndirectCalls_AreThoseOfAllTriangles() =>
+        Check(1000, 100, 100, new() { HasIndirectCalls = true }, inParallel: true);
+
+    private static void Check(int count, int points, int rays, GraphOptions options, bool inParallel = false)
+    {
+        var tally = GraphCases.Run(count, points, rays, options, inParallel);
+        Assert.Equal(count, tally.Graphs);
+        Assert.True(tally.Ambiguous <= MaxAmbiguous * (tally.Rays - tally.Aimed), Invariant($"{tally}"));
+        // The rays have to hit something, and most of those at edges and in planes too.
+        Assert.True(tally.Hits > 0.2 * tally.Rays, Invariant($"{tally}"));
+    }
+}
