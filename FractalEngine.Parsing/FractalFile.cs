@@ -52,7 +52,7 @@ public static class FractalFile
         FileKinds.Require(path, FileKind.Fractal);
         ArgumentNullException.ThrowIfNull(fractal);
         using var companions = new NewFiles();
-        var text = WriteText(Path.GetFullPath(path), fractal, ImmutableDictionary<string, Material>.Empty, companions);
+        var text = WriteText(Path.GetFullPath(path), fractal, static _ => ImmutableDictionary<string, Material>.Empty, companions);
         AtomicFile.Write(path, stream => stream.Write(text));
         companions.Keep();
     }
@@ -67,26 +67,21 @@ public static class FractalFile
     /// <summary>Returns the text of a fractal file, and writes the base mesh if it has no file.</summary>
     /// <param name="fullPath">Full path of the fractal file, or of another one in the same folder.</param>
     /// <param name="fractal">Fractal made in code or read from a file.</param>
-    /// <param name="materials">Materials of a base mesh that has no file.</param>
+    /// <param name="materialsOf">Gives the materials of a base mesh that has no file, by its index.</param>
     /// <param name="companions">Receives the base mesh if it has no file.</param>
     internal static byte[] WriteText(
-        string fullPath, Fractal fractal, IReadOnlyDictionary<string, Material> materials, NewFiles companions)
+        string fullPath, Fractal fractal, Func<int, IReadOnlyDictionary<string, Material>> materialsOf, NewFiles companions)
     {
         if (FractalCheck.FindBoundsFault(fractal) is { } fault)
         {
             throw new FractalEngineException($"the fractal can't be written as a file: {fault}");
         }
 
-        if (BaseShapes.NameOf(fractal.BaseMesh) is { } shape)
-        {
-            return Encoding.UTF8.GetBytes(FractalWriter.Write(fractal.Description, shape));
-        }
-
-        if (fractal.BaseMeshPath is not { } meshPath || !File.Exists(meshPath))
-        {
-            meshPath = MeshFile.WriteNew(BaseMeshPath(fullPath), fractal.BaseMesh, materials, companions);
-        }
-
-        return Encoding.UTF8.GetBytes(FractalWriter.Write(fractal.Description, FileReference.Create(fullPath, meshPath)));
+        ImmutableArray<string> files = [.. fractal.BaseMeshes.Select((mesh, index) =>
+            BaseShapes.NameOf(mesh) is { } shape ? shape
+            : FileReference.Create(fullPath, fractal.BaseMeshPaths[index] is { } meshPath && File.Exists(meshPath)
+                ? meshPath
+                : MeshFile.WriteNew(BaseMeshPath(fullPath), mesh, materialsOf(index), companions)))];
+        return Encoding.UTF8.GetBytes(FractalWriter.Write(fractal.Description, files));
     }
 }

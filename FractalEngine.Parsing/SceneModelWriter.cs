@@ -37,12 +37,12 @@ internal sealed class SceneModelWriter(string scenePath, NewFiles companions)
         var name = declared.Name ?? Path.GetFileNameWithoutExtension(model.Name);
         var fileName = $"{Path.GetFileNameWithoutExtension(scenePath)}-{string.Concat(name.Select(ToFileNameCharacter))}";
         var path = Path.Combine(Path.GetDirectoryName(scenePath)!, fileName);
-        if (model is not FractalModel { Fractal: var fractal })
+        if (model is not FractalModel fractal)
         {
             return MeshFile.WriteNew($"{path}.obj", model.Mesh, model.Materials, companions);
         }
 
-        var text = FractalFile.WriteText($"{path}.fdo", fractal, model.Materials, companions);
+        var text = FractalFile.WriteText($"{path}.fdo", fractal.Fractal, fractal.MaterialsAt, companions);
         return companions.Write($"{path}.fdo", stream => stream.Write(text));
     }
 

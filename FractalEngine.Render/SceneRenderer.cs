@@ -157,6 +157,15 @@ public sealed class SceneRenderer : IDisposable
     /// <param name="map">Map from the model's frame to world space.</param>
     public void Move(int index, AffineMap map)
     {
+        var (first, count) = Scene.ItemsOf(index).GetOffsetAndLength(Scene.Objects.Length);
+        for (var item = first; item < first + count; item++)
+        {
+            MoveItem(item, map);
+        }
+    }
+
+    private void MoveItem(int index, AffineMap map)
+    {
         if (_transforms.ObjectToWorld[index] == map)
         {
             return;

@@ -2,6 +2,7 @@ using System.CommandLine;
 using System.Diagnostics;
 using System.Globalization;
 using System.Text;
+using System.Text.Json;
 using FractalEngine.App.Options;
 using FractalEngine.App.Shell;
 using FractalEngine.App.Shell.Reports;
@@ -11,6 +12,7 @@ using FractalEngine.Core.Geometry.Triangles;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Queries;
 using FractalEngine.Core.SceneQueries;
+using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Parsing.Points;
 using FractalEngine.Parsing.Text;
@@ -101,14 +103,14 @@ internal static class QueryCommand
         Console.Out.Write(FormatResults(
             results, format.Json, format.Header ? header : "",
             result => result.IsFound ? FormatLine(result.Closest, result.FaceTests, format.ErrorBound) : "none",
-            result => result.IsFound ? FormatJson(result.Closest, result.FaceTests, result.ObjectIndex, format.ErrorBound) : "null"));
+            result => result.IsFound ? FormatJson(file.Scene, result, format.ErrorBound) : "null"));
         return ExitCode.Done;
 
         PointResult Find(Vector position, QueryContext pointContext)
         {
             var faceTests = pointContext.Statistics.FaceTests;
             var isFound = collider.TryFindClosest(position, maxDistance, pointContext, out var closest, epsilon);
-            return new(isFound, closest, pointContext.Statistics.FaceTests - faceTests, pointContext.ObjectIndex);
+            return new(isFound, closest, pointContext.Statistics.FaceTests - faceTests, pointContext.ObjectIndex, pointContext.MeshIndex);
         }
     }
 
@@ -153,16 +155,23 @@ internal static class QueryCommand
         return text.Append(isJson ? "]\n" : "");
     }
 
-    private static string FormatJson(ClosestPoint closest, long faceTests, int objectIndex, bool hasErrorBound)
+    private static string FormatJson(LoadedScene scene, in PointResult result, bool hasErrorBound)
     {
+        var closest = result.Closest;
         var errorBound = hasErrorBound ? string.Create(CultureInfo.InvariantCulture, $", \"errorBound\": {closest.ErrorBound:R}") : "";
         var point = FormatVector(closest.Point, ", ");
         var normal = FormatVector(closest.Normal, ", ");
         return string.Create(
             CultureInfo.InvariantCulture,
             $"{{\"distance\": {closest.Distance:R}, \"point\": [{point}], \"normal\": [{normal}], "
-            + $"\"face\": {closest.FaceIndex}, \"object\": {objectIndex}, \"faceTests\": {faceTests}{errorBound}}}");
+            + $"\"face\": {closest.FaceIndex}, {FormatMesh(scene, result.ObjectIndex, result.MeshIndex)}"
+            + $"\"object\": {result.ObjectIndex}, \"faceTests\": {result.FaceTests}{errorBound}}}");
     }
+
+    /// <summary>Names the mesh of a face as a field of JSON, where an object has several; nothing for others.</summary>
+    internal static string FormatMesh(LoadedScene scene, int objectIndex, int meshIndex) =>
+        scene.Objects[objectIndex].Model is { Parts.Length: > 1 } model
+            ? $"\"mesh\": {JsonSerializer.Serialize(model.MeshNameAt(meshIndex))}, " : "";
 
     private static string FormatLine(ClosestPoint closest, long faceTests, bool hasErrorBound)
     {
@@ -195,7 +204,8 @@ internal static class QueryCommand
     /// <param name="Closest">The closest point.</param>
     /// <param name="FaceTests">Number of faces tested for this position.</param>
     /// <param name="ObjectIndex">Index of the object in the scene.</param>
-    private readonly record struct PointResult(bool IsFound, ClosestPoint Closest, long FaceTests, int ObjectIndex);
+    /// <param name="MeshIndex">Index of the base mesh of the object.</param>
+    private readonly record struct PointResult(bool IsFound, ClosestPoint Closest, long FaceTests, int ObjectIndex, int MeshIndex);
 
     /// <summary>How results are printed.</summary>
     /// <param name="Json">True for a JSON array, false for lines.</param>

@@ -5,6 +5,7 @@ using FractalEngine.App.Shell.Reports;
 using FractalEngine.Core.Queries;
 using FractalEngine.Core.Rays;
 using FractalEngine.Core.SceneQueries;
+using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Parsing.Points;
 using FractalEngine.Parsing.Text;
@@ -41,17 +42,17 @@ internal static class RayQueries
 
         Console.Out.Write(FormatResults(
             results, json, header ? "distance x y z nx ny nz face\n" : "", static result => result is { } hit ? FormatLine(hit) : "none",
-            static result => result is { } hit ? FormatJson(hit) : "null"));
+            result => result is { } hit ? FormatJson(file.Scene, hit) : "null"));
         return ExitCode.Done;
     }
 
     private static string FormatLine(RayHit hit) => string.Create(
         CultureInfo.InvariantCulture, $"{hit.Distance:R} {FormatVector(hit.Point, " ")} {FormatVector(hit.Normal, " ")} {hit.FaceIndex}");
 
-    private static string FormatJson(RayHit hit) => string.Create(
+    private static string FormatJson(LoadedScene scene, RayHit hit) => string.Create(
         CultureInfo.InvariantCulture,
         $"{{\"distance\": {hit.Distance:R}, \"point\": [{FormatVector(hit.Point, ", ")}], "
         + $"\"normal\": [{FormatVector(hit.Normal, ", ")}], \"front\": {(hit.IsFrontFace ? "true" : "false")}, "
-        + $"\"face\": {hit.FaceIndex}, \"barycentrics\": [{FormatVector(hit.Barycentrics, ", ")}], \"object\": {hit.ObjectIndex}, "
+        + $"\"face\": {hit.FaceIndex}, {FormatMesh(scene, hit.ObjectIndex, hit.MeshIndex)}\"barycentrics\": [{FormatVector(hit.Barycentrics, ", ")}], \"object\": {hit.ObjectIndex}, "
         + $"\"instance\": [{string.Join(", ", hit.InstancePath)}]}}");
 }

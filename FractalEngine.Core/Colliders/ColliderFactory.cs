@@ -1,3 +1,4 @@
+using System.Collections.Immutable;
 using System.Runtime.InteropServices;
 using FractalEngine.Core.Bvh;
 using FractalEngine.Core.Fractals;
@@ -35,7 +36,11 @@ public static class ColliderFactory
         return (kind, fractal.Description.Composition) switch
         {
             (ColliderKind.Exact, Composition.Affine) => new ExactFractalCollider(fractal),
-            (ColliderKind.Fractal, Composition.Affine) => new FractalCollider(fractal),
+            (ColliderKind.Fractal, Composition.Affine) => fractal.Description.Parts.IsEmpty
+                ? new FractalCollider(fractal)
+                : throw new ColliderMismatchException(
+                    "the collider 'fractal' descends the levels of one recursion, and this fractal has sums or recursives of several parts: "
+                    + "expected exact, hierarchy, bounding-box or simple"),
             _ => CreateExpanded(fractal, AffineMap.Identity, kind),
         };
     }
@@ -57,10 +62,23 @@ public static class ColliderFactory
     /// <exception cref="FractalLimitException">It has more than <see cref="MaxExpandedFaces"/> faces.</exception>
     internal static Mesh Expand(Fractal fractal, AffineMap map, out AffineMap[] instances)
     {
+        if (fractal.HasSeveralMeshes)
+        {
+            instances = [];
+            return fractal.FaceCount > MaxExpandedFaces
+                ? throw new FractalLimitException($"the fractal has more than the limit of {MaxExpandedFaces} faces that are expanded")
+                : FractalGenerator.Flatten([.. fractal.ByMesh.Select(part => (part.BaseMesh, ExpandInstances(part, map)))]);
+        }
+
+        instances = [.. ExpandInstances(fractal, map)];
+        return FractalGenerator.Flatten(fractal.BaseMesh, ImmutableCollectionsMarshal.AsImmutableArray(instances));
+    }
+
+    private static ImmutableArray<AffineMap> ExpandInstances(Fractal fractal, AffineMap map)
+    {
         // A face uses at most three vertices, but the base mesh may have any number of unused ones, which are expanded too.
         var facesPerInstance = Math.Max(1, Math.Max(fractal.BaseMesh.FaceCount, fractal.BaseMesh.VertexCount / 3));
-        instances = [.. FractalGenerator.Expand(fractal, MaxExpandedFaces / facesPerInstance).Select(instance => map * instance)];
-        return FractalGenerator.Flatten(fractal.BaseMesh, ImmutableCollectionsMarshal.AsImmutableArray(instances));
+        return [.. FractalGenerator.Expand(fractal, MaxExpandedFaces / facesPerInstance).Select(instance => map * instance)];
     }
 
     internal static Collider Create(Mesh mesh, ColliderKind kind) => kind switch

@@ -41,7 +41,7 @@ public sealed class FractalCollider : Collider
     /// many times as much and errs less, but is not exact either.
     /// </param>
     /// <exception cref="ArgumentOutOfRangeException">The width is less than 1.</exception>
-    /// <exception cref="ArgumentException">The fractal is composed componentwise.</exception>
+    /// <exception cref="ArgumentException">The fractal is composed componentwise, or made of several parts.</exception>
     /// <exception cref="SingularMatrixException">
     /// A map has no inverse, as with a scale of 0. The parser refuses fractal files with such a map.
     /// </exception>
@@ -51,9 +51,9 @@ public sealed class FractalCollider : Collider
     public FractalCollider(Fractal fractal, int beamWidth = 1)
     {
         ArgumentOutOfRangeException.ThrowIfLessThan(beamWidth, 1);
-        if (fractal.Description.Composition != Composition.Affine)
+        if (fractal.Description is not { Composition: Composition.Affine, Parts.IsEmpty: true })
         {
-            throw new ArgumentException("expected affine composition: the descent follows maps", nameof(fractal));
+            throw new ArgumentException("expected steps on one mesh in affine composition: the descent follows maps", nameof(fractal));
         }
 
         ScaledQuery.ThrowIfTooLarge(fractal.Bounds.IsEmpty ? 0 : fractal.Bounds.MaxAbsCoordinate());

@@ -63,9 +63,9 @@ public sealed class DeepZoomRayCaster : InstanceRayCaster
     {
         ArgumentNullException.ThrowIfNull(context);
         var (levels, _, path) = Roots[rootIndex];
-        foreach (var index in context.InstancePath)
+        foreach (var (set, index) in _whole.SetsOf(levels, context.InstancePath))
         {
-            path = path.Append(_whole.MapsAt(levels--), index);
+            path = path.Append(set.Maps, index);
         }
 
         return path.ComputeGradientFactor(gradient, _fractal.LevelCount ?? long.MaxValue);

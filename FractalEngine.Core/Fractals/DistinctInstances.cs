@@ -46,9 +46,9 @@ public static class DistinctInstances
         try
         {
             return fractal.Description.Composition == Composition.Affine
-                && FractalSteps.HasAtMostInstances(fractal.Description.Steps, maxChains)
-                ? FractalGenerator.Expand(fractal, maxChains).Length
-                : FractalGenerator.ExpandDistinct(fractal, maxInstances).Length;
+                && fractal.Description.Counts.HasAtMostInstances(maxChains)
+                ? fractal.ByMesh.Sum(part => (long)FractalGenerator.Expand(part, maxChains).Length)
+                : fractal.ByMesh.Sum(part => (long)FractalGenerator.ExpandDistinct(part, maxInstances).Length);
         }
         catch (FractalLimitException)
         {
@@ -76,6 +76,15 @@ public static class DistinctInstances
         return count <= budget ? Count(fractal, budget) ?? count : count;
     }
 
+    /// <summary>Finds an upper bound of the number of faces of distinct instances, as <see cref="CountAtMost"/> does of these.</summary>
+    /// <returns>Null for an infinite fractal.</returns>
+    public static BigInteger? CountFacesAtMost(Fractal fractal)
+    {
+        ArgumentNullException.ThrowIfNull(fractal);
+        return fractal.ByMesh.Aggregate(
+            (BigInteger?)BigInteger.Zero, static (sum, part) => sum + (CountAtMost(part) * part.BaseMesh.FaceCount));
+    }
+
     private static BigInteger? CountWithoutIdentities(Fractal fractal)
     {
         if (fractal.Description.Composition != Composition.Affine || fractal.LevelCount > MaxCountedLevels)
@@ -85,7 +94,7 @@ public static class DistinctInstances
 
         try
         {
-            return new InstanceCounts(fractal.Hierarchy, static _ => 1).SumAt(fractal.Hierarchy.Levels);
+            return new InstanceCounts(fractal.Hierarchy, index => fractal.CountsMesh(index) ? 1 : 0).SumAt(fractal.Hierarchy.Levels);
         }
         catch (Exception exception) when (exception is FractalLimitException or SingularMatrixException)
         {
@@ -105,7 +114,8 @@ public static class DistinctInstances
     /// </remarks>
     public static bool AreProvedDistinct(Fractal fractal)
     {
-        if (fractal.Description.Composition != Composition.Affine || fractal.LevelCount is null || fractal.BaseMesh.FaceCount == 0)
+        if (fractal.Description is not { Composition: Composition.Affine, Parts.IsEmpty: true } || fractal.LevelCount is null
+            || fractal.BaseMesh.FaceCount == 0)
         {
             return false;
         }

@@ -10,32 +10,54 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Fractals;
 
-/// <summary>A fractal: a description together with its base mesh. Counts are exact; nothing is expanded.</summary>
+/// <summary>A fractal: a description together with its base meshes. Counts are exact; nothing is expanded.</summary>
 /// <remarks>
-/// Immutable, and equal to any other with the same steps and the same base mesh. Made from a mesh by <see cref="Of"/>,
-/// <see cref="Repeat(IEnumerable{Transformation}, int?)"/> and <see cref="Apply"/>, or read from a file by the parsing library.
+/// Immutable, and equal to any other with the same description and the same base meshes. Made from a mesh by <see cref="Of"/>,
+/// <see cref="Repeat(IEnumerable{Transformation}, int?)"/> and <see cref="Apply"/>, of other fractals by
+/// <see cref="op_Addition(Fractal, Fractal)"/> and <see cref="Recurse"/>, or read from a file by the parsing library.
 /// </remarks>
+/// <example><code>
+/// var tree = Fractal.Recurse(Fractal.Of(leaf), 9, self => self.Apply(grow) + self.Apply(fork) + Fractal.Of(branch));
+/// </code></example>
 public sealed class Fractal : IEquatable<Fractal>
 {
-    private readonly Lazy<BigInteger?> _instanceCount;
+    private readonly Lazy<ImmutableArray<BigInteger?>> _instanceCounts;
+    private readonly Lazy<ImmutableArray<Fractal>> _byMesh;
     private readonly Lazy<BoundingBox> _bounds;
     private readonly Lazy<FractalHierarchy> _hierarchy;
     private readonly Lazy<FractalHierarchy> _hierarchyBySets;
 
     /// <summary>Makes the fractal that a description makes of a base mesh.</summary>
-    /// <exception cref="ArgumentException">The description has no steps, or no kind of composition.</exception>
+    /// <exception cref="ArgumentException">The description has no steps, or no kind of composition, or is not one of one mesh.</exception>
+    [OverloadResolutionPriority(1)] // Null is then a missing mesh.
     public Fractal(FractalDescription description, Mesh baseMesh)
+        : this(description, [baseMesh])
+    {
+    }
+
+    /// <summary>Makes the fractal that a description makes of base meshes.</summary>
+    /// <exception cref="ArgumentException">
+    /// The description has no steps, or no kind of composition, or repeats what is infinite, or is one of another number of meshes.
+    /// </exception>
+    public Fractal(FractalDescription description, ImmutableArray<Mesh> baseMeshes)
     {
         ArgumentNullException.ThrowIfNull(description);
-        ArgumentNullException.ThrowIfNull(baseMesh);
-        if (description.Steps.IsDefault || !Enum.IsDefined(description.Composition))
+        foreach (var mesh in baseMeshes)
         {
-            throw new ArgumentException("expected steps and a kind of composition", nameof(description));
+            ArgumentNullException.ThrowIfNull(mesh, nameof(baseMeshes));
+        }
+
+        if (description.Steps.IsDefault || !Enum.IsDefined(description.Composition) || description.MeshCount != baseMeshes.Length)
+        {
+            throw new ArgumentException(
+                $"expected steps, a kind of composition, and {baseMeshes.Length} base meshes", nameof(description));
         }
 
         Description = description;
-        BaseMesh = baseMesh;
-        _instanceCount = new(() => FractalSteps.InstanceCount(description.Steps));
+        BaseMeshes = baseMeshes;
+        Graph = new(baseMeshes, description.AllParts());
+        _instanceCounts = new(() => Graph.ChainCounts);
+        _byMesh = new(() => baseMeshes.Length == 1 ? [this] : [.. Enumerable.Range(0, baseMeshes.Length).Select(OnlyMesh)]);
         _bounds = new(() => FractalBounds.ComputeBox(this));
         _hierarchy = new(() => BuildHierarchy());
         _hierarchyBySets = new(() => Hierarchy.HasDoubledPowers ? BuildHierarchy(doublesPowers: false) : Hierarchy);
@@ -44,20 +66,45 @@ public sealed class Fractal : IEquatable<Fractal>
     /// <summary>The steps that are applied to the base mesh, and how they are composed.</summary>
     public FractalDescription Description { get; }
 
-    /// <summary>The mesh that every instance shows.</summary>
-    public Mesh BaseMesh { get; }
+    /// <summary>The meshes that instances show, in the order of the description.</summary>
+    public ImmutableArray<Mesh> BaseMeshes { get; }
 
-    /// <summary>The full path of the file that the base mesh was loaded from; null for a mesh made in code.</summary>
-    public string? BaseMeshPath { get; init; }
+    /// <summary>The mesh that every instance shows, of a fractal that shows only one; see <see cref="ByMesh"/> for others.</summary>
+    /// <exception cref="InvalidOperationException">Instances show several meshes.</exception>
+    public Mesh BaseMesh => FindOnlyMesh() is { } index
+        ? BaseMeshes[index]
+        : throw new InvalidOperationException("the fractal has several base meshes");
+
+    /// <summary>Whether instances show several meshes, so that there is no <see cref="BaseMesh"/>.</summary>
+    public bool HasSeveralMeshes => FindOnlyMesh() is null;
+
+    /// <summary>
+    /// The fractal by its base meshes: one fractal for each, with the instances that show it and no others. Made by the first who asks.
+    /// </summary>
+    public ImmutableArray<Fractal> ByMesh => _byMesh.Value;
+
+    /// <summary>The full paths of the files that the base meshes were loaded from; null for meshes made in code.</summary>
+    public ImmutableArray<string?> BaseMeshPaths
+    {
+        get => field.IsDefault ? [.. BaseMeshes.Select(static _ => (string?)null)] : field;
+        init;
+    }
+
+    /// <summary>The full path of the file that the only base mesh was loaded from; null for a mesh made in code.</summary>
+    public string? BaseMeshPath
+    {
+        get => FindOnlyMesh() is { } index ? BaseMeshPaths[index] : null;
+        init => BaseMeshPaths = [value];
+    }
 
     /// <summary>Number of chains of transformations, equal ones counted; null for infinitely many.</summary>
-    public BigInteger? InstanceCount => _instanceCount.Value;
+    public BigInteger? InstanceCount => Total(static _ => 1);
 
-    /// <summary>Number of instances times faces of the base mesh (the paper's b·t^d); null for infinitely many.</summary>
-    public BigInteger? FaceCount => InstanceCount * BaseMesh.FaceCount;
+    /// <summary>Number of faces of all instances (the paper's b·t^d); null for infinitely many.</summary>
+    public BigInteger? FaceCount => Total(static mesh => mesh.FaceCount);
 
-    /// <summary>Number of sets that a chain passes through; null for infinitely many.</summary>
-    public long? LevelCount => FractalSteps.LevelCount(Description.Steps);
+    /// <summary>Number of sets that the longest chain passes through; null for infinitely many.</summary>
+    public long? LevelCount => Description.LevelCount;
 
     /// <summary>A box that holds the fractal to 1e-13 of its largest coordinate, see <see cref="FractalBounds"/>.</summary>
     public BoundingBox Bounds => _bounds.Value;
@@ -79,14 +126,77 @@ public sealed class Fractal : IEquatable<Fractal>
     /// <param name="keepsAllLevels">True to keep levels that no search from the whole fractal visits.</param>
     /// <exception cref="FractalLimitException">Bounds overflow a double, or don't converge; the message names the level.</exception>
     internal FractalHierarchy BuildHierarchy(bool doublesPowers = true, bool keepsAllLevels = false) =>
-        FractalHierarchyBuilder.Build(FractalGraph.Of(BaseMesh, Description.Steps), doublesPowers, keepsAllLevels);
+        FractalHierarchyBuilder.Build(Graph, doublesPowers, keepsAllLevels);
 
-    /// <summary>Finds the set at one level, 0 being the outermost.</summary>
+    /// <summary>The base meshes and all parts.</summary>
+    internal FractalGraph Graph { get; }
+
+    /// <summary>Follows a path of a query (<c>QueryContext.InstancePath</c>) in a fractal of affine composition.</summary>
+    /// <param name="path">Indices of maps, the outermost first; as many as wanted.</param>
+    /// <param name="levelsAbove">Number of levels above the sub-fractal from which the path goes on, such as that around a camera.</param>
+    /// <returns>A step for each index; null where the fractal has no such path.</returns>
+    /// <exception cref="FractalLimitException">The bounds of some level overflow a double, or don't converge.</exception>
+    /// <exception cref="SingularMatrixException">A map has no inverse.</exception>
+    public IReadOnlyList<PathStep>? Follow(ReadOnlySpan<int> path, long levelsAbove = 0)
+    {
+        var hierarchy = HierarchyBySets;
+        return hierarchy.Follow(hierarchy.Levels - levelsAbove, path)?.ConvertAll(step => new PathStep(
+            step.Set.Maps[step.Index], step.Index, step.Set.Maps.Length, hierarchy.AllLevels.At(step.Level).Box,
+            hierarchy.IsBase(step.Level)));
+    }
+
+    /// <summary>Finds the set at one level of the steps, 0 being the outermost.</summary>
     public TransformationSet LevelAt(long level) => FractalSteps.LevelAt(Description.Steps, level);
 
     /// <summary>Makes the fractal of depth 0, whose only instance is the mesh itself.</summary>
     /// <param name="baseMesh">The mesh that every instance will show.</param>
     public static Fractal Of(Mesh baseMesh) => new(new([]), baseMesh);
+
+    /// <summary>Makes several fractals one: all of them at one place.</summary>
+    /// <param name="terms">The fractals, in affine composition: at least one. Base meshes that are the same object become one.</param>
+    /// <exception cref="ArgumentException">There are none, or one is composed componentwise.</exception>
+    /// <exception cref="FractalLimitException">The result exceeds one of <see cref="FractalLimits"/>.</exception>
+    public static Fractal Sum(params IEnumerable<Fractal> terms)
+    {
+        var list = new FractalPartList();
+        var meshes = new MeshList();
+        int[] parts = [.. terms.Select(term => list.AddAll(Affine(term).Description, mesh => list.AddMesh(meshes.Add(term, mesh))))];
+        return parts.Length > 0
+            ? meshes.Make(list, list.AddSum([.. parts]))
+            : throw new ArgumentException("expected at least one term", nameof(terms));
+    }
+
+    /// <summary>Makes two fractals one, see <see cref="Sum"/>.</summary>
+    public static Fractal operator +(Fractal term1, Fractal term2) => Sum(term1, term2);
+
+    /// <summary>Makes a recursive: without levels it is its start, and with levels what a body makes of the same with one less.</summary>
+    /// <param name="start">The fractal without levels.</param>
+    /// <param name="depth">Number of levels, at most <see cref="FractalLimits.Depth"/>; null for the infinite fractal.</param>
+    /// <param name="body">
+    /// Makes a fractal of the recursive with one level less, by <see cref="Apply"/>, sums, and repetitions with an end. All other
+    /// fractals in it stand at each level.
+    /// </param>
+    /// <exception cref="ArgumentException">The body does something else with the recursive, or a fractal is infinite.</exception>
+    /// <exception cref="FractalLimitException">The result exceeds one of <see cref="FractalLimits"/>.</exception>
+    public static Fractal Recurse(Fractal start, int? depth, Func<Fractal, Fractal> body)
+    {
+        ArgumentNullException.ThrowIfNull(body);
+        if (depth is { } count)
+        {
+            RequireDepth(count);
+        }
+
+        var self = new Mesh([], []);
+        var made = Affine(body(Of(self)));
+        var list = new FractalPartList();
+        var meshes = new MeshList();
+        var first = list.AddAll(Affine(start).Description, mesh => list.AddMesh(meshes.Add(start, mesh)));
+        var whole = list.AddAll(made.Description, mesh =>
+            ReferenceEquals(made.BaseMeshes[mesh], self) ? list.AddCall(0) : list.AddMesh(meshes.Add(made, mesh)));
+        return list.IsInfinite(first) || list.IsInfinite(whole)
+            ? throw new ArgumentException("expected finite fractals in a recursive", nameof(body))
+            : meshes.Make(list, list.AddRecursive(list.CreateRecursives([first], [whole]), 0, depth));
+    }
 
     /// <summary>
     /// Repeats a set of transformations: one instance of the fractal so far for each chain of <paramref name="depth"/>
@@ -112,8 +222,7 @@ public sealed class Fractal : IEquatable<Fractal>
     {
         if (depth is { } count)
         {
-            ArgumentOutOfRangeException.ThrowIfNegative(count, nameof(depth));
-            ArgumentOutOfRangeException.ThrowIfGreaterThan(count, FractalLimits.Depth.Value, nameof(depth));
+            RequireDepth(count);
         }
 
         return Prepend(new Repetition([.. round], depth));
@@ -154,13 +263,18 @@ public sealed class Fractal : IEquatable<Fractal>
     public Fractal WithMaxInstances(long maxInstances)
     {
         ArgumentOutOfRangeException.ThrowIfNegativeOrZero(maxInstances);
-        if (Fits(Description.Steps, maxInstances))
+        if (Fits(Description, maxInstances))
         {
             return this;
         }
 
+        if (!Description.Parts.IsEmpty)
+        {
+            return WithMaxInstancesOfParts(maxInstances);
+        }
+
         var steps = Description.Steps;
-        for (var i = 0; i < steps.Length && !Fits(steps, maxInstances); i++)
+        for (var i = 0; i < steps.Length && !Fits(new(steps), maxInstances); i++)
         {
             if (steps[i] is Repetition repetition)
             {
@@ -168,7 +282,7 @@ public sealed class Fractal : IEquatable<Fractal>
             }
         }
 
-        while (!Fits(steps, maxInstances))
+        while (!Fits(new(steps), maxInstances))
         {
             steps = steps.RemoveAt(steps.Length - 1);
         }
@@ -177,15 +291,16 @@ public sealed class Fractal : IEquatable<Fractal>
     }
 
     /// <inheritdoc/>
-    public bool Equals(Fractal? other) => other is not null && Description == other.Description && BaseMesh.Equals(other.BaseMesh);
+    public bool Equals(Fractal? other) =>
+        other is not null && Description == other.Description && BaseMeshes.AsSpan().SequenceEqual(other.BaseMeshes.AsSpan());
 
     /// <inheritdoc/>
     public override bool Equals(object? obj) => Equals(obj as Fractal);
 
     /// <inheritdoc/>
-    public override int GetHashCode() => HashCode.Combine(Description, BaseMesh);
+    public override int GetHashCode() => HashCode.Combine(Description, BaseMeshes[0]);
 
-    private Fractal With(FractalDescription description) => new(description, BaseMesh) { BaseMeshPath = BaseMeshPath };
+    private Fractal With(FractalDescription description) => new(description, BaseMeshes) { BaseMeshPaths = BaseMeshPaths };
 
     private Fractal Prepend(FractalStep step)
     {
@@ -194,13 +309,68 @@ public sealed class Fractal : IEquatable<Fractal>
             throw new InvalidOperationException("the fractal is infinite: no step comes after it");
         }
 
-        var steps = Description.Steps.Insert(0, step);
-        FractalLimits.Require(steps);
-        return With(Description with { Steps = steps });
+        var description = Description with { Steps = Description.Steps.Insert(0, step) };
+        FractalLimits.Require(description);
+        return With(description);
     }
 
-    private static bool Fits(ImmutableArray<FractalStep> steps, long maxInstances) =>
-        FractalSteps.LevelCount(steps) is not null && FractalSteps.HasAtMostInstances(steps, maxInstances);
+    private static void RequireDepth(int depth)
+    {
+        ArgumentOutOfRangeException.ThrowIfNegative(depth);
+        ArgumentOutOfRangeException.ThrowIfGreaterThan(depth, FractalLimits.Depth.Value);
+    }
+
+    private static Fractal Affine(Fractal fractal)
+    {
+        ArgumentNullException.ThrowIfNull(fractal);
+        return fractal.Description.Composition == Composition.Affine
+            ? fractal
+            : throw new ArgumentException("what is composed componentwise can't be a part of another fractal", nameof(fractal));
+    }
+
+    /// <summary>The index of the only mesh that instances can show; null where there are several with faces.</summary>
+    private int? FindOnlyMesh()
+    {
+        int[] shown = [.. Enumerable.Range(0, BaseMeshes.Length).Where(index => BaseMeshes[index].FaceCount > 0)];
+        return BaseMeshes.Length == 1 || shown.Length == 0 ? 0 : shown is [var only] ? only : null;
+    }
+
+    private Fractal OnlyMesh(int index) =>
+        new(Description, [.. BaseMeshes.Select((mesh, other) => other == index ? mesh : Mesh.Empty)]) { BaseMeshPaths = BaseMeshPaths };
+
+    /// <summary>Whether the instances of a base mesh count as such: those without faces do not, but the only mesh does.</summary>
+    internal bool CountsMesh(int index) => BaseMeshes.Length == 1 || BaseMeshes[index].FaceCount > 0;
+
+    /// <summary>Sums a number of the base meshes over all instances; those without faces are none, but of the only mesh.</summary>
+    private BigInteger? Total(Func<Mesh, long> valueOf)
+    {
+        BigInteger? sum = BigInteger.Zero;
+        for (var i = 0; i < BaseMeshes.Length; i++)
+        {
+            sum += CountsMesh(i) ? _instanceCounts.Value[i] * valueOf(BaseMeshes[i]) : 0;
+        }
+
+        return sum;
+    }
+
+    /// <summary>Cuts what is repeated in steps and parts to the greatest common depth with which the whole fits.</summary>
+    private Fractal WithMaxInstancesOfParts(long maxInstances)
+    {
+        var (fitting, tooDeep) = (-1, (int)FractalLimits.Depth.Value + 1);
+        while (tooDeep - fitting > 1)
+        {
+            var depth = fitting + ((tooDeep - fitting) / 2);
+            (fitting, tooDeep) = Fits(Description.WithMaxDepth(depth), maxInstances) ? (depth, tooDeep) : (fitting, depth);
+        }
+
+        return fitting >= 0 ? With(Description.WithMaxDepth(fitting))
+            : new Fractal(new([new TransformationSet(ImmutableArray<AffineMap>.Empty)]), Mesh.Empty);
+    }
+
+    private static bool Fits(FractalDescription description, long maxInstances) =>
+        !description.IsInfinite && (description.Parts.IsEmpty
+            ? FractalSteps.HasAtMostInstances(description.Steps, maxInstances)
+            : description.Counts.HasAtMostInstances(maxInstances));
 
     /// <summary>Finds the largest number of rounds with which the whole still fits; 0 where none does.</summary>
     private static int MaxRepetitionCount(ImmutableArray<FractalStep> steps, int index, Repetition repetition, long maxInstances)
@@ -219,5 +389,34 @@ public sealed class Fractal : IEquatable<Fractal>
         }
 
         return count;
+    }
+
+    /// <summary>The base meshes of a fractal that is made of others, each once.</summary>
+    private sealed class MeshList
+    {
+        private readonly List<(Mesh Mesh, string? Path)> _meshes = [];
+
+        public int Add(Fractal fractal, int index)
+        {
+            var mesh = fractal.BaseMeshes[index];
+            var known = _meshes.FindIndex(one => ReferenceEquals(one.Mesh, mesh));
+            if (known < 0)
+            {
+                known = _meshes.Count;
+                _meshes.Add((mesh, fractal.BaseMeshPaths[index]));
+            }
+
+            return known;
+        }
+
+        public Fractal Make(FractalPartList list, int whole)
+        {
+            var description = list.Describe(whole, [], Composition.Affine, out var used);
+            FractalLimits.Require(description);
+            return new(description, [.. used.Select(index => _meshes[index].Mesh)])
+            {
+                BaseMeshPaths = [.. used.Select(index => _meshes[index].Path)],
+            };
+        }
     }
 }

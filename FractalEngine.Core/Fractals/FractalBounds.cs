@@ -23,6 +23,7 @@ public static class FractalBounds
     /// <summary>Computes a box that holds all instances of a fractal, in its own frame.</summary>
     public static BoundingBox ComputeBox(Fractal fractal) => fractal switch
     {
+        { Description.Parts.IsEmpty: false } => ComputeBoxOfParts(fractal),
         { BaseMesh.VertexCount: 0 } => BoundingBox.Empty,
         _ when FractalSteps.CountUpTo(fractal.Description.Steps, 1).IsZero => BoundingBox.Empty,
         { Description.Composition: Composition.Componentwise } => ComputeComponentwiseBox(fractal),
@@ -69,6 +70,19 @@ public static class FractalBounds
         {
             // There is no hierarchy where maps flatten space, or where too many levels don't shrink.
             return LevelBoxes.ComputeBox(fractal);
+        }
+    }
+
+    /// <summary>Computes the box of a fractal of several parts; all of space where it has no bounds.</summary>
+    private static BoundingBox ComputeBoxOfParts(Fractal fractal)
+    {
+        try
+        {
+            return fractal.Hierarchy.Root.Box.IsEmpty ? BoundingBox.Empty : ComputeBox(fractal.Hierarchy);
+        }
+        catch (Exception exception) when (exception is FractalLimitException or SingularMatrixException)
+        {
+            return SphereAndBox.Unbounded.Box;
         }
     }
 

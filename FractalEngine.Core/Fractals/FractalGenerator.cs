@@ -26,7 +26,7 @@ public static class FractalGenerator
     public static ImmutableArray<AffineMap> Expand(this Fractal fractal, long maxInstances)
     {
         ArgumentNullException.ThrowIfNull(fractal);
-        if (FractalSteps.HasAtMostInstances(fractal.Description.Steps, 0))
+        if (fractal.InstanceCount is { IsZero: true })
         {
             return [];
         }
@@ -36,6 +36,11 @@ public static class FractalGenerator
         if (fractal.Description.Composition == Composition.Componentwise)
         {
             return ExpandDistinctSums(fractal, maxInstances);
+        }
+
+        if (!fractal.Description.Parts.IsEmpty)
+        {
+            return ExpandParts(fractal, maxInstances);
         }
 
         return FractalSteps.HasAtMostInstances(fractal.Description.Steps, maxInstances) && !fractal.Description.IsInfinite
@@ -60,8 +65,8 @@ public static class FractalGenerator
     public static ImmutableArray<AffineMap> ExpandDistinct(this Fractal fractal, long maxInstances)
     {
         if (fractal.Description.Composition == Composition.Componentwise
-            || FractalSteps.HasAtMostInstances(fractal.Description.Steps, maxInstances)
-            || fractal.Description.IsInfinite)
+            || fractal.Description is not { Parts.IsEmpty: true, IsInfinite: false }
+            || FractalSteps.HasAtMostInstances(fractal.Description.Steps, maxInstances))
         {
             return Expand(fractal, maxInstances);
         }
@@ -69,6 +74,14 @@ public static class FractalGenerator
         var maxDistinct = Math.Min(maxInstances, FractalLimits.EnumeratedInstances.Value);
         return TryExpandLevels(fractal, maxDistinct, FractalLimits.ComparedProducts.Value)
             ?? throw LimitError(fractal, maxInstances);
+    }
+
+    /// <summary>Expands a fractal of several parts that shows one mesh.</summary>
+    private static ImmutableArray<AffineMap> ExpandParts(Fractal fractal, long maxInstances)
+    {
+        // One that shows several meshes is expanded by these.
+        _ = fractal.BaseMesh;
+        return [.. GraphExpansion.Expand(fractal.Graph, maxInstances).Select(static instance => instance.Map)];
     }
 
     /// <summary>Expands a fractal level by level, and removes the repeated instances of each level before the next.</summary>
@@ -160,10 +173,19 @@ public static class FractalGenerator
     public static Mesh Flatten(this Fractal fractal, long maxFaces)
     {
         ArgumentNullException.ThrowIfNull(fractal);
-        return Flatten(fractal.BaseMesh, Expand(fractal, Math.Min(
-            maxFaces / Math.Max(1, fractal.BaseMesh.FaceCount),
-            Array.MaxLength / Math.Max(1, Math.Max(fractal.BaseMesh.Positions.Length, fractal.BaseMesh.VertexIndices.Length)))));
+        if (fractal.HasSeveralMeshes)
+        {
+            return fractal.FaceCount > maxFaces
+                ? throw LimitError(fractal, maxFaces)
+                : Flatten([.. fractal.ByMesh.Select(part => (part.BaseMesh, ExpandFaces(part, maxFaces)))]);
+        }
+
+        return Flatten(fractal.BaseMesh, ExpandFaces(fractal, maxFaces));
     }
+
+    private static ImmutableArray<AffineMap> ExpandFaces(Fractal fractal, long maxFaces) => Expand(fractal, Math.Min(
+        maxFaces / Math.Max(1, fractal.BaseMesh.FaceCount),
+        Array.MaxLength / Math.Max(1, Math.Max(fractal.BaseMesh.Positions.Length, fractal.BaseMesh.VertexIndices.Length))));
 
     /// <summary>Joins instances of a mesh into one mesh.</summary>
     /// <param name="mesh">Mesh whose vertices and faces are repeated for each instance.</param>
@@ -173,34 +195,52 @@ public static class FractalGenerator
     /// </exception>
     public static Mesh Flatten(this Mesh mesh, ImmutableArray<AffineMap> instances)
     {
-        if ((long)instances.Length * Math.Max(mesh.Positions.Length, mesh.VertexIndices.Length) > Array.MaxLength)
+        return Flatten([(mesh, instances)]);
+    }
+
+    /// <summary>Joins instances of several meshes into one mesh, those of one mesh after those of another.</summary>
+    /// <param name="groups">The meshes, each with its instances.</param>
+    /// <exception cref="FractalLimitException">As <see cref="Flatten(Mesh, ImmutableArray{AffineMap})"/>.</exception>
+    internal static Mesh Flatten(params ReadOnlySpan<(Mesh Mesh, ImmutableArray<AffineMap> Instances)> groups)
+    {
+        var (positionCount, indexCount) = (0L, 0L);
+        foreach (var (mesh, instances) in groups)
         {
-            throw new FractalLimitException(
-                $"{instances.Length} instances of {mesh.VertexCount} vertices and {mesh.FaceCount} faces are more than one mesh can hold");
+            positionCount += instances.Length * (long)mesh.Positions.Length;
+            indexCount += instances.Length * (long)mesh.VertexIndices.Length;
+            if (Math.Max(positionCount, indexCount) > Array.MaxLength)
+            {
+                throw new FractalLimitException($"{instances.Length} instances of {mesh.VertexCount} vertices and {mesh.FaceCount} "
+                    + "faces are more than one mesh can hold");
+            }
         }
 
-        var positions = new double[instances.Length * mesh.Positions.Length];
-        var indices = new int[instances.Length * mesh.VertexIndices.Length];
+        var positions = new double[positionCount];
+        var indices = new int[indexCount];
         var nextPosition = 0;
         var nextIndex = 0;
-        for (var instance = 0; instance < instances.Length; instance++)
+        foreach (var (mesh, instances) in groups)
         {
-            for (var vertex = 0; vertex < mesh.VertexCount; vertex++)
+            foreach (ref readonly var instance in instances.AsSpan())
             {
-                var image = instances[instance] * mesh.Vertex(vertex);
-                if (!image.IsFinite())
+                var firstVertex = nextPosition / 3;
+                for (var vertex = 0; vertex < mesh.VertexCount; vertex++)
                 {
-                    throw new FractalLimitException("a vertex of an instance is beyond the range of a double");
+                    var image = instance * mesh.Vertex(vertex);
+                    if (!image.IsFinite())
+                    {
+                        throw new FractalLimitException("a vertex of an instance is beyond the range of a double");
+                    }
+
+                    var (x, y, z) = image;
+                    (positions[nextPosition], positions[nextPosition + 1], positions[nextPosition + 2]) = (x, y, z);
+                    nextPosition += 3;
                 }
 
-                var (x, y, z) = image;
-                (positions[nextPosition], positions[nextPosition + 1], positions[nextPosition + 2]) = (x, y, z);
-                nextPosition += 3;
-            }
-
-            foreach (var vertex in mesh.VertexIndices)
-            {
-                indices[nextIndex++] = (instance * mesh.VertexCount) + vertex;
+                foreach (var vertex in mesh.VertexIndices)
+                {
+                    indices[nextIndex++] = firstVertex + vertex;
+                }
             }
         }
 

@@ -18,13 +18,19 @@ namespace FractalEngine.Core.Queries;
 public sealed record ClosestHit(
     double Distance, Vector Point, Vector Normal, int FaceIndex, ImmutableArray<int> InstancePath, int ObjectIndex = 0)
 {
+    /// <summary>Index of the base mesh with the face among those of the fractal; 0 where there is only one.</summary>
+    public int MeshIndex { get; init; }
+
     internal static ClosestHit Of(in ClosestPoint closest, QueryContext context) => new(
-        closest.Distance, closest.Point, closest.Normal, closest.FaceIndex, [.. context.InstancePath], context.ObjectIndex);
+        closest.Distance, closest.Point, closest.Normal, closest.FaceIndex, [.. context.InstancePath], context.ObjectIndex)
+    {
+        MeshIndex = context.MeshIndex,
+    };
 
     /// <summary>Tells whether all numbers of both hits are equal, the paths included.</summary>
     public bool Equals(ClosestHit? other) =>
         other is not null && Distance.Equals(other.Distance) && Point == other.Point && Normal == other.Normal
-        && FaceIndex == other.FaceIndex && ObjectIndex == other.ObjectIndex
+        && FaceIndex == other.FaceIndex && MeshIndex == other.MeshIndex && ObjectIndex == other.ObjectIndex
         && InstancePath.AsSpan().SequenceEqual(other.InstancePath.AsSpan());
 
     /// <inheritdoc/>

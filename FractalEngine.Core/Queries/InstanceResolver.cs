@@ -105,6 +105,7 @@ internal static class InstanceResolver
         }
 
         context.ShortenPath(end ?? context.InstancePath.Length);
+        context.MeshIndex = subFractal.BaseIndex;
         reach = SimdAffineMap.ToVector(maxTranslation).MaxAbsComponent();
         return map;
     }

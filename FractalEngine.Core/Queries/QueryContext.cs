@@ -50,6 +50,9 @@ public sealed class QueryContext
     /// </summary>
     public int ObjectIndex { get; internal set; }
 
+    /// <summary>Index of the base mesh that the last query found among those of the fractal; 0 where there is only one.</summary>
+    public int MeshIndex { get; internal set; }
+
     /// <summary>Memory for the path of a search. It is kept for the next search with its contents.</summary>
     internal Span<int> PathBuffer(int length) => EnsureLength(ref _pathBuffer, length);
 
@@ -111,7 +114,11 @@ public sealed class QueryContext
         _objectQueue ??= new();
     }
 
-    internal void ClearPath() => _instancePath.Clear();
+    internal void ClearPath()
+    {
+        _instancePath.Clear();
+        MeshIndex = 0;
+    }
 
     internal void ShortenPath(int length) => CollectionsMarshal.SetCount(_instancePath, length);
 

@@ -58,9 +58,11 @@ internal sealed class FractalRayCaster(
     /// <param name="levels">Its remaining levels, which the hierarchy must have kept.</param>
     public FractalRayCaster At(long levels) => new(hierarchy, levels, bvhs, rayLevels, basePlanes);
 
-    /// <summary>The maps of the outermost set of a sub-fractal.</summary>
-    /// <param name="levels">Its remaining levels, at least 1.</param>
-    public ReadOnlySpan<AffineMap> MapsAt(long levels) => hierarchy.MapSetAt(levels)!.Maps;
+    /// <summary>The sets that a path from a sub-fractal passes, each with the index of its map.</summary>
+    /// <param name="levels">Remaining levels of the sub-fractal.</param>
+    /// <param name="path">The indices.</param>
+    public IEnumerable<(MapSet Set, int Index)> SetsOf(long levels, ReadOnlySpan<int> path) =>
+        hierarchy.Follow(levels, path)?.Select(static step => (step.Set, step.Index)) ?? [];
 
     /// <summary>The box of the fractal, or of the sub-fractal; empty where it has no faces.</summary>
     public BoundingBox Box => _root.Box;

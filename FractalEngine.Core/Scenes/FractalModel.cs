@@ -1,7 +1,9 @@
 using System.Collections.Immutable;
+using System.Globalization;
 using System.Numerics;
 using FractalEngine.Core.Colliders;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Generation;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Rays;
 
@@ -11,8 +13,34 @@ namespace FractalEngine.Core.Scenes;
 /// <param name="fractal">In its own frame, scene units.</param>
 public sealed class FractalModel(Fractal fractal) : Model
 {
+    private ImmutableArray<Model> _parts;
+
     /// <summary>The fractal that the model shows.</summary>
     public Fractal Fractal { get; } = fractal ?? throw new ArgumentNullException(nameof(fractal));
+
+    /// <summary>
+    /// The materials of each base mesh, in their order; empty where <see cref="Model.Materials"/> are those of the only mesh.
+    /// </summary>
+    public ImmutableArray<ImmutableDictionary<string, Material>> MaterialsByMesh { get; init; } = [];
+
+    /// <inheritdoc/>
+    public override ImmutableArray<Model> Parts => !_parts.IsDefault ? _parts : _parts = Fractal.HasSeveralMeshes
+        ? [.. Fractal.ByMesh.Select((part, index) => new FractalModel(part)
+        {
+            SourcePath = SourcePath,
+            Materials = MaterialsAt(index),
+        })]
+        : [this];
+
+    /// <inheritdoc/>
+    public override string MeshNameAt(int index) =>
+        Path.GetFileName(Fractal.BaseMeshPaths[index]) ?? BaseShapes.NameOf(Fractal.BaseMeshes[index])
+        ?? string.Create(CultureInfo.InvariantCulture, $"mesh {index}");
+
+    /// <summary>Returns the materials of a base mesh.</summary>
+    /// <param name="index">Index of the mesh.</param>
+    public ImmutableDictionary<string, Material> MaterialsAt(int index) =>
+        index < MaterialsByMesh.Length ? MaterialsByMesh[index] : Materials;
 
     /// <summary>Names of the numbers that its file declares, which can be set; empty for a fractal made in code.</summary>
     public ImmutableArray<string> NumberNames { get; init; } = [];

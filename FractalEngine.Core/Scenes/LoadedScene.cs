@@ -16,6 +16,14 @@ public sealed record LoadedScene(Scene Scene, ImmutableArray<PlacedModel> Object
     /// <summary>The models, each once, in the order of their first use.</summary>
     public IEnumerable<Model> Models => Objects.Select(placed => placed.Model).Distinct();
 
+    /// <summary>
+    /// The same scene with each object by the parts of its model, one after the other, see <see cref="Model.Parts"/>; the same object where
+    /// each is its only part.
+    /// </summary>
+    public LoadedScene ByParts() => Models.All(static model => model.Parts.Length == 1)
+        ? this
+        : new(Scene, [.. Objects.SelectMany(static placed => placed.Parts)]);
+
     /// <summary>The models of the objects that no physics moves, each once.</summary>
     public IEnumerable<Model> StaticModels =>
         Objects.Where(static placed => placed.Declaration is not PhysicsObject).Select(static placed => placed.Model).Distinct();

@@ -26,7 +26,14 @@ public abstract class Model
     public string Name => SourcePath is { } path ? Path.GetFileName(path) : KindName;
 
     /// <summary>The mesh that is drawn: once for a mesh, once for each instance of a fractal.</summary>
+    /// <exception cref="InvalidOperationException">The instances of a fractal show several meshes: see <see cref="Parts"/>.</exception>
     public abstract Mesh Mesh { get; }
+
+    /// <summary>
+    /// The model by its meshes, each with its instances, and its materials: those of a fractal with several base meshes, in their order.
+    /// Any other model is its only part.
+    /// </summary>
+    public virtual ImmutableArray<Model> Parts => [this];
 
     /// <summary>
     /// The materials that the groups of the mesh name, by their names; those that no file declares are missing. Paths of textures are
@@ -37,16 +44,23 @@ public abstract class Model
     /// <summary>Number of instances of the mesh: 1 for a mesh, null for infinitely many.</summary>
     public abstract BigInteger? InstanceCount { get; }
 
-    /// <summary>Instances times faces of the mesh; null for infinitely many.</summary>
-    public BigInteger? FaceCount => InstanceCount * Mesh.FaceCount;
+    /// <summary>Instances times faces of their meshes; null for infinitely many.</summary>
+    public BigInteger? FaceCount => Sum(static mesh => mesh.FaceCount);
 
-    /// <summary>Instances times vertices of the mesh; null for infinitely many.</summary>
-    public BigInteger? VertexCount => InstanceCount * Mesh.VertexCount;
+    /// <summary>Instances times vertices of their meshes; null for infinitely many.</summary>
+    public BigInteger? VertexCount => Sum(static mesh => mesh.VertexCount);
 
     /// <summary>A box that holds the whole model in its own frame.</summary>
     public abstract BoundingBox Bounds { get; }
 
     private protected abstract string KindName { get; }
+
+    /// <summary>The name of one of its meshes, for messages: that of a file or a shape, or the model's own.</summary>
+    /// <param name="index">Index among the base meshes of a fractal; 0 for a mesh.</param>
+    public virtual string MeshNameAt(int index) => Name;
+
+    private BigInteger? Sum(Func<Mesh, long> valueOf) => Parts.Aggregate(
+        (BigInteger?)BigInteger.Zero, (sum, part) => sum + (part.InstanceCount * valueOf(part.Mesh)));
 
     /// <summary>Makes the model that shows a mesh.</summary>
     /// <param name="mesh">In its own frame, scene units.</param>

@@ -33,6 +33,10 @@ public sealed class PlacedModel(SceneObject declaration, Model model)
     /// <summary>Maps the model's frame to world space: the paper's global matrix m.</summary>
     public AffineMap ObjectToWorld { get; } = declaration.Placement.ToAffineMap();
 
+    /// <summary>The object by the parts of its model, see <see cref="Model.Parts"/>.</summary>
+    public IEnumerable<PlacedModel> Parts =>
+        Model.Parts is [var only] && ReferenceEquals(only, Model) ? [this] : Model.Parts.Select(part => new PlacedModel(Declaration, part));
+
     /// <summary>A box that holds the object in world space; as tight as the model's own.</summary>
     public BoundingBox Bounds => (_bounds ??= new(ComputeWorldBounds(Declaration, ObjectToWorld, Model))).Value;
 

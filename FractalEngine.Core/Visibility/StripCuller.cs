@@ -295,7 +295,7 @@ internal sealed class StripCuller
         instances.Add(in instanceToWorld, context.VertexOrigin, instance.Path.Hash);
         if (context.Gradient != GradientKind.None)
         {
-            instances.SetGradientFactor(instance.Path.ColourPath.ComputeGradientFactor(context.Gradient, context.Hierarchy.LevelCount));
+            instances.SetGradientFactor(instance.Path.ColourPath.ComputeGradientFactor(context.Gradient, context.Hierarchy.ColourLevels));
         }
 
         if (context.HasSkyParts)

@@ -1,6 +1,7 @@
 using System.Globalization;
 using System.Text.Encodings.Web;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using BigInteger = System.Numerics.BigInteger;
@@ -27,14 +28,15 @@ public sealed class FileSummary(LoadedFile file, TimeSpan loadTime, TimeSpan? pr
         var scene = file.Scene;
         var bounds = scene.Bounds;
         var chains = scene.Sum(static model => model.InstanceCount);
-        var instances = scene.Models.ToDictionary(model => model, CountInstances);
+        var instances = scene.Models.SelectMany(static model => model.Parts).ToDictionary(part => part, CountInstances);
         return
         [
             ("kind", format(file.Kind.ToString().ToLowerInvariant())),
             ("handed", format(scene.Scene.Handedness.ToString().ToLowerInvariant())),
-            ("vertices", FormatCount(scene.Sum(model => instances[model] * model.Mesh.VertexCount), format)),
-            ("faces", FormatCount(scene.Sum(model => instances[model] * model.Mesh.FaceCount), format)),
-            ("instances", FormatCount(scene.Sum(model => instances[model]), format)),
+            ("meshes", format(scene.Objects is [{ Model: FractalModel model }] ? MeshNames(model) : null)),
+            ("vertices", FormatCount(Sum(static mesh => mesh.VertexCount), format)),
+            ("faces", FormatCount(Sum(static mesh => mesh.FaceCount), format)),
+            ("instances", FormatCount(Sum(static _ => 1), format)),
             ("chains", FormatCount(chains, format)),
             ("infinite", format(chains is null)),
             ("boundsMin", format(bounds.IsEmpty ? null : bounds.Minimum)),
@@ -43,7 +45,13 @@ public sealed class FileSummary(LoadedFile file, TimeSpan loadTime, TimeSpan? pr
             ("loadMilliseconds", FormatTime(loadTime, format)),
             ("prepareMilliseconds", FormatTime(prepareTime, format)),
         ];
+
+        BigInteger? Sum(Func<Mesh, long> valueOf) => scene.Sum(model => model.Parts.Aggregate(
+            (BigInteger?)BigInteger.Zero, (sum, part) => sum + (instances[part] * valueOf(part.Mesh))));
     }
+
+    private static string MeshNames(FractalModel model) =>
+        string.Join(", ", Enumerable.Range(0, model.Fractal.BaseMeshes.Length).Select(model.MeshNameAt));
 
     private static string FormatTime(TimeSpan? time, Func<object?, string> format) =>
         format(time is { } known ? Math.Round(known.TotalMilliseconds, 3) : null);

@@ -26,6 +26,10 @@ internal sealed class ModelLoader
     // By full paths, and by the names in the scene: to find a file costs more than a line of the scene.
     private readonly Dictionary<string, Model> _models = [];
     private readonly Dictionary<string, Diagnostic> _faults = [];
+
+    // The fractals that are parts of others, by full paths, and those that are being read, the outermost first.
+    private readonly Dictionary<string, LoadedBase> _innerFractals = [];
+    private readonly List<(string Path, string Name)> _openFractals = [];
     private long _textBytes;
 
     /// <summary>Prepares for the models of one file.</summary>
@@ -117,34 +121,138 @@ internal sealed class ModelLoader
     {
         var parsed = ReadOrFindFractal(fullPath, displayName);
         Warnings.AddRange(parsed.Warnings);
-        // No name of a file is that of a shape, since it has an ending.
-        var isShape = BaseShapes.TryFind(parsed.BaseFile, out var shape);
-        var (basePath, baseDisplayName) = isShape
-            ? default : _references.Resolve(parsed.Source, parsed.BaseFileNameOffset, fullPath, parsed.BaseFile);
-        var description = ApplyOptions(parsed);
-        var contents = isShape
-            ? new(shape!, ImmutableDictionary<string, Material>.Empty, 0, ImmutableDictionary<string, FileStamp>.Empty)
-            : ReadMesh(basePath, baseDisplayName);
-        var fractal = new Fractal(description, contents.Mesh) { BaseMeshPath = basePath };
-        if (FractalCheck.FindBoundsFault(fractal) is { } fault)
+        var bases = LoadBases(parsed, fullPath, displayName);
+        var isNested = _openFractals.Count > 0;
+        var joined = bases is [{ Fractal: null }] && parsed.Description.Parts.IsEmpty
+            ? new(parsed.Description, [bases[0].Meshes[0]])
+            : JoinBases(parsed, bases);
+        var description = isNested ? joined.Description : ApplyOptions(parsed, joined.Description);
+        var fractal = new Fractal(description, [.. joined.Meshes.Select(static contents => contents.Mesh)])
+        {
+            BaseMeshPaths = [.. joined.Meshes.Select(static contents => contents.Path)],
+        };
+        if (!isNested && FractalCheck.FindBoundsFault(fractal) is { } fault)
         {
             throw parsed.Source.Error(parsed.ResultOffset, fault, isLimitExceeded: !description.IsInfinite);
         }
 
-        var byteCount = parsed.Source.ByteCount + contents.ByteCount;
         return new(fractal)
         {
             SourcePath = fullPath,
-            FileBytes = byteCount,
-            Materials = contents.Materials,
-            NumberNames = parsed.NumberNames,
+            FileBytes = parsed.Source.ByteCount + bases.DistinctBy(static one => one.Key).Sum(static one => one.ByteCount),
+            Materials = fractal.HasSeveralMeshes
+                ? ImmutableDictionary<string, Material>.Empty
+                : joined.Meshes.MaxBy(static contents => contents.Mesh.FaceCount)!.Materials,
+            MaterialsByMesh = fractal.HasSeveralMeshes ? [.. joined.Meshes.Select(static contents => contents.Materials)] : [],
+            NumberNames = [.. parsed.NumberNames.Concat(bases.SelectMany(static one => one.NumberNames)).Distinct()],
         };
     }
 
-    /// <summary>Returns the description in a file with the overrides of the options.</summary>
-    private FractalDescription ApplyOptions(ParsedFractal parsed)
+    private List<LoadedBase> LoadBases(ParsedFractal parsed, string fullPath, string displayName)
     {
-        var description = parsed.Description with { Composition = _options.Composition ?? parsed.Description.Composition };
+        _openFractals.Add((fullPath, displayName));
+        try
+        {
+            return parsed.Bases.Select(reference => LoadBase(parsed, reference, fullPath)).ToList();
+        }
+        finally
+        {
+            _openFractals.RemoveAt(_openFractals.Count - 1);
+        }
+    }
+
+    /// <summary>Loads what stands for a base mesh: a mesh, a shape or another fractal.</summary>
+    private LoadedBase LoadBase(ParsedFractal parsed, BaseReference reference, string fullPath)
+    {
+        // No name of a file is that of a shape, since it has an ending.
+        if (BaseShapes.TryFind(reference.File, out var shape))
+        {
+            return new(reference.File, null, [new(shape!, ImmutableDictionary<string, Material>.Empty, null)], 0, []);
+        }
+
+        var (path, displayName) = _references.Resolve(parsed.Source, reference.Offset, fullPath, reference.File);
+        if (FileKinds.FromName(path) != FileKind.Fractal)
+        {
+            var contents = ReadMesh(path, displayName);
+            return new(path, null, [new(contents.Mesh, contents.Materials, path)], contents.ByteCount, []);
+        }
+
+        if (_innerFractals.TryGetValue(path, out var known))
+        {
+            return known;
+        }
+
+        if (_openFractals.FindIndex(open => open.Path == path) is >= 0 and var first)
+        {
+            var files = string.Join(" → ", _openFractals.Skip(first).Select(static open => open.Name).Append(displayName));
+            throw parsed.Source.Error(reference.Offset, $"a fractal can't contain itself: {files}");
+        }
+
+        if (_openFractals.Count >= FractalLimits.Nesting.Value)
+        {
+            throw parsed.Source.Error(
+                reference.Offset, $"more than the limit of {FractalLimits.Nesting.Value} fractal files inside each other",
+                isLimitExceeded: true);
+        }
+
+        var model = LoadFractal(path, displayName);
+        if (model.Fractal.Description.Composition == Composition.Componentwise)
+        {
+            throw parsed.Source.Error(reference.Offset, $"'{displayName}' is composed componentwise, and can't be a part of another fractal");
+        }
+
+        var meshes = model.Fractal.BaseMeshes.Select((mesh, index) => new BaseMeshContents(
+            mesh, model.MaterialsAt(index), model.Fractal.BaseMeshPaths[index]));
+        return _innerFractals[path] = new(path, model.Fractal.Description, [.. meshes], model.FileBytes, model.NumberNames);
+    }
+
+    /// <summary>Puts the fractals and meshes that a file names in the places of its base meshes.</summary>
+    private static (FractalDescription Description, ImmutableArray<BaseMeshContents> Meshes) JoinBases(
+        ParsedFractal parsed, List<LoadedBase> bases)
+    {
+        for (var i = 0; i < bases.Count; i++)
+        {
+            if (bases[i].Fractal?.IsInfinite == true && !parsed.Description.MayHoldInfinite(i))
+            {
+                throw parsed.Source.Error(
+                    parsed.Bases[i].Offset, $"'{parsed.Bases[i].File}' is infinite, and can't be repeated: give its recursive a depth");
+            }
+        }
+
+        var parts = new FractalPartList();
+        var meshes = new List<BaseMeshContents>();
+        var whole = parts.AddAll(parsed.Description, index =>
+            bases[index] is var one && one.Fractal is null ? AddMesh(one.Meshes[0]) : parts.AddAll(one.Fractal, mesh => AddMesh(one.Meshes[mesh])));
+        var description = parts.Describe(whole, [], parsed.Description.Composition, out var used);
+        if (used.Length > ParsingLimits.BaseFiles.Value)
+        {
+            throw parsed.Source.Error(
+                parsed.ResultOffset, $"the fractal has more than the limit of {ParsingLimits.BaseFiles.Value} base meshes",
+                isLimitExceeded: true);
+        }
+
+        return FractalLimits.FindExceeded(description) is var (limit, things)
+            ? throw parsed.Source.Error(
+                parsed.ResultOffset, $"the fractal has more than the limit of {limit.Value} {things}", isLimitExceeded: true)
+            : (description, [.. used.Select(index => meshes[index])]);
+
+        int AddMesh(BaseMeshContents contents)
+        {
+            var known = meshes.FindIndex(one => ReferenceEquals(one.Mesh, contents.Mesh));
+            if (known < 0)
+            {
+                known = meshes.Count;
+                meshes.Add(contents);
+            }
+
+            return parts.AddMesh(known);
+        }
+    }
+
+    /// <summary>Returns a description with the overrides of the options.</summary>
+    private FractalDescription ApplyOptions(ParsedFractal parsed, FractalDescription description)
+    {
+        description = description with { Composition = _options.Composition ?? description.Composition };
         if (_options.Depth is { } depth && description.HasDepth)
         {
             description = description.WithDepth(depth);
@@ -210,6 +318,18 @@ internal sealed class ModelLoader
     }
 
     private string? EditedText(string fullPath) => _options.EditedTexts.GetValueOrDefault(fullPath);
+
+    /// <summary>What stands for a base mesh.</summary>
+    /// <param name="Key">Full path, or name of the shape.</param>
+    /// <param name="Fractal">What another fractal makes of its own base meshes; null for a mesh.</param>
+    /// <param name="Meshes">The mesh, or the base meshes of the other fractal.</param>
+    /// <param name="ByteCount">Bytes of all files.</param>
+    /// <param name="NumberNames">Names of the numbers that can be set.</param>
+    private sealed record LoadedBase(
+        string Key, FractalDescription? Fractal, ImmutableArray<BaseMeshContents> Meshes, long ByteCount,
+        ImmutableArray<string> NumberNames);
+
+    private sealed record BaseMeshContents(Mesh Mesh, ImmutableDictionary<string, Material> Materials, string? Path);
 
     private sealed record MeshContents(
         Mesh Mesh, ImmutableDictionary<string, Material> Materials, long ByteCount, ImmutableDictionary<string, FileStamp> Files);

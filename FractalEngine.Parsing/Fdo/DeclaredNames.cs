@@ -6,7 +6,8 @@ namespace FractalEngine.Parsing.Fdo;
 
 /// <summary>The names that a fractal file has declared so far. An object and a transformation may have the same name.</summary>
 /// <param name="source">Text of the file.</param>
-internal sealed class DeclaredNames(SourceText source)
+/// <param name="bases">Receives the shapes that are named.</param>
+internal sealed class DeclaredNames(SourceText source, DeclaredBases bases)
 {
     private readonly Dictionary<string, (TransformationFunction Value, int Offset)> _functions = [];
     private readonly Dictionary<string, (DeclaredObject Value, int Offset)> _objects = [];
@@ -34,14 +35,14 @@ internal sealed class DeclaredNames(SourceText source)
         : throw source.Error(cursor.Offset, $"the object '{name}' is not declared above{AskAboutObject(name)}");
 
     /// <summary>Tells whether a recursive has a name.</summary>
-    public bool IsRecursive(string name) => _objects.GetValueOrDefault(name).Value is DeclaredRecursive;
+    public bool IsRecursive(string name) => _objects.GetValueOrDefault(name).Value is DeclaredRecursion;
 
     /// <summary>Returns the one object of a shape, wherever it is named; null for other names.</summary>
     private DeclaredObject? FindShape(Cursor cursor, string name)
     {
         if (!_shapes.TryGetValue(name, out var shape) && BaseShapes.TryFind(name, out _))
         {
-            shape = new(name, cursor.Offset, DeclaredSteps.None);
+            shape = bases.Add(name, cursor.Offset);
             _shapes.Add(name, shape);
         }
 

@@ -1,12 +1,11 @@
-using FractalEngine.Core.Generation;
+using FractalEngine.Core.Fractals.Descriptions;
 
 namespace FractalEngine.Parsing.Fdo;
 
-/// <summary>Object of a fractal file: a base mesh and the steps applied to it so far (paper §4.2.2).</summary>
-/// <param name="BaseFile">Name of the base mesh's file, as written, or one of the <see cref="BaseShapes"/>.</param>
-/// <param name="BaseFileNameOffset">Offset of that name in the text.</param>
-/// <param name="Steps">Steps applied to the base mesh, outermost first.</param>
-internal record DeclaredObject(string BaseFile, int BaseFileNameOffset, DeclaredSteps Steps)
+/// <summary>Object of a fractal file: a base mesh, a sum or recursives, and the steps applied to it so far (paper §4.2.2).</summary>
+/// <param name="Part">Index of what the steps are applied to in the <see cref="FractalPartList"/> of the file.</param>
+/// <param name="Steps">Steps applied to it, outermost first.</param>
+internal record DeclaredObject(int Part, DeclaredSteps Steps)
 {
     /// <summary>Object that this one was made from; null for a base mesh.</summary>
     public DeclaredObject? Origin { get; init; }

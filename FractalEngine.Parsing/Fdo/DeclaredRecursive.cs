@@ -3,13 +3,16 @@ using FractalEngine.Core.Fractals.Descriptions;
 
 namespace FractalEngine.Parsing.Fdo;
 
-/// <summary>Infinite object that repeats its own steps over its base. Giving it a depth makes a finite object.</summary>
+/// <summary>Infinite object that repeats its own steps over its base.</summary>
 /// <param name="Base">Finite object that the recursion starts from.</param>
 /// <param name="IterationSteps">Steps that one iteration adds, outermost first.</param>
 internal sealed record DeclaredRecursive(DeclaredObject Base, ImmutableArray<FractalStep> IterationSteps)
-    : DeclaredObject(Base.BaseFile, Base.BaseFileNameOffset, Base.Steps.Prepend(new Repetition(IterationSteps, null)))
+    : DeclaredRecursion(Base.Part, Base.Steps.Prepend(new Repetition(IterationSteps, null)))
 {
+    /// <inheritdoc/>
+    public override int CallCount => 0;
+
     /// <summary>Returns the recursion to a finite depth: Sⁿ after the base. Depth 0 is the base itself.</summary>
-    public DeclaredObject WithDepth(int depth) =>
-        new(BaseFile, BaseFileNameOffset, Base.Steps.Prepend(new Repetition(IterationSteps, depth))) { Origin = Base };
+    public override DeclaredObject WithDepth(int depth) =>
+        new(Part, Base.Steps.Prepend(new Repetition(IterationSteps, depth))) { Origin = Base };
 }

@@ -11,12 +11,19 @@ namespace FractalEngine.Parsing.Fdo;
 /// </summary>
 public sealed class FractalParser : MapSetParser
 {
-    private static readonly DeclaredObject EmptyObject = new("", 0, DeclaredSteps.None);
+    private const int MaxParentheses = 32;
+
+    private static readonly DeclaredObject EmptyObject = new(0, DeclaredSteps.None);
 
     private (Composition Composition, int Offset)? _composition;
     private (DeclaredObject Object, int Offset)? _result;
     private bool _hasDeclaration;
     private long _repeatedStepCount;
+    private long _termCount;
+    private int _parentheses;
+
+    // While the bodies of recursives are read, their bases are the calls of these.
+    private Dictionary<string, DeclaredObject>? _calls;
 
     private protected override string? Explain(SyntaxFailure failure) => ExplainOutput(failure) ?? FractalMistakes.Explain(failure);
 
@@ -59,13 +66,15 @@ public sealed class FractalParser : MapSetParser
         }
 
         var steps = result.Object.Steps;
-        var description = new FractalDescription(steps.Take(steps.Count), _composition?.Composition ?? Composition.Affine);
+        var description = Bases.Parts.Describe(
+            result.Object.Part, steps.Take(steps.Count), _composition?.Composition ?? Composition.Affine, out var meshes);
+        RequirePartLimits(description, meshes.Length, result.Offset);
         if (FractalCheck.FindCompositionFault(description) is { } fault)
         {
             throw Source.Error(result.Offset, fault);
         }
 
-        return new(Source, description, result.Object.BaseFile, result.Object.BaseFileNameOffset, result.Offset)
+        return new(Source, description, [.. meshes.Select(mesh => Bases.References[mesh])], result.Offset)
         {
             NumberNames = [.. NumberNames],
             Warnings = Hints,
@@ -88,7 +97,7 @@ public sealed class FractalParser : MapSetParser
             || ParseValueDeclaration(cursor, out rest)
             || ParseMatrix(cursor, out rest)
             || ParseFunction(cursor, out rest)
-            || ParseRecursive(cursor, out rest)
+            || ParseRecursives(cursor, out rest)
             || ParseObjectDeclaration(cursor, out rest);
     }
 
@@ -131,7 +140,7 @@ public sealed class FractalParser : MapSetParser
             return Fail(cursor, "'<$>'");
         }
 
-        if (!ParseChar(cursor.Advance(3), '.', out rest) || !ParseBlanks(rest, out rest) || !ParseObject(rest, out var value, out rest))
+        if (!ParseChar(cursor.Advance(3), '.', out rest) || !ParseBlanks(rest, out rest) || !ParseSum(rest, out var value, out rest))
         {
             return false;
         }
@@ -148,46 +157,181 @@ public sealed class FractalParser : MapSetParser
         return true;
     }
 
-    /// <summary>Parses <c>z&lt;x&gt;. object</c>. The object must be built on x; what it adds to x is one round.</summary>
-    private bool ParseRecursive(Cursor cursor, out Cursor rest)
+    private void RequirePartLimits(FractalDescription description, int baseCount, int offset)
     {
-        if (!ParseName(cursor, "a declaration", out var name, out rest) || !ParseChar(rest, '<', out var baseStart)
-            || !ParseName(baseStart, "the name of the base object", out var baseName, out rest) || !ParseChar(rest, '>', out rest)
-            || !ParseChar(rest, '.', out rest) || !ParseBlanks(rest, out var bodyStart) || !ParseObject(bodyStart, out var body, out rest))
+        if (baseCount > ParsingLimits.BaseFiles.Value)
+        {
+            throw Source.Error(
+                offset, $"the fractal has more than the limit of {ParsingLimits.BaseFiles.Value} base meshes", isLimitExceeded: true);
+        }
+
+        if (!description.Parts.IsEmpty && FractalLimits.FindExceeded(description) is var (limit, things))
+        {
+            throw Source.Error(offset, $"the fractal has more than the limit of {limit.Value} {things}", isLimitExceeded: true);
+        }
+    }
+
+    /// <summary>
+    /// Parses <c>z&lt;x&gt;. object</c>, or recursives that call each other, with commas between them: the name of a base in an object
+    /// is the recursive with one level less.
+    /// </summary>
+    private bool ParseRecursives(Cursor cursor, out Cursor rest)
+    {
+        var heads = new List<RecursiveHead>();
+        rest = cursor;
+        do
+        {
+            if (!ParseHead(rest, out var head, out rest))
+            {
+                return false;
+            }
+
+            heads.Add(head);
+        }
+        while (ParseComma(rest, out rest));
+        if (!ParseChar(rest, '.', out rest))
         {
             return false;
         }
 
-        var baseObject = Names.FindObject(baseStart, baseName);
-        RequireFinite(baseStart, baseName, baseObject);
-        if (!body.IsDerivedFrom(baseObject))
+        var bodies = new List<(DeclaredObject Value, Cursor Start)>();
+        _calls = [];
+        foreach (var (i, head) in heads.Index())
+        {
+            _calls.TryAdd(head.BaseName, new(Bases.Parts.AddCall(i), DeclaredSteps.None));
+        }
+
+        do
+        {
+            if (!ParseBlanks(rest, out var start) || !ParseSum(start, out var body, out rest))
+            {
+                _calls = null;
+                return false;
+            }
+
+            bodies.Add((body, start));
+        }
+        while (ParseComma(rest, out rest));
+        _calls = null;
+        var values = FindBases(heads);
+        if (bodies.Count != heads.Count)
+        {
+            throw Error(cursor, FormattableString.Invariant(
+                $"{heads.Count} recursives have {heads.Count} bodies, with commas between them: found {bodies.Count}"));
+        }
+
+        if (bodies is [var (only, onlyStart)] && !HasCallInParts(only))
+        {
+            AddLinear(heads[0], values[0], only, onlyStart);
+        }
+        else
+        {
+            AddJoint(heads, values, bodies);
+        }
+
+        return true;
+    }
+
+    /// <summary>Parses a recursive and its base: <c>z&lt;x&gt;</c>.</summary>
+    private bool ParseHead(Cursor cursor, out RecursiveHead head, out Cursor rest)
+    {
+        head = default;
+        return ParseName(cursor, "a declaration", out var name, out rest) && ParseChar(rest, '<', out var baseStart)
+            && ParseName(baseStart, "the name of the base object", out var baseName, out rest) && ParseChar(rest, '>', out rest)
+            && Set(ref head, new(name, baseName, cursor, baseStart));
+    }
+
+    private bool ParseComma(Cursor cursor, out Cursor rest)
+    {
+        ParseBlanks(cursor, out var comma);
+        rest = cursor;
+        return comma.Current == ',' && ParseBlanks(comma.Advance(1), out rest);
+    }
+
+    private List<DeclaredObject> FindBases(List<RecursiveHead> heads)
+    {
+        var values = new List<DeclaredObject>();
+        foreach (var (i, head) in heads.Index())
+        {
+            var value = Names.FindObject(head.BaseStart, head.BaseName);
+            if (Bases.IsInfinite(value))
+            {
+                throw Error(head.BaseStart, $"the base '{head.BaseName}' is infinite: give it a depth");
+            }
+
+            if (heads.FindIndex(other => other.BaseName == head.BaseName) < i)
+            {
+                throw Error(head.BaseStart, $"the base '{head.BaseName}' is that of another recursive already: bases have different names");
+            }
+
+            values.Add(value);
+        }
+
+        return values;
+    }
+
+    /// <summary>Tells whether a body has calls elsewhere than at its end, below all its sets.</summary>
+    private bool HasCallInParts(DeclaredObject body) => Bases.Parts.HasCalls(body.Part) && !Bases.Parts.IsCall(body.Part);
+
+    /// <summary>Adds a recursive that repeats sets over its base, which are one round.</summary>
+    private void AddLinear(RecursiveHead head, DeclaredObject baseObject, DeclaredObject body, Cursor bodyStart)
+    {
+        var (name, baseName) = (head.Name, head.BaseName);
+        var isCall = Bases.Parts.IsCall(body.Part);
+        if (!isCall && !body.IsDerivedFrom(baseObject))
         {
             throw Error(bodyStart, $"the body of the recursive '{name}' is not built on its base '{baseName}'");
         }
 
-        var stepCount = body.Steps.Count - baseObject.Steps.Count;
+        var stepCount = body.Steps.Count - (isCall ? 0 : baseObject.Steps.Count);
         if (stepCount == 0)
         {
             throw Error(bodyStart, $"the recursive '{name}' adds no transformations to its base '{baseName}'");
         }
 
-        if (body.Steps.LevelCount is null)
+        RequireFiniteBody(head, body, bodyStart);
+        RequireLimit(
+            body.Steps.LevelCount - (isCall ? 0 : baseObject.Steps.LevelCount), FractalLimits.Levels.Value, "the fractal", "levels",
+            bodyStart);
+        RequireLimit(_repeatedStepCount += stepCount, ParsingLimits.RepeatedSteps.Value, "the file", "steps in all recursives", bodyStart);
+        Names.Add(head.Start, name, new DeclaredRecursive(baseObject, body.Steps.Take(stepCount)));
+    }
+
+    /// <summary>Adds recursives that call themselves and each other.</summary>
+    private void AddJoint(List<RecursiveHead> heads, List<DeclaredObject> bases, List<(DeclaredObject Value, Cursor Start)> bodies)
+    {
+        foreach (var (head, body) in heads.Zip(bodies))
         {
-            throw Error(bodyStart, $"the body of the recursive '{name}' is infinite: give the recursive in it a depth");
+            RequireFiniteBody(head, body.Value, body.Start);
         }
 
-        RequireLimit(
-            body.Steps.LevelCount - baseObject.Steps.LevelCount, FractalLimits.Levels.Value, "the fractal", "levels", bodyStart);
-        RequireLimit(_repeatedStepCount += stepCount, ParsingLimits.RepeatedSteps.Value, "the file", "steps in all recursives", bodyStart);
-        Names.Add(cursor, name, new DeclaredRecursive(baseObject, body.Steps.Take(stepCount)));
-        return true;
+        ImmutableArray<int> parts = [.. bodies.Select(body => Bases.PartOf(body.Value))];
+        if (!parts.Any(Bases.Parts.HasCalls))
+        {
+            throw Error(bodies[0].Start, "no recursive has a base in its body: its name there is the recursive with one level less");
+        }
+
+        var recursives = Bases.Parts.CreateRecursives([.. bases.Select(Bases.PartOf)], parts);
+        foreach (var (i, head) in heads.Index())
+        {
+            Names.Add(head.Start, head.Name, new DeclaredJointRecursive(Bases.Parts, recursives, i));
+        }
+    }
+
+    private void RequireFiniteBody(RecursiveHead head, DeclaredObject body, Cursor start)
+    {
+        if (Bases.IsInfinite(body))
+        {
+            throw Error(start, $"the body of the recursive '{head.Name}' is infinite: give the recursive in it a depth");
+        }
     }
 
     /// <summary>Parses a named object: <c>name. object</c>.</summary>
     private bool ParseObjectDeclaration(Cursor cursor, out Cursor rest)
     {
         if (!ParseName(cursor, "a declaration", out var name, out rest) || !ParseChar(rest, '.', out rest)
-            || !ParseBlanks(rest, out rest) || !ParseObject(rest, out var value, out rest))
+            || !ParseBlanks(rest, out rest) || (rest.Current == '(' && !ParenthesizedObject.Begins(rest.Rest))
+            || !ParseSum(rest, out var value, out rest))
         {
             return false;
         }
@@ -196,8 +340,33 @@ public sealed class FractalParser : MapSetParser
         return true;
     }
 
+    /// <summary>Parses an object: one thing, or several at one place with plus signs between them.</summary>
+    private bool ParseSum(Cursor cursor, out DeclaredObject value, out Cursor rest)
+    {
+        if (!ParseObject(cursor, out value, out rest))
+        {
+            return false;
+        }
+
+        List<int>? terms = null;
+        while (ParseBlanks(rest, out var sign) && sign.Current == '+')
+        {
+            terms ??= [Bases.PartOf(value)];
+            if (!ParseBlanks(sign.Advance(1), out var start) || !ParseObject(start, out var term, out rest))
+            {
+                return false;
+            }
+
+            RequireLimit(++_termCount, ParsingLimits.Names.Value, "the file", "terms of sums", start);
+            terms.Add(Bases.PartOf(term));
+        }
+
+        value = terms is null ? value : new(Bases.Parts.AddSum([.. terms]), DeclaredSteps.None);
+        return true;
+    }
+
     /// <summary>
-    /// Parses <c>"file.obj"</c>, <c>name</c> or <c>name depth</c>, with any number of sets <c>[transformations]</c> before it. It is a
+    /// Parses <c>"file.obj"</c>, <c>(object)</c>, <c>name</c> or <c>name depth</c>, with any number of sets <c>[transformations]</c> before it. It is a
     /// loop, not a recursion, so that no file can exhaust the stack.
     /// </summary>
     private bool ParseObject(Cursor cursor, out DeclaredObject value, out Cursor rest)
@@ -214,7 +383,8 @@ public sealed class FractalParser : MapSetParser
         }
 
         Fail(rest, "'['");
-        if (!ParseBaseFile(rest, out value, out rest) && !ParseReference(rest, out value, out rest))
+        if (!ParseBaseFile(rest, out value, out rest) && !ParseParentheses(rest, out value, out rest)
+            && !ParseReference(rest, out value, out rest))
         {
             return false;
         }
@@ -222,7 +392,7 @@ public sealed class FractalParser : MapSetParser
         if (sets.Count > 0)
         {
             var steps = sets.AsEnumerable().Reverse().Aggregate(value.Steps, (inner, step) => inner.Prepend(step));
-            value = new(value.BaseFile, value.BaseFileNameOffset, steps) { Origin = value };
+            value = new(value.Part, steps) { Origin = value };
         }
 
         RequireStepLimits(value.Steps, cursor);
@@ -231,11 +401,32 @@ public sealed class FractalParser : MapSetParser
 
     private bool ParseBaseFile(Cursor cursor, out DeclaredObject value, out Cursor rest)
     {
-        var success = ParseString(cursor, "the name of a mesh in quotes", out var file, out rest);
-        value = new(file, cursor.Offset, DeclaredSteps.None);
-        return success && FileKinds.FromName(file) != FileKind.Mesh
-            ? throw Error(cursor, $"expected the name of a mesh ({FileKinds.MeshEndings}): that is the base of a fractal")
-            : success;
+        value = EmptyObject;
+        if (!ParseString(cursor, "the name of a mesh in quotes", out var file, out rest))
+        {
+            return false;
+        }
+
+        value = FileKinds.FromName(file) is FileKind.Mesh or FileKind.Fractal ? Bases.Add(file, cursor.Offset) : throw Error(
+            cursor, $"expected the name of a mesh ({FileKinds.MeshEndings}) or fractal (.fdo): that is the base of a fractal");
+        return true;
+    }
+
+    /// <summary>Parses an object in parentheses.</summary>
+    private bool ParseParentheses(Cursor cursor, out DeclaredObject value, out Cursor rest)
+    {
+        value = EmptyObject;
+        rest = cursor;
+        if (cursor.Current != '(')
+        {
+            return false;
+        }
+
+        RequireLimit(++_parentheses, MaxParentheses, "the object", "parentheses inside each other", cursor);
+        var isParsed = ParseBlanks(cursor.Advance(1), out var start) && ParseSum(start, out value, out rest)
+            && ParseBlanks(rest, out rest) && ParseChar(rest, ')', out rest);
+        _parentheses--;
+        return isParsed;
     }
 
     private bool ParseReference(Cursor cursor, out DeclaredObject value, out Cursor rest)
@@ -248,9 +439,10 @@ public sealed class FractalParser : MapSetParser
 
         // The line may still be another kind of declaration, so names are resolved only once the syntax fits.
         ParseBlanks(rest, out var depthStart);
-        if (IsAtEndOfLine(depthStart))
+        var call = _calls?.GetValueOrDefault(name);
+        if (IsAtEndOfTerm(depthStart))
         {
-            value = Names.FindObject(cursor, name);
+            value = call ?? Names.FindObject(cursor, name);
             return true;
         }
 
@@ -265,7 +457,12 @@ public sealed class FractalParser : MapSetParser
             return Fail(depthStart, SyntaxFailure.EndOfLine);
         }
 
-        if (Names.FindObject(cursor, name) is not DeclaredRecursive recursive)
+        if (call is not null)
+        {
+            throw Error(depthStart, $"'{name}' is here the recursive with one level less, so it has no depth of its own");
+        }
+
+        if (Names.FindObject(cursor, name) is not DeclaredRecursion recursive)
         {
             throw Error(depthStart, $"'{name}' is no recursive, so it has no depth");
         }
@@ -275,6 +472,8 @@ public sealed class FractalParser : MapSetParser
             throw Error(depthStart, $"the depth is more than the limit of {FractalLimits.Depth.Value}", isLimitExceeded: true);
         }
 
+        RequireLimit(
+            _repeatedStepCount += recursive.CallCount, ParsingLimits.RepeatedSteps.Value, "the file", "steps in all recursives", cursor);
         value = recursive.WithDepth((int)depth);
         if (depthStart.Current != '(')
         {
@@ -303,13 +502,9 @@ public sealed class FractalParser : MapSetParser
             : throw Error(cursor, FormattableString.Invariant($"a depth is a whole number that is not negative, not {depth:R}"));
     }
 
-    private void RequireFinite(Cursor cursor, string name, DeclaredObject value)
-    {
-        if (value.Steps.LevelCount is null)
-        {
-            throw Error(cursor, $"the base '{name}' is infinite: give it a depth");
-        }
-    }
+    private bool IsAtEndOfTerm(Cursor cursor) =>
+        IsAtEndOfLine(cursor) || cursor.Current == '+' || (cursor.Current == ')' && _parentheses > 0)
+        || (cursor.Current == ',' && _calls is not null);
 
     private void RequireStepLimits(DeclaredSteps steps, Cursor cursor)
     {
@@ -319,4 +514,7 @@ public sealed class FractalParser : MapSetParser
             throw Error(cursor, $"the object has more than the limit of {limits}", isLimitExceeded: true);
         }
     }
+
+    /// <summary>A recursive and its base, as they are declared.</summary>
+    private readonly record struct RecursiveHead(string Name, string BaseName, Cursor Start, Cursor BaseStart);
 }

@@ -5,15 +5,17 @@ using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.Parsing.Fdo;
 
-/// <summary>Contents of a parsed fractal file, whose base mesh is not loaded yet.</summary>
+/// <summary>Contents of a parsed fractal file, whose base meshes are not loaded yet.</summary>
 /// <param name="Source">Text of the file.</param>
-/// <param name="Description">Steps and composition of the result.</param>
-/// <param name="BaseFile">Name of the base mesh's file, relative to the fractal file, or one of the <see cref="BaseShapes"/>.</param>
-/// <param name="BaseFileNameOffset">Offset of <see cref="BaseFile"/> in the text, in characters, for messages about the base mesh.</param>
+/// <param name="Description">What the result makes of base meshes, and its composition.</param>
+/// <param name="Bases">What stands for the base meshes, in their order: a file may be another fractal, or be named more than once.</param>
 /// <param name="ResultOffset">Offset of the result's declaration in the text, in characters, for messages about the whole fractal.</param>
 public sealed record ParsedFractal(
-    SourceText Source, FractalDescription Description, string BaseFile, int BaseFileNameOffset, int ResultOffset)
+    SourceText Source, FractalDescription Description, ImmutableArray<BaseReference> Bases, int ResultOffset)
 {
+    /// <summary>Name of the first base mesh's file, relative to the fractal file, or one of the <see cref="BaseShapes"/>.</summary>
+    public string BaseFile => Bases[0].File;
+
     /// <summary>Names of the numbers that the file declares, in their order.</summary>
     public ImmutableArray<string> NumberNames { get; init; } = [];
 

@@ -15,10 +15,13 @@ public abstract class TransformationParser : ExpressionParser
     private (int Offset, string Name)? _unknownOutput;
 
     private protected TransformationParser(SourceText source, FractalNumberList? numbers)
-        : base(source, numbers) => Names = new(source);
+        : base(source, numbers) => Names = new(source, Bases);
 
     /// <summary>The vectors that were declared so far, in the order of their numbers.</summary>
     private protected List<Vector> Vectors { get; } = [];
+
+    /// <summary>The parts of all objects, and what they begin with.</summary>
+    private protected DeclaredBases Bases { get; } = new();
 
     /// <summary>The names of objects and transformations that were declared so far.</summary>
     private protected DeclaredNames Names { get; }
@@ -81,13 +84,14 @@ public abstract class TransformationParser : ExpressionParser
     private protected bool ParseFunction(Cursor cursor, out Cursor rest)
     {
         if (!ParseName(cursor, "a declaration", out var name, out rest) || !ParseChar(rest, '.', out rest)
-            || !ParseParameters(rest, out var parameters, out rest) || !ParseBlanks(rest, out rest) || !ParseChar(rest, '(', out rest))
+            || !ParseParameters(rest, out var parameters, out rest) || !ParseBlanks(rest, out rest) || !ParseChar(rest, '(', out var outputs)
+            || (parameters.Count == 0 && ParenthesizedObject.Begins(rest.Rest)))
         {
             return false;
         }
 
         Parameters = new(parameters);
-        var isParsed = ParseOutputs(rest, name, out var function, out rest);
+        var isParsed = ParseOutputs(outputs, name, out var function, out rest);
         Parameters = FractalParameters.None;
         if (isParsed)
         {

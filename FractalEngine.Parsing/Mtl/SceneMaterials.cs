@@ -38,7 +38,7 @@ public sealed class SceneMaterials
     {
         ArgumentNullException.ThrowIfNull(scene);
         var result = new SceneMaterials();
-        foreach (var placed in scene.Objects)
+        foreach (var placed in scene.Objects.SelectMany(static placed => placed.Parts))
         {
             foreach (var group in GroupMaterials(placed.Model.Mesh))
             {

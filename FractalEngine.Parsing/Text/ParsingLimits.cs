@@ -38,6 +38,10 @@ public static class ParsingLimits
     public static Limit ExpressionTerms { get; } = new(
         "expression-terms", 5_000_000, "terms of expressions in all calls of a fractal file", "a second or two", 1_000_000_000);
 
+    /// <summary>Largest number of base meshes of a fractal, counted as often as its files name them.</summary>
+    public static Limit BaseFiles { get; } = new(
+        "base-files", 1_000, "base meshes of a fractal, as often as files name them", "each is drawn by itself", 100_000);
+
     /// <summary>Largest size of a material file in bytes: 16 MiB.</summary>
     public static Limit MaterialBytes { get; } = new(
         "material-bytes", 1L << 24, "bytes of a material file", "far beyond what anyone writes");
@@ -61,7 +65,7 @@ public static class ParsingLimits
     /// <summary>All limits of parsers, in the order of a listing.</summary>
     public static ImmutableArray<Limit> All { get; } =
     [
-        ObjBytes, DescriptionBytes, SceneLines, PointsBytes, Maps, Names, RepeatedSteps, ExpressionTerms, MaterialBytes, ImageBytes,
+        ObjBytes, DescriptionBytes, SceneLines, PointsBytes, Maps, Names, RepeatedSteps, ExpressionTerms, BaseFiles, MaterialBytes, ImageBytes,
         ImageSide, TotalImagePixels, PolygonCorners,
     ];
 }

@@ -1,6 +1,9 @@
 using System.Collections.Immutable;
+using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Visibility.Levels;
 using FractalEngine.Render.Cameras;
 using FractalEngine.Render.Drawables;
 using FractalEngine.Render.Views;
@@ -13,10 +16,17 @@ namespace FractalEngine.Render.Preparation;
 /// </summary>
 public sealed class DrawableScene
 {
+    private readonly LodHierarchy? _joinedHierarchy;
+    private readonly int[] _firstItems;
+
     private DrawableScene(
-        LoadedScene source, ImmutableArray<DrawableModel> models, ImmutableArray<DrawableObject> objects, ImmutableArray<string> notices)
+        LoadedScene source, LoadedScene parts, ImmutableArray<DrawableModel> models, ImmutableArray<DrawableObject> objects,
+        ImmutableArray<string> notices, LodHierarchy? joinedHierarchy)
     {
         Source = source;
+        Parts = parts;
+        _joinedHierarchy = joinedHierarchy;
+        _firstItems = FirstItems(source);
         Models = models;
         Objects = objects;
         Notices = notices;
@@ -25,10 +35,13 @@ public sealed class DrawableScene
     /// <summary>Scene that this was prepared from.</summary>
     public LoadedScene Source { get; }
 
-    /// <summary>Models of all objects, each once, in the order of their first use.</summary>
+    /// <summary>The same scene with each object by its meshes, in the order of <see cref="Objects"/>.</summary>
+    public LoadedScene Parts { get; }
+
+    /// <summary>Models of all objects, each once and by its meshes, in the order of their first use.</summary>
     public ImmutableArray<DrawableModel> Models { get; }
 
-    /// <summary>Objects in the order of the scene.</summary>
+    /// <summary>Objects in the order of the scene, one of several meshes as so many, see <see cref="ItemsOf"/>.</summary>
     public ImmutableArray<DrawableObject> Objects { get; }
 
     /// <summary>Textures of all materials, each once.</summary>
@@ -45,8 +58,12 @@ public sealed class DrawableScene
 
     /// <summary>The fractal that a camera can enter: the only object of the scene, if that is a fractal; null for none.</summary>
     public FractalLocation? SingleFractal =>
-        Source.Objects is [{ Model: FractalModel, ObjectToWorld: var objectToWorld }] && Objects[0].Model.LodHierarchy is { } hierarchy
+        Source.Objects is [{ Model: FractalModel, ObjectToWorld: var objectToWorld }] && (_joinedHierarchy ?? Objects[0].Model.LodHierarchy) is { } hierarchy
             ? new(0, hierarchy, objectToWorld) : null;
+
+    /// <summary>The items of <see cref="Objects"/> that show an object of the scene.</summary>
+    /// <param name="objectIndex">Index of the object in the scene, from 0.</param>
+    public Range ItemsOf(int objectIndex) => _firstItems[objectIndex].._firstItems[objectIndex + 1];
 
     /// <summary>Prepares all models of a scene, and the light within its fractals.</summary>
     /// <param name="scene">Scene with its files loaded.</param>
@@ -72,38 +89,77 @@ public sealed class DrawableScene
     }
 
     /// <summary>Creates a scene whose models are placeholder boxes.</summary>
-    internal static DrawableScene CreateWithPlaceholders(LoadedScene scene, ImmutableArray<string> notices)
+    /// <param name="scene">The scene.</param>
+    /// <param name="parts">The same by parts, see <see cref="LoadedScene.ByParts"/>.</param>
+    /// <param name="notices">Sentences for the user.</param>
+    internal static DrawableScene CreateWithPlaceholders(LoadedScene scene, LoadedScene parts, ImmutableArray<string> notices)
     {
-        var models = scene.Models.ToDictionary(static model => model, ModelPreparation.CreatePlaceholder);
+        var models = parts.Models.ToDictionary(static model => model, ModelPreparation.CreatePlaceholder);
+        var objects = scene.Objects.SelectMany((placed, index) =>
+            placed.Parts.Select((part, mesh) => (Placed: part, Colour: ColourOf(part, index + mesh))));
         return new(
             scene,
-            [.. scene.Models.Select(model => models[model])],
-            [.. scene.Objects.Select((placed, index) => CreateObject(placed, index, models[placed.Model]))],
-            notices);
+            parts,
+            [.. parts.Models.Select(model => models[model])],
+            [.. parts.Objects.Zip(objects, (placed, one) => CreateObject(placed, one.Colour, models[placed.Model]))],
+            notices,
+            JoinedHierarchyOf(scene));
+    }
+
+    /// <summary>Builds what a camera enters where the only object is a fractal of several meshes; null for others.</summary>
+    private static LodHierarchy? JoinedHierarchyOf(LoadedScene scene)
+    {
+        if (scene.Objects is not [{ Model: FractalModel { Fractal: { HasSeveralMeshes: true } fractal } }])
+        {
+            return null;
+        }
+
+        try
+        {
+            return LodHierarchy.Build(fractal);
+        }
+        catch (Exception exception) when (exception is FractalLimitException or SingularMatrixException)
+        {
+            // The preparation of each mesh tells.
+            return null;
+        }
+    }
+
+    private static int[] FirstItems(LoadedScene scene)
+    {
+        var first = new int[scene.Objects.Length + 1];
+        for (var i = 0; i < scene.Objects.Length; i++)
+        {
+            first[i + 1] = first[i] + scene.Objects[i].Model.Parts.Length;
+        }
+
+        return first;
     }
 
     /// <summary>Returns the scene with one of its models replaced.</summary>
     internal DrawableScene WithModel(
         DrawableModel oldModel, DrawableModel newModel, ImmutableArray<DrawableTexture> textures, ImmutableArray<string> notices) => new(
             Source,
+            Parts,
             [.. Models.Select(model => model == oldModel ? newModel : model)],
             [.. Objects.Select(item => item.Model == oldModel ? item with { Model = newModel } : item)],
-            notices)
+            notices,
+            _joinedHierarchy)
         {
             Textures = textures,
         };
 
     /// <summary>The colour of an object where its material says none.</summary>
     /// <param name="placed">The object.</param>
-    /// <param name="index">Index of the object in the scene, from 0.</param>
+    /// <param name="index">Index of the object in the scene, from 0, and that of the mesh added.</param>
     internal static Colour ColourOf(PlacedModel placed, int index) =>
         // Colours of vertices are shown as they are, unless the scene gives the object one.
         placed.Declaration.Colour ?? (placed.Model.Mesh.Colours.IsEmpty ? ObjectPalette.ColourOf(index) : Colour.White);
 
-    private static DrawableObject CreateObject(PlacedModel placed, int index, DrawableModel model)
+    private static DrawableObject CreateObject(PlacedModel placed, Colour colour, DrawableModel model)
     {
         var declaration = placed.Declaration;
-        return new(declaration.Name ?? model.Name, model, placed.ObjectToWorld, ColourOf(placed, index))
+        return new(declaration.Name ?? model.Name, model, placed.ObjectToWorld, colour)
         {
             Tint = declaration.Colour ?? Colour.White,
             Gradient = declaration.Gradient,

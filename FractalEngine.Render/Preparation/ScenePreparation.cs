@@ -29,9 +29,9 @@ public sealed class ScenePreparation
     /// </param>
     public ScenePreparation(LoadedScene scene, RenderSettings settings, DrawableScene? previous = null)
     {
-        _scene = scene;
+        _scene = scene.ByParts();
         _settings = settings;
-        _models = [.. scene.Models];
+        _models = [.. _scene.Models];
         _hasAmbientLight = SceneAmbient.Of(scene.Scene) != default;
         _textures = new(_notices, settings.ShareTextures, previous?.Textures ?? []);
         _prepared = new DrawableModel?[_models.Length];
@@ -42,7 +42,7 @@ public sealed class ScenePreparation
                 $"of {lightCount} lights besides ambient ones, only the first {LightBlock.MaxLights} shine"));
         }
 
-        Scene = DrawableScene.CreateWithPlaceholders(scene, _notices.ToImmutable());
+        Scene = DrawableScene.CreateWithPlaceholders(scene, _scene, _notices.ToImmutable());
         if (previous is not null)
         {
             TakePrepared(previous);
@@ -111,7 +111,7 @@ public sealed class ScenePreparation
 
     private void TakePrepared(DrawableScene previous)
     {
-        var prepared = previous.Source.Models.Zip(previous.Models)
+        var prepared = previous.Parts.Models.Zip(previous.Models)
             .Where(static pair => !pair.Second.IsPlaceholder)
             .ToDictionary(static pair => pair.First, static pair => pair.Second);
         for (var i = 0; i < _models.Length; i++)

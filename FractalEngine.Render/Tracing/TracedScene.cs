@@ -23,10 +23,10 @@ internal sealed record TracedScene
     private readonly ConcurrentDictionary<Model, DeepZoomRayCaster> _zoomCasters;
     private readonly double _offset;
     private readonly ImmutableArray<PlacedModel> _objects;
-    private readonly TracedModel[] _models;
+    private readonly TracedModel[][] _models;
     private readonly Dictionary<Model, TracedModel> _surfaces;
     private readonly RenderSettings _settings;
-    private readonly Vector[] _colours;
+    private readonly Vector[][] _colours;
     private readonly Vector[] _gradientEnds;
 
     // What multiplies the colours of an object's materials.
@@ -56,15 +56,16 @@ internal sealed record TracedScene
         _objects = scene.Objects;
         var notices = ImmutableArray.CreateBuilder<string>();
         var textures = new TextureCache(notices, shareTextures: true, []);
-        _surfaces = scene.Models.ToDictionary(
+        _surfaces = scene.Models.SelectMany(static model => model.Parts).ToDictionary(
             static model => model,
             model => knownSurfaces.GetValueOrDefault(model) ?? new TracedModel(model, settings.CreaseAngle, textures));
-        _models = [.. _objects.Select(placed => _surfaces[placed.Model])];
-        _colours = [.. _objects.Select(static (placed, index) => DrawableScene.ColourOf(placed, index).ToLinearVector())];
+        _models = [.. _objects.Select(placed => placed.Model.Parts.Select(part => _surfaces[part]).ToArray())];
+        _colours = [.. _objects.Select(static (placed, index) => placed.Parts.Select(
+            (part, mesh) => DrawableScene.ColourOf(part, index + mesh).ToLinearVector()).ToArray())];
         _gradientEnds = [.. _objects.Select((placed, index) =>
-            placed.Declaration.Gradient is { } gradient ? gradient.EndColour.ToLinearVector() : _colours[index])];
+            placed.Declaration.Gradient is { } gradient ? gradient.EndColour.ToLinearVector() : _colours[index][0])];
         _tints = [.. _objects.Select(static placed => (placed.Declaration.Colour ?? Colour.White).ToLinearVector())];
-        IsSeeThrough = _models.Any(static model => model.IsSeeThrough);
+        IsSeeThrough = _models.Any(static parts => parts.Any(static model => model.IsSeeThrough));
         Notices = notices.ToImmutable();
         _offset = SurfaceOffset * scene.Bounds.FiniteDiagonalOr(1);
     }
@@ -136,14 +137,16 @@ internal sealed record TracedScene
         // From the other side, the latter is then found first, and seen from outside.
         var offset = OffsetAt(hit.Point);
         var back = new Ray(hit.Point + (offset * ray.Direction), -ray.Direction);
-        return ModelOf(index).IsSolid && _caster.TryFindNearest(back, context, out var twin, 0, 2 * offset, footprint)
-            && ModelOf(context.ObjectIndex).IsSolid && !IsInnerSide(in twin, context.ObjectIndex);
+        return ModelOf(index, in hit).IsSolid && _caster.TryFindNearest(back, context, out var twin, 0, 2 * offset, footprint)
+            && ModelOf(context.ObjectIndex, in twin).IsSolid && !IsInnerSide(in twin, context.ObjectIndex);
     }
 
     private bool IsInnerSide(in RayHit hit, int index) =>
-        ModelOf(index).IsSolid && hit.IsFrontFace == hit.InstanceMap.Linear.Determinant() < 0;
+        ModelOf(index, in hit).IsSolid && hit.IsFrontFace == hit.InstanceMap.Linear.Determinant() < 0;
 
-    private TracedModel ModelOf(int index) => _models[_zoom?.ObjectIndex ?? index];
+    private TracedModel ModelOf(int index, in RayHit hit) => PartOf(_models[_zoom?.ObjectIndex ?? index], in hit);
+
+    private static T PartOf<T>(T[] parts, in RayHit hit) => parts.Length == 1 ? parts[0] : parts[hit.MeshIndex];
 
     /// <summary>Computes the part of light that reaches a point from a direction, from 0 to 1.</summary>
     /// <param name="ray">From the point towards the light.</param>
@@ -187,13 +190,13 @@ internal sealed record TracedScene
     /// <param name="context">Has the path to the instance.</param>
     private TracedSurface CreateSurface(Vector direction, in RayHit hit, int index, QueryContext context)
     {
-        var model = ModelOf(index);
+        var model = ModelOf(index, in hit);
         var material = model.MaterialOf(hit.FaceIndex);
         var map = hit.InstanceMap;
         var faceNormal = hit.IsFrontFace ? hit.Normal : -hit.Normal;
         var normal = OrientedNormal(
             map.Linear.Cofactors() * model.InterpolateNormal(hit.FaceIndex, hit.Barycentrics), faceNormal, direction);
-        var colour = material.BaseColour?.Stretch(_tints[_zoom?.ObjectIndex ?? index]) ?? ObjectColour(index, context);
+        var colour = material.BaseColour?.Stretch(_tints[_zoom?.ObjectIndex ?? index]) ?? ObjectColour(index, in hit, context);
         colour = colour.Stretch(model.InterpolateColour(hit.FaceIndex, hit.Barycentrics));
         var opacity = material.Opacity;
         if (material.IsTextured && model.TryGetTextureTriangle(hit.FaceIndex, out var corners, out var coordinates))
@@ -230,18 +233,19 @@ internal sealed record TracedScene
     }
 
     /// <summary>The colour of an instance of an object, or in a deep zoom of a sub-fractal.</summary>
-    private Vector ObjectColour(int index, QueryContext context)
+    private Vector ObjectColour(int index, in RayHit hit, QueryContext context)
     {
         var objectIndex = _zoom?.ObjectIndex ?? index;
+        var colour = PartOf(_colours[objectIndex], in hit);
         var placed = _objects[objectIndex];
         if (placed.Declaration.Gradient is not { Kind: not GradientKind.None and var kind }
             || placed.Model is not FractalModel { Fractal: var fractal })
         {
-            return _colours[objectIndex];
+            return colour;
         }
 
         var factor = (_caster as DeepZoomRayCaster)?.GradientFactorOf(kind, index, context)
             ?? ColourPath.GradientFactorOf(fractal, kind, context.InstancePath);
-        return ((1 - factor) * _colours[objectIndex]) + (factor * _gradientEnds[objectIndex]);
+        return ((1 - factor) * colour) + (factor * _gradientEnds[objectIndex]);
     }
 }

@@ -4,12 +4,12 @@ using FractalEngine.Render.Preparation;
 
 namespace FractalEngine.Render.Upload;
 
-/// <summary>The current transforms and bounds of a scene's objects, in the order of the scene.</summary>
+/// <summary>The current transforms and bounds of a scene's objects, in the order of <see cref="DrawableScene.Objects"/>.</summary>
 /// <param name="scene">Declares the transforms at first.</param>
 internal sealed class ObjectTransforms(DrawableScene scene)
 {
     private readonly AffineMap[] _objectToWorld = [.. scene.Objects.Select(item => item.Map)];
-    private readonly BoundingBox[] _bounds = [.. scene.Source.Objects.Select(placed => placed.Bounds)];
+    private readonly BoundingBox[] _bounds = [.. scene.Parts.Objects.Select(placed => placed.Bounds)];
 
     /// <summary>Maps from each object's model frame to world space.</summary>
     public ReadOnlySpan<AffineMap> ObjectToWorld => _objectToWorld;

@@ -193,7 +193,14 @@ internal sealed class SceneCuller : IDisposable
 
     /// <summary>Returns the objects to cull. In a deep zoom, only the object that the camera is inside has anything to draw.</summary>
     private CulledObject[] CulledObjectsOf(DeepZoom? zoom) => zoom is null ? _culledObjects
-        : [.. _culledObjects.Select((item, index) => item with { Roots = index == _culledIndices[zoom.ObjectIndex] ? zoom.Roots : [] })];
+        : [.. _culledObjects.Select((item, index) => item with { Roots = IsInside(zoom.ObjectIndex, index) ? zoom.Roots : [] })];
+
+    /// <summary>Whether a culled object shows the object of the scene with an index.</summary>
+    private bool IsInside(int objectIndex, int culledIndex)
+    {
+        var (first, count) = _scene.ItemsOf(objectIndex).GetOffsetAndLength(_culledIndices.Length);
+        return culledIndex >= _culledIndices[first] && culledIndex <= _culledIndices[first + count - 1];
+    }
 
     /// <summary>Waits for the speculative pass, so that its memory and the objects can change.</summary>
     private void EndSpeculativeCull()

@@ -1,4 +1,4 @@
-using FractalEngine.Core.Fractals.Graphs;
+using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Fractals.Levels;
 using FractalEngine.Core.Fractals.Levels.Building;
 using FractalEngine.Core.Geometry;

@@ -12,7 +12,7 @@ internal static class FaceCountText
     public static string Of(LoadedScene scene)
     {
         var faces = scene.Sum(static model => model is FractalModel { Fractal: var fractal }
-            ? DistinctInstances.CountAtMost(fractal) * fractal.BaseMesh.FaceCount : model.FaceCount);
+            ? DistinctInstances.CountFacesAtMost(fractal) : model.FaceCount);
         return faces == BigInteger.One ? "1 face" : $"{DecimalText.FormatApproximately(faces)} faces";
     }
 }

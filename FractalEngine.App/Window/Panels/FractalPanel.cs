@@ -1,6 +1,7 @@
 using System.Collections.Immutable;
 using System.Globalization;
 using FractalEngine.App.Window.Actions;
+using FractalEngine.App.Window.Tools;
 using FractalEngine.App.Window.Widgets;
 using FractalEngine.Core;
 using FractalEngine.Core.Files;
@@ -217,9 +218,10 @@ internal sealed class FractalPanel(WindowActions actions)
         }
 
         // An identity places nothing: the call of a level above does.
-        for (var level = depth; level > 0 && _marked.IsEmpty; level--)
+        var sizes = FractalSelection.SetSizes(model.Fractal, path[..depth]);
+        for (var level = sizes.Length; level > 0 && _marked.IsEmpty; level--)
         {
-            var size = model.Fractal.LevelAt(level - 1).Maps.Length;
+            var size = sizes[level - 1];
             var calls = _numbers.Where(number => number.Call?.SetSize == size).ToArray();
             _marked = calls.Select(static number => number.Call!.Value.Set).Distinct().Count() != 1 ? []
                 : [.. calls.Where(number => number.Call!.Value.Index == path[level - 1])

@@ -43,7 +43,10 @@ internal sealed record Selection(
 
     /// <summary>The clicked instance, and its map to the frame of the hit; null for a fractal that was chosen from a list.</summary>
     public (Mesh Mesh, AffineMap Map)? Instance =>
-        (Hit?.InstanceMap ?? (Object.Model is MeshModel ? Object.ObjectToWorld : null)) is { } map ? (Object.Model.Mesh, map) : null;
+        (Hit?.InstanceMap ?? (Object.Model is MeshModel ? Object.ObjectToWorld : null)) is { } map ? (Part.Mesh, map) : null;
+
+    /// <summary>The model, or what of it shows the mesh with the clicked face.</summary>
+    public Model Part => FractalSelection.PartOf(Object.Model, Hit);
 
     /// <summary>The clicked point, in the frame of the hit; the middle of an object chosen from a list.</summary>
     public Vector Point => Hit?.Point ?? Object.Bounds.Centre;
@@ -81,8 +84,13 @@ internal sealed record Selection(
             return OfObject(ObjectIndex, placed);
         }
 
-        var mesh = placed.Model.Mesh;
-        if (!isSameModel && (placed.Model.SourcePath != Object.Model.SourcePath || mesh.FaceCount != Object.Model.Mesh.FaceCount))
+        if (placed.Model.Parts.Length != Object.Model.Parts.Length)
+        {
+            return null;
+        }
+
+        var mesh = FractalSelection.PartOf(placed.Model, hit).Mesh;
+        if (!isSameModel && (placed.Model.SourcePath != Object.Model.SourcePath || mesh.FaceCount != Part.Mesh.FaceCount))
         {
             return null;
         }
@@ -118,25 +126,7 @@ internal sealed record Selection(
                 ? placed.ObjectToWorld * Object.ObjectToWorld.Inverse() * hit.InstanceMap : null;
         }
 
-        // An infinite fractal is hit at any of its levels.
-        if (fractal.LevelCount is { } levels && levels != Path.Length)
-        {
-            return null;
-        }
-
-        var map = placed.ObjectToWorld;
-        for (var level = 0; level < Path.Length; level++)
-        {
-            var maps = fractal.LevelAt(level).Maps;
-            if (Path[level] >= maps.Length)
-            {
-                return null;
-            }
-
-            map *= maps[Path[level]];
-        }
-
-        return map;
+        return FractalSelection.MapOfInstance(fractal, Path, placed.ObjectToWorld);
     }
 
     /// <summary>Adds lines around the selected part, and those of the clicked face and its normal, in the frame of the hit.</summary>
@@ -148,7 +138,7 @@ internal sealed record Selection(
             return;
         }
 
-        var face = Object.Model.Mesh.Face(hit.FaceIndex);
+        var face = Part.Mesh.Face(hit.FaceIndex);
         var (a, b, c) = (hit.InstanceMap * face.A, hit.InstanceMap * face.B, hit.InstanceMap * face.C);
         lines.Add(new(a, b, FaceColour));
         lines.Add(new(b, c, FaceColour));
@@ -187,10 +177,11 @@ internal sealed record Selection(
     private (string Name, string Value)[] FactsOf(in RayHit hit)
     {
         var face = hit.FaceIndex;
-        var material = Object.Model.Mesh.Groups.LastOrDefault(group => group.FirstFace <= face)?.Material;
+        var material = Part.Mesh.Groups.LastOrDefault(group => group.FirstFace <= face)?.Material;
         return
         [
             ("face", face.ToString(CultureInfo.InvariantCulture)),
+            .. Object.Model.Parts.Length > 1 ? [("mesh", Object.Model.MeshNameAt(hit.MeshIndex))] : ((string, string)[])[],
             ("point", Format(WorldPoint)),
             ("normal", Format(hit.Normal)),
             ("material", string.IsNullOrEmpty(material) ? "none" : material),
@@ -212,7 +203,7 @@ internal sealed record Selection(
     {
         if (depth > 0 && depth == path.Length && hit is { } clicked)
         {
-            return (placed.Model.Mesh.Bounds, clicked.InstanceMap);
+            return (FractalSelection.PartOf(placed.Model, clicked).Mesh.Bounds, clicked.InstanceMap);
         }
 
         // In componentwise composition a sub-fractal has no map of its own.
@@ -229,11 +220,6 @@ internal sealed record Selection(
 
         var (map, firstStep, firstLevel) = viewpoint is null
             ? (placed.ObjectToWorld, 0, 0) : (viewpoint.FrameToCamera, viewpoint.Depth, viewpoint.LevelsAbove);
-        for (var step = firstStep; step < depth; step++)
-        {
-            map *= fractal.LevelAt(firstLevel + step - firstStep).Maps[path[step]];
-        }
-
-        return (SubFractals.Of(fractal, firstLevel + depth - firstStep).Bounds, map);
+        return FractalSelection.SubFractalAt(fractal, path[firstStep..depth], firstLevel, map) ?? (BoundingBox.Empty, AffineMap.Identity);
     }
 }

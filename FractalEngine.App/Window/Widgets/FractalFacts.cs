@@ -13,6 +13,7 @@ internal sealed class FractalFacts
     private FractalModel? _measured;
     private double? _dimension;
     private BigInteger? _instances;
+    private BigInteger? _faces;
 
     /// <summary>Adds a line for each: counts are exact up to fifteen digits.</summary>
     public void Build(UserInterface ui, FractalModel model)
@@ -21,11 +22,12 @@ internal sealed class FractalFacts
         {
             (_measured, _dimension) = (model, SimilarityDimension.Of(model.Fractal.Description));
             _instances = DistinctInstances.CountAtMost(model.Fractal);
+            _faces = DistinctInstances.CountFacesAtMost(model.Fractal);
         }
 
         ui.Heading(model.Name);
         ui.Fact("instances", Count(_instances), $"distinct ones, of {Count(model.InstanceCount)} chains of maps");
-        ui.Fact("faces", Count(_instances * model.Mesh.FaceCount));
+        ui.Fact("faces", Count(_faces));
         var size = model.Bounds.Size;
         ui.Fact("size", size.IsFinite()
             ? $"{PanelWidgets.Number(size.X)} × {PanelWidgets.Number(size.Y)} × {PanelWidgets.Number(size.Z)}" : "no bounds");

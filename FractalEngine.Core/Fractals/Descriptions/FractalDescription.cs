@@ -4,33 +4,51 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Fractals.Descriptions;
 
 /// <summary>
-/// The steps that make a fractal of a base mesh (paper §4.2.2). Nothing is expanded: the size of a description follows the declared
+/// What makes a fractal of base meshes (paper §4.2.2). Nothing is expanded: the size of a description follows the declared
 /// transformations, not the depth or the number of instances.
 /// </summary>
-/// <param name="Steps">Outermost first: the last step is applied to the base mesh first.</param>
+/// <remarks>
+/// Most fractals are steps on one base mesh. Others are made of <see cref="Parts"/>, such as sums, and recursives that call each other:
+/// <see cref="FractalPartList"/> makes them. Each part stands for all its uses.
+/// </remarks>
+/// <param name="Steps">Outermost first: the last step is applied to the base mesh, or to the last part, first.</param>
 /// <param name="Composition">How transformations along a chain are composed.</param>
 public sealed record FractalDescription(ImmutableArray<FractalStep> Steps, Composition Composition = Composition.Affine)
 {
-    /// <summary>True when some step is repeated without end.</summary>
-    public bool IsInfinite => FractalSteps.LevelCount(Steps) is null;
+    /// <summary>Number of base meshes; 1 for steps alone.</summary>
+    public int MeshCount { get; init; } = 1;
+
+    /// <summary>
+    /// The parts that the steps are applied to, each made of earlier ones: number n + i of n base meshes, which are the first. None where
+    /// the steps are applied to the only mesh.
+    /// </summary>
+    public ImmutableArray<FractalPart> Parts { get; init; } = [];
+
+    /// <summary>True when something is repeated without end.</summary>
+    public bool IsInfinite => FractalSteps.LevelCount(Steps) is null || Parts.Any(static part => part.IsInfinite);
+
+    /// <summary>Number of sets that the longest chain of maps passes through; null for infinitely many.</summary>
+    public long? LevelCount => Parts.IsEmpty ? FractalSteps.LevelCount(Steps) : Counts.LevelCount;
 
     /// <summary>True when there is a repetition whose depth can be changed.</summary>
-    public bool HasDepth => Steps.Any(step => step is Repetition);
+    public bool HasDepth => Steps.Any(static step => step is Repetition) || Parts.Any(static part => part.HasDepth);
 
     /// <summary>
     /// True when the steps can be composed componentwise: they end, since positions don't shrink, and have a position, a rotation and a
     /// scale each.
     /// </summary>
-    public bool CanBeComponentwise => !IsInfinite && HasOnlyTransformations;
+    public bool CanBeComponentwise => !IsInfinite && Parts.IsEmpty && HasOnlyTransformations;
 
     /// <summary>True when all maps were declared by position, rotation and scale; others may be products of many maps.</summary>
-    internal bool HasOnlyTransformations => Steps.All(HasTransformations);
+    internal bool HasOnlyTransformations => Parts.IsEmpty && Steps.All(HasTransformations);
 
     /// <summary>True when no transformation mirrors, so that all instances are wound as the base mesh is.</summary>
-    public bool PreservesOrientation => Steps.All(StepPreservesOrientation);
+    public bool PreservesOrientation => AllParts().All(static part => part.MapSets.All(
+        static maps => maps.All(static map => map.Linear.Determinant() > 0)));
 
     /// <summary>
-    /// Makes the same description with the outermost repetition carried out <paramref name="depth"/> times.
+    /// Makes the same description with the outermost repetition, or recursive of the last part, carried out
+    /// <paramref name="depth"/> times.
     /// </summary>
     /// <param name="depth">Not negative and at most <see cref="FractalLimits.Depth"/>.</param>
     /// <exception cref="ArgumentOutOfRangeException">The depth is negative or beyond the limit, which the message names.</exception>
@@ -40,15 +58,39 @@ public sealed record FractalDescription(ImmutableArray<FractalStep> Steps, Compo
     {
         ArgumentOutOfRangeException.ThrowIfNegative(depth);
         ArgumentOutOfRangeException.ThrowIfGreaterThan(depth, FractalLimits.Depth.Value);
-        if (Steps.FirstOrDefault(step => step is Repetition) is not Repetition outermost)
+        var deep = Parts.LastOrDefault(static part => part.HasDepth);
+        var description = Steps.Any(static step => step is Repetition) ? this with { Steps = Steps.WithDepth(depth) }
+            : deep is not null ? this with { Parts = Parts.Replace(deep, deep.WithDepth(depth)) }
+            : throw new InvalidOperationException("the fractal has no recursive step, so it has no depth to change");
+        FractalLimits.Require(description);
+        return description;
+    }
+
+    /// <summary>Tells whether something infinite may stand for a base mesh: only sets and sums are applied to it.</summary>
+    public bool MayHoldInfinite(int mesh)
+    {
+        var holding = new HashSet<int> { mesh };
+        foreach (var (i, part) in AllParts().Index())
         {
-            throw new InvalidOperationException("the fractal has no recursive step, so it has no depth to change");
+            if (part.References.Any(holding.Contains))
+            {
+                holding.Add(MeshCount + i);
+                if (!part.MayHoldInfinite)
+                {
+                    return false;
+                }
+            }
         }
 
-        var steps = Steps.Replace(outermost, outermost.WithCount(depth));
-        FractalLimits.Require(steps);
-        return this with { Steps = steps };
+        return true;
     }
+
+    /// <summary>Makes the same description with everything repeated at most so often.</summary>
+    internal FractalDescription WithMaxDepth(int depth) => this with
+    {
+        Steps = Steps.WithMaxDepth(depth),
+        Parts = [.. Parts.Select(part => part.WithMaxDepth(depth))],
+    };
 
     /// <summary>Makes the same description moved as a whole, by one more level above all others.</summary>
     /// <exception cref="InvalidOperationException">The composition is componentwise: an object's own matrix is affine in both.</exception>
@@ -58,10 +100,11 @@ public sealed record FractalDescription(ImmutableArray<FractalStep> Steps, Compo
 
     /// <inheritdoc/>
     public bool Equals(FractalDescription? other) =>
-        other is not null && Composition == other.Composition && Steps.AsSpan().SequenceEqual(other.Steps.AsSpan());
+        other is not null && Composition == other.Composition && MeshCount == other.MeshCount
+        && Steps.AsSpan().SequenceEqual(other.Steps.AsSpan()) && Parts.AsSpan().SequenceEqual(other.Parts.AsSpan());
 
     /// <inheritdoc/>
-    public override int GetHashCode() => HashCode.Combine(Composition, FractalStep.HashOf(Steps));
+    public override int GetHashCode() => HashCode.Combine(Composition, MeshCount, Parts.Length, FractalStep.HashOf(Steps));
 
     private static bool HasTransformations(FractalStep step) => step switch
     {
@@ -70,10 +113,10 @@ public sealed record FractalDescription(ImmutableArray<FractalStep> Steps, Compo
         _ => false,
     };
 
-    private static bool StepPreservesOrientation(FractalStep step) => step switch
-    {
-        Repetition repetition => repetition.Round.All(StepPreservesOrientation),
-        TransformationSet set => set.Maps.All(map => map.Linear.Determinant() > 0),
-        _ => false,
-    };
+    /// <summary>Numbers of instances and levels.</summary>
+    internal FractalParts Counts => new(MeshCount, AllParts());
+
+    /// <summary>The parts, with the steps as the last one.</summary>
+    public ImmutableArray<FractalPart> AllParts() =>
+        Steps.IsEmpty && !Parts.IsEmpty ? Parts : Parts.Add(new SteppedPart(MeshCount + Parts.Length - 1, Steps));
 }

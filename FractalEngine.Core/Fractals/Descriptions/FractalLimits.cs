@@ -63,12 +63,38 @@ public static class FractalLimits
     public static Limit DescentTests { get; } = new(
         "descent-tests", 100_000_000, "faces that a query of the collider 'fractal' tests", "some seconds", 1_000_000_000_000);
 
+    /// <summary>Maximum number of calls of recursives, at all levels of all parts of a fractal.</summary>
+    public static Limit RecursiveCalls { get; } = new(
+        "recursive-calls", 20_000_000, "calls of recursives that call each other, at all levels", "counts take a second", 1_000_000_000);
+
     /// <summary>All limits of fractals, in the order of a listing.</summary>
     public static ImmutableArray<Limit> All { get; } =
     [
         Depth, Levels, Digits, Steps, Nesting, DrawnInstances, ExportedFaces, CountedInstances, EnumeratedInstances,
-        ComparedProducts, ComponentwiseSums, HierarchyChildren, TracedTests, DescentTests,
+        ComparedProducts, ComponentwiseSums, HierarchyChildren, TracedTests, DescentTests, RecursiveCalls,
     ];
+
+    /// <summary>Throws for a description beyond one of the limits that bound what it stands for.</summary>
+    /// <exception cref="FractalLimitException">A limit is exceeded; the message names it.</exception>
+    internal static void Require(FractalDescription description)
+    {
+        Require(description.Steps);
+        if (FindExceeded(description) is var (limit, what))
+        {
+            throw new FractalLimitException($"the fractal has more than the limit of {limit.Value} {what}");
+        }
+    }
+
+    /// <summary>Finds a limit that the parts of a description exceed together, at next to no cost; null for none.</summary>
+    public static (Limit Limit, string What)? FindExceeded(FractalDescription description)
+    {
+        ArgumentNullException.ThrowIfNull(description);
+        return description.Parts.OfType<RecursivePart>().Sum(static part => (double)(part.CallCount ?? 0)) > RecursiveCalls.Value
+                ? (RecursiveCalls, "calls of recursives at all levels")
+            : description.LevelCount > Levels.Value ? (Levels, "levels")
+            : description.Counts.Digits > Digits.Value ? (Digits, "digits in its number of instances")
+            : null;
+    }
 
     /// <summary>
     /// Throws for steps beyond <see cref="Steps"/>, <see cref="Nesting"/>, <see cref="Levels"/> or <see cref="Digits"/>.

@@ -48,6 +48,16 @@ public static class FractalSteps
         return product;
     }
 
+    /// <summary>Makes the same steps with the outermost repetition carried out so often; the same ones without any.</summary>
+    internal static ImmutableArray<FractalStep> WithDepth(this ImmutableArray<FractalStep> steps, int depth) =>
+        steps.FirstOrDefault(static step => step is Repetition) is Repetition outermost
+            ? steps.Replace(outermost, outermost.WithCount(depth))
+            : steps;
+
+    /// <summary>Makes the same steps with all repetitions carried out at most so often.</summary>
+    internal static ImmutableArray<FractalStep> WithMaxDepth(this ImmutableArray<FractalStep> steps, int depth) => ImmutableArray.CreateRange(
+        steps, step => step is Repetition repetition && !(repetition.Count <= depth) ? repetition.WithCount(depth) : step);
+
     /// <summary>Finds the set at one level, in O(steps) whatever the number of rounds.</summary>
     /// <param name="steps">Steps, outermost first.</param>
     /// <param name="level">Level from 0, the outermost.</param>

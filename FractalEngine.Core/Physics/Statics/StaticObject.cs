@@ -110,7 +110,7 @@ public sealed class StaticObject
     internal PlacedModel Reference { get; private set; }
 
     /// <summary>True for a closed solid, or what consists of such. What is behind its faces is then inside it.</summary>
-    internal bool IsSolid => _set.IsSolid(Model.Mesh);
+    internal bool IsSolid => Model.Parts.All(part => _set.IsSolid(part.Mesh));
 
     /// <summary>
     /// 1 where faces look out of the object as they are wound, −1 where its matrix mirrors it, 0 where its instances differ.

@@ -30,9 +30,19 @@ public readonly record struct ColourPath(int MapCount, float PathFraction, float
     {
         ArgumentNullException.ThrowIfNull(fractal);
         var path = Start;
-        for (var level = 0; level < instancePath.Length; level++)
+        if (fractal.Description.Parts.IsEmpty)
         {
-            path = path.Append(fractal.LevelAt(level).Maps.AsSpan(), instancePath[level]);
+            for (var level = 0; level < instancePath.Length; level++)
+            {
+                path = path.Append(fractal.LevelAt(level).Maps.AsSpan(), instancePath[level]);
+            }
+        }
+        else
+        {
+            foreach (var step in fractal.Follow(instancePath) ?? [])
+            {
+                path = path.Append(step.Map == AffineMap.Identity ? -1 : step.Index, step.Index, step.SetSize);
+            }
         }
 
         return path.ComputeGradientFactor(gradient, fractal.LevelCount ?? long.MaxValue);

@@ -27,6 +27,7 @@ public sealed class LodHierarchy
     {
         _nodes = nodes;
         LevelCount = levelCount;
+        ColourLevels = levelCount;
         Mesh = mesh;
         Occluder = new(mesh);
     }
@@ -46,11 +47,17 @@ public sealed class LodHierarchy
     /// <summary>Number of levels of the whole fractal; a huge number where they are infinitely many.</summary>
     internal long LevelCount { get; }
 
+    /// <summary>Number of maps of the longest chain, by which gradients go; a huge number where they are infinitely many.</summary>
+    internal long ColourLevels { get; init; }
+
     /// <summary>True for a mesh, and for a fractal that is its base mesh: one instance, or none where it is not visible.</summary>
     public bool HasNoLevels => LevelCount == 0;
 
     /// <summary>Builds the hierarchy of a fractal.</summary>
-    /// <param name="fractal">Fractal of any composition and depth.</param>
+    /// <param name="fractal">
+    /// Fractal of any composition and depth. That of several base meshes is for cameras only: each of <see cref="Fractal.ByMesh"/> is drawn
+    /// by itself.
+    /// </param>
     /// <exception cref="FractalLimitException">
     /// Bounds overflow a double or don't converge, as those of an infinite fractal that grows; or there are more than
     /// <see cref="FractalLimits.ComponentwiseSums"/> sums in componentwise composition.

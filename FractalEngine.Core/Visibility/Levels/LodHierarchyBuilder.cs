@@ -19,9 +19,14 @@ internal static class LodHierarchyBuilder
     private static LodHierarchy BuildAffine(Fractal fractal)
     {
         var hierarchy = fractal.HierarchyBySets;
-        // The first level is the base mesh.
-        var baseBox = hierarchy.AllLevels.Items[0].Box;
-        return new(hierarchy.AllLevels.Select(level => BuildNode(level, baseBox)), hierarchy.Levels, fractal.BaseMesh);
+        // The first levels are the base meshes. Where there are several, nothing stands for a sub-fractal.
+        var mesh = fractal.HasSeveralMeshes ? Mesh.Empty : fractal.BaseMesh;
+        var baseBox = fractal.HasSeveralMeshes ? BoundingBox.Empty
+            : hierarchy.AllLevels.Items[fractal.BaseMeshes.IndexOf(mesh)].Box;
+        return new(hierarchy.AllLevels.Select(level => BuildNode(level, baseBox)), hierarchy.Levels, mesh)
+        {
+            ColourLevels = fractal.LevelCount ?? hierarchy.Levels,
+        };
     }
 
     private static LodNode BuildNode(HierarchyLevel level, BoundingBox baseBox)

@@ -31,25 +31,30 @@ public sealed class FractalWriter
     private long _setCharacters;
     private int _recursiveCount;
     private int _objectCount;
+    private int _baseCount;
 
     private FractalWriter()
     {
     }
 
     /// <summary>Returns the text of a fractal file.</summary>
-    /// <param name="description">Steps and composition of the fractal.</param>
-    /// <param name="baseFile">
-    /// Name of the base mesh's file, relative to the fractal file, or one of the <see cref="BaseShapes"/>.
+    /// <param name="description">What the fractal makes of base meshes, and its composition.</param>
+    /// <param name="baseFiles">
+    /// For each base mesh the name of its file, relative to the fractal file, or one of the <see cref="BaseShapes"/>.
     /// </param>
     /// <exception cref="FractalEngineException">
     /// The language can't express the fractal: a scale is singular, steps follow an infinite repetition, or a limit is exceeded.
     /// </exception>
     /// <remarks>Time and memory are proportional to the text, which has at most 16 MiB.</remarks>
-    public static string Write(FractalDescription description, string baseFile)
+    public static string Write(FractalDescription description, params ImmutableArray<string> baseFiles)
     {
-        FileReference.RequireQuotable(baseFile);
+        foreach (var file in baseFiles)
+        {
+            FileReference.RequireQuotable(file);
+        }
+
         RequireExpressible(description);
-        var text = new FractalWriter().WriteText(description, baseFile);
+        var text = new FractalWriter().WriteText(description, baseFiles);
         RequireLength(Encoding.UTF8.GetByteCount(text));
         RequireReadable(text);
         return text;
@@ -92,12 +97,17 @@ public sealed class FractalWriter
         }
     }
 
-    private static FractalEngineException Fault(ErrorKind kind, string fault, Exception? innerException = null) =>
+    /// <summary>Makes the error of a fractal that the language can't express.</summary>
+    internal static FractalEngineException Fault(ErrorKind kind, string fault, Exception? innerException = null) =>
         new(kind, $"the fractal can't be written as a file: {fault}", innerException);
 
-    private string WriteText(FractalDescription description, string baseFile)
+    private string WriteText(FractalDescription description, ImmutableArray<string> baseFiles)
     {
-        CollectSets(description.Steps);
+        foreach (var part in description.AllParts().OfType<SteppedPart>())
+        {
+            CollectSets(part.Steps);
+        }
+
         if (description.Composition == Composition.Componentwise)
         {
             AppendLine("composition componentwise");
@@ -108,8 +118,15 @@ public sealed class FractalWriter
         WriteVectors("rotation in degrees", "rotations in degrees", form => form.Vectors(FractalSetForm.Rotation));
         WriteVectors("scale", "scales", form => form.Vectors(FractalSetForm.Scale));
         AppendLine(_vectors.Count > 0 ? "" : null);
-        AppendLine(BaseShapes.TryFind(baseFile, out _) ? $"x. {baseFile}" : $"x. \"{baseFile}\"");
-        var result = WriteSteps(description.Steps, "x");
+        var names = new List<string>();
+        foreach (var file in baseFiles)
+        {
+            names.Add(NextName("x", ref _baseCount));
+            AppendLine(BaseShapes.TryFind(file, out _) ? $"{names[^1]}. {file}" : $"{names[^1]}. \"{file}\"");
+        }
+
+        new FractalPartWriter(this, names).Write(description.Parts);
+        var result = WriteSteps(description.Steps, names[^1]);
         AppendLine($"<$>. {result}");
         return _text.ToString();
     }
@@ -155,7 +172,7 @@ public sealed class FractalWriter
     /// <param name="steps">Outermost first.</param>
     /// <param name="baseName">Name of the declared object that the steps apply to.</param>
     /// <returns>Object that the steps make of the base, as written behind the name of a declaration.</returns>
-    private string WriteSteps(ImmutableArray<FractalStep> steps, string baseName)
+    internal string WriteSteps(ImmutableArray<FractalStep> steps, string baseName)
     {
         var sets = new List<string>();
         var inner = baseName;
@@ -171,13 +188,13 @@ public sealed class FractalWriter
             if (sets.Count > 0 || inner != baseName)
             {
                 // A recursive needs a name for what it is applied to.
-                baseName = NextName("y", ref _objectCount);
+                baseName = NextObjectName();
                 AppendLine($"{baseName}. {FormatObject(sets, inner)}");
                 sets.Clear();
             }
 
             var body = WriteSteps(repetition.Round, baseName);
-            var name = NextName("z", ref _recursiveCount);
+            var name = NextRecursiveName();
             AppendLine($"{name}<{baseName}>. {body}");
             inner = repetition.Count is { } count ? FormattableString.Invariant($"{name} {count}") : name;
         }
@@ -229,7 +246,7 @@ public sealed class FractalWriter
     }
 
     /// <summary>Returns the call of a map, and declares its matrix if it is new.</summary>
-    private string MatrixFor(AffineMap map)
+    internal string MatrixFor(AffineMap map)
     {
         var definition = string.Join(' ', new[] { map.Linear.V1, map.Linear.V2, map.Linear.V3, map.Translation });
         if (!_matrixNames.TryGetValue(definition, out var name))
@@ -242,13 +259,20 @@ public sealed class FractalWriter
         return $"{name}.";
     }
 
+    /// <summary>Returns a new name of an object.</summary>
+    internal string NextObjectName() => NextName("y", ref _objectCount);
+
+    /// <summary>Returns a new name of a recursive.</summary>
+    internal string NextRecursiveName() => NextName("z", ref _recursiveCount);
+
     private static string NextName(string letter, ref int count)
     {
         count++;
         return count == 1 ? letter : FormattableString.Invariant($"{letter}{count}");
     }
 
-    private void AppendLine(string? line)
+    /// <summary>Appends a line; null for none.</summary>
+    internal void AppendLine(string? line)
     {
         if (line is not null)
         {

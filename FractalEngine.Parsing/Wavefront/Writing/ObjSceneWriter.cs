@@ -57,8 +57,9 @@ public sealed class ObjSceneWriter
         }
 
         var writer = new ObjSceneWriter(stream, materials);
-        var objects = scene.Objects.Select(placed => (Placed: placed, Instances: ExpandInstances(placed.Model, maxFaces))).ToArray();
-        var faceCount = objects.Sum(item => (long)item.Instances.Length * item.Placed.Model.Mesh.FaceCount);
+        var objects = scene.Objects.Select(placed => placed.Parts.Select(
+            part => (Placed: part, Instances: ExpandInstances(part.Model, maxFaces))).ToArray()).ToArray();
+        var faceCount = objects.SelectMany(static parts => parts).Sum(item => (long)item.Instances.Length * item.Placed.Model.Mesh.FaceCount);
         if (faceCount > maxFaces)
         {
             throw new FractalLimitException(
@@ -67,10 +68,13 @@ public sealed class ObjSceneWriter
 
         writer._text.WriteText(MeshCountHeader.Format(faceCount) + "\n");
         writer._text.WriteText(materials is null ? "" : $"mtllib {materialFile}\n");
-        foreach (var (placed, instances) in objects)
+        foreach (var parts in objects)
         {
-            writer._text.WriteText($"o {ObjectName(placed)}\n");
-            writer.WriteObject(placed, instances);
+            writer._text.WriteText($"o {ObjectName(parts[0].Placed)}\n");
+            foreach (var (placed, instances) in parts)
+            {
+                writer.WriteObject(placed, instances);
+            }
         }
 
         writer._text.Flush();

@@ -56,9 +56,9 @@ public class FractalGraphTests
     {
         var power = BigInteger.Pow(4, 1_000_000);
         AssertCounts(Plant(1_000_000), power, (power - 1) / 3, 0);
-        Assert.Equal(602_060, (int)Plant(1_000_000).EstimateDigits());
+        Assert.Equal(602_060, (int)Plant(1_000_000).Counts.Digits);
         AssertCounts(Plant(null), null, null, 0);
-        Assert.False(Plant(null).HasAtMostInstances(long.MaxValue));
+        Assert.False(Plant(null).Counts.HasAtMostInstances(long.MaxValue));
     }
 
     /// <summary>Fibonacci's rabbits: the young become adults, and adults have young.</summary>
@@ -71,7 +71,7 @@ public class FractalGraphTests
         for (var levels = 0; levels < 100; levels++)
         {
             AssertCounts(Rabbits(levels), young, adults, 0);
-            Assert.True(Rabbits(levels).HasAtMostInstances((long)BigInteger.Min(1L << 53, young + adults)) || young + adults > 1L << 53);
+            Assert.True(Rabbits(levels).Counts.HasAtMostInstances((long)BigInteger.Min(1L << 53, young + adults)) || young + adults > 1L << 53);
             (young, adults) = (adults, young + adults);
         }
     }
@@ -165,7 +165,7 @@ public class FractalGraphTests
         for (var depth = 0; depth <= 3; depth++)
         {
             var fractal = Samples.AppendixBAt(depth);
-            var instances = GraphExpansion.Expand(FractalGraph.Of(fractal.BaseMesh, fractal.Description.Steps), 100_000);
+            var instances = GraphExpansion.Expand(fractal.Graph, 100_000);
             Assert.Equal(fractal.Expand(100_000), instances.Select(static instance => instance.Map));
         }
     }

@@ -85,9 +85,9 @@ public class RandomGraphsTests
     {
         var counts = graph.BaseMeshes.Select(mesh => expanded.Instances.Count(instance => ReferenceEquals(instance.Mesh, mesh))).ToArray();
         Assert.Equal(counts.Select(static count => (BigInteger?)count), graph.ChainCounts);
-        Assert.True(graph.HasAtMostInstances(counts.Sum()));
-        Assert.False(graph.HasAtMostInstances(counts.Sum() - 1));
-        Near.Equal(Math.Log10(Math.Max(1, counts.Sum())), graph.EstimateDigits(), 1e-9);
+        Assert.True(graph.Counts.HasAtMostInstances(counts.Sum()));
+        Assert.False(graph.Counts.HasAtMostInstances(counts.Sum() - 1));
+        Near.Equal(Math.Log10(Math.Max(1, counts.Sum())), graph.Counts.Digits, 1e-9);
     }
 
     private static void CheckExpansion(FractalGraph graph, List<ExpandedGraph.Instance> distinct, double tolerance)

@@ -171,7 +171,7 @@ public class FractalParserTests
     public void Offsets_PointAtTheBaseFileAndTheResult()
     {
         var file = Samples.ParseFractal("x. \"b.obj\"\n<$>. x\n");
-        Assert.Equal('"', file.Source.Text[file.BaseFileNameOffset]);
+        Assert.Equal('"', file.Source.Text[file.Bases[0].Offset]);
         Assert.Equal(2, file.Source.Diagnose(file.ResultOffset, "").Line);
     }
 }

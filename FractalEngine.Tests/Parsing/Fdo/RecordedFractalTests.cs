@@ -34,7 +34,7 @@ public class RecordedFractalTests
             {
                 var parsed = FractalParser.Parse(new("t.fdo", text));
                 string written = parsed.Description.IsInfinite ? "" : FractalWriter.Write(parsed.Description, parsed.BaseFile);
-                return ((parsed.BaseFile, parsed.BaseFileNameOffset, parsed.ResultOffset, written, FractalNumber.FindAll(parsed.Source)),
+                return ((parsed.BaseFile, parsed.Bases[0].Offset, parsed.ResultOffset, written, FractalNumber.FindAll(parsed.Source)),
                     parsed.Warnings);
             });
         }
@@ -120,7 +120,7 @@ public class RecordedFractalTests
             string text = FractalWriter.Write(parsed.Description, parsed.BaseFile);
             Assert.Equal(parsed.Description, FractalParser.Parse(new("written.fdo", text)).Description);
             var numbers = FractalNumber.FindAll(parsed.Source);
-            return $"{Path.GetFileName(file)} {parsed.BaseFile} {parsed.BaseFileNameOffset} {parsed.ResultOffset} {numbers.Length} "
+            return $"{Path.GetFileName(file)} {parsed.BaseFile} {parsed.Bases[0].Offset} {parsed.ResultOffset} {numbers.Length} "
                 + Description.OfNumbers([.. numbers.Select(number => number.Value)])
                 + Description.OfNumbers([.. numbers.Select(number => number.Offset + (100.0 * number.Length) + (1e4 * (int)number.Role)
                     + (1e5 * number.Component))])

@@ -48,6 +48,7 @@ internal sealed class FractalHierarchyBuilder(FractalGraph graph, bool doublesPo
         LevelBuilder.RequireAllowedChildren(graph.Parts.OfType<SteppedPart>().Sum(part => part.Steps.Sum(CountWideChildren)));
         foreach (var part in graph.Parts)
         {
+            _levels.BeginPart();
             _tops.Add(part switch
             {
                 SteppedPart stepped => AddSteps(stepped.Steps, _tops[stepped.Inner]),
@@ -222,7 +223,6 @@ internal sealed class FractalHierarchyBuilder(FractalGraph graph, bool doublesPo
             return AddLinear(part.Recursives[0], levelsLess, part.Levels);
         }
 
-        _levels.BeginPart();
         var recursives = new RecursiveLevels(part, Built.Top + 1, index => _tops[index]);
         var period = recursives.Period;
         var nextAttempt = 0L;

@@ -1,5 +1,5 @@
 using FractalEngine.Core.Colliders;
-using FractalEngine.Core.Fractals.Graphs;
+using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Fractals.Levels.Building;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;

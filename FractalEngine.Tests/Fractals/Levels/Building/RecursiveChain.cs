@@ -1,4 +1,4 @@
-using FractalEngine.Core.Fractals.Graphs;
+using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Tests.Queries.Regions;

@@ -1,3 +1,4 @@
+using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Fractals.Graphs;
 using FractalEngine.Core.Geometry;
 

@@ -2,7 +2,7 @@ using System.Collections.Immutable;
 using System.Numerics;
 using FractalEngine.Core.Maths;
 
-namespace FractalEngine.Core.Fractals.Graphs;
+namespace FractalEngine.Core.Fractals.Descriptions;
 
 /// <summary>
 /// Recursives that call each other and earlier parts, and one of them with so many levels as the whole. A sum is one recursive that calls
@@ -12,7 +12,7 @@ namespace FractalEngine.Core.Fractals.Graphs;
 /// A call may take no level where its target comes earlier in some order of the recursives. So a set of sets, or a sum in a set, is a
 /// recursive of its own, instead of all products.
 /// </remarks>
-internal sealed class RecursivePart : FractalPart
+public sealed class RecursivePart : FractalPart
 {
     /// <summary>Makes a part of recursives.</summary>
     /// <param name="recursives">The recursives, which refer to each other by their indices: at least one.</param>
@@ -65,13 +65,22 @@ internal sealed class RecursivePart : FractalPart
     public override bool IsInfinite => Levels is null;
 
     /// <inheritdoc/>
-    public override bool IsSum => Levels == 1 && Recursives is [var only] && only.Calls.All(static call => call.IsConstant);
+    public override bool MayHoldInfinite => IsSum;
+
+    /// <inheritdoc/>
+    public override bool HasDepth => !IsSum;
+
+    /// <summary>True for a sum: earlier parts, each under a map.</summary>
+    public bool IsSum => Levels == 1 && Recursives is [var only] && only.Calls.All(static call => call.IsConstant);
+
+    /// <summary>Number of calls of all recursives, at all levels; null for infinitely many levels.</summary>
+    public long? CallCount => IsSum ? 0 : Levels * Recursives.Sum(static recursive => (long)recursive.Calls.Length);
 
     /// <inheritdoc/>
     public override IEnumerable<int> References => Recursives.SelectMany(static recursive => recursive.References);
 
     /// <inheritdoc/>
-    public override IEnumerable<ImmutableArray<AffineMap>> MapSets =>
+    internal override IEnumerable<ImmutableArray<AffineMap>> MapSets =>
         Recursives.Select(static recursive => ImmutableArray.CreateRange(recursive.Calls, static call => call.Map));
 
     /// <summary>Makes the union of earlier parts, each under a map.</summary>
@@ -86,14 +95,14 @@ internal sealed class RecursivePart : FractalPart
         new([new(basePart, calls)], 0, levels);
 
     /// <inheritdoc/>
-    public override BigInteger? CountInstances(Func<int, BigInteger?> countAt) => Levels is { } levels
+    internal override BigInteger? CountInstances(Func<int, BigInteger?> countAt) => Levels is { } levels
         ? LinearRecurrence.TermAt(
             Ascend(countAt, BigInteger.Zero, static (sum, count) => sum + count).Select(values => values[Root]),
             (Recursives.Length * Math.Max(1, MaxLevelsLess)) + 1, levels)
         : CountInfinite(Root, countAt, []);
 
     /// <inheritdoc/>
-    public override ScaledCount EstimateInstances(Func<int, ScaledCount> countAt) =>
+    internal override ScaledCount EstimateInstances(Func<int, ScaledCount> countAt) =>
         Ascend(countAt, default, static (sum, count) => sum + count).ElementAt(Levels ?? 0)[Root];
 
     /// <summary>Computes a value of each recursive with 0 levels, with 1, and so on without end.</summary>
@@ -101,7 +110,7 @@ internal sealed class RecursivePart : FractalPart
     /// <param name="zero">The value of nothing.</param>
     /// <param name="add">Adds a value to a sum.</param>
     /// <returns>The values by recursives; valid until the next are asked for.</returns>
-    public IEnumerable<T[]> Ascend<T>(Func<int, T> valueAt, T zero, Func<T, T, T> add)
+    internal IEnumerable<T[]> Ascend<T>(Func<int, T> valueAt, T zero, Func<T, T, T> add)
     {
         T[] bases = [.. Recursives.Select(recursive => valueAt(recursive.BasePart))];
         yield return bases;
@@ -125,6 +134,56 @@ internal sealed class RecursivePart : FractalPart
             yield return values;
         }
     }
+
+    /// <inheritdoc/>
+    internal override long? CountLevels(Func<int, long?> levelsAt)
+    {
+        // In the order, calls that take no level lead to earlier recursives.
+        var chains = new long[Recursives.Length];
+        long? below = 0;
+        foreach (var caller in Order)
+        {
+            foreach (var call in Recursives[caller].Calls)
+            {
+                var step = IsSum && call.Map == AffineMap.Identity ? 0 : 1;
+                chains[caller] = Math.Max(chains[caller], step + (call.LevelsLess == 0 ? chains[call.Target] : 0));
+                below = call.IsConstant ? Max(below, levelsAt(call.Target)) : below;
+            }
+
+            below = Max(below, levelsAt(Recursives[caller].BasePart));
+        }
+
+        return Levels * chains.Max() + below;
+
+        static long? Max(long? count1, long? count2) => count1 is { } one && count2 is { } other ? Math.Max(one, other) : null;
+    }
+
+    /// <inheritdoc/>
+    internal override FractalPart WithDepth(int depth) => new RecursivePart(Recursives, Root, depth);
+
+    /// <inheritdoc/>
+    internal override FractalPart WithMaxDepth(int depth) => IsSum || Levels <= depth ? this : WithDepth(depth);
+
+    /// <inheritdoc/>
+    internal override FractalPart WithReferences(Func<int, int> indexOf) => new RecursivePart(
+        [.. Recursives.Select(recursive => new FractalRecursive(
+            indexOf(recursive.BasePart),
+            [.. recursive.Calls.Select(call => call.IsConstant ? call with { Target = indexOf(call.Target) } : call)]))],
+        Root, Levels);
+
+    /// <summary>Tells whether the other part has the same recursives, perhaps with another root or so many levels.</summary>
+    public bool HasRecursivesOf(RecursivePart other)
+    {
+        ArgumentNullException.ThrowIfNull(other);
+        return Recursives.AsSpan().SequenceEqual(other.Recursives.AsSpan());
+    }
+
+    /// <inheritdoc/>
+    public override bool Equals(FractalPart? other) =>
+        other is RecursivePart part && Root == part.Root && Levels == part.Levels && HasRecursivesOf(part);
+
+    /// <inheritdoc/>
+    public override int GetHashCode() => HashCode.Combine(Root, Levels, Recursives.Length, Recursives[0]);
 
     /// <summary>Counts the chains of infinitely many levels: what a cycle of calls leads to, it does so without end.</summary>
     private BigInteger? CountInfinite(int recursive, Func<int, BigInteger?> countAt, Dictionary<int, BigInteger?> known)
@@ -157,6 +216,7 @@ internal sealed class RecursivePart : FractalPart
     {
         var order = ImmutableArray.CreateBuilder<int>(Recursives.Length);
         var begun = new HashSet<int>();
+        var ended = new HashSet<int>();
         for (var i = 0; i < Recursives.Length; i++)
         {
             Visit(i);
@@ -174,8 +234,9 @@ internal sealed class RecursivePart : FractalPart
                 }
 
                 order.Add(recursive);
+                ended.Add(recursive);
             }
-            else if (!order.Contains(recursive))
+            else if (!ended.Contains(recursive))
             {
                 throw new ArgumentException("expected no cycle of calls that take no level", nameof(recursive));
             }

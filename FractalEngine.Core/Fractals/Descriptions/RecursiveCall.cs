@@ -1,6 +1,6 @@
 using FractalEngine.Core.Maths;
 
-namespace FractalEngine.Core.Fractals.Graphs;
+namespace FractalEngine.Core.Fractals.Descriptions;
 
 /// <summary>A map of a recursive, and what it is applied to: a recursive of the same group, or an earlier part of the graph.</summary>
 /// <param name="Map">From the frame of the target to that of the caller.</param>
@@ -9,7 +9,7 @@ namespace FractalEngine.Core.Fractals.Graphs;
 /// By how much fewer levels the target has. Where the caller has fewer, the target's base takes its place. Null for a constant: an earlier
 /// part, which stands at every level of the caller but 0.
 /// </param>
-internal readonly record struct RecursiveCall(AffineMap Map, int Target, int? LevelsLess = 1)
+public readonly record struct RecursiveCall(AffineMap Map, int Target, int? LevelsLess = 1)
 {
     /// <summary>True where the target is an earlier part of the graph.</summary>
     public bool IsConstant => LevelsLess is null;

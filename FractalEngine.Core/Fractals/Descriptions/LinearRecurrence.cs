@@ -1,6 +1,6 @@
 using System.Numerics;
 
-namespace FractalEngine.Core.Fractals.Graphs;
+namespace FractalEngine.Core.Fractals.Descriptions;
 
 /// <summary>Computes far terms of integer sequences in which each term is a fixed sum of multiples of some terms before it.</summary>
 internal static class LinearRecurrence

@@ -1,4 +1,4 @@
-namespace FractalEngine.Core.Fractals.Graphs;
+namespace FractalEngine.Core.Fractals.Descriptions;
 
 /// <summary>A number of instances of any size, Mantissa · 2^(512 · Scale): exact up to 2⁵³, rounded beyond.</summary>
 /// <param name="Mantissa">Not negative and less than 2⁵¹².</param>

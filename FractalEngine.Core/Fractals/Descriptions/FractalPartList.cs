@@ -1,0 +1,220 @@
+using System.Collections.Immutable;
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Fractals.Descriptions;
+
+/// <summary>The parts of a fractal while it is described: base meshes, steps on earlier parts, sums and recursives.</summary>
+/// <remarks>
+/// Parts are added in any order of use, equal ones once, and known by their indices. <see cref="Describe"/> keeps those that the whole
+/// is made of.
+/// </remarks>
+public sealed class FractalPartList
+{
+    // A repetition of what a recursive calls is made of calls, one for each level.
+    private const int MaxUnrolledLevels = 10_000;
+
+    // More are parts of their own, so that sums of sums don't multiply.
+    private const int MaxInlined = 8;
+
+    private readonly List<Entry> _entries = [];
+    private readonly Dictionary<Entry, int> _known = [];
+
+    /// <summary>Adds a base mesh.</summary>
+    /// <param name="mesh">Number of the mesh, by which <see cref="Describe"/> lists it.</param>
+    /// <returns>Index of the part.</returns>
+    public int AddMesh(int mesh) => Add(new(null, mesh, null));
+
+    /// <summary>Adds a call, for the body of a recursive: its own one, or that of another one of the same group.</summary>
+    /// <param name="recursive">Index of the recursive in the group.</param>
+    /// <returns>Index of the part.</returns>
+    public int AddCall(int recursive) => Add(new(null, null, recursive));
+
+    /// <summary>Adds steps on a part.</summary>
+    /// <param name="inner">Index of the part.</param>
+    /// <param name="steps">The outermost first; without any, the part itself is meant.</param>
+    /// <returns>Index of the part.</returns>
+    public int AddSteps(int inner, ImmutableArray<FractalStep> steps) =>
+        steps.IsEmpty ? inner : Add(new(new SteppedPart(inner, steps), null, null));
+
+    /// <summary>Adds several parts at one place.</summary>
+    /// <param name="terms">Indices of the parts, at least one.</param>
+    /// <returns>Index of the part.</returns>
+    public int AddSum(ImmutableArray<int> terms) =>
+        terms is [var only] ? only : Add(new(RecursivePart.Sum([.. terms.SelectMany(term => CallsOf(term))]), null, null));
+
+    /// <summary>Adds a recursive, see <see cref="CreateRecursives"/>.</summary>
+    /// <param name="recursives">The recursives of its group.</param>
+    /// <param name="root">Its index in the group.</param>
+    /// <param name="levels">Number of its levels; null for infinitely many.</param>
+    /// <returns>Index of the part.</returns>
+    public int AddRecursive(ImmutableArray<FractalRecursive> recursives, int root, int? levels) =>
+        Add(new(new RecursivePart(recursives, root, levels), null, null));
+
+    /// <summary>Adds all that a description is made of.</summary>
+    /// <param name="description">The description.</param>
+    /// <param name="partOfMesh">Gives the index of the part that stands for one of its base meshes.</param>
+    /// <returns>Index of the part that is the whole.</returns>
+    public int AddAll(FractalDescription description, Func<int, int> partOfMesh)
+    {
+        ArgumentNullException.ThrowIfNull(description);
+        var indices = Enumerable.Range(0, description.MeshCount).Select(partOfMesh).ToList();
+        foreach (var part in description.Parts)
+        {
+            indices.Add(Add(new(part.WithReferences(index => indices[index]), null, null)));
+        }
+
+        return AddSteps(indices[^1], description.Steps);
+    }
+
+    /// <summary>Makes the recursives of a group, which call themselves and each other in their bodies.</summary>
+    /// <param name="bases">What each is without levels, by indices of parts.</param>
+    /// <param name="bodies">
+    /// What each is with levels, by indices of parts: calls (see <see cref="AddCall"/>), sets on calls, sums of such, and anything that
+    /// has no calls.
+    /// </param>
+    /// <exception cref="ArgumentException">
+    /// A base has calls, or a body has calls within a recursive, or within a repetition without end or of too many levels.
+    /// </exception>
+    public ImmutableArray<FractalRecursive> CreateRecursives(ImmutableArray<int> bases, ImmutableArray<int> bodies)
+    {
+        if (bases.Any(HasCalls))
+        {
+            throw new ArgumentException("expected bases without calls", nameof(bases));
+        }
+
+        var recursives = new List<FractalRecursive>(bases.Select(static part => new FractalRecursive(part, [])));
+        var named = new Dictionary<int, RecursiveCall>();
+        for (var i = 0; i < bodies.Length; i++)
+        {
+            recursives[i] = recursives[i] with { Calls = Expand(bodies[i]) };
+        }
+
+        return [.. recursives];
+
+        ImmutableArray<RecursiveCall> Expand(int part) => _entries[part] switch
+        {
+            { Call: { } call } => [new(AffineMap.Identity, call)],
+            _ when !HasCalls(part) => CallsOf(part),
+            { Part: SteppedPart { Steps: var steps, Inner: var inner } } => Apply(steps, Expand(inner)),
+            { Part: RecursivePart { IsSum: true, Recursives: [var sum] } } => [.. sum.Calls.SelectMany(term =>
+                !HasCalls(term.Target) ? [term]
+                : term.Map == AffineMap.Identity && _entries[term.Target].Call is { } call ? [new(AffineMap.Identity, call)]
+                : (RecursiveCall[])[Under(term.Map, named.TryGetValue(term.Target, out var known)
+                    ? known
+                    : named[term.Target] = Name(Expand(term.Target)))])],
+            _ => throw new ArgumentException("a recursive within a body can't have calls of the body's recursive", nameof(bodies)),
+        };
+
+        ImmutableArray<RecursiveCall> Apply(ImmutableArray<FractalStep> steps, ImmutableArray<RecursiveCall> calls)
+        {
+            var levels = FractalSteps.LevelCount(steps) is <= MaxUnrolledLevels and { } count ? count
+                : throw new ArgumentException($"a repetition of calls has at most {MaxUnrolledLevels} levels", nameof(bodies));
+            for (var level = levels - 1; level >= 0; level--)
+            {
+                var target = Name(calls);
+                calls = ImmutableArray.CreateRange(FractalSteps.LevelAt(steps, level).Maps, map => Under(map, target));
+            }
+
+            return calls;
+        }
+
+        // A set of sets, or a sum in a set, is a recursive of its own.
+        RecursiveCall Name(ImmutableArray<RecursiveCall> calls)
+        {
+            if (calls is [{ IsConstant: false } only] && only.Map == AffineMap.Identity)
+            {
+                return only;
+            }
+
+            recursives.Add(new(bases[0], calls));
+            return new(AffineMap.Identity, recursives.Count - 1, LevelsLess: 0);
+        }
+
+        static RecursiveCall Under(in AffineMap map, RecursiveCall target) => target with { Map = map };
+    }
+
+    /// <summary>Tells whether a part has calls that belong to no recursive yet.</summary>
+    public bool HasCalls(int part) => _entries[part].HasCalls;
+
+    /// <summary>Tells whether a part is a call itself.</summary>
+    public bool IsCall(int part) => _entries[part].Call is not null;
+
+    /// <summary>Tells whether a part is repeated without end, or made of such parts.</summary>
+    public bool IsInfinite(int part) => _entries[part].IsInfinite;
+
+    /// <summary>Describes a fractal by the parts that it is made of.</summary>
+    /// <param name="whole">Index of the part that steps are applied to.</param>
+    /// <param name="steps">Steps of the whole.</param>
+    /// <param name="composition">How chains of the steps are composed.</param>
+    /// <param name="meshes">Receives the numbers of the base meshes in the order of the description: smaller ones first.</param>
+    /// <exception cref="ArgumentException">The part has calls.</exception>
+    public FractalDescription Describe(
+        int whole, ImmutableArray<FractalStep> steps, Composition composition, out ImmutableArray<int> meshes)
+    {
+        while (_entries[whole].Part is SteppedPart outermost)
+        {
+            (whole, steps) = (outermost.Inner, steps.AddRange(outermost.Steps));
+        }
+
+        if (HasCalls(whole))
+        {
+            throw new ArgumentException("expected a part without calls", nameof(whole));
+        }
+
+        var used = new bool[whole + 1];
+        used[whole] = true;
+        for (var i = whole; i >= 0; i--)
+        {
+            foreach (var reference in used[i] ? _entries[i].Part?.References ?? [] : [])
+            {
+                used[reference] = true;
+            }
+        }
+
+        int[] order =
+        [
+            .. Enumerable.Range(0, used.Length).Where(i => used[i] && _entries[i].Part is null).OrderBy(i => _entries[i].Mesh),
+            .. Enumerable.Range(0, used.Length).Where(i => used[i] && _entries[i].Part is not null),
+        ];
+        var indices = order.Index().ToDictionary(static pair => pair.Item, static pair => pair.Index);
+        meshes = [.. order.Select(i => _entries[i].Mesh).OfType<int>()];
+        return new(steps, composition)
+        {
+            MeshCount = meshes.Length,
+            Parts = [.. order.Skip(meshes.Length).Select(i => _entries[i].Part!.WithReferences(reference => indices[reference]))],
+        };
+    }
+
+    /// <summary>The calls of a part that stands as a constant: a set on a part is as many calls of that.</summary>
+    private ImmutableArray<RecursiveCall> CallsOf(int part) => _entries[part] switch
+    {
+        { Part: SteppedPart { Steps: [TransformationSet { Maps.Length: <= MaxInlined } set], Inner: var inner } } =>
+            ImmutableArray.CreateRange(set.Maps, map => RecursiveCall.ToPart(map, inner)),
+        { Part: RecursivePart { IsSum: true, Recursives: [{ Calls.Length: <= MaxInlined } sum] } } => sum.Calls,
+        _ => [RecursiveCall.ToPart(part)],
+    };
+
+    private int Add(Entry entry)
+    {
+        if (!_known.TryGetValue(entry, out var index))
+        {
+            var references = entry.Part?.References ?? [];
+            index = _entries.Count;
+            _entries.Add(entry with
+            {
+                HasCalls = entry.Call is not null || references.Any(HasCalls),
+                IsInfinite = entry.Part?.IsInfinite == true || references.Any(IsInfinite),
+            });
+            _known.Add(entry, index);
+        }
+
+        return index;
+    }
+
+    private sealed record Entry(FractalPart? Part, int? Mesh, int? Call)
+    {
+        public bool HasCalls { get; init; }
+
+        public bool IsInfinite { get; init; }
+    }
+}

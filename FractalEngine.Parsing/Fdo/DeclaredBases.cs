@@ -1,0 +1,30 @@
+using FractalEngine.Core.Fractals.Descriptions;
+
+namespace FractalEngine.Parsing.Fdo;
+
+/// <summary>The parts of a fractal file, and the files and shapes that they begin with.</summary>
+internal sealed class DeclaredBases
+{
+    private readonly List<BaseReference> _references = [];
+
+    /// <summary>The parts of all objects.</summary>
+    public FractalPartList Parts { get; } = new();
+
+    /// <summary>The files and shapes, in the order in which they were named.</summary>
+    public IReadOnlyList<BaseReference> References => _references;
+
+    /// <summary>Adds a file or shape.</summary>
+    /// <param name="name">Name of the file, as written, or of the shape.</param>
+    /// <param name="offset">Offset of the name in the text.</param>
+    public DeclaredObject Add(string name, int offset)
+    {
+        _references.Add(new(name, offset));
+        return new(Parts.AddMesh(_references.Count - 1), DeclaredSteps.None);
+    }
+
+    /// <summary>Returns the part that an object with all its steps is.</summary>
+    public int PartOf(DeclaredObject value) => Parts.AddSteps(value.Part, value.Steps.Take(value.Steps.Count));
+
+    /// <summary>Tells whether an object is repeated without end, or made of such ones.</summary>
+    public bool IsInfinite(DeclaredObject value) => value.Steps.LevelCount is null || Parts.IsInfinite(value.Part);
+}

@@ -1,0 +1,106 @@
+using System.Collections.Immutable;
+using FractalEngine.Core;
+using FractalEngine.Core.Fractals.Descriptions;
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Parsing.Fdo.Writing;
+
+/// <summary>Declares the parts of a fractal, each under a name.</summary>
+/// <param name="writer">Receives the lines.</param>
+/// <param name="names">The names of the base meshes; receives those of the parts.</param>
+internal sealed class FractalPartWriter(FractalWriter writer, List<string> names)
+{
+    // The parser keeps longer sets as parts of their own.
+    private const int MaxSetLength = 8;
+
+    // By their recursives: the names of those that others call with fewer levels, or that are parts themselves.
+    private readonly List<(RecursivePart Part, Dictionary<int, string> Names)> _groups = [];
+
+    /// <summary>Writes the declarations of parts, in their order.</summary>
+    public void Write(ImmutableArray<FractalPart> parts)
+    {
+        foreach (var part in parts)
+        {
+            var value = part switch
+            {
+                SteppedPart stepped => writer.WriteSteps(stepped.Steps, names[stepped.Inner]),
+                RecursivePart { IsSum: true, Recursives: [var sum] } => FormatSum(sum.Calls, FormatConstant),
+                RecursivePart recursive => FormatRecursive(recursive, GroupOf(recursive, parts)),
+                _ => throw new ArgumentException($"{part.GetType().Name} is no part of a fractal"),
+            };
+            names.Add(writer.NextObjectName());
+            writer.AppendLine($"{names[^1]}. {value}");
+        }
+    }
+
+    private static string FormatRecursive(RecursivePart part, Dictionary<int, string> group) => part.Levels is { } levels
+        ? FormattableString.Invariant($"{group[part.Root]} {levels}")
+        : group[part.Root];
+
+    /// <summary>Returns the names of recursives that call each other, and declares them if they are new.</summary>
+    private Dictionary<int, string> GroupOf(RecursivePart part, ImmutableArray<FractalPart> parts)
+    {
+        if (_groups.Find(group => group.Part.HasRecursivesOf(part)) is { Names: { } known })
+        {
+            return known;
+        }
+
+        int[] heads =
+        [
+            .. parts.OfType<RecursivePart>().Where(other => other.HasRecursivesOf(part)).Select(static other => other.Root)
+                .Concat(part.Recursives.SelectMany(static recursive => recursive.Calls)
+                    .Where(static call => call.LevelsLess > 0).Select(static call => call.Target))
+                .Distinct().Order(),
+        ];
+        var constants = part.Recursives.SelectMany(static recursive => recursive.Calls)
+            .Where(static call => call.IsConstant).Select(static call => call.Target).ToHashSet();
+        var bases = new Dictionary<int, string>();
+        foreach (var head in heads)
+        {
+            // In a body, the name of a base is the recursive.
+            var basePart = part.Recursives[head].BasePart;
+            var name = names[basePart];
+            if (!constants.Add(basePart))
+            {
+                name = writer.NextObjectName();
+                writer.AppendLine($"{name}. {names[basePart]}");
+            }
+
+            bases.Add(head, name);
+        }
+
+        var group = heads.ToDictionary(static head => head, _ => writer.NextRecursiveName());
+        var bodies = heads.Select(head => FormatBody(part, head, bases)).ToArray();
+        writer.AppendLine($"{string.Join(", ", heads.Select(head => $"{group[head]}<{bases[head]}>"))}. {string.Join(", ", bodies)}");
+        _groups.Add((part, group));
+        return group;
+    }
+
+    private string FormatBody(RecursivePart part, int recursive, Dictionary<int, string> bases) => FormatSum(
+        part.Recursives[recursive].Calls,
+        call => call.IsConstant ? FormatConstant(call)
+            : call.LevelsLess == 1 && bases.TryGetValue(call.Target, out var name) ? name
+            : call.LevelsLess == 0 ? $"({FormatBody(part, call.Target, bases)})"
+            : throw FractalWriter.Fault(ErrorKind.Input, "a recursive calls another one with more than one level less"));
+
+    private string FormatConstant(RecursiveCall call) => names[call.Target];
+
+    /// <summary>Formats calls as terms: those of the same target one after the other are a set.</summary>
+    private string FormatSum(ImmutableArray<RecursiveCall> calls, Func<RecursiveCall, string> formatTarget)
+    {
+        var terms = new List<string>();
+        for (var i = 0; i < calls.Length;)
+        {
+            var first = calls[i];
+            var set = new List<string>();
+            for (; i < calls.Length && set.Count < MaxSetLength && calls[i] with { Map = first.Map } == first; i++)
+            {
+                set.Add(calls[i].Map == AffineMap.Identity ? "#" : writer.MatrixFor(calls[i].Map));
+            }
+
+            terms.Add(set is ["#"] ? formatTarget(first) : $"[{string.Join(", ", set)}] {formatTarget(first)}");
+        }
+
+        return string.Join(" + ", terms);
+    }
+}
