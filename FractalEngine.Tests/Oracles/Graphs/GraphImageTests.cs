@@ -18,6 +18,9 @@ public class GraphImageTests
     private const int Width = 320;
     private const int Height = 240;
 
+    // Images of less than these show little but background.
+    private const int MinPixels = 500;
+
     private static readonly GraphOptions Options = new() { IsForImages = true, MaxInstances = 400, MaxFaces = 5000 };
 
     // Light within holes is that of levels, which a mesh has none of.
@@ -37,7 +40,7 @@ public class GraphImageTests
     [Trait("Category", "Soak")]
     public void Frames_OfManyRandomFiles_AreThoseOfAllTriangles() => Check(20, Options);
 
-    private static void Check(int count, GraphOptions options) => Seeded.Run(count, random =>
+    private static void Check(int count, GraphOptions options) => Seeded.RunMost(count, random =>
     {
         var (file, instances) = RandomGraphFiles.Create(random, options);
         var texts = GraphTexts.Of(file, random, hasNormals: true);
@@ -47,9 +50,14 @@ public class GraphImageTests
         var scene = SceneOf(mesh);
         var view = View.Of(scene, (double)Width / Height);
         var expected = RenderScenes.Draw(scene, view, Width, Height, Settings);
-        Assert.True(RenderScenes.CountDifferent(expected, expected[0, 0]) > 500, $"an image of little but background\n{texts}");
+        if (RenderScenes.CountDifferent(expected, expected[0, 0]) < MinPixels)
+        {
+            return false;
+        }
+
         ImageComparison.AssertSame(expected, RenderScenes.Draw(SceneOf(fractal), view, Width, Height, Settings), texts.ToString());
-    });
+        return true;
+    }, minShare: 0.6);
 
     private static LoadedScene SceneOf(Model model) =>
         RenderScenes.Scene(new Scene(), (model, Transformation.Identity, new Colour(0.8, 0.6, 0.4)));

@@ -25,13 +25,13 @@ public class GraphOracleTests
     [Trait("Category", "Soak")]
     public void Answers_OfManyRandomFiles_AreThoseOfAllTriangles() => Check(2000, 100, 100, new(), inParallel: true);
 
-    /// <summary>Names that lead to a base are calls, as they are where sets stand on a base by another name.</summary>
+    /// <summary>Bodies with sums use what is built on their bases, which takes no level there.</summary>
     [Fact]
-    public void Answers_OfFilesWithIndirectCalls_AreThoseOfAllTriangles() => Check(30, 10, 10, new() { HasIndirectCalls = true });
+    public void Answers_OfFilesThatUseBasesByOtherNames_AreThoseOfAllTriangles() => Check(30, 10, 10, new() { HasIndirectCalls = true });
 
     [Fact]
     [Trait("Category", "Soak")]
-    public void Answers_OfManyFilesWithIndirectCalls_AreThoseOfAllTriangles() =>
+    public void Answers_OfManyFilesThatUseBasesByOtherNames_AreThoseOfAllTriangles() =>
         Check(1000, 100, 100, new() { HasIndirectCalls = true }, inParallel: true);
 
     private static void Check(int count, int points, int rays, GraphOptions options, bool inParallel = false)

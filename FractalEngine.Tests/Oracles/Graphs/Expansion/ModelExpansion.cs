@@ -5,9 +5,9 @@ using FractalEngine.Tests.Oracles.Graphs.Models;
 namespace FractalEngine.Tests.Oracles.Graphs.Expansion;
 
 /// <summary>
-/// Spells out a model by the meaning of its terms, one after the other. A name that a recursive has as its base is a call, wherever the
-/// body leads to it: directly, through another name, or as the base of another recursive. The body of another recursive means what it
-/// means elsewhere.
+/// Spells out a model by the meaning of its terms, one after the other. In the body of a recursive its base is a call, and other names are
+/// plain objects. Where the body is sets on one object, a name or a recursive that is such sets on the base leads to a call as well, as it
+/// did before there were sums.
 /// </summary>
 internal sealed class ModelExpansion
 {
@@ -60,7 +60,8 @@ internal sealed class ModelExpansion
                 break;
             case ObjectTerm.AtDepth(var name, var depth):
                 var group = (GraphDeclaration.Group)scope.File.Find(name)!;
-                ExpandRecursive(group, group.Recursives.Single(recursive => recursive.Name == name), depth ?? _infiniteDepth, scope, map, reach);
+                ExpandRecursive(
+                    group, group.Recursives.Single(recursive => recursive.Name == name), depth ?? _infiniteDepth, scope.Elsewhere, map, reach);
                 break;
             case ObjectTerm.Mapped(var set, var inner):
                 foreach (var product in set)
@@ -87,12 +88,12 @@ internal sealed class ModelExpansion
         }
         else if (scope.File.Find(name) is GraphDeclaration.Alias alias)
         {
-            Expand(alias.Body, scope, map, reach);
+            Expand(alias.Body, scope.Elsewhere, map, reach);
         }
         else if (scope.File.Find(name) is GraphDeclaration.Group group)
         {
             var recursive = group.Recursives.Single(item => item.Name == name);
-            ExpandRecursive(group, recursive, _infiniteDepth, scope, map, reach);
+            ExpandRecursive(group, recursive, _infiniteDepth, scope.Elsewhere, map, reach);
         }
         else
         {
@@ -110,8 +111,21 @@ internal sealed class ModelExpansion
         }
 
         var calls = group.Recursives.ToImmutableDictionary(static item => item.Base, item => new Call(group, item, depth, scope));
-        Expand(recursive.Body, new(scope.File, calls), map, reach);
+        Expand(recursive.Body, new(scope.File, calls, IsLinear(scope.File, group)), map, reach);
     }
+
+    private static bool IsLinear(GraphFile file, GraphDeclaration.Group group) =>
+        group.Recursives is [var recursive] && IsSetsOn(recursive.Base, recursive.Body, file);
+
+    private static bool IsSetsOn(string name, ObjectTerm term, GraphFile file) => term switch
+    {
+        ObjectTerm.Mapped(_, var inner) => IsSetsOn(name, inner, file),
+        ObjectTerm.Named(var other) => other == name
+            || (file.Find(other) is GraphDeclaration.Alias alias && IsSetsOn(name, alias.Body, file)),
+        ObjectTerm.AtDepth(var other, _) => file.Find(other) is GraphDeclaration.Group group && IsLinear(file, group)
+            && IsSetsOn(name, new ObjectTerm.Named(group.Recursives[0].Base), file),
+        _ => false,
+    };
 
     private void ExpandProduct(ImmutableArray<MapPower> factors, ObjectTerm term, Scope scope, RowMap map, double reach)
     {
@@ -150,8 +164,11 @@ internal sealed class ModelExpansion
     private sealed record Call(GraphDeclaration.Group Group, GraphDeclaration.Recursive Recursive, int Depth, Scope Outer);
 
     /// <summary>What names mean in a term.</summary>
-    private sealed record Scope(GraphFile File, ImmutableDictionary<string, Call> Calls)
+    private sealed record Scope(GraphFile File, ImmutableDictionary<string, Call> Calls, bool IsLinear)
     {
-        public static Scope Of(GraphFile file) => new(file, ImmutableDictionary<string, Call>.Empty);
+        /// <summary>What they mean in the terms that a name stands for.</summary>
+        public Scope Elsewhere => IsLinear ? this : Of(File);
+
+        public static Scope Of(GraphFile file) => new(file, ImmutableDictionary<string, Call>.Empty, false);
     }
 }

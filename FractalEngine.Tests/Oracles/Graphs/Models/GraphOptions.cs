@@ -6,7 +6,7 @@ internal sealed record GraphOptions
     /// <summary>One mesh, and objects that are sets on one other object: what files could say before there were sums.</summary>
     public bool IsLinear { get; init; }
 
-    /// <summary>Bodies may lead to their base through other names and recursives.</summary>
+    /// <summary>Bodies may use what is built on their base by another name: a call where there are no sums, else a plain object.</summary>
     public bool HasIndirectCalls { get; init; }
 
     /// <summary>Closed meshes, and maps that keep them large: what images can be compared of.</summary>

@@ -20,6 +20,7 @@ internal sealed class RandomGraphFiles
     private readonly Dictionary<string, ImmutableHashSet<string>> _built = [];
     private readonly string _folder;
     private readonly List<string> _paths;
+    private int _names;
 
     private RandomGraphFiles(
         Random random, GraphOptions options, ImmutableArray<OracleMesh> meshes, string folder, List<string> paths)
@@ -128,7 +129,8 @@ internal sealed class RandomGraphFiles
                 : CreateTerm(1, isPlain));
         }
 
-        return terms.Count == 1 ? terms[0] : new ObjectTerm.Sum([.. terms]);
+        // A recursive that is nothing but its base is refused.
+        return terms.Count > 1 ? new ObjectTerm.Sum([.. terms]) : terms[0] is ObjectTerm.Named ? CreateSets(1, terms[0]) : terms[0];
     }
 
     /// <summary>The base itself, or what leads to it.</summary>
@@ -193,7 +195,7 @@ internal sealed class RandomGraphFiles
     private ObjectTerm CreateSets(int count, ObjectTerm term) =>
         count == 0 ? term : new ObjectTerm.Mapped(_products.CreateSet(), CreateSets(count - 1, term));
 
-    private string NewName() => $"{Words[_random.Next(Words.Length)]}{_used.Count + 1}";
+    private string NewName() => $"{Words[_random.Next(Words.Length)]}{++_names}";
 
     private static ImmutableHashSet<string> Find(string name, Dictionary<string, ImmutableHashSet<string>> sets) =>
         sets.GetValueOrDefault(name, [name]);
