@@ -48,7 +48,10 @@ internal static class GraphCases
     {
         using TemporaryFolder folder = new();
         var fractal = FractalFile.Read(texts.WriteTo(folder));
-        return new GraphChecker(fractal, soup, new(seed)).Check(points, rays);
+        Random random = new(seed);
+        GraphStructureChecker.Check(fractal, soup, random);
+        GraphStructureChecker.CheckWritten(fractal, soup, folder, random);
+        return new GraphChecker(fractal, soup, random).Check(points, rays);
     }
 
     private static string DescribeSmaller(GraphFile file, Exception failure, int seed, int points, int rays)
@@ -56,14 +59,14 @@ internal static class GraphCases
         string? message = null;
         var smaller = GraphShrinker.Shrink(file, candidate =>
         {
-            if (ModelExpansion.TryExpand(candidate) is not { } instances)
-            {
-                return false;
-            }
-
             try
             {
-                Check(GraphTexts.Of(candidate), new(instances), seed, points, rays);
+                // Names may be gone, which fails in another way.
+                if (ModelExpansion.TryExpand(candidate) is { } instances)
+                {
+                    Check(GraphTexts.Of(candidate), new(instances), seed, points, rays);
+                }
+
                 return false;
             }
             catch (Exception exception) when (KindOf(exception) == KindOf(failure))
@@ -73,7 +76,6 @@ internal static class GraphCases
             }
             catch (Exception exception) when (exception is not OutOfMemoryException)
             {
-                // It fails in another way.
                 return false;
             }
         });

@@ -174,6 +174,22 @@ public sealed class GraphMeaningTests : IDisposable
         });
     }
 
+    [Theory]
+    [InlineData("<$>. box + plate")]
+    [InlineData("<$>. box + box")]
+    [InlineData("<$>. [g.] box + [s., skew.] (plate + [m.] box)")]
+    [InlineData("z<box>. [g.] box + [s., m.] box + plate\n<$>. [#] z 0 + ball")]
+    [InlineData("z<box>. [g.] box + [s., m.] box + plate\n<$>. z 4 + z 2")]
+    [InlineData("z<box>. [g.] box + plate\nw<ball>. [s., m.] ball + z 2\n<$>. w 2")]
+    [InlineData("z<box>, w<plate>. [s.] box + [skew.] plate + ball, [s.] box + tetrahedron\n<$>. [g.] z + cone")]
+    public void Files_ThatAreWritten_ReadBackEqual(string text)
+    {
+        var fractal = Read(text);
+        FractalFile.Write(_folder["written.fdo"], fractal);
+        var read = FractalFile.Read(_folder["written.fdo"]);
+        Assert.True(fractal.Equals(read), File.ReadAllText(_folder["written.fdo"]));
+    }
+
     private Fractal Read(string text) => ReadText(Maps + text);
 
     private Fractal ReadText(string text) => FractalFile.Read(_folder.Write("main.fdo", text.ReplaceLineEndings("\n")));

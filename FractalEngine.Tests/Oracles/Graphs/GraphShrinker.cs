@@ -63,6 +63,11 @@ internal static class GraphShrinker
             yield return file with { Result = result };
         }
 
+        foreach (var smaller in WithSmallerMeshes(file))
+        {
+            yield return smaller;
+        }
+
         for (var i = 0; i < file.Declarations.Length; i++)
         {
             foreach (var declaration in Variants(file.Declarations[i], file))
@@ -105,13 +110,6 @@ internal static class GraphShrinker
         {
             case ObjectTerm.Named(var name) when file.Find(name) is GraphDeclaration.Alias alias:
                 yield return alias.Body;
-                break;
-            case ObjectTerm.Mesh(var mesh):
-                foreach (var smaller in Variants(mesh))
-                {
-                    yield return new ObjectTerm.Mesh(smaller);
-                }
-
                 break;
             case ObjectTerm.File(var other):
                 yield return other.Result is ObjectTerm.Mesh ? other.Result : new ObjectTerm.Named("plate");
@@ -166,15 +164,53 @@ internal static class GraphShrinker
         }
     }
 
-    private static IEnumerable<OracleMesh> Variants(OracleMesh mesh)
+    /// <summary>Meshes with fewer triangles, wherever they are used.</summary>
+    private static IEnumerable<GraphFile> WithSmallerMeshes(GraphFile file)
     {
-        var half = mesh.FaceCount / 2;
-        if (half > 0)
+        foreach (var mesh in MeshesIn(file).Distinct().Where(static mesh => mesh.FaceCount > 1))
         {
-            // The name of the file stays, so a mesh that is used twice becomes that of the last use.
-            yield return mesh with { Indices = [.. mesh.Indices.Take(3 * half)] };
-            yield return mesh with { Indices = [.. mesh.Indices.Skip(3 * half)] };
+            var middle = 3 * (mesh.FaceCount / 2);
+            yield return Replace(file, mesh, mesh with { Indices = mesh.Indices[..middle] });
+            yield return Replace(file, mesh, mesh with { Indices = mesh.Indices[middle..] });
         }
+    }
+
+    private static IEnumerable<OracleMesh> MeshesIn(GraphFile file) => file.Declarations.SelectMany(static declaration => declaration switch
+    {
+        GraphDeclaration.Alias alias => MeshesIn(alias.Body),
+        GraphDeclaration.Group group => group.Recursives.SelectMany(static item => MeshesIn(item.Body)),
+        _ => [],
+    }).Concat(MeshesIn(file.Result));
+
+    private static IEnumerable<OracleMesh> MeshesIn(ObjectTerm term) => term switch
+    {
+        ObjectTerm.Mesh(var mesh) => [mesh],
+        ObjectTerm.File(var other) => MeshesIn(other),
+        ObjectTerm.Mapped(_, var inner) => MeshesIn(inner),
+        ObjectTerm.Sum(var terms) => terms.SelectMany(MeshesIn),
+        _ => [],
+    };
+
+    private static GraphFile Replace(GraphFile file, OracleMesh mesh, OracleMesh other)
+    {
+        return file with { Declarations = [.. file.Declarations.Select(ReplaceInDeclaration)], Result = ReplaceInTerm(file.Result) };
+
+        GraphDeclaration ReplaceInDeclaration(GraphDeclaration declaration) => declaration switch
+        {
+            GraphDeclaration.Alias alias => alias with { Body = ReplaceInTerm(alias.Body) },
+            GraphDeclaration.Group group => new GraphDeclaration.Group(
+                [.. group.Recursives.Select(item => item with { Body = ReplaceInTerm(item.Body) })]),
+            _ => declaration,
+        };
+
+        ObjectTerm ReplaceInTerm(ObjectTerm term) => term switch
+        {
+            ObjectTerm.Mesh(var found) when ReferenceEquals(found, mesh) => new ObjectTerm.Mesh(other),
+            ObjectTerm.File(var inner) => new ObjectTerm.File(Replace(inner, mesh, other)),
+            ObjectTerm.Mapped(var set, var inner) => new ObjectTerm.Mapped(set, ReplaceInTerm(inner)),
+            ObjectTerm.Sum(var terms) => new ObjectTerm.Sum([.. terms.Select(ReplaceInTerm)]),
+            _ => term,
+        };
     }
 
     private static IEnumerable<MapProduct> Variants(MapProduct product)

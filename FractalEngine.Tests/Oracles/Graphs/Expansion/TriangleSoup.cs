@@ -59,6 +59,14 @@ internal sealed class TriangleSoup
         return best;
     }
 
+    /// <summary>Describes a triangle in messages.</summary>
+    public string Describe(int triangle)
+    {
+        var found = _triangles[triangle];
+        return FormattableString.Invariant(
+            $"face {found.Face} of instance {found.Instance}, {Instances[found.Instance].Mesh.Name}, {found.LongestEdge} long, reach {Reach}");
+    }
+
     /// <summary>The distances of all triangles, in their order.</summary>
     public double[] FindDistances(Vector position) =>
         Array.ConvertAll(_triangles, triangle => (triangle.ClosestPoint(position) - position).Length());

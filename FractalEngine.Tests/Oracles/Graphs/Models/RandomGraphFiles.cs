@@ -120,7 +120,7 @@ internal sealed class RandomGraphFiles
             return CreateSets(_random.Next(1, 3), CreateLinearCall(called));
         }
 
-        List<ObjectTerm> terms = [CreateSets(_random.Draw((2, 0), (8, 1), (2, 2)), new ObjectTerm.Named(called))];
+        List<ObjectTerm> terms = [CreateSets(_random.Draw((2, 0), (8, 1), (2, 2)), new ObjectTerm.Named(called), minMaps: 1)];
         var isPlain = IsPlainIn(bases);
         for (var i = _random.Draw((3, 0), (5, 1), (2, 2)); i > 0; i--)
         {
@@ -130,7 +130,7 @@ internal sealed class RandomGraphFiles
         }
 
         // A recursive that is nothing but its base is refused.
-        return terms.Count > 1 ? new ObjectTerm.Sum([.. terms]) : terms[0] is ObjectTerm.Named ? CreateSets(1, terms[0]) : terms[0];
+        return terms.Count > 1 ? new ObjectTerm.Sum([.. terms]) : terms[0] is ObjectTerm.Named ? CreateSets(1, terms[0], minMaps: 1) : terms[0];
     }
 
     /// <summary>The base itself, or what leads to it.</summary>
@@ -192,8 +192,8 @@ internal sealed class RandomGraphFiles
         return new(new RandomGraphFiles(_random, _options, _meshes, folder, _paths).CreateFile(path));
     }
 
-    private ObjectTerm CreateSets(int count, ObjectTerm term) =>
-        count == 0 ? term : new ObjectTerm.Mapped(_products.CreateSet(), CreateSets(count - 1, term));
+    private ObjectTerm CreateSets(int count, ObjectTerm term, int minMaps = 0) =>
+        count == 0 ? term : new ObjectTerm.Mapped(_products.CreateSet(minMaps), CreateSets(count - 1, term, minMaps));
 
     private string NewName() => $"{Words[_random.Next(Words.Length)]}{++_names}";
 

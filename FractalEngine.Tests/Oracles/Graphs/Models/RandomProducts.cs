@@ -21,9 +21,9 @@ internal sealed class RandomProducts
     }
 
     /// <summary>Draws a set, which is empty in rare cases.</summary>
-    public ImmutableArray<MapProduct> CreateSet()
+    public ImmutableArray<MapProduct> CreateSet(int minCount)
     {
-        var count = _random.Draw((40, 1), (35, 2), (20, 3), (4, 5), (_isForImages ? 0 : 1, 0));
+        var count = Math.Max(minCount, _random.Draw((40, 1), (35, 2), (20, 3), (4, 5), (_isForImages ? 0 : 1, 0)));
         return [.. Enumerable.Range(0, count).Select(_ => CreateProduct())];
     }
 
