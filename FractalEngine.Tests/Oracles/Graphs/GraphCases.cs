@@ -1,4 +1,5 @@
 using System.Collections.Concurrent;
+using FractalEngine.Core.Fractals;
 using FractalEngine.Parsing;
 using FractalEngine.Tests.Oracles.Graphs.Expansion;
 using FractalEngine.Tests.Oracles.Graphs.Models;
@@ -7,25 +8,29 @@ using Xunit.Sdk;
 
 namespace FractalEngine.Tests.Oracles.Graphs;
 
-/// <summary>Writes random models, reads them by the engine, and compares. A failure comes with the smallest model that was found.</summary>
-internal static class GraphCases
+/// <summary>Makes fractals of random models, and compares. A failure comes with the smallest model that was found.</summary>
+/// <param name="options">What the models may have.</param>
+/// <param name="points">Number of positions for each.</param>
+/// <param name="rays">Number of rays for each.</param>
+/// <param name="source">How the fractals are made.</param>
+internal sealed class GraphCases(GraphOptions options, int points, int rays, GraphSource source)
 {
     // A few show whether they have one cause.
     private const int MaxFailures = 4;
 
+    private readonly ConcurrentQueue<string> _failures = [];
+
     /// <summary>Checks the models of seeds from 1 on.</summary>
-    public static GraphTally Run(int count, int points, int rays, GraphOptions options, bool inParallel = false)
+    public GraphTally Run(int count, bool inParallel = false)
     {
         var seeds = ParallelEnumerable.Range(1, count).WithDegreeOfParallelism(inParallel ? Environment.ProcessorCount : 1);
-        ConcurrentQueue<string> failures = [];
-        var tally = seeds.Aggregate(
-            GraphTally.Zero, (sum, seed) => sum + RunOne(seed, points, rays, options, failures), static (a, b) => a + b, static sum => sum);
-        return failures.IsEmpty ? tally : throw new XunitException(string.Join("\n", failures));
+        var tally = seeds.Aggregate(GraphTally.Zero, (sum, seed) => sum + RunOne(seed), static (a, b) => a + b, static sum => sum);
+        return _failures.IsEmpty ? tally : throw new XunitException(string.Join("\n", _failures));
     }
 
-    private static GraphTally RunOne(int seed, int points, int rays, GraphOptions options, ConcurrentQueue<string> failures)
+    private GraphTally RunOne(int seed)
     {
-        if (failures.Count >= MaxFailures)
+        if (_failures.Count >= MaxFailures)
         {
             return GraphTally.Zero;
         }
@@ -35,26 +40,46 @@ internal static class GraphCases
         var texts = GraphTexts.Of(file, random);
         try
         {
-            return Check(texts, new(instances), seed, points, rays);
+            return Check(file, texts, new(instances), seed);
         }
         catch (Exception exception) when (exception is not OutOfMemoryException)
         {
-            failures.Enqueue($"seed {seed}: {exception}\n{texts}{DescribeSmaller(file, exception, seed, points, rays)}");
+            _failures.Enqueue($"seed {seed}: {exception}\n{texts}{DescribeSmaller(file, exception, seed)}");
             return GraphTally.Zero;
         }
     }
 
-    private static GraphTally Check(GraphTexts texts, TriangleSoup soup, int seed, int points, int rays)
+    private GraphTally Check(GraphFile file, GraphTexts texts, TriangleSoup soup, int seed)
     {
-        using TemporaryFolder folder = new();
-        var fractal = FractalFile.Read(texts.WriteTo(folder));
+        if (Make(file, texts) is not { } fractal)
+        {
+            return GraphTally.Zero;
+        }
+
         Random random = new(seed);
         GraphStructureChecker.Check(fractal, soup, random);
-        GraphStructureChecker.CheckWritten(fractal, soup, folder, random);
         return new GraphChecker(fractal, soup, random).Check(points, rays);
     }
 
-    private static string DescribeSmaller(GraphFile file, Exception failure, int seed, int points, int rays)
+    private Fractal? Make(GraphFile file, GraphTexts texts)
+    {
+        if (source == GraphSource.Code)
+        {
+            return GraphCode.TryMake(file);
+        }
+
+        using TemporaryFolder folder = new();
+        var fractal = FractalFile.Read(texts.WriteTo(folder));
+        if (source == GraphSource.File)
+        {
+            return fractal;
+        }
+
+        FractalFile.Write(folder["written.fdo"], fractal);
+        return FractalFile.Read(folder["written.fdo"]);
+    }
+
+    private string DescribeSmaller(GraphFile file, Exception failure, int seed)
     {
         string? message = null;
         var smaller = GraphShrinker.Shrink(file, candidate =>
@@ -64,7 +89,7 @@ internal static class GraphCases
                 // Names may be gone, which fails in another way.
                 if (ModelExpansion.TryExpand(candidate) is { } instances)
                 {
-                    Check(GraphTexts.Of(candidate), new(instances), seed, points, rays);
+                    Check(candidate, GraphTexts.Of(candidate), new(instances), seed);
                 }
 
                 return false;

@@ -1,7 +1,6 @@
 using System.Numerics;
 using FractalEngine.Core.Colliders;
 using FractalEngine.Core.Fractals;
-using FractalEngine.Parsing;
 using FractalEngine.Tests.Oracles.Graphs.Expansion;
 using FractalEngine.Tests.Support;
 using static FractalEngine.Tests.Oracles.Graphs.GraphMismatch;
@@ -9,13 +8,13 @@ using Vector = FractalEngine.Core.Maths.Vector;
 
 namespace FractalEngine.Tests.Oracles.Graphs;
 
-/// <summary>Compares counts, bounds, expansions and written files of a fractal with an expansion.</summary>
+/// <summary>Compares counts, bounds and expansions of a fractal with an expansion.</summary>
 internal static class GraphStructureChecker
 {
     // Points of either surface that are looked for on the other one.
     private const int SurfacePoints = 10;
 
-    /// <summary>Checks all of them, but the files.</summary>
+    /// <summary>Checks all of them.</summary>
     /// <exception cref="GraphMismatch">Something differs.</exception>
     public static void Check(Fractal fractal, TriangleSoup soup, Random random)
     {
@@ -30,23 +29,6 @@ internal static class GraphStructureChecker
         var budget = random.Next(1, soup.Instances.Length + 1);
         var cut = fractal.WithMaxInstances(budget);
         ThrowUnless(cut.InstanceCount <= budget, "cut", $"{cut.InstanceCount} instances instead of {budget}");
-    }
-
-    /// <summary>What is written reads back as a fractal with the same answers.</summary>
-    public static void CheckWritten(Fractal fractal, TriangleSoup soup, TemporaryFolder folder, Random random)
-    {
-        FractalFile.Write(folder["written.fdo"], fractal);
-        var read = FractalFile.Read(folder["written.fdo"]);
-        var text = File.ReadAllText(folder["written.fdo"]);
-        CheckCounts(read, soup);
-        for (var i = 0; i < SurfacePoints && !soup.Triangles.IsEmpty; i++)
-        {
-            var position = soup.Triangles[random.Next(soup.Triangles.Length)].A + random.Vector();
-            var (distance, _, index) = soup.FindClosest(position);
-            var tolerance = 1e-12 * Math.Max(TriangleSoup.Largest(position) + distance, soup.Triangles[index].Reach);
-            var found = Collider.For(read).FindClosest(position).Distance;
-            ThrowUnless(Math.Abs(found - distance) <= tolerance, "written", $"{found:R}, not {distance:R} from {QueryText.Of(position)} of\n{text}");
-        }
     }
 
     /// <summary>Compares the numbers of chains and of their faces, equal ones counted: of all meshes, and of each.</summary>

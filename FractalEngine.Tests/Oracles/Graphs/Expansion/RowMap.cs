@@ -29,6 +29,11 @@ internal sealed class RowMap
         _ => Identity,
     };
 
+    /// <summary>Makes all maps of a product: for each choice of exponents, the first factor outermost.</summary>
+    public static IEnumerable<RowMap> AllOf(MapProduct product) => product.Factors.Aggregate(
+        (IEnumerable<RowMap>)[Identity],
+        static (maps, factor) => [.. maps.SelectMany(map => Powers(factor).Select(map.After))]);
+
     /// <summary>Composes two maps; the argument is applied first.</summary>
     public RowMap After(RowMap first)
     {
@@ -72,6 +77,22 @@ internal sealed class RowMap
         var translation = -inverse.Linear(Translation);
         (linear[3], linear[7], linear[11]) = (translation.X, translation.Y, translation.Z);
         return inverse;
+    }
+
+    /// <summary>Makes the same map of the library.</summary>
+    public AffineMap ToAffineMap() => new(
+        new(
+            new(_entries[0], _entries[4], _entries[8]), new(_entries[1], _entries[5], _entries[9]),
+            new(_entries[2], _entries[6], _entries[10])),
+        Translation);
+
+    private static IEnumerable<RowMap> Powers(MapPower factor)
+    {
+        for (var exponent = factor.Low; exponent <= factor.High; exponent++)
+        {
+            var step = exponent < 0 ? Of(factor.Leaf).Inverse() : Of(factor.Leaf);
+            yield return Enumerable.Repeat(step, Math.Abs(exponent)).Aggregate(Identity, static (map, next) => map.After(next));
+        }
     }
 
     private static RowMap Place(Vector position, Vector degrees, Vector scale)

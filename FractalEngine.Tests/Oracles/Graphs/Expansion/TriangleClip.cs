@@ -8,6 +8,13 @@ internal static class TriangleClip
     /// <summary>Tells whether something of a triangle lies in a closed box.</summary>
     public static bool Meets(in OracleTriangle triangle, Vector minimum, Vector maximum)
     {
+        var (low, high) = (
+            Vector.Min(triangle.A, Vector.Min(triangle.B, triangle.C)), Vector.Max(triangle.A, Vector.Max(triangle.B, triangle.C)));
+        if (low.X > maximum.X || low.Y > maximum.Y || low.Z > maximum.Z || high.X < minimum.X || high.Y < minimum.Y || high.Z < minimum.Z)
+        {
+            return false;
+        }
+
         List<Vector> polygon = [triangle.A, triangle.B, triangle.C];
         foreach (var axis in (Vector[])[Vector.I, Vector.J, Vector.K])
         {

@@ -9,6 +9,9 @@ internal sealed record GraphOptions
     /// <summary>Bodies may use what is built on their base by another name: a call where there are no sums, else a plain object.</summary>
     public bool HasIndirectCalls { get; init; }
 
+    /// <summary>Sets may have no maps, so that nothing is left of what they stand on.</summary>
+    public bool HasEmptySets { get; init; } = true;
+
     /// <summary>Closed meshes, and maps that keep them large: what images can be compared of.</summary>
     public bool IsForImages { get; init; }
 

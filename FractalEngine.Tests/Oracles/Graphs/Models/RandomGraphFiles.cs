@@ -30,7 +30,7 @@ internal sealed class RandomGraphFiles
         _meshes = meshes;
         _folder = folder;
         _paths = paths;
-        _products = new(random, options.IsForImages);
+        _products = new(random, options);
     }
 
     /// <summary>Draws models until one is small enough.</summary>
@@ -39,8 +39,8 @@ internal sealed class RandomGraphFiles
         while (true)
         {
             var count = options.IsLinear ? 1 : random.Next(2, 5);
-            var meshes = Enumerable.Range(1, count).Select(i => RandomOracleMeshes.Create(random, $"m{i}", options.IsForImages));
-            var file = new RandomGraphFiles(random, options, [.. meshes], "", ["main.fdo"]).CreateFile("main.fdo");
+            var meshes = RandomOracleMeshes.Create(random, count, options.IsForImages);
+            var file = new RandomGraphFiles(random, options, meshes, "", ["main.fdo"]).CreateFile("main.fdo");
             // One without triangles may be right, but is not needed often.
             if (ModelExpansion.TryExpand(file, options.MaxInstances, options.MaxFaces) is { } instances
                 && (instances.Any(static instance => instance.Mesh.FaceCount > 0) || (!options.IsForImages && random.Happens(2))))

@@ -7,15 +7,24 @@ namespace FractalEngine.Tests.Oracles.Graphs.Models;
 /// <summary>Draws base meshes: closed, open, flat, thin, far away, without area, small and large.</summary>
 internal static class RandomOracleMeshes
 {
-    /// <summary>Draws a mesh.</summary>
+    /// <summary>Draws different meshes.</summary>
     /// <param name="random">The numbers.</param>
-    /// <param name="name">Its name, which is also that of its file.</param>
-    /// <param name="isForImages">Whether it has to be closed and of ordinary size.</param>
-    public static OracleMesh Create(Random random, string name, bool isForImages)
+    /// <param name="count">How many.</param>
+    /// <param name="isForImages">Whether they have to be closed and of ordinary size.</param>
+    public static ImmutableArray<OracleMesh> Create(Random random, int count, bool isForImages)
     {
-        var (vertices, indices) = isForImages ? CreateClosed(random) : CreateAny(random);
-        var path = (random.Next(3) == 0 ? "meshes/" : "") + name + ".obj";
-        return new(name, path, [.. vertices], [.. indices]);
+        List<OracleMesh> meshes = [.. OracleMesh.ShapeNames.Select(OracleMesh.Shape)];
+        for (var i = 1; i <= count;)
+        {
+            var (vertices, indices) = isForImages ? CreateClosed(random) : CreateAny(random);
+            if (!meshes.Exists(mesh => mesh.Vertices.SequenceEqual(vertices) && mesh.Indices.SequenceEqual(indices)))
+            {
+                meshes.Add(new($"m{i}", $"{(random.Next(3) == 0 ? "meshes/" : "")}m{i}.obj", [.. vertices], [.. indices]));
+                i++;
+            }
+        }
+
+        return [.. meshes[^count..]];
     }
 
     private static (Vector[] Vertices, int[] Indices) CreateAny(Random random)

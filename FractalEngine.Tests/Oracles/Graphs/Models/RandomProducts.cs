@@ -10,12 +10,14 @@ internal sealed class RandomProducts
     private const double FlatScale = 1e-3;
     private readonly Random _random;
     private readonly bool _isForImages;
+    private readonly bool _hasEmptySets;
     private readonly ImmutableArray<MapLeaf> _leaves;
 
-    public RandomProducts(Random random, bool isForImages)
+    public RandomProducts(Random random, GraphOptions options)
     {
         _random = random;
-        _isForImages = isForImages;
+        _isForImages = options.IsForImages;
+        _hasEmptySets = options is { HasEmptySets: true, IsForImages: false };
         // Few, so that sets share some of them.
         _leaves = [.. Enumerable.Range(0, random.Next(2, 7)).Select(_ => CreateLeaf())];
     }
@@ -23,7 +25,7 @@ internal sealed class RandomProducts
     /// <summary>Draws a set, which is empty in rare cases.</summary>
     public ImmutableArray<MapProduct> CreateSet(int minCount)
     {
-        var count = Math.Max(minCount, _random.Draw((40, 1), (35, 2), (20, 3), (4, 5), (_isForImages ? 0 : 1, 0)));
+        var count = Math.Max(minCount, _random.Draw((40, 1), (35, 2), (20, 3), (4, 5), (_hasEmptySets ? 1 : 0, 0)));
         return [.. Enumerable.Range(0, count).Select(_ => CreateProduct())];
     }
 
