@@ -33,7 +33,7 @@ public sealed class NullArgumentTests : IDisposable
         "AdaptiveQuality", "AnimationOutput", "AtomicFile", "BodyCsvWriter", "BodyDescription", "CameraFraming",
         "CameraNavigation", "CameraZoom", "ClosedSurface", "DeepZoomRayCaster", "DistinctInstances", "EditedFile",
         "EditedFileWriter", "ExactFractalCollider", "FileEdits", "FlyingCamera", "FractalAddress", "FractalBounds",
-        "FractalComments", "FractalGenerator", "FractalNumber", "FractalSteps", "FractalWriter",
+        "FractalComments", "FractalGenerator", "FractalNumber", "FractalPartList", "FractalSteps", "FractalWriter",
         "FrameRenderer", "HierarchyCollider", "ImageHeader", "LoadedScene", "LodHierarchy", "Matting", "MtlParser", "NewFile",
         "NewFractalFile", "NewSceneFile", "NormalGenerator", "ObjMeshWriter", "ObjSceneWriter", "PhysicsWorld", "PlacedModel",
         "PointsParser", "QueryStatistics", "RaysParser", "SceneDraft", "SceneEditor", "SceneFileMerge", "SceneFraming",

@@ -53,6 +53,7 @@ internal static class RayQueries
         CultureInfo.InvariantCulture,
         $"{{\"distance\": {hit.Distance:R}, \"point\": [{FormatVector(hit.Point, ", ")}], "
         + $"\"normal\": [{FormatVector(hit.Normal, ", ")}], \"front\": {(hit.IsFrontFace ? "true" : "false")}, "
-        + $"\"face\": {hit.FaceIndex}, {FormatMesh(scene, hit.ObjectIndex, hit.MeshIndex)}\"barycentrics\": [{FormatVector(hit.Barycentrics, ", ")}], \"object\": {hit.ObjectIndex}, "
+        + $"\"face\": {hit.FaceIndex}, {FormatMesh(scene, hit.ObjectIndex, hit.MeshIndex)}"
+        + $"\"barycentrics\": [{FormatVector(hit.Barycentrics, ", ")}], \"object\": {hit.ObjectIndex}, "
         + $"\"instance\": [{string.Join(", ", hit.InstancePath)}]}}");
 }

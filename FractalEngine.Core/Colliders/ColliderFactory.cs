@@ -39,7 +39,7 @@ public static class ColliderFactory
             (ColliderKind.Fractal, Composition.Affine) => fractal.Description.Parts.IsEmpty
                 ? new FractalCollider(fractal)
                 : throw new ColliderMismatchException(
-                    "the collider 'fractal' descends the levels of one recursion, and this fractal has sums or recursives of several parts: "
+                    "the collider 'fractal' descends the levels of one recursion, and this fractal has sums or several recursives: "
                     + "expected exact, hierarchy, bounding-box or simple"),
             _ => CreateExpanded(fractal, AffineMap.Identity, kind),
         };

@@ -76,15 +76,6 @@ public static class DistinctInstances
         return count <= budget ? Count(fractal, budget) ?? count : count;
     }
 
-    /// <summary>Finds an upper bound of the number of faces of distinct instances, as <see cref="CountAtMost"/> does of these.</summary>
-    /// <returns>Null for an infinite fractal.</returns>
-    public static BigInteger? CountFacesAtMost(Fractal fractal)
-    {
-        ArgumentNullException.ThrowIfNull(fractal);
-        return fractal.ByMesh.Aggregate(
-            (BigInteger?)BigInteger.Zero, static (sum, part) => sum + (CountAtMost(part) * part.BaseMesh.FaceCount));
-    }
-
     private static BigInteger? CountWithoutIdentities(Fractal fractal)
     {
         if (fractal.Description.Composition != Composition.Affine || fractal.LevelCount > MaxCountedLevels)

@@ -31,7 +31,7 @@ public sealed class Fractal : IEquatable<Fractal>
     /// <exception cref="ArgumentException">The description has no steps, or no kind of composition, or is not one of one mesh.</exception>
     [OverloadResolutionPriority(1)] // Null is then a missing mesh.
     public Fractal(FractalDescription description, Mesh baseMesh)
-        : this(description, [baseMesh])
+        : this(description, [baseMesh ?? throw new ArgumentNullException(nameof(baseMesh))])
     {
     }
 
@@ -42,15 +42,19 @@ public sealed class Fractal : IEquatable<Fractal>
     public Fractal(FractalDescription description, ImmutableArray<Mesh> baseMeshes)
     {
         ArgumentNullException.ThrowIfNull(description);
-        foreach (var mesh in baseMeshes)
+        if (baseMeshes.IsDefault || baseMeshes.Any(static mesh => mesh is null))
         {
-            ArgumentNullException.ThrowIfNull(mesh, nameof(baseMeshes));
+            throw new ArgumentException("expected base meshes, none of them null", nameof(baseMeshes));
         }
 
-        if (description.Steps.IsDefault || !Enum.IsDefined(description.Composition) || description.MeshCount != baseMeshes.Length)
+        if (description.Steps.IsDefault || !Enum.IsDefined(description.Composition))
         {
-            throw new ArgumentException(
-                $"expected steps, a kind of composition, and {baseMeshes.Length} base meshes", nameof(description));
+            throw new ArgumentException("expected steps and a kind of composition", nameof(description));
+        }
+
+        if (description.MeshCount != baseMeshes.Length)
+        {
+            throw new ArgumentException($"expected as many base meshes as described: {description.MeshCount}", nameof(baseMeshes));
         }
 
         Description = description;

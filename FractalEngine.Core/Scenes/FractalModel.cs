@@ -13,6 +13,7 @@ namespace FractalEngine.Core.Scenes;
 /// <param name="fractal">In its own frame, scene units.</param>
 public sealed class FractalModel(Fractal fractal) : Model
 {
+    private readonly Lazy<BigInteger?> _distinctInstanceCount = new(() => DistinctInstances.CountAtMost(fractal));
     private ImmutableArray<Model> _parts;
 
     /// <summary>The fractal that the model shows.</summary>
@@ -30,7 +31,7 @@ public sealed class FractalModel(Fractal fractal) : Model
             SourcePath = SourcePath,
             Materials = MaterialsAt(index),
         })]
-        : [this];
+        : base.Parts;
 
     /// <inheritdoc/>
     public override string MeshNameAt(int index) =>
@@ -50,6 +51,9 @@ public sealed class FractalModel(Fractal fractal) : Model
 
     /// <inheritdoc/>
     public override BigInteger? InstanceCount => Fractal.InstanceCount;
+
+    /// <inheritdoc/>
+    public override BigInteger? DistinctInstanceCount => _distinctInstanceCount.Value;
 
     /// <inheritdoc/>
     public override BoundingBox Bounds => Fractal.Bounds;

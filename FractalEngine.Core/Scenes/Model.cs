@@ -12,6 +12,8 @@ namespace FractalEngine.Core.Scenes;
 /// <summary>What an object of a scene shows: a mesh or a fractal. Any number of objects can share one model.</summary>
 public abstract class Model
 {
+    private ImmutableArray<Model> _onlyPart;
+
     private protected Model()
     {
     }
@@ -33,7 +35,7 @@ public abstract class Model
     /// The model by its meshes, each with its instances, and its materials: those of a fractal with several base meshes, in their order.
     /// Any other model is its only part.
     /// </summary>
-    public virtual ImmutableArray<Model> Parts => [this];
+    public virtual ImmutableArray<Model> Parts => !_onlyPart.IsDefault ? _onlyPart : _onlyPart = [this];
 
     /// <summary>
     /// The materials that the groups of the mesh name, by their names; those that no file declares are missing. Paths of textures are
@@ -49,6 +51,16 @@ public abstract class Model
 
     /// <summary>Instances times vertices of their meshes; null for infinitely many.</summary>
     public BigInteger? VertexCount => Sum(static mesh => mesh.VertexCount);
+
+    /// <summary>
+    /// Number of distinct instances at most, see <see cref="DistinctInstances.CountAtMost"/>: what the identity in sets repeats counts
+    /// once. Computed by the first who asks.
+    /// </summary>
+    public virtual BigInteger? DistinctInstanceCount => InstanceCount;
+
+    /// <summary>Number of faces of distinct instances at most; null for infinitely many.</summary>
+    public BigInteger? DistinctFaceCount => Parts.Aggregate(
+        (BigInteger?)BigInteger.Zero, static (sum, part) => sum + (part.DistinctInstanceCount * part.Mesh.FaceCount));
 
     /// <summary>A box that holds the whole model in its own frame.</summary>
     public abstract BoundingBox Bounds { get; }

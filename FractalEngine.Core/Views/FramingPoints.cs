@@ -34,7 +34,8 @@ internal sealed class FramingPoints(Vector centre)
         }
 
         var points = new FramingPoints(scene.Bounds.Centre);
-        var usesBoxes = scene.Objects.Sum(static placed => placed.Model.Parts.Sum(static part => (long)part.Mesh.VertexCount)) > MaxVertices;
+        var usesBoxes = scene.Objects.SelectMany(static placed => placed.Model.Parts).Sum(
+            static part => (long)part.Mesh.VertexCount) > MaxVertices;
         foreach (var placed in scene.Objects)
         {
             if (usesBoxes || !points.TryAdd(placed))

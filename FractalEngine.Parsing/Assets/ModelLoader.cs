@@ -29,7 +29,7 @@ internal sealed class ModelLoader
 
     // The fractals that are parts of others, by full paths, and those that are being read, the outermost first.
     private readonly Dictionary<string, LoadedBase> _innerFractals = [];
-    private readonly List<(string Path, string Name)> _openFractals = [];
+    private readonly List<string> _openFractals = [];
     private long _textBytes;
 
     /// <summary>Prepares for the models of one file.</summary>
@@ -121,7 +121,7 @@ internal sealed class ModelLoader
     {
         var parsed = ReadOrFindFractal(fullPath, displayName);
         Warnings.AddRange(parsed.Warnings);
-        var bases = LoadBases(parsed, fullPath, displayName);
+        var bases = LoadBases(parsed, fullPath);
         var isNested = _openFractals.Count > 0;
         var joined = bases is [{ Fractal: null }] && parsed.Description.Parts.IsEmpty
             ? new(parsed.Description, [bases[0].Meshes[0]])
@@ -148,9 +148,9 @@ internal sealed class ModelLoader
         };
     }
 
-    private List<LoadedBase> LoadBases(ParsedFractal parsed, string fullPath, string displayName)
+    private List<LoadedBase> LoadBases(ParsedFractal parsed, string fullPath)
     {
-        _openFractals.Add((fullPath, displayName));
+        _openFractals.Add(fullPath);
         try
         {
             return parsed.Bases.Select(reference => LoadBase(parsed, reference, fullPath)).ToList();
@@ -179,12 +179,13 @@ internal sealed class ModelLoader
 
         if (_innerFractals.TryGetValue(path, out var known))
         {
+            Record.AddRange(known.Files);
             return known;
         }
 
-        if (_openFractals.FindIndex(open => open.Path == path) is >= 0 and var first)
+        if (_openFractals.IndexOf(path) is >= 0 and var first)
         {
-            var files = string.Join(" → ", _openFractals.Skip(first).Select(static open => open.Name).Append(displayName));
+            var files = string.Join(" → ", _openFractals.Skip(first).Append(path).Select(Path.GetFileName));
             throw parsed.Source.Error(reference.Offset, $"a fractal can't contain itself: {files}");
         }
 
@@ -195,15 +196,21 @@ internal sealed class ModelLoader
                 isLimitExceeded: true);
         }
 
+        var filesBefore = Record.Position;
         var model = LoadFractal(path, displayName);
         if (model.Fractal.Description.Composition == Composition.Componentwise)
         {
-            throw parsed.Source.Error(reference.Offset, $"'{displayName}' is composed componentwise, and can't be a part of another fractal");
+            throw parsed.Source.Error(
+                reference.Offset, $"'{reference.File}' is composed componentwise, and can't be a part of another fractal");
         }
 
         var meshes = model.Fractal.BaseMeshes.Select((mesh, index) => new BaseMeshContents(
             mesh, model.MaterialsAt(index), model.Fractal.BaseMeshPaths[index]));
-        return _innerFractals[path] = new(path, model.Fractal.Description, [.. meshes], model.FileBytes, model.NumberNames);
+        return _innerFractals[path] = new(
+            path, model.Fractal.Description, [.. meshes], model.FileBytes, model.NumberNames)
+        {
+            Files = Record.Since(filesBefore),
+        };
     }
 
     /// <summary>Puts the fractals and meshes that a file names in the places of its base meshes.</summary>
@@ -222,7 +229,9 @@ internal sealed class ModelLoader
         var parts = new FractalPartList();
         var meshes = new List<BaseMeshContents>();
         var whole = parts.AddAll(parsed.Description, index =>
-            bases[index] is var one && one.Fractal is null ? AddMesh(one.Meshes[0]) : parts.AddAll(one.Fractal, mesh => AddMesh(one.Meshes[mesh])));
+            bases[index] is { Fractal: { } inner, Meshes: var ofInner }
+                ? parts.AddAll(inner, mesh => AddMesh(ofInner[mesh]))
+                : AddMesh(bases[index].Meshes[0]));
         var description = parts.Describe(whole, [], parsed.Description.Composition, out var used);
         if (used.Length > ParsingLimits.BaseFiles.Value)
         {
@@ -327,7 +336,11 @@ internal sealed class ModelLoader
     /// <param name="NumberNames">Names of the numbers that can be set.</param>
     private sealed record LoadedBase(
         string Key, FractalDescription? Fractal, ImmutableArray<BaseMeshContents> Meshes, long ByteCount,
-        ImmutableArray<string> NumberNames);
+        ImmutableArray<string> NumberNames)
+    {
+        /// <summary>The files of another fractal, with their stamps.</summary>
+        public ImmutableDictionary<string, FileStamp> Files { get; init; } = ImmutableDictionary<string, FileStamp>.Empty;
+    }
 
     private sealed record BaseMeshContents(Mesh Mesh, ImmutableDictionary<string, Material> Materials, string? Path);
 

@@ -12,7 +12,8 @@ internal static class FractalCheck
     public static string? FindCompositionFault(FractalDescription description) =>
         description.Composition != Composition.Componentwise || description.CanBeComponentwise ? null
         : description.IsInfinite ? "an infinite fractal can't be composed componentwise: its positions don't shrink; give it a depth"
-        : !description.Parts.IsEmpty ? "sums, and recursives of several calls, can't be composed componentwise: that adds positions on each level"
+        : !description.Parts.IsEmpty
+            ? "sums, and recursives of several calls, can't be composed componentwise: that adds positions on each level"
         : "matrices, powers and products of maps can't be composed componentwise: that adds positions and rotations";
 
     /// <summary>Returns what is wrong with the bounds of a fractal; null if they are finite.</summary>
@@ -24,8 +25,9 @@ internal static class FractalCheck
         }
 
         return !fractal.Description.IsInfinite ? "the fractal grows beyond the range of a double"
-            : fractal.Description.Parts.IsEmpty
-                && fractal.Description.Steps.OfType<Repetition>().Where(static step => step.Count is null).All(Shrinks)
+            : !fractal.Description.Parts.IsEmpty
+                ? "the bounds of the infinite fractal don't converge: its transformations must shrink, and not to a single point"
+            : fractal.Description.Steps.OfType<Repetition>().Where(static step => step.Count is null).All(Shrinks)
                 ? "the infinite fractal's transformations shrink too slowly: its bounds still change after thousands of levels; "
                     + "give it a depth"
                 : "the infinite fractal has no bounds: its transformations don't shrink";

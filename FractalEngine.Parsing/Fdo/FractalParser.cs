@@ -216,8 +216,9 @@ public sealed class FractalParser : MapSetParser
         var values = FindBases(heads);
         if (bodies.Count != heads.Count)
         {
-            throw Error(cursor, FormattableString.Invariant(
-                $"{heads.Count} recursives have {heads.Count} bodies, with commas between them: found {bodies.Count}"));
+            var expected = heads.Count == 1 ? "1 recursive has 1 body" : FormattableString.Invariant(
+                $"{heads.Count} recursives have {heads.Count} bodies, with commas between them");
+            throw Error(cursor, FormattableString.Invariant($"{expected}: found {bodies.Count}"));
         }
 
         if (bodies is [var (only, onlyStart)] && !HasCallInParts(only))
@@ -366,7 +367,8 @@ public sealed class FractalParser : MapSetParser
     }
 
     /// <summary>
-    /// Parses <c>"file.obj"</c>, <c>(object)</c>, <c>name</c> or <c>name depth</c>, with any number of sets <c>[transformations]</c> before it. It is a
+    /// Parses <c>"file.obj"</c>, <c>(object)</c>, <c>name</c> or <c>name depth</c>, with any number of sets
+    /// <c>[transformations]</c> before it. It is a
     /// loop, not a recursion, so that no file can exhaust the stack.
     /// </summary>
     private bool ParseObject(Cursor cursor, out DeclaredObject value, out Cursor rest)

@@ -84,7 +84,8 @@ public abstract class TransformationParser : ExpressionParser
     private protected bool ParseFunction(Cursor cursor, out Cursor rest)
     {
         if (!ParseName(cursor, "a declaration", out var name, out rest) || !ParseChar(rest, '.', out rest)
-            || !ParseParameters(rest, out var parameters, out rest) || !ParseBlanks(rest, out rest) || !ParseChar(rest, '(', out var outputs)
+            || !ParseParameters(rest, out var parameters, out rest) || !ParseBlanks(rest, out rest)
+            || !ParseChar(rest, '(', out var outputs)
             || (parameters.Count == 0 && ParenthesizedObject.Begins(rest.Rest)))
         {
             return false;

@@ -65,7 +65,7 @@ public static class ParsingLimits
     /// <summary>All limits of parsers, in the order of a listing.</summary>
     public static ImmutableArray<Limit> All { get; } =
     [
-        ObjBytes, DescriptionBytes, SceneLines, PointsBytes, Maps, Names, RepeatedSteps, ExpressionTerms, BaseFiles, MaterialBytes, ImageBytes,
-        ImageSide, TotalImagePixels, PolygonCorners,
+        ObjBytes, DescriptionBytes, SceneLines, PointsBytes, Maps, Names, RepeatedSteps, ExpressionTerms, BaseFiles, MaterialBytes,
+        ImageBytes, ImageSide, TotalImagePixels, PolygonCorners,
     ];
 }

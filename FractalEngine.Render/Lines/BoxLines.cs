@@ -3,6 +3,7 @@ using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Visibility.Levels;
 using FractalEngine.Render.Views;
 
 namespace FractalEngine.Render.Lines;
@@ -45,7 +46,14 @@ public static class BoxLines
         var lines = new List<LineSegment>();
         foreach (var placed in scene.Objects)
         {
-            if (level > 0 && placed.Model is FractalModel { Fractal: { Description.Composition: Composition.Affine } fractal }
+            if (level > 0 && placed.Model is FractalModel { Fractal: { Description.Parts.IsEmpty: false } joined })
+            {
+                foreach (var (box, map) in LodHierarchy.Build(joined).BoxesAt(level).Take(MaxBoxes - (lines.Count / LinesPerBox)))
+                {
+                    Add(lines, box, placed.ObjectToWorld * map, colour);
+                }
+            }
+            else if (level > 0 && placed.Model is FractalModel { Fractal: { Description.Composition: Composition.Affine } fractal }
                 && level <= (fractal.LevelCount ?? long.MaxValue))
             {
                 AddChildren(lines, fractal, SubFractals.Of(fractal, level).Bounds, placed.ObjectToWorld, (0, level), colour);

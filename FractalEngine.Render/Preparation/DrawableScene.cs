@@ -58,7 +58,8 @@ public sealed class DrawableScene
 
     /// <summary>The fractal that a camera can enter: the only object of the scene, if that is a fractal; null for none.</summary>
     public FractalLocation? SingleFractal =>
-        Source.Objects is [{ Model: FractalModel, ObjectToWorld: var objectToWorld }] && (_joinedHierarchy ?? Objects[0].Model.LodHierarchy) is { } hierarchy
+        Source.Objects is [{ Model: FractalModel, ObjectToWorld: var objectToWorld }]
+            && (_joinedHierarchy ?? Objects[0].Model.LodHierarchy) is { } hierarchy
             ? new(0, hierarchy, objectToWorld) : null;
 
     /// <summary>The items of <see cref="Objects"/> that show an object of the scene.</summary>

@@ -1,6 +1,7 @@
 using System.Text.RegularExpressions;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Generation;
+using FractalEngine.Core.Geometry;
 using FractalEngine.Parsing.Fdo;
 using FractalEngine.Tests.Support;
 
@@ -22,11 +23,12 @@ public class ComingFromPageTests
     [InlineData(3, 28_561)]
     [InlineData(4, 331_776)]
     [InlineData(5, 2047)]
+    [InlineData(6, 64 * (6 + 1 + 16))]
     public void File_HasItsInstances(int index, int count)
     {
-        Assert.Equal(6, Files.Length);
+        Assert.Equal(7, Files.Length);
         var parsed = FractalParser.Parse(new("page.fdo", Files[index]));
-        Assert.True(BaseShapes.TryFind(parsed.BaseFile, out var mesh));
-        Assert.Equal(count, DistinctInstances.Count(new(parsed.Description, mesh)));
+        var meshes = parsed.Bases.Select(static one => BaseShapes.TryFind(one.File, out var mesh) ? mesh : Mesh.Empty);
+        Assert.Equal(count, DistinctInstances.Count(new(parsed.Description, [.. meshes])));
     }
 }

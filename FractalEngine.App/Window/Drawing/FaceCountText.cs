@@ -1,5 +1,4 @@
 using System.Numerics;
-using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 
@@ -11,8 +10,7 @@ internal static class FaceCountText
     /// <summary>Returns the number of faces with its unit.</summary>
     public static string Of(LoadedScene scene)
     {
-        var faces = scene.Sum(static model => model is FractalModel { Fractal: var fractal }
-            ? DistinctInstances.CountFacesAtMost(fractal) : model.FaceCount);
+        var faces = scene.Sum(static model => model.DistinctFaceCount);
         return faces == BigInteger.One ? "1 face" : $"{DecimalText.FormatApproximately(faces)} faces";
     }
 }

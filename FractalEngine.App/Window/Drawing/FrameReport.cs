@@ -26,8 +26,9 @@ internal readonly record struct FrameReport(
         return [("Last frame", CostRows(statistics)), ("Optimisations", SavingsRows(statistics, frames))];
     }
 
-    /// <summary>Number of instances of all objects together, for people.</summary>
-    private string AllInstances => Renderer.Scene.Source.Sum(static model => model.InstanceCount) is not { } count ? "infinitely many"
+    /// <summary>Number of distinct instances of all objects together, for people.</summary>
+    private string AllInstances => Renderer.Scene.Source.Sum(static model => model.DistinctInstanceCount) is not { } count
+        ? "infinitely many"
         : count.ToString(count < 1_000_000_000_000 ? "N0" : "E1", CultureInfo.InvariantCulture);
 
     private (string Name, string Value)[] CostRows(FrameStatistics statistics)

@@ -52,7 +52,8 @@ internal sealed class Document : IDisposable
         FlyingCamera = new(
             file.Scene.Bounds, camera, options.Projection ?? scene.Projection, scene.OrthographicHeight, preparation.Scene.SingleFractal,
             file.Scene, scene.Camera is null ? area.Aspect : null);
-        Trail = file.Scene.Objects is [{ Model: FractalModel { Fractal: var fractal } }] ? new(fractal, options.TrailLength) : null;
+        Trail = file.Scene.Objects is [{ Model: FractalModel { Fractal: { Description.Parts.IsEmpty: true } fractal } }]
+            ? new(fractal, options.TrailLength) : null;
         // Before anything of the previous document ends, since the driver may refuse the new one.
         previous?.Renderer.Replace(preparation.Scene);
         Renderer = previous?.Renderer ?? new(window, preparation.Scene);

@@ -27,7 +27,8 @@ internal static class FractalSelection
     {
         if (!fractal.Description.Parts.IsEmpty)
         {
-            return fractal.Follow(path.AsSpan()) is { } steps && (fractal.Description.IsInfinite || steps is [] or [.., { IsInstance: true }])
+            return fractal.Follow(path.AsSpan()) is { } steps
+                && (fractal.Description.IsInfinite || steps is [] or [.., { IsInstance: true }])
                 ? steps.Aggregate(map, static (product, step) => product * step.Map)
                 : null;
         }

@@ -1,6 +1,5 @@
 using System.Globalization;
 using System.Numerics;
-using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Render.Ui;
@@ -12,8 +11,6 @@ internal sealed class FractalFacts
 {
     private FractalModel? _measured;
     private double? _dimension;
-    private BigInteger? _instances;
-    private BigInteger? _faces;
 
     /// <summary>Adds a line for each: counts are exact up to fifteen digits.</summary>
     public void Build(UserInterface ui, FractalModel model)
@@ -21,13 +18,11 @@ internal sealed class FractalFacts
         if (!ReferenceEquals(model, _measured))
         {
             (_measured, _dimension) = (model, SimilarityDimension.Of(model.Fractal.Description));
-            _instances = DistinctInstances.CountAtMost(model.Fractal);
-            _faces = DistinctInstances.CountFacesAtMost(model.Fractal);
         }
 
         ui.Heading(model.Name);
-        ui.Fact("instances", Count(_instances), $"distinct ones, of {Count(model.InstanceCount)} chains of maps");
-        ui.Fact("faces", Count(_faces));
+        ui.Fact("instances", Count(model.DistinctInstanceCount), $"distinct ones, of {Count(model.InstanceCount)} chains of maps");
+        ui.Fact("faces", Count(model.DistinctFaceCount));
         var size = model.Bounds.Size;
         ui.Fact("size", size.IsFinite()
             ? $"{PanelWidgets.Number(size.X)} × {PanelWidgets.Number(size.Y)} × {PanelWidgets.Number(size.Z)}" : "no bounds");

@@ -9,7 +9,8 @@ namespace FractalEngine.Core.Fractals.Descriptions;
 internal readonly struct FractalParts(int meshCount, ImmutableArray<FractalPart> parts)
 {
     /// <summary>True when the whole has a part without end, or is made of one.</summary>
-    public bool IsInfinite => Evaluate(static _ => false, static (part, isInfiniteAt) => part.IsInfinite || part.References.Any(isInfiniteAt));
+    public bool IsInfinite => Evaluate(
+        static _ => false, static (part, isInfiniteAt) => part.IsInfinite || part.References.Any(isInfiniteAt));
 
     /// <summary>Number of sets that the longest chain of maps passes through; null for infinitely many.</summary>
     public long? LevelCount => Evaluate<long?>(static _ => 0, static (part, levelsAt) => part.CountLevels(levelsAt));

@@ -55,8 +55,9 @@ public static class FractalSteps
             : steps;
 
     /// <summary>Makes the same steps with all repetitions carried out at most so often.</summary>
-    internal static ImmutableArray<FractalStep> WithMaxDepth(this ImmutableArray<FractalStep> steps, int depth) => ImmutableArray.CreateRange(
-        steps, step => step is Repetition repetition && !(repetition.Count <= depth) ? repetition.WithCount(depth) : step);
+    internal static ImmutableArray<FractalStep> WithMaxDepth(this ImmutableArray<FractalStep> steps, int depth) =>
+        ImmutableArray.CreateRange(
+            steps, step => step is Repetition repetition && !(repetition.Count <= depth) ? repetition.WithCount(depth) : step);
 
     /// <summary>Finds the set at one level, in O(steps) whatever the number of rounds.</summary>
     /// <param name="steps">Steps, outermost first.</param>

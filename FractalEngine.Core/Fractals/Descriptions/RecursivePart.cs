@@ -21,6 +21,11 @@ public sealed class RecursivePart : FractalPart
     /// <exception cref="ArgumentException">A call leads to no recursive, or some call each other without end at the same level.</exception>
     public RecursivePart(ImmutableArray<FractalRecursive> recursives, int root, int? levels)
     {
+        if (recursives.IsDefaultOrEmpty)
+        {
+            throw new ArgumentException("expected at least one recursive", nameof(recursives));
+        }
+
         ArgumentOutOfRangeException.ThrowIfNegative(levels ?? 0, nameof(levels));
         ArgumentOutOfRangeException.ThrowIfNegative(root);
         ArgumentOutOfRangeException.ThrowIfGreaterThanOrEqual(root, recursives.Length);
@@ -85,7 +90,10 @@ public sealed class RecursivePart : FractalPart
 
     /// <summary>Makes the union of earlier parts, each under a map.</summary>
     /// <param name="terms">At least one constant.</param>
-    public static RecursivePart Sum(params ImmutableArray<RecursiveCall> terms) => new([new(terms[0].Target, terms)], 0, 1);
+    /// <exception cref="ArgumentException">There is no term.</exception>
+    public static RecursivePart Sum(params ImmutableArray<RecursiveCall> terms) => !terms.IsDefaultOrEmpty
+        ? new([new(terms[0].Target, terms)], 0, 1)
+        : throw new ArgumentException("expected at least one term", nameof(terms));
 
     /// <summary>Makes one recursive that calls itself and earlier parts.</summary>
     /// <param name="basePart">What it is without levels.</param>

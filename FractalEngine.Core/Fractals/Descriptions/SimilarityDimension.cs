@@ -24,8 +24,8 @@ public static class SimilarityDimension
     /// <summary>Computes the dimension of a fractal, as if its repetitions had no end.</summary>
     /// <param name="fractal">Its steps; the repetition of the largest dimension counts.</param>
     /// <returns>
-    /// At least 0. Null where nothing is repeated, where sums or recursives of several parts are, where a chain does not shrink, and for componentwise composition, whose chains are no
-    /// products of maps.
+    /// At least 0. Null where nothing is repeated, where a chain does not shrink, for recursives of several calls, and for componentwise
+    /// composition, whose chains are no products of maps.
     /// </returns>
     /// <remarks>Cost: some dozen passes over the different ratios.</remarks>
     public static double? Of(FractalDescription fractal)

@@ -33,8 +33,11 @@ internal sealed class BuiltLevels
     /// <summary>Index of the base mesh of the level with a number of remaining levels, see <see cref="SubFractal.BaseIndex"/>.</summary>
     public int BaseIndexAt(long remainingLevels) => EntryAt(remainingLevels).Level.BaseIndex;
 
+    /// <summary>The areas that the level with a number of remaining levels shows of each base mesh; none where there is one.</summary>
+    public double[] AreasAt(long remainingLevels) => EntryAt(remainingLevels).Areas;
+
     /// <summary>Adds one level above all others; levels that don't recur form one run.</summary>
-    public void Add(BoundingVolume volume, HierarchyLevel level) => Add(1, new Entry(volume, level));
+    public void Add(BoundingVolume volume, HierarchyLevel level, double[] areas) => Add(1, new Entry(volume, level, areas));
 
     /// <summary>Adds a run of levels on top, which recur with the period of those given.</summary>
     public void Add(long count, params ReadOnlySpan<Entry> round)
@@ -56,6 +59,6 @@ internal sealed class BuiltLevels
     private Entry EntryAt(long remainingLevels) =>
         _entries[LevelRegion.FindIndex(CollectionsMarshal.AsSpan(_regions), remainingLevels)];
 
-    /// <summary>One level of a run, and its bounds, which only levels above it need.</summary>
-    internal readonly record struct Entry(BoundingVolume Volume, HierarchyLevel Level);
+    /// <summary>One level of a run, with its bounds and areas, which only levels above it need.</summary>
+    internal readonly record struct Entry(BoundingVolume Volume, HierarchyLevel Level, double[] Areas);
 }

@@ -110,7 +110,21 @@ public sealed class StaticObject
     internal PlacedModel Reference { get; private set; }
 
     /// <summary>True for a closed solid, or what consists of such. What is behind its faces is then inside it.</summary>
-    internal bool IsSolid => Model.Parts.All(part => _set.IsSolid(part.Mesh));
+    internal bool IsSolid
+    {
+        get
+        {
+            foreach (var part in Model.Parts)
+            {
+                if (!_set.IsSolid(part.Mesh))
+                {
+                    return false;
+                }
+            }
+
+            return true;
+        }
+    }
 
     /// <summary>
     /// 1 where faces look out of the object as they are wound, −1 where its matrix mirrors it, 0 where its instances differ.

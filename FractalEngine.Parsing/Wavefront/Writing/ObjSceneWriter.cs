@@ -59,7 +59,8 @@ public sealed class ObjSceneWriter
         var writer = new ObjSceneWriter(stream, materials);
         var objects = scene.Objects.Select(placed => placed.Parts.Select(
             part => (Placed: part, Instances: ExpandInstances(part.Model, maxFaces))).ToArray()).ToArray();
-        var faceCount = objects.SelectMany(static parts => parts).Sum(item => (long)item.Instances.Length * item.Placed.Model.Mesh.FaceCount);
+        var faceCount = objects.SelectMany(static parts => parts).Sum(
+            static item => (long)item.Instances.Length * item.Placed.Model.Mesh.FaceCount);
         if (faceCount > maxFaces)
         {
             throw new FractalLimitException(

@@ -71,7 +71,8 @@ public class FractalGraphTests
         for (var levels = 0; levels < 100; levels++)
         {
             AssertCounts(Rabbits(levels), young, adults, 0);
-            Assert.True(Rabbits(levels).Counts.HasAtMostInstances((long)BigInteger.Min(1L << 53, young + adults)) || young + adults > 1L << 53);
+            Assert.True(
+                Rabbits(levels).Counts.HasAtMostInstances((long)BigInteger.Min(1L << 53, young + adults)) || young + adults > 1L << 53);
             (young, adults) = (adults, young + adults);
         }
     }

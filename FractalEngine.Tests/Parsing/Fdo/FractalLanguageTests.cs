@@ -208,7 +208,7 @@ public class FractalLanguageTests
         var text = "m.matrix (1, 0, 0) (0.1, 1, 0) (0, 0, 1) (0, 1e-17, 3)\nt. ((1, 0, 0), (0, 30, 0), (1/3))\n"
             + "z<ball>. [#, m., t.^-1 * m.] [t.] ball\n<$>. z 3\n";
         var parsed = FractalParser.Parse(new("a.fdo", text));
-        var written = FractalWriter.Write(parsed.Description, parsed.BaseFile);
+        var written = FractalWriter.Write(parsed.Description, [.. parsed.Bases.Select(static one => one.File)]);
         var again = FractalParser.Parse(new("b.fdo", written));
         Assert.Equal(parsed.Description, again.Description);
         Assert.Equal("ball", again.BaseFile);

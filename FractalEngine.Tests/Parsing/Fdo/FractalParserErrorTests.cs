@@ -275,11 +275,11 @@ public class FractalParserErrorTests
         StringComparison.Ordinal);
 
     [Theory]
-    [InlineData("x. \"Base.fdo\"")]
+    [InlineData("x. \"Base.sdo\"")]
     [InlineData("x. \"Base\"")]
     [InlineData("x. \"\"")]
     public void BaseFile_ThatIsNoMesh_IsRefused(string line) => Fails(line + "\n<$>. x", $"""
-        test.fdo:1:4: error: expected the name of a mesh (.obj, .obj.gz, .ply, .stl): that is the base of a fractal
+        test.fdo:1:4: error: expected the name of a mesh (.obj, .obj.gz, .ply, .stl) or fractal (.fdo): that is the base of a fractal
           {line}
              ^
         """);
@@ -393,18 +393,32 @@ public class FractalParserErrorTests
         <$>. [m.^-2..(k0), t.up.(0)*m.] z (k0*2)
         """;
 
+    private const string Sums = """
+        b. box
+        l. "leaf.obj" + (b + "inner.fdo")
+        g. ((0, 1, 0), #, (1/2))
+        turn. (#, (0, 120, 0), #)
+        z<l>. [g.] l + [turn.^0..2] ([g.] l + b) + ball
+        leader<l>, bough<b>. [g.] l + [turn., #] [g.] b + z 2, [g.] b + l
+        y. (z (3 + 1) + leader 2)
+        <$>. [g.] y + bough 5 + b
+        """;
+
     [Fact]
     public void Parse_OfAnyText_EndsInAResultOrOneProperError() => CheckMutations(Samples.AppendixB, 3000);
 
     [Fact]
     public void Parse_OfAnyExpressions_EndsInAResultOrOneProperError() => CheckMutations(Language, 3000);
 
+    [Fact]
+    public void Parse_OfAnySums_EndsInAResultOrOneProperError() => CheckMutations(Sums, 3000);
+
     [Theory]
-    [InlineData(false)]
-    [InlineData(true)]
+    [InlineData(Samples.AppendixB)]
+    [InlineData(Language)]
+    [InlineData(Sums)]
     [Trait("Category", "Soak")]
-    public void Parse_OfAMillionTexts_EndsInAResultOrOneProperError(bool isOfLanguage) =>
-        CheckMutations(isOfLanguage ? Language : Samples.AppendixB, 1_000_000);
+    public void Parse_OfAMillionTexts_EndsInAResultOrOneProperError(string original) => CheckMutations(original, 1_000_000);
 
     private static void CheckMutations(string original, int count)
     {

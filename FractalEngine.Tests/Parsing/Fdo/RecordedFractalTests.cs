@@ -33,7 +33,7 @@ public class RecordedFractalTests
             sweep.Run(line, static text =>
             {
                 var parsed = FractalParser.Parse(new("t.fdo", text));
-                string written = parsed.Description.IsInfinite ? "" : FractalWriter.Write(parsed.Description, parsed.BaseFile);
+                string written = parsed.Description.IsInfinite ? "" : Write(parsed);
                 return ((parsed.BaseFile, parsed.Bases[0].Offset, parsed.ResultOffset, written, FractalNumber.FindAll(parsed.Source)),
                     parsed.Warnings);
             });
@@ -117,7 +117,7 @@ public class RecordedFractalTests
         var lines = Directory.EnumerateFiles(Repository.Full("assets/fractals"), "*.fdo").Order(StringComparer.Ordinal).Select(file =>
         {
             var parsed = FractalParser.Parse(SourceText.Read(file, file, 1 << 24));
-            string text = FractalWriter.Write(parsed.Description, parsed.BaseFile);
+            string text = Write(parsed);
             Assert.Equal(parsed.Description, FractalParser.Parse(new("written.fdo", text)).Description);
             var numbers = FractalNumber.FindAll(parsed.Source);
             return $"{Path.GetFileName(file)} {parsed.BaseFile} {parsed.Bases[0].Offset} {parsed.ResultOffset} {numbers.Length} "
@@ -138,7 +138,7 @@ public class RecordedFractalTests
     ]).SelectMany(text =>
     {
         var parsed = FractalParser.Parse(new("t.fdo", text));
-        return new[] { $"$ {text.Split('\n')[0]}" }.Concat(FractalWriter.Write(parsed.Description, parsed.BaseFile).Split('\n'))
+        return new[] { $"$ {text.Split('\n')[0]}" }.Concat(Write(parsed).Split('\n'))
             .Concat(FractalNumber.FindAll(parsed.Source).Take(12).Select(number => Description.Of(number)));
     }));
 
@@ -146,6 +146,9 @@ public class RecordedFractalTests
     public void Numbers_ThatAreReplaced_AreAsRecorded() => RecordedText.Check(
         "fractals-replaced.txt", FractalNumber.FindAll(new("t.fdo", Small)).SelectMany(number => ((double[])[-3, 0.25, 2.5, 7.75]).Select(
             value => number.Replace(Small, value).Replace("\n", "⏎", StringComparison.Ordinal))).Distinct());
+
+    private static string Write(ParsedFractal parsed) =>
+        FractalWriter.Write(parsed.Description, [.. parsed.Bases.Select(static one => one.File)]);
 
     // First letters of the lines, with how often each comes.
     private static string Kinds(string text) => string.Join(

@@ -2,6 +2,7 @@ using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Fractals.Graphs;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Geometry.Hulls;
+using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Fractals.Levels.Building;
 
@@ -29,7 +30,7 @@ internal sealed class LevelBuilder
         for (var i = 0; i < graph.BaseMeshes.Length; i++)
         {
             var volume = _subFractalFactory.BaseVolumes[i];
-            Built.Add(volume, new(null, volume.Box, [], static () => [], _subFractalFactory.CreateBase(i)));
+            Built.Add(volume, new(null, volume.Box, [], static () => [], _subFractalFactory.CreateBase(i)), AreasOfBase(graph, i));
         }
     }
 
@@ -74,8 +75,9 @@ internal sealed class LevelBuilder
         var volume = _union.Compute(edges, level);
         var children = _childBuilder.ExpandChildren(level, edges, Built.EdgesAt);
         var childVolumes = Array.ConvertAll(children, child => Built.VolumeAt(child.RemainingLevels(level)));
-        var subFractal = _subFractalFactory.Create(mapSet, children, childVolumes, volume, BaseIndexOf(edges, level));
-        Built.Add(volume, new(mapSet, volume.Box, edges, EdgeBoxesOf(edges, level, Built.VolumeAt), subFractal));
+        var areas = AreasOf(edges, level);
+        var subFractal = _subFractalFactory.Create(mapSet, children, childVolumes, volume, BaseIndexOf(areas, edges, level));
+        Built.Add(volume, new(mapSet, volume.Box, edges, EdgeBoxesOf(edges, level, Built.VolumeAt), subFractal), areas);
     }
 
     /// <summary>Begins a proof that the rounds of a repetition can be replaced by the last one.</summary>
@@ -127,16 +129,59 @@ internal sealed class LevelBuilder
             var edges = Built.EdgesAt(level);
             var edgeBoxes = EdgeBoxesOf(edges, parentLevels, RepeatedVolumeAt);
             var subFractal = _subFractalFactory.Create(set, children[phase], childVolumes, volumes[phase], Built.BaseIndexAt(level));
-            round[phase] = new(volumes[phase], new(set, volumes[phase].Box, edges, edgeBoxes, subFractal));
+            round[phase] = new(volumes[phase], new(set, volumes[phase].Box, edges, edgeBoxes, subFractal), Built.AreasAt(level));
         }
 
         Built.Add(levelCount, round);
         return true;
     }
 
-    /// <summary>Finds the base mesh that replaces a level where it is too small: one with faces, if there is any.</summary>
-    private int BaseIndexOf(ChildEdge[] edges, long level) =>
-        edges.Select(edge => edge.RemainingLevels(level)).Where(target => !Built.VolumeAt(target).Box.IsEmpty)
+    /// <summary>The area of a base mesh, for itself; nothing where it is the only one.</summary>
+    private static double[] AreasOfBase(FractalGraph graph, int index)
+    {
+        if (graph.BaseMeshes is not [_, _, ..])
+        {
+            return [];
+        }
+
+        var areas = new double[graph.BaseMeshes.Length];
+        for (var face = 0; face < graph.BaseMeshes[index].FaceCount; face++)
+        {
+            var (a, b, c) = graph.BaseMeshes[index].Face(face);
+            areas[index] += 0.5 * Vector.Cross(b - a, c - a).Length();
+        }
+
+        return areas;
+    }
+
+    /// <summary>Estimates the area that a level shows of each base mesh; nothing where there is only one.</summary>
+    private double[] AreasOf(ChildEdge[] edges, long level)
+    {
+        if (Built.AreasAt(0).Length == 0)
+        {
+            return [];
+        }
+
+        var areas = new double[Built.AreasAt(0).Length];
+        foreach (var edge in edges)
+        {
+            var scale = Math.Pow(Math.Abs(edge.Map.Linear.Determinant()), 2 / 3.0);
+            var below = Built.AreasAt(edge.RemainingLevels(level));
+            for (var i = 0; i < areas.Length; i++)
+            {
+                areas[i] += scale * below[i];
+            }
+        }
+
+        return areas;
+    }
+
+    /// <summary>
+    /// Finds the base mesh that replaces a level where it is too small: the one that most is seen of, or one with faces, if there is any.
+    /// </summary>
+    private int BaseIndexOf(double[] areas, ChildEdge[] edges, long level) => areas.Any(static area => area > 0)
+        ? areas.IndexOf(areas.Max())
+        : edges.Select(edge => edge.RemainingLevels(level)).Where(target => !Built.VolumeAt(target).Box.IsEmpty)
             .Select(Built.BaseIndexAt).FirstOrDefault();
 
     /// <summary>

@@ -18,8 +18,9 @@ public class FractalWriterTests
 
     private static void AssertReadsBack(FractalDescription description)
     {
-        var parsed = Samples.ParseFractal(FractalWriter.Write(description, "b.obj"));
-        Assert.Equal("b.obj", parsed.BaseFile);
+        var parsed = Samples.ParseFractal(FractalWriter.Write(
+            description, [.. Enumerable.Range(0, description.MeshCount).Select(static index => $"b{index}.obj")]));
+        Assert.Equal("b0.obj", parsed.BaseFile);
         Assert.Equal(description.Composition, parsed.Description.Composition);
         Assert.Equal(description, parsed.Description);
         // Equality holds for 0 and −0; the bits tell them apart.
@@ -196,8 +197,8 @@ public class FractalWriterTests
 
     [Fact]
     public void Write_OfABaseThatIsNoMesh_IsRefused() => Fails(
-        ErrorKind.Input, "expected the name of a mesh (.obj, .obj.gz, .ply, .stl): that is the base of a fractal",
-        () => FractalWriter.Write(new([]), "a.fdo"));
+        ErrorKind.Input, "expected the name of a mesh (.obj, .obj.gz, .ply, .stl) or fractal (.fdo): that is the base of a fractal",
+        () => FractalWriter.Write(new([]), "a.sdo"));
 
     [Fact]
     public void Write_OfASingularScale_IsRefused() => Fails(
