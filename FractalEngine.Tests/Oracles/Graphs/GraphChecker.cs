@@ -3,6 +3,7 @@ using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Queries;
+using FractalEngine.Core.Rays;
 using FractalEngine.Tests.Oracles.Graphs.Expansion;
 using static FractalEngine.Tests.Oracles.Graphs.GraphMismatch;
 
@@ -34,7 +35,7 @@ internal sealed class GraphChecker
         _queries = new(random, soup);
         _collider = Collider.For(fractal);
         _triangles = new(fractal, soup);
-        _rays = new(fractal, soup, _triangles);
+        _rays = new(RayCaster.For(fractal), fractal, soup);
     }
 
     /// <summary>Asks for counts, bounds, closest points, regions and rays.</summary>
@@ -92,7 +93,8 @@ internal sealed class GraphChecker
         ThrowUnless(Math.Abs(found.Normal.Length() - 1) <= 1e-12, "normal", $"{found.Normal} at {QueryText.Of(position)}");
 
         // Within more and less than the distance.
-        ThrowUnless(_collider.Overlaps(position, distance + (2 * tolerance)), "ball", $"none within {distance:R} of {QueryText.Of(position)}");
+        ThrowUnless(
+            _collider.Overlaps(position, distance + (2 * tolerance)), "ball", $"none within {distance:R} of {QueryText.Of(position)}");
         ThrowUnless(
             distance <= 2 * tolerance || !_collider.Overlaps(position, distance - (2 * tolerance)),
             "ball", $"some within less than {distance:R} of {QueryText.Of(position)}");
@@ -104,18 +106,18 @@ internal sealed class GraphChecker
         var (index, distance) = _triangles.Find(found.MeshIndex, found.FaceIndex, found.Point);
         ThrowUnless(
             index >= 0 && distance <= Math.Max(tolerance, ToleranceAt(found.Point, 0, index)),
-            "closest face", $"{found.Point} of {QueryText.Of(position)} is {distance:R} off all of face {found.FaceIndex} of mesh {found.MeshIndex}");
+            "closest face",
+            $"{found.Point} of {QueryText.Of(position)} is {distance:R} off all of face {found.FaceIndex} of mesh {found.MeshIndex}");
+        var path = $"[{string.Join(", ", found.InstancePath)}] of {QueryText.Of(position)}";
         var steps = _fractal.Follow(found.InstancePath.AsSpan());
-        ThrowUnless(steps is not null, "path", $"no path [{string.Join(", ", found.InstancePath)}] of {QueryText.Of(position)}");
+        ThrowUnless(steps is not null, "path", $"no path {path}");
         // Below identities without end, and below the precision, paths end earlier.
         var map = steps!.Aggregate(AffineMap.Identity, static (map, step) => map * step.Map);
         var (placed, corners) = _triangles.Find(found.MeshIndex, found.FaceIndex, map);
         var allowed = 1e-12 * Math.Max(_soup.Triangles[placed].Reach, TriangleSoup.Largest(position));
-        ThrowUnless(
-            corners <= allowed, "path", $"[{string.Join(", ", found.InstancePath)}] of {QueryText.Of(position)} is {corners:R} off all instances");
+        ThrowUnless(corners <= allowed, "path", $"{path} is {corners:R} off all instances");
         var off = (_soup.Triangles[placed].ClosestPoint(found.Point) - found.Point).Length();
-        ThrowUnless(
-            off <= Math.Max(tolerance, allowed), "path", $"[{string.Join(", ", found.InstancePath)}] of {QueryText.Of(position)} is {off:R} off its point");
+        ThrowUnless(off <= Math.Max(tolerance, allowed), "path", $"{path} is {off:R} off its point");
     }
 
     private void CheckWithin(Vector position)
@@ -152,7 +154,9 @@ internal sealed class GraphChecker
         }
 
         var overlaps = _collider.Overlaps(box, _context);
-        ThrowUnless(overlaps ? isPossible : !isCertain, "box", $"overlaps: {overlaps}, {QueryText.Of(box.Minimum)} to {QueryText.Of(box.Maximum)}");
+        ThrowUnless(
+            overlaps ? isPossible : !isCertain,
+            "box", $"overlaps: {overlaps}, {QueryText.Of(box.Minimum)} to {QueryText.Of(box.Maximum)}");
     }
 
     private double ToleranceAt(Vector position, double distance, int triangle) =>

@@ -1,7 +1,6 @@
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
-using FractalEngine.Core.Views;
 using FractalEngine.Parsing;
 using FractalEngine.Render.Views;
 using FractalEngine.Tests.Oracles.Graphs.Expansion;

@@ -8,7 +8,7 @@ using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Oracles.Graphs;
 
-/// <summary>What sums, recursives with constants and joint recursives mean: counts by hand, and files that say the same otherwise.</summary>
+/// <summary>What sums and joint recursives mean: counts by hand, and files that say the same in another way.</summary>
 public sealed class GraphMeaningTests : IDisposable
 {
     private const string Maps = """
@@ -128,7 +128,7 @@ public sealed class GraphMeaningTests : IDisposable
         });
     }
 
-    /// <summary>Without a depth a recursive has no end. Maps that shrink to less than a tenth leave nothing to see below level 12.</summary>
+    /// <summary>Without a depth a recursive has no end. Of maps that shrink to a tenth nothing is left below level 12.</summary>
     [Theory]
     [InlineData("z<box>. [s., r.] box + plate\n<$>. z")]
     [InlineData("z<box>, w<plate>. [s.] box + [r.] plate + ball, [s.] box + tetrahedron\n<$>. [q.] z + cone")]

@@ -85,7 +85,8 @@ internal sealed class GraphQueries(Random random, TriangleSoup soup)
     private Vector InBox(double margin)
     {
         var size = soup.Maximum - soup.Minimum;
-        return soup.Minimum + size.Stretch(new(random.NextDouble(), random.NextDouble(), random.NextDouble())) + random.Vector(margin * Size);
+        Vector place = new(random.NextDouble(), random.NextDouble(), random.NextDouble());
+        return soup.Minimum + size.Stretch(place) + random.Vector(margin * Size);
     }
 
     private Vector DrawAxis()

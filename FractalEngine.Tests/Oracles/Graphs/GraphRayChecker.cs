@@ -4,6 +4,7 @@ using FractalEngine.Core.Queries;
 using FractalEngine.Core.Rays;
 using FractalEngine.Tests.Oracles.Graphs.Expansion;
 using static FractalEngine.Tests.Oracles.Graphs.GraphMismatch;
+using static FractalEngine.Tests.Oracles.Graphs.QueryText;
 using Vector = FractalEngine.Core.Maths.Vector;
 
 namespace FractalEngine.Tests.Oracles.Graphs;
@@ -16,9 +17,12 @@ namespace FractalEngine.Tests.Oracles.Graphs;
 /// a point of a triangle in each case, and must not lie behind what the ray certainly hits.
 /// </para>
 /// </summary>
-internal sealed class GraphRayChecker(Fractal fractal, TriangleSoup soup, HitTriangles triangles)
+/// <param name="caster">Casts rays at the fractal, or at a scene of it.</param>
+/// <param name="fractal">The fractal.</param>
+/// <param name="soup">The triangles of the fractal, or of its only object in the scene.</param>
+internal sealed class GraphRayChecker(RayCaster caster, Fractal fractal, TriangleSoup soup)
 {
-    private readonly RayCaster _caster = RayCaster.For(fractal);
+    private readonly HitTriangles _triangles = new(fractal, soup);
     private readonly QueryContext _context = new();
 
     /// <summary>Casts a ray.</summary>
@@ -41,11 +45,13 @@ internal sealed class GraphRayChecker(Fractal fractal, TriangleSoup soup, HitTri
             plain = crossing.IsPlain(reach) ? Math.Min(plain, crossing.Distance) : plain;
         }
 
-        var isFound = _caster.TryFindNearest(ray, _context, out var hit);
+        var isFound = caster.TryFindNearest(ray, _context, out var hit);
         if (!(isFound ? hit.Distance <= certain : double.IsPositiveInfinity(certain)))
         {
             var crossing = seen.Cross(in soup.Triangles[certainIndex], reach);
-            throw new GraphMismatch("ray", $"{QueryText.Of(ray)} hits {hit.Distance:R} ({isFound}), not {certain:R}, {crossing.Inside} within {soup.Describe(certainIndex)}");
+            throw new GraphMismatch(
+                "ray",
+                $"{Of(ray)} hits {hit.Distance:R} ({isFound}), not {certain:R}, {crossing.Inside} within {soup.Describe(certainIndex)}");
         }
 
         if (isFound)
@@ -53,7 +59,7 @@ internal sealed class GraphRayChecker(Fractal fractal, TriangleSoup soup, HitTri
             CheckHit(ray, in seen, in hit, reach);
         }
 
-        ThrowUnless(_caster.HitsAny(ray, _context) == isFound, "any hit", $"{QueryText.Of(ray)} hits any: {!isFound}");
+        ThrowUnless(caster.HitsAny(ray, _context) == isFound, "any hit", $"{Of(ray)} hits any: {!isFound}");
         // Both are right: rounding decides whether something is hit, or which of two surfaces.
         var isAmbiguous = isFound == double.IsPositiveInfinity(plain) || (isFound && Math.Abs(hit.Distance - plain) > 1e-10 * reach);
         return GraphTally.Zero with
@@ -70,14 +76,16 @@ internal sealed class GraphRayChecker(Fractal fractal, TriangleSoup soup, HitTri
     {
         var tolerance = RayCrossing.DistanceError * Math.Max(reach, TriangleSoup.Largest(hit.Point));
         var offRay = (seen.Origin + (hit.Distance * seen.Direction) - hit.Point).Length();
-        ThrowUnless(hit.Distance >= 0 && offRay <= tolerance, "hit", $"{QueryText.Of(ray)} hits {hit.Point}, {offRay:R} off the ray");
+        ThrowUnless(hit.Distance >= 0 && offRay <= tolerance, "hit", $"{Of(ray)} hits {hit.Point}, {offRay:R} off the ray");
         ThrowUnless(
-            ReferenceEquals(fractal.BaseMeshes[hit.MeshIndex], hit.Mesh), "hit mesh", $"{QueryText.Of(ray)} hits another mesh than number {hit.MeshIndex}");
-        var (index, corners) = triangles.Find(hit.MeshIndex, hit.FaceIndex, hit.InstanceMap);
-        ThrowUnless(corners <= tolerance, "hit instance", $"{QueryText.Of(ray)} hits {hit.InstanceMap}, which is {corners:R} off all instances");
+            ReferenceEquals(fractal.BaseMeshes[hit.MeshIndex], hit.Mesh),
+            "hit mesh", $"{Of(ray)} hits another mesh than number {hit.MeshIndex}");
+        var (index, corners) = _triangles.Find(hit.MeshIndex, hit.FaceIndex, hit.InstanceMap);
+        ThrowUnless(
+            corners <= tolerance, "hit instance", $"{Of(ray)} hits {hit.InstanceMap}, which is {corners:R} off all instances");
         var triangle = soup.Triangles[index];
         var off = (triangle.ClosestPoint(hit.Point) - hit.Point).Length();
-        ThrowUnless(off <= tolerance, "hit", $"{QueryText.Of(ray)} hits {hit.Point}, {off:R} off {soup.Describe(index)}");
+        ThrowUnless(off <= tolerance, "hit", $"{Of(ray)} hits {hit.Point}, {off:R} off {soup.Describe(index)}");
         CheckNormal(ray, in seen, in hit, in triangle, reach);
     }
 
@@ -90,9 +98,12 @@ internal sealed class GraphRayChecker(Fractal fractal, TriangleSoup soup, HitTri
         var facing = Vector.Dot(normal, seen.Direction) / area;
         if (error < 1e-3)
         {
-            ThrowUnless((hit.Normal - (normal / area)).Length() <= 1e-12 + (4 * error), "normal", $"{QueryText.Of(ray)}: {hit.Normal}, not {normal / area}");
             ThrowUnless(
-                Math.Abs(facing) <= 1e-12 + (4 * error) || hit.IsFrontFace == facing < 0, "front", $"{QueryText.Of(ray)}: {hit.IsFrontFace}, facing {facing:R}");
+                (hit.Normal - (normal / area)).Length() <= 1e-12 + (4 * error),
+                "normal", $"{Of(ray)}: {hit.Normal}, not {normal / area}");
+            ThrowUnless(
+                Math.Abs(facing) <= 1e-12 + (4 * error) || hit.IsFrontFace == facing < 0,
+                "front", $"{Of(ray)}: {hit.IsFrontFace}, facing {facing:R}");
         }
     }
 }

@@ -41,8 +41,8 @@ internal static class GraphStructureChecker
         for (var i = 0; i < meshes.Length; i++)
         {
             var count = soup.Instances.Count(instance => ReferenceEquals(instance.Mesh, meshes[i]));
-            ThrowUnless(
-                fractal.ByMesh[i].InstanceCount == count, "instances of a mesh", $"{fractal.ByMesh[i].InstanceCount} of mesh {i}, not {count}");
+            var found = fractal.ByMesh[i].InstanceCount;
+            ThrowUnless(found == count, "instances of a mesh", $"{found} of mesh {i}, not {count}");
         }
     }
 
@@ -65,7 +65,8 @@ internal static class GraphStructureChecker
     {
         var flat = fractal.Flatten(soup.Triangles.Length);
         ThrowUnless(flat.FaceCount <= soup.Triangles.Length, "flat", $"{flat.FaceCount} faces, not {soup.Triangles.Length}");
-        var collider = Collider.For(flat);
+        // It expands the fractal too.
+        var collider = Collider.For(fractal, ColliderKind.Hierarchy);
         var tolerance = 1e-12 * soup.Reach;
         for (var i = 0; i < SurfacePoints; i++)
         {

@@ -60,8 +60,8 @@ internal sealed class ModelExpansion
                 break;
             case ObjectTerm.AtDepth(var name, var depth):
                 var group = (GraphDeclaration.Group)scope.File.Find(name)!;
-                ExpandRecursive(
-                    group, group.Recursives.Single(recursive => recursive.Name == name), depth ?? _infiniteDepth, scope.Elsewhere, map, reach);
+                var named = group.Recursives.Single(recursive => recursive.Name == name);
+                ExpandRecursive(group, named, depth ?? _infiniteDepth, scope.Elsewhere, map, reach);
                 break;
             case ObjectTerm.Mapped(var set, var inner):
                 foreach (var product in set)

@@ -42,8 +42,9 @@ internal readonly struct OracleRay
             DistanceToSegment(ax, ay, bx, by), Math.Min(DistanceToSegment(bx, by, cx, cy), DistanceToSegment(cx, cy, ax, ay)));
         var hasOneSign = (areaA >= 0 && areaB >= 0 && areaC >= 0) || (areaA <= 0 && areaB <= 0 && areaC <= 0);
         var area = areaA + areaB + areaC;
-        // Far from a thin triangle signs are those of rounding, while no place inside is farther from all edges than the inner circle is wide.
-        var inradius = Math.Abs(Cross(bx - ax, by - ay, cx - ax, cy - ay)) / (Length(bx - ax, by - ay) + Length(cx - bx, cy - by) + Length(ax - cx, ay - cy));
+        // Far from a thin triangle signs are those of rounding. No place inside is farther from all edges than the middle of the incircle.
+        var perimeter = Length(bx - ax, by - ay) + Length(cx - bx, cy - by) + Length(ax - cx, ay - cy);
+        var inradius = Math.Abs(Cross(bx - ax, by - ay, cx - ax, cy - ay)) / perimeter;
         var isInside = hasOneSign && area != 0 && toEdge <= 1.001 * inradius;
         var (nearest, farthest) = (Math.Min(az, Math.Min(bz, cz)), Math.Max(az, Math.Max(bz, cz)));
         var distance = area == 0 ? nearest : Math.Clamp(((areaA * az) + (areaB * bz) + (areaC * cz)) / area, nearest, farthest);

@@ -63,8 +63,9 @@ internal sealed class TriangleSoup
     public string Describe(int triangle)
     {
         var found = _triangles[triangle];
+        var mesh = Instances[found.Instance].Mesh.Name;
         return FormattableString.Invariant(
-            $"face {found.Face} of instance {found.Instance}, {Instances[found.Instance].Mesh.Name}, {found.LongestEdge} long, reach {Reach}");
+            $"face {found.Face} of instance {found.Instance}, {mesh}, {found.LongestEdge} long, reach {Reach}");
     }
 
     /// <summary>The distances of all triangles, in their order.</summary>

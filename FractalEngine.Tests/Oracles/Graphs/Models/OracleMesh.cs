@@ -19,7 +19,7 @@ internal sealed record OracleMesh(string Name, string Path, ImmutableArray<Vecto
     /// <summary>Number of triangles of the mesh.</summary>
     public int FaceCount => Indices.Length / 3;
 
-    /// <summary>Finds the mesh of a shape. What the shapes look like is taken from the library, since only its listing defines it.</summary>
+    /// <summary>Finds the mesh of a shape. What shapes look like is taken from the library: nothing else says how they are cut.</summary>
     public static OracleMesh Shape(string name) => Shapes[name];
 
     private static OracleMesh ReadShape(string name)

@@ -104,7 +104,8 @@ internal sealed class RandomGraphFiles
             [.. bases.Select((name, i) => new GraphDeclaration.Recursive(names[i], name, bodies[i]))]));
         for (var i = 0; i < count; i++)
         {
-            _used[names[i]] = [.. names, .. bases.SelectMany(name => Find(name, _used)), .. bodies.SelectMany(body => NamesIn(body, _used))];
+            _used[names[i]] =
+                [.. names, .. bases.SelectMany(name => Find(name, _used)), .. bodies.SelectMany(body => NamesIn(body, _used))];
             _built[names[i]] = [names[i], .. Find(bases[i], _built)];
         }
 
@@ -130,7 +131,9 @@ internal sealed class RandomGraphFiles
         }
 
         // A recursive that is nothing but its base is refused.
-        return terms.Count > 1 ? new ObjectTerm.Sum([.. terms]) : terms[0] is ObjectTerm.Named ? CreateSets(1, terms[0], minMaps: 1) : terms[0];
+        return terms.Count > 1 ? new ObjectTerm.Sum([.. terms])
+            : terms[0] is ObjectTerm.Named ? CreateSets(1, terms[0], minMaps: 1)
+            : terms[0];
     }
 
     /// <summary>The base itself, or what leads to it.</summary>
@@ -159,7 +162,8 @@ internal sealed class RandomGraphFiles
             : _random.Draw<Func<ObjectTerm>>(
                 (40, () => CreateLeaf(isAllowed)),
                 (35, () => CreateSets(_random.Next(1, 3), CreateTerm(height - 1, isAllowed))),
-                (25, () => new ObjectTerm.Sum([.. Enumerable.Range(0, _random.Next(2, 4)).Select(_ => CreateTerm(height - 1, isAllowed))])))();
+                (25, () => new ObjectTerm.Sum(
+                    [.. Enumerable.Range(0, _random.Next(2, 4)).Select(_ => CreateTerm(height - 1, isAllowed))])))();
     }
 
     private ObjectTerm CreateLeaf(Func<string, bool> isAllowed)

@@ -72,7 +72,10 @@ internal static class RandomOracleMeshes
         var level = random.Draw((2, 0.0), (2, 0.7), (1, random.Between(-3, 3)));
         var (right, up) = (random.Direction(), random.Direction());
         var turn = random.Draw<Func<Vector, Vector>>(
-            (3, static v => v), (2, static v => new(v.Y, v.X, v.Z)), (2, static v => new(v.X, v.Z, v.Y)), (3, v => (v.X * right) + (v.Z * up)));
+            (3, static v => v),
+            (2, static v => new(v.Y, v.X, v.Z)),
+            (2, static v => new(v.X, v.Z, v.Y)),
+            (3, v => (v.X * right) + (v.Z * up)));
         return ([.. vertices.Select(v => turn(v + (level * Vector.J)))], indices);
     }
 

@@ -33,7 +33,9 @@ internal sealed class RandomProducts
         (14, () => new([new(new MapLeaf.Identity())])),
         (60, () => new([new(DrawLeaf())])),
         (14, () => new([CreatePower()])),
-        (12, () => new([.. Enumerable.Range(0, _random.Next(2, 4)).Select(_ => _random.Next(3) == 0 ? CreatePower() : new(DrawThickLeaf()))])))();
+        (12, () => new([.. Enumerable.Range(0, _random.Next(2, 4)).Select(_ => CreateFactor())])))();
+
+    private MapPower CreateFactor() => _random.Next(3) == 0 ? CreatePower() : new(DrawThickLeaf());
 
     private MapPower CreatePower()
     {
@@ -56,7 +58,9 @@ internal sealed class RandomProducts
         return thick.Length == 0 ? CreateSkewed() : thick[_random.Next(thick.Length)];
     }
 
-    private MapLeaf CreateLeaf() => _random.Happens(20) ? CreateSkewed() : new MapLeaf.Placement(CreatePosition(), CreateAngles(), CreateScale());
+    private MapLeaf CreateLeaf() => _random.Happens(20)
+        ? CreateSkewed()
+        : new MapLeaf.Placement(CreatePosition(), CreateAngles(), CreateScale());
 
     private Vector? CreatePosition() => _random.Draw<Vector?>(
         (18, null),
