@@ -360,7 +360,13 @@ public sealed class Fractal : IEquatable<Fractal>
     /// <summary>Cuts what is repeated in steps and parts to the greatest common depth with which the whole fits.</summary>
     private Fractal WithMaxInstancesOfParts(long maxInstances)
     {
-        var (fitting, tooDeep) = (-1, (int)FractalLimits.Depth.Value + 1);
+        var (fitting, tooDeep) = (-1, 1);
+        while (tooDeep <= FractalLimits.Depth.Value && Fits(Description.WithMaxDepth(tooDeep), maxInstances))
+        {
+            (fitting, tooDeep) = (tooDeep, 2 * tooDeep);
+        }
+
+        tooDeep = (int)Math.Min(tooDeep, FractalLimits.Depth.Value + 1);
         while (tooDeep - fitting > 1)
         {
             var depth = fitting + ((tooDeep - fitting) / 2);

@@ -11,6 +11,9 @@ namespace FractalEngine.Core.Fractals;
 /// </summary>
 internal sealed class GraphExpansion
 {
+    // Comparing takes less than composing.
+    private const int ComparisonsPerProduct = 8;
+
     private readonly FractalGraph _graph;
     private readonly long _maxInstances;
 
@@ -84,7 +87,7 @@ internal sealed class GraphExpansion
             if (set is not [var only] || only != AffineMap.Identity)
             {
                 Charge(maps.Length * (long)set.Length);
-                maps = (DistinctMaps.Products(maps.Span, set.AsSpan(), null, _maxInstances) ?? throw LimitError()).Items;
+                maps = Charged(DistinctMaps.Products(maps.Span, set.AsSpan(), null, _maxInstances));
             }
         }
 
@@ -157,7 +160,13 @@ internal sealed class GraphExpansion
     /// <summary>Removes maps that are the same for whatever comes after them.</summary>
     private ReadOnlyMemory<AffineMap> Distinct(List<AffineMap> maps) => maps.Count == 1
         ? maps.ToArray()
-        : (DistinctMaps.Products(maps.ToArray(), [AffineMap.Identity], null, _maxInstances) ?? throw LimitError()).Items;
+        : Charged(DistinctMaps.Products(maps.ToArray(), [AffineMap.Identity], null, _maxInstances));
+
+    private ReadOnlyMemory<AffineMap> Charged(DistinctList<AffineMap>? list)
+    {
+        Charge((list ?? throw LimitError()).Comparisons / ComparisonsPerProduct);
+        return list.Items;
+    }
 
     private void Charge(long products)
     {

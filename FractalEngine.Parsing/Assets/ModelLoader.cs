@@ -219,6 +219,12 @@ internal sealed class ModelLoader
     {
         for (var i = 0; i < bases.Count; i++)
         {
+            if (bases[i].Fractal is not null && parsed.Description.Composition == Composition.Componentwise)
+            {
+                throw parsed.Source.Error(
+                    parsed.Bases[i].Offset, "a fractal that is composed componentwise can't have another fractal as a part");
+            }
+
             if (bases[i].Fractal?.IsInfinite == true && !parsed.Description.MayHoldInfinite(i))
             {
                 throw parsed.Source.Error(

@@ -2,6 +2,7 @@ using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Visibility.Levels;
 
 namespace FractalEngine.Parsing.Fdo;
 
@@ -24,13 +25,32 @@ internal static class FractalCheck
             return null;
         }
 
-        return !fractal.Description.IsInfinite ? "the fractal grows beyond the range of a double"
+        return !fractal.Description.IsInfinite ? FindHierarchyFault(fractal) ?? "the fractal grows beyond the range of a double"
             : !fractal.Description.Parts.IsEmpty
                 ? "the bounds of the infinite fractal don't converge: its transformations must shrink, and not to a single point"
             : fractal.Description.Steps.OfType<Repetition>().Where(static step => step.Count is null).All(Shrinks)
                 ? "the infinite fractal's transformations shrink too slowly: its bounds still change after thousands of levels; "
                     + "give it a depth"
                 : "the infinite fractal has no bounds: its transformations don't shrink";
+    }
+
+    /// <summary>Returns why a fractal of several parts has no levels, without which its bounds are unknown; null for others.</summary>
+    private static string? FindHierarchyFault(Fractal fractal)
+    {
+        if (fractal.Description.Parts.IsEmpty)
+        {
+            return null;
+        }
+
+        try
+        {
+            LodHierarchy.Build(fractal);
+            return null;
+        }
+        catch (Exception exception) when (exception is FractalLimitException or SingularMatrixException)
+        {
+            return exception.Message;
+        }
     }
 
     /// <summary>Tells whether each round of a repetition makes shorter what it makes at all: the identity makes nothing new.</summary>

@@ -40,7 +40,7 @@ public static class ParsingLimits
 
     /// <summary>Largest number of base meshes of a fractal, counted as often as its files name them.</summary>
     public static Limit BaseFiles { get; } = new(
-        "base-files", 1_000, "base meshes of a fractal, as often as files name them", "each is drawn by itself", 100_000);
+        "base-files", 200, "base meshes of a fractal, as often as files name them", "each is drawn by itself", 100_000);
 
     /// <summary>Largest size of a material file in bytes: 16 MiB.</summary>
     public static Limit MaterialBytes { get; } = new(

@@ -65,7 +65,7 @@ public sealed class FractalClosedFormTests
         Assert.Equal((3_000_000L, 1_000_000_000L), (FractalLimits.Digits.Default, FractalLimits.Digits.Maximum));
         Assert.Equal((32L, 256L), (FractalLimits.Nesting.Default, FractalLimits.Nesting.Maximum));
         Assert.Equal((100_000_000L, 1_000_000_000_000L), (FractalLimits.DescentTests.Default, FractalLimits.DescentTests.Maximum));
-        Assert.Equal((20_000_000L, 1_000_000_000L), (FractalLimits.RecursiveCalls.Default, FractalLimits.RecursiveCalls.Maximum));
+        Assert.Equal((5_000_000L, 1_000_000_000L), (FractalLimits.RecursiveCalls.Default, FractalLimits.RecursiveCalls.Maximum));
         Assert.Equal(FractalLimits.All.Length, FractalLimits.All.Select(limit => limit.Name).Distinct().Count());
     }
 

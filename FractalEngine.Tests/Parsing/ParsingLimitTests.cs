@@ -22,7 +22,7 @@ public sealed class ParsingLimitTests
             ("names", 150_000, AnyInteger, "named objects and transformations of a fractal file", "about 70 MB"),
             ("repeated-steps", 1_000_000, AnyInteger, "steps that all recursives of a fractal file repeat", "8 MB"),
             ("expression-terms", 5_000_000, 1_000_000_000, "terms of expressions in all calls of a fractal file", "a second or two"),
-            ("base-files", 1_000, 100_000, "base meshes of a fractal, as often as files name them", "each is drawn by itself"),
+            ("base-files", 200, 100_000, "base meshes of a fractal, as often as files name them", "each is drawn by itself"),
             ("material-bytes", 16_777_216, AnyInteger, "bytes of a material file", "far beyond what anyone writes"),
             ("image-bytes", 67_108_864, AnyInteger, "bytes of an image file", "memory"),
             ("image-side", 8_192, 65_536, "pixels along a side of an image", "what every driver of the last fifteen years can hold"),

@@ -65,7 +65,7 @@ public static class FractalLimits
 
     /// <summary>Maximum number of calls of recursives, at all levels of all parts of a fractal.</summary>
     public static Limit RecursiveCalls { get; } = new(
-        "recursive-calls", 20_000_000, "calls of recursives that call each other, at all levels", "counts take a second", 1_000_000_000);
+        "recursive-calls", 5_000_000, "calls of recursives that call each other, at all levels", "counts take some seconds", 1_000_000_000);
 
     /// <summary>All limits of fractals, in the order of a listing.</summary>
     public static ImmutableArray<Limit> All { get; } =

@@ -39,8 +39,16 @@ public sealed class FractalPartList
     /// <summary>Adds several parts at one place.</summary>
     /// <param name="terms">Indices of the parts, at least one.</param>
     /// <returns>Index of the part.</returns>
-    public int AddSum(ImmutableArray<int> terms) =>
-        terms is [var only] ? only : Add(new(RecursivePart.Sum([.. terms.SelectMany(term => CallsOf(term))]), null, null));
+    public int AddSum(ImmutableArray<int> terms)
+    {
+        if (terms is [var only])
+        {
+            return only;
+        }
+
+        ImmutableArray<RecursiveCall> calls = [.. terms.SelectMany(term => CallsOf(term))];
+        return calls.IsEmpty ? terms[0] : Add(new(RecursivePart.Sum(calls), null, null));
+    }
 
     /// <summary>Adds a recursive, see <see cref="CreateRecursives"/>.</summary>
     /// <param name="recursives">The recursives of its group.</param>

@@ -16,5 +16,5 @@ public sealed record FractalRecursive(int BasePart, ImmutableArray<RecursiveCall
         other is not null && BasePart == other.BasePart && Calls.AsSpan().SequenceEqual(other.Calls.AsSpan());
 
     /// <inheritdoc/>
-    public override int GetHashCode() => HashCode.Combine(BasePart, Calls.Length, Calls.FirstOrDefault());
+    public override int GetHashCode() => Calls.Aggregate(BasePart, HashCode.Combine);
 }

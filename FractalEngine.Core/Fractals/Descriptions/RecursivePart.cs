@@ -78,8 +78,8 @@ public sealed class RecursivePart : FractalPart
     /// <summary>True for a sum: earlier parts, each under a map.</summary>
     public bool IsSum => Levels == 1 && Recursives is [var only] && only.Calls.All(static call => call.IsConstant);
 
-    /// <summary>Number of calls of all recursives, at all levels; null for infinitely many levels.</summary>
-    public long? CallCount => IsSum ? 0 : Levels * Recursives.Sum(static recursive => (long)recursive.Calls.Length);
+    /// <summary>Number of calls of all recursives, and of themselves, at all levels; null for infinitely many levels.</summary>
+    public long? CallCount => IsSum ? 0 : Levels * Recursives.Sum(static recursive => recursive.Calls.Length + 1L);
 
     /// <inheritdoc/>
     public override IEnumerable<int> References => Recursives.SelectMany(static recursive => recursive.References);
@@ -225,6 +225,15 @@ public sealed class RecursivePart : FractalPart
         var order = ImmutableArray.CreateBuilder<int>(Recursives.Length);
         var begun = new HashSet<int>();
         var ended = new HashSet<int>();
+        // Those made of others come behind these mostly, so that no long chain is visited at once.
+        for (var i = 0; i < Recursives.Length; i++)
+        {
+            if (Recursives[i].Calls.All(call => call.LevelsLess != 0 || ended.Contains(call.Target)))
+            {
+                Visit(i);
+            }
+        }
+
         for (var i = 0; i < Recursives.Length; i++)
         {
             Visit(i);

@@ -24,7 +24,7 @@ internal sealed class FractalPartWriter(FractalWriter writer, List<string> names
             var value = part switch
             {
                 SteppedPart stepped => writer.WriteSteps(stepped.Steps, names[stepped.Inner]),
-                RecursivePart { IsSum: true, Recursives: [var sum] } => FormatSum(sum.Calls, FormatConstant),
+                RecursivePart { IsSum: true, Recursives: [var sum] } => FormatSum(sum.Calls, FormatConstant, isWhole: true),
                 RecursivePart recursive => FormatRecursive(recursive, GroupOf(recursive, parts)),
                 _ => throw new ArgumentException($"{part.GetType().Name} is no part of a fractal"),
             };
@@ -70,30 +70,34 @@ internal sealed class FractalPartWriter(FractalWriter writer, List<string> names
         }
 
         var group = heads.ToDictionary(static head => head, _ => writer.NextRecursiveName());
-        var bodies = heads.Select(head => FormatBody(part, head, bases)).ToArray();
+        var bodies = heads.Select(head => FormatBody(part, head, bases, isWhole: true)).ToArray();
         writer.AppendLine($"{string.Join(", ", heads.Select(head => $"{group[head]}<{bases[head]}>"))}. {string.Join(", ", bodies)}");
         _groups.Add((part, group));
         return group;
     }
 
-    private string FormatBody(RecursivePart part, int recursive, Dictionary<int, string> bases) => FormatSum(
+    private string FormatBody(RecursivePart part, int recursive, Dictionary<int, string> bases, bool isWhole) => FormatSum(
         part.Recursives[recursive].Calls,
         call => call.IsConstant ? FormatConstant(call)
             : call.LevelsLess == 1 && bases.TryGetValue(call.Target, out var name) ? name
-            : call.LevelsLess == 0 ? $"({FormatBody(part, call.Target, bases)})"
-            : throw FractalWriter.Fault(ErrorKind.Input, "a recursive calls another one with more than one level less"));
+            : call.LevelsLess == 0 ? $"({FormatBody(part, call.Target, bases, isWhole: false)})"
+            : throw FractalWriter.Fault(ErrorKind.Input, "a recursive calls another one with more than one level less"),
+        isWhole);
 
     private string FormatConstant(RecursiveCall call) => names[call.Target];
 
     /// <summary>Formats calls as terms: those of the same target one after the other are a set.</summary>
-    private string FormatSum(ImmutableArray<RecursiveCall> calls, Func<RecursiveCall, string> formatTarget)
+    private string FormatSum(ImmutableArray<RecursiveCall> calls, Func<RecursiveCall, string> formatTarget, bool isWhole)
     {
         var terms = new List<string>();
+        // One term alone would be steps on it, and no sum, where it is all of an object.
+        var isOneTarget = isWhole && calls.All(call => call with { Map = calls[0].Map } == calls[0]);
         for (var i = 0; i < calls.Length;)
         {
             var first = calls[i];
             var set = new List<string>();
-            for (; i < calls.Length && set.Count < MaxSetLength && calls[i] with { Map = first.Map } == first; i++)
+            var maxLength = isOneTarget && i == 0 ? 1 : MaxSetLength;
+            for (; i < calls.Length && set.Count < maxLength && calls[i] with { Map = first.Map } == first; i++)
             {
                 set.Add(calls[i].Map == AffineMap.Identity ? "#" : writer.MatrixFor(calls[i].Map));
             }

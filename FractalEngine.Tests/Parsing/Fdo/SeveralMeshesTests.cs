@@ -98,7 +98,7 @@ public sealed class SeveralMeshesTests : IDisposable
     [InlineData("z<box>. [half.] box + ball\n<$>. z 1000001", "5:8: error: the depth is more than the limit of 1000000")]
     [InlineData(
         "z<box>. [half.] box + [half.^1..30] box\n<$>. z 1000000",
-        "5:1: error: the fractal has more than the limit of 20000000 calls of recursives at all levels")]
+        "5:1: error: the fractal has more than the limit of 5000000 calls of recursives at all levels")]
     [InlineData("composition componentwise\n<$>. box + ball", "5:1: error: sums, and recursives of several calls, can't be composed compo")]
     [InlineData(
         "z<box>. [move.] box + ball\n<$>. z",
@@ -275,6 +275,24 @@ public sealed class SeveralMeshesTests : IDisposable
         var fractal = Read("t. ((1, 0, 0), #, (0.5))\nb<box>. [#, t.] box\n<$>. b 1000");
         Assert.Equal(1001, DistinctInstances.CountAtMost(fractal, budget: 0));
         Assert.Null(DistinctInstances.Count(fractal));
+    }
+
+    [Fact]
+    public void Sets_OfManyMaps_MayHaveNothingOfAMesh()
+    {
+        var fractal = Read(Head + "<$>. [move.^1..65] box + ball");
+        Assert.All(fractal.ByMesh, static part => Assert.False(part.Bounds.IsEmpty));
+        Assert.Equal(66, fractal.InstanceCount);
+        Assert.Equal(0, Read("<$>. [] box + [] ball").InstanceCount);
+        Assert.Equal(BigInteger.One, DistinctInstances.CountAtMost(Read(Head + "z<box>. [half., #] box\n<$>. z + plate").ByMesh[1]));
+    }
+
+    [Fact]
+    public void LongSets_InParentheses_TakeNoStack()
+    {
+        var set = string.Concat(Enumerable.Repeat("[half.]", 900));
+        var text = Enumerable.Range(0, 30).Aggregate($"{set} box", (inner, _) => $"{set} ({inner} + {set} box)");
+        Assert.Throws<SourceException>(() => Read($"{Head}z<box>. {text} + ball\n<$>. z 1"));
     }
 
     [Fact]

@@ -32,6 +32,11 @@ internal static class ChildGroups
             }
         }
 
+        if (count == 0)
+        {
+            return ([], []);
+        }
+
         // Where all have points, which is usual, the boxes are shared: wide sets take much memory.
         var partition = new BoxPartition(
             count == children.Length ? childBoxes : Array.ConvertAll(nonEmpty[..count], i => childBoxes[i]));
