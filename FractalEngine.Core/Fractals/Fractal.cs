@@ -23,6 +23,8 @@ public sealed class Fractal : IEquatable<Fractal>
 {
     private readonly Lazy<ImmutableArray<BigInteger?>> _instanceCounts;
     private readonly Lazy<ImmutableArray<Fractal>> _byMesh;
+    private readonly Lazy<bool> _preservesOrientation;
+    private readonly int? _onlyMesh;
     private readonly Lazy<BoundingBox> _bounds;
     private readonly Lazy<FractalHierarchy> _hierarchy;
     private readonly Lazy<FractalHierarchy> _hierarchyBySets;
@@ -59,6 +61,8 @@ public sealed class Fractal : IEquatable<Fractal>
 
         Description = description;
         BaseMeshes = baseMeshes;
+        _onlyMesh = FindOnlyMesh(baseMeshes);
+        _preservesOrientation = new(() => description.PreservesOrientation);
         Graph = new(baseMeshes, description.AllParts());
         _instanceCounts = new(() => Graph.ChainCounts);
         _byMesh = new(() => baseMeshes.Length == 1 ? [this] : [.. Enumerable.Range(0, baseMeshes.Length).Select(OnlyMesh)]);
@@ -75,12 +79,15 @@ public sealed class Fractal : IEquatable<Fractal>
 
     /// <summary>The mesh that every instance shows, of a fractal that shows only one; see <see cref="ByMesh"/> for others.</summary>
     /// <exception cref="InvalidOperationException">Instances show several meshes.</exception>
-    public Mesh BaseMesh => FindOnlyMesh() is { } index
+    public Mesh BaseMesh => _onlyMesh is { } index
         ? BaseMeshes[index]
         : throw new InvalidOperationException("the fractal has several base meshes");
 
     /// <summary>Whether instances show several meshes, so that there is no <see cref="BaseMesh"/>.</summary>
-    public bool HasSeveralMeshes => FindOnlyMesh() is null;
+    public bool HasSeveralMeshes => _onlyMesh is null;
+
+    /// <summary>See <see cref="FractalDescription.PreservesOrientation"/>; computed once.</summary>
+    public bool PreservesOrientation => _preservesOrientation.Value;
 
     /// <summary>
     /// The fractal by its base meshes: one fractal for each, with the instances that show it and no others. Made by the first who asks.
@@ -97,7 +104,7 @@ public sealed class Fractal : IEquatable<Fractal>
     /// <summary>The full path of the file that the only base mesh was loaded from; null for a mesh made in code.</summary>
     public string? BaseMeshPath
     {
-        get => FindOnlyMesh() is { } index ? BaseMeshPaths[index] : null;
+        get => _onlyMesh is { } index ? BaseMeshPaths[index] : null;
         init => BaseMeshPaths = [value];
     }
 
@@ -333,10 +340,10 @@ public sealed class Fractal : IEquatable<Fractal>
     }
 
     /// <summary>The index of the only mesh that instances can show; null where there are several with faces.</summary>
-    private int? FindOnlyMesh()
+    private static int? FindOnlyMesh(ImmutableArray<Mesh> meshes)
     {
-        int[] shown = [.. Enumerable.Range(0, BaseMeshes.Length).Where(index => BaseMeshes[index].FaceCount > 0)];
-        return BaseMeshes.Length == 1 || shown.Length == 0 ? 0 : shown is [var only] ? only : null;
+        int[] shown = [.. Enumerable.Range(0, meshes.Length).Where(index => meshes[index].FaceCount > 0)];
+        return meshes.Length == 1 || shown.Length == 0 ? 0 : shown is [var only] ? only : null;
     }
 
     private Fractal OnlyMesh(int index) =>

@@ -12,9 +12,6 @@ namespace FractalEngine.Core.Fractals;
 /// </summary>
 public static class FractalGenerator
 {
-    // Comparing takes less than composing. Where maps shrink to a point, each product is compared with many.
-    private const int ComparisonsPerProduct = 8;
-
     /// <summary>Expands a fractal into its distinct instances, as maps from the base mesh's frame to the fractal's.</summary>
     /// <param name="fractal">Fractal with finitely many levels.</param>
     /// <param name="maxInstances">
@@ -104,7 +101,7 @@ public static class FractalGenerator
         }
 
         ReadOnlyMemory<AffineMap> instances = new[] { AffineMap.Identity };
-        var (products, comparisons) = (0L, 0L);
+        var (products, comparisonCost) = (0L, 0L);
         using var level = LevelsOf(fractal).GetEnumerator();
         for (var exists = level.MoveNext(); exists;)
         {
@@ -117,14 +114,14 @@ public static class FractalGenerator
                 continue;
             }
 
-            if (products > maxProducts || comparisons / ComparisonsPerProduct > maxProducts
+            if (products > maxProducts || comparisonCost > maxProducts
                 || DistinctMaps.Products(instances.Span, maps, exists ? null : fractal, maxInstances) is not { } distinct)
             {
                 return null;
             }
 
             instances = distinct.Items;
-            comparisons += distinct.Comparisons;
+            comparisonCost += distinct.ComparisonCost;
         }
 
         return MemoryMarshal.TryGetArray(instances, out var segment) && segment.Array!.Length == instances.Length

@@ -11,9 +11,6 @@ namespace FractalEngine.Core.Fractals;
 /// </summary>
 internal sealed class GraphExpansion
 {
-    // Comparing takes less than composing.
-    private const int ComparisonsPerProduct = 8;
-
     private readonly FractalGraph _graph;
     private readonly long _maxInstances;
 
@@ -164,7 +161,7 @@ internal sealed class GraphExpansion
 
     private ReadOnlyMemory<AffineMap> Charged(DistinctList<AffineMap>? list)
     {
-        Charge((list ?? throw LimitError()).Comparisons / ComparisonsPerProduct);
+        Charge((list ?? throw LimitError()).ComparisonCost);
         return list.Items;
     }
 

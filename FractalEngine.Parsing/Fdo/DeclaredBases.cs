@@ -13,7 +13,7 @@ internal sealed class DeclaredBases
     /// <summary>The files and shapes, in the order in which they were named.</summary>
     public IReadOnlyList<BaseReference> References => _references;
 
-    /// <summary>Adds a file or shape.</summary>
+    /// <summary>Adds the object that a file or shape is, without steps.</summary>
     /// <param name="name">Name of the file, as written, or of the shape.</param>
     /// <param name="offset">Offset of the name in the text.</param>
     public DeclaredObject Add(string name, int offset)

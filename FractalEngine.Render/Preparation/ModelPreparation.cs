@@ -131,7 +131,7 @@ internal static class ModelPreparation
 
     /// <summary>Returns 1 where all instances of a model certainly keep the orientation of its mesh, otherwise 0.</summary>
     private static int OrientationOfInstances(Model model) =>
-        model is FractalModel { Fractal.Description.PreservesOrientation: false } ? 0 : 1;
+        model is FractalModel { Fractal.PreservesOrientation: false } ? 0 : 1;
 
     /// <summary>Returns the sign that the determinants of all maps have; 0 where they differ or one is singular.</summary>
     /// <exception cref="FractalLimitException">A map is beyond the range of a double.</exception>

@@ -37,7 +37,7 @@ public sealed record FractalDescription(ImmutableArray<FractalStep> Steps, Compo
     /// True when the steps can be composed componentwise: they end, since positions don't shrink, and have a position, a rotation and a
     /// scale each.
     /// </summary>
-    public bool CanBeComponentwise => !IsInfinite && Parts.IsEmpty && HasOnlyTransformations;
+    public bool CanBeComponentwise => !IsInfinite && HasOnlyTransformations;
 
     /// <summary>True when all maps were declared by position, rotation and scale; others may be products of many maps.</summary>
     internal bool HasOnlyTransformations => Parts.IsEmpty && Steps.All(HasTransformations);

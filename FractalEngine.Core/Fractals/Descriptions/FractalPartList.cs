@@ -19,7 +19,7 @@ public sealed class FractalPartList
     private readonly List<Entry> _entries = [];
     private readonly Dictionary<Entry, int> _known = [];
 
-    /// <summary>Adds a base mesh.</summary>
+    /// <summary>Adds a base mesh, as a part that others can be made of.</summary>
     /// <param name="mesh">Number of the mesh, by which <see cref="Describe"/> lists it.</param>
     /// <returns>Index of the part.</returns>
     public int AddMesh(int mesh) => Add(new(null, mesh, null));
@@ -29,7 +29,7 @@ public sealed class FractalPartList
     /// <returns>Index of the part.</returns>
     public int AddCall(int recursive) => Add(new(null, null, recursive));
 
-    /// <summary>Adds steps on a part.</summary>
+    /// <summary>Adds what steps make of an earlier part.</summary>
     /// <param name="inner">Index of the part.</param>
     /// <param name="steps">The outermost first; without any, the part itself is meant.</param>
     /// <returns>Index of the part.</returns>

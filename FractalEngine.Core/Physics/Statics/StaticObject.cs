@@ -130,7 +130,7 @@ public sealed class StaticObject
     /// 1 where faces look out of the object as they are wound, −1 where its matrix mirrors it, 0 where its instances differ.
     /// </summary>
     internal int WindingSign =>
-        Model is FractalModel { Fractal.Description.PreservesOrientation: false }
+        Model is FractalModel { Fractal.PreservesOrientation: false }
             ? 0 : Math.Sign(Reference.ObjectToWorld.Linear.Determinant());
 
     /// <summary>

@@ -1,0 +1,223 @@
+using FractalEngine.Core.Fractals.Descriptions;
+using FractalEngine.Parsing.Text;
+using FractalEngine.Parsing.Text.Grammar;
+
+namespace FractalEngine.Parsing.Fdo;
+
+/// <summary>Parses the objects of fractal files: base meshes, sets on objects, sums, and recursives at a depth.</summary>
+public abstract class ObjectParser : MapSetParser
+{
+    private const int MaxParentheses = 32;
+
+    private static readonly DeclaredObject EmptyObject = new(0, DeclaredSteps.None);
+
+    private long _termCount;
+    private int _parentheses;
+    private string? _declared;
+
+    private protected ObjectParser(SourceText source, FractalNumberList? numbers)
+        : base(source, numbers)
+    {
+    }
+
+    /// <summary>Number of steps and calls in all recursives so far.</summary>
+    private protected long RepeatedStepCount { get; set; }
+
+    /// <summary>While the bodies of recursives are read, what the names of their bases are: calls. Null elsewhere.</summary>
+    private protected Dictionary<string, DeclaredObject>? Calls { get; set; }
+
+    /// <summary>The recursives that were declared last.</summary>
+    private protected List<RecursiveHead> Heads { get; set; } = [];
+
+    /// <summary>Begins the declaration of an object with a name, which does not know itself. Always true.</summary>
+    private protected bool BeginObject(string name) => Set(ref _declared, name);
+
+    /// <summary>Parses an object: one thing, or several at one place with plus signs between them.</summary>
+    private protected bool ParseSum(Cursor cursor, out DeclaredObject value, out Cursor rest)
+    {
+        if (!ParseObject(cursor, out value, out rest))
+        {
+            return false;
+        }
+
+        List<int>? terms = null;
+        while (ParseBlanks(rest, out var sign) && sign.Current == '+')
+        {
+            terms ??= [Bases.PartOf(value)];
+            if (!ParseBlanks(sign.Advance(1), out var start) || !ParseObject(start, out var term, out rest))
+            {
+                return false;
+            }
+
+            RequireLimit(++_termCount, ParsingLimits.Names.Value, "the file", "terms of sums", start);
+            terms.Add(Bases.PartOf(term));
+        }
+
+        value = terms is null ? value : new(Bases.Parts.AddSum([.. terms]), DeclaredSteps.None);
+        return true;
+    }
+
+    /// <summary>
+    /// Parses <c>"file.obj"</c>, <c>(object)</c>, <c>name</c> or <c>name depth</c>, with any number of sets
+    /// <c>[transformations]</c> before it. It is a
+    /// loop, not a recursion, so that no file can exhaust the stack.
+    /// </summary>
+    private bool ParseObject(Cursor cursor, out DeclaredObject value, out Cursor rest)
+    {
+        var sets = new List<FractalStep>();
+        TransformationSet set;
+        for (rest = cursor; rest.Current == '['; sets.Add(set))
+        {
+            if (!ParseSet(rest, out set, out rest) || !ParseBlanks(rest, out rest))
+            {
+                value = EmptyObject;
+                return false;
+            }
+        }
+
+        Fail(rest, "'['");
+        if (!ParseBaseFile(rest, out value, out rest) && !ParseParentheses(rest, out value, out rest)
+            && !ParseReference(rest, out value, out rest))
+        {
+            return false;
+        }
+
+        if (sets.Count > 0)
+        {
+            var steps = sets.AsEnumerable().Reverse().Aggregate(value.Steps, (inner, step) => inner.Prepend(step));
+            value = new(value.Part, steps) { Origin = value };
+        }
+
+        RequireStepLimits(value.Steps, cursor);
+        return true;
+    }
+
+    private bool ParseBaseFile(Cursor cursor, out DeclaredObject value, out Cursor rest)
+    {
+        value = EmptyObject;
+        if (!ParseString(cursor, "the name of a mesh in quotes", out var file, out rest))
+        {
+            return false;
+        }
+
+        value = FileKinds.FromName(file) is FileKind.Mesh or FileKind.Fractal ? Bases.Add(file, cursor.Offset) : throw Error(
+            cursor, $"expected the name of a mesh ({FileKinds.MeshEndings}) or fractal (.fdo): that is the base of a fractal");
+        return true;
+    }
+
+    /// <summary>Parses an object in parentheses.</summary>
+    private bool ParseParentheses(Cursor cursor, out DeclaredObject value, out Cursor rest)
+    {
+        value = EmptyObject;
+        rest = cursor;
+        if (cursor.Current != '(')
+        {
+            return false;
+        }
+
+        RequireLimit(++_parentheses, MaxParentheses, "the object", "parentheses inside each other", cursor);
+        var isParsed = ParseBlanks(cursor.Advance(1), out var start) && ParseSum(start, out value, out rest)
+            && ParseBlanks(rest, out rest) && ParseChar(rest, ')', out rest);
+        _parentheses--;
+        return isParsed;
+    }
+
+    private bool ParseReference(Cursor cursor, out DeclaredObject value, out Cursor rest)
+    {
+        value = EmptyObject;
+        if (!ParseName(cursor, FractalMistakes.ObjectName, out var name, out rest))
+        {
+            return false;
+        }
+
+        // The line may still be another kind of declaration, so names are resolved only once the syntax fits.
+        ParseBlanks(rest, out var depthStart);
+        var call = Calls?.GetValueOrDefault(name);
+        if (IsAtEndOfTerm(depthStart))
+        {
+            value = call ?? FindObject(cursor, name);
+            return true;
+        }
+
+        if (depthStart.Current == '-' && char.IsAsciiDigit(depthStart.Peek(1)))
+        {
+            throw Error(depthStart, "the depth of a recursive must not be negative");
+        }
+
+        if ((depthStart.Current == '(' ? !Names.IsRecursive(name) : depthStart.Offset == rest.Offset)
+            || !ParseDepth(depthStart, out var depth, out rest))
+        {
+            return Fail(depthStart, SyntaxFailure.EndOfLine);
+        }
+
+        if (call is not null)
+        {
+            throw Error(depthStart, $"'{name}' is here the recursive with one level less, so it has no depth of its own");
+        }
+
+        if (FindObject(cursor, name) is not DeclaredRecursion recursive)
+        {
+            throw Error(depthStart, $"'{name}' is no recursive, so it has no depth");
+        }
+
+        if (depth > FractalLimits.Depth.Value)
+        {
+            throw Error(depthStart, $"the depth is more than the limit of {FractalLimits.Depth.Value}", isLimitExceeded: true);
+        }
+
+        RequireLimit(
+            RepeatedStepCount += recursive.CallCount, ParsingLimits.RepeatedSteps.Value, "the file", "steps in all recursives", cursor);
+        value = recursive.WithDepth((int)depth);
+        if (depthStart.Current != '(')
+        {
+            Numbers?.AddDepth(name, depthStart, rest, (int)depth);
+        }
+
+        return true;
+    }
+
+    /// <summary>Returns the object with a name. One that is being declared has a mistake of its own.</summary>
+    private DeclaredObject FindObject(Cursor cursor, string name)
+    {
+        if (!Names.HasObject(name) && Calls is not null && Heads.Find(head => head.Name == name) is { Name: not null } called)
+        {
+            throw Error(
+                cursor, $"within its own declaration, the recursive '{name}' is called by the name of its base, '{called.BaseName}'");
+        }
+
+        return Names.HasObject(name) || Calls is not null || name != _declared ? Names.FindObject(cursor, name)
+            : throw Error(cursor, $"'{name}' is declared by itself: what repeats itself is a recursive, as in '{name}<box>. [t.] box'");
+    }
+
+    /// <summary>Parses the depth of a recursive: an integer, or an expression in parentheses.</summary>
+    private bool ParseDepth(Cursor cursor, out double depth, out Cursor rest)
+    {
+        if (cursor.Current != '(')
+        {
+            var isInteger = ParseInteger(cursor, "a depth", out var integer, out rest);
+            depth = integer;
+            return isInteger;
+        }
+
+        if (!ParseParenthesized(cursor, out depth, out rest))
+        {
+            return false;
+        }
+
+        return depth >= 0 && Math.Floor(depth) == depth ? true
+            : throw Error(cursor, FormattableString.Invariant($"a depth is a whole number that is not negative, not {depth:R}"));
+    }
+
+    private bool IsAtEndOfTerm(Cursor cursor) =>
+        IsAtEndOfLine(cursor) || cursor.Current == '+' || (cursor.Current == ')' && _parentheses > 0)
+        || (cursor.Current == ',' && Calls is not null);
+
+    private void RequireStepLimits(DeclaredSteps steps, Cursor cursor)
+    {
+        if (steps.Count > FractalLimits.Steps.Value || steps.NestingDepth > FractalLimits.Nesting.Value)
+        {
+            var limits = $"{FractalLimits.Steps.Value} steps, or of {FractalLimits.Nesting.Value} recursives inside each other";
+            throw Error(cursor, $"the object has more than the limit of {limits}", isLimitExceeded: true);
+        }
+    }
+}
