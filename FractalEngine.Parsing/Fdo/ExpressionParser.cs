@@ -270,15 +270,22 @@ public abstract class ExpressionParser : Parser
     /// <summary>Parses a primary expression, and the power that it is raised to: from the right, before signs.</summary>
     private bool ParsePower(Cursor cursor, out double value, out Cursor rest)
     {
+        Nest(cursor);
+        var isParsed = ParsePrimary(cursor, out value, out rest) && ParseExponent(rest, ref value, out rest);
+        Unnest();
+        return isParsed;
+    }
+
+    /// <summary>Counts what is read within something of its kind, which takes stack.</summary>
+    private protected void Nest(Cursor cursor)
+    {
         if (++_nesting > MaxNesting)
         {
             throw Error(cursor, $"the expression is nested deeper than the limit of {MaxNesting}", isLimitExceeded: true);
         }
-
-        var isParsed = ParsePrimary(cursor, out value, out rest) && ParseExponent(rest, ref value, out rest);
-        _nesting--;
-        return isParsed;
     }
+
+    private protected void Unnest() => _nesting--;
 
     private bool ParseExponent(Cursor cursor, ref double value, out Cursor rest)
     {

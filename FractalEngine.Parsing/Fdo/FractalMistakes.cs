@@ -24,6 +24,9 @@ internal static class FractalMistakes
         // t.a. (a, #, 0.5)
         ?? failure.Explain(
             @"\n[-+.0-9]", "numbers stand in parentheses, as in '(0.5)' or '(0, 1, 0)', but for that of a vector", VectorNumber)
+        // t. (1, #) or [((1, 0, 0), #)]
+        ?? failure.Explain(
+            @"\n\)", "a map has a position, a rotation and a scale, as in '((1, 0, 0), #, (0.5))'", "a blank or ','")
         // (0 1 0) as an output
         ?? failure.Explain(@"\([^()]*\n[-+.(0-9\p{L}]", "commas stand between the components of a vector, as in '(0, 1, 0)'", "','", "')'")
         // [t.^1.5]

@@ -165,7 +165,7 @@ public sealed class FractalParser : RecursiveParser
     private bool ParseObjectDeclaration(Cursor cursor, out Cursor rest)
     {
         if (!ParseName(cursor, "a declaration", out var name, out rest) || !ParseChar(rest, '.', out rest)
-            || !ParseBlanks(rest, out rest) || !BeginObject(name) || (rest.Current == '(' && !ParenthesizedObject.Begins(rest.Rest))
+            || !ParseBlanks(rest, out rest) || !BeginObject(name) || (rest.Current == '(' && !Parentheses.HoldObject(rest.Rest))
             || !ParseSum(rest, out var value, out rest))
         {
             return false;

@@ -86,7 +86,7 @@ public abstract class TransformationParser : ExpressionParser
         if (!ParseName(cursor, "a declaration", out var name, out rest) || !ParseChar(rest, '.', out rest)
             || !ParseParameters(rest, out var parameters, out rest) || !ParseBlanks(rest, out rest)
             || !ParseChar(rest, '(', out var outputs)
-            || (parameters.Count == 0 && ParenthesizedObject.Begins(rest.Rest)))
+            || (parameters.Count == 0 && Parentheses.HoldObject(rest.Rest)))
         {
             return false;
         }
@@ -102,7 +102,8 @@ public abstract class TransformationParser : ExpressionParser
         return isParsed;
     }
 
-    private bool ParseOutputs(Cursor cursor, string name, out TransformationFunction function, out Cursor rest)
+    /// <summary>Parses the three outputs of a function, or of a map without a name, behind the parenthesis.</summary>
+    private protected bool ParseOutputs(Cursor cursor, string? name, out TransformationFunction function, out Cursor rest)
     {
         function = new(Parameters, default, default, default);
         if (!ParseBlanks(cursor, out rest) || !ParseOutput(rest, name, FractalNumberRole.Position, out var position, out rest)
@@ -144,7 +145,7 @@ public abstract class TransformationParser : ExpressionParser
         return true;
     }
 
-    private bool ParseOutput(Cursor cursor, string function, FractalNumberRole role, out FunctionOutput output, out Cursor rest)
+    private bool ParseOutput(Cursor cursor, string? function, FractalNumberRole role, out FunctionOutput output, out Cursor rest)
     {
         output = new(role == FractalNumberRole.Scale ? Vector.One : Vector.Zero, cursor);
         rest = cursor;

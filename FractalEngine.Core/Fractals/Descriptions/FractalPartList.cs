@@ -117,10 +117,16 @@ public sealed class FractalPartList
         {
             var levels = FractalSteps.LevelCount(steps) is <= MaxUnrolledLevels and { } count ? count
                 : throw new ArgumentException($"a repetition of calls has at most {MaxUnrolledLevels} levels", nameof(bodies));
-            for (var level = levels - 1; level >= 0; level--)
+            var sets = Enumerable.Range(0, (int)levels).Select(level => FractalSteps.LevelAt(steps, level)).ToList();
+            if (sets.Exists(static set => set.Maps.IsEmpty))
+            {
+                return [];
+            }
+
+            foreach (var set in Enumerable.Reverse(sets))
             {
                 var target = Name(calls);
-                calls = ImmutableArray.CreateRange(FractalSteps.LevelAt(steps, level).Maps, map => Under(map, target));
+                calls = ImmutableArray.CreateRange(set.Maps, map => Under(map, target));
             }
 
             return calls;
@@ -193,11 +199,13 @@ public sealed class FractalPartList
         };
     }
 
-    /// <summary>The calls of a part that stands as a constant: a set on a part is as many calls of that.</summary>
+    /// <summary>
+    /// The calls of a part that stands as a constant: a set on a part is as many calls of that. Without any, calls below it are still seen.
+    /// </summary>
     private ImmutableArray<RecursiveCall> CallsOf(int part) => _entries[part] switch
     {
-        { Part: SteppedPart { Steps: [TransformationSet { Maps.Length: <= MaxInlined } set], Inner: var inner } } =>
-            ImmutableArray.CreateRange(set.Maps, map => RecursiveCall.ToPart(map, inner)),
+        { Part: SteppedPart { Steps: [TransformationSet { Maps.Length: <= MaxInlined } set], Inner: var inner } }
+            when !set.Maps.IsEmpty || !HasCalls(inner) => ImmutableArray.CreateRange(set.Maps, map => RecursiveCall.ToPart(map, inner)),
         { Part: RecursivePart { IsSum: true, Recursives: [{ Calls.Length: <= MaxInlined } sum] } } => sum.Calls,
         _ => [RecursiveCall.ToPart(part)],
     };

@@ -24,7 +24,7 @@ internal sealed class FractalPartWriter(FractalWriter writer, List<string> names
             var value = part switch
             {
                 SteppedPart stepped => writer.WriteSteps(stepped.Steps, names[stepped.Inner]),
-                RecursivePart { IsSum: true, Recursives: [var sum] } => FormatSum(sum.Calls, FormatConstant, isWhole: true),
+                RecursivePart { IsSum: true, Recursives: [var sum] } => FormatSum(sum.Calls, names[0], FormatConstant, isWhole: true),
                 RecursivePart recursive => FormatRecursive(recursive, GroupOf(recursive, parts)),
                 _ => throw new ArgumentException($"{part.GetType().Name} is no part of a fractal"),
             };
@@ -45,15 +45,16 @@ internal sealed class FractalPartWriter(FractalWriter writer, List<string> names
             return known;
         }
 
+        RecursiveCall[] calls = [.. part.Recursives.SelectMany(static recursive => recursive.Calls)];
         int[] heads =
         [
             .. parts.OfType<RecursivePart>().Where(other => other.HasRecursivesOf(part)).Select(static other => other.Root)
-                .Concat(part.Recursives.SelectMany(static recursive => recursive.Calls)
-                    .Where(static call => call.LevelsLess > 0).Select(static call => call.Target))
+                .Concat(calls.Where(static call => call.LevelsLess > 0).Select(static call => call.Target))
+                .Concat(Enumerable.Range(0, part.Recursives.Length)
+                    .Except(calls.Where(static call => call.LevelsLess == 0).Select(static call => call.Target)))
                 .Distinct().Order(),
         ];
-        var constants = part.Recursives.SelectMany(static recursive => recursive.Calls)
-            .Where(static call => call.IsConstant).Select(static call => call.Target).ToHashSet();
+        var constants = calls.Where(static call => call.IsConstant).Select(static call => call.Target).ToHashSet();
         var bases = new Dictionary<int, string>();
         foreach (var head in heads)
         {
@@ -78,6 +79,7 @@ internal sealed class FractalPartWriter(FractalWriter writer, List<string> names
 
     private string FormatBody(RecursivePart part, int recursive, Dictionary<int, string> bases, bool isWhole) => FormatSum(
         part.Recursives[recursive].Calls,
+        bases.Values.First(),
         call => call.IsConstant ? FormatConstant(call)
             : call.LevelsLess == 1 && bases.TryGetValue(call.Target, out var name) ? name
             : call.LevelsLess == 0 ? $"({FormatBody(part, call.Target, bases, isWhole: false)})"
@@ -86,9 +88,14 @@ internal sealed class FractalPartWriter(FractalWriter writer, List<string> names
 
     private string FormatConstant(RecursiveCall call) => names[call.Target];
 
-    /// <summary>Formats calls as terms: those of the same target one after the other are a set.</summary>
-    private string FormatSum(ImmutableArray<RecursiveCall> calls, Func<RecursiveCall, string> formatTarget, bool isWhole)
+    /// <summary>Formats calls as terms: those of the same target one after the other are a set. Without calls, it is an empty one.</summary>
+    private string FormatSum(ImmutableArray<RecursiveCall> calls, string anyName, Func<RecursiveCall, string> formatTarget, bool isWhole)
     {
+        if (calls.IsEmpty)
+        {
+            return $"[] {anyName}";
+        }
+
         var terms = new List<string>();
         // One term alone would be steps on it, and no sum, where it is all of an object.
         var isOneTarget = isWhole && calls.All(call => call with { Map = calls[0].Map } == calls[0]);

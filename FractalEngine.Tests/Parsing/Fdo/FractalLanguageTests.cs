@@ -121,6 +121,39 @@ public class FractalLanguageTests
         }
     }
 
+    /// <summary>A map without a name is what a function with its outputs returns, in all that is made of maps.</summary>
+    [Theory]
+    [InlineData("[((1, 2, 0), #, (0.5))]", "t. ((1, 2, 0), #, (0.5))", "[t.]")]
+    [InlineData("[(1, up (k)),#, ( # , (10, 20, 30) ,2 )]", "t. (1, up, (k))\nu. (#, (10, 20, 30), 2)", "[t., #, u.]")]
+    [InlineData("[((1, 0, 0), #, #)^-2..2 * (#, (0, 30, 0), #)^2]", "t. ((1, 0, 0), #, #)\nu. (#, (0, 30, 0), #)", "[t.^-2..2 * u.^2]")]
+    [InlineData("[(((k*k, 0, 0), #, #) * (#, up, #))^0..9]", "t. ((k*k, 0, 0), #, #)\nu. (#, up, #)\n", "[(t. * u.)^0..9]")]
+    public void Map_WithoutAName_IsWhatAFunctionReturns(string unnamed, string functions, string named)
+    {
+        const string Values = "v 1 2 3\nv 2 2 2\nk = 0.5\nup = (0, 1, 0)\n";
+        var expected = SetOf($"{Values}{functions}\n<$>. {named} box\n");
+        var actual = SetOf($"{Values}<$>. {unnamed} box\n");
+        Assert.Equal(expected.Maps, actual.Maps);
+        Assert.Equal(expected.HasTransformations, actual.HasTransformations);
+    }
+
+    /// <summary>A product in parentheses has the powers that its maps have not: the step of a screw about an axis elsewhere.</summary>
+    [Fact]
+    public void Product_InParentheses_HasPowers()
+    {
+        const string Maps = "t. ((1, 2, 0), (0, 30, 10), (0.9, 0.8, -0.7))\nu. ((0, 0, 3), (45, 0, 0), #)\n";
+        var set = SetOf($"{Maps}<$>. [(t. * u.)^-1..2, u. * (t.^2 * (u. * t.)^2)^1, (u.^0..1 * t.) * u.] box\n");
+        var (t, u) = (SetOf($"{Maps}<$>. [t.] box\n").Maps[0], SetOf($"{Maps}<$>. [u.] box\n").Maps[0]);
+        AffineMap[] expected = [(t * u).Inverse(), AffineMap.Identity, t * u, t * u * t * u, u * t * t * u * t * u * t, t * u, u * t * u];
+        Assert.Equal(expected.Length, set.Maps.Length);
+        for (var i = 0; i < expected.Length; i++)
+        {
+            foreach (var point in (Vector[])[Vector.Zero, Vector.I, Vector.J, Vector.K])
+            {
+                Assert.True((expected[i] * point - (set.Maps[i] * point)).Length() < 1e-13, $"map {i}");
+            }
+        }
+    }
+
     /// <summary>Powers of a range are made one after the other, as levels of a recursion are composed.</summary>
     [Fact]
     public void Staircase_OfPowersAndOfLevels_IsTheSame()
@@ -293,6 +326,12 @@ public class FractalLanguageTests
     [InlineData("b = (1, 2, 3)\nt.a. ((a), #, #)\n<$>. [t.b] box", "3:9: error: 'b' is a vector, and 'a' of 't' is a number")]
     [InlineData("v 1 1 1\nt.a. ((a), #, #)\n<$>. [t.1] box", "3:9: error: the parameter 'a' of 't' is a number, as in 't.(1)'")]
     [InlineData("t.a. ((1/a), #, #)\n<$>. [t.(0)] box", "1:9: error: division by zero, in the call in line 2")]
+    [InlineData(
+        "<$>. [((1, 0, 0), #)] box", "1:20: error: unexpected ')': a map has a position, a rotation and a scale, as in '((1, 0, 0), #, (0.5))'")]
+    [InlineData("<$>. [((1, 0, 0) #)] box", "1:19: error: unexpected ')': a map has a position, a rotation and a scale")]
+    [InlineData("<$>. [(#, #, (0))] box", "1:7: error: the scale (0, 0, 0) is singular")]
+    [InlineData("<$>. [(2, #, #)] box\nv 1 2 3", "1:8: error: vector 2 of 0: it is not declared above the call in line 1")]
+    [InlineData("t. (#, 1, #)\n<$>. [(t.^0..2 * t.)^2] box", "2:21: error: a power is that of one map, not of 3")]
     [InlineData("t. (#, #, #)\n<$>. [t.^1.5] box", "2:11: error: unexpected '.': the power of a map is a whole number")]
     [InlineData("t. (#, #, #)\n<$>. [t.^(0.5)] box", "2:10: error: the power of a map is a whole number, not 0.5")]
     [InlineData("t. (#, #, #)\n<$>. [t.^2..1] box", "2:9: error: a range of powers begins at the smaller one")]

@@ -1,13 +1,34 @@
 namespace FractalEngine.Parsing.Fdo;
 
-/// <summary>Tells objects in parentheses, <c>y. (a + [t.] b)</c>, from the outputs of a function, <c>t. (#, 1, #)</c>.</summary>
-internal static class ParenthesizedObject
+/// <summary>Tells objects and products in parentheses from the outputs of a function, <c>t. (#, 1, #)</c>.</summary>
+internal static class Parentheses
 {
-    /// <summary>Tells whether a text that begins with a parenthesis begins with an object.</summary>
+    /// <summary>Tells whether a text begins with a product of maps, <c>(t. * r.)</c>: outside of inner parentheses, outputs have no sign.</summary>
+    public static bool HoldProduct(ReadOnlySpan<char> text)
+    {
+        var depth = 0;
+        foreach (var character in text)
+        {
+            depth += character == '(' ? 1 : character == ')' ? -1 : 0;
+            if (depth == 0 || character is '\n' or '\r')
+            {
+                return false;
+            }
+
+            if (depth == 1 && character is '*' or '^')
+            {
+                return true;
+            }
+        }
+
+        return false;
+    }
+
+    /// <summary>Tells whether a text that begins with a parenthesis begins with an object, <c>(a + [t.] b)</c>.</summary>
     /// <remarks>
     /// Outside of inner parentheses, only objects have sets, quotes and plus signs, and only outputs have commas, '#', and three items.
     /// </remarks>
-    public static bool Begins(ReadOnlySpan<char> text)
+    public static bool HoldObject(ReadOnlySpan<char> text)
     {
         // What begins with a number, in however many parentheses, is an output.
         if (text.TrimStart("( \t") is not [not (>= '0' and <= '9' or '-' or '.'), ..])
