@@ -19,7 +19,7 @@ public sealed class OutputFileTests : IDisposable
     public void Export_EndedByASignalWhileWriting_LeavesNoFile(string signal)
     {
         Signals.Require(signal);
-        _folder.Write("row.fdo", SampleFiles.Row("21"));
+        _folder.Write("row.fdo", SampleFiles.Row("20"));
         using var process = AppProcess.Start(_folder.Path, [], "export", "row.fdo", "--output", "t.obj");
         try
         {
