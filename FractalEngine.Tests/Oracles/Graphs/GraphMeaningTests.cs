@@ -187,7 +187,8 @@ public sealed class GraphMeaningTests : IDisposable
     [InlineData("z<ball>. cone + [] [#] ball\n<$>. z 2")]
     [InlineData("z<box>, w<ball>. [m.] box + ball, box + [] [g.] ball\n<$>. z 2")]
     [InlineData("z<box>, w<plate>. box, plate + [g.] box\n<$>. z 2 + w 2")]
-    [InlineData("z<box>, w<plate>. box, tetrahedron + [g.] plate\n<$>. z 1")]
+    [InlineData("z<box>, w<plate>. box, tetrahedron + cone\n<$>. z 0")]
+    [InlineData("z<box>, w<plate>. box, tetrahedron + cone\n<$>. z 3")]
     public void Files_ThatAreWritten_ReadBackEqual(string text)
     {
         var fractal = Read(text);
