@@ -182,6 +182,13 @@ public sealed class GraphMeaningTests : IDisposable
     [InlineData("z<box>. [g.] box + [s., m.] box + plate\n<$>. z 4 + z 2")]
     [InlineData("z<box>. [g.] box + plate\nw<ball>. [s., m.] ball + z 2\n<$>. w 2")]
     [InlineData("z<box>, w<plate>. [s.] box + [skew.] plate + ball, [s.] box + tetrahedron\n<$>. [g.] z + cone")]
+    // Calls of which an empty set leaves nothing, and recursives that are nothing but their bases.
+    [InlineData("z<ball>. cone + [g.] ball + [] [#] ball\n<$>. z 2")]
+    [InlineData("z<ball>. cone + [] [#] ball\n<$>. z 2")]
+    [InlineData("z<box>, w<ball>. [m.] box + ball, box + [] [g.] ball\n<$>. z 2")]
+    [InlineData("z<box>, w<plate>. box, plate + [g.] box\n<$>. z 2 + w 2")]
+    [InlineData("z<box>, w<plate>. box, tetrahedron + cone\n<$>. z 0")]
+    [InlineData("z<box>, w<plate>. box, tetrahedron + cone\n<$>. z 3")]
     public void Files_ThatAreWritten_ReadBackEqual(string text)
     {
         var fractal = Read(text);
