@@ -15,7 +15,9 @@ public abstract class CallParser : TransformationParser
     {
     }
 
-    /// <summary>Parses <c>#</c>, a function with its arguments, or what it would return: <c>t.4</c>, <c>r.</c>, <c>(up, #, (2))</c></summary>
+    /// <summary>
+    /// Parses <c>#</c>, a function with its arguments, <c>t.4</c> or <c>u.up.(2, 0, k)</c>, or what one would return, <c>(up, #, (2))</c>.
+    /// </summary>
     /// <param name="cursor">Position of the name.</param>
     /// <param name="index">Number of maps before it in the set.</param>
     /// <param name="map">Receives what the function makes of the arguments.</param>
@@ -34,19 +36,24 @@ public abstract class CallParser : TransformationParser
             return ParseOutputs(cursor.Advance(1), null, out var unnamed, out rest) && Call(cursor, unnamed, out map);
         }
 
-        Fail(cursor, "'#'");
-        Fail(cursor, "'('");
+        if (!BeginsName(cursor))
+        {
+            Fail(cursor, "'#'");
+            Fail(cursor, "'('");
+        }
+
         if (!ParseName(cursor, FractalMistakes.TransformationName, out var name, out rest))
         {
             return false;
         }
 
-        if (!Names.HasFunction(name) && TryFindValue(name, out var value))
+        if (!Names.TryFindFunction(name, out var function))
         {
-            throw Error(cursor, $"'{name}' is a {(value.IsNumber ? "number" : "vector")}, and a set has calls of transformations");
+            throw TryFindValue(name, out var value)
+                ? Error(cursor, $"'{name}' is a {(value.IsNumber ? "number" : "vector")}, and a set has calls of transformations")
+                : Names.UnknownFunction(cursor, name);
         }
 
-        var function = Names.FindFunction(cursor, name);
         if (!ParseChar(rest, '.', out rest) || !ParseArguments(name, function, index, out var argumentCount, ref rest))
         {
             return false;
@@ -64,7 +71,7 @@ public abstract class CallParser : TransformationParser
     /// <summary>Parses the arguments of a call, with dots between them and perhaps one behind.</summary>
     private bool ParseArguments(string name, TransformationFunction function, int index, out int count, ref Cursor rest)
     {
-        for (count = 0; char.IsAsciiDigit(rest.Current) || rest.Current is '(' or '_' || char.IsLetter(rest.Current); count++)
+        for (count = 0; char.IsAsciiDigit(rest.Current) || rest.Current == '(' || BeginsName(rest); count++)
         {
             var start = rest;
             var isNumber = count < function.Parameters.Count ? function.Parameters.IsNumber(count) : null;
@@ -150,11 +157,11 @@ public abstract class CallParser : TransformationParser
     {
         if (function.Matrix is { } matrix)
         {
-            map = new([matrix]);
+            map = new(matrix);
             return true;
         }
 
-        if (function.Last.VectorNumber > Vectors.Count)
+        if (function.LastVectorNumber > Vectors.Count)
         {
             throw VectorError(function.Last.Start, $" above the call in line {Source.LineOf(cursor.Offset)}");
         }

@@ -1,3 +1,4 @@
+using System.Diagnostics.CodeAnalysis;
 using FractalEngine.Core;
 using FractalEngine.Core.Generation;
 using FractalEngine.Parsing.Text;
@@ -37,9 +38,6 @@ internal sealed class DeclaredNames(SourceText source, DeclaredBases bases)
     /// <summary>Tells whether an object that was declared has a name.</summary>
     public bool HasObject(string name) => _objects.ContainsKey(name);
 
-    /// <summary>Tells whether a transformation has a name.</summary>
-    public bool HasFunction(string name) => _functions.ContainsKey(name);
-
     /// <summary>Tells whether a recursive has a name.</summary>
     public bool IsRecursive(string name) => _objects.GetValueOrDefault(name).Value is DeclaredRecursion;
 
@@ -55,11 +53,17 @@ internal sealed class DeclaredNames(SourceText source, DeclaredBases bases)
         return shape;
     }
 
-    /// <summary>Returns the transformation with a name.</summary>
-    /// <exception cref="SourceException">There is none above the cursor: the message proposes another name.</exception>
-    public TransformationFunction FindFunction(Cursor cursor, string name) =>
-        _functions.TryGetValue(name, out var declared) ? declared.Value
-        : throw source.Error(cursor.Offset, $"the transformation '{name}' is not declared above{AskAboutFunction(name)}");
+    /// <summary>Finds the transformation with a name.</summary>
+    public bool TryFindFunction(string name, [NotNullWhen(true)] out TransformationFunction? function)
+    {
+        var isFound = _functions.TryGetValue(name, out var declared);
+        function = declared.Value;
+        return isFound;
+    }
+
+    /// <summary>Creates the error of a name that no transformation above the cursor has: it proposes another name.</summary>
+    public SourceException UnknownFunction(Cursor cursor, string name) =>
+        source.Error(cursor.Offset, $"the transformation '{name}' is not declared above{AskAboutFunction(name)}");
 
     private void Add<T>(Dictionary<string, (T Value, int Offset)> names, string kind, Cursor cursor, string name, T value)
     {

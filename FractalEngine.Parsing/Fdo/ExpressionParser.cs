@@ -1,3 +1,4 @@
+using System.Collections.Immutable;
 using FractalEngine.Core;
 using FractalEngine.Core.Maths;
 using FractalEngine.Parsing.Text;
@@ -29,8 +30,8 @@ public abstract class ExpressionParser : Parser
     private protected IReadOnlyDictionary<string, double>? Overrides { get; init; }
 
     /// <summary>Names of the numbers that the file declares.</summary>
-    private protected IEnumerable<string> NumberNames =>
-        _values.Where(static declared => declared.Value.Value.IsNumber).Select(static declared => declared.Key);
+    private protected ImmutableArray<string> NumberNames => _values.Count == 0 ? []
+        : [.. _values.Where(static declared => declared.Value.Value.IsNumber).Select(static declared => declared.Key)];
 
     /// <summary>The parameters of the function that is read.</summary>
     private protected FractalParameters Parameters { get; set; } = FractalParameters.None;

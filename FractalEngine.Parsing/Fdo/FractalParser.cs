@@ -64,9 +64,9 @@ public sealed class FractalParser : RecursiveParser
             throw Source.Error(result.Offset, fault);
         }
 
-        return new(Source, description, [.. meshes.Select(mesh => Bases.References[mesh])], result.Offset)
+        return new(Source, description, ImmutableArray.CreateRange(meshes, mesh => Bases.References[mesh]), result.Offset)
         {
-            NumberNames = [.. NumberNames],
+            NumberNames = NumberNames,
             Warnings = Hints,
         };
     }

@@ -83,7 +83,7 @@ public abstract class MapSetParser : CallParser
 
     /// <summary>Parses a call or a product in parentheses, and its powers.</summary>
     private bool ParseFactor(Cursor cursor, int index, out MapFactor factor, out Cursor rest) =>
-        (Parentheses.HoldProduct(cursor.Rest) ? ParseGroup(cursor, index, out factor, out rest)
+        (cursor.Current == '(' && Parentheses.HoldProduct(cursor.Rest) ? ParseGroup(cursor, index, out factor, out rest)
             : ParseCall(cursor, index, out factor, out rest))
         && ParsePower(rest, ref factor, out rest);
 

@@ -3,7 +3,7 @@ namespace FractalEngine.Parsing.Fdo;
 /// <summary>Tells objects and products in parentheses from the outputs of a function, <c>t. (#, 1, #)</c>.</summary>
 internal static class Parentheses
 {
-    /// <summary>Tells whether a text begins with a product of maps, <c>(t. * r.)</c>: outside of inner parentheses, outputs have no sign.</summary>
+    /// <summary>Tells whether a text begins with a product of maps in parentheses, <c>(t. * r.)</c>: no output has such a sign.</summary>
     public static bool HoldProduct(ReadOnlySpan<char> text)
     {
         var depth = 0;

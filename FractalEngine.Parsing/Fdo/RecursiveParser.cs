@@ -18,29 +18,33 @@ public abstract class RecursiveParser : ObjectParser
     /// </summary>
     private protected bool ParseRecursives(Cursor cursor, out Cursor rest)
     {
-        var heads = new List<RecursiveHead>();
-        rest = cursor;
-        do
+        if (!ParseHead(cursor, out var head, out rest))
         {
-            if (!ParseHead(rest, out var head, out rest))
+            return false;
+        }
+
+        var heads = new List<RecursiveHead>(1) { head };
+        while (ParseComma(rest, out rest))
+        {
+            if (!ParseHead(rest, out head, out rest))
             {
                 return false;
             }
 
             heads.Add(head);
         }
-        while (ParseComma(rest, out rest));
+
         if (!ParseChar(rest, '.', out rest))
         {
             return false;
         }
 
-        var bodies = new List<(DeclaredObject Value, Cursor Start)>();
+        var bodies = new List<(DeclaredObject Value, Cursor Start)>(heads.Count);
         Calls = [];
         Heads = heads;
-        foreach (var (i, head) in heads.Index())
+        foreach (var (i, one) in heads.Index())
         {
-            Calls.TryAdd(head.BaseName, new(Bases.Parts.AddCall(i), DeclaredSteps.None));
+            Calls.TryAdd(one.BaseName, new(Bases.Parts.AddCall(i), DeclaredSteps.None));
         }
 
         do
@@ -93,7 +97,7 @@ public abstract class RecursiveParser : ObjectParser
 
     private List<DeclaredObject> FindBases(List<RecursiveHead> heads)
     {
-        var values = new List<DeclaredObject>();
+        var values = new List<DeclaredObject>(heads.Count);
         foreach (var (i, head) in heads.Index())
         {
             var value = Names.FindObject(head.BaseStart, head.BaseName);

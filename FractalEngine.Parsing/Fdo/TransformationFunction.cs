@@ -13,11 +13,15 @@ namespace FractalEngine.Parsing.Fdo;
 internal sealed record TransformationFunction(
     FractalParameters Parameters, FunctionOutput Position, FunctionOutput Rotation, FunctionOutput Scale)
 {
-    /// <summary>The map that the file states as a matrix; null for a position, a rotation and a scale.</summary>
-    public AffineMap? Matrix { get; init; }
+    /// <summary>The one map that the file states as a matrix; null for a position, a rotation and a scale.</summary>
+    public AffineMap[]? Matrix { get; init; }
+
+    /// <summary>The highest vector number of the outputs; 0 without any.</summary>
+    public int LastVectorNumber { get; } =
+        Math.Max(Math.Max(Position.VectorNumber ?? 0, Rotation.VectorNumber ?? 0), Scale.VectorNumber ?? 0);
 
     /// <summary>The output with the highest vector number, the first of several.</summary>
-    public FunctionOutput Last { get; } = new[] { Position, Rotation, Scale }.MaxBy(static output => output.VectorNumber ?? 0);
+    public FunctionOutput Last => new[] { Position, Rotation, Scale }.MaxBy(static output => output.VectorNumber ?? 0);
 
     /// <summary>The outputs with what each makes of a vector.</summary>
     public IEnumerable<(FunctionOutput Output, FractalNumberRole Role)> Outputs =>

@@ -1,4 +1,4 @@
-using System.Collections.Immutable;
+using System.Diagnostics.CodeAnalysis;
 using FractalEngine.Core.Maths;
 using FractalEngine.Parsing.Text;
 using FractalEngine.Parsing.Text.Grammar;
@@ -53,7 +53,7 @@ public abstract class TransformationParser : ExpressionParser
 
         var map = new AffineMap(new(x, y, z), translation);
         RequireInvertible(start, map);
-        Names.Add(cursor, name, new TransformationFunction(FractalParameters.None, default, default, default) { Matrix = map });
+        Names.Add(cursor, name, new TransformationFunction(FractalParameters.None, default, default, default) { Matrix = [map] });
         return true;
     }
 
@@ -91,21 +91,22 @@ public abstract class TransformationParser : ExpressionParser
             return false;
         }
 
-        Parameters = new(parameters);
+        Parameters = parameters.Count == 0 ? FractalParameters.None : new(parameters);
         var isParsed = ParseOutputs(outputs, name, out var function, out rest);
         Parameters = FractalParameters.None;
         if (isParsed)
         {
-            Names.Add(cursor, name, function);
+            Names.Add(cursor, name, function!);
         }
 
         return isParsed;
     }
 
     /// <summary>Parses the three outputs of a function, or of a map without a name, behind the parenthesis.</summary>
-    private protected bool ParseOutputs(Cursor cursor, string? name, out TransformationFunction function, out Cursor rest)
+    private protected bool ParseOutputs(
+        Cursor cursor, string? name, [NotNullWhen(true)] out TransformationFunction? function, out Cursor rest)
     {
-        function = new(Parameters, default, default, default);
+        function = null;
         if (!ParseBlanks(cursor, out rest) || !ParseOutput(rest, name, FractalNumberRole.Position, out var position, out rest)
             || !ParseSeparator(rest, out rest) || !ParseOutput(rest, name, FractalNumberRole.Rotation, out var rotation, out rest)
             || !ParseSeparator(rest, out rest) || !ParseOutput(rest, name, FractalNumberRole.Scale, out var scale, out rest)
@@ -121,7 +122,7 @@ public abstract class TransformationParser : ExpressionParser
     private bool ParseParameters(Cursor cursor, out List<string> parameters, out Cursor rest)
     {
         parameters = [];
-        for (rest = cursor; char.IsLetter(rest.Current) || rest.Current == '_';)
+        for (rest = cursor; BeginsName(rest);)
         {
             var parameterStart = rest;
             if (!ParseName(rest, "a parameter", out var parameter, out rest) || !ParseChar(rest, '.', out rest))
@@ -265,7 +266,7 @@ public abstract class TransformationParser : ExpressionParser
     /// <summary>Requires all vectors to be declared that functions without a call use.</summary>
     private protected void RequireVectors()
     {
-        if (Names.Functions.FirstOrDefault(function => function.Last.VectorNumber > Vectors.Count) is { } uncalled)
+        if (Names.Functions.FirstOrDefault(function => function.LastVectorNumber > Vectors.Count) is { } uncalled)
         {
             throw VectorError(uncalled.Last.Start, "");
         }

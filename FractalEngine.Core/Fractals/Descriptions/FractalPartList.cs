@@ -175,6 +175,12 @@ public sealed class FractalPartList
             throw new ArgumentException("expected a part without calls", nameof(whole));
         }
 
+        if (_entries[whole].Mesh is { } only)
+        {
+            meshes = [only];
+            return new(steps, composition);
+        }
+
         var used = new bool[whole + 1];
         used[whole] = true;
         for (var i = whole; i >= 0; i--)

@@ -88,7 +88,7 @@ internal sealed class FractalPartWriter(FractalWriter writer, List<string> names
 
     private string FormatConstant(RecursiveCall call) => names[call.Target];
 
-    /// <summary>Formats calls as terms: those of the same target one after the other are a set. Without calls, it is an empty one.</summary>
+    /// <summary>Formats calls as terms: those of the same target one after the other are a set. Without calls it is an empty set.</summary>
     private string FormatSum(ImmutableArray<RecursiveCall> calls, string anyName, Func<RecursiveCall, string> formatTarget, bool isWhole)
     {
         if (calls.IsEmpty)

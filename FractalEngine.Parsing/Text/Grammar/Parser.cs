@@ -15,7 +15,12 @@ namespace FractalEngine.Parsing.Text.Grammar;
 /// <param name="source">Text that is parsed.</param>
 public abstract class Parser(SourceText source)
 {
+    private static readonly ImmutableArray<string> QuotedAscii = [.. Enumerable.Range(0, 128).Select(static code => $"'{(char)code}'")];
+
     private readonly FailureLog _failures = new();
+
+    // Several declarations begin with a name, which is read for each of them.
+    private (int Offset, string Text) _name = (-1, "");
     private Diagnostic? _hint;
 
     /// <summary>Parses one item of a list.</summary>
@@ -111,7 +116,7 @@ public abstract class Parser(SourceText source)
         rest = cursor;
         if (cursor.IsAtEnd || cursor.Current != character)
         {
-            return Fail(cursor, $"'{character}'");
+            return Fail(cursor, character < QuotedAscii.Length ? QuotedAscii[character] : $"'{character}'");
         }
 
         rest = cursor.Advance(1);
@@ -131,24 +136,34 @@ public abstract class Parser(SourceText source)
         return true;
     }
 
+    /// <summary>Tells whether a name begins here.</summary>
+    private protected static bool BeginsName(Cursor cursor) => char.IsLetter(cursor.Current) || cursor.Current == '_';
+
     /// <summary>Parses a name: a letter or underscore, then letters, digits, underscores, and hyphens before letters.</summary>
     protected bool ParseName(Cursor cursor, string expected, out string name, out Cursor rest)
     {
         name = "";
         rest = cursor;
-        if (!char.IsLetter(cursor.Current) && cursor.Current != '_')
+        if (!BeginsName(cursor))
         {
             return Fail(cursor, expected);
         }
 
-        var length = 1;
-        while (IsNameCharacter(cursor.Peek(length)) || (cursor.Peek(length) == '-' && char.IsLetter(cursor.Peek(length + 1))))
+        if (cursor.Offset != _name.Offset)
         {
-            length++;
+            var length = 1;
+            while (IsNameCharacter(cursor.Peek(length)) || (cursor.Peek(length) == '-' && char.IsLetter(cursor.Peek(length + 1))))
+            {
+                length++;
+            }
+
+            // Calls one behind the other mostly are of the same function.
+            var text = cursor.Rest[..length];
+            _name = (cursor.Offset, text.SequenceEqual(_name.Text) ? _name.Text : text.ToString());
         }
 
-        name = cursor.Rest[..length].ToString();
-        rest = cursor.Advance(length);
+        name = _name.Text;
+        rest = cursor.Advance(name.Length);
         return true;
     }
 

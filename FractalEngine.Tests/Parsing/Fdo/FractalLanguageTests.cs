@@ -132,7 +132,7 @@ public class FractalLanguageTests
         const string Values = "v 1 2 3\nv 2 2 2\nk = 0.5\nup = (0, 1, 0)\n";
         var expected = SetOf($"{Values}{functions}\n<$>. {named} box\n");
         var actual = SetOf($"{Values}<$>. {unnamed} box\n");
-        Assert.Equal(expected.Maps, actual.Maps);
+        Assert.Equal<IEnumerable<AffineMap>>(expected.Maps, actual.Maps);
         Assert.Equal(expected.HasTransformations, actual.HasTransformations);
     }
 
@@ -327,11 +327,12 @@ public class FractalLanguageTests
     [InlineData("v 1 1 1\nt.a. ((a), #, #)\n<$>. [t.1] box", "3:9: error: the parameter 'a' of 't' is a number, as in 't.(1)'")]
     [InlineData("t.a. ((1/a), #, #)\n<$>. [t.(0)] box", "1:9: error: division by zero, in the call in line 2")]
     [InlineData(
-        "<$>. [((1, 0, 0), #)] box", "1:20: error: unexpected ')': a map has a position, a rotation and a scale, as in '((1, 0, 0), #, (0.5))'")]
+        "<$>. [((1, 0, 0), #)] box",
+        "1:20: error: unexpected ')': a map has a position, a rotation and a scale, as in '((1, 0, 0), #, (0.5))'")]
     [InlineData("<$>. [((1, 0, 0) #)] box", "1:19: error: unexpected ')': a map has a position, a rotation and a scale")]
     [InlineData("<$>. [(#, #, (0))] box", "1:7: error: the scale (0, 0, 0) is singular")]
     [InlineData("<$>. [(2, #, #)] box\nv 1 2 3", "1:8: error: vector 2 of 0: it is not declared above the call in line 1")]
-    [InlineData("t. (#, 1, #)\n<$>. [(t.^0..2 * t.)^2] box", "2:21: error: a power is that of one map, not of 3")]
+    [InlineData("t. (#, #, #)\n<$>. [(t.^0..2 * t.)^2] box", "2:21: error: a power is that of one map, not of 3")]
     [InlineData("t. (#, #, #)\n<$>. [t.^1.5] box", "2:11: error: unexpected '.': the power of a map is a whole number")]
     [InlineData("t. (#, #, #)\n<$>. [t.^(0.5)] box", "2:10: error: the power of a map is a whole number, not 0.5")]
     [InlineData("t. (#, #, #)\n<$>. [t.^2..1] box", "2:9: error: a range of powers begins at the smaller one")]

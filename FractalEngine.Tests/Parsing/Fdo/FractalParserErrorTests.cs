@@ -333,7 +333,7 @@ public class FractalParserErrorTests
     [InlineData(2, "the object has more than the limit of 1000 steps, or of 32 recursives inside each other")]
     [InlineData(3, "the object has more than the limit of 1000 steps, or of 32 recursives inside each other")]
     [InlineData(4, null)]
-    [InlineData(5, "unexpected '[', expected '#' or the name of a transformation")]
+    [InlineData(5, "unexpected '[', expected '#', '(' or the name of a transformation")]
     [InlineData(6, null)]
     public void Parse_OfEnormousFiles_GivesAResultOrAShortMessageInLinearTime(int kind, string? message)
     {
