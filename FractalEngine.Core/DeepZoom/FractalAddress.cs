@@ -225,7 +225,7 @@ public sealed class FractalAddress
                     var root = new LodRoot(
                         NodePath.ChildLevels(depth, child),
                         frameToCamera * node.ChildMaps[child].ToAffineMap(),
-                        colourPath.Append(node.ChildMapIndices[child], child, node.ChildMaps.Length));
+                        colourPath.Append(node.ChildMapIndices[child], node.SetSize));
                     yield return (root, depth, child);
                 }
             }

@@ -76,7 +76,7 @@ internal sealed class FractalPath(LodHierarchy hierarchy)
         for (var i = 0; i < Math.Min(depth, MaxColouredLevels); i++)
         {
             var node = NodeAt(i);
-            colourPath = colourPath.Append(node.ChildMapIndices[_children[i]], _children[i], node.ChildMaps.Length);
+            colourPath = colourPath.Append(node.ChildMapIndices[_children[i]], node.SetSize);
         }
 
         return colourPath with { MapCount = _mapCounts[depth] };

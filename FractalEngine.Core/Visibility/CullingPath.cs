@@ -25,10 +25,10 @@ internal readonly record struct CullingPath(ulong Hash, ColourPath ColourPath)
     /// <param name="childIndex">Index of the child instance among its siblings.</param>
     /// <param name="depth">Number of child instances in the path so far.</param>
     /// <param name="mapIndex">Index of the child's map in its set; −1 for the identity.</param>
-    /// <param name="childCount">Number of the child instances.</param>
+    /// <param name="setSize">Number of maps of that set.</param>
     /// <param name="gradient">Gradient of the object.</param>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public CullingPath Append(int childIndex, int depth, int mapIndex, int childCount, GradientKind gradient) => new(
+    public CullingPath Append(int childIndex, int depth, int mapIndex, int setSize, GradientKind gradient) => new(
         ((Hash ^ (ulong)(childIndex + 1)) * HashMixing.GoldenGamma) + (ulong)depth,
-        gradient == GradientKind.None ? ColourPath : ColourPath.Append(mapIndex, childIndex, childCount));
+        gradient == GradientKind.None ? ColourPath : ColourPath.Append(mapIndex, setSize));
 }

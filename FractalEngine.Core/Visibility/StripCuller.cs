@@ -265,7 +265,7 @@ internal sealed class StripCuller
             childLevels,
             SimdAffineMap.Compose(in parent.NodeToView, in node.ChildMaps[child]),
             parent.Depth + 1,
-            parent.Path.Append(child, parent.Depth, node.ChildMapIndices[child], node.ChildMaps.Length, context.Gradient));
+            parent.Path.Append(child, parent.Depth, node.ChildMapIndices[child], node.SetSize, context.Gradient));
     }
 
     /// <summary>Appends the base mesh under a sub-fractal's proxy map to the output, unless closer instances hide it.</summary>

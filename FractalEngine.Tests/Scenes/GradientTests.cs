@@ -1,11 +1,15 @@
+using FractalEngine.Core.Colliders;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Images;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Queries;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Scenes.Cameras;
 using FractalEngine.Core.Visibility;
+using FractalEngine.Core.Visibility.Levels;
+using FractalEngine.Parsing;
 using FractalEngine.Render.Views;
 using FractalEngine.Tests.Render;
 using FractalEngine.Tests.Support;
@@ -139,6 +143,61 @@ public sealed class GradientTests
             Assert.Equal(kind == GradientKind.Level ? 1 : 58, factors.Values.Select(factor => Math.Round(factor, 4)).Distinct().Count());
             Assert.All(factors.Values, factor => Assert.InRange(factor, 0, 1));
         }
+    }
+
+    /// <summary>What is drawn of an instance is what queries say of its path: with identities, duplicates, and several meshes.</summary>
+    [Theory]
+    [InlineData("z<box>. [#, ((1.5, 0.2, 0), (0, 20, 0), (0.7)), ((-2, 1, 0), #, (0.6))] box\n<$>. z 4")]
+    [InlineData("z<box>. [((3, 0, 0), #, (0.5)), ((-3, 0, 0), #, (0.5)), ((3, 0, 0), #, (0.5)), ((0, 3, 0), #, (0.5))] box\n<$>. z 3")]
+    [InlineData("<$>. [((9, 0, 0), #, #)^0..3] [#, ((2, 0, 0), #, #), #, ((0, 3, 0), #, (0.5))] ball")]
+    [InlineData(
+        "l. ball\nb. box\ns. ((1, 0.9, 0), (0, 0, 40), (0.6))\n"
+        + "z<l>. [((0, 1.2, 0), (0, 60, 9), (0.7))] l + [(#, (0, 120, 0), #)^0..2] [s.] l + b\n<$>. z 4")]
+    [InlineData("x<box>, y<ball>. [((3, 0, 0), #, (0.5))] box + [((0, 4, 0), #, (0.4))] ball + cone, box + [((2, 1, 2), #, (0.5))] ball\n<$>. x 4")]
+    [InlineData(
+        "h. ((2, 0, 0), #, (0.5))\nup. ((0, 3, 0), #, #)\n"
+        + "z<box>. [#, h.] box + [] [h.] box + [up.] (ball + [up. * h.] box)\n<$>. z 3")]
+    public void GradientFactors_OfInstances_AreThoseOfTheirPaths(string text)
+    {
+        using var folder = new TemporaryFolder();
+        var fractal = FractalFile.Read(folder.Write("a.fdo", text + "\n"));
+        var collider = new ExactFractalCollider(fractal);
+        var context = new QueryContext();
+        var (count, checkedCount) = (0, 0);
+        var factors = new HashSet<float>();
+        var from = fractal.Bounds.Centre - (3 * fractal.Bounds.Diagonal * Vector.K);
+        foreach (var (mesh, part) in fractal.ByMesh.Index())
+        {
+            var (corner, _, _) = fractal.BaseMeshes[mesh].Face(0);
+            var item = new CulledObject(LodHierarchy.Build(part), AffineMap.Identity, Vector.Zero, 0) { GradientKind = GradientKind.Path };
+            var set = new VisibleSet();
+            set.Cull(CullingViews.CreateView(from, fractal.Bounds.Centre), [item], CullingViews.NoCulling);
+            for (var chunk = 0; chunk < VisibleSet.ChunkCount; chunk++)
+            {
+                var rows = set.Instances(0, chunk);
+                var found = set.GradientFactors(0, chunk);
+                for (var i = 0; i < found.Length; i++, count++)
+                {
+                    var row = rows[(i * VisibleSet.FloatsPerInstance)..];
+                    var map = new AffineMap(
+                        new(new(row[0], row[4], row[8]), new(row[1], row[5], row[9]), new(row[2], row[6], row[10])),
+                        from + new Vector(row[3], row[7], row[11]));
+                    Assert.True(collider.TryFindClosest(map * corner, double.PositiveInfinity, context, out _));
+                    var path = fractal.Follow(context.InstancePath)!;
+                    var ofPath = path.Aggregate(AffineMap.Identity, static (outer, step) => outer * step.Map);
+                    // Another instance may be as close to this corner.
+                    if (context.MeshIndex == mesh && (ofPath * corner - (map * corner)).Length() < 1e-4
+                        && (ofPath.Translation - map.Translation).Length() < 1e-4)
+                    {
+                        checkedCount++;
+                        factors.Add(found[i]);
+                        Assert.Equal(ColourPath.GradientFactorOf(fractal, GradientKind.Path, context.InstancePath), found[i], 5);
+                    }
+                }
+            }
+        }
+
+        Assert.True(factors.Count > 3 && checkedCount > 0.6 * count, Invariant($"{checkedCount} of {count}, {factors.Count} colours"));
     }
 
     private static Fractal CreateFractal(params ReadOnlySpan<FractalStep> steps) => new(new([.. steps]), RenderScenes.Square(0.5));

@@ -41,7 +41,7 @@ public readonly record struct ColourPath(int MapCount, float PathFraction, float
         {
             foreach (var step in fractal.Follow(instancePath) ?? [])
             {
-                path = path.Append(step.Map == AffineMap.Identity ? -1 : step.Index, step.Index, step.SetSize);
+                path = path.Append(step.Map == AffineMap.Identity ? -1 : step.Index, step.SetSize);
             }
         }
 
@@ -50,17 +50,16 @@ public readonly record struct ColourPath(int MapCount, float PathFraction, float
 
     /// <summary>Appends one map to the path.</summary>
     /// <param name="mapIndex">Index of the map in its set; −1 for the identity.</param>
-    /// <param name="childIndex">Index of the child instance among its siblings.</param>
-    /// <param name="childCount">Number of the child instances.</param>
+    /// <param name="setSize">Number of maps of the set.</param>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    internal ColourPath Append(int mapIndex, int childIndex, int childCount) => mapIndex < 0 ? this
-        : new(MapCount + 1, PathFraction + (0.5f * RemainingWeight * childIndex / Math.Max(1, childCount - 1)), 0.5f * RemainingWeight);
+    internal ColourPath Append(int mapIndex, int setSize) => mapIndex < 0 ? this
+        : new(MapCount + 1, PathFraction + (0.5f * RemainingWeight * mapIndex / Math.Max(1, setSize - 1)), 0.5f * RemainingWeight);
 
     /// <summary>Appends one map of a set, which may be the identity.</summary>
     /// <param name="maps">The set.</param>
     /// <param name="index">Index of the map in it.</param>
     internal ColourPath Append(ReadOnlySpan<AffineMap> maps, int index) =>
-        Append(maps[index] == AffineMap.Identity ? -1 : index, index, maps.Length);
+        Append(maps[index] == AffineMap.Identity ? -1 : index, maps.Length);
 
     /// <summary>Computes the position between the two colours of a gradient, from 0 to 1.</summary>
     /// <param name="gradient">Kind of the gradient; not <see cref="GradientKind.None"/>.</param>

@@ -31,7 +31,7 @@ internal sealed class InstanceBvh
         _maps = maps;
         _boxes = [.. maps.Select(baseBox.Transform)];
         _partition = new(_boxes);
-        _nodes.Add(new(maps.Length == 0 ? BoundingBox.Empty : baseBox, AffineMap.Identity, []));
+        _nodes.Add(new(maps.Length == 0 ? BoundingBox.Empty : baseBox, AffineMap.Identity, [], 0));
         RootIndex = maps.Length == 0 ? 0 : BuildNode(new(0, maps.Length));
         Nodes = [.. _nodes];
     }
@@ -52,7 +52,7 @@ internal sealed class InstanceBvh
         {
             foreach (var instance in _partition.Order[range])
             {
-                children.Add(new(_maps[instance], _boxes[instance], LevelStep.To(0), instance));
+                children.Add(new(_maps[instance], _boxes[instance], LevelStep.To(0), children.Count));
             }
         }
         else
@@ -60,7 +60,7 @@ internal sealed class InstanceBvh
             SplitAtMedian(range, SplitsPerNode, children);
         }
 
-        _nodes.Add(new(box, BoundingBox.MapBoxToBox(_baseBox, box), [.. children]));
+        _nodes.Add(new(box, BoundingBox.MapBoxToBox(_baseBox, box), [.. children], children.Count));
         return _nodes.Count - 1;
     }
 

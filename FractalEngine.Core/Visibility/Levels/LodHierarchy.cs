@@ -67,7 +67,7 @@ public sealed class LodHierarchy
 
     /// <summary>Builds the hierarchy of a mesh that is drawn once.</summary>
     public static LodHierarchy Build(Mesh mesh) =>
-        new(new([new(mesh.FaceCount == 0 ? BoundingBox.Empty : mesh.Bounds, AffineMap.Identity, [])], [new(0, 1, 0, 1)]), 0, mesh)
+        new(new([new(mesh.FaceCount == 0 ? BoundingBox.Empty : mesh.Bounds, AffineMap.Identity, [], 0)], [new(0, 1, 0, 1)]), 0, mesh)
         {
             IsSkyBaked = true,
         };

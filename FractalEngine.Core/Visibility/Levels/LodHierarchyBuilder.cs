@@ -32,7 +32,7 @@ internal static class LodHierarchyBuilder
     private static LodNode BuildNode(HierarchyLevel level, BoundingBox baseBox)
     {
         var children = level.Edges.Zip(level.GetEdgeBoxes()).Where(static child => !child.Second.IsEmpty);
-        return new(level.Box, ComputeProxyMap(baseBox, level.Box), [.. children.Select(CreateChild)]);
+        return new(level.Box, ComputeProxyMap(baseBox, level.Box), [.. children.Select(CreateChild)], level.Set?.Maps.Length ?? 0);
     }
 
     private static LodChild CreateChild((ChildEdge Edge, BoundingBox Box) child) => new(

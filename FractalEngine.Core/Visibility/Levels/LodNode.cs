@@ -29,8 +29,10 @@ internal sealed class LodNode
     /// Map from the base mesh's frame to the node's: the base mesh under it is the proxy of a sub-fractal that appears small.
     /// </param>
     /// <param name="children">Child instances, each once; none for the base mesh itself.</param>
-    public LodNode(BoundingBox box, AffineMap proxyMap, ReadOnlySpan<LodChild> children)
+    /// <param name="setSize">Number of maps of the set that the maps of the children are of.</param>
+    public LodNode(BoundingBox box, AffineMap proxyMap, ReadOnlySpan<LodChild> children, int setSize)
     {
+        SetSize = setSize;
         Box = box;
         IsEmpty = box.IsEmpty;
         ProxyMap = new(proxyMap);
@@ -98,6 +100,9 @@ internal sealed class LodNode
 
     /// <summary>Indices of the children's maps in their sets; −1 for the identity, which changes no colour.</summary>
     public int[] ChildMapIndices { get; }
+
+    /// <summary>Number of maps of that set: children that are empty, or there already, have none.</summary>
+    public int SetSize { get; }
 
     /// <summary>What the children leave of each other's sky; null while that is not known.</summary>
     public SkyMasks? SkyMasks { get; set; }
