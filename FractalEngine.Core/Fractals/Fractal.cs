@@ -156,6 +156,15 @@ public sealed class Fractal : IEquatable<Fractal>
             hierarchy.IsBase(step.Level)));
     }
 
+    /// <summary>Lists the boxes of the sub-fractals below so many sets or calls, of a fractal of affine composition.</summary>
+    /// <param name="depth">Number of sets or calls, from 0 for the whole fractal.</param>
+    /// <returns>Each box in the frame of its sub-fractal, with the map from there to that of the fractal.</returns>
+    public IEnumerable<(BoundingBox Box, AffineMap Map)> BoxesAt(int depth)
+    {
+        var hierarchy = HierarchyBySets;
+        return hierarchy.ListAt(depth).Select(part => (hierarchy.AllLevels.At(part.Level).Box, part.Map));
+    }
+
     /// <summary>Finds the set at one level of the steps, 0 being the outermost.</summary>
     public TransformationSet LevelAt(long level) => FractalSteps.LevelAt(Description.Steps, level);
 

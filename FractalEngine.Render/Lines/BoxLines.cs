@@ -46,17 +46,12 @@ public static class BoxLines
         var lines = new List<LineSegment>();
         foreach (var placed in scene.Objects)
         {
-            if (level > 0 && placed.Model is FractalModel { Fractal: { Description.Parts.IsEmpty: false } joined })
+            if (level > 0 && placed.Model is FractalModel { Fractal: { Description.Composition: Composition.Affine } fractal })
             {
-                foreach (var (box, map) in LodHierarchy.Build(joined).BoxesAt(level).Take(MaxBoxes - (lines.Count / LinesPerBox)))
+                foreach (var (box, map) in fractal.BoxesAt(level).Take(MaxBoxes - (lines.Count / LinesPerBox)))
                 {
                     Add(lines, box, placed.ObjectToWorld * map, colour);
                 }
-            }
-            else if (level > 0 && placed.Model is FractalModel { Fractal: { Description.Composition: Composition.Affine } fractal }
-                && level <= (fractal.LevelCount ?? long.MaxValue))
-            {
-                AddChildren(lines, fractal, SubFractals.Of(fractal, level).Bounds, placed.ObjectToWorld, (0, level), colour);
             }
             else if (level == 0)
             {
@@ -65,25 +60,5 @@ public static class BoxLines
         }
 
         return lines;
-    }
-
-    private static void AddChildren(
-        List<LineSegment> lines, Fractal fractal, BoundingBox box, AffineMap map, (int Reached, int Wanted) level, Colour colour)
-    {
-        if (level.Reached == level.Wanted)
-        {
-            Add(lines, box, map, colour);
-            return;
-        }
-
-        foreach (var child in fractal.LevelAt(level.Reached).Maps)
-        {
-            if (lines.Count >= LinesPerBox * MaxBoxes)
-            {
-                return;
-            }
-
-            AddChildren(lines, fractal, box, map * child, level with { Reached = level.Reached + 1 }, colour);
-        }
     }
 }

@@ -153,7 +153,9 @@ public sealed class GradientTests
     [InlineData(
         "l. ball\nb. box\ns. ((1, 0.9, 0), (0, 0, 40), (0.6))\n"
         + "z<l>. [((0, 1.2, 0), (0, 60, 9), (0.7))] l + [(#, (0, 120, 0), #)^0..2] [s.] l + b\n<$>. z 4")]
-    [InlineData("x<box>, y<ball>. [((3, 0, 0), #, (0.5))] box + [((0, 4, 0), #, (0.4))] ball + cone, box + [((2, 1, 2), #, (0.5))] ball\n<$>. x 4")]
+    [InlineData(
+        "x<box>, y<ball>. [((3, 0, 0), #, (0.5))] box + [((0, 4, 0), #, (0.4))] ball + cone, "
+        + "box + [((2, 1, 2), #, (0.5))] ball\n<$>. x 4")]
     [InlineData(
         "h. ((2, 0, 0), #, (0.5))\nup. ((0, 3, 0), #, #)\n"
         + "z<box>. [#, h.] box + [] [h.] box + [up.] (ball + [up. * h.] box)\n<$>. z 3")]

@@ -15,43 +15,17 @@ internal static class FractalSelection
         model.Parts is [var only] ? only : model.Parts[hit is { } clicked ? clicked.MeshIndex : 0];
 
     /// <summary>Numbers of maps of the sets on a path.</summary>
-    public static ImmutableArray<int> SetSizes(Fractal fractal, ImmutableArray<int> path) => fractal.Description.Parts.IsEmpty
-        ? [.. path.Select((_, level) => fractal.LevelAt(level).Maps.Length)]
-        : [.. (fractal.Follow(path.AsSpan()) ?? []).Select(static step => step.SetSize)];
+    public static ImmutableArray<int> SetSizes(Fractal fractal, ImmutableArray<int> path) =>
+        [.. (fractal.Follow(path.AsSpan()) ?? []).Select(static step => step.SetSize)];
 
     /// <summary>The map of the instance at the end of a path; null where there is none.</summary>
     /// <param name="fractal">The fractal.</param>
-    /// <param name="path">The path.</param>
+    /// <param name="path">The path. An infinite fractal is hit at any of its levels.</param>
     /// <param name="map">From the frame of the fractal to that of the result.</param>
-    public static AffineMap? MapOfInstance(Fractal fractal, ImmutableArray<int> path, AffineMap map)
-    {
-        if (!fractal.Description.Parts.IsEmpty)
-        {
-            return fractal.Follow(path.AsSpan()) is { } steps
-                && (fractal.Description.IsInfinite || steps is [] or [.., { IsInstance: true }])
-                ? steps.Aggregate(map, static (product, step) => product * step.Map)
-                : null;
-        }
-
-        // An infinite fractal is hit at any of its levels.
-        if (fractal.LevelCount is { } levels && levels != path.Length)
-        {
-            return null;
-        }
-
-        for (var level = 0; level < path.Length; level++)
-        {
-            var maps = fractal.LevelAt(level).Maps;
-            if (path[level] >= maps.Length)
-            {
-                return null;
-            }
-
-            map *= maps[path[level]];
-        }
-
-        return map;
-    }
+    public static AffineMap? MapOfInstance(Fractal fractal, ImmutableArray<int> path, AffineMap map) =>
+        fractal.Follow(path.AsSpan()) is { } steps && (fractal.Description.IsInfinite || steps is [] or [.., { IsInstance: true }])
+            ? MapOf(steps, map)
+            : null;
 
     /// <summary>The box of the sub-fractal that a path leads to, and the map from there; null where there is none.</summary>
     /// <param name="fractal">The fractal.</param>
@@ -59,23 +33,9 @@ internal static class FractalSelection
     /// <param name="levelsAbove">Number of levels above that.</param>
     /// <param name="map">From the frame of that sub-fractal to that of the result.</param>
     public static (BoundingBox Box, AffineMap Map)? SubFractalAt(
-        Fractal fractal, ImmutableArray<int> path, long levelsAbove, AffineMap map)
-    {
-        if (!fractal.Description.Parts.IsEmpty)
-        {
-            if (fractal.Follow(path.AsSpan(), levelsAbove) is not [.., var last] steps)
-            {
-                return null;
-            }
+        Fractal fractal, ImmutableArray<int> path, long levelsAbove, AffineMap map) =>
+        fractal.Follow(path.AsSpan(), levelsAbove) is [.., var last] steps ? (last.Box, MapOf(steps, map)) : null;
 
-            return (last.Box, steps.Aggregate(map, static (product, step) => product * step.Map));
-        }
-
-        for (var step = 0; step < path.Length; step++)
-        {
-            map *= fractal.LevelAt(levelsAbove + step).Maps[path[step]];
-        }
-
-        return (SubFractals.Of(fractal, levelsAbove + path.Length).Bounds, map);
-    }
+    private static AffineMap MapOf(IReadOnlyList<PathStep> steps, AffineMap map) =>
+        steps.Aggregate(map, static (product, step) => product * step.Map);
 }

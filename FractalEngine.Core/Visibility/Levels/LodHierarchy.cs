@@ -98,30 +98,6 @@ public sealed class LodHierarchy
     /// <summary>Whether all instances of the base mesh certainly lie in one plane.</summary>
     public bool IsFlat() => OpenSky.IsFlat(Mesh, _nodes.Items);
 
-    /// <summary>Lists the boxes of the sub-fractals that lie below so many maps, in their order; the identity is no map here.</summary>
-    /// <param name="depth">Number of maps, from 0 for the whole fractal.</param>
-    /// <returns>Each box in the frame of its sub-fractal, with the map from there to that of the fractal.</returns>
-    public IEnumerable<(BoundingBox Box, AffineMap Map)> BoxesAt(int depth)
-    {
-        var open = new Stack<(long Levels, int Depth, AffineMap Map)>([(LevelCount, 0, AffineMap.Identity)]);
-        while (open.TryPop(out var part))
-        {
-            var node = NodeAt(part.Levels);
-            if (part.Depth == depth)
-            {
-                yield return (node.Box, part.Map);
-                continue;
-            }
-
-            for (var child = node.ChildMaps.Length - 1; child >= 0; child--)
-            {
-                open.Push((
-                    node.ChildLevelSteps[child].RemainingLevels(part.Levels), part.Depth + (node.ChildMapIndices[child] < 0 ? 0 : 1),
-                    part.Map * node.ChildMaps[child].ToAffineMap()));
-            }
-        }
-    }
-
     /// <summary>Bytes of the tables that <c>SkyMaskBaker.Bake</c> has made.</summary>
     public int SkyMaskBytes => HasSkyMasks
         ? _nodes.Items.ToArray().Select(static node => node.SkyMasks).Concat(_lastSkyMasks).OfType<SkyMasks>().Distinct()

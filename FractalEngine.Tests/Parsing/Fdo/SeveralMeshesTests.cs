@@ -251,6 +251,26 @@ public sealed class SeveralMeshesTests : IDisposable
             steps.Aggregate(AffineMap.Identity, static (map, step) => map * step.Map);
     }
 
+    [Theory]
+    [InlineData(Tree)]
+    [InlineData(Head + "z<box>. [#, turn.] [half.] box\n<$>. z 3")]
+    [InlineData(Head + "z<box>. [half.] box\nw<box>. [turn.^0..1] [half.] box + z 3 + plate\n<$>. [half.] w 2")]
+    public void Boxes_BelowSoManyMaps_AreThoseOfAllPaths(string text)
+    {
+        var fractal = Read(text);
+        var paths = new List<int[]> { Array.Empty<int>() };
+        for (var depth = 0; depth < 5; depth++)
+        {
+            var expected = paths.ConvertAll(path => fractal.Follow(path)!).ConvertAll(static steps =>
+                steps.Aggregate(AffineMap.Identity, static (map, step) => map * step.Map));
+            Assert.Equal(expected, fractal.BoxesAt(depth).Select(static part => part.Map));
+            paths = [.. paths.SelectMany(path => Enumerable.Range(0, 8).Select(index => (int[])[.. path, index]))
+                .Where(path => fractal.Follow(path) is not null)];
+        }
+
+        Assert.True(fractal.BoxesAt(4).Count() > 3);
+    }
+
     [Fact]
     public void Number_ThatIsSet_ChangesAllParts()
     {

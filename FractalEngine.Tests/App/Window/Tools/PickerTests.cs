@@ -103,21 +103,6 @@ public class PickerTests
         Assert.Equal(0, picker.Pick(scene, view with { FixedClipPlanes = (1, 4.2) }, (1, 1), Size)!.ObjectIndex);
     }
 
-    [Fact]
-    public void SubFractals_WithoutLevels_AreWhatRemains() => Seeded.Run(50, random =>
-    {
-        var inner = TransformationSet.Of([Samples.Move(1, 0, 0), Transformation.At(new(0, 1, 0), 0.5)]);
-        var outer = TransformationSet.Of([Transformation.Identity, Transformation.At(new(2, 0, 0), 0.7), Samples.Move(0, 0, 1)]);
-        var fractal = Fractal.Of(Shapes.Cube()).Apply([Samples.Move(0, 2, 0)]).Repeat([outer, inner], 3).Apply([Samples.Move(5, 0, 0)]);
-        var depth = random.Next(9);
-        var rest = SubFractals.Of(fractal, depth);
-        Assert.Equal(fractal.LevelCount - depth, rest.LevelCount);
-        for (var level = 0; level < rest.LevelCount; level++)
-        {
-            Assert.Same(fractal.LevelAt(depth + level), rest.LevelAt(level));
-        }
-    });
-
     [Theory]
     [InlineData(-1, 0)]
     [InlineData(0, 1)]
