@@ -37,6 +37,7 @@ public sealed class NullArgumentTests : IDisposable
         "FrameRenderer", "HierarchyCollider", "ImageHeader", "LoadedScene", "LodHierarchy", "Matting", "MtlParser", "NewFile",
         "NewFractalFile", "NewSceneFile", "NormalGenerator", "ObjMeshWriter", "ObjSceneWriter", "PhysicsWorld", "PlacedModel",
         "PointsParser", "QueryStatistics", "RaysParser", "SceneDraft", "SceneEditor", "SceneFileMerge", "SceneFraming",
+        "SceneMaterials", "SceneMerge", "SceneParser", "SceneWorld", "SceneWriter", "SimpleCollider",
         "UnshadedSurface", "UserInterface", "View", "VisibleSet",
     ];
 
