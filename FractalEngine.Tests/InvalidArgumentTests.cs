@@ -161,6 +161,8 @@ public sealed class InvalidArgumentTests
         Assert.Throws<ArgumentNullException>("mesh", () => Model.Of((Mesh)null!));
         Assert.Throws<ArgumentNullException>("fractal", () => Model.Of((Fractal)null!));
         Assert.Throws<ArgumentNullException>("baseMesh", () => Fractal.Of(null!));
+        Assert.Throws<ArgumentNullException>("description", () => Fractal.Of(null!, []));
+        Assert.Throws<ArgumentException>("bases", () => Fractal.Of(new([]), []));
         var collider = Collider.For(Shapes.Cube());
         Assert.Throws<ArgumentNullException>("context", () => collider.TryFindClosest(Vector.Zero, 1, null!, out _));
         var scene = new SceneCollider(new Scene { Objects = [new(Shapes.Cube())] });

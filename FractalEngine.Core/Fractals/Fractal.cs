@@ -12,7 +12,7 @@ namespace FractalEngine.Core.Fractals;
 
 /// <summary>A fractal: a description together with its base meshes. Counts are exact; nothing is expanded.</summary>
 /// <remarks>
-/// Immutable, and equal to any other with the same description and the same base meshes. Made from a mesh by <see cref="Of"/>,
+/// Immutable, and equal to any other with the same description and the same base meshes. Made from a mesh by <see cref="Of(Mesh)"/>,
 /// <see cref="Repeat(IEnumerable{Transformation}, int?)"/> and <see cref="Apply"/>, of other fractals by
 /// <see cref="op_Addition(Fractal, Fractal)"/> and <see cref="Recurse"/>, or read from a file by the parsing library.
 /// </remarks>
@@ -172,6 +172,31 @@ public sealed class Fractal : IEquatable<Fractal>
     /// <param name="baseMesh">The mesh that every instance will show.</param>
     public static Fractal Of(Mesh baseMesh) => new(new([]), baseMesh);
 
+    /// <summary>Makes what a description makes of fractals, in the places of its base meshes.</summary>
+    /// <param name="description">The description.</param>
+    /// <param name="bases">A fractal for each base mesh, in affine composition. Base meshes that are the same object become one.</param>
+    /// <exception cref="ArgumentException">
+    /// The description has another number of base meshes or repeats what is infinite, or a fractal is composed componentwise.
+    /// </exception>
+    /// <exception cref="FractalLimitException">The result exceeds one of <see cref="FractalLimits"/>.</exception>
+    public static Fractal Of(FractalDescription description, ImmutableArray<Fractal> bases)
+    {
+        ArgumentNullException.ThrowIfNull(description);
+        if (bases.IsDefault || bases.Length != description.MeshCount)
+        {
+            throw new ArgumentException($"expected as many fractals as base meshes: {description.MeshCount}", nameof(bases));
+        }
+
+        if (bases is [{ Description: { Steps: [], Parts: [] } } only])
+        {
+            return new(description, only.BaseMeshes) { BaseMeshPaths = only.BaseMeshPaths };
+        }
+
+        var list = new FractalPartList();
+        var meshes = new MeshList();
+        return meshes.Make(list, list.AddAll(description, index => meshes.AddAll(list, bases[index])), description.Composition);
+    }
+
     /// <summary>Makes several fractals one: all of them at one place.</summary>
     /// <param name="terms">The fractals, in affine composition: at least one. Base meshes that are the same object become one.</param>
     /// <exception cref="ArgumentException">There are none, or one is composed componentwise.</exception>
@@ -180,7 +205,7 @@ public sealed class Fractal : IEquatable<Fractal>
     {
         var list = new FractalPartList();
         var meshes = new MeshList();
-        int[] parts = [.. terms.Select(term => list.AddAll(Affine(term).Description, mesh => list.AddMesh(meshes.Add(term, mesh))))];
+        int[] parts = [.. terms.Select(term => meshes.AddAll(list, term))];
         return parts.Length > 0
             ? meshes.Make(list, list.AddSum([.. parts]))
             : throw new ArgumentException("expected at least one term", nameof(terms));
@@ -210,7 +235,7 @@ public sealed class Fractal : IEquatable<Fractal>
         var made = Affine(body(Of(self)));
         var list = new FractalPartList();
         var meshes = new MeshList();
-        var first = list.AddAll(Affine(start).Description, mesh => list.AddMesh(meshes.Add(start, mesh)));
+        var first = meshes.AddAll(list, start);
         var whole = list.AddAll(made.Description, mesh =>
             ReferenceEquals(made.BaseMeshes[mesh], self) ? list.AddCall(0) : list.AddMesh(meshes.Add(made, mesh)));
         return list.IsInfinite(first) || list.IsInfinite(whole)
@@ -283,31 +308,9 @@ public sealed class Fractal : IEquatable<Fractal>
     public Fractal WithMaxInstances(long maxInstances)
     {
         ArgumentOutOfRangeException.ThrowIfNegativeOrZero(maxInstances);
-        if (Fits(Description, maxInstances))
-        {
-            return this;
-        }
-
-        if (!Description.Parts.IsEmpty)
-        {
-            return WithMaxInstancesOfParts(maxInstances);
-        }
-
-        var steps = Description.Steps;
-        for (var i = 0; i < steps.Length && !Fits(new(steps), maxInstances); i++)
-        {
-            if (steps[i] is Repetition repetition)
-            {
-                steps = steps.SetItem(i, repetition.WithCount(MaxRepetitionCount(steps, i, repetition, maxInstances)));
-            }
-        }
-
-        while (!Fits(new(steps), maxInstances))
-        {
-            steps = steps.RemoveAt(steps.Length - 1);
-        }
-
-        return With(Description with { Steps = steps });
+        return FractalDepths.Cut(Description, maxInstances) is not { } description
+            ? new(new([new TransformationSet(ImmutableArray<AffineMap>.Empty)]), Mesh.Empty)
+            : ReferenceEquals(description, Description) ? this : With(description);
     }
 
     /// <inheritdoc/>
@@ -373,50 +376,6 @@ public sealed class Fractal : IEquatable<Fractal>
         return sum;
     }
 
-    /// <summary>Cuts what is repeated in steps and parts to the greatest common depth with which the whole fits.</summary>
-    private Fractal WithMaxInstancesOfParts(long maxInstances)
-    {
-        var (fitting, tooDeep) = (-1, 1);
-        while (tooDeep <= FractalLimits.Depth.Value && Fits(Description.WithMaxDepth(tooDeep), maxInstances))
-        {
-            (fitting, tooDeep) = (tooDeep, 2 * tooDeep);
-        }
-
-        tooDeep = (int)Math.Min(tooDeep, FractalLimits.Depth.Value + 1);
-        while (tooDeep - fitting > 1)
-        {
-            var depth = fitting + ((tooDeep - fitting) / 2);
-            (fitting, tooDeep) = Fits(Description.WithMaxDepth(depth), maxInstances) ? (depth, tooDeep) : (fitting, depth);
-        }
-
-        return fitting >= 0 ? With(Description.WithMaxDepth(fitting))
-            : new Fractal(new([new TransformationSet(ImmutableArray<AffineMap>.Empty)]), Mesh.Empty);
-    }
-
-    private static bool Fits(FractalDescription description, long maxInstances) =>
-        !description.IsInfinite && (description.Parts.IsEmpty
-            ? FractalSteps.HasAtMostInstances(description.Steps, maxInstances)
-            : description.Counts.HasAtMostInstances(maxInstances));
-
-    /// <summary>Finds the largest number of rounds with which the whole still fits; 0 where none does.</summary>
-    private static int MaxRepetitionCount(ImmutableArray<FractalStep> steps, int index, Repetition repetition, long maxInstances)
-    {
-        var others = FractalSteps.CountUpTo(steps.RemoveAt(index), maxInstances);
-        var perRound = FractalSteps.CountUpTo(repetition.Round, maxInstances);
-        if (perRound <= 1)
-        {
-            return repetition.Count ?? (int)FractalLimits.Depth.Value;
-        }
-
-        var count = 0;
-        for (var total = others * perRound; total <= maxInstances && !(count >= repetition.Count); total *= perRound)
-        {
-            count++;
-        }
-
-        return count;
-    }
-
     /// <summary>The base meshes of a fractal that is made of others, each once.</summary>
     private sealed class MeshList
     {
@@ -435,9 +394,12 @@ public sealed class Fractal : IEquatable<Fractal>
             return known;
         }
 
-        public Fractal Make(FractalPartList list, int whole)
+        public int AddAll(FractalPartList list, Fractal fractal) =>
+            list.AddAll(Affine(fractal).Description, mesh => list.AddMesh(Add(fractal, mesh)));
+
+        public Fractal Make(FractalPartList list, int whole, Composition composition = Composition.Affine)
         {
-            var description = list.Describe(whole, [], Composition.Affine, out var used);
+            var description = list.Describe(whole, [], composition, out var used);
             FractalLimits.Require(description);
             return new(description, [.. used.Select(index => _meshes[index].Mesh)])
             {

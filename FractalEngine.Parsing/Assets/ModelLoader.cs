@@ -122,18 +122,13 @@ internal sealed class ModelLoader
         var parsed = ReadOrFindFractal(fullPath, displayName);
         Warnings.AddRange(parsed.Warnings);
         var bases = LoadBases(parsed, fullPath);
-        var isNested = _openFractals.Count > 0;
-        var joined = bases is [{ Fractal: null }] && parsed.Description.Parts.IsEmpty
-            ? new(parsed.Description, [bases[0].Meshes[0]])
-            : JoinBases(parsed, bases);
-        var description = isNested ? joined.Description : ApplyOptions(parsed, joined.Description);
-        var fractal = new Fractal(description, [.. joined.Meshes.Select(static contents => contents.Mesh)])
+        var joined = Join(parsed, bases);
+        // Options are those of the whole, and so are bounds.
+        var fractal = _openFractals.Count > 0 ? joined : ApplyOptions(parsed, joined);
+        var materials = new Dictionary<Mesh, ImmutableDictionary<string, Material>>(ReferenceEqualityComparer.Instance);
+        foreach (var (mesh, ofMesh) in bases.SelectMany(static one => one.Fractal.BaseMeshes.Zip(one.Materials)))
         {
-            BaseMeshPaths = [.. joined.Meshes.Select(static contents => contents.Path)],
-        };
-        if (!isNested && FractalCheck.FindBoundsFault(fractal) is { } fault)
-        {
-            throw parsed.Source.Error(parsed.ResultOffset, fault, isLimitExceeded: !description.IsInfinite);
+            materials.TryAdd(mesh, ofMesh);
         }
 
         return new(fractal)
@@ -142,8 +137,8 @@ internal sealed class ModelLoader
             FileBytes = parsed.Source.ByteCount + bases.DistinctBy(static one => one.Key).Sum(static one => one.ByteCount),
             Materials = fractal.HasSeveralMeshes
                 ? ImmutableDictionary<string, Material>.Empty
-                : joined.Meshes.MaxBy(static contents => contents.Mesh.FaceCount)!.Materials,
-            MaterialsByMesh = fractal.HasSeveralMeshes ? [.. joined.Meshes.Select(static contents => contents.Materials)] : [],
+                : materials[fractal.BaseMeshes.MaxBy(static mesh => mesh.FaceCount)!],
+            MaterialsByMesh = fractal.HasSeveralMeshes ? [.. fractal.BaseMeshes.Select(mesh => materials[mesh])] : [],
             NumberNames = [.. parsed.NumberNames.Concat(bases.SelectMany(static one => one.NumberNames)).Distinct()],
         };
     }
@@ -167,14 +162,14 @@ internal sealed class ModelLoader
         // No name of a file is that of a shape, since it has an ending.
         if (BaseShapes.TryFind(reference.File, out var shape))
         {
-            return new(reference.File, null, [new(shape!, ImmutableDictionary<string, Material>.Empty, null)], 0, []);
+            return new(reference.File, Fractal.Of(shape!), [ImmutableDictionary<string, Material>.Empty], 0, []);
         }
 
         var (path, displayName) = _references.Resolve(parsed.Source, reference.Offset, fullPath, reference.File);
         if (FileKinds.FromName(path) != FileKind.Fractal)
         {
             var contents = ReadMesh(path, displayName);
-            return new(path, null, [new(contents.Mesh, contents.Materials, path)], contents.ByteCount, []);
+            return new(path, new(new([]), contents.Mesh) { BaseMeshPath = path }, [contents.Materials], contents.ByteCount, []);
         }
 
         if (_innerFractals.TryGetValue(path, out var known))
@@ -204,77 +199,63 @@ internal sealed class ModelLoader
                 reference.Offset, $"'{reference.File}' is composed componentwise, and can't be a part of another fractal");
         }
 
-        var meshes = model.Fractal.BaseMeshes.Select((mesh, index) => new BaseMeshContents(
-            mesh, model.MaterialsAt(index), model.Fractal.BaseMeshPaths[index]));
-        return _innerFractals[path] = new(
-            path, model.Fractal.Description, [.. meshes], model.FileBytes, model.NumberNames)
+        ImmutableDictionary<string, Material>[] materials =
+            [.. Enumerable.Range(0, model.Fractal.BaseMeshes.Length).Select(model.MaterialsAt)];
+        return _innerFractals[path] = new(path, model.Fractal, [.. materials], model.FileBytes, model.NumberNames)
         {
             Files = Record.Since(filesBefore),
         };
     }
 
     /// <summary>Puts the fractals and meshes that a file names in the places of its base meshes.</summary>
-    private static (FractalDescription Description, ImmutableArray<BaseMeshContents> Meshes) JoinBases(
-        ParsedFractal parsed, List<LoadedBase> bases)
+    private static Fractal Join(ParsedFractal parsed, List<LoadedBase> bases)
     {
-        for (var i = 0; i < bases.Count; i++)
+        foreach (var (i, (fractal, reference)) in bases.Select(static one => one.Fractal).Zip(parsed.Bases).Index())
         {
-            if (bases[i].Fractal is not null && parsed.Description.Composition == Composition.Componentwise)
+            if (fractal.LevelCount != 0 && parsed.Description.Composition == Composition.Componentwise)
             {
                 throw parsed.Source.Error(
-                    parsed.Bases[i].Offset, "a fractal that is composed componentwise can't have another fractal as a part");
+                    reference.Offset, "a fractal that is composed componentwise can't have another fractal as a part");
             }
 
-            if (bases[i].Fractal?.IsInfinite == true && !parsed.Description.MayHoldInfinite(i))
+            if (fractal.Description.IsInfinite && !parsed.Description.MayHoldInfinite(i))
             {
                 throw parsed.Source.Error(
-                    parsed.Bases[i].Offset, $"'{parsed.Bases[i].File}' is infinite, and can't be repeated: give its recursive a depth");
+                    reference.Offset, $"'{reference.File}' is infinite, and can't be repeated: give its recursive a depth");
             }
         }
 
-        var parts = new FractalPartList();
-        var meshes = new List<BaseMeshContents>();
-        var whole = parts.AddAll(parsed.Description, index =>
-            bases[index] is { Fractal: { } inner, Meshes: var ofInner }
-                ? parts.AddAll(inner, mesh => AddMesh(ofInner[mesh]))
-                : AddMesh(bases[index].Meshes[0]));
-        var description = parts.Describe(whole, [], parsed.Description.Composition, out var used);
-        if (used.Length > ParsingLimits.BaseFiles.Value)
+        try
         {
-            throw parsed.Source.Error(
-                parsed.ResultOffset, $"the fractal has more than the limit of {ParsingLimits.BaseFiles.Value} base meshes",
-                isLimitExceeded: true);
+            var joined = Fractal.Of(parsed.Description, [.. bases.Select(static one => one.Fractal)]);
+            return joined.BaseMeshes.Length <= ParsingLimits.BaseFiles.Value
+                ? joined
+                : throw new FractalLimitException($"the fractal has more than the limit of {ParsingLimits.BaseFiles.Value} base meshes");
         }
-
-        return FractalLimits.FindExceeded(description) is var (limit, things)
-            ? throw parsed.Source.Error(
-                parsed.ResultOffset, $"the fractal has more than the limit of {limit.Value} {things}", isLimitExceeded: true)
-            : (description, [.. used.Select(index => meshes[index])]);
-
-        int AddMesh(BaseMeshContents contents)
+        catch (FractalLimitException exception)
         {
-            var known = meshes.FindIndex(one => ReferenceEquals(one.Mesh, contents.Mesh));
-            if (known < 0)
-            {
-                known = meshes.Count;
-                meshes.Add(contents);
-            }
-
-            return parts.AddMesh(known);
+            throw parsed.Source.Error(parsed.ResultOffset, exception.Message, isLimitExceeded: true);
         }
     }
 
-    /// <summary>Returns a description with the overrides of the options.</summary>
-    private FractalDescription ApplyOptions(ParsedFractal parsed, FractalDescription description)
+    /// <summary>Returns a fractal with the overrides of the options, and with finite bounds.</summary>
+    private Fractal ApplyOptions(ParsedFractal parsed, Fractal joined)
     {
-        description = description with { Composition = _options.Composition ?? description.Composition };
+        var description = joined.Description with { Composition = _options.Composition ?? joined.Description.Composition };
         if (_options.Depth is { } depth && description.HasDepth)
         {
             description = description.WithDepth(depth);
         }
 
-        return FractalCheck.FindCompositionFault(description) is not { } fault
-            ? description : throw parsed.Source.Error(parsed.ResultOffset, fault);
+        if (FractalCheck.FindCompositionFault(description) is { } fault)
+        {
+            throw parsed.Source.Error(parsed.ResultOffset, fault);
+        }
+
+        var fractal = description == joined.Description ? joined
+            : new(description, joined.BaseMeshes) { BaseMeshPaths = joined.BaseMeshPaths };
+        return FractalCheck.FindBoundsFault(fractal) is not { } boundsFault ? fractal
+            : throw parsed.Source.Error(parsed.ResultOffset, boundsFault, isLimitExceeded: !description.IsInfinite);
     }
 
     private MeshContents ReadMesh(string fullPath, string displayName)
@@ -336,19 +317,17 @@ internal sealed class ModelLoader
 
     /// <summary>What stands for a base mesh.</summary>
     /// <param name="Key">Full path, or name of the shape.</param>
-    /// <param name="Fractal">What another fractal makes of its own base meshes; null for a mesh.</param>
-    /// <param name="Meshes">The mesh, or the base meshes of the other fractal.</param>
+    /// <param name="Fractal">The mesh, or what another file makes of its own base meshes.</param>
+    /// <param name="Materials">The materials of each base mesh.</param>
     /// <param name="ByteCount">Bytes of all files.</param>
     /// <param name="NumberNames">Names of the numbers that can be set.</param>
     private sealed record LoadedBase(
-        string Key, FractalDescription? Fractal, ImmutableArray<BaseMeshContents> Meshes, long ByteCount,
+        string Key, Fractal Fractal, ImmutableArray<ImmutableDictionary<string, Material>> Materials, long ByteCount,
         ImmutableArray<string> NumberNames)
     {
         /// <summary>The files of another fractal, with their stamps.</summary>
         public ImmutableDictionary<string, FileStamp> Files { get; init; } = ImmutableDictionary<string, FileStamp>.Empty;
     }
-
-    private sealed record BaseMeshContents(Mesh Mesh, ImmutableDictionary<string, Material> Materials, string? Path);
 
     private sealed record MeshContents(
         Mesh Mesh, ImmutableDictionary<string, Material> Materials, long ByteCount, ImmutableDictionary<string, FileStamp> Files);

@@ -251,6 +251,24 @@ public sealed class SeveralMeshesTests : IDisposable
             steps.Aggregate(AffineMap.Identity, static (map, step) => map * step.Map);
     }
 
+    [Fact]
+    public void Fractals_InThePlacesOfBaseMeshes_AreWhatAFileOfFilesIs()
+    {
+        File.WriteAllText(_folder["tree.fdo"], Tree);
+        File.WriteAllText(_folder["row.fdo"], Head + "<$>. [move.^0..3] box");
+        const string Text = Head + "x. \"row.fdo\"\n<$>. [turn.] \"tree.fdo\" + [half.] x + [move.] x + box";
+        var file = Read(Text);
+        var parsed = FractalParser.Parse(new("a.fdo", Text));
+        Assert.True(BaseShapes.TryFind("box", out var box));
+        Dictionary<string, Fractal> bases = new()
+        {
+            ["row.fdo"] = FractalFile.Read(_folder["row.fdo"]),
+            ["tree.fdo"] = FractalFile.Read(_folder["tree.fdo"]),
+            ["box"] = Fractal.Of(box),
+        };
+        Assert.Equal(file, Fractal.Of(parsed.Description, [.. parsed.Bases.Select(one => bases[one.File])]));
+    }
+
     [Theory]
     [InlineData(Tree)]
     [InlineData(Head + "z<box>. [#, turn.] [half.] box\n<$>. z 3")]
