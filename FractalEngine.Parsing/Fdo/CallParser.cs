@@ -61,7 +61,8 @@ public abstract class CallParser : TransformationParser
 
         if (argumentCount != function.Parameters.Count)
         {
-            var hint = char.IsAsciiDigit(rest.Advance(1).Current) && rest.Current is ' ' or '\t' ? ": no blank stands within a call" : "";
+            var hint = char.IsAsciiDigit(rest.Advance(1).Current) && rest.Current is ' ' or '\t' ? ": no blank stands within a call"
+                : rest.Current is '-' or '+' ? $": a number stands in parentheses, as in '{name}.(-1)'" : "";
             throw Error(cursor, $"'{name}' takes {ArgumentCountText(function.Parameters.Count)}, not {argumentCount}{hint}");
         }
 

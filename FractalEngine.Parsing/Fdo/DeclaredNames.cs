@@ -63,7 +63,8 @@ internal sealed class DeclaredNames(SourceText source, DeclaredBases bases)
 
     /// <summary>Creates the error of a name that no transformation above the cursor has: it proposes another name.</summary>
     public SourceException UnknownFunction(Cursor cursor, string name) =>
-        source.Error(cursor.Offset, $"the transformation '{name}' is not declared above{AskAboutFunction(name)}");
+        source.Error(
+            cursor.Offset, $"the transformation '{name}' is not declared above{AskAboutFunction(name, cursor.Peek(name.Length) == '.')}");
 
     private void Add<T>(Dictionary<string, (T Value, int Offset)> names, string kind, Cursor cursor, string name, T value)
     {
@@ -99,11 +100,11 @@ internal sealed class DeclaredNames(SourceText source, DeclaredBases bases)
             : NameSuggestion.Ask(name, [.. _objects.Keys, .. BaseShapes.Names]));
     }
 
-    private string AskAboutFunction(string name)
+    private string AskAboutFunction(string name, bool isCall)
     {
-        if (_objects.ContainsKey(name))
+        if (_objects.ContainsKey(name) || BaseShapes.TryFind(name, out _))
         {
-            return $": '{name}' is an object, and a set ends with ']' before it";
+            return $": '{name}' is an object, and {(isCall ? "a set holds maps" : "a set ends with ']' before it")}";
         }
 
         var (stem, digits) = SplitDigits(name);

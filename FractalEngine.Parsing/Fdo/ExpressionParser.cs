@@ -346,7 +346,9 @@ public abstract class ExpressionParser : Parser
 
         return FractalFunctions.TryFind(name, out var argumentCount, out var compute)
             ? ParseFunctionArguments(cursor, argumentCount, compute, ref rest, out value)
-            : throw Error(cursor, $"the number '{name}' is not declared above{AskAboutNumber(name)}");
+            : throw Error(cursor, rest.Current == '('
+                ? $"there is no function '{name}': functions are {string.Join(", ", FractalFunctions.Names)}"
+                : $"the number '{name}' is not declared above{AskAboutNumber(name)}");
     }
 
     private string AskAboutNumber(string name)
@@ -354,7 +356,7 @@ public abstract class ExpressionParser : Parser
         var parts = name.Split('-', 2);
         return parts.Length == 2 && TryFindValue(parts[0], out _)
             ? $": '{name}' is one name, and a difference has blanks, as in '{parts[0]} - {parts[1]}'"
-            : NameSuggestion.Ask(name, [.. NumberNames, .. FractalFunctions.Names]);
+            : NameSuggestion.Ask(name, [.. NumberNames, "pi"]);
     }
 
     private bool ParseFunctionArguments(

@@ -19,8 +19,8 @@ internal static class FractalFunctions
         ["mod"] = (2, Modulo),
     };
 
-    /// <summary>The names, in the order of a listing.</summary>
-    public static IEnumerable<string> Names => All.Keys;
+    /// <summary>The names of the functions, without that of the constant.</summary>
+    public static IEnumerable<string> Names => All.Where(static one => one.Value.ArgumentCount > 0).Select(static one => one.Key);
 
     /// <summary>Finds a function, or a constant, which has no arguments.</summary>
     public static bool TryFind(string name, out int argumentCount, out Func<double, double, double> compute)

@@ -3,22 +3,31 @@ namespace FractalEngine.Parsing.Fdo;
 /// <summary>Tells objects and products in parentheses from the outputs of a function, <c>t. (#, 1, #)</c>.</summary>
 internal static class Parentheses
 {
-    /// <summary>Tells whether a text begins with a product of maps in parentheses, <c>(t. * r.)</c>: no output has such a sign.</summary>
+    /// <summary>Tells whether a text begins with a product of maps in parentheses, <c>(t. * r.)</c>.</summary>
+    /// <remarks>
+    /// Outside of inner parentheses, only products have names with dots, <c>*</c> and <c>^</c>, and only outputs have several items.
+    /// </remarks>
     public static bool HoldProduct(ReadOnlySpan<char> text)
     {
         var depth = 0;
-        foreach (var character in text)
+        var items = 0;
+        var isBetween = true;
+        for (var i = 0; i < text.Length && text[i] is not ('\n' or '\r'); i++)
         {
-            depth += character == '(' ? 1 : character == ')' ? -1 : 0;
-            if (depth == 0 || character is '\n' or '\r')
+            depth += text[i] == '(' ? 1 : text[i] == ')' ? -1 : 0;
+            if (depth == 0)
             {
-                return false;
+                return items == 1;
             }
 
-            if (depth == 1 && character is '*' or '^')
+            if (depth == 1 && (text[i] is '*' or '^' || (text[i] == '.' && (char.IsLetter(text[i - 1]) || text[i - 1] == '_'))))
             {
                 return true;
             }
+
+            var isSeparator = i == 0 || (depth == 1 && text[i] is ',' or ' ' or '\t');
+            items += isBetween && !isSeparator ? 1 : 0;
+            isBetween = isSeparator;
         }
 
         return false;

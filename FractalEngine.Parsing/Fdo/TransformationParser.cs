@@ -246,8 +246,9 @@ public abstract class TransformationParser : ExpressionParser
     private protected SourceException VectorError(Cursor start, string place)
     {
         ParseInteger(start, FractalMistakes.VectorNumber, out var number, out var end);
-        var fault = number == 0 ? "vectors are numbered from 1, and numbers stand in parentheses"
-            : $"it is not declared{place}, and numbers stand in parentheses";
+        var fault = number > 0 ? $"it is not declared{place}, and numbers stand in parentheses"
+            : place.Length == 0 ? $"vectors are numbered from 1, and a map of numbers is written as {FractalMistakes.MapExample}"
+            : "vectors are numbered from 1, and numbers stand in parentheses";
         return Error(start, $"vector {TextBetween(start, end)} of {Vectors.Count}: {fault}");
     }
 

@@ -109,7 +109,7 @@ internal sealed class FractalHierarchyBuilder(FractalGraph graph, bool doublesPo
         var rounds = 1 + ((levels - 1) / levelsLess);
         var ends = AddSteps(Repeated(maps, rounds), _tops[recursive.BasePart]);
         return constants.Length == 0 ? ends : AddUnion(
-            (AffineMap.Identity, AddSteps(Repeated([AffineMap.Identity, .. maps], rounds - 1), AddUnion(constants))),
+            (AffineMap.Identity, AddSteps(Repeated([AffineMap.Identity, .. maps.Where(static map => map != AffineMap.Identity)], rounds - 1), AddUnion(constants))),
             (AffineMap.Identity, ends));
 
         static ImmutableArray<FractalStep> Repeated(AffineMap[] maps, int? rounds) =>
