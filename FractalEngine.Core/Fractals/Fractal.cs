@@ -25,6 +25,7 @@ public sealed class Fractal : IEquatable<Fractal>
     private readonly Lazy<ImmutableArray<Fractal>> _byMesh;
     private readonly Lazy<bool> _preservesOrientation;
     private readonly int? _onlyMesh;
+    private readonly Lazy<long?> _levelCount;
     private readonly Lazy<BoundingBox> _bounds;
     private readonly Lazy<FractalHierarchy> _hierarchy;
     private readonly Lazy<FractalHierarchy> _hierarchyBySets;
@@ -66,6 +67,7 @@ public sealed class Fractal : IEquatable<Fractal>
         Graph = new(baseMeshes, description.AllParts());
         _instanceCounts = new(() => Graph.ChainCounts);
         _byMesh = new(() => baseMeshes.Length == 1 ? [this] : [.. Enumerable.Range(0, baseMeshes.Length).Select(OnlyMesh)]);
+        _levelCount = new(() => description.LevelCount);
         _bounds = new(() => FractalBounds.ComputeBox(this));
         _hierarchy = new(() => BuildHierarchy());
         _hierarchyBySets = new(() => Hierarchy.HasDoubledPowers ? BuildHierarchy(doublesPowers: false) : Hierarchy);
@@ -115,7 +117,7 @@ public sealed class Fractal : IEquatable<Fractal>
     public BigInteger? FaceCount => Total(static mesh => mesh.FaceCount);
 
     /// <summary>Number of sets that the longest chain passes through; null for infinitely many.</summary>
-    public long? LevelCount => Description.LevelCount;
+    public long? LevelCount => _levelCount.Value;
 
     /// <summary>A box that holds the fractal to 1e-13 of its largest coordinate, see <see cref="FractalBounds"/>.</summary>
     public BoundingBox Bounds => _bounds.Value;
@@ -238,8 +240,8 @@ public sealed class Fractal : IEquatable<Fractal>
         var first = meshes.AddAll(list, start);
         var whole = list.AddAll(made.Description, mesh =>
             ReferenceEquals(made.BaseMeshes[mesh], self) ? list.AddCall(0) : list.AddMesh(meshes.Add(made, mesh)));
-        return list.IsInfinite(first) || list.IsInfinite(whole)
-            ? throw new ArgumentException("expected finite fractals in a recursive", nameof(body))
+        return list.IsInfinite(first) || list.IsInfinite(whole) || !list.HasCalls(whole)
+            ? throw new ArgumentException("expected a finite fractal that is made of the recursive", nameof(body))
             : meshes.Make(list, list.AddRecursive(list.CreateRecursives([first], [whole]), 0, depth));
     }
 

@@ -72,6 +72,7 @@ public abstract class CallParser : TransformationParser
     /// <summary>Parses the arguments of a call, with dots between them and perhaps one behind.</summary>
     private bool ParseArguments(string name, TransformationFunction function, int index, out int count, ref Cursor rest)
     {
+        var isFirst = true;
         for (count = 0; char.IsAsciiDigit(rest.Current) || rest.Current == '(' || BeginsName(rest); count++)
         {
             var start = rest;
@@ -91,7 +92,8 @@ public abstract class CallParser : TransformationParser
                 }
 
                 argument = new(vector, IsNumber: false);
-                Numbers?.AddArgument(name, start, rest, number, count, function, index);
+                Numbers?.AddArgument(name, start, rest, number, count, function, index, isFirst);
+                isFirst = false;
             }
             else if (!ParseArgument(start, name, function, count, isNumber, out argument, out rest))
             {

@@ -318,7 +318,7 @@ public abstract class ExpressionParser : Parser
         }
 
         Fail(cursor, "'('");
-        if (char.IsLetter(cursor.Current) || cursor.Current == '_')
+        if (BeginsName(cursor))
         {
             return ParseName(cursor, "a name", out var name, out rest) && ParseNamed(cursor, name, ref rest, out value);
         }

@@ -71,6 +71,6 @@ public static partial class FractalComments
 
     private static string FirstWord(string line) => line.TrimStart().Split(' ', 2)[0];
 
-    [GeneratedRegex(@"\b(?<first>\d{1,6})(?: (?<word>to|and) (?<last>\d{1,6}))?: (?<text>.*?)(?= \d{1,6}(?: (?:to|and) \d{1,6})?: |$)")]
+    [GeneratedRegex(@"\b(?<first>[0-9]{1,6})(?: (?<word>to|and) (?<last>[0-9]{1,6}))?: (?<text>.*?)(?= [0-9]{1,6}(?: (?:to|and) [0-9]{1,6})?: |$)")]
     private static partial Regex NumberedPart();
 }

@@ -35,7 +35,7 @@ internal static class FractalMistakes
         // ((1, 0), #, #)
         (@",[^()]*\n\)", "a vector has three components, or one in place of three equal ones", "','"),
         // (1, 0, 0, 1)
-        (@"\([^(),]+,[^(),]+,[^(),]+\n,", "a vector has three components", "')'"),
+        (@"\([^(),#]+,[^(),#]+,[^(),#]+\n,", "a vector has three components", "')'"),
         // a = ((1, 0, 0), #, (0.5))
         ($@"^[ \t]*(?<name>{Name})[ \t]*=[ \t]*\(\(.*\n", $"a map is declared with a dot, as in '${{name}}. ((1, 0, 0), #, (0.5))'", "')'"),
         // ((1, 0, 0), #, #, #)
@@ -76,11 +76,15 @@ internal static class FractalMistakes
         (@"\]\n\^", "a set has no power: 'z<box>. [t., u.] box' repeats it, as in 'z 3'", ObjectName),
         // step. { x 1 }
         (@"\n\{", $"braces mean nothing here: a map is written as {MapExample}, and sets of maps as '[t., u.]'", ""),
+        // x. cube.obj
+        (@"\n[-\w./\\]*\.(?i:obj|gz|ply|stl|fdo)[ \t]*\z", "the name of a file stands in quotes", SyntaxFailure.EndOfLine),
         // <$>. z.6
         (
             @"(?<name>[\p{L}_]\w*)\n\.(?<depth>[0-9]+)[ \t]*\z",
             "a blank stands between a recursive and its depth, as in '${name} ${depth}'", SyntaxFailure.EndOfLine),
-        // y. t.1 x, or c. a. * b.
+        // y. t.1 x
+        (@"(?<name>[\p{L}_]\w*)\n\.[0-9]", "calls stand in brackets, as in '[${name}.1] x'", SyntaxFailure.EndOfLine),
+        // c. a. * b.
         (
             @"(?<name>[\p{L}_]\w*)\n\.", "calls and products of maps stand in brackets before an object, as in '[${name}.] box'",
             SyntaxFailure.EndOfLine),
@@ -97,7 +101,7 @@ internal static class FractalMistakes
         // a = 1 /* … */
         (@"\n/\*|/\n\*", "a comment begins with '//' and ends with its line", ""),
         // z<box>. [
-        (@"[\[(,+*][ \t]*\n\z", "a declaration is one line", ""),
+        (@"[\[(][ \t]*\n\z", "a declaration is one line", ""),
         // a = 2pi
         (@"[0-9]\n(?<name>[\p{L}(])", "products have a sign, as in '2*pi'", ""),
         // a = 90°
@@ -116,8 +120,6 @@ internal static class FractalMistakes
         ($@"(?<name>{Name})[ \t]*=[^=(]*\n,", "a vector stands in parentheses, as in '${name} = (1, 0, 0)'", "'from'"),
         // v (0, 1, 0)
         (@"^\s*v\s*\n\(", "the numbers of a vector stand without parentheses, as in 'v 0 1 0'", SyntaxFailure.Number),
-        // x. cube.obj
-        (@"\n[-\w./\\]*\.(?i:obj|gz|ply|stl)[ \t]*\z", "the name of a file stands in quotes", SyntaxFailure.EndOfLine),
         // v1 2 3: any word can be the name of an object, so that parsing fails only behind it.
         (@"^\s*([vV][0-9]*|[vV]ec(tor)?)\s*\n", "a vector is 'v', a blank and three numbers", "'<'"),
         // rule r { … }

@@ -75,15 +75,17 @@ internal sealed class FractalNumberList
     /// <param name="vector">The argument: the number of a vector.</param>
     /// <param name="index">Number of arguments before it.</param>
     /// <param name="function">The function, which has too few parameters where the call is wrong.</param>
-    /// <param name="callIndex">Number of entries before the call in its set.</param>
-    public void AddArgument(string name, Cursor start, Cursor end, int vector, int index, TransformationFunction function, int callIndex)
+    /// <param name="callIndex">Number of maps before that of the call in its set.</param>
+    /// <param name="isFirst">True for the first argument of the call that is listed.</param>
+    public void AddArgument(
+        string name, Cursor start, Cursor end, int vector, int index, TransformationFunction function, int callIndex, bool isFirst)
     {
         if (index >= function.Parameters.Count)
         {
             return;
         }
 
-        _callCount += index == 0 ? 1 : 0;
+        _callCount += isFirst ? 1 : 0;
         var callName = FormattableString.Invariant($"{name} {_callCount}");
         var number = new FractalNumber(FractalNumberRole.Argument, callName, index, start.Offset, end.Offset - start.Offset, vector);
         _numbers.Add(number with { Call = (_setCount, callIndex, 0) });
@@ -103,7 +105,7 @@ internal sealed class FractalNumberList
     }
 
     /// <summary>Completes what is listed of the arguments of a set.</summary>
-    /// <param name="size">Number of entries of the set.</param>
+    /// <param name="size">Number of maps of the set.</param>
     public void EndSet(int size)
     {
         for (var i = _numbers.Count - 1; i >= 0 && _numbers[i].Call is { SetSize: 0 } call; i--)

@@ -26,8 +26,11 @@ public sealed class FractalParser : RecursiveParser
     /// <param name="source">Text of the file.</param>
     /// <param name="values">Numbers that take the place of those that the file gives to names; null for none.</param>
     /// <exception cref="SourceException">The text is not a fractal, or has no valid meaning.</exception>
+    /// <exception cref="ArgumentException">A number is not finite.</exception>
     public static ParsedFractal Parse(SourceText source, IReadOnlyDictionary<string, double>? values = null) =>
-        new FractalParser(source, null) { Overrides = values }.ParseFile();
+        values?.Values.All(double.IsFinite) != false
+            ? new FractalParser(source, null) { Overrides = values }.ParseFile()
+            : throw new ArgumentException("expected finite numbers", nameof(values));
 
     /// <summary>Parses a file, and lists its numbers.</summary>
     internal static ImmutableArray<FractalNumber> FindNumbers(SourceText source)

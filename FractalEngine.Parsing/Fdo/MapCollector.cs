@@ -14,19 +14,6 @@ internal sealed class MapCollector(int capacity)
     /// <summary>Number of maps that were added, each power counted.</summary>
     public int Count => _maps?.Count ?? _transformations.Count;
 
-    /// <summary>Adds one transformation, as most maps are.</summary>
-    public void Add(in Transformation transformation)
-    {
-        if (_maps is null)
-        {
-            _transformations.Add(transformation);
-        }
-        else
-        {
-            _maps.Add(transformation.ToAffineMap());
-        }
-    }
-
     /// <summary>Adds one transformation, or what powers and products make of some.</summary>
     public void Add(in MapFactor factor)
     {

@@ -2,7 +2,6 @@ using System.Collections.Immutable;
 using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Maths;
 using FractalEngine.Parsing.Text;
-using FractalEngine.Parsing.Text.Grammar;
 
 namespace FractalEngine.Parsing.Fdo;
 
@@ -47,19 +46,18 @@ public abstract class MapSetParser : CallParser
     /// <summary>Parses one entry of a set, and adds its maps: a call, which most entries are, or a product.</summary>
     private bool ParseMaps(Cursor cursor, MapCollector maps, out Cursor rest)
     {
-        if (!ParseProduct(cursor, maps.Count, out var product, out rest))
+        if (!ParseMapProduct(cursor, maps.Count, out var product, out rest))
         {
             return false;
         }
 
-        RequireMapCount(product.Count, rest);
-        _mapCount += product.Count;
+        Count(product.Count, rest);
         maps.Add(in product);
         return true;
     }
 
     /// <summary>Parses maps of which the right one is applied first, as in <c>m^2 * r.^2</c>.</summary>
-    private bool ParseProduct(Cursor cursor, int index, out MapFactor product, out Cursor rest)
+    private bool ParseMapProduct(Cursor cursor, int index, out MapFactor product, out Cursor rest)
     {
         if (!ParseFactor(cursor, index, out product, out rest))
         {
@@ -73,7 +71,9 @@ public abstract class MapSetParser : CallParser
                 return false;
             }
 
+            // Each product of many factors is work, though few of the maps are kept.
             RequireMapCount((long)product.Count * factor.Count, sign);
+            Count(product.Count, sign);
             product = product.Times(in factor);
             RequireInvertible(sign, product.Maps);
         }
@@ -85,19 +85,19 @@ public abstract class MapSetParser : CallParser
     private bool ParseFactor(Cursor cursor, int index, out MapFactor factor, out Cursor rest) =>
         (cursor.Current == '(' && Parentheses.HoldProduct(cursor.Rest) ? ParseGroup(cursor, index, out factor, out rest)
             : ParseCall(cursor, index, out factor, out rest))
-        && ParsePower(rest, ref factor, out rest);
+        && ParseMapPower(rest, ref factor, out rest);
 
     private bool ParseGroup(Cursor cursor, int index, out MapFactor product, out Cursor rest)
     {
         Nest(cursor);
         ParseBlanks(cursor.Advance(1), out rest);
-        var isParsed = ParseProduct(rest, index, out product, out rest) && ParseBlanks(rest, out rest) && ParseChar(rest, ')', out rest);
+        var isParsed = ParseMapProduct(rest, index, out product, out rest) && ParseBlanks(rest, out rest) && ParseChar(rest, ')', out rest);
         Unnest();
         return isParsed;
     }
 
     /// <summary>Parses the power of a map, or the range of its powers, if there is one: <c>^-2..2</c>.</summary>
-    private bool ParsePower(Cursor cursor, ref MapFactor power, out Cursor rest)
+    private bool ParseMapPower(Cursor cursor, ref MapFactor power, out Cursor rest)
     {
         rest = cursor;
         if (cursor.Current != '^')
@@ -110,13 +110,13 @@ public abstract class MapSetParser : CallParser
             throw Error(cursor, $"a power is that of one map, not of {power.Count}: powers of each stand in the parentheses");
         }
 
-        if (!ParseExponent(cursor.Advance(1), out var from, out rest))
+        if (!ParseMapExponent(cursor.Advance(1), out var from, out rest))
         {
             return false;
         }
 
         var to = from;
-        if (rest.Current == '.' && rest.Peek(1) == '.' && !ParseExponent(rest.Advance(2), out to, out rest))
+        if (rest.Current == '.' && rest.Peek(1) == '.' && !ParseMapExponent(rest.Advance(2), out to, out rest))
         {
             return false;
         }
@@ -132,11 +132,17 @@ public abstract class MapSetParser : CallParser
         return true;
     }
 
+    private void Count(int count, Cursor cursor)
+    {
+        RequireMapCount(count, cursor);
+        _mapCount += count;
+    }
+
     private void RequireMapCount(long count, Cursor cursor) =>
         RequireLimit(_mapCount + count, ParsingLimits.Maps.Value, "the file", "transformations in all sets", cursor);
 
     /// <summary>Parses the exponent of a map: an integer, or an expression in parentheses.</summary>
-    private bool ParseExponent(Cursor cursor, out int exponent, out Cursor rest)
+    private bool ParseMapExponent(Cursor cursor, out int exponent, out Cursor rest)
     {
         exponent = 0;
         double value;

@@ -11,7 +11,8 @@ public abstract class ObjectParser : MapSetParser
 
     private static readonly DeclaredObject EmptyObject = new(0, DeclaredSteps.None);
 
-    private long _termCount;
+    private long _sumTermCount;
+    private long _repeatedStepCount;
     private int _parentheses;
     private string? _declared;
 
@@ -20,8 +21,10 @@ public abstract class ObjectParser : MapSetParser
     {
     }
 
-    /// <summary>Number of steps and calls in all recursives so far.</summary>
-    private protected long RepeatedStepCount { get; set; }
+    /// <summary>Counts steps and calls that are listed once more.</summary>
+    private protected void RequireRepeatedSteps(long count, Cursor cursor) =>
+        RequireLimit(
+            _repeatedStepCount += count, ParsingLimits.RepeatedSteps.Value, "the file", "steps in all recursives and sums", cursor);
 
     /// <summary>While the bodies of recursives are read, what the names of their bases are: calls. Null elsewhere.</summary>
     private protected Dictionary<string, DeclaredObject>? Calls { get; set; }
@@ -49,7 +52,8 @@ public abstract class ObjectParser : MapSetParser
                 return false;
             }
 
-            RequireLimit(++_termCount, ParsingLimits.Names.Value, "the file", "terms of sums", start);
+            RequireLimit(++_sumTermCount, ParsingLimits.Names.Value, "the file", "terms of sums", start);
+            RequireRepeatedSteps(term.Steps.Count, start);
             terms.Add(Bases.PartOf(term));
         }
 
@@ -165,8 +169,7 @@ public abstract class ObjectParser : MapSetParser
             throw Error(depthStart, $"the depth is more than the limit of {FractalLimits.Depth.Value}", isLimitExceeded: true);
         }
 
-        RequireLimit(
-            RepeatedStepCount += recursive.CallCount, ParsingLimits.RepeatedSteps.Value, "the file", "steps in all recursives", cursor);
+        RequireRepeatedSteps(recursive.CallCount, cursor);
         value = recursive.WithDepth((int)depth);
         if (depthStart.Current != '(')
         {

@@ -98,7 +98,8 @@ public abstract class RecursiveParser : ObjectParser
     private List<DeclaredObject> FindBases(List<RecursiveHead> heads)
     {
         var values = new List<DeclaredObject>(heads.Count);
-        foreach (var (i, head) in heads.Index())
+        var names = new HashSet<string>();
+        foreach (var head in heads)
         {
             var value = Names.FindObject(head.BaseStart, head.BaseName);
             if (Bases.IsInfinite(value))
@@ -106,7 +107,7 @@ public abstract class RecursiveParser : ObjectParser
                 throw Error(head.BaseStart, $"the base '{head.BaseName}' is infinite: give it a depth");
             }
 
-            if (heads.FindIndex(other => other.BaseName == head.BaseName) < i)
+            if (!names.Add(head.BaseName))
             {
                 throw Error(head.BaseStart, $"the base '{head.BaseName}' is that of another recursive already: bases have different names");
             }
@@ -140,7 +141,7 @@ public abstract class RecursiveParser : ObjectParser
         RequireLimit(
             body.Steps.LevelCount - (isCall ? 0 : baseObject.Steps.LevelCount), FractalLimits.Levels.Value, "the fractal", "levels",
             bodyStart);
-        RequireLimit(RepeatedStepCount += stepCount, ParsingLimits.RepeatedSteps.Value, "the file", "steps in all recursives", bodyStart);
+        RequireRepeatedSteps(stepCount, bodyStart);
         Names.Add(head.Start, name, new DeclaredRecursive(baseObject, body.Steps.Take(stepCount)));
     }
 
@@ -159,6 +160,8 @@ public abstract class RecursiveParser : ObjectParser
         }
 
         var recursives = Bases.Parts.CreateRecursives([.. bases.Select(Bases.PartOf)], parts);
+        // Each of them is a part that holds all.
+        RequireRepeatedSteps(heads.Count * recursives.Sum(static recursive => recursive.Calls.Length + 1L), bodies[0].Start);
         foreach (var (i, head) in heads.Index())
         {
             Names.Add(head.Start, head.Name, new DeclaredJointRecursive(Bases.Parts, recursives, i));

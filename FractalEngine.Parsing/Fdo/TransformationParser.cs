@@ -172,7 +172,7 @@ public abstract class TransformationParser : ExpressionParser
             return ParseVectorValue(cursor, function, role, out var vector, out rest) && Set(ref output, output with { Value = vector });
         }
 
-        if (char.IsLetter(cursor.Current) && ParseName(cursor, "a parameter", out var name, out var afterName))
+        if (BeginsName(cursor) && ParseName(cursor, "a parameter", out var name, out var afterName))
         {
             rest = afterName;
             return ParseNamedOutput(cursor, name, role, ref output);

@@ -32,7 +32,7 @@ public static class ParsingLimits
 
     /// <summary>Largest number of steps that all recursives of a fractal file repeat: 8 MB.</summary>
     public static Limit RepeatedSteps { get; } = new(
-        "repeated-steps", 1_000_000, "steps that all recursives of a fractal file repeat", "8 MB");
+        "repeated-steps", 1_000_000, "steps that all recursives and sums of a fractal file repeat", "8 MB");
 
     /// <summary>Largest number of terms of expressions of a fractal file, a function's counted at each call: a second or two.</summary>
     public static Limit ExpressionTerms { get; } = new(

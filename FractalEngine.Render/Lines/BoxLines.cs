@@ -1,9 +1,7 @@
-using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
-using FractalEngine.Core.Visibility.Levels;
 using FractalEngine.Render.Views;
 
 namespace FractalEngine.Render.Lines;

@@ -20,7 +20,7 @@ public sealed class ParsingLimitTests
             ("points-bytes", 268_435_456, 536_870_912, "bytes of a file of points", "memory: the text is held as a whole"),
             ("maps", 200_000, AnyInteger, "transformations in all sets of a fractal file", "about 50 MB"),
             ("names", 150_000, AnyInteger, "named objects and transformations of a fractal file", "about 70 MB"),
-            ("repeated-steps", 1_000_000, AnyInteger, "steps that all recursives of a fractal file repeat", "8 MB"),
+            ("repeated-steps", 1_000_000, AnyInteger, "steps that all recursives and sums of a fractal file repeat", "8 MB"),
             ("expression-terms", 5_000_000, 1_000_000_000, "terms of expressions in all calls of a fractal file", "a second or two"),
             ("base-files", 200, 100_000, "base meshes of a fractal, as often as files name them", "each is drawn by itself"),
             ("material-bytes", 16_777_216, AnyInteger, "bytes of a material file", "far beyond what anyone writes"),

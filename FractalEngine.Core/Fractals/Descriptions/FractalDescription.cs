@@ -60,7 +60,7 @@ public sealed record FractalDescription(ImmutableArray<FractalStep> Steps, Compo
         ArgumentOutOfRangeException.ThrowIfGreaterThan(depth, FractalLimits.Depth.Value);
         var deep = Parts.LastOrDefault(static part => part.HasDepth);
         var description = Steps.Any(static step => step is Repetition) ? this with { Steps = Steps.WithDepth(depth) }
-            : deep is not null ? this with { Parts = Parts.Replace(deep, deep.WithDepth(depth)) }
+            : deep is not null ? this with { Parts = Parts.SetItem(Parts.LastIndexOf(deep), deep.WithDepth(depth)) }
             : throw new InvalidOperationException("the fractal has no recursive step, so it has no depth to change");
         FractalLimits.Require(description);
         return description;

@@ -13,7 +13,7 @@ public sealed class FractalPartList
     // A repetition of what a recursive calls is made of calls, one for each level.
     private const int MaxUnrolledLevels = 10_000;
 
-    // More are parts of their own, so that sums of sums don't multiply.
+    // More are parts of their own, so that sums of sums don't multiply. What has calls stands in one body only.
     private const int MaxInlined = 8;
 
     private readonly List<Entry> _entries = [];
@@ -210,11 +210,16 @@ public sealed class FractalPartList
     /// </summary>
     private ImmutableArray<RecursiveCall> CallsOf(int part) => _entries[part] switch
     {
-        { Part: SteppedPart { Steps: [TransformationSet { Maps.Length: <= MaxInlined } set], Inner: var inner } }
-            when !set.Maps.IsEmpty || !HasCalls(inner) => ImmutableArray.CreateRange(set.Maps, map => RecursiveCall.ToPart(map, inner)),
-        { Part: RecursivePart { IsSum: true, Recursives: [{ Calls.Length: <= MaxInlined } sum] } } => sum.Calls,
+        { Part: SteppedPart { Steps: [TransformationSet { Maps.IsEmpty: false } set, .. var rest], Inner: var inner } }
+            when HasCalls(inner) => ApplyTo(set, AddSteps(inner, rest)),
+        { Part: SteppedPart { Steps: [TransformationSet { Maps.Length: <= MaxInlined } set], Inner: var inner } } when !HasCalls(inner) =>
+            ApplyTo(set, inner),
+        { Part: RecursivePart { IsSum: true, Recursives: [var sum] } } when sum.Calls.Length <= MaxInlined || HasCalls(part) => sum.Calls,
         _ => [RecursiveCall.ToPart(part)],
     };
+
+    private static ImmutableArray<RecursiveCall> ApplyTo(TransformationSet set, int part) =>
+        ImmutableArray.CreateRange(set.Maps, map => RecursiveCall.ToPart(map, part));
 
     private int Add(Entry entry)
     {

@@ -41,7 +41,7 @@ public abstract class FractalStep : IEquatable<FractalStep>
     /// <inheritdoc/>
     public abstract override int GetHashCode();
 
-    /// <summary>Combines the hashes of a few steps, since a hash need not tell all apart.</summary>
+    /// <summary>Combines the hashes of all steps: texts of many steps that differ in the last only take no longer than others.</summary>
     internal static int HashOf(ImmutableArray<FractalStep> steps) =>
-        steps.Take(4).Aggregate(steps.Length, static (hash, step) => HashCode.Combine(hash, step));
+        steps.Aggregate(steps.Length, static (hash, step) => HashCode.Combine(hash, step));
 }

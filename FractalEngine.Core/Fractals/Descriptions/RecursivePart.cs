@@ -39,6 +39,7 @@ public sealed class RecursivePart : FractalPart
             throw new ArgumentException("expected calls of the given recursives, with no more levels", nameof(recursives));
         }
 
+        IsSum = levels == 1 && recursives.Length == 1 && calls.Length == 0;
         Order = SortByCalls();
     }
 
@@ -76,7 +77,7 @@ public sealed class RecursivePart : FractalPart
     public override bool HasDepth => !IsSum;
 
     /// <summary>True for a sum: earlier parts, each under a map.</summary>
-    public bool IsSum => Levels == 1 && Recursives is [var only] && only.Calls.All(static call => call.IsConstant);
+    public bool IsSum { get; }
 
     /// <summary>Number of calls of all recursives, and of themselves, at all levels; null for infinitely many levels.</summary>
     public long? CallCount => IsSum ? 0 : Levels * Recursives.Sum(static recursive => recursive.Calls.Length + 1L);
@@ -146,24 +147,15 @@ public sealed class RecursivePart : FractalPart
     /// <inheritdoc/>
     internal override long? CountLevels(Func<int, long?> levelsAt)
     {
-        // In the order, calls that take no level lead to earlier recursives.
-        var chains = new long[Recursives.Length];
-        long? below = 0;
-        foreach (var caller in Order)
+        if (Levels is not { } levels || References.Any(part => levelsAt(part) is null))
         {
-            foreach (var call in Recursives[caller].Calls)
-            {
-                var step = IsSum && call.Map == AffineMap.Identity ? 0 : 1;
-                chains[caller] = Math.Max(chains[caller], step + (call.LevelsLess == 0 ? chains[call.Target] : 0));
-                below = call.IsConstant ? Max(below, levelsAt(call.Target)) : below;
-            }
-
-            below = Max(below, levelsAt(Recursives[caller].BasePart));
+            return null;
         }
 
-        return Levels * chains.Max() + below;
-
-        static long? Max(long? count1, long? count2) => count1 is { } one && count2 is { } other ? Math.Max(one, other) : null;
+        // A term of a sum is no level of its own where it stands as it is.
+        return IsSum
+            ? Recursives[0].Calls.Max(call => levelsAt(call.Target) + (call.Map == AffineMap.Identity ? 0 : 1))
+            : Ascend(part => levelsAt(part)!.Value, 0, static (longest, count) => Math.Max(longest, count + 1)).ElementAt(levels)[Root];
     }
 
     /// <inheritdoc/>

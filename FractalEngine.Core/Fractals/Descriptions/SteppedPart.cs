@@ -48,7 +48,9 @@ public sealed class SteppedPart(int inner, ImmutableArray<FractalStep> steps) : 
     }
 
     /// <inheritdoc/>
-    internal override long? CountLevels(Func<int, long?> levelsAt) => FractalSteps.LevelCount(steps) + levelsAt(inner);
+    internal override long? CountLevels(Func<int, long?> levelsAt) =>
+        FractalSteps.LevelCount(steps) is { } levels && levelsAt(inner) is { } below
+            ? Math.Min(levels, long.MaxValue - below) + below : null;
 
     /// <inheritdoc/>
     internal override FractalPart WithDepth(int depth) => new SteppedPart(inner, steps.WithDepth(depth));

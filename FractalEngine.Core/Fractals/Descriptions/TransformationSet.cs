@@ -8,6 +8,9 @@ namespace FractalEngine.Core.Fractals.Descriptions;
 /// <summary>One level of a fractal: a child instance of the next level for each transformation.</summary>
 public sealed class TransformationSet : FractalStep
 {
+    // Of all maps, since sets may differ in one only. Computed twice at worst, with the same result.
+    private int? _hash;
+
     /// <summary>Makes a set in the order of its declaration; a transformation may occur more than once.</summary>
     /// <exception cref="ArgumentException">A number is not finite.</exception>
     [OverloadResolutionPriority(1)] // An empty collection expression is then not ambiguous.
@@ -70,7 +73,7 @@ public sealed class TransformationSet : FractalStep
         && (HasTransformations ? set.HasTransformations : Maps.AsSpan().SequenceEqual(set.Maps.AsSpan()));
 
     /// <inheritdoc/>
-    public override int GetHashCode() => HasTransformations
-        ? Transformations.Take(4).Aggregate(Transformations.Length, HashCode.Combine)
-        : Maps.Take(4).Aggregate(Maps.Length, HashCode.Combine);
+    public override int GetHashCode() => _hash ??= HasTransformations
+        ? Transformations.Aggregate(Transformations.Length, HashCode.Combine)
+        : Maps.Aggregate(Maps.Length, HashCode.Combine);
 }

@@ -13,6 +13,11 @@ internal static class InstancePaths
     public static List<(MapSet Set, int Index, long Level)>? Follow(
         this FractalHierarchy hierarchy, long level, ReadOnlySpan<int> path)
     {
+        if (level < 0)
+        {
+            return null;
+        }
+
         var steps = new List<(MapSet Set, int Index, long Level)>(path.Length);
         level = SkipLinks(hierarchy, level);
         foreach (var index in path)

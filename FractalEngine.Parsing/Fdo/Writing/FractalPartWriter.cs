@@ -10,7 +10,7 @@ namespace FractalEngine.Parsing.Fdo.Writing;
 /// <param name="names">The names of the base meshes; receives those of the parts.</param>
 internal sealed class FractalPartWriter(FractalWriter writer, List<string> names)
 {
-    // The parser keeps longer sets as parts of their own.
+    // The parser keeps longer sets on parts as parts of their own.
     private const int MaxSetLength = 8;
 
     // By their recursives: the names of those that others call with fewer levels, or that are parts themselves.
@@ -77,14 +77,26 @@ internal sealed class FractalPartWriter(FractalWriter writer, List<string> names
         return group;
     }
 
-    private string FormatBody(RecursivePart part, int recursive, Dictionary<int, string> bases, bool isWhole) => FormatSum(
-        part.Recursives[recursive].Calls,
-        bases.Values.First(),
-        call => call.IsConstant ? FormatConstant(call)
-            : call.LevelsLess == 1 && bases.TryGetValue(call.Target, out var name) ? name
-            : call.LevelsLess == 0 ? $"({FormatBody(part, call.Target, bases, isWhole: false)})"
-            : throw FractalWriter.Fault(ErrorKind.Input, "a recursive calls another one with more than one level less"),
-        isWhole);
+    private string FormatBody(RecursivePart part, int recursive, Dictionary<int, string> bases, bool isWhole)
+    {
+        var body = FormatSum(
+            part.Recursives[recursive].Calls,
+            bases.Values.First(),
+            call => call.IsConstant ? FormatConstant(call)
+                : call.LevelsLess == 1 && bases.TryGetValue(call.Target, out var name) ? name
+                : call.LevelsLess == 0 ? FormatBody(part, call.Target, bases, isWhole: false)
+                : throw FractalWriter.Fault(ErrorKind.Input, "a recursive calls another one with more than one level less"),
+            isWhole);
+        FractalWriter.RequireLength(body.Length);
+        return isWhole || IsSetOnOne(part.Recursives[recursive].Calls) ? body : $"({body})";
+    }
+
+    /// <summary>Tells whether calls are one set on one target, so that they need no parentheses.</summary>
+    private static bool IsSetOnOne(ImmutableArray<RecursiveCall> calls) => !calls.IsEmpty && AreOfOneTarget(calls)
+        && (!calls[0].IsConstant || calls.Length <= MaxSetLength);
+
+    private static bool AreOfOneTarget(ImmutableArray<RecursiveCall> calls) =>
+        calls.All(call => call with { Map = calls[0].Map } == calls[0]);
 
     private string FormatConstant(RecursiveCall call) => names[call.Target];
 
@@ -98,18 +110,19 @@ internal sealed class FractalPartWriter(FractalWriter writer, List<string> names
 
         var terms = new List<string>();
         // One term alone would be steps on it, and no sum, where it is all of an object.
-        var isOneTarget = isWhole && calls.All(call => call with { Map = calls[0].Map } == calls[0]);
+        var isOneTarget = isWhole && AreOfOneTarget(calls);
         for (var i = 0; i < calls.Length;)
         {
             var first = calls[i];
             var set = new List<string>();
-            var maxLength = isOneTarget && i == 0 ? 1 : MaxSetLength;
+            var maxLength = isOneTarget && i == 0 ? 1 : first.IsConstant ? MaxSetLength : int.MaxValue;
             for (; i < calls.Length && set.Count < maxLength && calls[i] with { Map = first.Map } == first; i++)
             {
                 set.Add(calls[i].Map == AffineMap.Identity ? "#" : writer.MatrixFor(calls[i].Map));
             }
 
-            terms.Add(set is ["#"] ? formatTarget(first) : $"[{string.Join(", ", set)}] {formatTarget(first)}");
+            // A set or sum of calls that stands as it is would be part of the sum around it.
+            terms.Add(set is ["#"] && first.LevelsLess != 0 ? formatTarget(first) : $"[{string.Join(", ", set)}] {formatTarget(first)}");
         }
 
         return string.Join(" + ", terms);

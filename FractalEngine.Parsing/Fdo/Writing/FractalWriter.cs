@@ -76,7 +76,8 @@ public sealed class FractalWriter
         }
     }
 
-    private static void RequireLength(long length)
+    /// <summary>Refuses a text that is longer than files may be.</summary>
+    internal static void RequireLength(long length)
     {
         if (length > ParsingLimits.DescriptionBytes.Value)
         {

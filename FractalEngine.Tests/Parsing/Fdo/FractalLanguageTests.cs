@@ -125,11 +125,12 @@ public class FractalLanguageTests
     [Theory]
     [InlineData("[((1, 2, 0), #, (0.5))]", "t. ((1, 2, 0), #, (0.5))", "[t.]")]
     [InlineData("[(1, up (k)),#, ( # , (10, 20, 30) ,2 )]", "t. (1, up, (k))\nu. (#, (10, 20, 30), 2)", "[t., #, u.]")]
+    [InlineData("[(#, _up, #)]", "t._p. (#, _p, #)", "[t._up]")]
     [InlineData("[((1, 0, 0), #, #)^-2..2 * (#, (0, 30, 0), #)^2]", "t. ((1, 0, 0), #, #)\nu. (#, (0, 30, 0), #)", "[t.^-2..2 * u.^2]")]
     [InlineData("[(((k*k, 0, 0), #, #) * (#, up, #))^0..9]", "t. ((k*k, 0, 0), #, #)\nu. (#, up, #)\n", "[(t. * u.)^0..9]")]
     public void Map_WithoutAName_IsWhatAFunctionReturns(string unnamed, string functions, string named)
     {
-        const string Values = "v 1 2 3\nv 2 2 2\nk = 0.5\nup = (0, 1, 0)\n";
+        const string Values = "v 1 2 3\nv 2 2 2\nk = 0.5\nup = (0, 1, 0)\n_up = (0, 2, 0)\n";
         var expected = SetOf($"{Values}{functions}\n<$>. {named} box\n");
         var actual = SetOf($"{Values}<$>. {unnamed} box\n");
         Assert.Equal<IEnumerable<AffineMap>>(expected.Maps, actual.Maps);

@@ -214,6 +214,77 @@ public sealed class SeveralMeshesTests : IDisposable
         Assert.Equal(fractal, FractalFile.Read(_folder["w.fdo"]));
     }
 
+    /// <summary>The text of what sets of sets make is as long as that of the sets, and needs no parentheses inside each other.</summary>
+    [Theory]
+    [InlineData(9, 40)]
+    [InlineData(2, 60)]
+    [InlineData(1, 100)]
+    public void Written_SetsOfSets_AreAsShortAsTheirText(int width, int count)
+    {
+        var sets = string.Concat(Enumerable.Range(0, count).Select(i =>
+            $"[{string.Join(", ", Enumerable.Range(0, width).Select(j => $"t.({i}, {j}, 0)"))}] "));
+        var fractal = Read($"t.p. (p, #, (0.5))\nz<box>. {sets}box + ball + [t.(1)] ({sets}box + [t.(2)] box)\n<$>. z 1");
+        FractalFile.Write(_folder["w.fdo"], fractal);
+        Assert.Equal(fractal, FractalFile.Read(_folder["w.fdo"]));
+        Assert.InRange(new FileInfo(_folder["w.fdo"]).Length, 1, 300 * width * count);
+    }
+
+    [Fact]
+    public void Written_RepetitionsOfCalls_AreReadAgain()
+    {
+        Transformation[] maps = [Samples.Move(1, 0, 0), Transformation.At(new(0, 1, 0), 0.5)];
+        var cube = Fractal.Of(Shapes.Cube());
+        var fractal = Fractal.Recurse(cube, 2, self => self.Repeat(maps, 40) + cube.Apply(maps) + self.Apply(maps).Apply(maps));
+        FractalFile.Write(_folder["w.fdo"], fractal);
+        Assert.Equal(fractal.Description, FractalFile.Read(_folder["w.fdo"]).Description);
+    }
+
+    /// <summary>The longest chain of any of several recursives, with what it calls.</summary>
+    [Theory]
+    [InlineData("z<x>, w<y>. [half.] x, [half.] [half.] [half.] y + box\n<$>. z 3", 3)]
+    [InlineData("z<x>, w<y>. [half.] y, [half.] [half.] [half.] x\n<$>. z 3", 5)]
+    [InlineData("z<x>, w<y>. [half.] y, [half.] [half.] [half.] x\n<$>. w 4", 8)]
+    [InlineData("z<x>. [half.] x + [half.] [half.] plate\n<$>. z 3", 5)]
+    [InlineData("<$>. [half.] x + y + [half.] (x + [half.] y)", 2)]
+    [InlineData("z<x>. [half.] x + plate\n<$>. [half.] z 3", 4)]
+    public void Levels_AreThoseOfTheLongestChain(string text, long expected) =>
+        Assert.Equal(expected, Read($"{Head}x. box\ny. ball\n{text}").LevelCount);
+
+    [Fact]
+    public void Recursives_WithoutACallOrOfNothing_AreRefused()
+    {
+        var cube = Fractal.Of(Shapes.Cube());
+        Assert.Throws<ArgumentException>("body", () => Fractal.Recurse(cube, 1, _ => cube + cube.Apply([Samples.Move(1, 0, 0)])));
+        Assert.Null(cube.Follow([0], levelsAbove: 9));
+        var values = ImmutableDictionary<string, double>.Empty.Add("a", double.NaN);
+        Assert.Throws<ArgumentException>("values", () => FractalParser.Parse(new("a.fdo", "a = 1\n<$>. box"), values));
+    }
+
+    /// <summary>What is made of many parts is refused by its size, however the text says it.</summary>
+    [Theory]
+    [InlineData("maps", 1000, "t. ((1, 0, 0), #, #)\n<$>. [t.^0..400 * t.^0..400", "*t.", "] box")]
+    [InlineData("repeated-steps", 2000, "y. box\n<$>. box", " + [(#, #, (0.5))^0..1] y", "")]
+    public void Work_ThatIsTooMuch_IsRefused(string limit, int count, string start, string piece, string end)
+    {
+        var text = start + string.Concat(Enumerable.Repeat(piece, count)) + end + "\n";
+        if (limit == "repeated-steps")
+        {
+            var steps = string.Concat(Enumerable.Repeat("[t.] ", 900));
+            text = $"t. (#, #, (0.9))\n{text.Replace("y. box", $"y. {steps}box", StringComparison.Ordinal)}";
+        }
+
+        var error = Assert.Throws<SourceException>(() => FractalParser.Parse(new("a.fdo", text)));
+        Assert.True(error.Diagnostic.IsLimitExceeded);
+    }
+
+    [Fact]
+    public void Terms_ThatDifferAtTheirEnds_AreToldApartSoon()
+    {
+        var text = string.Join(" + ", Enumerable.Range(0, 3000).Select(static i =>
+            $"[#, #, #, #, t.({i})] box + [#] [#] [#] [#] [#] [t.({i})] box"));
+        Assert.Equal(3000 * 6, Read($"t.a. ((a), #, #)\n<$>. {text}").InstanceCount);
+    }
+
     [Fact]
     public void Path_OfAHit_LeadsToItsInstance()
     {
@@ -329,8 +400,8 @@ public sealed class SeveralMeshesTests : IDisposable
     public void LongSets_InParentheses_TakeNoStack()
     {
         var set = string.Concat(Enumerable.Repeat("[half.]", 900));
-        var text = Enumerable.Range(0, 30).Aggregate($"{set} box", (inner, _) => $"{set} ({inner} + {set} box)");
-        Assert.Throws<SourceException>(() => Read($"{Head}z<box>. {text} + ball\n<$>. z 1"));
+        var text = Enumerable.Range(0, 6).Aggregate($"{set} box", (inner, _) => $"{set} ({inner} + {set} box)");
+        Assert.Equal(8, Read($"{Head}z<box>. {text} + ball\n<$>. z 1").InstanceCount);
     }
 
     [Fact]

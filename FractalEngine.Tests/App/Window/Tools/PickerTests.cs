@@ -1,6 +1,5 @@
 using FractalEngine.App.Window.Tools;
 using FractalEngine.Core.Fractals;
-using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Generation;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
