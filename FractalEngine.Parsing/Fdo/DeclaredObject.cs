@@ -7,20 +7,6 @@ namespace FractalEngine.Parsing.Fdo;
 /// <param name="Steps">Steps applied to it, outermost first.</param>
 internal record DeclaredObject(int Part, DeclaredSteps Steps)
 {
-    /// <summary>Object that this one was made from; null for a base mesh.</summary>
-    public DeclaredObject? Origin { get; init; }
-
     /// <summary>Returns whether this object is the other one, or was made from it in any number of declarations.</summary>
-    public bool IsDerivedFrom(DeclaredObject other)
-    {
-        for (var origin = this; origin is not null; origin = origin.Origin)
-        {
-            if (ReferenceEquals(origin, other))
-            {
-                return true;
-            }
-        }
-
-        return false;
-    }
+    public bool IsDerivedFrom(DeclaredObject other) => Part == other.Part && Steps.EndWith(other.Steps);
 }

@@ -14,5 +14,5 @@ internal sealed record DeclaredRecursive(DeclaredObject Base, ImmutableArray<Fra
 
     /// <summary>Returns the recursion to a finite depth: Sⁿ after the base. Depth 0 is the base itself.</summary>
     public override DeclaredObject WithDepth(int depth) =>
-        new(Part, Base.Steps.Prepend(new Repetition(IterationSteps, depth))) { Origin = Base };
+        new(Part, Base.Steps.Prepend(new Repetition(IterationSteps, depth)));
 }

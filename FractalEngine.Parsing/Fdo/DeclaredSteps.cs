@@ -27,6 +27,18 @@ internal sealed class DeclaredSteps(FractalStep? outermost, DeclaredSteps? inner
     /// <remarks>Far from overflowing: steps are few, and the levels of a round are limited.</remarks>
     public long? LevelCount { get; } = inner is null ? 0 : inner.LevelCount + outermost!.LevelCount;
 
+    /// <summary>Tells whether these steps were added to the other ones, or are the same.</summary>
+    public bool EndWith(DeclaredSteps other)
+    {
+        var rest = this;
+        while (rest.Count > other.Count)
+        {
+            rest = rest._inner!;
+        }
+
+        return ReferenceEquals(rest, other);
+    }
+
     /// <summary>Returns these steps with another one outside of them.</summary>
     public DeclaredSteps Prepend(FractalStep step) => new(step, this);
 

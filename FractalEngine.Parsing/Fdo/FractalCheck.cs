@@ -2,7 +2,6 @@ using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
-using FractalEngine.Core.Visibility.Levels;
 
 namespace FractalEngine.Parsing.Fdo;
 
@@ -44,7 +43,7 @@ internal static class FractalCheck
 
         try
         {
-            LodHierarchy.Build(fractal);
+            fractal.Follow([]);
             return null;
         }
         catch (Exception exception) when (exception is FractalLimitException or SingularMatrixException)

@@ -7,6 +7,8 @@ namespace FractalEngine.Parsing.Fdo;
 /// <summary>Finds what the author of a fractal's file has written about its numbers.</summary>
 public static partial class FractalComments
 {
+    private const string Number = "[0-9]{1,6}";
+
     /// <summary>
     /// Finds the comment of each number: that behind it in its line, that above the line, or above the lines before it that begin with the
     /// same word.
@@ -71,6 +73,6 @@ public static partial class FractalComments
 
     private static string FirstWord(string line) => line.TrimStart().Split(' ', 2)[0];
 
-    [GeneratedRegex(@"\b(?<first>[0-9]{1,6})(?: (?<word>to|and) (?<last>[0-9]{1,6}))?: (?<text>.*?)(?= [0-9]{1,6}(?: (?:to|and) [0-9]{1,6})?: |$)")]
+    [GeneratedRegex($@"\b(?<first>{Number})(?: (?<word>to|and) (?<last>{Number}))?: (?<text>.*?)(?= {Number}(?: (?:to|and) {Number})?: |$)")]
     private static partial Regex NumberedPart();
 }

@@ -89,7 +89,7 @@ public abstract class ObjectParser : MapSetParser
         if (sets.Count > 0)
         {
             var steps = sets.AsEnumerable().Reverse().Aggregate(value.Steps, (inner, step) => inner.Prepend(step));
-            value = new(value.Part, steps) { Origin = value };
+            value = new(value.Part, steps);
         }
 
         RequireStepLimits(value.Steps, cursor);
