@@ -73,6 +73,8 @@ public static partial class FractalComments
 
     private static string FirstWord(string line) => line.TrimStart().Split(' ', 2)[0];
 
-    [GeneratedRegex($@"\b(?<first>{Number})(?: (?<word>to|and) (?<last>{Number}))?: (?<text>.*?)(?= {Number}(?: (?:to|and) {Number})?: |$)")]
+    [GeneratedRegex(
+        $@"\b(?<first>{Number})(?: (?<word>to|and) (?<last>{Number}))?: (?<text>.*?)"
+        + $"(?= {Number}(?: (?:to|and) {Number})?: |$)")]
     private static partial Regex NumberedPart();
 }
