@@ -15,6 +15,7 @@ internal sealed class FractalPartWriter(FractalWriter writer, List<string> names
 
     // By their recursives: the names of those that others call with fewer levels, or that are parts themselves.
     private readonly List<(RecursivePart Part, Dictionary<int, string> Names)> _groups = [];
+    private int _depth;
 
     /// <summary>Writes the declarations of parts, in their order.</summary>
     public void Write(ImmutableArray<FractalPart> parts)
@@ -79,6 +80,11 @@ internal sealed class FractalPartWriter(FractalWriter writer, List<string> names
 
     private string FormatBody(RecursivePart part, int recursive, Dictionary<int, string> bases, bool isWhole)
     {
+        if (++_depth > FractalLimits.Steps.Value)
+        {
+            throw FractalWriter.Fault(ErrorKind.Limit, $"a body has more than the limit of {FractalLimits.Steps.Value} sets on each other");
+        }
+
         var body = FormatSum(
             part.Recursives[recursive].Calls,
             bases.Values.First(),
@@ -87,6 +93,7 @@ internal sealed class FractalPartWriter(FractalWriter writer, List<string> names
                 : call.LevelsLess == 0 ? FormatBody(part, call.Target, bases, isWhole: false)
                 : throw FractalWriter.Fault(ErrorKind.Input, "a recursive calls another one with more than one level less"),
             isWhole);
+        _depth--;
         FractalWriter.RequireLength(body.Length);
         return isWhole || IsSetOnOne(part.Recursives[recursive].Calls) ? body : $"({body})";
     }

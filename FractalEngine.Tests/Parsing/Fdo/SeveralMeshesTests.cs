@@ -1,6 +1,7 @@
 using System.Collections.Immutable;
 using System.Globalization;
 using System.Text;
+using FractalEngine.Core;
 using FractalEngine.Core.Colliders;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Fractals.Descriptions;
@@ -237,6 +238,9 @@ public sealed class SeveralMeshesTests : IDisposable
         var fractal = Fractal.Recurse(cube, 2, self => self.Repeat(maps, 40) + cube.Apply(maps) + self.Apply(maps).Apply(maps));
         FractalFile.Write(_folder["w.fdo"], fractal);
         Assert.Equal(fractal.Description, FractalFile.Read(_folder["w.fdo"]).Description);
+        var deep = Fractal.Recurse(cube, 2, self => self.Repeat([Samples.Move(1, 0, 0)], 9000) + cube);
+        var error = Assert.Throws<FractalEngineException>(() => FractalFile.Write(_folder["deep.fdo"], deep));
+        Assert.Contains("more than the limit of 1000 sets on each other", error.Message, StringComparison.Ordinal);
     }
 
     /// <summary>The longest chain of any of several recursives, with what it calls.</summary>
