@@ -116,7 +116,10 @@ public sealed class Fractal : IEquatable<Fractal>
     /// <summary>Number of faces of all instances (the paper's b·t^d); null for infinitely many.</summary>
     public BigInteger? FaceCount => Total(static mesh => mesh.FaceCount);
 
-    /// <summary>Number of sets that the longest chain passes through; null for infinitely many.</summary>
+    /// <summary>
+    /// Number of sets that the longest chain passes through; null for infinitely many. A term of a sum that stands as it is is a step of
+    /// paths, see <see cref="Follow"/>, but no level.
+    /// </summary>
     public long? LevelCount => _levelCount.Value;
 
     /// <summary>A box that holds the fractal to 1e-13 of its largest coordinate, see <see cref="FractalBounds"/>.</summary>
@@ -240,9 +243,15 @@ public sealed class Fractal : IEquatable<Fractal>
         var first = meshes.AddAll(list, start);
         var whole = list.AddAll(made.Description, mesh =>
             ReferenceEquals(made.BaseMeshes[mesh], self) ? list.AddCall(0) : list.AddMesh(meshes.Add(made, mesh)));
-        return list.IsInfinite(first) || list.IsInfinite(whole) || !list.HasCalls(whole)
-            ? throw new ArgumentException("expected a finite fractal that is made of the recursive", nameof(body))
-            : meshes.Make(list, list.AddRecursive(list.CreateRecursives([first], [whole]), 0, depth));
+        if (list.IsInfinite(first) || list.IsInfinite(whole) || !list.HasCalls(whole))
+        {
+            throw new ArgumentException("expected a finite fractal that holds the recursive", nameof(body));
+        }
+
+        // A recursive of one call is a repetition of its steps, as in files.
+        return meshes.Make(list, list.StepsOnCall(whole) is not { } round
+            ? list.AddRecursive(list.CreateRecursives([first], [whole]), 0, depth)
+            : list.AddSteps(first, round.IsEmpty ? [] : [new Repetition(round, depth)]));
     }
 
     /// <summary>

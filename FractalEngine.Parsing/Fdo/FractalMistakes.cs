@@ -41,7 +41,7 @@ internal static class FractalMistakes
         // ((1, 0, 0), #, #, #)
         (@"\n[,(#]", $"a map has a position, a rotation and a scale, as in {MapExample}", "')'"),
         // [t.^1.5]
-        (@"\^-?[0-9]+\n\.[0-9]", "the power of a map is a whole number", ""),
+        (@"\^-?[0-9]+\n[.eE][0-9]", "the power of a map is a whole number", ""),
         // [t.^0,9], [t.^0:9], [t.^0-9], [t.^0...9] or [t.^(0..9)]
         (
             @"\^(?<from>-?[0-9]+)([ \t]*\n[ \t]*[:.-]+|[ \t]*,[ \t]*\n|\.\.\n\.)[ \t]*(?<to>-?[0-9]+)",

@@ -22,9 +22,8 @@ public abstract class ObjectParser : MapSetParser
     }
 
     /// <summary>Counts steps and calls that are listed once more.</summary>
-    private protected void RequireRepeatedSteps(long count, Cursor cursor) =>
-        RequireLimit(
-            _repeatedStepCount += count, ParsingLimits.RepeatedSteps.Value, "the file", "steps in all recursives and sums", cursor);
+    private protected void RequireRepeatedSteps(long count, Cursor cursor, string things = "steps in all recursives and sums") =>
+        RequireLimit(_repeatedStepCount += count, ParsingLimits.RepeatedSteps.Value, "the file", things, cursor);
 
     /// <summary>While the bodies of recursives are read, what the names of their bases are: calls. Null elsewhere.</summary>
     private protected Dictionary<string, DeclaredObject>? Calls { get; set; }

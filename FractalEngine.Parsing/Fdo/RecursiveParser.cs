@@ -161,7 +161,9 @@ public abstract class RecursiveParser : ObjectParser
 
         var recursives = Bases.Parts.CreateRecursives([.. bases.Select(Bases.PartOf)], parts);
         // Each of them is a part that holds all.
-        RequireRepeatedSteps(heads.Count * recursives.Sum(static recursive => recursive.Calls.Length + 1L), bodies[0].Start);
+        RequireRepeatedSteps(
+            heads.Count * recursives.Sum(static recursive => recursive.Calls.Length + 1L), bodies[0].Start,
+            "calls of recursives that call each other, times the number of these");
         foreach (var (i, head) in heads.Index())
         {
             Names.Add(head.Start, head.Name, new DeclaredJointRecursive(Bases.Parts, recursives, i));

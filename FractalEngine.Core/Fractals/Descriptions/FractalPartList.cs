@@ -47,7 +47,13 @@ public sealed class FractalPartList
         }
 
         ImmutableArray<RecursiveCall> calls = [.. terms.SelectMany(term => CallsOf(term))];
-        return calls.IsEmpty ? terms[0] : Add(new(RecursivePart.Sum(calls), null, null));
+        return calls switch
+        {
+            [] => terms[0],
+            [{ IsConstant: true } one] => one.Map == AffineMap.Identity ? one.Target
+                : AddSteps(one.Target, [new TransformationSet([one.Map])]),
+            _ => Add(new(RecursivePart.Sum(calls), null, null)),
+        };
     }
 
     /// <summary>Adds a recursive, see <see cref="CreateRecursives"/>.</summary>
@@ -150,6 +156,10 @@ public sealed class FractalPartList
     /// <summary>Tells whether a part has calls that belong to no recursive yet.</summary>
     public bool HasCalls(int part) => _entries[part].HasCalls;
 
+    /// <summary>The steps that a part applies to a call, none for a call itself; null for other parts.</summary>
+    public ImmutableArray<FractalStep>? StepsOnCall(int part) => IsCall(part) ? []
+        : _entries[part].Part is SteppedPart stepped && IsCall(stepped.Inner) ? stepped.Steps : null;
+
     /// <summary>Tells whether a part is a call itself.</summary>
     public bool IsCall(int part) => _entries[part].Call is not null;
 
@@ -181,20 +191,11 @@ public sealed class FractalPartList
             return new(steps, composition);
         }
 
-        var used = new bool[whole + 1];
-        used[whole] = true;
-        for (var i = whole; i >= 0; i--)
-        {
-            foreach (var reference in used[i] ? _entries[i].Part?.References ?? [] : [])
-            {
-                used[reference] = true;
-            }
-        }
-
+        List<int> parts = ListWithReferences(whole);
         int[] order =
         [
-            .. Enumerable.Range(0, used.Length).Where(i => used[i] && _entries[i].Part is null).OrderBy(i => _entries[i].Mesh),
-            .. Enumerable.Range(0, used.Length).Where(i => used[i] && _entries[i].Part is not null),
+            .. parts.Where(i => _entries[i].Part is null).OrderBy(i => _entries[i].Mesh),
+            .. parts.Where(i => _entries[i].Part is not null),
         ];
         var indices = order.Index().ToDictionary(static pair => pair.Item, static pair => pair.Index);
         meshes = [.. order.Select(i => _entries[i].Mesh).OfType<int>()];
@@ -203,6 +204,40 @@ public sealed class FractalPartList
             MeshCount = meshes.Length,
             Parts = [.. order.Skip(meshes.Length).Select(i => _entries[i].Part!.WithReferences(reference => indices[reference]))],
         };
+    }
+
+    /// <summary>
+    /// Lists a part behind all that it is made of, in an order that its references alone decide: so what is made in another order is equal.
+    /// </summary>
+    private List<int> ListWithReferences(int whole)
+    {
+        var listed = new List<int>();
+        var open = new Stack<int>([whole]);
+        var states = new Dictionary<int, bool>();
+        while (open.TryPeek(out var part))
+        {
+            if (states.TryAdd(part, false))
+            {
+                foreach (var reference in (_entries[part].Part?.References ?? []).Reverse())
+                {
+                    if (!states.ContainsKey(reference))
+                    {
+                        open.Push(reference);
+                    }
+                }
+
+                continue;
+            }
+
+            open.Pop();
+            if (!states[part])
+            {
+                states[part] = true;
+                listed.Add(part);
+            }
+        }
+
+        return listed;
     }
 
     /// <summary>

@@ -18,12 +18,18 @@ internal sealed class ChildInstanceBuilder(int baseCount)
     // The limit for expansions that give all children the same number of remaining levels.
     private const int MaxChildrenForSameLevel = 48;
 
+    // Coordinates in the frames of smaller children leave the range in which their squares are accurate.
+    private const double MaxInverseEntry = 1e40;
+
     /// <summary>Maximum number of edges between a sub-fractal and its children: in a repetition, of rounds.</summary>
     public const int MaxExpandedLevels = 16;
 
     private readonly Dictionary<ChildEdge[], ChildInstance> _instances = new(ChildEdgesComparer.Instance);
 
     private readonly Dictionary<ChildEdge[], ChildInstance[]> _wideLevels = new(ChildEdgesComparer.Instance);
+
+    // By sets, the largest size of an entry in the inverse of each map: the same few are asked at each level.
+    private readonly Dictionary<MapSet, double[]> _inverseEntries = [];
 
     private readonly HashSet<ChildEdge[]> _sharedEdges = new(ChildEdgesComparer.Instance);
 
@@ -174,19 +180,37 @@ internal sealed class ChildInstanceBuilder(int baseCount)
     }
 
     /// <summary>Tells whether the chains to a level may be followed by the edges of that level.</summary>
-    private static bool CanExpand(List<EdgeChain> chains, long level, int edgeCount)
+    private bool CanExpand(List<EdgeChain> chains, long level, int edgeCount)
     {
         var count = 0L;
         foreach (var chain in chains)
         {
             count += chain.RemainingLevels == level ? edgeCount : 1;
-            if (count > MaxChildrenForSameLevel || !chain.CanGrow())
+            if (count > MaxChildrenForSameLevel || !CanGrow(chain))
             {
                 return false;
             }
         }
 
         return true;
+    }
+
+    /// <summary>True when the maps of a chain and one more stay well within the range of a double.</summary>
+    private bool CanGrow(EdgeChain chain)
+    {
+        var inverseEntry = 1.0;
+        foreach (var edge in chain.Edges)
+        {
+            if (!_inverseEntries.TryGetValue(edge.Set, out var entries))
+            {
+                entries = Array.ConvertAll(edge.Set.Maps, static map => map.Inverse().Linear.MaxAbsEntry());
+                _inverseEntries.Add(edge.Set, entries);
+            }
+
+            inverseEntry *= Math.Max(1, entries[edge.MapIndex]);
+        }
+
+        return inverseEntry < MaxInverseEntry;
     }
 
     /// <summary>True when all chains that don't lead to a base mesh end at the same level.</summary>
@@ -243,21 +267,6 @@ internal sealed class ChildInstanceBuilder(int baseCount)
     /// <summary>Edges one after another, and the remaining levels of the sub-fractal that they lead to.</summary>
     private sealed record EdgeChain(ChildEdge[] Edges, long RemainingLevels)
     {
-        // Coordinates in the frames of smaller children leave the range in which their squares are accurate.
-        private const double MaxInverseEntry = 1e40;
-
-        /// <summary>True when the maps of the chain and one more stay well within the range of a double.</summary>
-        public bool CanGrow()
-        {
-            var inverseEntry = 1.0;
-            foreach (var edge in Edges)
-            {
-                inverseEntry *= Math.Max(1, edge.Set.Maps[edge.MapIndex].Inverse().Linear.MaxAbsEntry());
-            }
-
-            return inverseEntry < MaxInverseEntry;
-        }
-
         public EdgeChain Append(ChildEdge edge) => new([.. Edges, edge], edge.RemainingLevels(RemainingLevels));
     }
 }

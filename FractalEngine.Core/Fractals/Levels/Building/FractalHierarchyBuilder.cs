@@ -226,7 +226,6 @@ internal sealed class FractalHierarchyBuilder(FractalGraph graph, bool doublesPo
 
         var recursives = new RecursiveLevels(part, Built.Top + 1, index => _tops[index]);
         var period = recursives.Period;
-        _levels.BeginPart(period);
         var nextAttempt = 0L;
         for (var round = 0L; round < (part.Levels ?? EndlessRounds); round++)
         {

@@ -11,17 +11,14 @@ namespace FractalEngine.Core.Fractals.Levels.Building;
 /// </summary>
 internal sealed class LevelBuilder
 {
-    // More rounds mean that the bounds grow or shrink too slowly to converge.
-    private const int MaxRounds = 4000;
-
-    private const int MaxLevels = 20_000;
+    // More mean that the bounds grow or shrink too slowly to converge.
+    private const int MaxSubFractals = 4000;
 
     private readonly ChildInstanceBuilder _childBuilder;
     private readonly LevelUnion _union;
     private readonly SubFractalFactory _subFractalFactory;
     private long _childCount;
     private int _firstOfPart;
-    private int _maxLevels;
 
     /// <summary>Begins with the base meshes, which have no remaining levels.</summary>
     /// <param name="graph">What the levels are of.</param>
@@ -52,14 +49,12 @@ internal sealed class LevelBuilder
     }
 
     /// <summary>Begins the levels of another part, whose bounds may change on as many levels as those of the first.</summary>
-    /// <param name="levelsPerRound">Number of levels that belong together, such as those of recursives in turns.</param>
-    public void BeginPart(int levelsPerRound = 1) =>
-        (_firstOfPart, _maxLevels) = (Built.Count - 1, Math.Max(MaxRounds, (int)Math.Min(MaxLevels, (long)MaxRounds * levelsPerRound)));
+    public void BeginPart() => _firstOfPart = Built.Count - 1;
 
     /// <summary>Refuses a level on top of those before, if they or their children are too many.</summary>
     public void RequireAllowedLevel(int childCount)
     {
-        if (Built.Count - _firstOfPart > _maxLevels)
+        if (Built.Count - _firstOfPart > MaxSubFractals)
         {
             throw new FractalLimitException(
                 "exact search needs transformations that shrink, or less depth: "
