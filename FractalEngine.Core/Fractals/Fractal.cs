@@ -192,7 +192,7 @@ public sealed class Fractal : IEquatable<Fractal>
             throw new ArgumentException($"expected as many fractals as base meshes: {description.MeshCount}", nameof(bases));
         }
 
-        if (bases is [{ Description: { Steps: [], Parts: [] } } only])
+        if (bases is [{ Description.IsMesh: true } only])
         {
             return new(description, only.BaseMeshes) { BaseMeshPaths = only.BaseMeshPaths };
         }

@@ -212,7 +212,7 @@ internal sealed class ModelLoader
     {
         foreach (var (i, (fractal, reference)) in bases.Select(static one => one.Fractal).Zip(parsed.Bases).Index())
         {
-            if (fractal.LevelCount != 0 && parsed.Description.Composition == Composition.Componentwise)
+            if (!fractal.Description.IsMesh && parsed.Description.Composition == Composition.Componentwise)
             {
                 throw parsed.Source.Error(
                     reference.Offset, "a fractal that is composed componentwise can't have another fractal as a part");
@@ -225,17 +225,19 @@ internal sealed class ModelLoader
             }
         }
 
+        Fractal joined;
         try
         {
-            var joined = Fractal.Of(parsed.Description, [.. bases.Select(static one => one.Fractal)]);
-            return joined.BaseMeshes.Length <= ParsingLimits.BaseFiles.Value
-                ? joined
-                : throw new FractalLimitException($"the fractal has more than the limit of {ParsingLimits.BaseFiles.Value} base meshes");
+            joined = Fractal.Of(parsed.Description, [.. bases.Select(static one => one.Fractal)]);
         }
         catch (FractalLimitException exception)
         {
             throw parsed.Source.Error(parsed.ResultOffset, exception.Message, isLimitExceeded: true);
         }
+
+        var limit = ParsingLimits.BaseFiles.Value;
+        return joined.BaseMeshes.Length <= limit ? joined : throw parsed.Source.Error(
+            parsed.ResultOffset, $"the fractal has more than the limit of {limit} base meshes", isLimitExceeded: true);
     }
 
     /// <summary>Returns a fractal with the overrides of the options, and with finite bounds.</summary>

@@ -24,6 +24,9 @@ public sealed record FractalDescription(ImmutableArray<FractalStep> Steps, Compo
     /// </summary>
     public ImmutableArray<FractalPart> Parts { get; init; } = [];
 
+    /// <summary>True where nothing is made of the only base mesh.</summary>
+    public bool IsMesh => Steps.IsEmpty && Parts.IsEmpty;
+
     /// <summary>True when something is repeated without end.</summary>
     public bool IsInfinite => FractalSteps.LevelCount(Steps) is null || Parts.Any(static part => part.IsInfinite);
 

@@ -152,9 +152,9 @@ public sealed class RecursivePart : FractalPart
             return null;
         }
 
-        // A term of a sum is no level of its own where it stands as it is.
+        // A term of a sum is no level of its own where it stands as it is. There may be none.
         return IsSum
-            ? Recursives[0].Calls.Max(call => levelsAt(call.Target) + (call.Map == AffineMap.Identity ? 0 : 1))
+            ? Recursives[0].Calls.Max(call => levelsAt(call.Target) + (call.Map == AffineMap.Identity ? 0 : 1)) ?? 0
             : Ascend(part => levelsAt(part)!.Value, 0, static (longest, count) => Math.Max(longest, count + 1)).ElementAt(levels)[Root];
     }
 

@@ -52,6 +52,7 @@ internal sealed class InstanceBvh
         {
             foreach (var instance in _partition.Order[range])
             {
+                // Sums are of no set: those in one node stand for one.
                 children.Add(new(_maps[instance], _boxes[instance], LevelStep.To(0), children.Count));
             }
         }

@@ -136,6 +136,19 @@ public sealed class SeveralMeshesTests : IDisposable
         Assert.Contains(message, error, StringComparison.Ordinal);
     }
 
+    /// <summary>A sum has no levels, and is no mesh either.</summary>
+    [Theory]
+    [InlineData("<$>. box + cone")]
+    [InlineData("t. ((1, 0, 0), #, #)\n<$>. [t.] box")]
+    public void FractalFile_WithinComponentwiseComposition_IsRefusedWhereItStands(string inner)
+    {
+        File.WriteAllText(_folder["b.fdo"], inner);
+        var error = Assert.Throws<SourceException>(() => Read("t. ((1, 0, 0), #, #)\ncomposition componentwise\n<$>. [t.] \"b.fdo\""));
+        Assert.Contains(
+            "a.fdo:3:11: error: a fractal that is composed componentwise can't have another fractal", error.Message,
+            StringComparison.Ordinal);
+    }
+
     [Fact]
     public void FractalFile_ThatIsInfinite_CanBeASetButNotARound()
     {
@@ -278,6 +291,7 @@ public sealed class SeveralMeshesTests : IDisposable
     [InlineData("z<x>. [half.] x + [half.] [half.] plate\n<$>. z 3", 5)]
     [InlineData("<$>. [half.] x + y + [half.] (x + [half.] y)", 2)]
     [InlineData("z<x>. [half.] x + plate\n<$>. [half.] z 3", 4)]
+    [InlineData("z<x>. [] [half.] (x + x)\n<$>. z 1", 0)]
     public void Levels_AreThoseOfTheLongestChain(string text, long expected) =>
         Assert.Equal(expected, Read($"{Head}x. box\ny. ball\n{text}").LevelCount);
 

@@ -108,9 +108,8 @@ internal sealed class FractalHierarchyBuilder(FractalGraph graph, bool doublesPo
         // The base takes the place of a round that is begun.
         var rounds = 1 + ((levels - 1) / levelsLess);
         var ends = AddSteps(Repeated(maps, rounds), _tops[recursive.BasePart]);
-        AffineMap[] mapsOrNone = [AffineMap.Identity, .. maps.Where(static map => map != AffineMap.Identity)];
         return constants.Length == 0 ? ends : AddUnion(
-            (AffineMap.Identity, AddSteps(Repeated(mapsOrNone, rounds - 1), AddUnion(constants))),
+            (AffineMap.Identity, AddSteps(Repeated([AffineMap.Identity, .. maps], rounds - 1), AddUnion(constants))),
             (AffineMap.Identity, ends));
 
         static ImmutableArray<FractalStep> Repeated(AffineMap[] maps, int? rounds) =>
