@@ -233,7 +233,7 @@ public sealed class PhysicsWorld
         return added;
     }
 
-    /// <summary>Adds a sphere that moves, as <see cref="Add"/> does.</summary>
+    /// <summary>Adds a sphere that moves, as <see cref="Add(BodyDescription)"/> does.</summary>
     /// <param name="position">Initial position of the centre in world space.</param>
     /// <param name="radius">Scene units, positive.</param>
     /// <param name="restitution">Fraction of the speed along the normal that a collision preserves, from 0 to 1.</param>
@@ -250,6 +250,21 @@ public sealed class PhysicsWorld
             Restitution = restitution, Velocity = velocity, Mass = mass, Friction = friction, Damping = damping,
         });
 
+    /// <summary>
+    /// Adds a body whose surface is a fractal with a finite depth, with the mass of its volume at a density of 1 and without friction.
+    /// </summary>
+    /// <param name="fractal">Its frame's origin is not the centre of mass, see <see cref="MeshShape.Centre"/>.</param>
+    /// <param name="position">Initial position of the centre of mass in world space, scene units.</param>
+    /// <returns>The body of the fractal.</returns>
+    /// <exception cref="ArgumentException">The fractal is empty or infinite; the message says which.</exception>
+    public Body Add(Fractal fractal, Vector position) => Add(new BodyDescription(position, new MeshShape(_statics.ModelOf(fractal))));
+
+    /// <summary>Adds a body whose surface is a mesh, with the mass of its volume at a density of 1 and without friction.</summary>
+    /// <inheritdoc cref="Add(Fractal, Vector)"/>
+    /// <param name="mesh">Where it is not closed, its convex hull counts for the mass.</param>
+    /// <param name="position">Initial position of the centre of mass in world space, scene units.</param>
+    public Body Add(Mesh mesh, Vector position) => Add(new BodyDescription(position, new MeshShape(_statics.ModelOf(mesh))));
+
     /// <summary>Adds a body. It stays until <see cref="Reset"/>. Cost O(n·log n) for n bodies.</summary>
     /// <exception cref="ArgumentException">A number is not finite, or outside its range; the message names it and the body.</exception>
     public Body Add(BodyDescription description)
@@ -260,7 +275,7 @@ public sealed class PhysicsWorld
     }
 
     /// <summary>Adds several bodies, or none if one of them is invalid. Faster than adding them one by one.</summary>
-    /// <inheritdoc cref="Add"/>
+    /// <inheritdoc cref="Add(BodyDescription)"/>
     public void AddRange(IEnumerable<BodyDescription> descriptions)
     {
         var all = descriptions.ToArray();

@@ -5,6 +5,7 @@ using FractalEngine.Core.Physics.Descriptions;
 using FractalEngine.Core.Physics.Events;
 using FractalEngine.Core.Physics.Islands;
 using FractalEngine.Core.Physics.Movement;
+using FractalEngine.Core.Physics.Rigid;
 using FractalEngine.Core.Physics.Separation;
 using FractalEngine.Core.Physics.Solving;
 using FractalEngine.Core.Physics.Statics;
@@ -50,6 +51,7 @@ internal sealed class WorldStepper
     private readonly EnergyGuard _energyGuard;
     private readonly PhysicsSettings _settings;
     private readonly ParallelSteppers _parallel;
+    private readonly RigidStepper _rigid;
     private readonly Action<BodyStepper, int> _prepare;
     private readonly Action<BodyStepper, int> _findNearSurfaces;
     private readonly Action<BodyStepper, int> _movePlanned;
@@ -83,6 +85,7 @@ internal sealed class WorldStepper
         var maxThreads = settings.MaxThreads ?? Environment.ProcessorCount;
         _planner = new(bodies, _nearbyBodies, ContactLog, new(), maxThreads);
         _stepper = CreateStepper(_nearbyBodies, Obstacles, QueryContext);
+        _rigid = new(settings, bodies, statics, ContactLog, maxThreads);
         _islandMover = new(bodies, _planner.Islands, _grid, _nearbyBodies);
         _energyGuard = new(bodies, _planner.Islands);
         _parallel = new(
@@ -132,6 +135,7 @@ internal sealed class WorldStepper
     public void PlaceBodies()
     {
         _grid.Build(_bodies);
+        _rigid.PlaceBodies();
         _parallel.Reserve(_bodies.Count);
         _nearbyBodies.HasFilters = _bodies.Exists(static body => body.Description.Mask != Layers.All || body.Description.Layer != 0);
         var contactCount = ContactsPerBall * _bodies.Sum(static body => body.BallCount);
@@ -156,6 +160,7 @@ internal sealed class WorldStepper
     {
         _grid.Build(_bodies);
         ContactLog.Clear();
+        _rigid.Reset();
         _planner.Reset();
         LastCost = default;
     }
@@ -203,7 +208,8 @@ internal sealed class WorldStepper
     private (long Faces, long Bounds) CountTests()
     {
         var (faces, bounds) = _parallel.CountTests();
-        return (QueryContext.Statistics.FaceTests + faces, QueryContext.Statistics.BoundTests + bounds);
+        var (rigidFaces, rigidBounds) = _rigid.CountTests();
+        return (QueryContext.Statistics.FaceTests + faces + rigidFaces, QueryContext.Statistics.BoundTests + bounds + rigidBounds);
     }
 
     /// <summary>
@@ -260,6 +266,28 @@ internal sealed class WorldStepper
 
         _kinematics.BeginPart(time, _seconds);
         WakeNearKinematics();
+        MoveBodies();
+        if (_character is { } character)
+        {
+            StepCharacter(character);
+        }
+
+        _kinematics.EndPart();
+    }
+
+    private void MoveBodies()
+    {
+        if (_rigid.IsNeeded)
+        {
+            _rigid.StepPart(_gravity, _seconds);
+            for (var i = 0; i < _bodies.Count; i++)
+            {
+                _grid.Update(i);
+            }
+
+            return;
+        }
+
         PlanIslands();
         MoveIslands();
         for (var i = 0; IslandSet.BodyCount < _bodies.Count && i < _bodies.Count; i++)
@@ -279,12 +307,6 @@ internal sealed class WorldStepper
         }
 
         IslandSet.PutToSleep(_settings.TimeBeforeSleep);
-        if (_character is { } character)
-        {
-            StepCharacter(character);
-        }
-
-        _kinematics.EndPart();
     }
 
     private void BeginPart(int job)

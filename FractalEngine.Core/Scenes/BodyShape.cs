@@ -1,6 +1,6 @@
 namespace FractalEngine.Core.Scenes;
 
-/// <summary>What of a physics object collides: the ball about it, or several balls that are fitted to its model.</summary>
+/// <summary>What of a physics object collides: the ball about it, several balls that are fitted to its model, or the model itself.</summary>
 /// <param name="BallCount">Number of balls of a rigid body; 0 for the one about the object's position, or for a capsule.</param>
 /// <param name="IsCapsule">True for a capsule along the model's longest side.</param>
 public readonly record struct BodyShape(int BallCount, bool IsCapsule)
@@ -13,6 +13,12 @@ public readonly record struct BodyShape(int BallCount, bool IsCapsule)
 
     /// <summary>The capsule along the model's longest side that holds all of its vertices.</summary>
     public static BodyShape Capsule => new(0, IsCapsule: true);
+
+    /// <summary>The model itself: its mesh, or all instances of its fractal.</summary>
+    public static BodyShape Mesh => new() { IsMesh = true };
+
+    /// <summary>True where the model itself collides.</summary>
+    public bool IsMesh { get; private init; }
 
     /// <summary>A number of balls that cover the model's surface.</summary>
     /// <param name="count">From 1 to <see cref="MaxBallCount"/>.</param>

@@ -25,8 +25,28 @@ public sealed record PhysicsObject : SceneObject
     /// <summary>Initial velocity in units a second.</summary>
     public Vector Velocity { get; init; }
 
-    /// <summary>Mass in kilograms, positive.</summary>
-    public double Mass { get; init; } = 1;
+    /// <summary>
+    /// Mass in kilograms, positive: 1 unless stated, or the volume times <see cref="Density"/> for a body with the shape of its model.
+    /// </summary>
+    public double Mass
+    {
+        get;
+        init
+        {
+            field = value;
+            IsMassStated = true;
+        }
+    }
+
+    = 1;
+
+    /// <summary>True where the mass has been set.</summary>
+    public bool IsMassStated { get; private init; }
+
+    /// <summary>
+    /// Kilograms in a cubic unit of a body with the shape of its model, positive; null for 1 where no mass is stated.
+    /// </summary>
+    public double? Density { get; init; }
 
     /// <summary>Coulomb's coefficient of friction; 0 for the paper's bodies, which keep their speed along a surface.</summary>
     public double Friction { get; init; }

@@ -34,6 +34,9 @@ public abstract class SceneObjectParser : LightParser
         [
             BodyOption<Vector>("velocity", ParseVector, (body, velocity) => body with { Velocity = velocity }),
             BodyOption("mass", Number(mass => mass > 0, "the mass must be positive"), (body, mass) => body with { Mass = mass }),
+            BodyOption(
+                "density", Number(density => density > 0, "the density must be positive"),
+                (body, density) => body with { Density = density }),
             BodyOption("friction", NonNegative("the friction"), (body, friction) => body with { Friction = friction }),
             BodyOption("damping", NonNegative("the damping"), (body, damping) => body with { Damping = damping }),
             BodyOption("rolling", NonNegative("the rolling friction"), (body, friction) => body with { RollingFriction = friction }),
@@ -173,15 +176,16 @@ public abstract class SceneObjectParser : LightParser
         cursor, static factor => factor is > 0 and <= PhysicsObject.ShellInertiaFactor, "the inertia must be positive and at most 2/3",
         out factor, out rest);
 
-    /// <summary>Parses what of a body collides: a number of balls or a capsule.</summary>
+    /// <summary>Parses what of a body collides: a number of balls, a capsule or the model itself.</summary>
     private bool ParseShape(Cursor cursor, out BodyShape shape, out Cursor rest)
     {
-        shape = BodyShape.Capsule;
         if (!ParseKeyword(cursor, "balls", out rest))
         {
-            return ParseWord(cursor, "capsule", out rest);
+            shape = ParseKeyword(cursor, "mesh", out rest) ? BodyShape.Mesh : BodyShape.Capsule;
+            return shape.IsMesh || ParseWord(cursor, "capsule", out rest);
         }
 
+        shape = default;
         return ParseNumber(
                 rest, static number => number is >= 1 and <= BodyShape.MaxBallCount && number == Math.Floor(number),
                 $"a body has 1 to {BodyShape.MaxBallCount} balls", out var count, out rest)

@@ -108,6 +108,9 @@ internal sealed class ConvexHull
             vertices, planes, 0, Array.ConvertAll(_facets, facet => new HullFacet(map * facet.A, map * facet.B, map * facet.C)));
     }
 
+    /// <summary>The triangles of the surface, wound outwards unless the hull is flat.</summary>
+    public IEnumerable<(Vector A, Vector B, Vector C)> Triangles => _facets.Select(static facet => (facet.A, facet.B, facet.C));
+
     /// <summary>Computes the volume in cubic scene units; 0 where the hull is flat.</summary>
     public double Volume() => Math.Abs(_facets.Sum(
         facet => Vector.Dot(facet.A - Vertices[0], Vector.Cross(facet.B - Vertices[0], facet.C - Vertices[0])))) / 6;

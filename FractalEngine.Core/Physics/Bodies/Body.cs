@@ -26,7 +26,8 @@ public sealed class Body
     {
         Description = description;
         Index = index;
-        Balls = [.. Enumerable.Range(0, description.Shape?.Balls.Length ?? 1).Select(static _ => new BodyBall())];
+        var ballCount = description.Mesh is null ? description.Shape?.Balls.Length ?? 1 : 0;
+        Balls = [.. Enumerable.Range(0, ballCount).Select(static _ => new BodyBall())];
         Reset(acceleration);
     }
 
@@ -241,11 +242,16 @@ public sealed class Body
         NetAcceleration = Vector.Zero;
     }
 
-    /// <summary>Number of balls that the body consists of: 1, or those of <see cref="BodyDescription.Shape"/>.</summary>
+    /// <summary>
+    /// Number of balls that the body consists of: 1, those of <see cref="BodyDescription.Shape"/>, or none where a mesh or fractal collides.
+    /// </summary>
     public int BallCount => Balls.Length;
 
-    /// <summary>True for a body with a shape of balls, which has an orientation that matters.</summary>
-    internal bool IsCompound => Description.Shape is not null;
+    /// <summary>True for a body with a shape of its own, whose orientation matters.</summary>
+    internal bool IsCompound => Inertia is not null;
+
+    /// <summary>Inertia tensor of one kilogram of a shape at its first size; null for a ball.</summary>
+    internal Matrix? Inertia => Description.Shape?.Inertia ?? Description.Mesh?.Inertia;
 
     /// <summary>The balls that are rigidly joined: those of a compound, or one at the body's position.</summary>
     internal BodyBall[] Balls { get; }
@@ -368,7 +374,7 @@ public sealed class Body
     /// <summary>Puts the balls where the orientation and scale of the body have them, and its inertia as well.</summary>
     private void UpdateBalls()
     {
-        if (Description.Shape is not { } shape)
+        if (Inertia is not { } inertia)
         {
             Balls[0].Radius = Radius;
             InverseInertia = Description.IsRotationLocked ? 0 : 1 / (Description.InertiaFactor * Description.Mass * Radius * Radius);
@@ -380,13 +386,13 @@ public sealed class Body
         MinBallRadius = double.PositiveInfinity;
         for (var i = 0; i < Balls.Length; i++)
         {
-            Balls[i].Offset = Scale * (rotation * shape.Balls[i].Offset);
-            Balls[i].Radius = Scale * shape.Balls[i].Radius;
+            Balls[i].Offset = Scale * (rotation * Description.Shape!.Balls[i].Offset);
+            Balls[i].Radius = Scale * Description.Shape.Balls[i].Radius;
             MaxArm = Math.Max(MaxArm, Balls[i].Offset.Length());
             MinBallRadius = Math.Min(MinBallRadius, Balls[i].Radius);
         }
 
-        InertiaTensor = Description.Mass * Scale * Scale * (rotation * shape.Inertia * rotation.Transpose());
+        InertiaTensor = Description.Mass * Scale * Scale * (rotation * inertia * rotation.Transpose());
         InverseInertiaTensor = Description.IsRotationLocked ? 0 * Matrix.Identity : InertiaTensor.Inverse();
         // The trace is at least the largest eigenvalue.
         InverseInertia = InverseInertiaTensor.V1.X + InverseInertiaTensor.V2.Y + InverseInertiaTensor.V3.Z;
@@ -486,6 +492,15 @@ public sealed class Body
 
     /// <summary>True once these faces have been searched for in this step.</summary>
     internal bool AreNearSurfacesKnown { get; set; }
+
+    /// <summary>True where the body had contacts in the last part of a step.</summary>
+    internal bool HasRigidContacts { get; set; }
+
+    /// <summary>The bodies with the same number fell asleep together, and wake together.</summary>
+    internal int RigidIsland { get; set; }
+
+    /// <summary>True where a body of those that this one stands for has to stay awake.</summary>
+    internal bool IsRigidIslandAwake { get; set; }
 
     /// <summary>True while the body shrinks and has not reached its minimum scale.</summary>
     internal bool IsShrinking => Shrinkage > 0 && Scale > Description.MinScale;

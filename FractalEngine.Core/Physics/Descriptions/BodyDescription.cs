@@ -15,6 +15,21 @@ public sealed record BodyDescription(Vector Position, double Radius)
     public BodyDescription(Vector position, CompoundShape shape)
         : this(position, shape?.Radius ?? throw new ArgumentNullException(nameof(shape))) => Shape = shape;
 
+    /// <summary>Describes a rigid body whose surface is a mesh or fractal, with the mass of its volume at a density of 1.</summary>
+    /// <param name="position">Initial position of the centre of mass in world space, scene units.</param>
+    /// <param name="mesh">Its surface, and how its mass is spread.</param>
+    public BodyDescription(Vector position, MeshShape mesh)
+        : this(position, mesh?.Radius ?? throw new ArgumentNullException(nameof(mesh)))
+    {
+        Mesh = mesh;
+        Mass = mesh.Volume;
+        LinearPart = mesh.Linear;
+        ObjectOffset = -mesh.Centre;
+    }
+
+    /// <summary>The surface that collides; null for balls.</summary>
+    public MeshShape? Mesh { get; init; }
+
     /// <summary>The balls of a compound; null for one ball.</summary>
     public CompoundShape? Shape { get; init; }
 
@@ -87,20 +102,25 @@ public sealed record BodyDescription(Vector Position, double Radius)
     /// <param name="placed">The object with its model.</param>
     /// <param name="declared">What the scene declares of it.</param>
     /// <param name="index">Index of the object in the scene.</param>
-    /// <exception cref="ArgumentException">The model is too long for a capsule.</exception>
+    /// <exception cref="ArgumentException">The model is too long for a capsule, or none that collides itself.</exception>
     /// <remarks>An object whose model has no vertices gets the radius 0, which no world accepts.</remarks>
     public static BodyDescription FromPhysicsObject(PlacedModel placed, PhysicsObject declared, int index)
     {
-        var shape = declared.Shape == BodyShape.Ball ? null : CompoundFit.Fit(placed, declared.Shape);
-        var centre = shape?.Centre ?? Vector.Zero;
+        ArgumentCheck.Require(declared.Density is null || declared.Shape.IsMesh, "a density needs 'shape mesh'");
+        ArgumentCheck.Require(declared.Density is null or > 0, "the density must be positive");
+        var mesh = declared.Shape.IsMesh ? new MeshShape(placed.Model, placed.ObjectToWorld.Linear) : null;
+        var shape = declared.Shape == BodyShape.Ball || mesh is not null ? null : CompoundFit.Fit(placed, declared.Shape);
+        var centre = shape?.Centre ?? mesh?.Centre ?? Vector.Zero;
         var position = placed.ObjectToWorld.Translation;
-        return new(centre == Vector.Zero ? position : position + centre, shape?.Radius ?? BodyRadius.Compute(placed))
+        return new(centre == Vector.Zero ? position : position + centre, shape?.Radius ?? mesh?.Radius ?? BodyRadius.Compute(placed))
         {
             Shape = shape,
+            Mesh = mesh,
             ObjectOffset = Vector.Zero - centre,
             Name = declared.Name,
             Velocity = declared.Velocity,
-            Mass = declared.Mass,
+            Mass = mesh is null || (declared.IsMassStated && declared.Density is null)
+                ? declared.Mass : (declared.Density ?? 1) * mesh.Volume,
             Restitution = declared.Restitution,
             Friction = declared.Friction,
             InertiaFactor = declared.InertiaFactor,
@@ -123,7 +143,9 @@ public sealed record BodyDescription(Vector Position, double Radius)
 
     /// <summary>Describes the first number that no body can have; null for a valid description.</summary>
     internal string? FindFault() =>
-        Shape is not null && Shape.Radius != Radius ? "the radius must be that of the shape"
+        (Shape?.Radius ?? Mesh?.Radius ?? Radius) != Radius ? "the radius must be that of the shape"
+        : Mesh is not null && Shape is not null ? "a body has one shape"
+        : Mesh is not null && Shrinkage > 0 ? "a body with the shape of its mesh does not shrink"
         : !(Position.IsFinite() && Velocity.IsFinite()) ? "position and velocity must be finite"
         : !AngularVelocity.IsFinite() ? "the angular velocity must be finite"
         : !(LinearPart.IsFinite() && ObjectOffset.IsFinite()) ? "rotation and scale must be finite"

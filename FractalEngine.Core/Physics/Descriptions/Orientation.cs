@@ -31,11 +31,13 @@ public readonly record struct Orientation(double Cosine, Vector Axis)
             return this;
         }
 
-        var turn = new Orientation(Math.Cos(0.5 * angle), Math.Sin(0.5 * angle) / angle * rotationVector);
-        return new Orientation(
-            (turn.Cosine * Cosine) - Vector.Dot(turn.Axis, Axis),
-            (turn.Cosine * Axis) + (Cosine * turn.Axis) + Vector.Cross(turn.Axis, Axis)).Normalized();
+        return new Orientation(Math.Cos(0.5 * angle), Math.Sin(0.5 * angle) / angle * rotationVector).After(this);
     }
+
+    /// <summary>The rotation that turns as another one does first, and then as this one.</summary>
+    internal Orientation After(in Orientation first) => new Orientation(
+        (Cosine * first.Cosine) - Vector.Dot(Axis, first.Axis),
+        (Cosine * first.Axis) + (first.Cosine * Axis) + Vector.Cross(Axis, first.Axis)).Normalized();
 
     /// <summary>Interpolates between two orientations, by the shorter way.</summary>
     /// <param name="from">The orientation at 0.</param>

@@ -1,0 +1,176 @@
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Physics.Rigid;
+
+/// <summary>
+/// The contacts of two surfaces, reduced to few that hold as well: of each group with about the same normal the deepest one, and the
+/// outermost one in each of eight directions across it.
+/// </summary>
+internal sealed class ContactManifold
+{
+    private const int MaxGroups = 8;
+    private const int Directions = 8;
+    private const int PointsPerGroup = Directions + 1;
+
+    // Cosine of the angle between normals of one group.
+    private const double MinCosine = 0.97;
+
+    // Cosine of the angle between a plane of contacts and an axis that parts two boxes, for those contacts to hold the boxes.
+    private const double MinHoldingCosine = 0.9999;
+
+    // Relative to the contact distance: gaps that count as equal.
+    private const double GapTolerance = 0.25;
+
+    // Relative to the contact distance: points that count as one place, or as no farther out.
+    private const double PlaceTolerance = 1;
+
+    // Angle of the first direction, in which no common shape has two outermost corners.
+    private const double FirstAngle = 0.29;
+
+    private readonly ContactPoint[] _points = new ContactPoint[MaxGroups * PointsPerGroup];
+    private readonly Vector[] _normals = new Vector[MaxGroups];
+    private readonly Vector[] _directions = new Vector[MaxGroups * Directions];
+    private double _distance;
+    private int _groupCount;
+
+    /// <summary>Begins the contacts of another pair.</summary>
+    /// <param name="distance">The distance at which surfaces rest on each other, scene units.</param>
+    public void Begin(double distance)
+    {
+        _distance = distance;
+        _groupCount = 0;
+    }
+
+    /// <summary>Adds a contact, if it is deeper or farther out than others of its group.</summary>
+    public void Add(in ContactPoint contact)
+    {
+        var group = FindGroup(contact.Normal);
+        if (group < 0)
+        {
+            if (_groupCount == MaxGroups)
+            {
+                return;
+            }
+
+            group = CreateGroup(contact.Normal);
+            Array.Fill(_points, contact, group * PointsPerGroup, PointsPerGroup);
+            return;
+        }
+
+        var points = _points.AsSpan(group * PointsPerGroup, PointsPerGroup);
+        points[Directions] = contact.Gap < points[Directions].Gap ? contact : points[Directions];
+        for (var i = 0; i < Directions; i++)
+        {
+            var farther = Vector.Dot(_directions[(group * Directions) + i], contact.Point - points[i].Point);
+            points[i] = farther > PlaceTolerance * _distance ? contact : points[i];
+        }
+    }
+
+    /// <summary>True where the contacts that there are keep two boxes apart, so that those between the boxes add nothing.</summary>
+    /// <param name="axis">Unit axis that parts the boxes.</param>
+    /// <param name="gap">The gap between the boxes along it.</param>
+    /// <param name="smaller">The smaller one of the boxes.</param>
+    public bool Holds(Vector axis, double gap, in SurfaceBox smaller)
+    {
+        for (var group = 0; group < _groupCount; group++)
+        {
+            if (Vector.Dot(axis, _normals[group]) > MinHoldingCosine && IsWithin(group, gap, in smaller))
+            {
+                return true;
+            }
+        }
+
+        return false;
+    }
+
+    /// <summary>Lists the contacts, each once.</summary>
+    public void CopyTo(List<ContactPoint> contacts)
+    {
+        for (var group = 0; group < _groupCount; group++)
+        {
+            var first = contacts.Count;
+            var points = _points.AsSpan(group * PointsPerGroup, PointsPerGroup);
+            for (var i = PointsPerGroup - 1; i >= 0; i--)
+            {
+                if (!IsListed(contacts, first, points[i].Point))
+                {
+                    contacts.Add(points[i]);
+                }
+            }
+        }
+    }
+
+    private bool IsListed(List<ContactPoint> contacts, int first, Vector point)
+    {
+        for (var i = first; i < contacts.Count; i++)
+        {
+            if ((contacts[i].Point - point).Length() <= PlaceTolerance * _distance)
+            {
+                return true;
+            }
+        }
+
+        return false;
+    }
+
+    /// <summary>True for a box within the polygon of a group's outermost points, where these are no farther apart than the boxes.</summary>
+    private bool IsWithin(int group, double gap, in SurfaceBox box)
+    {
+        var points = _points.AsSpan(group * PointsPerGroup, PointsPerGroup);
+        var corners = 0;
+        for (var i = 0; i < Directions; i++)
+        {
+            var from = points[i].Point;
+            var edge = points[(i + 1) % Directions].Point - from;
+            if (points[i].Gap > gap + (GapTolerance * _distance))
+            {
+                return false;
+            }
+
+            var outwards = Vector.Cross(edge, _normals[group]);
+            var length = outwards.Length();
+            if (length <= PlaceTolerance * _distance)
+            {
+                continue;
+            }
+
+            corners++;
+            outwards /= length;
+            if (Vector.Dot(outwards, box.Centre - from) + box.Extent(outwards) > 2 * PlaceTolerance * _distance)
+            {
+                return false;
+            }
+        }
+
+        return corners > 2;
+    }
+
+    private int FindGroup(Vector normal)
+    {
+        for (var group = 0; group < _groupCount; group++)
+        {
+            if (Vector.Dot(normal, _normals[group]) > MinCosine)
+            {
+                return group;
+            }
+        }
+
+        return -1;
+    }
+
+    private int CreateGroup(Vector normal)
+    {
+        var group = _groupCount++;
+        _normals[group] = normal;
+        var least = Math.Abs(normal.X) < 0.6 ? Vector.I : Vector.J;
+        var tangent1 = Vector.Cross(normal, least).UnitVector();
+        var tangent2 = Vector.Cross(normal, tangent1);
+        for (var i = 0; i < Directions; i++)
+        {
+            var (sine, cosine) = Math.SinCos(FirstAngle + (2 * Math.PI * i / Directions));
+            _directions[(group * Directions) + i] = (cosine * tangent1) + (sine * tangent2);
+        }
+
+        return group;
+    }
+}

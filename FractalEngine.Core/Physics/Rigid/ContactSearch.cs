@@ -1,0 +1,300 @@
+using System.Runtime.InteropServices;
+using FractalEngine.Core.Geometry.Triangles;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics.Descriptions;
+
+namespace FractalEngine.Core.Physics.Rigid;
+
+/// <summary>
+/// Finds where two surfaces touch or nearly touch: all pairs of triangles within a margin, the outermost parts first, without those that
+/// the contacts found so far hold apart.
+/// </summary>
+internal sealed class ContactSearch : PairSearch
+{
+    // Cosine of the angle between the line of the closest points and a face, for that face to be touched flatly.
+    private const double MinFaceCosine = 0.95;
+
+    // Relative to the contact distance: edges and corners beyond it are left to the sweep, since their normals change on the way.
+    private const double EdgeMargin = 2;
+
+    // Relative to the contact distance: a contact with an edge so near a deeper one with a face is a seam of that face.
+    private const double SeamDistance = 4;
+
+    // Relative to the radius of a ball or capsule: the same for what has one.
+    private const double SeamFraction = 0.1;
+
+    // Pairs of parts that are opened: the contacts found up to there have to do.
+    private const int MaxPairs = 20_000;
+
+    // Corners of a triangle that is clipped by another.
+    private const int MaxCorners = 9;
+
+    private readonly PriorityQueue<Pair, (double Inwardness, int Order)> _queue = new();
+    private readonly List<(SurfaceTriangle Placed, int Index)> _near1 = [];
+    private readonly List<(SurfaceTriangle Placed, int Index)> _near2 = [];
+    private List<NearPair> _near = [];
+    private readonly List<ContactPoint> _edges = [];
+    private readonly List<ContactPoint> _faces = [];
+    private readonly ContactManifold _manifold = new();
+    private double _distance;
+    private double _margin;
+    private double _maxDepth;
+    private double _seamDistance;
+    private Vector _middle;
+    private int _order;
+
+    /// <summary>Finds the contacts of two surfaces.</summary>
+    /// <param name="first">The first surface.</param>
+    /// <param name="motion1">Where it is.</param>
+    /// <param name="second">The second surface.</param>
+    /// <param name="motion2">Where it is, in the same frame.</param>
+    /// <param name="distance">The distance at which surfaces rest on each other, scene units.</param>
+    /// <param name="margin">Largest gap that counts, at least that distance.</param>
+    /// <param name="contacts">Receives the contacts, in the order of their groups.</param>
+    /// <param name="near">Receives all that is within the margin.</param>
+    /// <returns>False where there was too much to look at all of it.</returns>
+    public bool FindContacts(
+        SurfaceNodes first, in SurfaceMotion motion1, SurfaceNodes second, in SurfaceMotion motion2, double distance, double margin,
+        List<ContactPoint> contacts, List<NearPair> near)
+    {
+        _near = near;
+        SetPair(first, motion1.Stopped, second, motion2.Stopped);
+        _distance = distance;
+        _margin = margin;
+        var box1 = first[0].Place(in Motion1);
+        var box2 = second[0].Place(in Motion2);
+        _middle = box1.Radius < box2.Radius ? box1.Centre : box2.Centre;
+        _maxDepth = 0.02 * Math.Min(box1.Radius, box2.Radius);
+        _queue.Clear();
+        _edges.Clear();
+        _faces.Clear();
+        _order = 0;
+        _manifold.Begin(distance);
+        Enqueue(0, 0);
+        for (var opened = 0; opened < MaxPairs && _queue.TryDequeue(out var pair, out _); opened++)
+        {
+            if (_manifold.Holds(pair.Axis, pair.Gap, in pair.Smaller))
+            {
+                near.Add(new(pair.First, -1, pair.Second, -1, pair.Axis));
+                continue;
+            }
+
+            if (first.IsLeaf(pair.First) && second.IsLeaf(pair.Second))
+            {
+                TestLeaves(pair.First, pair.Second);
+                continue;
+            }
+
+            var children = OpenLarger(pair.First, pair.Second, out var opensFirst);
+            for (var child = children.Start.Value; child < children.End.Value; child++)
+            {
+                Enqueue(opensFirst ? child : pair.First, opensFirst ? pair.Second : child);
+            }
+        }
+
+        foreach (var edge in _edges)
+        {
+            if (!IsSeam(in edge))
+            {
+                _manifold.Add(in edge);
+            }
+        }
+
+        _manifold.CopyTo(contacts);
+        return _queue.Count == 0;
+    }
+
+    // Nothing moves, so that what is apart stays so for ever.
+    private SeparationTest Test => new(in Motion1, in Motion2, Vector.Zero, 0, Vector.Zero, 0);
+
+    private void Enqueue(int node1, int node2)
+    {
+        BoundTests++;
+        var box1 = First[node1].Place(in Motion1);
+        var box2 = Second[node2].Place(in Motion2);
+        _ = Test.SafeTime(in box1, in box2, _margin, 1, out var best);
+        if (best.Gap <= _margin)
+        {
+            var smaller = box1.Radius < box2.Radius ? box1 : box2;
+            _queue.Enqueue(
+                new(node1, node2, best.Axis, best.Gap, smaller), (-(smaller.Centre - _middle).Length() - smaller.Radius, ++_order));
+        }
+    }
+
+    private void TestLeaves(int leaf1, int leaf2)
+    {
+        var box1 = First[leaf1].Place(in Motion1);
+        var box2 = Second[leaf2].Place(in Motion2);
+        CollectNear(First.Triangles(leaf1), in box2, isFirst: true, _near1);
+        CollectNear(Second.Triangles(leaf2), in box1, isFirst: false, _near2);
+        foreach (ref readonly var triangle1 in CollectionsMarshal.AsSpan(_near1))
+        {
+            foreach (ref readonly var triangle2 in CollectionsMarshal.AsSpan(_near2))
+            {
+                if (TestTriangles(in triangle1.Placed, in triangle2.Placed, out var axis))
+                {
+                    _near.Add(new(leaf1, triangle1.Index, leaf2, triangle2.Index, axis));
+                }
+            }
+        }
+    }
+
+    private void CollectNear(SurfaceTriangle[] triangles, in SurfaceBox otherBox, bool isFirst, List<(SurfaceTriangle Placed, int Index)> near)
+    {
+        near.Clear();
+        for (var i = 0; i < triangles.Length; i++)
+        {
+            var triangle = isFirst ? triangles[i].Place(in Motion1) : triangles[i].Place(in Motion2);
+            if (Test.SafeTime(in triangle, in otherBox, isFirst, _margin, 1) < 1)
+            {
+                near.Add((triangle, i));
+            }
+        }
+    }
+
+    /// <summary>Adds the contacts of two triangles.</summary>
+    /// <returns>False where they are farther apart than the margin.</returns>
+    private bool TestTriangles(in SurfaceTriangle triangle1, in SurfaceTriangle triangle2, out Vector normal)
+    {
+        normal = Vector.Zero;
+        if (Test.SafeTime(in triangle1, in triangle2, _margin, 1) >= 1)
+        {
+            return false;
+        }
+
+        FaceTests++;
+        var closest = TrianglePairKernel.Closest(triangle1.Corners, triangle2.Corners);
+        var rounding = triangle1.Rounding + triangle2.Rounding;
+        var gap = Math.Sqrt(closest.DistanceSquared) - rounding;
+        if (gap > _margin)
+        {
+            return false;
+        }
+
+        normal = (closest.Point1 - closest.Point2).UnitVectorOrZero();
+        if (normal == Vector.Zero || closest.DistanceSquared == 0)
+        {
+            AddCrossing(in triangle1, in triangle2, closest.Point1);
+            return true;
+        }
+
+        var cosine1 = Math.Abs(Vector.Dot(normal, triangle1.Normal));
+        var cosine2 = Math.Abs(Vector.Dot(normal, triangle2.Normal));
+        if (Math.Max(cosine1, cosine2) >= MinFaceCosine)
+        {
+            Clip(in triangle1, in triangle2, normal, isFirstClipped: cosine2 >= cosine1);
+        }
+        else if (triangle1.Normal == Vector.Zero && triangle2.Normal == Vector.Zero)
+        {
+            // Balls and capsules have no edges that could be seams.
+            _manifold.Add(CreateContact(in closest, normal, triangle1.Rounding, triangle2.Rounding, gap));
+        }
+        else if (gap <= EdgeMargin * _distance)
+        {
+            _seamDistance = (SeamDistance * _distance) + (SeamFraction * rounding);
+            _edges.Add(CreateContact(in closest, normal, triangle1.Rounding, triangle2.Rounding, gap));
+        }
+
+        return true;
+    }
+
+    private static ContactPoint CreateContact(
+        in TrianglePair closest, Vector normal, double rounding1, double rounding2, double gap) =>
+        new(0.5 * (closest.Point1 - (rounding1 * normal) + closest.Point2 + (rounding2 * normal)), normal, gap);
+
+    /// <summary>Adds the corners of what a triangle that lies flat on the face of another has in common with it.</summary>
+    private void Clip(in SurfaceTriangle triangle1, in SurfaceTriangle triangle2, Vector normal, bool isFirstClipped)
+    {
+        ref readonly var clipped = ref isFirstClipped ? ref triangle1 : ref triangle2;
+        ref readonly var face = ref isFirstClipped ? ref triangle2 : ref triangle1;
+        var faceNormal = Vector.Dot(normal, face.Normal) < 0 ? -face.Normal : face.Normal;
+        Span<Vector> corners = stackalloc Vector[MaxCorners];
+        Span<Vector> kept = stackalloc Vector[MaxCorners];
+        (corners[0], corners[1], corners[2]) = clipped.Corners;
+        var count = ClipBySide(corners, 3, face.Corners.A, face.Corners.B, face.Normal, kept);
+        count = ClipBySide(kept, count, face.Corners.B, face.Corners.C, face.Normal, corners);
+        count = ClipBySide(corners, count, face.Corners.C, face.Corners.A, face.Normal, kept);
+        var towards = isFirstClipped ? 1 : -1;
+        foreach (var corner in kept[..count])
+        {
+            var height = towards * Vector.Dot(faceNormal, corner - face.Corners.A);
+            var gap = height - triangle1.Rounding - triangle2.Rounding;
+            if (gap <= _margin && gap >= -_maxDepth)
+            {
+                var foot = corner - (towards * height * faceNormal);
+                var contact = new ContactPoint(
+                    0.5 * (corner - (towards * clipped.Rounding * faceNormal) + foot + (towards * face.Rounding * faceNormal)), faceNormal,
+                    gap);
+                _faces.Add(contact);
+                _manifold.Add(in contact);
+            }
+        }
+    }
+
+    private static int ClipBySide(
+        ReadOnlySpan<Vector> corners, int count, Vector from, Vector to, Vector faceNormal, Span<Vector> kept)
+    {
+        var inwards = Vector.Cross(faceNormal, to - from);
+        var keptCount = 0;
+        for (var i = 0; i < count; i++)
+        {
+            var current = corners[i];
+            var next = corners[(i + 1) % count];
+            var height1 = Vector.Dot(inwards, current - from);
+            var height2 = Vector.Dot(inwards, next - from);
+            if (height1 >= 0)
+            {
+                kept[keptCount++] = current;
+            }
+
+            if ((height1 < 0 && height2 > 0) || (height1 > 0 && height2 < 0))
+            {
+                kept[keptCount++] = current + (height1 / (height1 - height2) * (next - current));
+            }
+        }
+
+        return keptCount;
+    }
+
+    /// <summary>Adds the contact of triangles that cross: out of the face that is less deep in the other body.</summary>
+    private void AddCrossing(in SurfaceTriangle triangle1, in SurfaceTriangle triangle2, Vector point)
+    {
+        var outwards1 = First.IsMirrored ? -triangle1.Normal : triangle1.Normal;
+        var outwards2 = Second.IsMirrored ? -triangle2.Normal : triangle2.Normal;
+        var depth1 = triangle2.ReachAlong(outwards1).Minimum - Vector.Dot(outwards1, triangle1.Corners.A);
+        var depth2 = triangle1.ReachAlong(outwards2).Minimum - Vector.Dot(outwards2, triangle2.Corners.A);
+        var isFirst = outwards2 == Vector.Zero || (outwards1 != Vector.Zero && depth1 > depth2);
+        var normal = isFirst ? -outwards1 : outwards2;
+        if (normal != Vector.Zero)
+        {
+            _manifold.Add(new(point, normal, Math.Clamp(isFirst ? depth1 : depth2, -_maxDepth, 0)));
+        }
+    }
+
+    /// <summary>True for a contact with an edge where faces join that are touched beside it.</summary>
+    private bool IsSeam(in ContactPoint edge)
+    {
+        foreach (var face in _faces)
+        {
+            if (face.Gap <= edge.Gap && (face.Point - edge.Point).Length() <= _seamDistance)
+            {
+                return true;
+            }
+        }
+
+        return false;
+    }
+
+    private readonly struct Pair(int first, int second, Vector axis, double gap, in SurfaceBox smaller)
+    {
+        public readonly SurfaceBox Smaller = smaller;
+
+        public int First { get; } = first;
+
+        public int Second { get; } = second;
+
+        public Vector Axis { get; } = axis;
+
+        public double Gap { get; } = gap;
+    }
+}

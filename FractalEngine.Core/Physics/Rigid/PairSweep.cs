@@ -1,0 +1,235 @@
+using System.Runtime.InteropServices;
+using FractalEngine.Core.Geometry.Triangles;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics.Descriptions;
+
+namespace FractalEngine.Core.Physics.Rigid;
+
+/// <summary>
+/// Finds for how long two moving surfaces stay apart: conservative advancement of pairs of parts, those first that may meet first.
+/// </summary>
+internal sealed class PairSweep : PairSearch
+{
+    // Relative to the least distance: what is so near has met.
+    private const double TouchFactor = 1.25;
+
+    // Advances of a pair of triangles; where they do not suffice, it stops there.
+    private const int MaxAdvances = 200;
+
+    // Advances of a pair of boxes before its parts are looked at.
+    private const int MaxBoxAdvances = 4;
+
+    // Boxes that advance by less of the time that is left are opened.
+    private const double MinAdvance = 0.2;
+
+    // Triangles that advance by less of the time that is left are tested along more axes.
+    private const double MinEdgeAdvance = 0.01;
+
+    // Pairs of parts that are opened; where they do not suffice, the motion ends where the next one may meet.
+    private const int MaxPairs = 200_000;
+
+    private readonly PriorityQueue<(int First, int Second), (double Time, int Order)> _queue = new();
+    private readonly List<SurfaceTriangle> _near1 = [];
+    private readonly List<SurfaceTriangle> _near2 = [];
+    private double _distance;
+    private double _end;
+    private int _order;
+
+    /// <summary>Finds the time up to which two surfaces stay farther apart than a distance.</summary>
+    /// <param name="first">The first surface.</param>
+    /// <param name="motion1">Its motion.</param>
+    /// <param name="second">The second surface.</param>
+    /// <param name="motion2">Its motion, in the same frame and unit of time.</param>
+    /// <param name="distance">Scene units, positive. Triangles that are closer from the beginning may get half as close.</param>
+    /// <param name="end">The time at which the motion ends.</param>
+    /// <param name="near">All that may come near; null where that is not known.</param>
+    /// <returns>The end, or an earlier time at which some triangles are within 1.25 times the distance.</returns>
+    /// <remarks>Triangles that cross from the beginning are not looked at.</remarks>
+    public double FindImpact(
+        SurfaceNodes first, in SurfaceMotion motion1, SurfaceNodes second, in SurfaceMotion motion2, double distance, double end,
+        List<NearPair>? near = null)
+    {
+        SetPair(first, in motion1, second, in motion2);
+        _distance = distance;
+        _end = end;
+        _queue.Clear();
+        _order = 0;
+        if (near is null)
+        {
+            Enqueue(0, 0, 0);
+        }
+        else
+        {
+            TestNear(near);
+        }
+
+        for (var opened = 0; _queue.TryDequeue(out var pair, out var key) && key.Time < _end; opened++)
+        {
+            if (opened == MaxPairs)
+            {
+                return key.Time;
+            }
+
+            if (first.IsLeaf(pair.First) && second.IsLeaf(pair.Second))
+            {
+                TestLeaves(pair.First, pair.Second, key.Time);
+                continue;
+            }
+
+            var children = OpenLarger(pair.First, pair.Second, out var opensFirst);
+            for (var child = children.Start.Value; child < children.End.Value; child++)
+            {
+                Enqueue(opensFirst ? child : pair.First, opensFirst ? pair.Second : child, key.Time);
+            }
+        }
+
+        return _end;
+    }
+
+    private void TestNear(List<NearPair> near)
+    {
+        foreach (ref readonly var pair in CollectionsMarshal.AsSpan(near))
+        {
+            if (pair.Triangle1 < 0)
+            {
+                Enqueue(pair.Node1, pair.Node2, 0);
+                continue;
+            }
+
+            ref readonly var local1 = ref First.Triangles(pair.Node1)[pair.Triangle1];
+            ref readonly var local2 = ref Second.Triangles(pair.Node2)[pair.Triangle2];
+            var triangle1 = local1.Place(in Motion1);
+            var triangle2 = local2.Place(in Motion2);
+            var test = new SeparationTest(
+                in Motion1, in Motion2, triangle1.Centre, triangle1.Radius, triangle2.Centre, triangle2.Radius);
+            if (test.SafeTime(pair.Axis, in triangle1, in triangle2, _distance) < _end)
+            {
+                TestTriangles(in local1, in local2, 0);
+            }
+        }
+    }
+
+    /// <summary>Advances a pair of boxes to where they may meet, and queues it if that is before the end.</summary>
+    private void Enqueue(int node1, int node2, double time)
+    {
+        for (var advances = 0; advances < MaxBoxAdvances && time < _end; advances++)
+        {
+            BoundTests++;
+            var from1 = Motion1.From(time);
+            var from2 = Motion2.From(time);
+            var box1 = First[node1].Place(in from1);
+            var box2 = Second[node2].Place(in from2);
+            var test = new SeparationTest(in from1, in from2, box1.Centre, box1.Radius, box2.Centre, box2.Radius);
+            var safe = test.SafeTime(in box1, in box2, _distance, _end - time, out _);
+            var isAhead = safe >= MinAdvance * (_end - time);
+            time += safe;
+            if (!isAhead)
+            {
+                break;
+            }
+        }
+
+        if (time < _end)
+        {
+            _queue.Enqueue((node1, node2), (time, --_order));
+        }
+    }
+
+    private void TestLeaves(int leaf1, int leaf2, double time)
+    {
+        var from1 = Motion1.From(time);
+        var from2 = Motion2.From(time);
+        var box1 = First[leaf1].Place(in from1);
+        var box2 = Second[leaf2].Place(in from2);
+        CollectNear(First.Triangles(leaf1), in from1, in from2, in box2, isFirst: true, time, _near1);
+        CollectNear(Second.Triangles(leaf2), in from1, in from2, in box1, isFirst: false, time, _near2);
+        foreach (var local1 in _near1)
+        {
+            foreach (var local2 in _near2)
+            {
+                TestTriangles(in local1, in local2, time);
+            }
+        }
+    }
+
+    /// <summary>Collects the triangles of a leaf that may come near the box of the other leaf.</summary>
+    private void CollectNear(
+        SurfaceTriangle[] triangles, in SurfaceMotion from1, in SurfaceMotion from2, in SurfaceBox otherBox, bool isFirst, double time,
+        List<SurfaceTriangle> near)
+    {
+        near.Clear();
+        foreach (ref readonly var local in triangles.AsSpan())
+        {
+            var triangle = isFirst ? local.Place(in from1) : local.Place(in from2);
+            var test = isFirst
+                ? new SeparationTest(in from1, in from2, triangle.Centre, triangle.Radius, otherBox.Centre, otherBox.Radius)
+                : new SeparationTest(in from1, in from2, otherBox.Centre, otherBox.Radius, triangle.Centre, triangle.Radius);
+            if (test.SafeTime(in triangle, in otherBox, isFirst, _distance, _end - time) < _end - time)
+            {
+                near.Add(local);
+            }
+        }
+    }
+
+    /// <summary>Advances two triangles until they meet or the motion ends.</summary>
+    private void TestTriangles(in SurfaceTriangle local1, in SurfaceTriangle local2, double time)
+    {
+        var distance = _distance;
+        for (var advances = 0; advances < MaxAdvances; advances++)
+        {
+            var from1 = Motion1.From(time);
+            var from2 = Motion2.From(time);
+            var triangle1 = local1.Place(in from1);
+            var triangle2 = local2.Place(in from2);
+            var test = new SeparationTest(
+                in from1, in from2, triangle1.Centre, triangle1.Radius, triangle2.Centre, triangle2.Radius);
+            if (advances == 0 && test.SafeTime(in triangle1, in triangle2, distance, _end - time) >= _end - time)
+            {
+                return;
+            }
+
+            var gap = Measure(in triangle1, in triangle2, out var axis);
+            if (advances == 0 && gap < 2 * distance)
+            {
+                // What is so near from the beginning must not be stopped where it is.
+                var gapBefore = time == 0 ? gap : Measure(local1.Place(in Motion1), local2.Place(in Motion2), out _);
+                if (!(gapBefore > 0))
+                {
+                    return;
+                }
+
+                distance = Math.Min(distance, 0.5 * gapBefore);
+            }
+
+            if (gap <= TouchFactor * distance)
+            {
+                break;
+            }
+
+            // Where points nearly touch, the normals of faces, and of two edges, are more exact than the line between the points.
+            var safe = Math.Max(
+                test.SafeTime(axis, in triangle1, in triangle2, distance),
+                test.SafeTime(in triangle1, in triangle2, distance, _end - time));
+            time += safe > MinEdgeAdvance * (_end - time)
+                ? safe : Math.Max(safe, test.EdgeSafeTime(in triangle1, in triangle2, distance, _end - time));
+            if (time >= _end)
+            {
+                return;
+            }
+        }
+
+        _end = time;
+    }
+
+    /// <summary>Measures the gap of two triangles.</summary>
+    /// <param name="triangle1">Of the first surface.</param>
+    /// <param name="triangle2">Of the second surface.</param>
+    /// <param name="axis">Receives the unit vector from the second to the first; zero where they cross.</param>
+    private double Measure(in SurfaceTriangle triangle1, in SurfaceTriangle triangle2, out Vector axis)
+    {
+        FaceTests++;
+        var closest = TrianglePairKernel.Closest(triangle1.Corners, triangle2.Corners);
+        axis = (closest.Point1 - closest.Point2).UnitVectorOrZero();
+        return Math.Sqrt(closest.DistanceSquared) - triangle1.Rounding - triangle2.Rounding;
+    }
+}

@@ -1,0 +1,242 @@
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics.Descriptions;
+
+namespace FractalEngine.Core.Physics.Rigid;
+
+/// <summary>
+/// Finds the velocities of bodies that touch: sequential impulses in many small steps (Macklin et al. 2019). What is too close at the end
+/// is moved apart without a change of velocities.
+/// </summary>
+internal static class RigidSolver
+{
+    private const int Rounds = 4;
+    private const int BounceRounds = 4;
+
+    // Rounds of displacements, and at most so many where gaps are too small afterwards.
+    private const int DisplacementRounds = 6;
+    private const int MaxDisplacementRounds = 100;
+
+    // Part of what a gap misses that is restored in a part of a step.
+    private const double RestoredFraction = 0.15;
+
+    // Relative to the contact distance: by how much gaps may be too small at the end, and what is left of more.
+    private const double MaxOverlap = 0.5;
+    private const double KeptOverlap = 0.4;
+
+    /// <summary>Takes bodies with contacts through a part of a step.</summary>
+    /// <param name="states">The bodies, and what no force moves.</param>
+    /// <param name="rows">The contacts; their impulses are those of the last part for a start.</param>
+    /// <param name="seconds">Length of the part.</param>
+    /// <param name="substeps">Number of substeps.</param>
+    /// <param name="contactDistances">The distance at which surfaces rest on each other, of each contact.</param>
+    /// <param name="bounceSpeeds">The least speed of approach that bounces, of each contact.</param>
+    public static void Solve(
+        Span<RigidState> states, Span<RigidRow> rows, double seconds, int substeps, ReadOnlySpan<double> contactDistances,
+        ReadOnlySpan<double> bounceSpeeds)
+    {
+        foreach (ref var row in rows)
+        {
+            row.SpeedBefore = Vector.Dot(row.Normal, RelativeVelocity(in row, states, row.Arm1, row.Arm2));
+        }
+
+        var substep = seconds / substeps;
+        for (var i = 0; i < substeps; i++)
+        {
+            Accelerate(states, substep);
+            for (var k = 0; k < rows.Length; k++)
+            {
+                Prepare(ref rows[k], states, substep);
+            }
+
+            SolveRounds(states, rows, substep);
+            Move(states, substep);
+            foreach (ref var row in rows)
+            {
+                row.MaxNormalImpulse = Math.Max(row.MaxNormalImpulse, row.NormalImpulse);
+                row.NormalImpulseSum += row.NormalImpulse;
+            }
+        }
+
+        Bounce(states, rows, bounceSpeeds);
+        RestoreGaps(states, rows, contactDistances);
+    }
+
+    /// <summary>Moves bodies apart that are too close at the end. Their velocities stay as they are.</summary>
+    private static void RestoreGaps(Span<RigidState> states, Span<RigidRow> rows, ReadOnlySpan<double> contactDistances)
+    {
+        for (var i = 0; i < rows.Length; i++)
+        {
+            rows[i].Displacement = 0;
+            rows[i].CurrentGap = Math.Max(
+                (1 - RestoredFraction) * Math.Min(0, GapNow(in rows[i], states)), -KeptOverlap * contactDistances[i]);
+        }
+
+        var isTooClose = true;
+        for (var round = 0; round < (isTooClose ? MaxDisplacementRounds : DisplacementRounds); round++)
+        {
+            isTooClose = false;
+            for (var i = 0; i < rows.Length; i++)
+            {
+                ref var row = ref rows[i];
+                var gap = GapNow(in row, states);
+                isTooClose |= gap < -MaxOverlap * contactDistances[i];
+                var displacement = Math.Max(0, row.Displacement + (row.NormalMass * (row.CurrentGap - gap)));
+                var change = (displacement - row.Displacement) * row.Normal;
+                row.Displacement = displacement;
+                if (change != Vector.Zero)
+                {
+                    ref var first = ref states[row.First];
+                    ref var second = ref states[row.Second];
+                    first.Displace(first.Turn.Rotate(row.Arm1), change);
+                    second.Displace(second.Turn.Rotate(row.Arm2), -change);
+                }
+            }
+        }
+    }
+
+    private static double GapNow(in RigidRow row, Span<RigidState> states) =>
+        row.Gap + Vector.Dot(row.Normal, states[row.First].TravelOf(row.Arm1) - states[row.Second].TravelOf(row.Arm2));
+
+    private static void Accelerate(Span<RigidState> states, double substep)
+    {
+        foreach (ref var state in states)
+        {
+            if (state.HasContacts && state.IsDynamic)
+            {
+                state.Velocity += substep * state.Acceleration;
+                state.Velocity *= state.Damping > 0 ? Math.Exp(-state.Damping * substep) : 1;
+                state.Spin += substep * (state.InverseInertia * state.Torque);
+            }
+        }
+    }
+
+    private static void Move(Span<RigidState> states, double substep)
+    {
+        foreach (ref var state in states)
+        {
+            if (state.HasContacts)
+            {
+                state.Move(substep);
+            }
+        }
+    }
+
+    /// <summary>Finds arms, masses and the gap of a contact now, and applies the impulses of the substep before.</summary>
+    private static void Prepare(ref RigidRow row, Span<RigidState> states, double substep)
+    {
+        ref var first = ref states[row.First];
+        ref var second = ref states[row.Second];
+        row.TurnedArm1 = first.Turn.Rotate(row.Arm1);
+        row.TurnedArm2 = second.Turn.Rotate(row.Arm2);
+        row.NormalMass = 1 / (first.Mobility(row.TurnedArm1, row.Normal) + second.Mobility(row.TurnedArm2, row.Normal));
+        row.TangentMass1 = 1 / (first.Mobility(row.TurnedArm1, row.Tangent1) + second.Mobility(row.TurnedArm2, row.Tangent1));
+        row.TangentMass2 = 1 / (first.Mobility(row.TurnedArm1, row.Tangent2) + second.Mobility(row.TurnedArm2, row.Tangent2));
+        row.CurrentGap = GapNow(in row, states);
+        Apply(in row, states, (row.NormalImpulse * row.Normal) + row.FrictionImpulse, row.RollingImpulse);
+    }
+
+    private static void SolveRounds(Span<RigidState> states, Span<RigidRow> rows, double substep)
+    {
+        for (var round = 0; round < Rounds; round++)
+        {
+            foreach (ref var row in rows)
+            {
+                SolveFriction(ref row, states);
+                SolveNormal(ref row, states, substep);
+            }
+        }
+    }
+
+    private static void SolveNormal(ref RigidRow row, Span<RigidState> states, double substep)
+    {
+        var speed = Vector.Dot(row.Normal, RelativeVelocity(in row, states, row.TurnedArm1, row.TurnedArm2));
+        var impulse = Math.Max(0, row.NormalImpulse - (row.NormalMass * (speed + (Math.Max(0, row.CurrentGap) / substep))));
+        var change = impulse - row.NormalImpulse;
+        row.NormalImpulse = impulse;
+        Apply(in row, states, change * row.Normal, Vector.Zero);
+    }
+
+    private static void SolveFriction(ref RigidRow row, Span<RigidState> states)
+    {
+        var limit = row.Friction * row.NormalImpulse;
+        if (limit > 0 || row.FrictionImpulse != Vector.Zero)
+        {
+            var slip = RelativeVelocity(in row, states, row.TurnedArm1, row.TurnedArm2) - row.Belt;
+            var impulse = row.FrictionImpulse - (row.TangentMass1 * Vector.Dot(row.Tangent1, slip) * row.Tangent1)
+                - (row.TangentMass2 * Vector.Dot(row.Tangent2, slip) * row.Tangent2);
+            impulse = Shorten(impulse, limit);
+            var change = impulse - row.FrictionImpulse;
+            row.FrictionImpulse = impulse;
+            Apply(in row, states, change, Vector.Zero);
+        }
+
+        if (row.RollingArm > 0 || row.SpinningArm > 0)
+        {
+            var turn = states[row.First].Spin - states[row.Second].Spin;
+            var impulse = row.RollingImpulse - (AngularMass(in row, states, turn) * turn);
+            var aboutImpulse = Vector.Dot(row.Normal, impulse) * row.Normal;
+            impulse = Shorten(impulse - aboutImpulse, row.RollingArm * row.NormalImpulse)
+                + Shorten(aboutImpulse, row.SpinningArm * row.NormalImpulse);
+            var change = impulse - row.RollingImpulse;
+            row.RollingImpulse = impulse;
+            Apply(in row, states, Vector.Zero, change);
+        }
+    }
+
+    private static double AngularMass(in RigidRow row, Span<RigidState> states, Vector turn)
+    {
+        var direction = turn.UnitVectorOrZero();
+        var mobility = Vector.Dot(direction, (states[row.First].InverseInertia * direction) + (states[row.Second].InverseInertia * direction));
+        return mobility > 0 ? 1 / mobility : 0;
+    }
+
+    private static Vector Shorten(Vector vector, double maxLength)
+    {
+        var length = vector.Length();
+        return length > maxLength ? maxLength / length * vector : vector;
+    }
+
+    /// <summary>Lets contacts bounce that have stopped an approach.</summary>
+    private static void Bounce(Span<RigidState> states, Span<RigidRow> rows, ReadOnlySpan<double> bounceSpeeds)
+    {
+        for (var round = 0; round < BounceRounds; round++)
+        {
+            for (var i = 0; i < rows.Length; i++)
+            {
+                ref var row = ref rows[i];
+                if (row.Restitution > 0 && row.MaxNormalImpulse > 0 && row.SpeedBefore < -bounceSpeeds[i])
+                {
+                    var speed = Vector.Dot(row.Normal, RelativeVelocity(in row, states, row.TurnedArm1, row.TurnedArm2));
+                    var impulse = Math.Max(0, row.NormalImpulse - (row.NormalMass * (speed + (row.Restitution * row.SpeedBefore))));
+                    var change = impulse - row.NormalImpulse;
+                    row.NormalImpulse = impulse;
+                    row.NormalImpulseSum += change;
+                    Apply(in row, states, change * row.Normal, Vector.Zero);
+                }
+            }
+        }
+    }
+
+    private static Vector RelativeVelocity(in RigidRow row, Span<RigidState> states, Vector arm1, Vector arm2) =>
+        states[row.First].VelocityAt(arm1) - states[row.Second].VelocityAt(arm2);
+
+    private static void Apply(in RigidRow row, Span<RigidState> states, Vector impulse, Vector angularImpulse)
+    {
+        ref var first = ref states[row.First];
+        ref var second = ref states[row.Second];
+        if (impulse != Vector.Zero)
+        {
+            first.ApplyImpulse(row.TurnedArm1, impulse);
+            if (second.IsDynamic)
+            {
+                second.ApplyImpulse(row.TurnedArm2, -impulse);
+            }
+        }
+
+        if (angularImpulse != Vector.Zero)
+        {
+            first.Spin += first.InverseInertia * angularImpulse;
+            second.Spin -= second.InverseInertia * angularImpulse;
+        }
+    }
+}

@@ -1,0 +1,109 @@
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics.Descriptions;
+
+namespace FractalEngine.Core.Physics.Rigid;
+
+/// <summary>A body, or an object that no force moves, as the solver of a step sees it.</summary>
+internal struct RigidState
+{
+    /// <summary>Velocity of the reference point, units per second.</summary>
+    public Vector Velocity;
+
+    /// <summary>Angular velocity, radians per second.</summary>
+    public Vector Spin;
+
+    /// <summary>Acceleration by gravity and forces.</summary>
+    public Vector Acceleration;
+
+    /// <summary>Torque that callers exert.</summary>
+    public Vector Torque;
+
+    /// <summary>How far the reference point has gone since the beginning of the part.</summary>
+    public Vector Travel;
+
+    /// <summary>How the body has turned since the beginning of the part.</summary>
+    public Orientation Turn;
+
+    /// <summary>Orientation at the beginning of the part.</summary>
+    public Orientation Orientation;
+
+    /// <summary>One over the mass; 0 for what no force moves.</summary>
+    public double InverseMass;
+
+    /// <summary>Inverse inertia tensor about the world's axes; zero for what does not turn.</summary>
+    public Matrix InverseInertia;
+
+    /// <summary>Inertia tensor in the axes of the body.</summary>
+    public Matrix LocalInertia;
+
+    /// <summary>Inverse inertia tensor in the axes of the body; zero for what does not turn.</summary>
+    public Matrix LocalInverseInertia;
+
+    /// <summary>Rate of damping, per second.</summary>
+    public double Damping;
+
+    /// <summary>True for a body with contacts, which goes with the others in small steps.</summary>
+    public bool HasContacts;
+
+    /// <summary>True for a body that forces move.</summary>
+    public readonly bool IsDynamic => InverseMass > 0;
+
+    /// <summary>Velocity of a point.</summary>
+    /// <param name="arm">The point relative to the reference point.</param>
+    public readonly Vector VelocityAt(Vector arm) => Velocity + Vector.Cross(Spin, arm);
+
+    /// <summary>How far a point has gone since the beginning of the part.</summary>
+    /// <param name="arm">The point relative to the reference point then.</param>
+    public readonly Vector TravelOf(Vector arm) => Travel + Turn.Rotate(arm) - arm;
+
+    /// <summary>Changes the velocities by an impulse at a point.</summary>
+    public void ApplyImpulse(Vector arm, Vector impulse)
+    {
+        Velocity += InverseMass * impulse;
+        Spin += InverseInertia * Vector.Cross(arm, impulse);
+    }
+
+    /// <summary>Moves and turns the body as an impulse at a point would in a unit of time, if it stood.</summary>
+    public void Displace(Vector arm, Vector impulse)
+    {
+        if (IsDynamic)
+        {
+            Travel += InverseMass * impulse;
+            Turn = Turn.TurnedBy(InverseInertia * Vector.Cross(arm, impulse));
+        }
+    }
+
+    /// <summary>What an impulse at a point changes of the velocity there, along its direction.</summary>
+    public readonly double Mobility(Vector arm, Vector direction)
+    {
+        var angular = Vector.Cross(arm, direction);
+        return InverseMass + Vector.Dot(angular, InverseInertia * angular);
+    }
+
+    /// <summary>Moves on by the present velocities. The angular momentum stays as it is.</summary>
+    public void Move(double seconds)
+    {
+        Travel += seconds * Velocity;
+        if (Spin == Vector.Zero)
+        {
+            return;
+        }
+
+        var orientation = Turn.After(Orientation);
+        var momentum = LocalInertia * orientation.RotateBack(Spin);
+        var worldMomentum = orientation.Rotate(momentum);
+        Turn = Turn.TurnedBy(seconds * Spin);
+        if (IsDynamic && LocalInverseInertia != default)
+        {
+            UpdateInertia();
+            Spin = InverseInertia * worldMomentum;
+        }
+    }
+
+    /// <summary>Computes the inverse inertia tensor about the world's axes.</summary>
+    public void UpdateInertia()
+    {
+        var rotation = Turn.After(Orientation).ToMatrix();
+        InverseInertia = rotation * LocalInverseInertia * rotation.Transpose();
+    }
+}

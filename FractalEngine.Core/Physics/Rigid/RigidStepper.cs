@@ -1,0 +1,630 @@
+using System.Runtime.InteropServices;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics.Bodies;
+using FractalEngine.Core.Physics.Descriptions;
+using FractalEngine.Core.Physics.Events;
+using FractalEngine.Core.Physics.Islands;
+using FractalEngine.Core.Physics.Statics;
+using FractalEngine.Core.Threading;
+
+namespace FractalEngine.Core.Physics.Rigid;
+
+/// <summary>
+/// Takes the bodies of a world through a step in which bodies have the shape of their meshes: gathers what may meet, finds the contacts,
+/// solves them, moves everything until it touches, and puts to sleep what rests.
+/// </summary>
+internal sealed class RigidStepper
+{
+    // Radians that a body turns in a part of a step at most.
+    private const double MaxAngle = 0.5;
+
+    // The same for a body with contacts: the way between two poses of the solver dips into what it touches by the square of it.
+    private const double MaxContactAngle = 0.03;
+
+    // Parts of a step at most for that.
+    private const int MaxContactParts = 3;
+
+    // Substeps of a step at least, and of a part of it.
+    private const int MinSubsteps = 8;
+    private const int MinPartSubsteps = 2;
+
+    // Parts of a step at most: what turns faster turns by more in each.
+    private const int MaxParts = 1024;
+
+    // Relative to the radius of the smaller body: the gap at which surfaces rest on each other.
+    private const double ContactDistance = 1e-4;
+
+    // Relative to the largest coordinate: the gap must be told from rounding.
+    private const double MinContactDistance = 1e-11;
+
+    // Relative to the radius of the smaller body: the largest gap at which a contact is known before it is touched.
+    private const double MaxMargin = 0.02;
+
+    // Sweeps of what goes on where others have been stopped.
+    private const int MaxSweepRounds = 40;
+
+    // Relative to the contact distance: no closer does a sweep let surfaces come.
+    private const double SweepDistance = 0.25;
+
+    private readonly List<Body> _bodies;
+    private readonly StaticObjectSet _statics;
+    private readonly PhysicsSettings _settings;
+    private readonly ContactLog _log;
+    private readonly int _maxThreads;
+    private readonly Dictionary<object, RigidShape> _shapes = [];
+    private readonly List<RigidSurface> _surfaces = [];
+    private readonly List<RigidPair> _pairs = [];
+    private readonly List<RigidRow> _rows = [];
+    private readonly List<double> _contactDistances = [];
+    private readonly List<double> _bounceSpeeds = [];
+    private readonly List<int> _order = [];
+    private readonly ContactCache _cache = new();
+    private readonly DisjointSets _islands = new();
+    private readonly (ContactSearch Contacts, PairSweep Sweep)[] _searches;
+    private readonly List<List<ContactPoint>> _contacts = [];
+    private readonly List<List<NearPair>> _near = [];
+    private readonly List<double> _margins = [];
+    private readonly List<double> _ways = [];
+    private readonly List<double> _impacts = [];
+    private RigidState[] _states = [];
+    private Vector _gravity;
+    private double _seconds;
+    private int _substeps;
+    private int _round;
+
+    public RigidStepper(PhysicsSettings settings, List<Body> bodies, StaticObjectSet statics, ContactLog log, int maxThreads)
+    {
+        _settings = settings;
+        _bodies = bodies;
+        _statics = statics;
+        _log = log;
+        _maxThreads = maxThreads;
+        _searches = [.. Enumerable.Range(0, maxThreads).Select(static _ => (new ContactSearch(), new PairSweep()))];
+    }
+
+    /// <summary>True where a body of the world has the shape of its mesh, so that this takes all bodies through their steps.</summary>
+    public bool IsNeeded { get; private set; }
+
+    /// <summary>Looks at which bodies there are.</summary>
+    public void PlaceBodies() => IsNeeded = _bodies.Exists(static body => body.Description.Mesh is not null);
+
+    /// <summary>Forgets all steps so far.</summary>
+    public void Reset() => _cache.Clear();
+
+    /// <summary>Counts the tests of all searches so far.</summary>
+    public (long Faces, long Bounds) CountTests() => (
+        _searches.Sum(static search => search.Contacts.FaceTests + search.Sweep.FaceTests),
+        _searches.Sum(static search => search.Contacts.BoundTests + search.Sweep.BoundTests));
+
+    /// <summary>Takes all bodies through a step, or one of the parts in which objects move.</summary>
+    /// <param name="gravity">Units per second².</param>
+    /// <param name="seconds">Length of the part.</param>
+    public void StepPart(Vector gravity, double seconds)
+    {
+        _gravity = gravity;
+        GatherSurfaces();
+        var parts = 1.0;
+        foreach (var body in _bodies)
+        {
+            Shrink(body, seconds);
+            var angle = body.IsAsleep ? 0 : body.AngularVelocity.Length() * seconds;
+            parts = Math.Max(parts, angle / MaxAngle);
+            parts = body.HasRigidContacts ? Math.Max(parts, Math.Min(angle / MaxContactAngle, MaxContactParts)) : parts;
+        }
+
+        parts = Math.Min(Math.Ceiling(parts), MaxParts);
+        _seconds = seconds / parts;
+        _substeps = Math.Max(MinPartSubsteps, (int)Math.Ceiling(MinSubsteps / parts));
+        for (var part = 0; part < parts; part++)
+        {
+            MovePart(part * _seconds);
+        }
+
+        Sleep(seconds);
+    }
+
+    private static void Shrink(Body body, double seconds)
+    {
+        if (!body.IsAsleep && body.IsShrinking)
+        {
+            body.Scale = Math.Max(body.Description.MinScale, body.Scale - (seconds * body.Shrinkage));
+        }
+    }
+
+    /// <summary>Lists all bodies, then all objects that stop something.</summary>
+    private void GatherSurfaces()
+    {
+        var count = _bodies.Count + _statics.Objects.Count;
+        for (var i = 0; i < count; i++)
+        {
+            var body = i < _bodies.Count ? _bodies[i] : null;
+            var target = i < _bodies.Count ? null : _statics.Objects[i - _bodies.Count];
+            var isKnown = i < _surfaces.Count && ReferenceEquals(_surfaces[i].Body, body) && ReferenceEquals(_surfaces[i].Target, target);
+            if (!isKnown)
+            {
+                _surfaces.RemoveRange(Math.Min(i, _surfaces.Count), Math.Max(0, _surfaces.Count - i));
+                _surfaces.Add(body is not null ? new(body, ShapeOf(body)) : new(target!, ShapeOf(target!)));
+            }
+            else if (target is not null)
+            {
+                _surfaces[i].Shape = ShapeOf(target);
+            }
+        }
+
+        _surfaces.RemoveRange(count, _surfaces.Count - count);
+        if (_states.Length < count)
+        {
+            _states = new RigidState[2 * count];
+            _islands.Reserve(2 * count);
+        }
+    }
+
+    private RigidShape ShapeOf(Body body) => body.Description switch
+    {
+        { Mesh: { } mesh } => ShapeOf((mesh.Model, mesh.Linear), mesh, static mesh => RigidShape.Of(mesh)),
+        { Shape: { } compound } => ShapeOf(compound, compound, static compound => RigidShape.Of(compound)),
+        _ => ShapeOf(typeof(Body), 0, static _ => RigidShape.CreateBall()),
+    };
+
+    private RigidShape ShapeOf(StaticObject target) =>
+        ShapeOf((target.Model, target.Reference.ObjectToWorld.Linear, true), target, static target => RigidShape.Of(target));
+
+    private RigidShape ShapeOf<TKey, TSource>(TKey key, TSource source, Func<TSource, RigidShape> create)
+        where TKey : notnull
+    {
+        if (!_shapes.TryGetValue(key, out var shape))
+        {
+            shape = create(source);
+            shape.Reserve(_maxThreads);
+            _shapes[key] = shape;
+        }
+
+        return shape;
+    }
+
+    private void MovePart(double elapsed)
+    {
+        SetMotions(elapsed);
+        FindPairs();
+        RunOnPairs(static (stepper, pair, thread) => stepper.FindContacts(pair, thread));
+        AddRows();
+        RigidSolver.Solve(
+            _states.AsSpan(0, _surfaces.Count), CollectionsMarshal.AsSpan(_rows), _seconds, _substeps, CollectionsMarshal.AsSpan(_contactDistances),
+            CollectionsMarshal.AsSpan(_bounceSpeeds));
+        SetPlannedMotions();
+        Sweep();
+        Commit();
+        StoreContacts();
+    }
+
+    /// <summary>Begins a part: all states, and where everything may get to without contacts.</summary>
+    private void SetMotions(double elapsed)
+    {
+        for (var i = 0; i < _surfaces.Count; i++)
+        {
+            var surface = _surfaces[i];
+            _states[i] = surface.Body is { } body ? CreateState(body) : CreateState(surface, elapsed);
+            ref readonly var state = ref _states[i];
+            if (surface.Body is not null)
+            {
+                surface.SetMotion(
+                    (_seconds * state.Velocity) + (_seconds * _seconds * state.Acceleration), _seconds * state.Spin);
+            }
+        }
+    }
+
+    private RigidState CreateState(Body body)
+    {
+        var state = new RigidState { Turn = Orientation.Identity, Orientation = body.Orientation };
+        if (body.IsAsleep)
+        {
+            return state;
+        }
+
+        var mass = body.Description.Mass;
+        state.Velocity = body.Velocity;
+        state.Spin = body.AngularVelocity;
+        state.Acceleration = _gravity + ((body.Force + body.StepForce) / mass);
+        state.Torque = body.StepTorque;
+        state.InverseMass = 1 / mass;
+        state.Damping = body.Description.Damping;
+        state.LocalInertia = body.Inertia is { } inertia ? mass * body.Scale * body.Scale * inertia
+            : body.InverseInertia > 0 ? (1 / body.InverseInertia) * Matrix.Identity : default;
+        state.LocalInverseInertia = body.Description.IsRotationLocked ? default : state.LocalInertia.Inverse();
+        state.UpdateInertia();
+        return state;
+    }
+
+    private RigidState CreateState(RigidSurface surface, double elapsed)
+    {
+        var target = surface.Target!;
+        var state = new RigidState { Turn = Orientation.Identity, Orientation = Orientation.Identity };
+        if (target.Kinematic is not { } moved)
+        {
+            surface.Motion = new(target.ObjectToWorld.Translation, Orientation.Identity, 1, Vector.Zero, Vector.Zero);
+            surface.SweptBounds = target.Bounds;
+            return state;
+        }
+
+        state.Velocity = moved.Velocity;
+        state.Spin = moved.AngularVelocity;
+        state.Orientation = moved.Pose.Orientation.TurnedBy(elapsed * moved.AngularVelocity);
+        surface.Motion = new(
+            moved.Pose.Position + (elapsed * moved.Velocity), state.Orientation, 1, _seconds * moved.Velocity,
+            _seconds * moved.AngularVelocity);
+        surface.SweptBounds = moved.SweptBounds;
+        return state;
+    }
+
+    /// <summary>Finds the pairs whose boxes meet: a body that is awake with other bodies and objects.</summary>
+    private void FindPairs()
+    {
+        _pairs.Clear();
+        _order.Clear();
+        for (var i = 0; i < _bodies.Count; i++)
+        {
+            _order.Add(i);
+        }
+
+        _order.Sort((i, j) => _surfaces[i].SweptBounds.Minimum.X.CompareTo(_surfaces[j].SweptBounds.Minimum.X) is var order and not 0
+            ? order : i.CompareTo(j));
+        for (var place = 0; place < _order.Count; place++)
+        {
+            var surface = _surfaces[_order[place]];
+            for (var next = place + 1; next < _order.Count; next++)
+            {
+                var other = _surfaces[_order[next]];
+                if (other.SweptBounds.Minimum.X - Reach(surface, other) > surface.SweptBounds.Maximum.X)
+                {
+                    break;
+                }
+
+                AddPair(Math.Min(_order[place], _order[next]), Math.Max(_order[place], _order[next]));
+            }
+
+            for (var target = _bodies.Count; target < _surfaces.Count; target++)
+            {
+                AddPair(_order[place], target);
+            }
+        }
+
+        _pairs.Sort(static (pair1, pair2) => pair1.Key.CompareTo(pair2.Key));
+        while (_contacts.Count < _pairs.Count)
+        {
+            _contacts.Add([]);
+            _near.Add([]);
+            _margins.Add(0);
+            _ways.Add(0);
+            _impacts.Add(1);
+        }
+    }
+
+    private static double Reach(RigidSurface surface, RigidSurface other) => MaxMargin * Math.Max(surface.Radius, other.Radius);
+
+    private void AddPair(int first, int second)
+    {
+        var (surface, other) = (_surfaces[first], _surfaces[second]);
+        var body = surface.Body!;
+        var canMeet = other.Body is { } otherBody
+            ? Layers.CanMeet(body.Description.Layer, body.Description.Mask, otherBody.Description.Layer, otherBody.Description.Mask)
+            : StaticObjectSet.CanMeet(other.Target!, body.Description.Layer, body.Description.Mask);
+        var radius = Math.Min(surface.Radius, other.Body?.Radius ?? double.PositiveInfinity);
+        var gap = Vector.Max(
+            other.SweptBounds.Minimum - surface.SweptBounds.Maximum, surface.SweptBounds.Minimum - other.SweptBounds.Maximum);
+        if (canMeet && (surface.IsAwake || other.IsAwake) && !other.SweptBounds.IsEmpty
+            && Math.Max(gap.X, Math.Max(gap.Y, gap.Z)) <= MaxMargin * radius)
+        {
+            var distance = Math.Max(ContactDistance * radius, MinContactDistance * body.Position.MaxAbsComponent());
+            _pairs.Add(new(first, second, distance));
+        }
+    }
+
+    private void RunOnPairs(Action<RigidStepper, int, int> act)
+    {
+        _act = act;
+        WorkerSet.Shared.Run(_maxThreads, _maxThreads, this, static (stepper, thread) =>
+        {
+            for (var pair = thread; pair < stepper._pairs.Count; pair += stepper._maxThreads)
+            {
+                stepper._act!(stepper, pair, thread);
+            }
+        });
+    }
+
+    private Action<RigidStepper, int, int>? _act;
+
+    private void FindContacts(int index, int thread)
+    {
+        var pair = _pairs[index];
+        var (first, second) = (_surfaces[pair.First], _surfaces[pair.Second]);
+        _contacts[index].Clear();
+        var origin = first.Motion.Origin;
+        var motion1 = first.Motion.RelativeTo(origin);
+        var motion2 = second.Motion.RelativeTo(origin);
+        var radius = Math.Min(first.Radius, second.Body?.Radius ?? double.PositiveInfinity);
+        var margin = (2 * pair.Distance) + Math.Min(MaxWay(first, in motion1, second, in motion2), MaxMargin * radius);
+        _near[index].Clear();
+        var isAll = _searches[thread].Contacts.FindContacts(
+            first.Shape.NodesOf(thread), in motion1, second.Shape.NodesOf(thread), in motion2, pair.Distance, margin, _contacts[index],
+            _near[index]);
+        _margins[index] = isAll ? margin : 0;
+    }
+
+    /// <summary>How far points of two surfaces may come closer in a unit of time at most.</summary>
+    private static double MaxWay(RigidSurface first, in SurfaceMotion motion1, RigidSurface second, in SurfaceMotion motion2)
+    {
+        var way = (motion1.Travel - motion2.Travel).Length() + (motion1.Angle * (first.Radius + motion1.Arm.Length()));
+        var radius = second.Body?.Radius ?? first.Radius + (motion2.Origin - motion1.Origin).Length();
+        return way + (motion2.Angle * (radius + motion2.Arm.Length()));
+    }
+
+    private void AddRows()
+    {
+        _rows.Clear();
+        _contactDistances.Clear();
+        _bounceSpeeds.Clear();
+        for (var i = 0; i < _pairs.Count; i++)
+        {
+            var pair = _pairs[i];
+            var (first, second) = (_surfaces[pair.First], _surfaces[pair.Second]);
+            if (_contacts[i].Count == 0)
+            {
+                continue;
+            }
+
+            if (first.Body!.IsAsleep || second.Body is { IsAsleep: true })
+            {
+                WakeIfPushed(first.Body.IsAsleep ? first.Body : second.Body!, first.Body.IsAsleep ? second.Body! : first.Body);
+            }
+
+            foreach (var contact in _contacts[i])
+            {
+                AddRow(in pair, in contact);
+            }
+        }
+    }
+
+    private void AddRow(in RigidPair pair, in ContactPoint contact)
+    {
+        var (first, second) = (_surfaces[pair.First], _surfaces[pair.Second]);
+        var (body, other) = (first.Body!.Description, second.Body?.Description);
+        var point = first.Motion.Origin + contact.Point;
+        var least = Math.Abs(contact.Normal.X) < 0.6 ? Vector.I : Vector.J;
+        var tangent = Vector.Cross(contact.Normal, least).UnitVector();
+        var radius = Math.Min(first.Radius, second.Body?.Radius ?? double.PositiveInfinity);
+        var belt = second.Target?.Kinematic is { } moved ? moved.Rotate(moved.Belt) : Vector.Zero;
+        var row = new RigidRow
+        {
+            First = pair.First, Second = pair.Second, Normal = contact.Normal, Tangent1 = tangent,
+            Tangent2 = Vector.Cross(contact.Normal, tangent), Arm1 = contact.Point, Arm2 = point - second.Motion.Origin,
+            Gap = contact.Gap - pair.Distance, Friction = CombinedFriction(body, other),
+            Restitution = Math.Min(body.Restitution, other?.Restitution ?? 1),
+            RollingArm = Math.Max(body.RollingFriction, other?.RollingFriction ?? 0) * radius,
+            SpinningArm = Math.Max(body.SpinningFriction, other?.SpinningFriction ?? 0) * radius,
+            Belt = belt - (Vector.Dot(belt, contact.Normal) * contact.Normal),
+        };
+        _cache.WarmStart(in pair, ref row, first.Motion, radius);
+        _states[pair.First].HasContacts = true;
+        _states[pair.Second].HasContacts = true;
+        _rows.Add(row);
+        _contactDistances.Add(pair.Distance);
+        _bounceSpeeds.Add(_settings.RestitutionThreshold ?? 0.5 * _seconds * _states[pair.First].Acceleration.Length());
+    }
+
+    private static double CombinedFriction(BodyDescription body, BodyDescription? other) =>
+        other is null ? body.Friction : Math.Max(body.Friction, other.Friction);
+
+    /// <summary>Wakes what sleeps where something touches it that does not rest.</summary>
+    private void WakeIfPushed(Body sleeper, Body other)
+    {
+        if (other.SleepTimer == 0)
+        {
+            foreach (var body in _bodies)
+            {
+                if (body.IsAsleep && (body == sleeper || body.RigidIsland == sleeper.RigidIsland))
+                {
+                    body.Wake();
+                }
+            }
+        }
+    }
+
+    /// <summary>Sets the motions that the sweep tests: those that contacts leave, and free flight.</summary>
+    private void SetPlannedMotions()
+    {
+        for (var i = 0; i < _bodies.Count; i++)
+        {
+            ref var state = ref _states[i];
+            if (!state.IsDynamic)
+            {
+                continue;
+            }
+
+            if (!state.HasContacts)
+            {
+                RigidFlight.Fly(_bodies[i], ref state, _seconds);
+            }
+
+            _surfaces[i].SetMotion(state.Travel, state.Turn.RotationVector);
+            _surfaces[i].Motion = _surfaces[i].Motion.AsScrew(_bodies[i].Radius);
+        }
+    }
+
+    /// <summary>Stops each body where it would come too close to another one, or to an object.</summary>
+    private void Sweep()
+    {
+        for (_round = 0; _round < MaxSweepRounds; _round++)
+        {
+            RunOnPairs(static (stepper, pair, thread) => stepper.FindImpact(pair, thread));
+            var hasStopped = false;
+            for (var i = 0; i < _pairs.Count; i++)
+            {
+                if (_impacts[i] < 1)
+                {
+                    hasStopped |= Stop(_pairs[i].First, _impacts[i]) | Stop(_pairs[i].Second, _impacts[i]);
+                }
+            }
+
+            if (!hasStopped)
+            {
+                return;
+            }
+        }
+
+        StopIslands();
+    }
+
+    /// <summary>Stops all bodies that may meet, directly or through others, when the first of them stops: up to there all is free.</summary>
+    private void StopIslands()
+    {
+        _islands.Reset(_surfaces.Count);
+        foreach (var pair in _pairs)
+        {
+            if (_surfaces[pair.Second].Body is not null)
+            {
+                _islands.Join(pair.First, pair.Second);
+            }
+        }
+
+        for (var i = _bodies.Count - 1; i >= 0; i--)
+        {
+            _ = Stop(_islands.RootOf(i), _surfaces[i].Fraction);
+        }
+
+        for (var i = 0; i < _bodies.Count; i++)
+        {
+            _ = Stop(i, _surfaces[_islands.RootOf(i)].Fraction);
+        }
+    }
+
+    private bool Stop(int index, double fraction)
+    {
+        if (_surfaces[index].IsAwake && _states[index].IsDynamic && fraction < _surfaces[index].Fraction)
+        {
+            _surfaces[index].Fraction = fraction;
+            return true;
+        }
+
+        return false;
+    }
+
+    private void FindImpact(int index, int thread)
+    {
+        var pair = _pairs[index];
+        var (first, second) = (_surfaces[pair.First], _surfaces[pair.Second]);
+        _impacts[index] = 1;
+        var begin = Math.Min(first.Fraction, second.Fraction);
+        var end = Math.Max(first.Fraction, second.Fraction);
+        if (_round > 0 && begin == end)
+        {
+            return;
+        }
+
+        // At first both move. Then one of them has stopped, and the other goes on.
+        var origin = first.Motion.Origin;
+        var motion1 = (_round == 0 ? first.Motion : first.Fraction == begin ? first.StoppedMotion : first.Motion.From(begin)).RelativeTo(origin);
+        var motion2 = (_round == 0 ? second.Motion : second.Fraction == begin ? second.StoppedMotion : second.Motion.From(begin)).RelativeTo(origin);
+        var duration = _round == 0 ? 1 : end - begin;
+        var distance = SweepDistance * pair.Distance;
+        // What was looked at for contacts is all that may meet, unless both come closer than was thought then.
+        var way = duration * MaxWay(first, in motion1, second, in motion2);
+        _ways[index] = _round == 0 ? way : _ways[index] + way;
+        var impact = _searches[thread].Sweep.FindImpact(
+            first.Shape.NodesOf(thread), in motion1, second.Shape.NodesOf(thread), in motion2, distance, duration,
+            _ways[index] <= _margins[index] - (2 * distance) ? _near[index] : null);
+        if (impact < duration)
+        {
+            _impacts[index] = _round == 0 ? impact : begin + impact;
+        }
+    }
+
+    private void Commit()
+    {
+        for (var i = 0; i < _bodies.Count; i++)
+        {
+            ref readonly var state = ref _states[i];
+            if (!state.IsDynamic)
+            {
+                continue;
+            }
+
+            var body = _bodies[i];
+            var fraction = _surfaces[i].Fraction;
+            body.Position = fraction == 1 ? body.Position + state.Travel : _surfaces[i].Motion.From(fraction).Origin;
+            body.SetOrientation(
+                fraction == 1 ? state.Turn.After(body.Orientation) : body.Orientation.TurnedBy(fraction * state.Turn.RotationVector));
+            // What is stopped again and again loses the speed that it cannot use.
+            var kept = fraction < 1 && body.IsHeld ? fraction : 1;
+            body.IsHeld = fraction < 1;
+            body.Velocity = kept * state.Velocity;
+            body.HasRigidContacts = state.HasContacts;
+            body.AngularVelocity = body.Description.IsRotationLocked ? Vector.Zero : kept * state.Spin;
+        }
+    }
+
+    private void StoreContacts()
+    {
+        _cache.Clear();
+        var rows = CollectionsMarshal.AsSpan(_rows);
+        var start = 0;
+        for (var i = 0; i < _pairs.Count; i++)
+        {
+            var count = _contacts[i].Count;
+            _cache.Store(_pairs[i], rows.Slice(start, count), _surfaces[_pairs[i].First].Motion);
+            foreach (ref readonly var row in rows.Slice(start, count))
+            {
+                if (row.NormalImpulseSum > 0 && _log.IsEnabled)
+                {
+                    var second = _surfaces[row.Second].Body?.Index ?? ContactRecord.OfObject(_surfaces[row.Second].Target!.Index);
+                    _log.Add(row.First, second, _bodies[row.First].Position + row.Arm1, row.Normal, row.NormalImpulseSum);
+                }
+            }
+
+            start += count;
+        }
+    }
+
+    /// <summary>Puts bodies to sleep that have barely moved for some time, with all that touch them.</summary>
+    private void Sleep(double seconds)
+    {
+        _islands.Reset(_surfaces.Count);
+        foreach (var row in _rows)
+        {
+            if (_surfaces[row.Second].Body is not null && row.NormalImpulseSum > 0)
+            {
+                _islands.Join(row.First, row.Second);
+            }
+        }
+
+        for (var i = 0; i < _bodies.Count; i++)
+        {
+            if (_bodies[i] is { IsAsleep: false } body)
+            {
+                var speed = _settings.SleepSpeed ?? 0.02 * Math.Sqrt(_states[i].Acceleration.Length() * body.Radius);
+                var isSlow = (body.Position - body.PreviousPosition).Length() < speed * seconds
+                    && body.AngularVelocity.Length() * body.Radius < speed;
+                body.SleepTimer = isSlow && _states[i].HasContacts && !body.IsShrinking ? body.SleepTimer + seconds : 0;
+            }
+        }
+
+        for (var i = 0; i < _bodies.Count; i++)
+        {
+            _bodies[i].IsRigidIslandAwake = false;
+        }
+
+        for (var i = 0; i < _bodies.Count; i++)
+        {
+            _bodies[_islands.RootOf(i)].IsRigidIslandAwake |= !_bodies[i].IsAsleep && !(_bodies[i].SleepTimer >= _settings.TimeBeforeSleep);
+        }
+
+        for (var i = 0; i < _bodies.Count; i++)
+        {
+            var body = _bodies[i];
+            if (!body.IsAsleep && !_bodies[_islands.RootOf(i)].IsRigidIslandAwake)
+            {
+                body.Sleep();
+                body.RigidIsland = _islands.RootOf(i);
+            }
+        }
+    }
+}

@@ -1,0 +1,67 @@
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics.Bodies;
+using FractalEngine.Core.Physics.Statics;
+
+namespace FractalEngine.Core.Physics.Rigid;
+
+/// <summary>A body or an object in a part of a step: its surface, where it is and how it moves.</summary>
+internal sealed class RigidSurface
+{
+    /// <summary>Makes the surface of a body.</summary>
+    public RigidSurface(Body body, RigidShape shape)
+    {
+        Body = body;
+        Shape = shape;
+    }
+
+    /// <summary>Makes the surface of an object.</summary>
+    public RigidSurface(StaticObject target, RigidShape shape)
+    {
+        Target = target;
+        Shape = shape;
+    }
+
+    /// <summary>The body; null for an object.</summary>
+    public Body? Body { get; }
+
+    /// <summary>The object; null for a body.</summary>
+    public StaticObject? Target { get; }
+
+    /// <summary>The tree of its surface.</summary>
+    public RigidShape Shape { get; set; }
+
+    /// <summary>Where it is and how it moves in the present part, which takes a unit of time.</summary>
+    public SurfaceMotion Motion { get; set; }
+
+    /// <summary>A box that holds it during the part, world space.</summary>
+    public BoundingBox SweptBounds { get; set; }
+
+    /// <summary>The part of its motion that it makes, from 0 to 1.</summary>
+    public double Fraction { get; set; } = 1;
+
+    /// <summary>True for a body that is awake.</summary>
+    public bool IsAwake => Body is { IsAsleep: false };
+
+    /// <summary>Radius of a ball about the reference point that holds it; only for bodies.</summary>
+    public double Radius => Body!.Radius;
+
+    /// <summary>The motion from when it stops on.</summary>
+    public SurfaceMotion StoppedMotion => Motion.From(Fraction).Stopped;
+
+    /// <summary>Sets the motion of a body, and the box about it.</summary>
+    /// <param name="travel">How far its centre goes.</param>
+    /// <param name="turn">Rotation vector of its turn.</param>
+    public void SetMotion(Vector travel, Vector turn)
+    {
+        // A ball looks the same whichever way it has turned.
+        var isBall = Body!.Description is { Shape: null, Mesh: null };
+        Motion = new(
+            Body.Position, isBall ? Descriptions.Orientation.Identity : Body.Orientation, isBall ? Body.Radius : Body.Scale, travel,
+            isBall ? Vector.Zero : turn);
+        var radius = Body.Radius * Vector.One;
+        SweptBounds = new(
+            Vector.Min(Body.Position, Body.Position + travel) - radius, Vector.Max(Body.Position, Body.Position + travel) + radius);
+        Fraction = 1;
+    }
+}

@@ -1,0 +1,88 @@
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Queries.Regions;
+
+namespace FractalEngine.Core.Physics.Rigid;
+
+/// <summary>
+/// The tree of a rigid surface in its own frame: boxes around its parts, and triangles in the leaves. Parts are made when a search first
+/// visits them, and stay.
+/// </summary>
+internal sealed class SurfaceNodes
+{
+    private readonly ShapeNodes? _nodes;
+    private readonly List<SurfaceBox> _boxes = [];
+    private readonly Dictionary<int, SurfaceTriangle[]> _triangles = [];
+
+    /// <summary>Makes the tree of a mesh or fractal.</summary>
+    /// <param name="tree">The shape, not empty.</param>
+    /// <param name="map">From its frame to that of the surface.</param>
+    public SurfaceNodes(ShapeTree tree, in AffineMap map)
+    {
+        _nodes = new(tree.WithHierarchy(), in map);
+        IsMirrored = map.Linear.Determinant() < 0;
+        AddBoxes();
+    }
+
+    /// <summary>Makes the tree of a few triangles, such as those of balls: one leaf.</summary>
+    public SurfaceNodes(SurfaceTriangle[] triangles)
+    {
+        var box = Geometry.BoundingBox.Empty;
+        foreach (var triangle in triangles)
+        {
+            foreach (var corner in (ReadOnlySpan<Vector>)[triangle.Corners.A, triangle.Corners.B, triangle.Corners.C])
+            {
+                box = box.Including(corner - (triangle.Rounding * Vector.One)).Including(corner + (triangle.Rounding * Vector.One));
+            }
+        }
+
+        _boxes.Add(new(box, AffineMap.Identity, 0));
+        _triangles[0] = triangles;
+    }
+
+    /// <summary>True where triangles are wound inwards.</summary>
+    public bool IsMirrored { get; }
+
+    /// <summary>Number of parts that have been made.</summary>
+    public int Count => _boxes.Count;
+
+    /// <summary>The box around a part, in the frame of the surface.</summary>
+    public SurfaceBox this[int node] => _boxes[node];
+
+    /// <summary>True for a part that has triangles and no smaller parts.</summary>
+    public bool IsLeaf(int node) => _nodes?.IsLeaf(node) ?? true;
+
+    /// <summary>The parts that a part consists of.</summary>
+    public Range Children(int node)
+    {
+        var children = _nodes!.Children(node);
+        AddBoxes();
+        return children;
+    }
+
+    /// <summary>The triangles of a leaf in the frame of the surface.</summary>
+    public SurfaceTriangle[] Triangles(int leaf)
+    {
+        if (!_triangles.TryGetValue(leaf, out var triangles))
+        {
+            var source = _nodes!.Triangles(leaf);
+            triangles = new SurfaceTriangle[source.Length];
+            for (var i = 0; i < source.Length; i++)
+            {
+                triangles[i] = new(source[i].Corners, 0);
+            }
+
+            _triangles[leaf] = triangles;
+        }
+
+        return triangles;
+    }
+
+    private void AddBoxes()
+    {
+        for (var node = _boxes.Count; node < _nodes!.Count; node++)
+        {
+            var part = _nodes[node];
+            _boxes.Add(new(part.LocalBox, part.Map, part.Slack));
+        }
+    }
+}
