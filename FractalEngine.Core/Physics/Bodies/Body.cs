@@ -493,9 +493,6 @@ public sealed class Body
     /// <summary>True once these faces have been searched for in this step.</summary>
     internal bool AreNearSurfacesKnown { get; set; }
 
-    /// <summary>True where the body had contacts in the last part of a step.</summary>
-    internal bool HasRigidContacts { get; set; }
-
     /// <summary>The bodies with the same number fell asleep together, and wake together.</summary>
     internal int RigidIsland { get; set; }
 

@@ -34,6 +34,9 @@ public readonly record struct Orientation(double Cosine, Vector Axis)
         return new Orientation(Math.Cos(0.5 * angle), Math.Sin(0.5 * angle) / angle * rotationVector).After(this);
     }
 
+    /// <summary>The rotation that turns back.</summary>
+    internal Orientation Inverse() => new(Cosine, -Axis);
+
     /// <summary>The rotation that turns as another one does first, and then as this one.</summary>
     internal Orientation After(in Orientation first) => new Orientation(
         (Cosine * first.Cosine) - Vector.Dot(Axis, first.Axis),

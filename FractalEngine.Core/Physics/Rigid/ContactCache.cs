@@ -1,4 +1,5 @@
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics.Descriptions;
 
 namespace FractalEngine.Core.Physics.Rigid;
 
@@ -24,8 +25,8 @@ internal sealed class ContactCache
     /// <summary>Keeps the contacts of a pair.</summary>
     /// <param name="pair">The pair.</param>
     /// <param name="rows">Its contacts, solved.</param>
-    /// <param name="first">Where the first surface was.</param>
-    public void Store(in RigidPair pair, ReadOnlySpan<RigidRow> rows, in SurfaceMotion first)
+    /// <param name="first">Orientation of the first surface when the contacts were found.</param>
+    public void Store(in RigidPair pair, ReadOnlySpan<RigidRow> rows, in Orientation first)
     {
         var start = _entries.Count;
         foreach (ref readonly var row in rows)
@@ -33,7 +34,7 @@ internal sealed class ContactCache
             if (row.NormalImpulse > 0)
             {
                 _entries.Add(new(
-                    first.Orientation.RotateBack(row.Arm1), row.Normal, row.NormalImpulse, row.FrictionImpulse, row.RollingImpulse));
+                    first.RotateBack(row.Arm1), row.Normal, row.NormalImpulse, row.FrictionImpulse, row.RollingImpulse));
             }
         }
 
@@ -46,16 +47,16 @@ internal sealed class ContactCache
     /// <summary>Gives a contact the impulses of the nearest one that there was.</summary>
     /// <param name="pair">Its pair.</param>
     /// <param name="row">The contact.</param>
-    /// <param name="first">Where the first surface is.</param>
+    /// <param name="first">Orientation of the first surface.</param>
     /// <param name="radius">Radius of the smaller body.</param>
-    public void WarmStart(in RigidPair pair, ref RigidRow row, in SurfaceMotion first, double radius)
+    public void WarmStart(in RigidPair pair, ref RigidRow row, in Orientation first, double radius)
     {
         if (!_ranges.TryGetValue(pair.Key, out var range))
         {
             return;
         }
 
-        var arm = first.Orientation.RotateBack(row.Arm1);
+        var arm = first.RotateBack(row.Arm1);
         var nearest = MaxDistance * radius;
         for (var i = range.Start.Value; i < range.End.Value; i++)
         {

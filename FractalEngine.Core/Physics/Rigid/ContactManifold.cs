@@ -15,11 +15,11 @@ internal sealed class ContactManifold
     // Cosine of the angle between normals of one group.
     private const double MinCosine = 0.97;
 
-    // Cosine of the angle between a plane of contacts and an axis that parts two boxes, for those contacts to hold the boxes.
-    private const double MinHoldingCosine = 0.9999;
-
-    // Relative to the contact distance: gaps that count as equal.
+    // Relative to the contact distance: what counts as no deeper.
     private const double GapTolerance = 0.25;
+
+    // The same for what counts as no farther out than the outermost contacts: a hundredth of the radius.
+    private const double OutwardTolerance = 100;
 
     // Relative to the contact distance: points that count as one place, or as no farther out.
     private const double PlaceTolerance = 1;
@@ -66,15 +66,21 @@ internal sealed class ContactManifold
         }
     }
 
-    /// <summary>True where the contacts that there are keep two boxes apart, so that those between the boxes add nothing.</summary>
-    /// <param name="axis">Unit axis that parts the boxes.</param>
-    /// <param name="gap">The gap between the boxes along it.</param>
-    /// <param name="smaller">The smaller one of the boxes.</param>
-    public bool Holds(Vector axis, double gap, in SurfaceBox smaller)
+    /// <summary>
+    /// True where contacts between two boxes would change nothing: the boxes are apart along the normal of a group, by no less than its
+    /// deepest contact, and the smaller one reaches no farther out than its outermost ones.
+    /// </summary>
+    /// <param name="first">Box around a part of the first surface.</param>
+    /// <param name="second">Box around a part of the second surface.</param>
+    public bool Holds(in SurfaceBox first, in SurfaceBox second)
     {
+        ref readonly var smaller = ref first.Radius < second.Radius ? ref first : ref second;
         for (var group = 0; group < _groupCount; group++)
         {
-            if (Vector.Dot(axis, _normals[group]) > MinHoldingCosine && IsWithin(group, gap, in smaller))
+            var normal = _normals[group];
+            var gap = Vector.Dot(normal, first.Centre - second.Centre) - first.Extent(normal) - second.Extent(normal);
+            var deepest = _points[(group * PointsPerGroup) + Directions].Gap;
+            if (gap > 0 && gap > deepest - (GapTolerance * _distance) && IsWithin(group, in smaller))
             {
                 return true;
             }
@@ -113,36 +119,20 @@ internal sealed class ContactManifold
         return false;
     }
 
-    /// <summary>True for a box within the polygon of a group's outermost points, where these are no farther apart than the boxes.</summary>
-    private bool IsWithin(int group, double gap, in SurfaceBox box)
+    /// <summary>True for a box that is no farther out in any direction than a group's outermost points.</summary>
+    private bool IsWithin(int group, in SurfaceBox box)
     {
-        var points = _points.AsSpan(group * PointsPerGroup, PointsPerGroup);
-        var corners = 0;
         for (var i = 0; i < Directions; i++)
         {
-            var from = points[i].Point;
-            var edge = points[(i + 1) % Directions].Point - from;
-            if (points[i].Gap > gap + (GapTolerance * _distance))
-            {
-                return false;
-            }
-
-            var outwards = Vector.Cross(edge, _normals[group]);
-            var length = outwards.Length();
-            if (length <= PlaceTolerance * _distance)
-            {
-                continue;
-            }
-
-            corners++;
-            outwards /= length;
-            if (Vector.Dot(outwards, box.Centre - from) + box.Extent(outwards) > 2 * PlaceTolerance * _distance)
+            var direction = _directions[(group * Directions) + i];
+            var point = _points[(group * PointsPerGroup) + i].Point;
+            if (Vector.Dot(direction, box.Centre - point) + box.Extent(direction) > OutwardTolerance * _distance)
             {
                 return false;
             }
         }
 
-        return corners > 2;
+        return true;
     }
 
     private int FindGroup(Vector normal)

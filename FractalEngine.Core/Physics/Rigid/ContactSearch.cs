@@ -24,7 +24,7 @@ internal sealed class ContactSearch : PairSearch
     private const double SeamFraction = 0.1;
 
     // Pairs of parts that are opened: the contacts found up to there have to do.
-    private const int MaxPairs = 20_000;
+    private const int MaxPairs = 4_000;
 
     // Corners of a triangle that is clipped by another.
     private const int MaxCorners = 9;
@@ -73,7 +73,7 @@ internal sealed class ContactSearch : PairSearch
         Enqueue(0, 0);
         for (var opened = 0; opened < MaxPairs && _queue.TryDequeue(out var pair, out _); opened++)
         {
-            if (_manifold.Holds(pair.Axis, pair.Gap, in pair.Smaller))
+            if (_manifold.Holds(in pair.Box1, in pair.Box2))
             {
                 near.Add(new(pair.First, -1, pair.Second, -1, pair.Axis));
                 continue;
@@ -115,9 +115,9 @@ internal sealed class ContactSearch : PairSearch
         _ = Test.SafeTime(in box1, in box2, _margin, 1, out var best);
         if (best.Gap <= _margin)
         {
-            var smaller = box1.Radius < box2.Radius ? box1 : box2;
+            ref readonly var smaller = ref box1.Radius < box2.Radius ? ref box1 : ref box2;
             _queue.Enqueue(
-                new(node1, node2, best.Axis, best.Gap, smaller), (-(smaller.Centre - _middle).Length() - smaller.Radius, ++_order));
+                new(node1, in box1, node2, in box2, best.Axis), (-(smaller.Centre - _middle).Length() - smaller.Radius, ++_order));
         }
     }
 
@@ -285,16 +285,16 @@ internal sealed class ContactSearch : PairSearch
         return false;
     }
 
-    private readonly struct Pair(int first, int second, Vector axis, double gap, in SurfaceBox smaller)
+    private readonly struct Pair(int first, in SurfaceBox box1, int second, in SurfaceBox box2, Vector axis)
     {
-        public readonly SurfaceBox Smaller = smaller;
+        public readonly SurfaceBox Box1 = box1;
+
+        public readonly SurfaceBox Box2 = box2;
 
         public int First { get; } = first;
 
         public int Second { get; } = second;
 
         public Vector Axis { get; } = axis;
-
-        public double Gap { get; } = gap;
     }
 }

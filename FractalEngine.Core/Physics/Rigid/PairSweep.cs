@@ -17,23 +17,25 @@ internal sealed class PairSweep : PairSearch
     private const int MaxAdvances = 200;
 
     // Advances of a pair of boxes before its parts are looked at.
-    private const int MaxBoxAdvances = 4;
+    private const int MaxBoxAdvances = 20;
 
     // Boxes that advance by less of the time that is left are opened.
-    private const double MinAdvance = 0.2;
+    private const double MinAdvance = 0.02;
 
     // Triangles that advance by less of the time that is left are tested along more axes.
     private const double MinEdgeAdvance = 0.01;
 
     // Pairs of parts that are opened; where they do not suffice, the motion ends where the next one may meet.
-    private const int MaxPairs = 200_000;
+    private const int MaxPairs = 5_000;
 
-    private readonly PriorityQueue<(int First, int Second), (double Time, int Order)> _queue = new();
+    // Relative to the distance: triangles that are closer from the beginning count as crossing, as rounding may have it.
+    private const double MinGap = 1e-6;
+
+    private readonly List<(int First, int Second, double Time)> _open = [];
     private readonly List<SurfaceTriangle> _near1 = [];
     private readonly List<SurfaceTriangle> _near2 = [];
     private double _distance;
     private double _end;
-    private int _order;
 
     /// <summary>Finds the time up to which two surfaces stay farther apart than a distance.</summary>
     /// <param name="first">The first surface.</param>
@@ -52,38 +54,52 @@ internal sealed class PairSweep : PairSearch
         SetPair(first, in motion1, second, in motion2);
         _distance = distance;
         _end = end;
-        _queue.Clear();
-        _order = 0;
+        _open.Clear();
         if (near is null)
         {
-            Enqueue(0, 0, 0);
+            Push(0, 0, 0);
         }
         else
         {
             TestNear(near);
         }
 
-        for (var opened = 0; _queue.TryDequeue(out var pair, out var key) && key.Time < _end; opened++)
+        for (var opened = 0; _open.Count > 0; opened++)
         {
             if (opened == MaxPairs)
             {
-                return key.Time;
+                _open.ForEach(pair => _end = Math.Min(_end, pair.Time));
+                break;
             }
 
-            if (first.IsLeaf(pair.First) && second.IsLeaf(pair.Second))
+            var (node1, node2, time) = _open[^1];
+            _open.RemoveAt(_open.Count - 1);
+            if (time < _end)
             {
-                TestLeaves(pair.First, pair.Second, key.Time);
-                continue;
-            }
-
-            var children = OpenLarger(pair.First, pair.Second, out var opensFirst);
-            for (var child = children.Start.Value; child < children.End.Value; child++)
-            {
-                Enqueue(opensFirst ? child : pair.First, opensFirst ? pair.Second : child, key.Time);
+                Open(node1, node2, time);
             }
         }
 
         return _end;
+    }
+
+    /// <summary>Tests the triangles of two leaves, or pushes the parts of the larger node, those last that may meet first.</summary>
+    private void Open(int node1, int node2, double time)
+    {
+        if (First.IsLeaf(node1) && Second.IsLeaf(node2))
+        {
+            TestLeaves(node1, node2, time);
+            return;
+        }
+
+        var firstPushed = _open.Count;
+        var children = OpenLarger(node1, node2, out var opensFirst);
+        for (var child = children.Start.Value; child < children.End.Value; child++)
+        {
+            Push(opensFirst ? child : node1, opensFirst ? node2 : child, time);
+        }
+
+        CollectionsMarshal.AsSpan(_open)[firstPushed..].Sort(static (pair1, pair2) => pair2.Time.CompareTo(pair1.Time));
     }
 
     private void TestNear(List<NearPair> near)
@@ -92,7 +108,7 @@ internal sealed class PairSweep : PairSearch
         {
             if (pair.Triangle1 < 0)
             {
-                Enqueue(pair.Node1, pair.Node2, 0);
+                Push(pair.Node1, pair.Node2, 0);
                 continue;
             }
 
@@ -109,8 +125,8 @@ internal sealed class PairSweep : PairSearch
         }
     }
 
-    /// <summary>Advances a pair of boxes to where they may meet, and queues it if that is before the end.</summary>
-    private void Enqueue(int node1, int node2, double time)
+    /// <summary>Advances a pair of boxes to where they may meet, and pushes it if that is before the end.</summary>
+    private void Push(int node1, int node2, double time)
     {
         for (var advances = 0; advances < MaxBoxAdvances && time < _end; advances++)
         {
@@ -131,7 +147,7 @@ internal sealed class PairSweep : PairSearch
 
         if (time < _end)
         {
-            _queue.Enqueue((node1, node2), (time, --_order));
+            _open.Add((node1, node2, time));
         }
     }
 
@@ -193,7 +209,7 @@ internal sealed class PairSweep : PairSearch
             {
                 // What is so near from the beginning must not be stopped where it is.
                 var gapBefore = time == 0 ? gap : Measure(local1.Place(in Motion1), local2.Place(in Motion2), out _);
-                if (!(gapBefore > 0))
+                if (!(gapBefore > MinGap * distance))
                 {
                     return;
                 }

@@ -21,7 +21,7 @@ internal static class RigidFlight
         var kept = Math.Exp(-rate * seconds);
         var reach = rate > 0 ? (1 - kept) / rate : seconds;
         var fall = rate > 0 ? (seconds - reach) / rate : 0.5 * seconds * seconds;
-        state.Travel = (reach * state.Velocity) + (fall * state.Acceleration);
+        state.Travel += (reach * state.Velocity) + (fall * state.Acceleration);
         state.Velocity = (kept * state.Velocity) + (reach * state.Acceleration);
         if (state.Torque != Vector.Zero)
         {
@@ -35,7 +35,7 @@ internal static class RigidFlight
 
         if (!body.IsCompound)
         {
-            state.Turn = Orientation.Identity.TurnedBy(seconds * state.Spin);
+            state.Turn = state.Turn.TurnedBy(seconds * state.Spin);
             return;
         }
 
@@ -45,7 +45,7 @@ internal static class RigidFlight
         var momentum = body.InertiaTensor * state.Spin;
         var orientation = body.Orientation.TurnedBy(turn);
         state.Turn = KeepEnergy(in state, orientation, momentum, Vector.Dot(state.Spin, momentum)).After(
-            new(body.Orientation.Cosine, -body.Orientation.Axis));
+            new(state.Orientation.Cosine, -state.Orientation.Axis));
         state.UpdateInertia();
         state.Spin = state.InverseInertia * momentum;
     }

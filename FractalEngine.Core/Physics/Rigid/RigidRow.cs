@@ -35,6 +35,12 @@ internal struct RigidRow
     /// <summary>The gap at the beginning less the one at which surfaces rest, scene units.</summary>
     public double Gap;
 
+    /// <summary>The gap at which the surfaces rest, scene units.</summary>
+    public double Distance;
+
+    /// <summary>The least speed of approach that bounces.</summary>
+    public double BounceSpeed;
+
     /// <summary>Coulomb's coefficient of friction.</summary>
     public double Friction;
 

@@ -13,62 +13,56 @@ internal static class RigidSolver
     private const int BounceRounds = 4;
 
     // Rounds of displacements, and at most so many where gaps are too small afterwards.
-    private const int DisplacementRounds = 6;
+    private const int DisplacementRounds = 4;
     private const int MaxDisplacementRounds = 100;
 
-    // Part of what a gap misses that is restored in a part of a step.
-    private const double RestoredFraction = 0.15;
+    // Part of what a gap misses that is restored in a substep.
+    private const double RestoredFraction = 0.03;
 
     // Relative to the contact distance: by how much gaps may be too small at the end, and what is left of more.
     private const double MaxOverlap = 0.5;
     private const double KeptOverlap = 0.4;
 
-    /// <summary>Takes bodies with contacts through a part of a step.</summary>
-    /// <param name="states">The bodies, and what no force moves.</param>
-    /// <param name="rows">The contacts; their impulses are those of the last part for a start.</param>
-    /// <param name="seconds">Length of the part.</param>
-    /// <param name="substeps">Number of substeps.</param>
-    /// <param name="contactDistances">The distance at which surfaces rest on each other, of each contact.</param>
-    /// <param name="bounceSpeeds">The least speed of approach that bounces, of each contact.</param>
-    public static void Solve(
-        Span<RigidState> states, Span<RigidRow> rows, double seconds, int substeps, ReadOnlySpan<double> contactDistances,
-        ReadOnlySpan<double> bounceSpeeds)
+    /// <summary>Measures the speeds that bounces depend on, before a number of substeps.</summary>
+    public static void Begin(Span<RigidState> states, Span<RigidRow> rows)
     {
         foreach (ref var row in rows)
         {
             row.SpeedBefore = Vector.Dot(row.Normal, RelativeVelocity(in row, states, row.Arm1, row.Arm2));
         }
+    }
 
-        var substep = seconds / substeps;
-        for (var i = 0; i < substeps; i++)
+    /// <summary>Finds the velocities of bodies with contacts in a substep, and moves them by these.</summary>
+    /// <param name="states">The bodies, and what no force moves.</param>
+    /// <param name="rows">The contacts; their impulses are those of the last substep for a start.</param>
+    /// <param name="substep">Length of the substep, seconds.</param>
+    public static void Solve(Span<RigidState> states, Span<RigidRow> rows, double substep)
+    {
+        Accelerate(states, substep);
+        foreach (ref var row in rows)
         {
-            Accelerate(states, substep);
-            for (var k = 0; k < rows.Length; k++)
-            {
-                Prepare(ref rows[k], states, substep);
-            }
-
-            SolveRounds(states, rows, substep);
-            Move(states, substep);
-            foreach (ref var row in rows)
-            {
-                row.MaxNormalImpulse = Math.Max(row.MaxNormalImpulse, row.NormalImpulse);
-                row.NormalImpulseSum += row.NormalImpulse;
-            }
+            Prepare(ref row, states, substep);
         }
 
-        Bounce(states, rows, bounceSpeeds);
-        RestoreGaps(states, rows, contactDistances);
+        SolveRounds(states, rows, substep);
+        Move(states, substep);
+        foreach (ref var row in rows)
+        {
+            row.MaxNormalImpulse = Math.Max(row.MaxNormalImpulse, row.NormalImpulse);
+            row.NormalImpulseSum += row.NormalImpulse;
+        }
+
+        RestoreGaps(states, rows);
     }
 
     /// <summary>Moves bodies apart that are too close at the end. Their velocities stay as they are.</summary>
-    private static void RestoreGaps(Span<RigidState> states, Span<RigidRow> rows, ReadOnlySpan<double> contactDistances)
+    private static void RestoreGaps(Span<RigidState> states, Span<RigidRow> rows)
     {
         for (var i = 0; i < rows.Length; i++)
         {
             rows[i].Displacement = 0;
             rows[i].CurrentGap = Math.Max(
-                (1 - RestoredFraction) * Math.Min(0, GapNow(in rows[i], states)), -KeptOverlap * contactDistances[i]);
+                (1 - RestoredFraction) * Math.Min(0, GapNow(in rows[i], states)), -KeptOverlap * rows[i].Distance);
         }
 
         var isTooClose = true;
@@ -79,7 +73,7 @@ internal static class RigidSolver
             {
                 ref var row = ref rows[i];
                 var gap = GapNow(in row, states);
-                isTooClose |= gap < -MaxOverlap * contactDistances[i];
+                isTooClose |= gap < -MaxOverlap * rows[i].Distance;
                 var displacement = Math.Max(0, row.Displacement + (row.NormalMass * (row.CurrentGap - gap)));
                 var change = (displacement - row.Displacement) * row.Normal;
                 row.Displacement = displacement;
@@ -196,15 +190,15 @@ internal static class RigidSolver
         return length > maxLength ? maxLength / length * vector : vector;
     }
 
-    /// <summary>Lets contacts bounce that have stopped an approach.</summary>
-    private static void Bounce(Span<RigidState> states, Span<RigidRow> rows, ReadOnlySpan<double> bounceSpeeds)
+    /// <summary>Lets contacts bounce that have stopped an approach, after a number of substeps.</summary>
+    public static void Bounce(Span<RigidState> states, Span<RigidRow> rows)
     {
         for (var round = 0; round < BounceRounds; round++)
         {
             for (var i = 0; i < rows.Length; i++)
             {
                 ref var row = ref rows[i];
-                if (row.Restitution > 0 && row.MaxNormalImpulse > 0 && row.SpeedBefore < -bounceSpeeds[i])
+                if (row.Restitution > 0 && row.MaxNormalImpulse > 0 && row.SpeedBefore < -row.BounceSpeed)
                 {
                     var speed = Vector.Dot(row.Normal, RelativeVelocity(in row, states, row.TurnedArm1, row.TurnedArm2));
                     var impulse = Math.Max(0, row.NormalImpulse - (row.NormalMass * (speed + (row.Restitution * row.SpeedBefore))));

@@ -24,6 +24,12 @@ internal struct RigidState
     /// <summary>How the body has turned since the beginning of the part.</summary>
     public Orientation Turn;
 
+    /// <summary>How far the reference point had gone before the present substep.</summary>
+    public Vector TravelBefore;
+
+    /// <summary>How the body had turned before the present substep.</summary>
+    public Orientation TurnBefore;
+
     /// <summary>Orientation at the beginning of the part.</summary>
     public Orientation Orientation;
 
@@ -61,6 +67,13 @@ internal struct RigidState
     {
         Velocity += InverseMass * impulse;
         Spin += InverseInertia * Vector.Cross(arm, impulse);
+    }
+
+    /// <summary>Begins a substep where the last one has ended.</summary>
+    public void BeginSubstep()
+    {
+        TravelBefore = Travel;
+        TurnBefore = Turn;
     }
 
     /// <summary>Moves and turns the body as an impulse at a point would in a unit of time, if it stood.</summary>

@@ -15,21 +15,15 @@ namespace FractalEngine.Core.Physics.Rigid;
 /// </summary>
 internal sealed class RigidStepper
 {
-    // Radians that a body turns in a part of a step at most.
+    // Radians that a body turns in a substep at most.
     private const double MaxAngle = 0.5;
 
-    // The same for a body with contacts: the way between two poses of the solver dips into what it touches by the square of it.
-    private const double MaxContactAngle = 0.03;
-
-    // Parts of a step at most for that.
-    private const int MaxContactParts = 3;
-
-    // Substeps of a step at least, and of a part of it.
+    // Substeps of a step, and at most so many where bodies turn fast.
     private const int MinSubsteps = 8;
-    private const int MinPartSubsteps = 2;
+    private const int MaxSubsteps = 1024;
 
-    // Parts of a step at most: what turns faster turns by more in each.
-    private const int MaxParts = 1024;
+    // How often contacts are looked for anew in a step where something has been stopped that none of them held.
+    private const int MaxSearches = 4;
 
     // Relative to the radius of the smaller body: the gap at which surfaces rest on each other.
     private const double ContactDistance = 1e-4;
@@ -55,8 +49,6 @@ internal sealed class RigidStepper
     private readonly List<RigidSurface> _surfaces = [];
     private readonly List<RigidPair> _pairs = [];
     private readonly List<RigidRow> _rows = [];
-    private readonly List<double> _contactDistances = [];
-    private readonly List<double> _bounceSpeeds = [];
     private readonly List<int> _order = [];
     private readonly ContactCache _cache = new();
     private readonly DisjointSets _islands = new();
@@ -68,8 +60,9 @@ internal sealed class RigidStepper
     private readonly List<double> _impacts = [];
     private RigidState[] _states = [];
     private Vector _gravity;
+    private double _stepSeconds;
     private double _seconds;
-    private int _substeps;
+    private double _fraction;
     private int _round;
 
     public RigidStepper(PhysicsSettings settings, List<Body> bodies, StaticObjectSet statics, ContactLog log, int maxThreads)
@@ -102,22 +95,24 @@ internal sealed class RigidStepper
     public void StepPart(Vector gravity, double seconds)
     {
         _gravity = gravity;
+        _stepSeconds = seconds;
         GatherSurfaces();
-        var parts = 1.0;
+        var angle = 0.0;
         foreach (var body in _bodies)
         {
             Shrink(body, seconds);
-            var angle = body.IsAsleep ? 0 : body.AngularVelocity.Length() * seconds;
-            parts = Math.Max(parts, angle / MaxAngle);
-            parts = body.HasRigidContacts ? Math.Max(parts, Math.Min(angle / MaxContactAngle, MaxContactParts)) : parts;
+            angle = Math.Max(angle, body.IsAsleep ? 0 : body.AngularVelocity.Length() * seconds);
         }
 
-        parts = Math.Min(Math.Ceiling(parts), MaxParts);
-        _seconds = seconds / parts;
-        _substeps = Math.Max(MinPartSubsteps, (int)Math.Ceiling(MinSubsteps / parts));
-        for (var part = 0; part < parts; part++)
+        var left = (int)Math.Clamp(Math.Ceiling(angle / MaxAngle), MinSubsteps, MaxSubsteps);
+        var substep = seconds / left;
+        for (var searches = 1; left > 0; searches++)
         {
-            MovePart(part * _seconds);
+            _seconds = left * substep;
+            BeginPart(seconds - _seconds);
+            var count = _pairs.Count == 0 && angle <= MaxAngle ? 1 : left;
+            left = MoveSubsteps(count, canStop: searches < MaxSearches);
+            EndPart();
         }
 
         Sleep(seconds);
@@ -182,18 +177,55 @@ internal sealed class RigidStepper
         return shape;
     }
 
-    private void MovePart(double elapsed)
+    /// <summary>Finds the contacts of all that may meet in the rest of the step.</summary>
+    private void BeginPart(double elapsed)
     {
         SetMotions(elapsed);
         FindPairs();
         RunOnPairs(static (stepper, pair, thread) => stepper.FindContacts(pair, thread));
         AddRows();
-        RigidSolver.Solve(
-            _states.AsSpan(0, _surfaces.Count), CollectionsMarshal.AsSpan(_rows), _seconds, _substeps, CollectionsMarshal.AsSpan(_contactDistances),
-            CollectionsMarshal.AsSpan(_bounceSpeeds));
-        SetPlannedMotions();
-        Sweep();
-        Commit();
+        RigidSolver.Begin(_states.AsSpan(0, _surfaces.Count), CollectionsMarshal.AsSpan(_rows));
+    }
+
+    /// <summary>Makes substeps.</summary>
+    /// <param name="count">Their number, which fill the part.</param>
+    /// <param name="canStop">True to end the part where something has been stopped that no contact held.</param>
+    /// <returns>The number of those that are left.</returns>
+    private int MoveSubsteps(int count, bool canStop)
+    {
+        _fraction = 1.0 / count;
+        for (var i = 0; i < count; i++)
+        {
+            for (var k = 0; k < _surfaces.Count; k++)
+            {
+                _states[k].BeginSubstep();
+            }
+
+            RigidSolver.Solve(
+                _states.AsSpan(0, _surfaces.Count), CollectionsMarshal.AsSpan(_rows), _fraction * _seconds);
+            SetPlannedMotions(i * _fraction);
+            Sweep();
+            if (Commit() && canStop)
+            {
+                return count - 1 - i;
+            }
+        }
+
+        return 0;
+    }
+
+    private void EndPart()
+    {
+        RigidSolver.Bounce(_states.AsSpan(0, _surfaces.Count), CollectionsMarshal.AsSpan(_rows));
+        for (var i = 0; i < _bodies.Count; i++)
+        {
+            if (_states[i].IsDynamic)
+            {
+                _bodies[i].Velocity = _states[i].Velocity;
+                _bodies[i].AngularVelocity = _states[i].Spin;
+            }
+        }
+
         StoreContacts();
     }
 
@@ -241,7 +273,8 @@ internal sealed class RigidStepper
         var state = new RigidState { Turn = Orientation.Identity, Orientation = Orientation.Identity };
         if (target.Kinematic is not { } moved)
         {
-            surface.Motion = new(target.ObjectToWorld.Translation, Orientation.Identity, 1, Vector.Zero, Vector.Zero);
+            surface.PartMotion = new(target.ObjectToWorld.Translation, Orientation.Identity, 1, Vector.Zero, Vector.Zero);
+            surface.Motion = surface.PartMotion;
             surface.SweptBounds = target.Bounds;
             return state;
         }
@@ -249,9 +282,10 @@ internal sealed class RigidStepper
         state.Velocity = moved.Velocity;
         state.Spin = moved.AngularVelocity;
         state.Orientation = moved.Pose.Orientation.TurnedBy(elapsed * moved.AngularVelocity);
-        surface.Motion = new(
+        surface.PartMotion = new(
             moved.Pose.Position + (elapsed * moved.Velocity), state.Orientation, 1, _seconds * moved.Velocity,
             _seconds * moved.AngularVelocity);
+        surface.Motion = surface.PartMotion;
         surface.SweptBounds = moved.SweptBounds;
         return state;
     }
@@ -344,6 +378,7 @@ internal sealed class RigidStepper
         var radius = Math.Min(first.Radius, second.Body?.Radius ?? double.PositiveInfinity);
         var margin = (2 * pair.Distance) + Math.Min(MaxWay(first, in motion1, second, in motion2), MaxMargin * radius);
         _near[index].Clear();
+        _ways[index] = 0;
         var isAll = _searches[thread].Contacts.FindContacts(
             first.Shape.NodesOf(thread), in motion1, second.Shape.NodesOf(thread), in motion2, pair.Distance, margin, _contacts[index],
             _near[index]);
@@ -361,8 +396,6 @@ internal sealed class RigidStepper
     private void AddRows()
     {
         _rows.Clear();
-        _contactDistances.Clear();
-        _bounceSpeeds.Clear();
         for (var i = 0; i < _pairs.Count; i++)
         {
             var pair = _pairs[i];
@@ -397,18 +430,18 @@ internal sealed class RigidStepper
         {
             First = pair.First, Second = pair.Second, Normal = contact.Normal, Tangent1 = tangent,
             Tangent2 = Vector.Cross(contact.Normal, tangent), Arm1 = contact.Point, Arm2 = point - second.Motion.Origin,
-            Gap = contact.Gap - pair.Distance, Friction = CombinedFriction(body, other),
+            Gap = contact.Gap - pair.Distance, Distance = pair.Distance,
+            BounceSpeed = _settings.RestitutionThreshold ?? 0.5 * _stepSeconds * _states[pair.First].Acceleration.Length(),
+            Friction = CombinedFriction(body, other),
             Restitution = Math.Min(body.Restitution, other?.Restitution ?? 1),
             RollingArm = Math.Max(body.RollingFriction, other?.RollingFriction ?? 0) * radius,
             SpinningArm = Math.Max(body.SpinningFriction, other?.SpinningFriction ?? 0) * radius,
             Belt = belt - (Vector.Dot(belt, contact.Normal) * contact.Normal),
         };
-        _cache.WarmStart(in pair, ref row, first.Motion, radius);
+        _cache.WarmStart(in pair, ref row, _states[pair.First].Orientation, radius);
         _states[pair.First].HasContacts = true;
         _states[pair.Second].HasContacts = true;
         _rows.Add(row);
-        _contactDistances.Add(pair.Distance);
-        _bounceSpeeds.Add(_settings.RestitutionThreshold ?? 0.5 * _seconds * _states[pair.First].Acceleration.Length());
     }
 
     private static double CombinedFriction(BodyDescription body, BodyDescription? other) =>
@@ -429,24 +462,29 @@ internal sealed class RigidStepper
         }
     }
 
-    /// <summary>Sets the motions that the sweep tests: those that contacts leave, and free flight.</summary>
-    private void SetPlannedMotions()
+    /// <summary>Sets the motions of a substep that the sweep tests: those that contacts leave, and free flight.</summary>
+    /// <param name="time">When it begins, as a fraction of the part.</param>
+    private void SetPlannedMotions(double time)
     {
-        for (var i = 0; i < _bodies.Count; i++)
+        for (var i = 0; i < _surfaces.Count; i++)
         {
             ref var state = ref _states[i];
+            var surface = _surfaces[i];
+            surface.Fraction = 1;
             if (!state.IsDynamic)
             {
+                surface.Motion = surface.Body is null ? surface.PartMotion.Slice(time, _fraction) : surface.Motion.Stopped;
                 continue;
             }
 
             if (!state.HasContacts)
             {
-                RigidFlight.Fly(_bodies[i], ref state, _seconds);
+                RigidFlight.Fly(_bodies[i], ref state, _fraction * _seconds);
             }
 
-            _surfaces[i].SetMotion(state.Travel, state.Turn.RotationVector);
-            _surfaces[i].Motion = _surfaces[i].Motion.AsScrew(_bodies[i].Radius);
+            var turn = state.Turn.After(state.TurnBefore.Inverse());
+            surface.SetMotion(state.Travel - state.TravelBefore, turn.RotationVector);
+            surface.Motion = surface.Motion.AsScrew(_bodies[i].Radius);
         }
     }
 
@@ -528,7 +566,7 @@ internal sealed class RigidStepper
         var distance = SweepDistance * pair.Distance;
         // What was looked at for contacts is all that may meet, unless both come closer than was thought then.
         var way = duration * MaxWay(first, in motion1, second, in motion2);
-        _ways[index] = _round == 0 ? way : _ways[index] + way;
+        _ways[index] += way;
         var impact = _searches[thread].Sweep.FindImpact(
             first.Shape.NodesOf(thread), in motion1, second.Shape.NodesOf(thread), in motion2, distance, duration,
             _ways[index] <= _margins[index] - (2 * distance) ? _near[index] : null);
@@ -538,28 +576,36 @@ internal sealed class RigidStepper
         }
     }
 
-    private void Commit()
+    /// <summary>Moves all bodies by their motions, or to where these were stopped.</summary>
+    /// <returns>True where one was stopped.</returns>
+    private bool Commit()
     {
+        var wasStopped = false;
         for (var i = 0; i < _bodies.Count; i++)
         {
-            ref readonly var state = ref _states[i];
+            ref var state = ref _states[i];
             if (!state.IsDynamic)
             {
                 continue;
             }
 
             var body = _bodies[i];
-            var fraction = _surfaces[i].Fraction;
-            body.Position = fraction == 1 ? body.Position + state.Travel : _surfaces[i].Motion.From(fraction).Origin;
-            body.SetOrientation(
-                fraction == 1 ? state.Turn.After(body.Orientation) : body.Orientation.TurnedBy(fraction * state.Turn.RotationVector));
-            // What is stopped again and again loses the speed that it cannot use.
-            var kept = fraction < 1 && body.IsHeld ? fraction : 1;
-            body.IsHeld = fraction < 1;
-            body.Velocity = kept * state.Velocity;
-            body.HasRigidContacts = state.HasContacts;
-            body.AngularVelocity = body.Description.IsRotationLocked ? Vector.Zero : kept * state.Spin;
+            var surface = _surfaces[i];
+            if (surface.Fraction < 1)
+            {
+                wasStopped = true;
+                state.Travel = state.TravelBefore + surface.Motion.From(surface.Fraction).Origin - surface.Motion.Origin;
+                state.Turn = state.TurnBefore.TurnedBy(surface.Fraction * surface.Motion.Turn);
+                state.UpdateInertia();
+            }
+
+            body.Position += state.Travel - state.TravelBefore;
+            body.SetOrientation(state.Turn.After(state.Orientation));
+            body.Velocity = state.Velocity;
+            body.AngularVelocity = state.Spin;
         }
+
+        return wasStopped;
     }
 
     private void StoreContacts()
@@ -570,7 +616,7 @@ internal sealed class RigidStepper
         for (var i = 0; i < _pairs.Count; i++)
         {
             var count = _contacts[i].Count;
-            _cache.Store(_pairs[i], rows.Slice(start, count), _surfaces[_pairs[i].First].Motion);
+            _cache.Store(_pairs[i], rows.Slice(start, count), _states[_pairs[i].First].Orientation);
             foreach (ref readonly var row in rows.Slice(start, count))
             {
                 if (row.NormalImpulseSum > 0 && _log.IsEnabled)

@@ -31,8 +31,11 @@ internal sealed class RigidSurface
     /// <summary>The tree of its surface.</summary>
     public RigidShape Shape { get; set; }
 
-    /// <summary>Where it is and how it moves in the present part, which takes a unit of time.</summary>
+    /// <summary>Where it is and how it moves in the present substep, which takes a unit of time.</summary>
     public SurfaceMotion Motion { get; set; }
+
+    /// <summary>How an object moves in the rest of the step, which takes a unit of time.</summary>
+    public SurfaceMotion PartMotion { get; set; }
 
     /// <summary>A box that holds it during the part, world space.</summary>
     public BoundingBox SweptBounds { get; set; }

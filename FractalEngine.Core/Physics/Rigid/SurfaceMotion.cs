@@ -97,6 +97,15 @@ internal readonly struct SurfaceMotion
         return new(Position + (time * Travel), turned.Rotate(Arm), turned.After(Orientation), Scale, Travel, Turn);
     }
 
+    /// <summary>A part of the motion, which takes a unit of time itself.</summary>
+    /// <param name="time">When it begins.</param>
+    /// <param name="duration">How long it takes.</param>
+    public SurfaceMotion Slice(double time, double duration)
+    {
+        var from = From(time);
+        return new(from.Position, from.Arm, from.Orientation, Scale, duration * Travel, duration * Turn);
+    }
+
     /// <summary>The same motion with coordinates relative to a point.</summary>
     public SurfaceMotion RelativeTo(Vector origin) => new(Position - origin, Arm, Orientation, Scale, Travel, Turn);
 
