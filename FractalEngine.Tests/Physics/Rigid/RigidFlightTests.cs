@@ -8,7 +8,7 @@ namespace FractalEngine.Tests.Physics.Rigid;
 /// <summary>Bodies that touch nothing, against the mechanics of rigid bodies.</summary>
 public class RigidFlightTests
 {
-    public static TheoryData<string> Shapes => ["box", "cone", "cylinder", "crooked", "needle"];
+    public static TheoryData<string> Shapes => ["box", "cone", "cylinder", "crooked", "plank"];
 
     [Theory]
     [MemberData(nameof(Shapes))]
@@ -98,6 +98,6 @@ public class RigidFlightTests
         "cone" => RigidMeshes.Revolve([(0, 0), (1, 0), (0, 2)], 16),
         "cylinder" => RigidMeshes.Revolve([(0, 0), (1, 0), (1, 0.5), (0, 0.5)], 12),
         "crooked" => RigidMeshes.Join(RigidMeshes.CreateL(), RigidMeshes.Box(new(0, 0, 1), new(0.5, 0.7, 2.5))),
-        _ => RigidMeshes.Box(0.05, 2, 0.03),
+        _ => RigidMeshes.Box(0.4, 2, 0.1),
     };
 }
