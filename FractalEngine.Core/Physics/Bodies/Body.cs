@@ -493,6 +493,9 @@ public sealed class Body
     /// <summary>True once these faces have been searched for in this step.</summary>
     internal bool AreNearSurfacesKnown { get; set; }
 
+    /// <summary>Number of substeps for which the body has been stopped where it was.</summary>
+    internal int HeldCount { get; set; }
+
     /// <summary>The bodies with the same number fell asleep together, and wake together.</summary>
     internal int RigidIsland { get; set; }
 

@@ -8,12 +8,12 @@ namespace FractalEngine.Core.Physics.Rigid;
 /// </summary>
 internal sealed class ContactManifold
 {
-    private const int MaxGroups = 8;
+    private const int MaxGroups = 12;
     private const int Directions = 8;
     private const int PointsPerGroup = Directions + 1;
 
     // Cosine of the angle between normals of one group.
-    private const double MinCosine = 0.97;
+    private const double MinCosine = 0.995;
 
     // Relative to the contact distance: what counts as no deeper.
     private const double GapTolerance = 0.25;

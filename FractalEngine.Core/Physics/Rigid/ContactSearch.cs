@@ -12,13 +12,19 @@ namespace FractalEngine.Core.Physics.Rigid;
 internal sealed class ContactSearch : PairSearch
 {
     // Cosine of the angle between the line of the closest points and a face, for that face to be touched flatly.
-    private const double MinFaceCosine = 0.95;
+    private const double MinFaceCosine = 0.9999;
 
     // Relative to the contact distance: edges and corners beyond it are left to the sweep, since their normals change on the way.
     private const double EdgeMargin = 2;
 
     // Relative to the contact distance: a contact with an edge so near a deeper one with a face is a seam of that face.
     private const double SeamDistance = 4;
+
+    // Relative to the gap of an edge: the face beside a seam is closer.
+    private const double MaxSeamGap = 0.98;
+
+    // Relative to the contact distance: gaps that count as equal.
+    private const double SeamTolerance = 0.01;
 
     // Relative to the radius of a ball or capsule: the same for what has one.
     private const double SeamFraction = 0.1;
@@ -33,7 +39,7 @@ internal sealed class ContactSearch : PairSearch
     private readonly List<(SurfaceTriangle Placed, int Index)> _near1 = [];
     private readonly List<(SurfaceTriangle Placed, int Index)> _near2 = [];
     private List<NearPair> _near = [];
-    private readonly List<ContactPoint> _edges = [];
+    private readonly List<(ContactPoint Contact, bool IsCrossing)> _edges = [];
     private readonly List<ContactPoint> _faces = [];
     private readonly ContactManifold _manifold = new();
     private double _distance;
@@ -92,9 +98,9 @@ internal sealed class ContactSearch : PairSearch
             }
         }
 
-        foreach (var edge in _edges)
+        foreach (var (edge, isCrossing) in _edges)
         {
-            if (!IsSeam(in edge))
+            if (!IsSeam(in edge, isCrossing))
             {
                 _manifold.Add(in edge);
             }
@@ -182,7 +188,7 @@ internal sealed class ContactSearch : PairSearch
         var cosine2 = Math.Abs(Vector.Dot(normal, triangle2.Normal));
         if (Math.Max(cosine1, cosine2) >= MinFaceCosine)
         {
-            Clip(in triangle1, in triangle2, normal, isFirstClipped: cosine2 >= cosine1);
+            Clip(in triangle1, in triangle2, normal, isFirstClipped: cosine2 >= cosine1, isCrossing: false);
         }
         else if (triangle1.Normal == Vector.Zero && triangle2.Normal == Vector.Zero)
         {
@@ -192,7 +198,7 @@ internal sealed class ContactSearch : PairSearch
         else if (gap <= EdgeMargin * _distance)
         {
             _seamDistance = (SeamDistance * _distance) + (SeamFraction * rounding);
-            _edges.Add(CreateContact(in closest, normal, triangle1.Rounding, triangle2.Rounding, gap));
+            _edges.Add((CreateContact(in closest, normal, triangle1.Rounding, triangle2.Rounding, gap), false));
         }
 
         return true;
@@ -203,7 +209,13 @@ internal sealed class ContactSearch : PairSearch
         new(0.5 * (closest.Point1 - (rounding1 * normal) + closest.Point2 + (rounding2 * normal)), normal, gap);
 
     /// <summary>Adds the corners of what a triangle that lies flat on the face of another has in common with it.</summary>
-    private void Clip(in SurfaceTriangle triangle1, in SurfaceTriangle triangle2, Vector normal, bool isFirstClipped)
+    /// <param name="triangle1">Of the first surface.</param>
+    /// <param name="triangle2">Of the second surface.</param>
+    /// <param name="normal">About that of the face, from the second to the first.</param>
+    /// <param name="isFirstClipped">True where the face is of the second surface.</param>
+    /// <param name="isCrossing">True for triangles that touch or cross.</param>
+    private void Clip(
+        in SurfaceTriangle triangle1, in SurfaceTriangle triangle2, Vector normal, bool isFirstClipped, bool isCrossing)
     {
         ref readonly var clipped = ref isFirstClipped ? ref triangle1 : ref triangle2;
         ref readonly var face = ref isFirstClipped ? ref triangle2 : ref triangle1;
@@ -215,6 +227,8 @@ internal sealed class ContactSearch : PairSearch
         count = ClipBySide(kept, count, face.Corners.B, face.Corners.C, face.Normal, corners);
         count = ClipBySide(corners, count, face.Corners.C, face.Corners.A, face.Normal, kept);
         var towards = isFirstClipped ? 1 : -1;
+        // Faces that only touch along an edge are no contact where others touch flatly.
+        var isEdge = isCrossing && !HasArea(kept[..count], faceNormal);
         foreach (var corner in kept[..count])
         {
             var height = towards * Vector.Dot(faceNormal, corner - face.Corners.A);
@@ -225,6 +239,13 @@ internal sealed class ContactSearch : PairSearch
                 var contact = new ContactPoint(
                     0.5 * (corner - (towards * clipped.Rounding * faceNormal) + foot + (towards * face.Rounding * faceNormal)), faceNormal,
                     gap);
+                if (isEdge)
+                {
+                    _seamDistance = SeamDistance * _distance;
+                    _edges.Add((contact, true));
+                    continue;
+                }
+
                 _faces.Add(contact);
                 _manifold.Add(in contact);
             }
@@ -265,18 +286,67 @@ internal sealed class ContactSearch : PairSearch
         var depth2 = triangle1.ReachAlong(outwards2).Minimum - Vector.Dot(outwards2, triangle2.Corners.A);
         var isFirst = outwards2 == Vector.Zero || (outwards1 != Vector.Zero && depth1 > depth2);
         var normal = isFirst ? -outwards1 : outwards2;
-        if (normal != Vector.Zero)
+        var depth = isFirst ? depth1 : depth2;
+        if (normal == Vector.Zero)
         {
-            _manifold.Add(new(point, normal, Math.Clamp(isFirst ? depth1 : depth2, -_maxDepth, 0)));
+            return;
+        }
+
+        if (depth >= -_distance)
+        {
+            Clip(in triangle1, in triangle2, normal, isFirstClipped: !isFirst, isCrossing: true);
+        }
+        else if (CrossingLength(in triangle1, in triangle2) > SeamTolerance * _distance)
+        {
+            _manifold.Add(new(point, normal, Math.Max(depth, -_maxDepth)));
         }
     }
 
-    /// <summary>True for a contact with an edge where faces join that are touched beside it.</summary>
-    private bool IsSeam(in ContactPoint edge)
+    /// <summary>Length of the line in which two triangles cross; 0 or less for those that only touch.</summary>
+    private static double CrossingLength(in SurfaceTriangle triangle1, in SurfaceTriangle triangle2)
     {
+        var line = Vector.Cross(triangle1.Normal, triangle2.Normal).UnitVectorOrZero();
+        var (minimum1, maximum1) = CrossPlane(in triangle1, in triangle2, line);
+        var (minimum2, maximum2) = CrossPlane(in triangle2, in triangle1, line);
+        return Math.Min(maximum1, maximum2) - Math.Max(minimum1, minimum2);
+    }
+
+    private static (double Minimum, double Maximum) CrossPlane(in SurfaceTriangle triangle, in SurfaceTriangle other, Vector line)
+    {
+        var (a, b, c) = triangle.Corners;
+        var range = (Minimum: double.PositiveInfinity, Maximum: double.NegativeInfinity);
+        foreach (var (from, to) in (ReadOnlySpan<(Vector From, Vector To)>)[(a, b), (b, c), (c, a)])
+        {
+            var height1 = Vector.Dot(other.Normal, from - other.Corners.A);
+            var height2 = Vector.Dot(other.Normal, to - other.Corners.A);
+            if (height1 < 0 != height2 < 0)
+            {
+                var place = Vector.Dot(line, from + (height1 / (height1 - height2) * (to - from)));
+                range = (Math.Min(range.Minimum, place), Math.Max(range.Maximum, place));
+            }
+        }
+
+        return range;
+    }
+
+    private bool HasArea(ReadOnlySpan<Vector> corners, Vector normal)
+    {
+        var area = 0.0;
+        for (var i = 2; i < corners.Length; i++)
+        {
+            area += Vector.Dot(normal, Vector.Cross(corners[i - 1] - corners[0], corners[i] - corners[0]));
+        }
+
+        return Math.Abs(area) > _distance * _distance;
+    }
+
+    /// <summary>True for a contact with an edge where faces join that are touched beside it.</summary>
+    private bool IsSeam(in ContactPoint edge, bool isCrossing)
+    {
+        var maxGap = isCrossing ? edge.Gap + (SeamTolerance * _distance) : MaxSeamGap * edge.Gap;
         foreach (var face in _faces)
         {
-            if (face.Gap <= edge.Gap && (face.Point - edge.Point).Length() <= _seamDistance)
+            if (face.Gap <= maxGap && (face.Point - edge.Point).Length() <= _seamDistance)
             {
                 return true;
             }

@@ -29,7 +29,11 @@ internal sealed class PairSweep : PairSearch
     private const int MaxPairs = 5_000;
 
     // Relative to the distance: triangles that are closer from the beginning count as crossing, as rounding may have it.
-    private const double MinGap = 1e-6;
+    private const double MinGap = 1e-7;
+
+    // The same for those that may come half as close; closer ones only by a thousandth, again and again.
+    private const double MinHalvedGap = 0.05;
+    private const double KeptFraction = 0.999;
 
     private readonly List<(int First, int Second, double Time)> _open = [];
     private readonly List<SurfaceTriangle> _near1 = [];
@@ -191,6 +195,7 @@ internal sealed class PairSweep : PairSearch
     private void TestTriangles(in SurfaceTriangle local1, in SurfaceTriangle local2, double time)
     {
         var distance = _distance;
+        var touch = TouchFactor * distance;
         for (var advances = 0; advances < MaxAdvances; advances++)
         {
             var from1 = Motion1.From(time);
@@ -214,10 +219,12 @@ internal sealed class PairSweep : PairSearch
                     return;
                 }
 
-                distance = Math.Min(distance, 0.5 * gapBefore);
+                var kept = gapBefore > MinHalvedGap * distance ? 0.5 : KeptFraction;
+                distance = Math.Min(distance, kept * gapBefore);
+                touch = Math.Min(touch, distance + ((TouchFactor - 1) * (gapBefore - distance)));
             }
 
-            if (gap <= TouchFactor * distance)
+            if (gap <= touch)
             {
                 break;
             }

@@ -56,7 +56,7 @@ internal struct RigidRow
     /// <summary>Velocity of a belt along the second surface.</summary>
     public Vector Belt;
 
-    /// <summary>Speed along the normal before the step, negative on approach.</summary>
+    /// <summary>Speed along the normal before the substep, negative on approach.</summary>
     public double SpeedBefore;
 
     /// <summary>One over the mobility along the normal.</summary>
@@ -78,9 +78,6 @@ internal struct RigidRow
 
     /// <summary>The impulse along the normal in the present substep.</summary>
     public double NormalImpulse;
-
-    /// <summary>The largest impulse along the normal of all substeps.</summary>
-    public double MaxNormalImpulse;
 
     /// <summary>The sum of the impulses along the normal of all substeps.</summary>
     public double NormalImpulseSum;

@@ -23,35 +23,23 @@ internal static class RigidSolver
     private const double MaxOverlap = 0.5;
     private const double KeptOverlap = 0.4;
 
-    /// <summary>Measures the speeds that bounces depend on, before a number of substeps.</summary>
-    public static void Begin(Span<RigidState> states, Span<RigidRow> rows)
-    {
-        foreach (ref var row in rows)
-        {
-            row.SpeedBefore = Vector.Dot(row.Normal, RelativeVelocity(in row, states, row.Arm1, row.Arm2));
-        }
-    }
-
     /// <summary>Finds the velocities of bodies with contacts in a substep, and moves them by these.</summary>
     /// <param name="states">The bodies, and what no force moves.</param>
     /// <param name="rows">The contacts; their impulses are those of the last substep for a start.</param>
     /// <param name="substep">Length of the substep, seconds.</param>
     public static void Solve(Span<RigidState> states, Span<RigidRow> rows, double substep)
     {
-        Accelerate(states, substep);
         foreach (ref var row in rows)
         {
-            Prepare(ref row, states, substep);
+            Prepare(ref row, states);
         }
+
+        Accelerate(states, substep);
+        WarmStart(states, rows);
 
         SolveRounds(states, rows, substep);
         Move(states, substep);
-        foreach (ref var row in rows)
-        {
-            row.MaxNormalImpulse = Math.Max(row.MaxNormalImpulse, row.NormalImpulse);
-            row.NormalImpulseSum += row.NormalImpulse;
-        }
-
+        Bounce(states, rows);
         RestoreGaps(states, rows);
     }
 
@@ -115,18 +103,28 @@ internal static class RigidSolver
         }
     }
 
-    /// <summary>Finds arms, masses and the gap of a contact now, and applies the impulses of the substep before.</summary>
-    private static void Prepare(ref RigidRow row, Span<RigidState> states, double substep)
+    private static void WarmStart(Span<RigidState> states, Span<RigidRow> rows)
+    {
+        foreach (ref var row in rows)
+        {
+            Apply(in row, states, (row.NormalImpulse * row.Normal) + row.FrictionImpulse, row.RollingImpulse);
+        }
+    }
+
+    /// <summary>Finds arms, masses, gap and speed of a contact now.</summary>
+    private static void Prepare(ref RigidRow row, Span<RigidState> states)
     {
         ref var first = ref states[row.First];
         ref var second = ref states[row.Second];
-        row.TurnedArm1 = first.Turn.Rotate(row.Arm1);
-        row.TurnedArm2 = second.Turn.Rotate(row.Arm2);
+        // Both act at one point, in the middle of where it has gone with each, so that angular momentum is kept.
+        var middle = 0.5 * (second.TravelOf(row.Arm2) - first.TravelOf(row.Arm1));
+        row.TurnedArm1 = first.Turn.Rotate(row.Arm1) + middle;
+        row.TurnedArm2 = second.Turn.Rotate(row.Arm2) - middle;
         row.NormalMass = 1 / (first.Mobility(row.TurnedArm1, row.Normal) + second.Mobility(row.TurnedArm2, row.Normal));
         row.TangentMass1 = 1 / (first.Mobility(row.TurnedArm1, row.Tangent1) + second.Mobility(row.TurnedArm2, row.Tangent1));
         row.TangentMass2 = 1 / (first.Mobility(row.TurnedArm1, row.Tangent2) + second.Mobility(row.TurnedArm2, row.Tangent2));
         row.CurrentGap = GapNow(in row, states);
-        Apply(in row, states, (row.NormalImpulse * row.Normal) + row.FrictionImpulse, row.RollingImpulse);
+        row.SpeedBefore = Vector.Dot(row.Normal, RelativeVelocity(in row, states, row.TurnedArm1, row.TurnedArm2));
     }
 
     private static void SolveRounds(Span<RigidState> states, Span<RigidRow> rows, double substep)
@@ -190,24 +188,26 @@ internal static class RigidSolver
         return length > maxLength ? maxLength / length * vector : vector;
     }
 
-    /// <summary>Lets contacts bounce that have stopped an approach, after a number of substeps.</summary>
-    public static void Bounce(Span<RigidState> states, Span<RigidRow> rows)
+    /// <summary>Lets contacts bounce that have stopped an approach.</summary>
+    private static void Bounce(Span<RigidState> states, Span<RigidRow> rows)
     {
         for (var round = 0; round < BounceRounds; round++)
         {
-            for (var i = 0; i < rows.Length; i++)
+            foreach (ref var row in rows)
             {
-                ref var row = ref rows[i];
-                if (row.Restitution > 0 && row.MaxNormalImpulse > 0 && row.SpeedBefore < -row.BounceSpeed)
+                if (row.Restitution > 0 && row.NormalImpulse > 0 && row.SpeedBefore < -row.BounceSpeed)
                 {
                     var speed = Vector.Dot(row.Normal, RelativeVelocity(in row, states, row.TurnedArm1, row.TurnedArm2));
-                    var impulse = Math.Max(0, row.NormalImpulse - (row.NormalMass * (speed + (row.Restitution * row.SpeedBefore))));
-                    var change = impulse - row.NormalImpulse;
-                    row.NormalImpulse = impulse;
-                    row.NormalImpulseSum += change;
+                    var change = Math.Max(-row.NormalImpulse, -row.NormalMass * (speed + (row.Restitution * row.SpeedBefore)));
+                    row.NormalImpulse += change;
                     Apply(in row, states, change * row.Normal, Vector.Zero);
                 }
             }
+        }
+
+        foreach (ref var row in rows)
+        {
+            row.NormalImpulseSum += row.NormalImpulse;
         }
     }
 

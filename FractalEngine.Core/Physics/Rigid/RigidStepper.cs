@@ -34,6 +34,10 @@ internal sealed class RigidStepper
     // Relative to the radius of the smaller body: the largest gap at which a contact is known before it is touched.
     private const double MaxMargin = 0.02;
 
+    // What makes a smaller part of its way counts as held, and after so many substeps it is slowed down.
+    private const double MinFraction = 0.01;
+    private const int MaxHeldCount = 8;
+
     // Sweeps of what goes on where others have been stopped.
     private const int MaxSweepRounds = 40;
 
@@ -184,7 +188,6 @@ internal sealed class RigidStepper
         FindPairs();
         RunOnPairs(static (stepper, pair, thread) => stepper.FindContacts(pair, thread));
         AddRows();
-        RigidSolver.Begin(_states.AsSpan(0, _surfaces.Count), CollectionsMarshal.AsSpan(_rows));
     }
 
     /// <summary>Makes substeps.</summary>
@@ -216,7 +219,6 @@ internal sealed class RigidStepper
 
     private void EndPart()
     {
-        RigidSolver.Bounce(_states.AsSpan(0, _surfaces.Count), CollectionsMarshal.AsSpan(_rows));
         for (var i = 0; i < _bodies.Count; i++)
         {
             if (_states[i].IsDynamic)
@@ -239,8 +241,7 @@ internal sealed class RigidStepper
             ref readonly var state = ref _states[i];
             if (surface.Body is not null)
             {
-                surface.SetMotion(
-                    (_seconds * state.Velocity) + (_seconds * _seconds * state.Acceleration), _seconds * state.Spin);
+                surface.SetReach((_seconds * state.Velocity) + (_seconds * _seconds * state.Acceleration), _seconds * state.Spin);
             }
         }
     }
@@ -470,7 +471,6 @@ internal sealed class RigidStepper
         {
             ref var state = ref _states[i];
             var surface = _surfaces[i];
-            surface.Fraction = 1;
             if (!state.IsDynamic)
             {
                 surface.Motion = surface.Body is null ? surface.PartMotion.Slice(time, _fraction) : surface.Motion.Stopped;
@@ -484,7 +484,6 @@ internal sealed class RigidStepper
 
             var turn = state.Turn.After(state.TurnBefore.Inverse());
             surface.SetMotion(state.Travel - state.TravelBefore, turn.RotationVector);
-            surface.Motion = surface.Motion.AsScrew(_bodies[i].Radius);
         }
     }
 
@@ -597,6 +596,14 @@ internal sealed class RigidStepper
                 state.Travel = state.TravelBefore + surface.Motion.From(surface.Fraction).Origin - surface.Motion.Origin;
                 state.Turn = state.TurnBefore.TurnedBy(surface.Fraction * surface.Motion.Turn);
                 state.UpdateInertia();
+            }
+
+            // What cannot move for a whole step loses the speed that it would otherwise gather.
+            body.HeldCount = surface.Fraction < MinFraction ? body.HeldCount + 1 : 0;
+            if (body.HeldCount >= MaxHeldCount)
+            {
+                state.Velocity *= 0.5;
+                state.Spin *= 0.5;
             }
 
             body.Position += state.Travel - state.TravelBefore;

@@ -8,7 +8,8 @@ namespace FractalEngine.Tests.Physics.Rigid;
 /// <summary>What a body is made of, as convex parts in the frame of its model.</summary>
 internal sealed class ConvexUnion(ImmutableArray<ConvexPart> parts)
 {
-    public static ConvexUnion Of(params IEnumerable<Mesh> meshes) => new([.. meshes.Select(static mesh => new ConvexPart(mesh, AffineMap.Identity))]);
+    public static ConvexUnion Of(params IEnumerable<Mesh> meshes) =>
+        new([.. meshes.Select(static mesh => new ConvexPart(mesh, AffineMap.Identity))]);
 
     public static ConvexUnion Of(Mesh mesh, IEnumerable<AffineMap> maps) => new([.. maps.Select(map => new ConvexPart(mesh, map))]);
 

@@ -1,4 +1,3 @@
-using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Generation;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
