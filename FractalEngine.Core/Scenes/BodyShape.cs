@@ -1,6 +1,6 @@
 namespace FractalEngine.Core.Scenes;
 
-/// <summary>What of a physics object collides: the ball about it, several balls that are fitted to its model, or the model itself.</summary>
+/// <summary>What of a physics object collides: the ball about it, several balls that are fitted to it, or the model itself.</summary>
 /// <param name="BallCount">Number of balls of a rigid body; 0 for the one about the object's position, or for a capsule.</param>
 /// <param name="IsCapsule">True for a capsule along the model's longest side.</param>
 public readonly record struct BodyShape(int BallCount, bool IsCapsule)

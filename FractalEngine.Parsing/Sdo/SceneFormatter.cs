@@ -71,7 +71,7 @@ internal static class SceneFormatter
             body is null && declared.Motion is { } motion ? Format(motion) : null,
             body is null && declared.Belt is var belt && !AreBitEqual(belt, Vector.Zero) ? $"belt {belt}" : null,
             body is { Velocity: var velocity } && !AreBitEqual(velocity, Vector.Zero) ? $"velocity {velocity}" : null,
-            body is { Mass: var mass } && (mass != 1 || body is { Shape.IsMesh: true, IsMassStated: true }) ? $"mass {FormatNumber(mass)}" : null,
+            body is { Mass: not 1.0 } or { Shape.IsMesh: true, IsMassStated: true } ? $"mass {FormatNumber(body.Mass)}" : null,
             body is { Density: { } density } ? $"density {FormatNumber(density)}" : null,
             body is { Friction: var friction } && !AreBitEqual(friction, 0) ? $"friction {FormatNumber(friction)}" : null,
             body is { RollingFriction: var rolling } && !AreBitEqual(rolling, 0) ? $"rolling {FormatNumber(rolling)}" : null,
@@ -98,7 +98,9 @@ internal static class SceneFormatter
         $"gradient {(gradient.Kind == GradientKind.Level ? "level" : "path")} {gradient.EndColour}";
 
     private static string? FormatShape(BodyShape shape) =>
-        shape.IsMesh ? "shape mesh" : shape.IsCapsule ? "shape capsule" : shape.BallCount > 0 ? $"shape balls {FormatNumber(shape.BallCount)}" : null;
+        shape.IsMesh ? "shape mesh"
+        : shape.IsCapsule ? "shape capsule"
+        : shape.BallCount > 0 ? $"shape balls {FormatNumber(shape.BallCount)}" : null;
 
     private static string? FormatShrinkage(double rate, double minimum)
     {

@@ -243,7 +243,7 @@ public sealed class Body
     }
 
     /// <summary>
-    /// Number of balls that the body consists of: 1, those of <see cref="BodyDescription.Shape"/>, or none where a mesh or fractal collides.
+    /// Number of balls that the body consists of: 1, those of <see cref="BodyDescription.Shape"/>, or none where a mesh collides.
     /// </summary>
     public int BallCount => Balls.Length;
 

@@ -143,7 +143,7 @@ public sealed record BodyDescription(Vector Position, double Radius)
 
     /// <summary>Describes the first number that no body can have; null for a valid description.</summary>
     internal string? FindFault() =>
-        (Shape?.Radius ?? Mesh?.Radius ?? Radius) != Radius ? "the radius must be that of the shape"
+        (Shape?.Radius ?? Mesh?.Radius) is { } own && own != Radius ? "the radius must be that of the shape"
         : Mesh is not null && Shape is not null ? "a body has one shape"
         : Mesh is not null && Shrinkage > 0 ? "a body with the shape of its mesh does not shrink"
         : !(Position.IsFinite() && Velocity.IsFinite()) ? "position and velocity must be finite"

@@ -1,7 +1,7 @@
+using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Generation;
 using FractalEngine.Core.Geometry;
-using FractalEngine.Core.Geometry.Surfaces;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 

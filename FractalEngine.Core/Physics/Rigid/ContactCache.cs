@@ -15,7 +15,7 @@ internal sealed class ContactCache
     private readonly Dictionary<long, Range> _ranges = [];
     private readonly List<Entry> _entries = [];
 
-    /// <summary>Forgets all contacts.</summary>
+    /// <summary>Forgets the contacts of all pairs.</summary>
     public void Clear()
     {
         _ranges.Clear();

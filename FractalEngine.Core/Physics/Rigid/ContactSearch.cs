@@ -145,7 +145,8 @@ internal sealed class ContactSearch : PairSearch
         }
     }
 
-    private void CollectNear(SurfaceTriangle[] triangles, in SurfaceBox otherBox, bool isFirst, List<(SurfaceTriangle Placed, int Index)> near)
+    private void CollectNear(
+        SurfaceTriangle[] triangles, in SurfaceBox otherBox, bool isFirst, List<(SurfaceTriangle Placed, int Index)> near)
     {
         near.Clear();
         for (var i = 0; i < triangles.Length; i++)

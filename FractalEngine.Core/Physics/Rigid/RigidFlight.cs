@@ -52,7 +52,7 @@ internal static class RigidFlight
 
     /// <summary>Turns a little, so that the energy of rotation is what it was.</summary>
     /// <remarks>
-    /// Seen from the body the momentum lies on a sphere and on an ellipsoid of constant energy. It is moved to the ellipsoid along the sphere.
+    /// Seen from the body the momentum lies on a sphere, and on an ellipsoid of constant energy. It is moved there along the sphere.
     /// </remarks>
     private static Orientation KeepEnergy(in RigidState state, Orientation orientation, Vector momentum, double doubledEnergy)
     {

@@ -178,7 +178,8 @@ internal static class RigidSolver
     private static double AngularMass(in RigidRow row, Span<RigidState> states, Vector turn)
     {
         var direction = turn.UnitVectorOrZero();
-        var mobility = Vector.Dot(direction, (states[row.First].InverseInertia * direction) + (states[row.Second].InverseInertia * direction));
+        var turned = (states[row.First].InverseInertia * direction) + (states[row.Second].InverseInertia * direction);
+        var mobility = Vector.Dot(direction, turned);
         return mobility > 0 ? 1 / mobility : 0;
     }
 

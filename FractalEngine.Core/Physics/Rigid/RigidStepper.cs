@@ -82,10 +82,10 @@ internal sealed class RigidStepper
     /// <summary>True where a body of the world has the shape of its mesh, so that this takes all bodies through their steps.</summary>
     public bool IsNeeded { get; private set; }
 
-    /// <summary>Looks at which bodies there are.</summary>
+    /// <summary>Finds out whether a body has the shape of its mesh.</summary>
     public void PlaceBodies() => IsNeeded = _bodies.Exists(static body => body.Description.Mesh is not null);
 
-    /// <summary>Forgets all steps so far.</summary>
+    /// <summary>Forgets the contacts of all steps so far.</summary>
     public void Reset() => _cache.Clear();
 
     /// <summary>Counts the tests of all searches so far.</summary>
@@ -511,7 +511,7 @@ internal sealed class RigidStepper
         StopIslands();
     }
 
-    /// <summary>Stops all bodies that may meet, directly or through others, when the first of them stops: up to there all is free.</summary>
+    /// <summary>Stops all bodies that may meet, directly or through others, when the first one does: up to there all is free.</summary>
     private void StopIslands()
     {
         _islands.Reset(_surfaces.Count);
@@ -559,8 +559,8 @@ internal sealed class RigidStepper
 
         // At first both move. Then one of them has stopped, and the other goes on.
         var origin = first.Motion.Origin;
-        var motion1 = (_round == 0 ? first.Motion : first.Fraction == begin ? first.StoppedMotion : first.Motion.From(begin)).RelativeTo(origin);
-        var motion2 = (_round == 0 ? second.Motion : second.Fraction == begin ? second.StoppedMotion : second.Motion.From(begin)).RelativeTo(origin);
+        var motion1 = (_round == 0 ? first.Motion : first.MotionAfter(begin)).RelativeTo(origin);
+        var motion2 = (_round == 0 ? second.Motion : second.MotionAfter(begin)).RelativeTo(origin);
         var duration = _round == 0 ? 1 : end - begin;
         var distance = SweepDistance * pair.Distance;
         // What was looked at for contacts is all that may meet, unless both come closer than was thought then.

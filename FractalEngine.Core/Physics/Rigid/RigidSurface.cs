@@ -55,10 +55,11 @@ internal sealed class RigidSurface
     /// <summary>Radius of a ball about the reference point that holds it; only for bodies.</summary>
     public double Radius => Body!.Radius;
 
-    /// <summary>The motion from when it stops on.</summary>
-    public SurfaceMotion StoppedMotion => Motion.From(Fraction).Stopped;
+    /// <summary>The motion from a time on, at which it may have stopped.</summary>
+    /// <param name="time">No later than it stops.</param>
+    public SurfaceMotion MotionAfter(double time) => Fraction == time ? Motion.From(time).Stopped : Motion.From(time);
 
-    /// <summary>Sets where a body may get to in the rest of the step: other bodies and objects that it may meet are looked for there.</summary>
+    /// <summary>Sets where a body may get to in the rest of the step: what it may meet is looked for there.</summary>
     /// <param name="travel">How far its centre goes without contacts.</param>
     /// <param name="turn">Rotation vector of its turn.</param>
     public void SetReach(Vector travel, Vector turn)

@@ -41,7 +41,7 @@ internal readonly ref struct SeparationTest
     /// <param name="second">The second part's box, now.</param>
     /// <param name="distance">The distance, scene units.</param>
     /// <param name="enough">The method may return early any time that is no shorter.</param>
-    /// <param name="best">Receives the axis with the largest gap now, and that gap, which is negative where no axis parts the boxes.</param>
+    /// <param name="best">Receives the axis with the largest gap now, and that gap; it is negative where no axis parts them.</param>
     public double SafeTime(
         in SurfaceBox first, in SurfaceBox second, double distance, double enough, out (Vector Axis, double Gap) best)
     {

@@ -66,8 +66,8 @@ internal readonly struct SurfaceMotion
     public AffineMap Map => new(Scale * Rotation, Origin);
 
     /// <summary>
-    /// The motion between the same ends as a screw (Chasles): what turns about a point of contact does so all the way, and does not dip into
-    /// what is there.
+    /// The motion between the same ends as a screw (Chasles): what turns about a point of contact does so all the way, and does not dip
+    /// into what is there.
     /// </summary>
     /// <param name="radius">Radius of the surface about its origin, scene units.</param>
     public SurfaceMotion AsScrew(double radius)

@@ -4,7 +4,7 @@ using FractalEngine.Core.Physics.Descriptions;
 namespace FractalEngine.Core.Physics.Rigid;
 
 /// <summary>
-/// A triangle of a body's surface, widened by a radius: a ball is one whose corners are the same point, and a capsule one that is a segment.
+/// A triangle of a body's surface, widened by a radius: a ball is one whose corners are the same point, a capsule is a segment.
 /// </summary>
 internal readonly struct SurfaceTriangle
 {

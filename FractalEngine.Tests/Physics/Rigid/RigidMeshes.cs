@@ -56,7 +56,8 @@ internal static class RigidMeshes
             }
         }
 
-        return new([.. outline.SelectMany(p => new[] { p.X, p.Y, 0 }), .. outline.SelectMany(p => new[] { p.X, p.Y, depth })], [.. indices]);
+        return new(
+            [.. outline.SelectMany(p => new[] { p.X, p.Y, 0 }), .. outline.SelectMany(p => new[] { p.X, p.Y, depth })], [.. indices]);
     }
 
     /// <summary>A solid of revolution about y.</summary>

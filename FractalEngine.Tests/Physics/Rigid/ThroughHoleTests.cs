@@ -1,4 +1,3 @@
-using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
 using FractalEngine.Core.Physics.Descriptions;
@@ -34,7 +33,7 @@ public class ThroughHoleTests
             var position = body.Position;
             passed |= position.Y < 0;
             Assert.True(
-                Math.Abs(position.Y) > 1.5 || Math.Max(Math.Abs(position.X), Math.Abs(position.Z)) < 0.2, $"it left the hole at {position}");
+                Math.Abs(position.Y) > 1.5 || Math.Max(Math.Abs(position.X), Math.Abs(position.Z)) < 0.2, $"left the hole at {position}");
         });
         Assert.True(passed);
         Assert.InRange(body.Position.Y, -100, -2);
@@ -56,7 +55,8 @@ public class ThroughHoleTests
     {
         var world = CreateOnFloor();
         var fractal = PhysicsMeshes.CreateSponge(1);
-        var sponge = world.Add(new BodyDescription(new(0, 1.5, 0), new MeshShape(Model.Of(fractal), SpongeScale)) { Mass = 1e4, Friction = 0.5 });
+        var shape = new MeshShape(Model.Of(fractal), SpongeScale);
+        var sponge = world.Add(new BodyDescription(new(0, 1.5, 0), shape) { Mass = 1e4, Friction = 0.5 });
         world.Run(120);
         Assert.True(sponge.IsAsleep);
         Near.Equal(new(0, 1.5, 0), sponge.Position, 1e-3);
@@ -139,7 +139,8 @@ public class ThroughHoleTests
     {
         var world = CreateOnFloor();
         var mesh = RigidMeshes.Revolve(Bowl, 12);
-        var bowl = world.Add(RigidMeshes.Describe(mesh, SolidMoments.Of(mesh, AffineMap.Identity).Centre) with { Mass = 50, Friction = 0.6 });
+        var centre = SolidMoments.Of(mesh, AffineMap.Identity).Centre;
+        var bowl = world.Add(RigidMeshes.Describe(mesh, centre) with { Mass = 50, Friction = 0.6 });
         var ball = world.AddSphere(new(1.2, 2, 0), 0.3, 0.3, new(0, 0, 2), friction: 0.3, damping: 0.7);
         world.Run(600, () => CheckInside(ball.Position - RigidMeshes.PointOf(bowl, Vector.Zero)));
         Assert.InRange(bowl.Orientation.Rotate(Vector.J).Y, 0.999, 1.001);

@@ -1,8 +1,10 @@
 using FractalEngine.Core.Fractals.Levels;
+using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Geometry.Hulls;
+using FractalEngine.Core.Geometry.Surfaces;
 using FractalEngine.Core.Maths;
 
-namespace FractalEngine.Core.Geometry.Surfaces;
+namespace FractalEngine.Core.Fractals;
 
 /// <summary>
 /// Integrals over a solid of density 1: of 1, of the position and of its products. They are linear in the solid, so that the integrals of
