@@ -190,7 +190,7 @@ internal sealed class RigidStepper
         AddRows();
     }
 
-    /// <summary>Makes substeps.</summary>
+    /// <summary>Makes substeps until the part ends.</summary>
     /// <param name="count">Their number, which fill the part.</param>
     /// <param name="canStop">True to end the part where something has been stopped that no contact held.</param>
     /// <returns>The number of those that are left.</returns>
