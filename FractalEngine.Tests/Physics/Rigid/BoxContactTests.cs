@@ -28,11 +28,17 @@ public class BoxContactTests
             var world = TestWorlds.Create(Vector.Zero, 1 / 60.0);
             var body1 = world.Add(RigidMeshes.Describe(Crate, new(-2, 0, 0)) with
             {
-                Mass = mass1, Velocity = Speed1 * Vector.I, Restitution = restitution, Friction = friction,
+                Mass = mass1,
+                Velocity = Speed1 * Vector.I,
+                Restitution = restitution,
+                Friction = friction,
             });
             var body2 = world.Add(RigidMeshes.Describe(Crate, new(2, 0, 0)) with
             {
-                Mass = mass2, Velocity = Speed2 * Vector.I, Restitution = restitution, Friction = friction,
+                Mass = mass2,
+                Velocity = Speed2 * Vector.I,
+                Restitution = restitution,
+                Friction = friction,
             });
             var momentum = world.Momentum();
             world.Run(90, () => Near.Equal(momentum, world.Momentum(), 1e-9 * ((3 * mass1) + mass2)));
@@ -56,7 +62,8 @@ public class BoxContactTests
         var world = CreateOnFloor();
         var body = world.Add(RigidMeshes.Describe(RigidMeshes.Box(1, 0.4, 1), new(0, 0.2, 0)) with
         {
-            Friction = friction, Velocity = speed * Vector.I,
+            Friction = friction,
+            Velocity = speed * Vector.I,
         });
         world.Run(240);
         var distance = speed * speed / (2 * friction * Fall);
@@ -126,7 +133,8 @@ public class BoxContactTests
         var turn = new Vector(x, y, z);
         var body = world.Add(RigidMeshes.Describe(Crate, new(0, 2, 0), turn == Vector.Zero ? null : Rotation(turn)) with
         {
-            Friction = 0.5, Restitution = restitution,
+            Friction = 0.5,
+            Restitution = restitution,
         });
         world.Run(600, () => Assert.True(RigidMeshes.LowestPoint(body) >= -1e-9, $"{RigidMeshes.LowestPoint(body):R}"));
         Assert.True(body.IsAsleep);

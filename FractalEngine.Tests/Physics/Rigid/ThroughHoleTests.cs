@@ -25,7 +25,9 @@ public class ThroughHoleTests
         world.AddStatic(PhysicsMeshes.CreateSponge(depth), Transformation.Identity with { Scale = SpongeSize * Vector.One });
         var body = world.Add(RigidMeshes.Describe(RigidMeshes.Box(0.6, 0.6, 0.6), new(0.05, 3, -0.03), Matrix.Rotation(Vector.J, 0.2)) with
         {
-            Restitution = 0.3, Friction = 0.1, AngularVelocity = new(0.3, 0.2, 0.1),
+            Restitution = 0.3,
+            Friction = 0.1,
+            AngularVelocity = new(0.3, 0.2, 0.1),
         });
         var passed = false;
         world.Run(240, () =>
@@ -62,7 +64,8 @@ public class ThroughHoleTests
         Near.Equal(new(0, 1.5, 0), sponge.Position, 1e-3);
         var body = world.Add(RigidMeshes.Describe(RigidMeshes.Box(0.6, 0.6, 0.6), new(0.05, 4, -0.03), Matrix.Rotation(Vector.J, 0.2)) with
         {
-            Mass = 1, Friction = 0.1,
+            Mass = 1,
+            Friction = 0.1,
         });
         world.Run(300);
         Near.Equal(0.3, body.Position.Y, 1e-3);
@@ -90,7 +93,10 @@ public class ThroughHoleTests
         world.AddStatic(RigidMeshes.Box(new(-0.2, 0, -0.2), new(0.2, 2, 0.2)));
         var ring = world.Add(RigidMeshes.Describe(RigidMeshes.Join(RigidMeshes.BoxesOfFrame(2, 1, 0.3)), new(0.1, 2.6, 0.05)) with
         {
-            Mass = 1, Friction = 0.3, Restitution = 0.2, AngularVelocity = new(0.1, 0.5, 0),
+            Mass = 1,
+            Friction = 0.3,
+            Restitution = 0.2,
+            AngularVelocity = new(0.1, 0.5, 0),
         });
         world.Run(300);
         Near.Equal(0.15, ring.Position.Y, 1e-3);
