@@ -265,7 +265,6 @@ internal sealed class WorldStepper
         }
 
         _kinematics.BeginPart(time, _seconds);
-        WakeNearKinematics();
         MoveBodies();
         if (_character is { } character)
         {
@@ -288,6 +287,7 @@ internal sealed class WorldStepper
             return;
         }
 
+        WakeNearKinematics();
         PlanIslands();
         MoveIslands();
         for (var i = 0; IslandSet.BodyCount < _bodies.Count && i < _bodies.Count; i++)

@@ -232,6 +232,16 @@ public sealed class Body
         MayTouchBodies = true;
     }
 
+    /// <summary>Lets the body lose a part of its size, if it shrinks.</summary>
+    /// <param name="seconds">How long.</param>
+    internal void Shrink(double seconds)
+    {
+        if (IsShrinking)
+        {
+            Scale = Math.Max(Description.MinScale, Scale - (Shrinkage * seconds));
+        }
+    }
+
     /// <summary>Puts the body to sleep at rest.</summary>
     internal void Sleep()
     {

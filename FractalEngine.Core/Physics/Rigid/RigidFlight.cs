@@ -23,11 +23,7 @@ internal static class RigidFlight
         var fall = rate > 0 ? (seconds - reach) / rate : 0.5 * seconds * seconds;
         state.Travel += (reach * state.Velocity) + (fall * state.Acceleration);
         state.Velocity = (kept * state.Velocity) + (reach * state.Acceleration);
-        if (state.Torque != Vector.Zero)
-        {
-            state.Spin += seconds * (state.InverseInertia * state.Torque);
-        }
-
+        state.Spin = kept * (state.Spin + (seconds * (state.InverseInertia * state.Torque)));
         if (state.LocalInverseInertia == default || state.Spin == Vector.Zero)
         {
             return;
@@ -45,7 +41,7 @@ internal static class RigidFlight
         var momentum = body.InertiaTensor * state.Spin;
         var orientation = body.Orientation.TurnedBy(turn);
         state.Turn = KeepEnergy(in state, orientation, momentum, Vector.Dot(state.Spin, momentum)).After(
-            new(state.Orientation.Cosine, -state.Orientation.Axis));
+            state.Orientation.Inverse());
         state.UpdateInertia();
         state.Spin = state.InverseInertia * momentum;
     }

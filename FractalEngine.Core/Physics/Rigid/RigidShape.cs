@@ -51,17 +51,17 @@ internal sealed class RigidShape(Func<SurfaceNodes> create)
         }
     }
 
-    /// <summary>The tree of one of the threads.</summary>
-    public SurfaceNodes NodesOf(int thread)
+    /// <summary>Gives up trees that have become too large. Between steps: in one, what has been found names parts of a tree.</summary>
+    public void Trim()
     {
-        if (_nodesOfThread[thread] is not { Count: <= MaxNodes } nodes)
+        for (var thread = 0; thread < _nodesOfThread.Count; thread++)
         {
-            nodes = create();
-            _nodesOfThread[thread] = nodes;
+            _nodesOfThread[thread] = _nodesOfThread[thread] is { Count: <= MaxNodes } nodes ? nodes : null;
         }
-
-        return nodes;
     }
+
+    /// <summary>The tree of one of the threads.</summary>
+    public SurfaceNodes NodesOf(int thread) => _nodesOfThread[thread] ??= create();
 
     private static ShapeTree TreeOf(Model model) => model switch
     {

@@ -36,7 +36,6 @@ internal static class RigidSolver
 
         Accelerate(states, substep);
         WarmStart(states, rows);
-
         SolveRounds(states, rows, substep);
         Move(states, substep);
         Bounce(states, rows);
@@ -85,9 +84,9 @@ internal static class RigidSolver
         {
             if (state.HasContacts && state.IsDynamic)
             {
-                state.Velocity += substep * state.Acceleration;
-                state.Velocity *= state.Damping > 0 ? Math.Exp(-state.Damping * substep) : 1;
-                state.Spin += substep * (state.InverseInertia * state.Torque);
+                var kept = state.Damping > 0 ? Math.Exp(-state.Damping * substep) : 1;
+                state.Velocity = kept * (state.Velocity + (substep * state.Acceleration));
+                state.Spin = kept * (state.Spin + (substep * (state.InverseInertia * state.Torque)));
             }
         }
     }

@@ -54,7 +54,7 @@ internal struct RigidState
     /// <summary>True for a body that forces move.</summary>
     public readonly bool IsDynamic => InverseMass > 0;
 
-    /// <summary>Velocity of a point.</summary>
+    /// <summary>Computes the velocity of a point of the body.</summary>
     /// <param name="arm">The point relative to the reference point.</param>
     public readonly Vector VelocityAt(Vector arm) => Velocity + Vector.Cross(Spin, arm);
 
@@ -103,13 +103,12 @@ internal struct RigidState
         }
 
         var orientation = Turn.After(Orientation);
-        var momentum = LocalInertia * orientation.RotateBack(Spin);
-        var worldMomentum = orientation.Rotate(momentum);
+        var momentum = orientation.Rotate(LocalInertia * orientation.RotateBack(Spin));
         Turn = Turn.TurnedBy(seconds * Spin);
         if (IsDynamic && LocalInverseInertia != default)
         {
             UpdateInertia();
-            Spin = InverseInertia * worldMomentum;
+            Spin = InverseInertia * momentum;
         }
     }
 

@@ -68,6 +68,7 @@ internal sealed class RigidStepper
     private double _seconds;
     private double _fraction;
     private int _round;
+    private Action<RigidStepper, int, int>? _act;
 
     public RigidStepper(PhysicsSettings settings, List<Body> bodies, StaticObjectSet statics, ContactLog log, int maxThreads)
     {
@@ -109,10 +110,15 @@ internal sealed class RigidStepper
         _gravity = gravity;
         _stepSeconds = seconds;
         GatherSurfaces();
+        WakeNearMoving();
         var angle = 0.0;
         foreach (var body in _bodies)
         {
-            Shrink(body, seconds);
+            if (!body.IsAsleep)
+            {
+                body.Shrink(seconds);
+            }
+
             angle = Math.Max(angle, body.IsAsleep ? 0 : body.AngularVelocity.Length() * seconds);
         }
 
@@ -124,18 +130,10 @@ internal sealed class RigidStepper
             BeginPart(seconds - _seconds);
             var count = _pairs.Count == 0 && angle <= MaxAngle ? 1 : left;
             left = MoveSubsteps(count, canStop: searches < MaxSearches);
-            EndPart();
+            StoreContacts();
         }
 
         Sleep(seconds);
-    }
-
-    private static void Shrink(Body body, double seconds)
-    {
-        if (!body.IsAsleep && body.IsShrinking)
-        {
-            body.Scale = Math.Max(body.Description.MinScale, body.Scale - (seconds * body.Shrinkage));
-        }
     }
 
     /// <summary>Lists all bodies, then all objects that stop something.</summary>
@@ -159,6 +157,11 @@ internal sealed class RigidStepper
         }
 
         _surfaces.RemoveRange(count, _surfaces.Count - count);
+        foreach (var surface in _surfaces)
+        {
+            surface.Shape.Trim();
+        }
+
         if (_states.Length < count)
         {
             _states = new RigidState[2 * count];
@@ -223,20 +226,6 @@ internal sealed class RigidStepper
         }
 
         return 0;
-    }
-
-    private void EndPart()
-    {
-        for (var i = 0; i < _bodies.Count; i++)
-        {
-            if (_states[i].IsDynamic)
-            {
-                _bodies[i].Velocity = _states[i].Velocity;
-                _bodies[i].AngularVelocity = _states[i].Spin;
-            }
-        }
-
-        StoreContacts();
     }
 
     /// <summary>Begins a part: all states, and where everything may get to without contacts.</summary>
@@ -317,7 +306,7 @@ internal sealed class RigidStepper
             for (var next = place + 1; next < _order.Count; next++)
             {
                 var other = _surfaces[_order[next]];
-                if (other.SweptBounds.Minimum.X - Reach(surface, other) > surface.SweptBounds.Maximum.X)
+                if (other.SweptBounds.Minimum.X - (MaxMargin * surface.Radius) > surface.SweptBounds.Maximum.X)
                 {
                     break;
                 }
@@ -341,8 +330,6 @@ internal sealed class RigidStepper
             _impacts.Add(1);
         }
     }
-
-    private static double Reach(RigidSurface surface, RigidSurface other) => MaxMargin * Math.Max(surface.Radius, other.Radius);
 
     private void AddPair(int first, int second)
     {
@@ -373,8 +360,6 @@ internal sealed class RigidStepper
             }
         });
     }
-
-    private Action<RigidStepper, int, int>? _act;
 
     private void FindContacts(int index, int thread)
     {
@@ -441,10 +426,10 @@ internal sealed class RigidStepper
             Tangent2 = Vector.Cross(contact.Normal, tangent), Arm1 = contact.Point, Arm2 = point - second.Motion.Origin,
             Gap = contact.Gap - pair.Distance, Distance = pair.Distance,
             BounceSpeed = _settings.RestitutionThreshold ?? 0.5 * _stepSeconds * _states[pair.First].Acceleration.Length(),
-            Friction = CombinedFriction(body, other),
+            Friction = Math.Min(body.Friction, other?.Friction ?? body.Friction),
             Restitution = Math.Min(body.Restitution, other?.Restitution ?? 1),
-            RollingArm = Math.Max(body.RollingFriction, other?.RollingFriction ?? 0) * radius,
-            SpinningArm = Math.Max(body.SpinningFriction, other?.SpinningFriction ?? 0) * radius,
+            RollingArm = Math.Min(body.RollingFriction, other?.RollingFriction ?? body.RollingFriction) * radius,
+            SpinningArm = Math.Min(body.SpinningFriction, other?.SpinningFriction ?? body.SpinningFriction) * radius,
             Belt = belt - (Vector.Dot(belt, contact.Normal) * contact.Normal),
         };
         _cache.WarmStart(in pair, ref row, _states[pair.First].Orientation, radius);
@@ -453,20 +438,37 @@ internal sealed class RigidStepper
         _rows.Add(row);
     }
 
-    private static double CombinedFriction(BodyDescription body, BodyDescription? other) =>
-        other is null ? body.Friction : Math.Max(body.Friction, other.Friction);
-
     /// <summary>Wakes what sleeps where something touches it that does not rest.</summary>
     private void WakeIfPushed(Body sleeper, Body other)
     {
         if (other.SleepTimer == 0)
         {
-            foreach (var body in _bodies)
+            WakeIsland(sleeper);
+        }
+    }
+
+    /// <summary>Wakes what sleeps where objects come that move by themselves.</summary>
+    private void WakeNearMoving()
+    {
+        foreach (var moved in _statics.Kinematics.Objects)
+        {
+            foreach (var body in moved.IsMoving ? _bodies : [])
             {
-                if (body.IsAsleep && (body == sleeper || body.RigidIsland == sleeper.RigidIsland))
+                if (body.IsAsleep && moved.SweptBounds.DistanceSquared(body.Position) <= body.Radius * body.Radius)
                 {
-                    body.Wake();
+                    WakeIsland(body);
                 }
+            }
+        }
+    }
+
+    private void WakeIsland(Body sleeper)
+    {
+        foreach (var body in _bodies)
+        {
+            if (body.IsAsleep && (body == sleeper || body.RigidIsland == sleeper.RigidIsland))
+            {
+                body.Wake();
             }
         }
     }

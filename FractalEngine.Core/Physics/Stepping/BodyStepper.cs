@@ -63,11 +63,7 @@ internal sealed class BodyStepper
     {
         body.IsPrepared = true;
         var description = body.Description;
-        if (body.IsShrinking)
-        {
-            body.Scale = Math.Max(description.MinScale, body.Scale - (body.Shrinkage * stepLength));
-        }
-
+        body.Shrink(stepLength);
         var acceleration = gravity + ((body.Force + body.StepForce) / description.Mass);
         if (description.Damping > 0)
         {

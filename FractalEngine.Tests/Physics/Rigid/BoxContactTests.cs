@@ -143,10 +143,10 @@ public class BoxContactTests
 
     private static Matrix Rotation(Vector turn) => Matrix.Rotation(turn.UnitVector(), turn.Length());
 
-    private static PhysicsWorld CreateOnFloor() =>
+    internal static PhysicsWorld CreateOnFloor() =>
         TestWorlds.Create(TestWorlds.Gravity, 1 / 60.0, TestWorlds.Place(PhysicsMeshes.FloorMesh()));
 
-    private static (Body Body, Vector Travel) RunOnSlope(double angle, double friction, int steps, double gap = 0)
+    internal static (Body Body, Vector Travel) RunOnSlope(double angle, double friction, int steps, double gap = 0)
     {
         var downhill = new Vector(Math.Cos(angle), -Math.Sin(angle), 0);
         var normal = new Vector(Math.Sin(angle), Math.Cos(angle), 0);

@@ -52,7 +52,7 @@ public class ChainTests
     {
         const double Friction = 0.5;
         var angle = factor * Math.Atan(Friction);
-        var (body, _) = RunOnSlope(angle, Friction, 60);   // of BoxContactTests, gap 0
+        var (body, _) = BoxContactTests.RunOnSlope(angle, Friction, 60);
         var acceleration = 9.8 * (Math.Sin(angle) - (Friction * Math.Cos(angle)));
         Near.Equal(acceleration, body.Velocity.Length(), 0.02 * acceleration);
     }
@@ -67,7 +67,7 @@ public class ChainTests
     private static void CheckDominoes(int count)
     {
         const double Height = 1;
-        var world = CreateOnFloor();
+        var world = BoxContactTests.CreateOnFloor();
         var domino = RigidMeshes.Box(0.2, Height, 0.5);
         for (var i = 0; i < count; i++)
         {
@@ -103,7 +103,7 @@ public class ChainTests
     public void Stack_OfTenTurnedCrates_StandsForAMinute(double disorder)
     {
         var random = new Random(1);
-        var world = CreateOnFloor();
+        var world = BoxContactTests.CreateOnFloor();
         List<Vector> places = [];
         for (var i = 0; i < 10; i++)
         {
@@ -123,21 +123,29 @@ public class ChainTests
         Assert.All(world.Bodies, body => Assert.True(body.IsAsleep, $"crate {body.Index} is awake"));
     }
 
-    private static PhysicsWorld CreateOnFloor() =>
-        TestWorlds.Create(TestWorlds.Gravity, 1 / 60.0, TestWorlds.Place(PhysicsMeshes.FloorMesh()));
-
-    private static (Body Body, Vector Travel) RunOnSlope(double angle, double friction, int steps, double gap = 0)
+    [Fact]
+    public void Crate_ThatSleeps_IsPushedByAPlateThatComes()
     {
-        var downhill = new Vector(Math.Cos(angle), -Math.Sin(angle), 0);
-        var normal = new Vector(Math.Sin(angle), Math.Cos(angle), 0);
-        var slope = PhysicsMeshes.FromTriangles(PhysicsMeshes.PlaneTriangle(Vector.Zero, normal));
-        var world = TestWorlds.Create(TestWorlds.Gravity, 1 / 60.0, TestWorlds.Place(slope));
-        var start = (0.2 + gap) * normal;
-        var body = world.Add(RigidMeshes.Describe(RigidMeshes.Box(1, 0.4, 1), start, new(downhill, normal, Vector.K)) with
-        {
-            Friction = friction,
-        });
-        world.Run(steps);
-        return (body, body.Position - start);
+        var world = BoxContactTests.CreateOnFloor();
+        var crate = world.Add(RigidMeshes.Describe(Crate, new(0, 0.5, 0)) with { Friction = 0.3, Mass = 1 });
+        world.Run(90);
+        Assert.True(crate.IsAsleep);
+        var plate = world.AddStatic(RigidMeshes.Box(0.2, 1, 1), Transformation.Identity with { Position = new(-2, 0.6, 0) });
+        world.Run(90);
+        plate.SetMotion(2 * Vector.I);
+        world.Run(90);
+        // Its face is at −1.9 + 3, and the crate before it.
+        Assert.InRange(crate.Position.X, 1.1 + 0.5, 1.1 + 0.6);
+        Near.Equal(0.5, crate.Position.Y, 1e-3);
+    }
+
+    [Fact]
+    public void Crates_OfDifferentFriction_SlideByTheSmaller()
+    {
+        var world = BoxContactTests.CreateOnFloor();
+        world.Add(RigidMeshes.Describe(RigidMeshes.Box(8, 1, 2), new(0, 0.5, 0)) with { Friction = 2, Mass = 100 });
+        var upper = world.Add(RigidMeshes.Describe(Crate, new(-2, 1.501, 0)) with { Friction = 0.2, Mass = 1, Velocity = 2 * Vector.I });
+        world.Run(120);
+        Near.Equal(-2 + (4 / (2 * 0.2 * 9.8)), upper.Position.X, 0.03);
     }
 }

@@ -39,7 +39,7 @@ internal sealed class ConvexUnion(ImmutableArray<ConvexPart> parts)
                     continue;
                 }
 
-                var depth = Math.Max(part1.DeepestOf(part2), part2.DeepestOf(part1));
+                var depth = Math.Max(part1.MaxDepthOf(part2), part2.MaxDepthOf(part1));
                 if (depth > tolerance)
                 {
                     return FormattableString.Invariant($"a vertex is {depth:R} deep inside");

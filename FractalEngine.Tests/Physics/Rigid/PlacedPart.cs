@@ -35,7 +35,7 @@ internal sealed class PlacedPart
     }
 
     /// <summary>How deep a vertex of another part is inside at most.</summary>
-    public double DeepestOf(PlacedPart other) => other.Vertices.Max(DepthOf);
+    public double MaxDepthOf(PlacedPart other) => other.Vertices.Max(DepthOf);
 
     /// <summary>True where an edge of another part passes through the inside of a face.</summary>
     public bool IsCrossedBy(PlacedPart other)
