@@ -11,6 +11,9 @@ namespace FractalEngine.Core.Geometry.Triangles;
 /// </remarks>
 internal static class TrianglePairKernel
 {
+    // Of the distance to a corner of a triangle that is not thin: how wrong rounding may make the height above its plane, and more.
+    private const double PlaneRounding = 1e-9;
+
     /// <summary>Finds the closest points of two triangles.</summary>
     /// <param name="triangle1">The corners of the first triangle.</param>
     /// <param name="triangle2">The corners of the second triangle, in the same frame.</param>
@@ -34,9 +37,28 @@ internal static class TrianglePairKernel
     private static void TestVertices(
         in (Vector A, Vector B, Vector C) vertices, in (Vector A, Vector B, Vector C) triangle, bool isSwapped, ref TrianglePair best)
     {
-        TestVertex(vertices.A, in triangle, isSwapped, ref best);
-        TestVertex(vertices.B, in triangle, isSwapped, ref best);
-        TestVertex(vertices.C, in triangle, isSwapped, ref best);
+        var (ab, ac) = (triangle.B - triangle.A, triangle.C - triangle.A);
+        var normal = Vector.Cross(ab, ac);
+        var square = normal.LengthSquared();
+        // The normal of a thin triangle is rounded, and that of a large or small one leaves the range of a double.
+        var isSafe = square is > 1e-200 and < 1e200
+            && square > TriangleKernel.ThinTriangleSineSquared * (ab.LengthSquared() * ac.LengthSquared());
+        var plane = isSafe ? normal / Math.Sqrt(square) : Vector.Zero;
+        TestVertexIfClose(vertices.A, plane, in triangle, isSwapped, ref best);
+        TestVertexIfClose(vertices.B, plane, in triangle, isSwapped, ref best);
+        TestVertexIfClose(vertices.C, plane, in triangle, isSwapped, ref best);
+    }
+
+    /// <summary>Tests a vertex unless the plane of the triangle is farther away than what has been found, however that is rounded.</summary>
+    private static void TestVertexIfClose(
+        Vector vertex, Vector plane, in (Vector A, Vector B, Vector C) triangle, bool isSwapped, ref TrianglePair best)
+    {
+        var offset = vertex - triangle.A;
+        var height = Math.Abs(Vector.Dot(plane, offset)) - (PlaneRounding * offset.MaxAbsComponent());
+        if (!(height > 0 && height * height > best.DistanceSquared))
+        {
+            TestVertex(vertex, in triangle, isSwapped, ref best);
+        }
     }
 
     private static void TestVertex(Vector vertex, in (Vector A, Vector B, Vector C) triangle, bool isSwapped, ref TrianglePair best)

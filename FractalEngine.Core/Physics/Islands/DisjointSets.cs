@@ -12,6 +12,11 @@ internal sealed class DisjointSets
     /// <summary>Makes room for indices.</summary>
     public void Reserve(int count)
     {
+        if (count <= _parents.Length)
+        {
+            return;
+        }
+
         _parents = new int[count];
         _isJoined = new bool[count];
         _count = 0;

@@ -8,4 +8,5 @@ namespace FractalEngine.Core.Physics.Rigid;
 /// <param name="Node2">The second surface's part.</param>
 /// <param name="Triangle2">Index of the triangle in the leaf.</param>
 /// <param name="Axis">Unit vector from the second to the first along which they are apart; zero where they cross.</param>
-internal readonly record struct NearPair(int Node1, int Triangle1, int Node2, int Triangle2, Vector Axis);
+/// <param name="Gap">No more than how far they are apart, scene units.</param>
+internal readonly record struct NearPair(int Node1, int Triangle1, int Node2, int Triangle2, Vector Axis, double Gap);

@@ -49,11 +49,12 @@ internal sealed class PairSweep : PairSearch
     /// <param name="distance">Scene units, positive. Triangles that are closer from the beginning may get half as close.</param>
     /// <param name="end">The time at which the motion ends.</param>
     /// <param name="near">All that may come near; null where that is not known.</param>
+    /// <param name="maxGap">What was farther apart than that when it was listed cannot come near.</param>
     /// <returns>The end, or an earlier time at which some triangles are within 1.25 times the distance.</returns>
     /// <remarks>Triangles that cross from the beginning are not looked at.</remarks>
     public double FindImpact(
         SurfaceNodes first, in SurfaceMotion motion1, SurfaceNodes second, in SurfaceMotion motion2, double distance, double end,
-        List<NearPair>? near = null)
+        List<NearPair>? near = null, double maxGap = double.PositiveInfinity)
     {
         SetPair(first, in motion1, second, in motion2);
         _distance = distance;
@@ -65,7 +66,7 @@ internal sealed class PairSweep : PairSearch
         }
         else
         {
-            TestNear(near);
+            TestNear(near, maxGap);
         }
 
         for (var opened = 0; _open.Count > 0; opened++)
@@ -106,18 +107,23 @@ internal sealed class PairSweep : PairSearch
         CollectionsMarshal.AsSpan(_open)[firstPushed..].Sort(static (pair1, pair2) => pair2.Time.CompareTo(pair1.Time));
     }
 
-    private void TestNear(List<NearPair> near)
+    private void TestNear(List<NearPair> near, double maxGap)
     {
         foreach (ref readonly var pair in CollectionsMarshal.AsSpan(near))
         {
+            if (pair.Gap > maxGap)
+            {
+                continue;
+            }
+
             if (pair.Triangle1 < 0)
             {
                 Push(pair.Node1, pair.Node2, 0);
                 continue;
             }
 
-            ref readonly var local1 = ref First.Triangles(pair.Node1)[pair.Triangle1];
-            ref readonly var local2 = ref Second.Triangles(pair.Node2)[pair.Triangle2];
+            ref readonly var local1 = ref First.Leaf(pair.Node1).Triangles[pair.Triangle1];
+            ref readonly var local2 = ref Second.Leaf(pair.Node2).Triangles[pair.Triangle2];
             var triangle1 = local1.Place(in Motion1);
             var triangle2 = local2.Place(in Motion2);
             var test = new SeparationTest(
@@ -161,8 +167,8 @@ internal sealed class PairSweep : PairSearch
         var from2 = Motion2.From(time);
         var box1 = First[leaf1].Place(in from1);
         var box2 = Second[leaf2].Place(in from2);
-        CollectNear(First.Triangles(leaf1), in from1, in from2, in box2, isFirst: true, time, _near1);
-        CollectNear(Second.Triangles(leaf2), in from1, in from2, in box1, isFirst: false, time, _near2);
+        CollectNear(First.Leaf(leaf1).Triangles, in from1, in from2, in box2, isFirst: true, time, _near1);
+        CollectNear(Second.Leaf(leaf2).Triangles, in from1, in from2, in box1, isFirst: false, time, _near2);
         foreach (var local1 in _near1)
         {
             foreach (var local2 in _near2)

@@ -1,11 +1,162 @@
+using FractalEngine.Core.Maths;
+
 namespace FractalEngine.Core.Physics.Rigid;
 
-/// <summary>Two surfaces that may meet in a part of a step.</summary>
-/// <param name="First">Index of the first one, which is a body.</param>
-/// <param name="Second">Index of the second one.</param>
-/// <param name="Distance">The distance at which they rest on each other, scene units.</param>
-internal readonly record struct RigidPair(int First, int Second, double Distance)
+/// <summary>
+/// Two surfaces that may meet in a step: the contacts between them, all that is near, and how far they may have come closer since that was
+/// found.
+/// </summary>
+internal sealed class RigidPair
 {
-    /// <summary>Names the two, in any step.</summary>
-    public long Key => ((long)First << 32) | (uint)Second;
+    // Relative to the radius of the smaller body: the largest gap at which a contact is known before it is touched.
+    private const double MaxMargin = 0.02;
+
+    // Relative to the contact distance: no closer does a sweep let surfaces come.
+    private const double SweepDistance = 0.25;
+
+    // The same for the least such gap, in contact distances, and how much more is looked for than the surfaces may come closer in a step.
+    private const double MinMargin = 4;
+    private const double MarginFactor = 1.25;
+
+    // Relative to the contact distance: contacts are kept from step to step while the surfaces have come no closer, or moved no farther.
+    private const double MaxKeptWay = 0.25;
+
+    private readonly List<NearPair> _near = [];
+    private double _margin;
+    private double _way;
+    private double _substepWay;
+    private (double First, double Second) _swept;
+
+    /// <summary>The first surface, that of a body.</summary>
+    public RigidSurface First { get; private set; } = null!;
+
+    /// <summary>The second surface.</summary>
+    public RigidSurface Second { get; private set; } = null!;
+
+    /// <summary>Index of the first one's state.</summary>
+    public int FirstIndex { get; private set; }
+
+    /// <summary>Index of the second one's state.</summary>
+    public int SecondIndex { get; private set; }
+
+    /// <summary>Names the two in a step.</summary>
+    public long Key => ((long)FirstIndex << 32) | (uint)SecondIndex;
+
+    /// <summary>Index of the searches and trees that look at the pair.</summary>
+    public int Thread { get; private set; }
+
+    /// <summary>Radius of the smaller body, scene units.</summary>
+    public double Radius { get; private set; }
+
+    /// <summary>The distance at which they rest on each other, scene units.</summary>
+    public double Distance { get; private set; }
+
+    /// <summary>The contacts that the last search found, relative to the first one's origin then.</summary>
+    public List<ContactPoint> Contacts { get; } = [];
+
+    /// <summary>The contacts as the solver left them.</summary>
+    public List<RigidRow> Rows { get; } = [];
+
+    /// <summary>True where what is near has to be looked for before the next substep.</summary>
+    public bool IsSearchDue { get; private set; }
+
+    /// <summary>The part of the substep after which they would be too close, from 0 to 1.</summary>
+    public double Impact { get; private set; }
+
+    /// <summary>How far surfaces may be apart whose contacts are looked for, in radii of the smaller one.</summary>
+    public static double MaxGap => MaxMargin;
+
+    /// <summary>Begins a pair of which nothing is known.</summary>
+    public void Set(int firstIndex, RigidSurface first, int secondIndex, RigidSurface second, int thread)
+    {
+        (FirstIndex, First, SecondIndex, Second, Thread) = (firstIndex, first, secondIndex, second, thread);
+        Radius = Math.Min(first.Radius, second.Body?.Radius ?? double.PositiveInfinity);
+        Contacts.Clear();
+        Rows.Clear();
+        IsSearchDue = true;
+    }
+
+    /// <summary>Begins a step. What was found in the last one counts while the two have barely moved, or what is near is known.</summary>
+    /// <param name="distance">The distance at which the surfaces rest on each other, scene units.</param>
+    public void BeginStep(double distance)
+    {
+        IsSearchDue |= First.IsMovedByOthers || Second.IsMovedByOthers || distance != Distance
+            || (Contacts.Count > 0 && _way > MaxKeptWay * distance);
+        Distance = distance;
+    }
+
+    /// <summary>Forgets what is near, so that it is looked for anew.</summary>
+    public void ForgetNear() => IsSearchDue = true;
+
+    /// <summary>Finds the contacts, and all that may meet in the motions that the surfaces have now.</summary>
+    public void FindContacts(ContactSearch search)
+    {
+        var (motion1, motion2) = RelativeMotions(First.Motion, Second.Motion);
+        var way = Math.Clamp(MarginFactor * MaxWay(in motion1, in motion2), MinMargin * Distance, MaxMargin * Radius);
+        var margin = (2 * Distance) + way;
+        Contacts.Clear();
+        _near.Clear();
+        _margin = search.FindContacts(
+            First.Shape.NodesOf(Thread), in motion1, Second.Shape.NodesOf(Thread), in motion2, Distance, margin, Contacts, _near);
+        _way = 0;
+        IsSearchDue = false;
+    }
+
+    /// <summary>Finds when the surfaces come too close in a substep of which both make the whole motion.</summary>
+    public void FindImpact(PairSweep sweep)
+    {
+        Impact = 1;
+        _swept = (1, 1);
+        var (motion1, motion2) = RelativeMotions(First.Motion, Second.Motion);
+        _substepWay = MaxWay(in motion1, in motion2);
+        Impact = Math.Min(Impact, Sweep(sweep, in motion1, in motion2, 1));
+    }
+
+    /// <summary>Finds the same where one of them has stopped and the other one goes on.</summary>
+    public void FindLaterImpact(PairSweep sweep)
+    {
+        Impact = 1;
+        _swept = (First.Fraction, Second.Fraction);
+        var begin = Math.Min(First.Fraction, Second.Fraction);
+        var duration = Math.Max(First.Fraction, Second.Fraction) - begin;
+        var (motion1, motion2) = RelativeMotions(First.Motion, Second.Motion);
+        var wayBefore = begin * MaxWay(in motion1, in motion2);
+        (motion1, motion2) = RelativeMotions(First.MotionAfter(begin), Second.MotionAfter(begin));
+        _substepWay = wayBefore + (duration * MaxWay(in motion1, in motion2));
+        var impact = Sweep(sweep, in motion1, in motion2, duration);
+        Impact = impact < duration ? begin + impact : 1;
+    }
+
+    /// <summary>True where one has stopped since the last sweep, and the other one goes on.</summary>
+    public bool IsSweepDue => _swept != (First.Fraction, Second.Fraction) && First.Fraction != Second.Fraction
+        && (First.Fraction < Second.Fraction ? Second : First).Motion.IsMoving;
+
+    /// <summary>Ends a substep. What is near is looked for anew where the two have met, or may have come too close.</summary>
+    public void EndSubstep()
+    {
+        _way += _substepWay;
+        var isUsedUp = _margin > 0 && _way + _substepWay > _margin - (2 * Distance) && _substepWay < MaxMargin * Radius;
+        IsSearchDue = Impact < 1 || isUsedUp;
+    }
+
+    private double Sweep(PairSweep sweep, in SurfaceMotion motion1, in SurfaceMotion motion2, double duration)
+    {
+        var distance = SweepDistance * Distance;
+        var way = _way + _substepWay;
+        // What was looked at for contacts is all that may meet, unless both come closer than was thought then.
+        return sweep.FindImpact(
+            First.Shape.NodesOf(Thread), in motion1, Second.Shape.NodesOf(Thread), in motion2, distance, duration,
+            way <= _margin - (2 * distance) ? _near : null, way + (2 * distance));
+    }
+
+    private (SurfaceMotion First, SurfaceMotion Second) RelativeMotions(in SurfaceMotion first, in SurfaceMotion second) =>
+        (first.RelativeTo(First.Motion.Origin), second.RelativeTo(First.Motion.Origin));
+
+    /// <summary>How far points of the two surfaces may come closer in a unit of time at most.</summary>
+    private double MaxWay(in SurfaceMotion motion1, in SurfaceMotion motion2)
+    {
+        var way = (motion1.Travel - motion2.Travel).Length() + (motion1.Angle * (First.Radius + motion1.Arm.Length()));
+        var radius = Second.Body?.Radius ?? First.Radius + (motion2.Origin - motion1.Origin).Length();
+        return way + (motion2.Angle * (radius + motion2.Arm.Length()));
+    }
 }

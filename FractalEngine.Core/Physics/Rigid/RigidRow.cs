@@ -5,6 +5,12 @@ namespace FractalEngine.Core.Physics.Rigid;
 /// <summary>A contact of two surfaces with what the solver of a step knows about it.</summary>
 internal struct RigidRow
 {
+    // Cosine of the angle between the normals of the same contact.
+    private const double MinCosine = 0.95;
+
+    // Relative to the radius of the smaller body: how far a contact may have moved.
+    private const double MaxDistance = 0.03;
+
     /// <summary>Index of the state on the normal's side, which is a body.</summary>
     public int First;
 
@@ -14,11 +20,17 @@ internal struct RigidRow
     /// <summary>Unit vector from the second to the first.</summary>
     public Vector Normal;
 
-    /// <summary>The contact relative to the first one's reference point, at the beginning.</summary>
+    /// <summary>The contact relative to the first one's reference point, as that was turned at the beginning of the step.</summary>
     public Vector Arm1;
 
-    /// <summary>The contact relative to the second one's reference point, at the beginning.</summary>
+    /// <summary>The contact relative to the second one's reference point, as that was turned at the beginning of the step.</summary>
     public Vector Arm2;
+
+    /// <summary>How much farther the second point had gone than the first one, from the step's beginning until it was found.</summary>
+    public Vector Offset;
+
+    /// <summary>The contact in the axes of the first body.</summary>
+    public Vector LocalArm1;
 
     /// <summary>The contact relative to the first one's reference point, in the present substep.</summary>
     public Vector TurnedArm1;
@@ -32,7 +44,7 @@ internal struct RigidRow
     /// <summary>The unit vector along the face at right angles to the first.</summary>
     public Vector Tangent2;
 
-    /// <summary>The gap at the beginning less the one at which surfaces rest, scene units.</summary>
+    /// <summary>The gap when the contact was found less the one at which surfaces rest, scene units.</summary>
     public double Gap;
 
     /// <summary>The gap at which the surfaces rest, scene units.</summary>
@@ -87,4 +99,40 @@ internal struct RigidRow
 
     /// <summary>The angular impulse against rolling and spinning in the present substep.</summary>
     public Vector RollingImpulse;
+
+    /// <summary>Gives the contact the impulses of the nearest one that there was.</summary>
+    /// <param name="before">The contacts of the pair before this one was found.</param>
+    /// <param name="radius">Radius of the smaller body.</param>
+    public void WarmStart(ReadOnlySpan<RigidRow> before, double radius)
+    {
+        var nearest = MaxDistance * radius;
+        foreach (ref readonly var row in before)
+        {
+            var distance = row.NormalImpulse > 0 ? (row.LocalArm1 - LocalArm1).Length() : double.PositiveInfinity;
+            if (distance < nearest && Vector.Dot(row.Normal, Normal) > MinCosine)
+            {
+                nearest = distance;
+                NormalImpulse = row.NormalImpulse;
+                FrictionImpulse = row.FrictionImpulse - (Vector.Dot(row.FrictionImpulse, Normal) * Normal);
+                RollingImpulse = row.RollingImpulse;
+            }
+        }
+    }
+
+    /// <summary>From the first one's point of the contact to the second one's, which were one when it was found.</summary>
+    /// <param name="first">State of the first one.</param>
+    /// <param name="second">State of the second one.</param>
+    public readonly Vector Between(in RigidState first, in RigidState second) =>
+        second.TravelOf(Arm2) - first.TravelOf(Arm1) - Offset;
+
+    /// <summary>Ends a step: what is relative to its beginning becomes relative to that of the next one.</summary>
+    /// <param name="first">State of the first one.</param>
+    /// <param name="second">State of the second one.</param>
+    public void EndStep(in RigidState first, in RigidState second)
+    {
+        Offset = -Between(in first, in second);
+        Arm1 = first.Turn.Rotate(Arm1);
+        Arm2 = second.Turn.Rotate(Arm2);
+        NormalImpulseSum = 0;
+    }
 }

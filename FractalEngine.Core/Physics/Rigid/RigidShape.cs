@@ -52,12 +52,20 @@ internal sealed class RigidShape(Func<SurfaceNodes> create)
     }
 
     /// <summary>Gives up trees that have become too large. Between steps: in one, what has been found names parts of a tree.</summary>
-    public void Trim()
+    /// <returns>True where there were any.</returns>
+    public bool Trim()
     {
+        var hasTrimmed = false;
         for (var thread = 0; thread < _nodesOfThread.Count; thread++)
         {
-            _nodesOfThread[thread] = _nodesOfThread[thread] is { Count: <= MaxNodes } nodes ? nodes : null;
+            if (_nodesOfThread[thread] is { Count: > MaxNodes })
+            {
+                _nodesOfThread[thread] = null;
+                hasTrimmed = true;
+            }
         }
+
+        return hasTrimmed;
     }
 
     /// <summary>The tree of one of the threads.</summary>

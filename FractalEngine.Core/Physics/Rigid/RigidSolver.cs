@@ -76,7 +76,7 @@ internal static class RigidSolver
     }
 
     private static double GapNow(in RigidRow row, Span<RigidState> states) =>
-        row.Gap + Vector.Dot(row.Normal, states[row.First].TravelOf(row.Arm1) - states[row.Second].TravelOf(row.Arm2));
+        row.Gap - Vector.Dot(row.Normal, row.Between(in states[row.First], in states[row.Second]));
 
     private static void Accelerate(Span<RigidState> states, double substep)
     {
@@ -95,7 +95,7 @@ internal static class RigidSolver
     {
         foreach (ref var state in states)
         {
-            if (state.HasContacts)
+            if (state.HasContacts || !state.IsDynamic)
             {
                 state.Move(substep);
             }
@@ -116,7 +116,7 @@ internal static class RigidSolver
         ref var first = ref states[row.First];
         ref var second = ref states[row.Second];
         // Both act at one point, in the middle of where it has gone with each, so that angular momentum is kept.
-        var middle = 0.5 * (second.TravelOf(row.Arm2) - first.TravelOf(row.Arm1));
+        var middle = 0.5 * row.Between(in first, in second);
         row.TurnedArm1 = first.Turn.Rotate(row.Arm1) + middle;
         row.TurnedArm2 = second.Turn.Rotate(row.Arm2) - middle;
         row.NormalMass = 1 / (first.Mobility(row.TurnedArm1, row.Normal) + second.Mobility(row.TurnedArm2, row.Normal));

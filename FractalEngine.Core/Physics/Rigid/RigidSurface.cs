@@ -1,6 +1,7 @@
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics.Bodies;
+using FractalEngine.Core.Physics.Descriptions;
 using FractalEngine.Core.Physics.Statics;
 
 namespace FractalEngine.Core.Physics.Rigid;
@@ -13,6 +14,7 @@ internal sealed class RigidSurface
     private const double ReachFraction = 0.5;
 
     private BoundingBox _centres;
+    private (RigidShape? Shape, Vector Position, Orientation Orientation, double Scale) _end;
 
     /// <summary>Makes the surface of a body.</summary>
     public RigidSurface(Body body, RigidShape shape)
@@ -49,6 +51,12 @@ internal sealed class RigidSurface
     /// <summary>The part of its motion that it makes, from 0 to 1.</summary>
     public double Fraction { get; set; } = 1;
 
+    /// <summary>True where a body has come to the end of the box in which what it may meet was looked for.</summary>
+    public bool IsReachDue { get; set; }
+
+    /// <summary>True where something else than the last step has moved it, or changed its size.</summary>
+    public bool IsMovedByOthers { get; private set; } = true;
+
     /// <summary>True for a body that is awake.</summary>
     public bool IsAwake => Body is { IsAsleep: false };
 
@@ -59,20 +67,60 @@ internal sealed class RigidSurface
     /// <param name="time">No later than it stops.</param>
     public SurfaceMotion MotionAfter(double time) => Fraction == time ? Motion.From(time).Stopped : Motion.From(time);
 
-    /// <summary>Sets where a body may get to in the rest of the step: what it may meet is looked for there.</summary>
-    /// <param name="travel">How far its centre goes without contacts.</param>
+    /// <summary>Compares where it is at the beginning of a step with the end of the last one.</summary>
+    public void BeginStep() => IsMovedByOthers = _end != Placement || Target?.Kinematic is { IsMoving: true };
+
+    /// <summary>Keeps where it is at the end of a step.</summary>
+    public void EndStep() => _end = Placement;
+
+    /// <summary>How far the boxes of two surfaces are apart along an axis of the world; infinite where there is nothing.</summary>
+    public double GapTo(RigidSurface other)
+    {
+        var gap = Vector.Max(other.SweptBounds.Minimum - SweptBounds.Maximum, SweptBounds.Minimum - other.SweptBounds.Maximum);
+        return other.SweptBounds.IsEmpty ? double.PositiveInfinity : Math.Max(gap.X, Math.Max(gap.Y, gap.Z));
+    }
+
+    /// <summary>Sets how a body moves in the rest of the step without contacts.</summary>
+    /// <param name="travel">How far its centre goes.</param>
     /// <param name="turn">Rotation vector of its turn.</param>
-    public void SetReach(Vector travel, Vector turn)
+    /// <returns>True where that is farther than what it may meet has been looked for.</returns>
+    public bool SetRest(Vector travel, Vector turn)
     {
         Motion = CreateMotion(travel, turn);
         Fraction = 1;
+        var isReachNew = IsReachDue;
+        if (isReachNew)
+        {
+            SetReach(travel);
+        }
+
+        return isReachNew;
+    }
+
+    /// <summary>Sets where a body may get to in the rest of the step: what it may meet is looked for there.</summary>
+    private void SetReach(Vector travel)
+    {
+        IsReachDue = false;
         var slack = ((ReachRadii * Radius) + (ReachFraction * travel.Length())) * Vector.One;
         _centres = new(
             Vector.Min(Body!.Position, Body.Position + travel) - slack, Vector.Max(Body.Position, Body.Position + travel) + slack);
         SweptBounds = new(_centres.Minimum - (Radius * Vector.One), _centres.Maximum + (Radius * Vector.One));
     }
 
-    /// <summary>Sets the motion of a body in a substep. It stops where it would leave the box of <see cref="SetReach"/>.</summary>
+    /// <summary>Stops at a part of the motion.</summary>
+    /// <returns>True where it went on until now.</returns>
+    public bool Stop(double fraction)
+    {
+        if (!IsAwake || fraction >= Fraction)
+        {
+            return false;
+        }
+
+        Fraction = fraction;
+        return true;
+    }
+
+    /// <summary>Sets the motion of a body in a substep. It stops where what it may meet has not been looked for.</summary>
     /// <param name="travel">How far its centre goes.</param>
     /// <param name="turn">Rotation vector of its turn.</param>
     public void SetMotion(Vector travel, Vector turn)
@@ -85,7 +133,11 @@ internal sealed class RigidSurface
             Math.Min(
                 FractionWithin(Body.Position.Y, detour * travel.Y, _centres.Minimum.Y, _centres.Maximum.Y),
                 FractionWithin(Body.Position.Z, detour * travel.Z, _centres.Minimum.Z, _centres.Maximum.Z)));
+        IsReachDue = Fraction < 1;
     }
+
+    private (RigidShape? Shape, Vector Position, Orientation Orientation, double Scale) Placement => Body is null
+        ? (Shape, Target!.ObjectToWorld.Translation, Orientation.Identity, 1) : (Shape, Body.Position, Body.Orientation, Body.Scale);
 
     private static double FractionWithin(double position, double travel, double minimum, double maximum) =>
         position + travel > maximum ? Math.Max(0, (maximum - position) / travel)
@@ -97,7 +149,7 @@ internal sealed class RigidSurface
         // A ball looks the same whichever way it has turned.
         var isBall = Body!.Description is { Shape: null, Mesh: null };
         return new(
-            Body.Position, isBall ? Descriptions.Orientation.Identity : Body.Orientation, isBall ? Body.Radius : Body.Scale, travel,
+            Body.Position, isBall ? Orientation.Identity : Body.Orientation, isBall ? Body.Radius : Body.Scale, travel,
             isBall ? Vector.Zero : turn);
     }
 }

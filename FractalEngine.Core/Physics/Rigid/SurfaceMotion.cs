@@ -59,6 +59,9 @@ internal readonly struct SurfaceMotion
     /// <summary>Radians that the surface turns in a unit of time.</summary>
     public double Angle { get; }
 
+    /// <summary>True for what does not stay where it is.</summary>
+    public bool IsMoving => Angle > 0 || Travel != Vector.Zero;
+
     /// <summary>The rotation at the beginning.</summary>
     public Matrix Rotation { get; }
 

@@ -11,7 +11,7 @@ internal sealed class SurfaceNodes
 {
     private readonly ShapeNodes? _nodes;
     private readonly List<SurfaceBox> _boxes = [];
-    private readonly Dictionary<int, SurfaceTriangle[]> _triangles = [];
+    private readonly Dictionary<int, SurfaceLeaf> _leaves = [];
 
     /// <summary>Makes the tree of a mesh or fractal.</summary>
     /// <param name="tree">The shape, not empty.</param>
@@ -36,7 +36,7 @@ internal sealed class SurfaceNodes
         }
 
         _boxes.Add(new(box, AffineMap.Identity, 0));
-        _triangles[0] = triangles;
+        _leaves[0] = new(triangles);
     }
 
     /// <summary>True where triangles are wound inwards.</summary>
@@ -59,22 +59,16 @@ internal sealed class SurfaceNodes
         return children;
     }
 
-    /// <summary>The triangles of a leaf in the frame of the surface.</summary>
-    public SurfaceTriangle[] Triangles(int leaf)
+    /// <summary>The triangles of a leaf, with corners and edges, in the frame of the surface.</summary>
+    public SurfaceLeaf Leaf(int node)
     {
-        if (!_triangles.TryGetValue(leaf, out var triangles))
+        if (!_leaves.TryGetValue(node, out var leaf))
         {
-            var source = _nodes!.Triangles(leaf);
-            triangles = new SurfaceTriangle[source.Length];
-            for (var i = 0; i < source.Length; i++)
-            {
-                triangles[i] = new(source[i].Corners, 0);
-            }
-
-            _triangles[leaf] = triangles;
+            leaf = new(_nodes!, node);
+            _leaves[node] = leaf;
         }
 
-        return triangles;
+        return leaf;
     }
 
     private void AddBoxes()

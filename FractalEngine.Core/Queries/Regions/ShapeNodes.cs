@@ -78,6 +78,15 @@ internal sealed class ShapeNodes
         return CollectionsMarshal.AsSpan(_triangles);
     }
 
+    /// <summary>The base mesh that a leaf is a part of.</summary>
+    public Mesh BaseMesh(int leaf) => _tree.BaseMesh(_entries[leaf].Node);
+
+    /// <summary>The map from a leaf's base mesh to the frame of the query.</summary>
+    public AffineMap MapOf(int leaf) => _entries[leaf].Node.Map;
+
+    /// <summary>Computes the corners of a face of a leaf's base mesh in the frame of the query.</summary>
+    public (Vector A, Vector B, Vector C) Corners(int leaf, int face) => _tree.Triangle(_entries[leaf].Node, face);
+
     /// <summary>Names the instance of a node.</summary>
     public int[] InstancePath(int index)
     {

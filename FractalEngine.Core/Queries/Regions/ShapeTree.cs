@@ -120,6 +120,9 @@ internal sealed class ShapeTree
         : bvh.HasNodes ? bvh.Faces(leaf.BvhNode)
         : bvh.AllFaces;
 
+    /// <summary>The base mesh that a leaf is a part of.</summary>
+    public Mesh BaseMesh(in ShapeNode leaf) => _meshes[leaf.BaseIndex];
+
     /// <summary>Computes the corners of a face.</summary>
     /// <param name="leaf">The leaf that it belongs to.</param>
     /// <param name="face">Its index in the base mesh.</param>
