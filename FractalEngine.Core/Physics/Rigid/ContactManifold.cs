@@ -41,6 +41,9 @@ internal sealed class ContactManifold
         _groupCount = 0;
     }
 
+    /// <summary>Number of times that a contact has changed what is kept.</summary>
+    public int ChangeCount { get; private set; }
+
     /// <summary>Adds a contact, if it is deeper or farther out than others of its group.</summary>
     public void Add(in ContactPoint contact)
     {
@@ -53,16 +56,26 @@ internal sealed class ContactManifold
             }
 
             group = CreateGroup(contact.Normal);
+            ChangeCount++;
             Array.Fill(_points, contact, group * PointsPerGroup, PointsPerGroup);
             return;
         }
 
         var points = _points.AsSpan(group * PointsPerGroup, PointsPerGroup);
-        points[Directions] = contact.Gap < points[Directions].Gap ? contact : points[Directions];
+        if (contact.Gap < points[Directions].Gap)
+        {
+            points[Directions] = contact;
+            ChangeCount++;
+        }
+
         for (var i = 0; i < Directions; i++)
         {
             var farther = Vector.Dot(_directions[(group * Directions) + i], contact.Point - points[i].Point);
-            points[i] = farther > PlaceTolerance * _distance ? contact : points[i];
+            if (farther > PlaceTolerance * _distance)
+            {
+                points[i] = contact;
+                ChangeCount++;
+            }
         }
     }
 

@@ -60,12 +60,11 @@ internal sealed class PairSweep : PairSearch
         _distance = distance;
         _end = end;
         _open.Clear();
-        if (near is null)
+        Push(0, 0, 0);
+        // Where the boxes around the whole surfaces do not stay apart, what is near tells more.
+        if (_open.Count > 0 && near is not null)
         {
-            Push(0, 0, 0);
-        }
-        else
-        {
+            _open.Clear();
             TestNear(near, maxGap);
         }
 
@@ -146,7 +145,7 @@ internal sealed class PairSweep : PairSearch
             var box1 = First[node1].Place(in from1);
             var box2 = Second[node2].Place(in from2);
             var test = new SeparationTest(in from1, in from2, box1.Centre, box1.Radius, box2.Centre, box2.Radius);
-            var safe = test.SafeTime(in box1, in box2, _distance, _end - time, out _);
+            var safe = test.SafeTime(in box1, in box2, _distance, _end - time);
             var isAhead = safe >= MinAdvance * (_end - time);
             time += safe;
             if (!isAhead)

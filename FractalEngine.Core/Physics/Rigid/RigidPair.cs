@@ -22,6 +22,7 @@ internal sealed class RigidPair
     private const double MaxKeptWay = 0.25;
 
     private readonly List<NearPair> _near = [];
+    private readonly List<(int First, int Second)> _leaves = [];
     private double _margin;
     private double _way;
     private double _substepWay;
@@ -73,7 +74,7 @@ internal sealed class RigidPair
         Radius = Math.Min(first.Radius, second.Body?.Radius ?? double.PositiveInfinity);
         Contacts.Clear();
         Rows.Clear();
-        IsSearchDue = true;
+        ForgetNear();
     }
 
     /// <summary>Begins a step. What was found in the last one counts while the two have barely moved, or what is near is known.</summary>
@@ -86,7 +87,11 @@ internal sealed class RigidPair
     }
 
     /// <summary>Forgets what is near, so that it is looked for anew.</summary>
-    public void ForgetNear() => IsSearchDue = true;
+    public void ForgetNear()
+    {
+        _leaves.Clear();
+        IsSearchDue = true;
+    }
 
     /// <summary>Finds the contacts, and all that may meet in the motions that the surfaces have now.</summary>
     public void FindContacts(ContactSearch search)
@@ -97,7 +102,7 @@ internal sealed class RigidPair
         Contacts.Clear();
         _near.Clear();
         _margin = search.FindContacts(
-            First.Shape.NodesOf(Thread), in motion1, Second.Shape.NodesOf(Thread), in motion2, Distance, margin, Contacts, _near);
+            First.Shape.NodesOf(Thread), in motion1, Second.Shape.NodesOf(Thread), in motion2, Distance, margin, Contacts, _near, _leaves);
         _way = 0;
         IsSearchDue = false;
     }

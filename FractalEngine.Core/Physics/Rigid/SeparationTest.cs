@@ -41,15 +41,12 @@ internal readonly ref struct SeparationTest
     /// <param name="second">The second part's box, now.</param>
     /// <param name="distance">The distance, scene units.</param>
     /// <param name="enough">The method may return early any time that is no shorter.</param>
-    /// <param name="best">Receives the axis with the largest gap now, and that gap; it is negative where no axis parts them.</param>
-    public double SafeTime(
-        in SurfaceBox first, in SurfaceBox second, double distance, double enough, out (Vector Axis, double Gap) best)
+    public double SafeTime(in SurfaceBox first, in SurfaceBox second, double distance, double enough)
     {
         var between = first.Centre - second.Centre;
         var length = between.Length();
-        best = (Vector.Zero, double.NegativeInfinity);
         var time = 0.0;
-        if (length > 0 && TestAxis(between / length, in first, in second, distance, enough, ref best, ref time))
+        if (length > 0 && TestAxis(between / length, in first, in second, distance, enough, ref time))
         {
             return time;
         }
@@ -57,7 +54,7 @@ internal readonly ref struct SeparationTest
         for (var i = 0; i < 6; i++)
         {
             var axis = i < 3 ? Column(first.Normals, i) : Column(second.Normals, i - 3);
-            if (axis != Vector.Zero && TestAxis(axis, in first, in second, distance, enough, ref best, ref time))
+            if (axis != Vector.Zero && TestAxis(axis, in first, in second, distance, enough, ref time))
             {
                 return time;
             }
@@ -68,7 +65,7 @@ internal readonly ref struct SeparationTest
             var axis = Vector.Cross(Column(first.HalfAxes, i / 3), Column(second.HalfAxes, i % 3));
             var size = axis.LengthSquared();
             if (size > MinSine * MinSine * Column(first.HalfAxes, i / 3).LengthSquared() * Column(second.HalfAxes, i % 3).LengthSquared()
-                && TestAxis(axis / Math.Sqrt(size), in first, in second, distance, enough, ref best, ref time))
+                && TestAxis(axis / Math.Sqrt(size), in first, in second, distance, enough, ref time))
             {
                 return time;
             }
@@ -76,6 +73,38 @@ internal readonly ref struct SeparationTest
 
         return time;
     }
+
+    /// <summary>Finds the axis along which two boxes that stand still are farthest apart, and by how much; negative where none parts them.</summary>
+    /// <param name="first">The first box.</param>
+    /// <param name="second">The second box.</param>
+    /// <param name="enough">The first axis with a larger gap may be returned.</param>
+    public static (Vector Axis, double Gap) Separate(in SurfaceBox first, in SurfaceBox second, double enough)
+    {
+        var between = first.Centre - second.Centre;
+        var best = (Axis: Vector.Zero, Gap: double.NegativeInfinity);
+        for (var i = 0; i < 15 && best.Gap <= enough; i++)
+        {
+            var axis = i < 3 ? Column(first.Normals, i)
+                : i < 6 ? Column(second.Normals, i - 3)
+                : Vector.Cross(Column(first.HalfAxes, (i - 6) / 3), Column(second.HalfAxes, (i - 6) % 3)).UnitVectorOrZero();
+            var height = Vector.Dot(axis, between);
+            var gap = Math.Abs(height) - first.Extent(axis) - second.Extent(axis);
+            if (gap > best.Gap && axis != Vector.Zero)
+            {
+                best = (height < 0 ? -axis : axis, gap);
+            }
+        }
+
+        return best;
+    }
+
+    /// <summary>Finds for how long two boxes surely stay farther apart than a distance along an axis.</summary>
+    /// <param name="axis">Unit vector from the second to the first.</param>
+    /// <param name="first">The first part's box, now.</param>
+    /// <param name="second">The second part's box, now.</param>
+    /// <param name="distance">The distance, scene units.</param>
+    public double SafeTime(Vector axis, in SurfaceBox first, in SurfaceBox second, double distance) =>
+        SafeTime(ReachOf(in first, axis, in _first, 1), ReachOf(in second, axis, in _second, -1), distance);
 
     /// <summary>Finds for how long a triangle of one surface surely stays farther from a box of the other than a distance.</summary>
     /// <param name="triangle">Of one surface, now.</param>
@@ -149,14 +178,12 @@ internal readonly ref struct SeparationTest
         motion.Angle > 0 ? 0.5 * motion.Angle * motion.Angle * ((centre - motion.Position).Length() + radius) : 0;
 
     private bool TestAxis(
-        Vector axis, in SurfaceBox first, in SurfaceBox second, double distance, double enough, ref (Vector Axis, double Gap) best,
-        ref double time)
+        Vector axis, in SurfaceBox first, in SurfaceBox second, double distance, double enough, ref double time)
     {
         axis = Vector.Dot(axis, first.Centre - second.Centre) < 0 ? -axis : axis;
         var reach1 = ReachOf(in first, axis, in _first, 1);
         var reach2 = ReachOf(in second, axis, in _second, -1);
         var gap = reach1.A.Height + reach2.A.Height;
-        best = gap > best.Gap ? (axis, gap) : best;
         time = Math.Max(time, gap > distance ? SafeTime(gap - distance, reach1.A.Speed + reach2.A.Speed) : 0);
         return time >= enough;
     }

@@ -62,6 +62,15 @@ internal readonly struct SurfaceBox
     public double Spread(Vector vector) => Math.Abs(Vector.Dot(vector, HalfAxes.V1)) + Math.Abs(Vector.Dot(vector, HalfAxes.V2))
         + Math.Abs(Vector.Dot(vector, HalfAxes.V3));
 
+    /// <summary>The corner that is farthest from a point, where the half axes are at right angles.</summary>
+    public Vector FarthestCorner(Vector point)
+    {
+        var offset = Centre - point;
+        return Centre + Outwards(HalfAxes.V1, offset) + Outwards(HalfAxes.V2, offset) + Outwards(HalfAxes.V3, offset);
+    }
+
+    private static Vector Outwards(Vector half, Vector offset) => Vector.Dot(half, offset) < 0 ? -half : half;
+
     private static Vector FaceNormal(Vector half, Vector side1, Vector side2)
     {
         var longest = Math.Max(half.Length(), Math.Max(side1.Length(), side2.Length()));

@@ -33,6 +33,7 @@ internal readonly struct SurfaceMotion
         Turn = turn;
         Angle = turn.Length();
         Rotation = orientation.ToMatrix();
+        Map = new(scale * Rotation, position + arm);
     }
 
     /// <summary>The reference point at the beginning, which goes straight on.</summary>
@@ -66,7 +67,7 @@ internal readonly struct SurfaceMotion
     public Matrix Rotation { get; }
 
     /// <summary>From the frame of the surface to the world, at the beginning.</summary>
-    public AffineMap Map => new(Scale * Rotation, Origin);
+    public AffineMap Map { get; }
 
     /// <summary>
     /// The motion between the same ends as a screw (Chasles): what turns about a point of contact does so all the way, and does not dip

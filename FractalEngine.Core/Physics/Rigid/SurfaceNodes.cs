@@ -1,3 +1,4 @@
+using System.Runtime.InteropServices;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Queries.Regions;
 
@@ -46,7 +47,7 @@ internal sealed class SurfaceNodes
     public int Count => _boxes.Count;
 
     /// <summary>The box around a part, in the frame of the surface.</summary>
-    public SurfaceBox this[int node] => _boxes[node];
+    public ref readonly SurfaceBox this[int node] => ref CollectionsMarshal.AsSpan(_boxes)[node];
 
     /// <summary>True for a part that has triangles and no smaller parts.</summary>
     public bool IsLeaf(int node) => _nodes?.IsLeaf(node) ?? true;
