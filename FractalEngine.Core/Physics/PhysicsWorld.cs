@@ -70,7 +70,7 @@ public sealed class PhysicsWorld
         Settings = settings ?? new();
         Settings.Validate();
         _stepper = new(Settings, _bodies, _statics);
-        _queries = new(_bodies, _statics, _stepper.Obstacles, _stepper.QueryContext);
+        _queries = new(_bodies, _statics, _stepper.Obstacles, _stepper.BodySurfaces, _stepper.QueryContext);
         _staticOfObject = new StaticObject?[scene.Objects.Length];
         for (var i = 0; i < scene.Objects.Length; i++)
         {

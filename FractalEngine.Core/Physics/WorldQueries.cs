@@ -15,7 +15,7 @@ namespace FractalEngine.Core.Physics;
 
 /// <summary>Casts spheres and rays through a world as it is between two steps.</summary>
 internal sealed class WorldQueries(
-    List<Body> bodies, StaticObjectSet statics, Obstacles obstacles, QueryContext queryContext)
+    List<Body> bodies, StaticObjectSet statics, Obstacles obstacles, BodySurfaces bodySurfaces, QueryContext queryContext)
 {
     // Relative to the radius: contacts that a sphere begins with.
     private const double TouchFraction = 1e-9;
@@ -32,6 +32,8 @@ internal sealed class WorldQueries(
         obstacles.SetMover(colliders, BodyStepper.SingleSphereOffset, radius, _safeDistance, 0);
         statics.Kinematics.Time = 0;
         statics.Kinematics.IsFrozen = true;
+        bodySurfaces.SetMover(layer, mask);
+        bodySurfaces.Follow();
         try
         {
             var motion = new SphereMotion(start, way, Vector.Zero);
@@ -49,6 +51,7 @@ internal sealed class WorldQueries(
         finally
         {
             statics.Kinematics.IsFrozen = false;
+            bodySurfaces.SetMover(0, Layers.All);
         }
     }
 
@@ -76,6 +79,18 @@ internal sealed class WorldQueries(
             }
         }
 
+        bodySurfaces.SetMover(layer, mask);
+        bodySurfaces.Follow();
+        for (var i = 0; i < bodySurfaces.Count; i++)
+        {
+            if (bodySurfaces.IsMet(i, out var body, out var surface))
+            {
+                HitObject(surface, ray, ref maxDistance, ref hit);
+                hit = hit.StaticObject == surface ? hit with { Body = body, StaticObject = null } : hit;
+            }
+        }
+
+        bodySurfaces.SetMover(0, Layers.All);
         return hit is not { Body: null, StaticObject: null };
     }
 
@@ -144,6 +159,8 @@ internal sealed class WorldQueries(
         }
 
         var tolerance = (1e-6 * radius) + (1e-12 * centre.MaxAbsComponent());
-        return new(distance, contact.Point, normal, null, obstacles.FindClosestPoint(contact.Point, tolerance, out _));
+        var target = obstacles.FindClosestPoint(contact.Point, tolerance, out _);
+        return bodySurfaces.BodyOf(target) is { } body
+            ? new(distance, contact.Point, normal, body, null) : new(distance, contact.Point, normal, null, target);
     }
 }

@@ -80,7 +80,8 @@ internal sealed class WorldStepper
         _kinematics = statics.Kinematics;
         _nearbyBodies = new(_grid, bodies);
         Islands = new(bodies, _nearbyBodies);
-        Obstacles = new(bodies, _nearbyBodies, QueryContext, _kinematics);
+        BodySurfaces = new(bodies, statics);
+        Obstacles = new(bodies, _nearbyBodies, QueryContext, _kinematics, BodySurfaces);
         ContactLog = new(bodies, statics) { IsEnabled = settings.ReportsContacts };
         var maxThreads = settings.MaxThreads ?? Environment.ProcessorCount;
         _planner = new(bodies, _nearbyBodies, ContactLog, new(), maxThreads);
@@ -92,7 +93,7 @@ internal sealed class WorldStepper
             context =>
             {
                 var nearbyBodies = new NearbyBodies(_grid, bodies);
-                return CreateStepper(nearbyBodies, new(bodies, nearbyBodies, context, _kinematics), context);
+                return CreateStepper(nearbyBodies, new(bodies, nearbyBodies, context, _kinematics, BodySurfaces), context);
             },
             maxThreads);
         _prepare = Prepare;
@@ -109,6 +110,9 @@ internal sealed class WorldStepper
 
     /// <summary>What the character and casts meet, set up anew for each of them.</summary>
     public Obstacles Obstacles { get; }
+
+    /// <summary>The surfaces of bodies that have the shape of their meshes.</summary>
+    public BodySurfaces BodySurfaces { get; }
 
     /// <summary>The contacts of the last step.</summary>
     public ContactLog ContactLog { get; }
@@ -136,6 +140,7 @@ internal sealed class WorldStepper
     {
         _grid.Build(_bodies);
         _rigid.PlaceBodies();
+        BodySurfaces.Place();
         _parallel.Reserve(_bodies.Count);
         _nearbyBodies.HasFilters = _bodies.Exists(static body => body.Description.Mask != Layers.All || body.Description.Layer != 0);
         var contactCount = ContactsPerBall * _bodies.Sum(static body => body.BallCount);
@@ -278,7 +283,9 @@ internal sealed class WorldStepper
     {
         if (_rigid.IsNeeded)
         {
-            _rigid.StepPart(_gravity, _seconds);
+            BodySurfaces.Follow();
+            _rigid.StepPart(_gravity, _seconds, _character);
+            BodySurfaces.Follow(_seconds);
             for (var i = 0; i < _bodies.Count; i++)
             {
                 _grid.Update(i);
@@ -607,6 +614,11 @@ internal sealed class WorldStepper
             {
                 var body = _bodies[index];
                 var canMeet = Layers.CanMeet(trigger.Layer, trigger.Mask, body.Description.Layer, body.Description.Mask);
+                if (canMeet && body.Description.Mesh is not null && _rigid.TryEnter(body, trigger, QueryContext, out var point))
+                {
+                    ContactLog.Add(index, ContactRecord.OfObject(trigger.Index), point, (body.Position - point).UnitVectorOrZero(), 0);
+                }
+
                 for (var ball = 0; ball < body.BallCount && canMeet; ball++)
                 {
                     var centre = body.BallCentre(ball);

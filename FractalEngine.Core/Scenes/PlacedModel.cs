@@ -31,11 +31,12 @@ public sealed class PlacedModel(SceneObject declaration, Model model)
     public Model Model { get; } = model;
 
     /// <summary>Maps the model's frame to world space: the paper's global matrix m.</summary>
-    public AffineMap ObjectToWorld { get; } = declaration.Placement.ToAffineMap();
+    public AffineMap ObjectToWorld { get; internal init; } = declaration.Placement.ToAffineMap();
 
     /// <summary>The object by the parts of its model, see <see cref="Model.Parts"/>.</summary>
     public IEnumerable<PlacedModel> Parts =>
-        Model.Parts is [var only] && ReferenceEquals(only, Model) ? [this] : Model.Parts.Select(part => new PlacedModel(Declaration, part));
+        Model.Parts is [var only] && ReferenceEquals(only, Model) ? [this] : Model.Parts.Select(
+            part => new PlacedModel(Declaration, part) { ObjectToWorld = ObjectToWorld });
 
     /// <summary>A box that holds the object in world space; as tight as the model's own.</summary>
     public BoundingBox Bounds => (_bounds ??= new(ComputeWorldBounds(Declaration, ObjectToWorld, Model))).Value;
@@ -59,8 +60,8 @@ public sealed class PlacedModel(SceneObject declaration, Model model)
 
     private static BoundingBox ComputeWorldBounds(SceneObject declaration, AffineMap objectToWorld, Model model) => model switch
     {
-        FractalModel { Fractal: { Description.Composition: Composition.Affine } fractal } =>
-            fractal.WithPlacement(declaration.Placement).Bounds,
+        FractalModel { Fractal: { Description.Composition: Composition.Affine } fractal }
+            when objectToWorld == declaration.Placement.ToAffineMap() => fractal.WithPlacement(declaration.Placement).Bounds,
         MeshModel => model.Mesh.ComputeBounds(objectToWorld),
         _ => model.Bounds.Transform(objectToWorld),
     };

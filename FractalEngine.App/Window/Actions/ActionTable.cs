@@ -183,8 +183,12 @@ internal static class ActionTable
             IsOn = static a => a.Document?.Physics.IsPaused == true,
         },
         OfPhysics("step", "One step", "make one step", Key.N, static document => document.Physics.StepOnce()),
-        OfPhysics("drop-ball", "Drop a ball", "drop a ball in the middle of the view, before the surface there", Key.B,
-            static document => document.DropBall()),
+        new("drop-ball", "Physics", "Drop a ball",
+            "let the selected object fall, as a body of its own shape; or drop a ball in the middle of the view, before the surface there")
+        {
+            Keys = [new(Key.B)], IsAvailable = HasDocument,
+            Run = static a => a.TryDropSelected() ? Redraw.Scene : a.RunPhysics(static document => document.DropBall()),
+        },
         new("throw-ball", "Physics", "Throw a ball", "throw a ball from the camera to the middle of the view")
         {
             Keys = [KeyChord.Control(Key.B)], Run = Physics(static document => document.ThrowBall()), IsAvailable = HasDocument,

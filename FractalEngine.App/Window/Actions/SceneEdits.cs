@@ -1,4 +1,6 @@
+using FractalEngine.App.Window.State;
 using FractalEngine.Core;
+using FractalEngine.Core.Physics.Descriptions;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Scenes.Lights;
 using FractalEngine.Parsing.Editing;
@@ -9,6 +11,9 @@ namespace FractalEngine.App.Window.Actions;
 /// <summary>Changes that menus, panels and handles make in the text of a scene.</summary>
 internal static class SceneEdits
 {
+    private const double DroppedRestitution = 0.2;
+    private const double DroppedFriction = 0.5;
+
     /// <summary>Changes the scene of the document, as a step that can be undone.</summary>
     /// <inheritdoc cref="EditScene"/>
     public static bool ChangeScene(this WindowActions actions, Func<Scene, Scene> change) =>
@@ -21,6 +26,32 @@ internal static class SceneEdits
             RequireLoaded(actions, scene);
             return scene with { Objects = scene.Objects.SetItem(index, change(scene.Objects[index])) };
         });
+
+    /// <summary>Makes the selected object a body that has the shape of its mesh or fractal, and falls.</summary>
+    /// <returns>False where no object is selected, or one that is a body already.</returns>
+    public static bool TryDropSelected(this WindowActions actions)
+    {
+        if (HandleLines.SelectedObject(actions.Document!) is not (var index, { File: { } file } and not PhysicsObject, _))
+        {
+            return false;
+        }
+
+        try
+        {
+            _ = new MeshShape(actions.Document!.File.Scene.Objects[index].Model);
+            actions.ChangeObject(index, present => new PhysicsObject(file, present.Placement, DroppedRestitution)
+            {
+                Name = present.Name, Colour = present.Colour, Gradient = present.Gradient, Friction = DroppedFriction,
+                Shape = BodyShape.Mesh,
+            });
+        }
+        catch (Exception exception) when (exception is FractalEngineException or ArgumentException)
+        {
+            actions.Show($"it can't fall: {exception.Message}");
+        }
+
+        return true;
+    }
 
     /// <summary>Changes a light of the document's scene. Refused while the scene has other lights than were loaded.</summary>
     public static void ChangeLight(this WindowActions actions, int index, Func<Light, Light> change) =>

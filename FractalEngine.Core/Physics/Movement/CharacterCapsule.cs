@@ -183,12 +183,11 @@ internal sealed class CharacterCapsule(List<Body> bodies, SleepIslands islands, 
     /// <summary>Gives a body that is in the way the velocity of the character along the normal.</summary>
     public void PushBody(in Contact contact, Vector normal, Vector velocity)
     {
-        if (!contact.IsBody)
+        if ((contact.IsBody ? bodies[contact.BodyIndex] : obstacles.BodyOf(in contact)) is not { } body)
         {
             return;
         }
 
-        var body = bodies[contact.BodyIndex];
         var approachSpeed = Vector.Dot(velocity - body.Velocity, normal);
         if (approachSpeed < 0)
         {

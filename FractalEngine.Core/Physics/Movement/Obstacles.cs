@@ -13,7 +13,7 @@ namespace FractalEngine.Core.Physics.Movement;
 /// mover is one sphere, or several at fixed offsets from its position.
 /// </summary>
 internal sealed class Obstacles(
-    List<Body> bodies, NearbyBodies nearbyBodies, QueryContext queryContext, KinematicSet kinematics)
+    List<Body> bodies, NearbyBodies nearbyBodies, QueryContext queryContext, KinematicSet kinematics, BodySurfaces bodySurfaces)
 {
     // Relative to the radius: so far from where a query was made, its result is as good as another one.
     private const double NegligibleDistance = 0.01;
@@ -253,8 +253,8 @@ internal sealed class Obstacles(
         }
     }
 
-    /// <summary>True where there are objects that move by themselves.</summary>
-    public bool HasKinematics => kinematics.Objects.Count > 0;
+    /// <summary>True where there are objects that move by themselves, or surfaces of bodies.</summary>
+    public bool HasKinematics => kinematics.Objects.Count > 0 || !bodySurfaces.IsEmpty;
 
     /// <summary>Largest speed of the kinematic objects that the mover may meet; 0 where there are none.</summary>
     /// <param name="motion">Path of the mover.</param>
@@ -284,7 +284,7 @@ internal sealed class Obstacles(
     {
         contact = default;
         var isFound = false;
-        if (_staticColliders is null || !HasKinematics)
+        if (!HasKinematics)
         {
             return false;
         }
@@ -292,7 +292,10 @@ internal sealed class Obstacles(
         ClosestPoint closest = default;
         foreach (var sphere in _sphereOffsets)
         {
-            if (_staticColliders.FindCloserKinematic(position + sphere, maxDistance + _radius, queryContext, ref closest) is { } found)
+            var found = _staticColliders?.FindCloserKinematic(position + sphere, maxDistance + _radius, queryContext, ref closest);
+            var maxBodyDistance = found is null ? maxDistance + _radius : closest.Distance;
+            found = bodySurfaces.FindCloser(position + sphere, maxBodyDistance, queryContext, ref closest) ?? found;
+            if (found is not null)
             {
                 contact = CreateSurfaceContact(in closest, sphere, found);
                 maxDistance = closest.Distance - _radius;
@@ -342,12 +345,17 @@ internal sealed class Obstacles(
         return height > 0 && height <= _radius + maxDistance;
     }
 
+    /// <summary>The body with a surface that is touched; null for a ball, and for what is no body.</summary>
+    public Body? BodyOf(in Contact contact) => contact.Kinematic is { Target: var target } ? bodySurfaces.BodyOf(target) : null;
+
     /// <summary>Finds the object with the surface point closest to a point, whatever the mover.</summary>
     /// <returns>Null where none is within the distance.</returns>
     public StaticObject? FindClosestPoint(Vector point, double maxDistance, out ClosestPoint closest)
     {
         closest = default;
-        return _staticColliders?.FindClosest(point, maxDistance, queryContext, out closest);
+        var found = _staticColliders?.FindClosest(point, maxDistance, queryContext, out closest);
+        var maxBodyDistance = found is null ? maxDistance : closest.Distance;
+        return bodySurfaces.FindCloser(point, maxBodyDistance, queryContext, ref closest)?.Target ?? found;
     }
 
     /// <summary>Distance from the closest centre of the mover's spheres to a surface, at most a maximum.</summary>

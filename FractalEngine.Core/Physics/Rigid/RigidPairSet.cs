@@ -1,4 +1,5 @@
 using System.Runtime.InteropServices;
+using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics.Descriptions;
 using FractalEngine.Core.Physics.Statics;
 using FractalEngine.Core.Threading;
@@ -8,8 +9,8 @@ namespace FractalEngine.Core.Physics.Rigid;
 /// <summary>The pairs of surfaces that may meet: finds them by their boxes (sort and sweep), keeps them, and shares out their searches.</summary>
 internal sealed class RigidPairSet
 {
-    // Relative to the radius of the smaller body: the gap at which surfaces rest on each other.
-    private const double ContactDistance = 1e-4;
+    /// <summary>Relative to the radius of the smaller body: the gap at which surfaces rest on each other.</summary>
+    public const double ContactDistance = 1e-4;
 
     // Relative to the largest coordinate: the gap must be told from rounding.
     private const double MinContactDistance = 1e-11;
@@ -128,13 +129,30 @@ internal sealed class RigidPairSet
         Run(_due, static (pair, _, sweep) => pair.FindLaterImpact(sweep));
     }
 
+    /// <summary>Finds a contact of two surfaces that stand still, where they touch or cross.</summary>
+    /// <param name="first">The first surface.</param>
+    /// <param name="motion1">Where it is.</param>
+    /// <param name="second">The second surface.</param>
+    /// <param name="motion2">Where it is, in the same frame.</param>
+    /// <param name="distance">What is no farther apart touches.</param>
+    /// <param name="point">Receives where.</param>
+    public bool TryFindTouch(
+        SurfaceNodes first, in SurfaceMotion motion1, SurfaceNodes second, in SurfaceMotion motion2, double distance, out Vector point)
+    {
+        var contacts = new List<ContactPoint>();
+        _ = _searches[0].Contacts.FindContacts(first, in motion1, second, in motion2, distance, distance, contacts, [], []);
+        point = contacts.Count > 0 ? contacts[0].Point : Vector.Zero;
+        return contacts.Count > 0;
+    }
+
     private void AddIfMeeting(List<RigidSurface> surfaces, int first, int second)
     {
         var (surface, other) = (surfaces[first], surfaces[second]);
         var body = surface.Body!;
         var canMeet = other.Body is { } otherBody
             ? Layers.CanMeet(body.Description.Layer, body.Description.Mask, otherBody.Description.Layer, otherBody.Description.Mask)
-            : StaticObjectSet.CanMeet(other.Target!, body.Description.Layer, body.Description.Mask);
+            : other.Target is { } target ? StaticObjectSet.CanMeet(target, body.Description.Layer, body.Description.Mask)
+            : Layers.CanMeet(0, Layers.All, body.Description.Layer, body.Description.Mask);
         var radius = Math.Min(surface.Radius, other.Body?.Radius ?? double.PositiveInfinity);
         if (canMeet && (surface.IsAwake || other.IsAwake) && surface.GapTo(other) <= RigidPair.MaxGap * radius)
         {

@@ -23,13 +23,19 @@ internal sealed class RigidShape(Func<SurfaceNodes> create)
     /// <summary>A ball of radius 1, which the scale of a motion makes larger or smaller.</summary>
     public static RigidShape CreateBall() => new(static () => new([new((Vector.Zero, Vector.Zero, Vector.Zero), 1)]));
 
+    /// <summary>Makes the surface of a capsule about its middle.</summary>
+    /// <param name="start">Centre of one end.</param>
+    /// <param name="end">Centre of the other end.</param>
+    /// <param name="radius">Scene units.</param>
+    public static RigidShape CreateCapsule(Vector start, Vector end, double radius) =>
+        new(() => new([new((start, end, end), radius)]));
+
     /// <summary>Makes the surface of a compound: its balls, or the segment of a capsule.</summary>
     public static RigidShape Of(CompoundShape shape)
     {
         var balls = shape.Balls;
-        return new(() => shape.IsCapsule
-            ? new([new((balls[0].Offset, balls[^1].Offset, balls[^1].Offset), balls[0].Radius)])
-            : new([.. balls.Select(static ball => new SurfaceTriangle((ball.Offset, ball.Offset, ball.Offset), ball.Radius))]));
+        return shape.IsCapsule ? CreateCapsule(balls[0].Offset, balls[^1].Offset, balls[0].Radius)
+            : new(() => new([.. balls.Select(static ball => new SurfaceTriangle((ball.Offset, ball.Offset, ball.Offset), ball.Radius))]));
     }
 
     /// <summary>Makes the surface of a mesh or fractal about the centre of mass.</summary>

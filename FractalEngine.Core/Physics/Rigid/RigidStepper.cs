@@ -3,7 +3,9 @@ using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics.Bodies;
 using FractalEngine.Core.Physics.Descriptions;
 using FractalEngine.Core.Physics.Events;
+using FractalEngine.Core.Physics.Movement;
 using FractalEngine.Core.Physics.Statics;
+using FractalEngine.Core.Queries;
 
 namespace FractalEngine.Core.Physics.Rigid;
 
@@ -38,6 +40,7 @@ internal sealed class RigidStepper
     private readonly RigidSweep _sweep = new();
     private readonly RigidSleep _sleep;
     private RigidState[] _states = [];
+    private RigidSurface? _character;
     private Vector _gravity;
     private double _seconds;
 
@@ -71,11 +74,13 @@ internal sealed class RigidStepper
     /// <summary>Takes all bodies through a step, or one of the parts in which objects move.</summary>
     /// <param name="gravity">Units per second².</param>
     /// <param name="seconds">Length of the part.</param>
-    public void StepPart(Vector gravity, double seconds)
+    /// <param name="character">A character that stands in the way; null for none.</param>
+    public void StepPart(Vector gravity, double seconds, CharacterController? character)
     {
+        GatherBodies();
+        GatherCharacter(character, isTurned: gravity != _gravity);
         _gravity = gravity;
         _seconds = seconds;
-        GatherSurfaces();
         _sleep.WakeNearMoving(_statics);
         var angle = 0.0;
         for (var i = 0; i < _surfaces.Count; i++)
@@ -111,27 +116,67 @@ internal sealed class RigidStepper
         EndStep();
     }
 
+    /// <summary>Tells whether a body with the shape of its mesh reaches into an object: through its surface, or inside where it is closed.</summary>
+    /// <param name="body">The body.</param>
+    /// <param name="target">The object.</param>
+    /// <param name="context">Receives the cost.</param>
+    /// <param name="point">Receives a point of the body there.</param>
+    public bool TryEnter(Body body, StaticObject target, QueryContext context, out Vector point)
+    {
+        var nodes = ShapeOf(body).NodesOf(0);
+        var motion = new SurfaceMotion(Vector.Zero, body.Orientation, body.Scale, Vector.Zero, Vector.Zero);
+        point = body.Position + (motion.Map * nodes.AnyPoint());
+        var pose = target.Kinematic?.Pose ?? new(target.ObjectToWorld.Translation, Orientation.Identity);
+        var otherMotion = new SurfaceMotion(pose.Position - body.Position, pose.Orientation, 1, Vector.Zero, Vector.Zero);
+        if (_pairs.TryFindTouch(nodes, in motion, ShapeOf(target).NodesOf(0), in otherMotion, RigidPairSet.ContactDistance * body.Radius, out var touch))
+        {
+            point = body.Position + touch;
+            return true;
+        }
+
+        return _statics.TryEnter(target, point, 0, context, out _);
+    }
+
     /// <summary>Lists all bodies, then all objects that stop something.</summary>
-    private void GatherSurfaces()
+    private void GatherBodies()
     {
         var count = _bodies.Count + _statics.Objects.Count;
         for (var i = 0; i < count; i++)
         {
             var body = i < _bodies.Count ? _bodies[i] : null;
             var target = i < _bodies.Count ? null : _statics.Objects[i - _bodies.Count];
-            var isKnown = i < _surfaces.Count && ReferenceEquals(_surfaces[i].Body, body) && ReferenceEquals(_surfaces[i].Target, target);
-            if (!isKnown)
+            if (i < _surfaces.Count && _surfaces[i].Body == body && _surfaces[i].Target == target && !_surfaces[i].IsShapeOld)
             {
-                _surfaces.RemoveRange(Math.Min(i, _surfaces.Count), Math.Max(0, _surfaces.Count - i));
-                _surfaces.Add(body is not null ? new(body, ShapeOf(body)) : new(target!, ShapeOf(target!)));
+                continue;
             }
-            else if (target is not null)
+
+            if (target is not null && i < _surfaces.Count && _surfaces[i].Target == target)
             {
-                _surfaces[i].Shape = ShapeOf(target);
+                // Objects of the same shape keep it; what is turned in each step leaves none behind.
+                _ = _shapes.Remove((target.Model, _surfaces[i].Linear, true));
             }
+
+            _surfaces.RemoveRange(Math.Min(i, _surfaces.Count), Math.Max(0, _surfaces.Count - i));
+            _surfaces.Add(body is not null ? new(body, ShapeOf(body)) : new(target!, ShapeOf(target!)));
         }
 
         _surfaces.RemoveRange(count, _surfaces.Count - count);
+    }
+
+    /// <summary>Adds the character, which stands in the way of bodies, and begins the step of all surfaces.</summary>
+    private void GatherCharacter(CharacterController? character, bool isTurned)
+    {
+        if (character is not null)
+        {
+            if (_character?.Character != character || isTurned)
+            {
+                _character = new(character);
+                _character.Shape.Reserve(_maxThreads);
+            }
+
+            _surfaces.Add(_character);
+        }
+
         var hasTrimmed = false;
         foreach (var surface in _surfaces)
         {
@@ -144,9 +189,9 @@ internal sealed class RigidStepper
             _pairs.ForgetNear();
         }
 
-        if (_states.Length < count)
+        if (_states.Length < _surfaces.Count)
         {
-            _states = new RigidState[2 * count];
+            _states = new RigidState[2 * _surfaces.Count];
         }
     }
 
@@ -197,13 +242,10 @@ internal sealed class RigidStepper
 
     private RigidState CreateState(RigidSurface surface)
     {
-        var target = surface.Target!;
         var state = new RigidState { Turn = Orientation.Identity, Orientation = Orientation.Identity };
-        if (target.Kinematic is not { } moved)
+        if (surface.Target?.Kinematic is not { } moved)
         {
-            surface.PartMotion = new(target.ObjectToWorld.Translation, Orientation.Identity, 1, Vector.Zero, Vector.Zero);
-            surface.Motion = surface.PartMotion;
-            surface.SweptBounds = target.Bounds;
+            surface.Stand();
             return state;
         }
 
@@ -465,9 +507,10 @@ internal sealed class RigidStepper
     {
         foreach (ref readonly var row in rows)
         {
-            if (row.NormalImpulseSum > 0 && _log.IsEnabled)
+            var other = _surfaces[row.Second];
+            if (row.NormalImpulseSum > 0 && _log.IsEnabled && other != _character)
             {
-                var second = _surfaces[row.Second].Body?.Index ?? ContactRecord.OfObject(_surfaces[row.Second].Target!.Index);
+                var second = other.Body?.Index ?? ContactRecord.OfObject(other.Target!.Index);
                 _log.Add(row.First, second, _bodies[row.First].Position + row.TurnedArm1, row.Normal, row.NormalImpulseSum);
             }
         }

@@ -2,6 +2,7 @@ using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics.Bodies;
 using FractalEngine.Core.Physics.Descriptions;
+using FractalEngine.Core.Physics.Movement;
 using FractalEngine.Core.Physics.Statics;
 
 namespace FractalEngine.Core.Physics.Rigid;
@@ -28,6 +29,15 @@ internal sealed class RigidSurface
     {
         Target = target;
         Shape = shape;
+        Linear = target.Reference.ObjectToWorld.Linear;
+    }
+
+    /// <summary>Makes the surface of a character: a capsule that nothing moves.</summary>
+    public RigidSurface(CharacterController character)
+    {
+        Character = character;
+        var offsets = character.Capsule.SphereOffsets;
+        Shape = RigidShape.CreateCapsule(offsets[0], offsets[^1], character.Description.Radius);
     }
 
     /// <summary>The body; null for an object.</summary>
@@ -36,8 +46,11 @@ internal sealed class RigidSurface
     /// <summary>The object; null for a body.</summary>
     public StaticObject? Target { get; }
 
+    /// <summary>The character; null for bodies and objects.</summary>
+    public CharacterController? Character { get; }
+
     /// <summary>The tree of its surface.</summary>
-    public RigidShape Shape { get; set; }
+    public RigidShape Shape { get; private set; }
 
     /// <summary>Where it is and how it moves in the present substep, which takes a unit of time.</summary>
     public SurfaceMotion Motion { get; set; }
@@ -66,6 +79,12 @@ internal sealed class RigidSurface
     /// <summary>The motion from a time on, at which it may have stopped.</summary>
     /// <param name="time">No later than it stops.</param>
     public SurfaceMotion MotionAfter(double time) => Fraction == time ? Motion.From(time).Stopped : Motion.From(time);
+
+    /// <summary>The linear part of an object's placement when its tree was made.</summary>
+    public Matrix Linear { get; }
+
+    /// <summary>True for an object that has been turned or made larger since its tree was made.</summary>
+    public bool IsShapeOld => Target is not null && Target.Reference.ObjectToWorld.Linear != Linear;
 
     /// <summary>Compares where it is at the beginning of a step with the end of the last one.</summary>
     public void BeginStep() => IsMovedByOthers = _end != Placement || Target?.Kinematic is { IsMoving: true };
@@ -107,6 +126,15 @@ internal sealed class RigidSurface
         SweptBounds = new(_centres.Minimum - (Radius * Vector.One), _centres.Maximum + (Radius * Vector.One));
     }
 
+    /// <summary>Sets the motion of an object or character that stays where it is.</summary>
+    public void Stand()
+    {
+        PartMotion = new(Placement.Position, Orientation.Identity, 1, Vector.Zero, Vector.Zero);
+        Motion = PartMotion;
+        var reach = 0.5 * (Character?.Description.Height ?? 0) * Vector.One;
+        SweptBounds = Target?.Bounds ?? new(Placement.Position - reach, Placement.Position + reach);
+    }
+
     /// <summary>Stops at a part of the motion.</summary>
     /// <returns>True where it went on until now.</returns>
     public bool Stop(double fraction)
@@ -137,7 +165,8 @@ internal sealed class RigidSurface
     }
 
     private (RigidShape? Shape, Vector Position, Orientation Orientation, double Scale) Placement => Body is null
-        ? (Shape, Target!.ObjectToWorld.Translation, Orientation.Identity, 1) : (Shape, Body.Position, Body.Orientation, Body.Scale);
+        ? (Shape, Target?.ObjectToWorld.Translation ?? Character!.Position, Orientation.Identity, 1)
+        : (Shape, Body.Position, Body.Orientation, Body.Scale);
 
     private static double FractionWithin(double position, double travel, double minimum, double maximum) =>
         position + travel > maximum ? Math.Max(0, (maximum - position) / travel)

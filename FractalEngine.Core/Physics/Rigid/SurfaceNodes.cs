@@ -60,6 +60,18 @@ internal sealed class SurfaceNodes
         return children;
     }
 
+    /// <summary>Finds any point of the surface, in its frame.</summary>
+    public Vector AnyPoint()
+    {
+        var node = 0;
+        while (!IsLeaf(node))
+        {
+            node = Children(node).Start.Value;
+        }
+
+        return Leaf(node).Triangles[0].Corners.A;
+    }
+
     /// <summary>The triangles of a leaf, with corners and edges, in the frame of the surface.</summary>
     public SurfaceLeaf Leaf(int node)
     {

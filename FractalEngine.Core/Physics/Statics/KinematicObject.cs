@@ -2,6 +2,8 @@ using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Geometry.Triangles;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics.Descriptions;
+using FractalEngine.Core.Queries;
+using FractalEngine.Core.SceneQueries;
 using FractalEngine.Core.Scenes;
 
 namespace FractalEngine.Core.Physics.Statics;
@@ -143,6 +145,48 @@ internal sealed class KinematicObject
     {
         Pose = _end;
         _nowTime = double.NaN;
+    }
+
+    /// <summary>Puts the object where a body is that it is the surface of.</summary>
+    public void Follow(in RigidPose pose)
+    {
+        Pose = pose;
+        Velocity = Vector.Zero;
+        AngularVelocity = Vector.Zero;
+        _end = pose;
+        _nowTime = double.NaN;
+    }
+
+    /// <summary>Lets the object go evenly to where that body is at the end of a part of a step.</summary>
+    /// <param name="end">Where it is then.</param>
+    /// <param name="seconds">Length of the part.</param>
+    public void Follow(in RigidPose end, double seconds)
+    {
+        Velocity = (end.Position - Pose.Position) / seconds;
+        AngularVelocity = end.Orientation.After(Pose.Orientation.Inverse()).RotationVector / seconds;
+        _end = end;
+        _nowTime = double.NaN;
+    }
+
+    /// <summary>Finds the closest point of the object where it is now.</summary>
+    /// <param name="collider">Its collider at the reference placement.</param>
+    /// <param name="point">World space.</param>
+    /// <param name="maxDistance">Largest distance of interest; none is found where it is negative.</param>
+    /// <param name="context">Lends its memory, and counts.</param>
+    /// <param name="closest">The closest point, if there is one.</param>
+    public bool TryFindClosest(
+        ColliderInstance collider, Vector point, double maxDistance, QueryContext context, out ClosestPoint closest)
+    {
+        var local = ToReference(point);
+        closest = default;
+        if (!(maxDistance >= 0) || !IsNear(local, maxDistance)
+            || !collider.TryFindClosest(local, maxDistance, context, out closest, epsilon: 0))
+        {
+            return false;
+        }
+
+        closest = ToWorld(in closest);
+        return true;
     }
 
     /// <summary>Upper bound on the speed of its points as what moves along with a velocity sees them, no more than their own.</summary>

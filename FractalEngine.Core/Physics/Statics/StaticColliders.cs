@@ -71,12 +71,10 @@ internal sealed class StaticColliders
         KinematicObject? found = null;
         foreach (var (kinematic, collider) in Kinematics)
         {
-            var local = kinematic.ToReference(point);
-            if (maxDistance >= 0 && kinematic.IsNear(local, maxDistance)
-                && collider.TryFindClosest(local, maxDistance, context, out var candidate, epsilon: 0)
+            if (kinematic.TryFindClosest(collider, point, maxDistance, context, out var candidate)
                 && (found is null || candidate.Distance < maxDistance))
             {
-                closest = kinematic.ToWorld(in candidate);
+                closest = candidate;
                 maxDistance = candidate.Distance;
                 found = kinematic;
             }

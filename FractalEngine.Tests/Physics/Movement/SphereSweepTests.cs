@@ -175,8 +175,9 @@ public sealed class SphereSweepTests
             List<Body> bodies = [.. descriptions.Select(static (one, i) => new Body(one, i, Vector.Zero))];
             var grid = new BodyGrid();
             grid.Build(bodies);
-            Obstacles = new(bodies, new NearbyBodies(grid, bodies), new QueryContext(), new KinematicSet());
             var statics = new StaticObjectSet(static _ => { }, null);
+            Obstacles = new(
+                bodies, new NearbyBodies(grid, bodies), new QueryContext(), new KinematicSet(), new BodySurfaces(bodies, statics));
             if (mesh is not null)
             {
                 statics.Add(new PhysicsWorld().AddStatic(mesh));

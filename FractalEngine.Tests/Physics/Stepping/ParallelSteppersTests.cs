@@ -60,7 +60,8 @@ public sealed class ParallelSteppersTests
         var grid = new BodyGrid();
         var nearby = new NearbyBodies(grid, bodies);
         var log = new ContactLog(bodies, new StaticObjectSet(static _ => { }, null));
-        var obstacles = new Obstacles(bodies, nearby, context, new KinematicSet());
+        var obstacles = new Obstacles(
+            bodies, nearby, context, new KinematicSet(), new BodySurfaces([], new(static _ => { }, null)));
         var planner = new IslandPlanner(bodies, nearby, log, new(), 1);
         return new(new(), bodies, grid, nearby, obstacles, new SleepIslands(bodies, nearby), planner, context, log);
     }
