@@ -49,7 +49,7 @@ internal static class TrianglePairKernel
         TestVertexIfClose(vertices.C, plane, in triangle, isSwapped, ref best);
     }
 
-    /// <summary>Tests a vertex unless the plane of the triangle is farther away than what has been found, however that is rounded.</summary>
+    /// <summary>Tests a vertex unless the plane of the triangle is farther away than what has been found.</summary>
     private static void TestVertexIfClose(
         Vector vertex, Vector plane, in (Vector A, Vector B, Vector C) triangle, bool isSwapped, ref TrianglePair best)
     {

@@ -19,7 +19,7 @@ internal sealed class BodySurfaces(List<Body> bodies, StaticObjectSet statics)
     /// <summary>True where no body has the shape of its mesh.</summary>
     public bool IsEmpty => _surfaces.Count == 0;
 
-    /// <summary>Number of surfaces.</summary>
+    /// <summary>Number of surfaces in all.</summary>
     public int Count => _surfaces.Count;
 
     /// <summary>Lists the surfaces of all bodies. Those of bodies that were there stay.</summary>

@@ -1,6 +1,5 @@
 using System.Runtime.InteropServices;
 using FractalEngine.Core.Maths;
-using FractalEngine.Core.Physics.Descriptions;
 
 namespace FractalEngine.Core.Physics.Rigid;
 
@@ -36,7 +35,7 @@ internal sealed class ContactSearch : PairSearch
     /// <param name="margin">Largest gap that counts, at least that distance.</param>
     /// <param name="contacts">Receives the contacts, in the order of their groups.</param>
     /// <param name="near">Receives all that is within the margin.</param>
-    /// <param name="leaves">Pairs of leaves that the last search found contacts in: they are looked at first. Receives those of this one.</param>
+    /// <param name="leaves">Leaves that the last search found contacts in: looked at first. Receives those of this one.</param>
     /// <returns>The margin, or how far the surfaces are apart if that is more; 0 where there was too much to look at all of it.</returns>
     public double FindContacts(
         SurfaceNodes first, in SurfaceMotion motion1, SurfaceNodes second, in SurfaceMotion motion2, double distance, double margin,

@@ -6,8 +6,8 @@ using FractalEngine.Core.Physics.Descriptions;
 namespace FractalEngine.Core.Physics.Rigid;
 
 /// <summary>
-/// Finds the contacts of leaves: corners over triangles, edges beside edges, and edges through triangles. Each corner and edge belongs to one
-/// triangle, so that none is tested twice.
+/// Finds the contacts of leaves: corners over triangles, edges beside edges, and edges through triangles. Each corner and edge belongs
+/// to one triangle, so that none is tested twice.
 /// </summary>
 internal sealed class FeatureContacts
 {
@@ -29,7 +29,7 @@ internal sealed class FeatureContacts
     // Relative to the radius of a ball or capsule: the same for what has one.
     private const double SeamFraction = 0.1;
 
-    // Relative to the contact distance: what is closer has no direction but that of the faces, and counts as crossing where rounding has it so.
+    // Relative to the contact distance: what is closer touches, and has no direction but that of the faces.
     private const double MinGap = 1e-3;
 
     // Relative to the radius of the smaller surface: deeper contacts count as no deeper.

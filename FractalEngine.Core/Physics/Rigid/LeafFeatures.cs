@@ -7,7 +7,7 @@ internal sealed class LeafFeatures
 {
     private SurfaceMotion _placement;
 
-    /// <summary>The leaf.</summary>
+    /// <summary>The leaf that they are of.</summary>
     public SurfaceLeaf Leaf { get; private set; } = null!;
 
     /// <summary>Index of the leaf in its tree.</summary>
@@ -16,10 +16,10 @@ internal sealed class LeafFeatures
     /// <summary>The triangles, with their indices in the leaf.</summary>
     public List<(SurfaceTriangle Placed, int Index)> Triangles { get; } = [];
 
-    /// <summary>The corners.</summary>
+    /// <summary>The corners of the leaf.</summary>
     public List<SurfaceCorner> Corners { get; } = [];
 
-    /// <summary>The edges.</summary>
+    /// <summary>The edges of the leaf.</summary>
     public List<SurfaceEdge> Edges { get; } = [];
 
     /// <summary>Collects what is near a box.</summary>

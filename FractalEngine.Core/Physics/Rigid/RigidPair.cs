@@ -1,5 +1,3 @@
-using FractalEngine.Core.Maths;
-
 namespace FractalEngine.Core.Physics.Rigid;
 
 /// <summary>
@@ -31,7 +29,7 @@ internal sealed class RigidPair
     /// <summary>The first surface, that of a body.</summary>
     public RigidSurface First { get; private set; } = null!;
 
-    /// <summary>The second surface.</summary>
+    /// <summary>The second surface, of whatever it is.</summary>
     public RigidSurface Second { get; private set; } = null!;
 
     /// <summary>Index of the first one's state.</summary>
@@ -40,8 +38,8 @@ internal sealed class RigidPair
     /// <summary>Index of the second one's state.</summary>
     public int SecondIndex { get; private set; }
 
-    /// <summary>Names the two in a step.</summary>
-    public long Key => ((long)FirstIndex << 32) | (uint)SecondIndex;
+    /// <summary>The indices of both states.</summary>
+    public (int First, int Second) Indices => (FirstIndex, SecondIndex);
 
     /// <summary>Index of the searches and trees that look at the pair.</summary>
     public int Thread { get; private set; }

@@ -6,7 +6,9 @@ using FractalEngine.Core.Threading;
 
 namespace FractalEngine.Core.Physics.Rigid;
 
-/// <summary>The pairs of surfaces that may meet: finds them by their boxes (sort and sweep), keeps them, and shares out their searches.</summary>
+/// <summary>
+/// The pairs of surfaces that may meet: finds them by their boxes (sort and sweep), keeps them, and shares out their searches.
+/// </summary>
 internal sealed class RigidPairSet
 {
     /// <summary>Relative to the radius of the smaller body: the gap at which surfaces rest on each other.</summary>
@@ -38,7 +40,7 @@ internal sealed class RigidPairSet
     /// <summary>The pairs, by their indices.</summary>
     public List<RigidPair> Pairs => _pairs;
 
-    /// <summary>Forgets all pairs.</summary>
+    /// <summary>Forgets all pairs, with their contacts.</summary>
     public void Clear()
     {
         _unused.AddRange(_pairs);
@@ -168,7 +170,7 @@ internal sealed class RigidPairSet
         foreach (var (firstIndex, secondIndex) in _found)
         {
             var (first, second) = (surfaces[firstIndex], surfaces[secondIndex]);
-            while (before < _before.Count && (_before[before].FirstIndex, _before[before].SecondIndex).CompareTo((firstIndex, secondIndex)) < 0)
+            while (before < _before.Count && _before[before].Indices.CompareTo((firstIndex, secondIndex)) < 0)
             {
                 _unused.Add(_before[before++]);
             }

@@ -116,7 +116,7 @@ internal sealed class RigidStepper
         EndStep();
     }
 
-    /// <summary>Tells whether a body with the shape of its mesh reaches into an object: through its surface, or inside where it is closed.</summary>
+    /// <summary>Tells whether a body of a mesh reaches into an object: through its surface, or inside where it is closed.</summary>
     /// <param name="body">The body.</param>
     /// <param name="target">The object.</param>
     /// <param name="context">Receives the cost.</param>
@@ -128,7 +128,8 @@ internal sealed class RigidStepper
         point = body.Position + (motion.Map * nodes.AnyPoint());
         var pose = target.Kinematic?.Pose ?? new(target.ObjectToWorld.Translation, Orientation.Identity);
         var otherMotion = new SurfaceMotion(pose.Position - body.Position, pose.Orientation, 1, Vector.Zero, Vector.Zero);
-        if (_pairs.TryFindTouch(nodes, in motion, ShapeOf(target).NodesOf(0), in otherMotion, RigidPairSet.ContactDistance * body.Radius, out var touch))
+        var distance = RigidPairSet.ContactDistance * body.Radius;
+        if (_pairs.TryFindTouch(nodes, in motion, ShapeOf(target).NodesOf(0), in otherMotion, distance, out var touch))
         {
             point = body.Position + touch;
             return true;

@@ -74,7 +74,7 @@ internal readonly ref struct SeparationTest
         return time;
     }
 
-    /// <summary>Finds the axis along which two boxes that stand still are farthest apart, and by how much; negative where none parts them.</summary>
+    /// <summary>Finds the axis along which two boxes are farthest apart now, and by how much; negative where none parts them.</summary>
     /// <param name="first">The first box.</param>
     /// <param name="second">The second box.</param>
     /// <param name="enough">The first axis with a larger gap may be returned.</param>

@@ -1,4 +1,3 @@
-using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
 using FractalEngine.Core.Physics.Bodies;
@@ -39,7 +38,10 @@ public class RigidWorldTests
     public void Ray_MeetsBodiesWhereStepsHaveLedThem()
     {
         var world = new PhysicsWorld { Gravity = Vector.Zero };
-        var body = world.Add(RigidMeshes.Describe(RigidMeshes.Box(1, 1, 1), new(5, 0, 0)) with { Velocity = Vector.I, AngularVelocity = Vector.J });
+        var body = world.Add(RigidMeshes.Describe(RigidMeshes.Box(1, 1, 1), new(5, 0, 0)) with
+        {
+            Velocity = Vector.I, AngularVelocity = Vector.J,
+        });
         world.Run(60);
         Assert.True(world.TryCastRay(new(Vector.Zero, Vector.I), out var hit));
         Near.Equal(6, body.Position.X, 1e-9);
@@ -63,7 +65,7 @@ public class RigidWorldTests
     }
 
     [Fact]
-    public void Player_StandsOnACrate_AndIsStoppedByAHeavyOne()
+    public void Player_StandsOnACrate()
     {
         var (world, player) = CreateWithPlayer(new(0, 3, 0));
         var under = world.Add(RigidMeshes.Describe(RigidMeshes.Box(2, 1, 2), new(0, 0.5, 0)) with { Mass = 500, Friction = 1 });

@@ -162,7 +162,8 @@ public sealed class CompoundMotionTests
         var grid = new BodyGrid();
         grid.Build(bodies);
         var obstacles = new Obstacles(
-            bodies, new NearbyBodies(grid, bodies), new QueryContext(), new KinematicSet(), new BodySurfaces([], new(static _ => { }, null)));
+            bodies, new NearbyBodies(grid, bodies), new QueryContext(), new KinematicSet(),
+            new BodySurfaces([], new(static _ => { }, null)));
         var statics = new StaticObjectSet(static _ => { }, null);
         statics.Add(new PhysicsWorld().AddStatic(PhysicsMeshes.FloorMesh()));
         obstacles.SetMover(statics.CollidersOf(ColliderKind.Exact), [Vector.Zero], bodies[0].Radius, bodies[0].SafeDistance, 0);
