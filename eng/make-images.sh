@@ -79,6 +79,10 @@ make_image() {
             run animate assets/examples/zoom.sdo --zoom 1 --output "$work/zoom.apng" --frames 36 --fps 24 --resolution 320x180
             mv "$work/zoom.apng" "$images/zoom.png"
             ;;
+        stair)
+            run animate assets/scenes/stair.sdo --simulate --output "$work/stair.apng" --frames 48 --fps 12 --resolution 320x180
+            mv "$work/stair.apng" "$images/stair.png"
+            ;;
         window-fractal) window "$1" assets/fractals/tree.fdo 'key F4' ;;
         window-keys) window "$1" assets/scenes/gallery.sdo 'key h' 'type view' ;;
         window-selection)
@@ -93,7 +97,7 @@ make_image() {
 all=(
     forest gallery cathedral reef menger inside appendix-b gradients textured winter playground angles
     tree-01 tree-02 tree-03 tree-04 tree-05 tree-06 tree-07 tree-08 tree-09 tree-10
-    traced-gallery traced-menger traced-playground light zoom window-fractal window-keys window-selection
+    traced-gallery traced-menger traced-playground light zoom stair window-fractal window-keys window-selection
 )
 [ $# != 0 ] || set -- "${all[@]}"
 for name in "$@"; do
