@@ -241,9 +241,8 @@ internal sealed class FeatureContacts
             return;
         }
 
-        var isTouching = length <= MinGap * _distance;
-        var normal = !isTouching ? (point1 - point2) / length
-            : IsInside(in edge1, point1) && IsInside(in edge2, point2) ? NormalOfTouching(in edge1, in edge2)
+        var normal = IsInside(in edge1, point1) && IsInside(in edge2, point2) ? NormalOf(in edge1, in edge2, point1 - point2)
+            : length > MinGap * _distance ? (point1 - point2) / length
             : Vector.Zero;
         AddNear(edge1.Triangle, edge2.Triangle, isFirst: true, normal, gap);
         if (normal == Vector.Zero)
@@ -286,12 +285,16 @@ internal sealed class FeatureContacts
     private bool IsInside(in SurfaceEdge edge, Vector point) =>
         Math.Min((point - edge.Start).Length(), (point - edge.End).Length()) > MinGap * _distance;
 
-    /// <summary>The normal of edges that touch: at right angles to both, and out of the second surface.</summary>
-    private Vector NormalOfTouching(in SurfaceEdge edge1, in SurfaceEdge edge2)
+    /// <summary>
+    /// The normal of edges that cross: at right angles to both, which tells more of it than closest points that rounding moves along the
+    /// edges. Where they touch, it leads out of the second surface.
+    /// </summary>
+    private Vector NormalOf(in SurfaceEdge edge1, in SurfaceEdge edge2, Vector between)
     {
         var normal = Vector.Cross(edge1.End - edge1.Start, edge2.End - edge2.Start).UnitVectorOrZero();
-        var outwards = (_outwards.Second * (edge2.Normal1 + edge2.Normal2)) - (_outwards.First * (edge1.Normal1 + edge1.Normal2));
-        return Vector.Dot(normal, outwards) < 0 ? -normal : normal;
+        var side = between.Length() > MinGap * _distance ? between
+            : (_outwards.Second * (edge2.Normal1 + edge2.Normal2)) - (_outwards.First * (edge1.Normal1 + edge1.Normal2));
+        return Vector.Dot(normal, side) < 0 ? -normal : normal;
     }
 
     /// <summary>The normal of a face beside one of two edges that is about the line between them; zero where there is none.</summary>

@@ -41,6 +41,9 @@ internal sealed class PairSweep : PairSearch
     private double _distance;
     private double _end;
 
+    /// <summary>What the last motion was stopped by, if it was: in the frame of the motions, when it stopped.</summary>
+    public ContactPoint? Hit { get; private set; }
+
     /// <summary>Finds the time up to which two surfaces stay farther apart than a distance.</summary>
     /// <param name="first">The first surface.</param>
     /// <param name="motion1">Its motion.</param>
@@ -59,6 +62,7 @@ internal sealed class PairSweep : PairSearch
         SetPair(first, in motion1, second, in motion2);
         _distance = distance;
         _end = end;
+        Hit = null;
         _open.Clear();
         Push(0, 0, 0);
         // Where the boxes around the whole surfaces do not stay apart, what is near tells more.
@@ -201,6 +205,7 @@ internal sealed class PairSweep : PairSearch
     {
         var distance = _distance;
         var touch = TouchFactor * distance;
+        ContactPoint? hit = null;
         for (var advances = 0; advances < MaxAdvances; advances++)
         {
             var from1 = Motion1.From(time);
@@ -214,11 +219,12 @@ internal sealed class PairSweep : PairSearch
                 return;
             }
 
-            var gap = Measure(in triangle1, in triangle2, out var axis);
+            var (gap, axis, middle) = Measure(in triangle1, in triangle2);
+            hit = axis == Vector.Zero ? null : new(middle, axis, gap);
             if (advances == 0 && gap < 2 * distance)
             {
                 // What is so near from the beginning must not be stopped where it is.
-                var gapBefore = time == 0 ? gap : Measure(local1.Place(in Motion1), local2.Place(in Motion2), out _);
+                var gapBefore = time == 0 ? gap : Measure(local1.Place(in Motion1), local2.Place(in Motion2)).Gap;
                 if (!(gapBefore > MinGap * distance))
                 {
                     return;
@@ -247,17 +253,19 @@ internal sealed class PairSweep : PairSearch
         }
 
         _end = time;
+        Hit = hit;
     }
 
-    /// <summary>Measures the gap of two triangles.</summary>
-    /// <param name="triangle1">Of the first surface.</param>
-    /// <param name="triangle2">Of the second surface.</param>
-    /// <param name="axis">Receives the unit vector from the second to the first; zero where they cross.</param>
-    private double Measure(in SurfaceTriangle triangle1, in SurfaceTriangle triangle2, out Vector axis)
+    /// <summary>
+    /// Measures the gap of two triangles, with the unit vector from the second to the first (zero where they cross), and the point between.
+    /// </summary>
+    private (double Gap, Vector Axis, Vector Middle) Measure(in SurfaceTriangle triangle1, in SurfaceTriangle triangle2)
     {
         FaceTests++;
         var closest = TrianglePairKernel.Closest(triangle1.Corners, triangle2.Corners);
-        axis = (closest.Point1 - closest.Point2).UnitVectorOrZero();
-        return Math.Sqrt(closest.DistanceSquared) - triangle1.Rounding - triangle2.Rounding;
+        var axis = (closest.Point1 - closest.Point2).UnitVectorOrZero();
+        return (
+            Math.Sqrt(closest.DistanceSquared) - triangle1.Rounding - triangle2.Rounding, axis,
+            0.5 * (closest.Point1 - (triangle1.Rounding * axis) + closest.Point2 + (triangle2.Rounding * axis)));
     }
 }

@@ -21,6 +21,8 @@ internal sealed class RigidPair
 
     private readonly List<NearPair> _near = [];
     private readonly List<(int First, int Second)> _leaves = [];
+    private ContactPoint? _hit;
+    private ContactPoint? _sweptHit;
     private double _margin;
     private double _way;
     private double _substepWay;
@@ -72,6 +74,7 @@ internal sealed class RigidPair
         Radius = Math.Min(first.Radius, second.Body?.Radius ?? double.PositiveInfinity);
         Contacts.Clear();
         Rows.Clear();
+        _hit = null;
         ForgetNear();
     }
 
@@ -103,6 +106,12 @@ internal sealed class RigidPair
             First.Shape.NodesOf(Thread), in motion1, Second.Shape.NodesOf(Thread), in motion2, Distance, margin, Contacts, _near, _leaves);
         _way = 0;
         IsSearchDue = false;
+        // What stopped them is a contact, whatever the search makes of it.
+        if (_hit is { } hit)
+        {
+            Contacts.Add(hit with { Point = hit.Point - First.Motion.Origin });
+            _hit = null;
+        }
     }
 
     /// <summary>Finds when the surfaces come too close in a substep of which both make the whole motion.</summary>
@@ -140,6 +149,7 @@ internal sealed class RigidPair
         _way += _substepWay;
         var isUsedUp = _margin > 0 && _way + _substepWay > _margin - (2 * Distance) && _substepWay < MaxMargin * Radius;
         IsSearchDue = Impact < 1 || isUsedUp;
+        _hit = Impact < 1 && Math.Min(First.Fraction, Second.Fraction) >= Impact ? _sweptHit : null;
     }
 
     private double Sweep(PairSweep sweep, in SurfaceMotion motion1, in SurfaceMotion motion2, double duration)
@@ -147,9 +157,11 @@ internal sealed class RigidPair
         var distance = SweepDistance * Distance;
         var way = _way + _substepWay;
         // What was looked at for contacts is all that may meet, unless both come closer than was thought then.
-        return sweep.FindImpact(
+        var impact = sweep.FindImpact(
             First.Shape.NodesOf(Thread), in motion1, Second.Shape.NodesOf(Thread), in motion2, distance, duration,
             way <= _margin - (2 * distance) ? _near : null, way + (2 * distance));
+        _sweptHit = sweep.Hit is { } hit ? hit with { Point = hit.Point + First.Motion.Origin } : null;
+        return impact;
     }
 
     private (SurfaceMotion First, SurfaceMotion Second) RelativeMotions(in SurfaceMotion first, in SurfaceMotion second) =>
