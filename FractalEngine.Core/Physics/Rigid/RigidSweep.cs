@@ -16,7 +16,8 @@ internal sealed class RigidSweep
         pairs.FindImpacts();
         for (var round = 0; round < MaxRounds; round++)
         {
-            var hasStopped = false;
+            // At first, those have stopped that come to where what they may meet is not known.
+            var hasStopped = round == 0 && surfaces.Exists(static surface => surface.Fraction < 1);
             foreach (var pair in pairs.Pairs)
             {
                 hasStopped |= pair.Impact < 1 && (pair.First.Stop(pair.Impact) | pair.Second.Stop(pair.Impact));
