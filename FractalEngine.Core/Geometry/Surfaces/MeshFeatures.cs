@@ -45,7 +45,9 @@ internal sealed class MeshFeatures
 
         foreach (var (first, second, count) in edges.Values)
         {
-            if (count != 2 || !IsFlat(mesh, first / 3, second / 3))
+            // Two faces on the same side of an edge, as where one is listed twice, go along it in the same direction.
+            var isBetween = _representatives[mesh.VertexIndices[first]] != _representatives[mesh.VertexIndices[second]];
+            if (count != 2 || !isBetween || !IsFlat(mesh, first / 3, second / 3))
             {
                 _neighbours[first] = second / 3;
             }

@@ -45,6 +45,11 @@ internal static class RigidSolver
     /// <summary>Moves bodies apart that are too close at the end. Their velocities stay as they are.</summary>
     private static void RestoreGaps(Span<RigidState> states, Span<RigidRow> rows)
     {
+        foreach (ref var state in states)
+        {
+            state.TurnMoved = state.Turn;
+        }
+
         for (var i = 0; i < rows.Length; i++)
         {
             rows[i].Displacement = 0;
@@ -71,6 +76,14 @@ internal static class RigidSolver
                     first.Displace(first.Turn.Rotate(row.Arm1), change);
                     second.Displace(second.Turn.Rotate(row.Arm2), -change);
                 }
+            }
+        }
+
+        foreach (ref var state in states)
+        {
+            if (state.IsDynamic && state.Turn != state.TurnMoved)
+            {
+                state.TurnTo(state.Turn, state.TurnMoved);
             }
         }
     }

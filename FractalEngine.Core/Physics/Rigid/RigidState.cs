@@ -30,6 +30,9 @@ internal struct RigidState
     /// <summary>How the body had turned before the present substep.</summary>
     public Orientation TurnBefore;
 
+    /// <summary>How the body had turned before it was moved apart from others.</summary>
+    public Orientation TurnMoved;
+
     /// <summary>Orientation at the beginning of the part.</summary>
     public Orientation Orientation;
 
@@ -93,7 +96,19 @@ internal struct RigidState
         return InverseMass + Vector.Dot(angular, InverseInertia * angular);
     }
 
-    /// <summary>Moves on by the present velocities. The angular momentum stays as it is.</summary>
+    /// <summary>Turns the body without time: its spin turns with it, so that the energy of rotation stays.</summary>
+    /// <param name="turn">How it is turned since the beginning of the step then.</param>
+    /// <param name="before">How it was turned when its spin was as it is now.</param>
+    public void TurnTo(in Orientation turn, in Orientation before)
+    {
+        Turn = turn;
+        Spin = turn.After(before.Inverse()).Rotate(Spin);
+        UpdateInertia();
+    }
+
+    /// <summary>
+    /// Moves on by the present velocities. The angular momentum stays as it is, unless energy of rotation would be gained by that.
+    /// </summary>
     public void Move(double seconds)
     {
         Travel += seconds * Velocity;
@@ -107,8 +122,11 @@ internal struct RigidState
         Turn = Turn.TurnedBy(seconds * Spin);
         if (IsDynamic && LocalInverseInertia != default)
         {
+            var energy = Vector.Dot(Spin, momentum);
             UpdateInertia();
             Spin = InverseInertia * momentum;
+            var energyNow = Vector.Dot(Spin, momentum);
+            Spin *= energyNow > energy ? Math.Sqrt(energy / energyNow) : 1;
         }
     }
 

@@ -429,7 +429,7 @@ internal sealed class RigidStepper
         _sweep.StopBodies(_pairs, _surfaces);
         for (var i = 0; i < _bodies.Count; i++)
         {
-            Commit(_surfaces[i], ref _states[i]);
+            Commit(_surfaces[i], ref _states[i], fraction * _seconds);
         }
 
         foreach (var pair in _pairs.Pairs)
@@ -462,7 +462,7 @@ internal sealed class RigidStepper
     }
 
     /// <summary>Moves a body by its motion, or to where this was stopped.</summary>
-    private static void Commit(RigidSurface surface, ref RigidState state)
+    private static void Commit(RigidSurface surface, ref RigidState state, double seconds)
     {
         if (!state.IsDynamic)
         {
@@ -473,8 +473,11 @@ internal sealed class RigidStepper
         if (surface.Fraction < 1)
         {
             state.Travel = state.TravelBefore + surface.Motion.From(surface.Fraction).Origin - surface.Motion.Origin;
-            state.Turn = state.TurnBefore.TurnedBy(surface.Fraction * surface.Motion.Turn);
-            state.UpdateInertia();
+            state.TurnTo(state.TurnBefore.TurnedBy(surface.Fraction * surface.Motion.Turn), state.Turn);
+            // It has not fallen for the rest of the time.
+            var unmade = (1 - surface.Fraction) * seconds * state.Acceleration;
+            var part = Vector.Dot(state.Velocity, unmade) / unmade.LengthSquared();
+            state.Velocity -= part > 0 ? Math.Min(part, 1) * unmade : Vector.Zero;
         }
 
         // What cannot move for a whole step loses the speed that it would otherwise gather.
