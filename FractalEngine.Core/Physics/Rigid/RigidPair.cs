@@ -64,6 +64,9 @@ internal sealed class RigidPair
     /// <summary>The part of the substep after which they would be too close, from 0 to 1.</summary>
     public double Impact { get; private set; }
 
+    /// <summary>The earliest of all such parts that have been found in the substep.</summary>
+    public double FirstImpact { get; private set; }
+
     /// <summary>How far surfaces may be apart whose contacts are looked for, in radii of the smaller one.</summary>
     public static double MaxGap => MaxMargin;
 
@@ -122,6 +125,7 @@ internal sealed class RigidPair
         var (motion1, motion2) = RelativeMotions(First.Motion, Second.Motion);
         _substepWay = MaxWay(in motion1, in motion2);
         Impact = Math.Min(Impact, Sweep(sweep, in motion1, in motion2, 1));
+        FirstImpact = Impact;
     }
 
     /// <summary>Finds the same where one of them has stopped and the other one goes on.</summary>
@@ -137,6 +141,7 @@ internal sealed class RigidPair
         _substepWay = wayBefore + (duration * MaxWay(in motion1, in motion2));
         var impact = Sweep(sweep, in motion1, in motion2, duration);
         Impact = impact < duration ? begin + impact : 1;
+        FirstImpact = Math.Min(FirstImpact, Impact);
     }
 
     /// <summary>True where one has stopped since the last sweep, and the other one goes on.</summary>

@@ -79,6 +79,17 @@ internal struct RigidState
         TurnBefore = Turn;
     }
 
+    /// <summary>Takes back a part of what it has moved in the substep, by no force.</summary>
+    /// <param name="kept">The part that stays, from 0 to 1.</param>
+    public void Shorten(double kept)
+    {
+        if (kept < 1)
+        {
+            Travel = TravelBefore + (kept * (Travel - TravelBefore));
+            Turn = TurnBefore.TurnedBy(kept * Turn.After(TurnBefore.Inverse()).RotationVector);
+        }
+    }
+
     /// <summary>Moves and turns the body as an impulse at a point would in a unit of time, if it stood.</summary>
     public void Displace(Vector arm, Vector impulse)
     {

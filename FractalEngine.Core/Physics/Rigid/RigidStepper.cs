@@ -22,6 +22,9 @@ internal sealed class RigidStepper
     private const int MinSubsteps = 8;
     private const int MaxSubsteps = 1024;
 
+    // So often does a step begin a substep anew; then what moves by itself goes on, whatever it meets.
+    private const int MaxCuts = 64;
+
     // What makes a smaller part of its way counts as held, and after so many substeps it is slowed down.
     private const double MinFraction = 0.01;
     private const int MaxHeldCount = 8;
@@ -103,14 +106,21 @@ internal sealed class RigidStepper
         FindContacts(0);
         var count = _pairs.Pairs.Count == 0 && angle <= MaxAngle ? 1
             : (int)Math.Clamp(Math.Ceiling(angle / MaxAngle), MinSubsteps, MaxSubsteps);
+        var cuts = 0;
         for (var i = 0; i < count; i++)
         {
-            if (i > 0)
+            // A substep ends early where an object that moves by itself meets a body, which it pushes from then on.
+            for (var made = 0.0; made < 1;)
             {
-                FindContacts((double)i / count);
-            }
+                var time = (i + made) / count;
+                if (time > 0)
+                {
+                    FindContacts(time);
+                }
 
-            MoveSubstep((double)i / count, 1.0 / count);
+                var cut = MoveSubstep(time, (1 - made) / count, canCut: cuts++ < count + MaxCuts);
+                made = cut < 1 ? made + (cut * (1 - made)) : 1;
+            }
         }
 
         EndStep();
@@ -416,7 +426,9 @@ internal sealed class RigidStepper
     /// <summary>Moves everything on until it touches.</summary>
     /// <param name="time">Now, as a fraction of the step.</param>
     /// <param name="fraction">Length of the substep, relative to the step.</param>
-    private void MoveSubstep(double time, double fraction)
+    /// <param name="canCut">False to let objects that move by themselves go on, whatever they meet.</param>
+    /// <returns>The part of the substep that has been made.</returns>
+    private double MoveSubstep(double time, double fraction, bool canCut)
     {
         var states = _states.AsSpan(0, _surfaces.Count);
         foreach (ref var state in states)
@@ -427,15 +439,42 @@ internal sealed class RigidStepper
         RigidSolver.Solve(states, CollectionsMarshal.AsSpan(_rows), fraction * _seconds);
         PlanMotions(time, fraction);
         _sweep.StopBodies(_pairs, _surfaces);
-        for (var i = 0; i < _bodies.Count; i++)
+        var cut = canCut ? FirstPush() : 1;
+        for (var i = 0; i < _surfaces.Count; i++)
         {
-            Commit(_surfaces[i], ref _states[i], fraction * _seconds);
+            if (cut < 1)
+            {
+                _ = _surfaces[i].Stop(cut);
+            }
+
+            if (i < _bodies.Count)
+            {
+                Commit(_surfaces[i], ref _states[i], fraction * _seconds, isTimeKept: cut < 1 && _surfaces[i].Fraction == cut);
+            }
+            else
+            {
+                _states[i].Shorten(cut);
+            }
         }
 
         foreach (var pair in _pairs.Pairs)
         {
             pair.EndSubstep();
         }
+
+        return cut;
+    }
+
+    /// <summary>The part of the substep after which the first object that moves by itself meets a body; 1 where none does.</summary>
+    private double FirstPush()
+    {
+        var first = 1.0;
+        foreach (var pair in _pairs.Pairs)
+        {
+            first = pair.Second.Body is null && pair.Second.Motion.IsMoving ? Math.Min(first, pair.FirstImpact) : first;
+        }
+
+        return first;
     }
 
     /// <summary>Plans the motions of a substep: those that contacts leave, and free flight.</summary>
@@ -462,7 +501,7 @@ internal sealed class RigidStepper
     }
 
     /// <summary>Moves a body by its motion, or to where this was stopped.</summary>
-    private static void Commit(RigidSurface surface, ref RigidState state, double seconds)
+    private static void Commit(RigidSurface surface, ref RigidState state, double seconds, bool isTimeKept)
     {
         if (!state.IsDynamic)
         {
@@ -474,9 +513,9 @@ internal sealed class RigidStepper
         {
             state.Travel = state.TravelBefore + surface.Motion.From(surface.Fraction).Origin - surface.Motion.Origin;
             state.TurnTo(state.TurnBefore.TurnedBy(surface.Fraction * surface.Motion.Turn), state.Turn);
-            // It has not fallen for the rest of the time.
+            // It has not fallen for the rest of the time, which it has still before it, or loses.
             var unmade = (1 - surface.Fraction) * seconds * state.Acceleration;
-            var part = Vector.Dot(state.Velocity, unmade) / unmade.LengthSquared();
+            var part = isTimeKept ? 1 : Vector.Dot(state.Velocity, unmade) / unmade.LengthSquared();
             state.Velocity -= part > 0 ? Math.Min(part, 1) * unmade : Vector.Zero;
         }
 
