@@ -40,7 +40,8 @@ public class RigidWorldTests
         var world = new PhysicsWorld { Gravity = Vector.Zero };
         var body = world.Add(RigidMeshes.Describe(RigidMeshes.Box(1, 1, 1), new(5, 0, 0)) with
         {
-            Velocity = Vector.I, AngularVelocity = Vector.J,
+            Velocity = Vector.I,
+            AngularVelocity = Vector.J,
         });
         world.Run(60);
         Assert.True(world.TryCastRay(new(Vector.Zero, Vector.I), out var hit));

@@ -4,7 +4,6 @@ using FractalEngine.Core.Geometry.Surfaces;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
 using FractalEngine.Core.Physics.Bodies;
-using FractalEngine.Core.Physics.Descriptions;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Physics.Rigid;
@@ -26,7 +25,9 @@ public class SlenderAndPushedTests
         var body = world.Add(RigidMeshes.Describe(
             RigidMeshes.Box(width, 1, width), new(0, 1.2, 0), Matrix.Rotation(new Vector(1, 2, 3).UnitVector(), 0.7)) with
         {
-            Mass = 1, Friction = 0.5, AngularVelocity = spin / 3 * new Vector(1, 2, 3),
+            Mass = 1,
+            Friction = 0.5,
+            AngularVelocity = spin / 3 * new Vector(1, 2, 3),
         });
         var energy = world.Energy();
         world.Run(120, () => Assert.True(world.Energy() <= energy + 1e-6, $"{world.Energy()} J at {body.Position}, {energy} J before"));
@@ -39,7 +40,10 @@ public class SlenderAndPushedTests
         world.AddStatic(new Mesh([.. Triangle], [0, 2, 1]));
         world.Add(RigidMeshes.Describe(RigidMeshes.Box(1, 0.01, 1), new(0.01, 1.3, 0.02)) with
         {
-            Mass = 1, Friction = 0.5, AngularVelocity = new(2, 0.5, 3), Velocity = new(0, -2, 0),
+            Mass = 1,
+            Friction = 0.5,
+            AngularVelocity = new(2, 0.5, 3),
+            Velocity = new(0, -2, 0),
         });
         var energy = world.Energy();
         world.Run(120, () => Assert.True(world.Energy() <= energy + 1e-6, $"{world.Energy()} J, {energy} J before"));
@@ -78,7 +82,7 @@ public class SlenderAndPushedTests
         Assert.All(Enumerable.Range(0, 3), side => Assert.True(features.HasEdge(0, side, out _)));
     }
 
-    /// <summary>Of two triangles that make a square, the diagonal is no edge, and each other edge and corner belongs to one of them.</summary>
+    /// <summary>Of a square of two triangles the diagonal is no edge, and all other edges and corners belong to one of them.</summary>
     [Fact]
     public void FacesOfOnePlane_HaveNoEdgeBetweenThem()
     {
