@@ -4,7 +4,6 @@ using FractalEngine.Core.Geometry.Surfaces;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
 using FractalEngine.Core.Physics.Bodies;
-using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Physics.Rigid;
 
