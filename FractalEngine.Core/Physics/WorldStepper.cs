@@ -166,6 +166,8 @@ internal sealed class WorldStepper
         _grid.Build(_bodies);
         ContactLog.Clear();
         _rigid.Reset();
+        _rigid.PlaceBodies();
+        BodySurfaces.Place();
         _planner.Reset();
         LastCost = default;
     }

@@ -150,6 +150,7 @@ public sealed class Body
         FaceTests = 0;
         BoundTests = 0;
         SleepTimer = 0;
+        HeldCount = 0;
         IsOverlapResolved = false;
         MayTouchBodies = true;
         HasHeapMargin = false;

@@ -16,10 +16,10 @@ internal sealed class LeafFeatures
     /// <summary>The triangles, with their indices in the leaf.</summary>
     public List<(SurfaceTriangle Placed, int Index)> Triangles { get; } = [];
 
-    /// <summary>The corners of the leaf.</summary>
+    /// <summary>The corners that are given to triangles of the leaf.</summary>
     public List<SurfaceCorner> Corners { get; } = [];
 
-    /// <summary>The edges of the leaf.</summary>
+    /// <summary>The edges that are given to triangles of the leaf.</summary>
     public List<SurfaceEdge> Edges { get; } = [];
 
     /// <summary>Collects what is near a box.</summary>

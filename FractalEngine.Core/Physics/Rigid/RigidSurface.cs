@@ -15,7 +15,7 @@ internal sealed class RigidSurface
     private const double ReachFraction = 0.5;
 
     private BoundingBox _centres;
-    private (RigidShape? Shape, Vector Position, Orientation Orientation, double Scale) _end;
+    private (Vector Position, Orientation Orientation, double Scale, Vector Belt) _end;
 
     /// <summary>Makes the surface of a body.</summary>
     public RigidSurface(Body body, RigidShape shape)
@@ -50,7 +50,7 @@ internal sealed class RigidSurface
     public CharacterController? Character { get; }
 
     /// <summary>The tree of its surface.</summary>
-    public RigidShape Shape { get; private set; }
+    public RigidShape Shape { get; }
 
     /// <summary>Where it is and how it moves in the present substep, which takes a unit of time.</summary>
     public SurfaceMotion Motion { get; set; }
@@ -67,7 +67,7 @@ internal sealed class RigidSurface
     /// <summary>True where a body has come to the end of the box in which what it may meet was looked for.</summary>
     public bool IsReachDue { get; set; }
 
-    /// <summary>True where something else than the last step has moved it, or changed its size.</summary>
+    /// <summary>True where something else than the last step has moved it, or changed its size or its belt.</summary>
     public bool IsMovedByOthers { get; private set; } = true;
 
     /// <summary>True for a body that is awake.</summary>
@@ -164,9 +164,9 @@ internal sealed class RigidSurface
         IsReachDue = Fraction < 1;
     }
 
-    private (RigidShape? Shape, Vector Position, Orientation Orientation, double Scale) Placement => Body is null
-        ? (Shape, Target?.ObjectToWorld.Translation ?? Character!.Position, Orientation.Identity, 1)
-        : (Shape, Body.Position, Body.Orientation, Body.Scale);
+    private (Vector Position, Orientation Orientation, double Scale, Vector Belt) Placement => Body is null
+        ? (Target?.ObjectToWorld.Translation ?? Character!.Position, Orientation.Identity, 1, Target?.Belt ?? Vector.Zero)
+        : (Body.Position, Body.Orientation, Body.Scale, Vector.Zero);
 
     private static double FractionWithin(double position, double travel, double minimum, double maximum) =>
         position + travel > maximum ? Math.Max(0, (maximum - position) / travel)

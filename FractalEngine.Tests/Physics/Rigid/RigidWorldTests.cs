@@ -133,6 +133,32 @@ public class RigidWorldTests
         Near.Equal(Vector.J, contact.Normal, 1e-9);
     }
 
+    [Fact]
+    public void Reset_RemovesTheSurfacesOfBodiesThatWereAdded()
+    {
+        var world = new PhysicsWorld { Gravity = Vector.Zero };
+        world.Add(RigidMeshes.Describe(RigidMeshes.Box(1, 1, 1), new(5, 0, 0)));
+        Assert.True(world.TryCastRay(new(Vector.Zero, Vector.I), out _));
+        world.Reset();
+        Assert.False(world.TryCastRay(new(Vector.Zero, Vector.I), out _));
+        Assert.False(world.TryCastSphere(Vector.Zero, 0.2, 10 * Vector.I, out _));
+    }
+
+    [Fact]
+    public void Belt_ThatStartsUnderACrateAtRest_CarriesIt_AndStops()
+    {
+        var world = new PhysicsWorld(new PhysicsSettings { SleepSpeed = 0 });
+        var floor = world.AddStatic(PhysicsMeshes.Cube, FloorPlace);
+        var body = world.Add(RigidMeshes.Describe(RigidMeshes.Box(1, 1, 1), new(0, 0.5001, 0)) with { Mass = 3, Friction = 0.5 });
+        world.Run(30);
+        floor.SetBelt(Vector.I);
+        world.Run(60);
+        Near.Equal(Vector.I, body.Velocity, 0.01);
+        floor.SetBelt(Vector.Zero);
+        world.Run(60);
+        Near.Equal(Vector.Zero, body.Velocity, 0.01);
+    }
+
     private static BodyDescription Sponge(int depth, Vector position) =>
         new(position, new MeshShape(Model.Of(PhysicsMeshes.CreateSponge(depth))));
 
