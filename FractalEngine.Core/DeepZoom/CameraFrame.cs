@@ -140,7 +140,7 @@ internal sealed class CameraFrame(LodHierarchy hierarchy, FractalPath path, Affi
                 break;
             }
 
-            _search.AddStart(Path.RemainingLevelsAt(depth), frameToCamera, Depth - depth, childOnPath);
+            _search.AddStart(Path.StateAt(depth), frameToCamera, Depth - depth, childOnPath);
         }
 
         return _search.Find(relativeTolerance);

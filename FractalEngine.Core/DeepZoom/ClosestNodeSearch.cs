@@ -1,3 +1,4 @@
+using FractalEngine.Core.Fractals.Levels;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Visibility.Levels;
 
@@ -24,13 +25,13 @@ internal sealed class ClosestNodeSearch(LodHierarchy hierarchy)
     }
 
     /// <summary>Adds the children of a sub-fractal as starts of the search.</summary>
-    /// <param name="remainingLevels">Number of levels that the sub-fractal has left.</param>
+    /// <param name="state">The place of the sub-fractal.</param>
     /// <param name="frameToCamera">Map from its frame to world axes about the camera.</param>
     /// <param name="levelsUp">Number that tells the starts apart, see <see cref="Result"/>.</param>
     /// <param name="excludedChild">Index of a child that is not added; −1 for none.</param>
-    public void AddStart(long remainingLevels, AffineMap frameToCamera, int levelsUp, int excludedChild = -1)
+    public void AddStart(LevelState state, AffineMap frameToCamera, int levelsUp, int excludedChild = -1)
     {
-        _nodes.Add(new(-1, -1, levelsUp, remainingLevels, frameToCamera));
+        _nodes.Add(new(-1, -1, levelsUp, state, frameToCamera));
         Expand(_nodes.Count - 1, excludedChild);
     }
 
@@ -46,7 +47,7 @@ internal sealed class ClosestNodeSearch(LodHierarchy hierarchy)
         {
             var found = _nodes[index];
             closest = new(distance, found.LevelsUp, index);
-            var node = hierarchy.NodeAt(found.RemainingLevels);
+            var node = hierarchy.NodeAt(found.State.Level);
             if (node.ChildMaps.Length == 0 || node.Box.Transform(found.FrameToCamera).Diagonal <= relativeTolerance * distance)
             {
                 break;
@@ -73,19 +74,19 @@ internal sealed class ClosestNodeSearch(LodHierarchy hierarchy)
 
     private void Expand(int parent, int excludedChild)
     {
-        var (_, _, levelsUp, remainingLevels, frameToCamera) = _nodes[parent];
-        var node = hierarchy.NodeAt(remainingLevels);
+        var (_, _, levelsUp, state, frameToCamera) = _nodes[parent];
+        var node = hierarchy.NodeAt(state.Level);
         for (var child = 0; child < node.ChildMaps.Length; child++)
         {
-            var childLevels = node.ChildLevelSteps[child].RemainingLevels(remainingLevels);
-            var childNode = hierarchy.NodeAt(childLevels);
+            var childState = hierarchy.Enter(node, child, in state);
+            var childNode = hierarchy.NodeAt(childState.Level);
             if (child == excludedChild || childNode.IsEmpty)
             {
                 continue;
             }
 
             var childToCamera = frameToCamera * node.ChildMaps[child].ToAffineMap();
-            _nodes.Add(new(parent, child, levelsUp, childLevels, childToCamera));
+            _nodes.Add(new(parent, child, levelsUp, childState, childToCamera));
             _open.Enqueue(_nodes.Count - 1, Math.Sqrt(childNode.Box.Transform(childToCamera).DistanceSquared(Vector.Zero)));
         }
     }
@@ -100,5 +101,5 @@ internal sealed class ClosestNodeSearch(LodHierarchy hierarchy)
         public bool IsFound => Index >= 0;
     }
 
-    private readonly record struct PathNode(int Parent, int Child, int LevelsUp, long RemainingLevels, AffineMap FrameToCamera);
+    private readonly record struct PathNode(int Parent, int Child, int LevelsUp, LevelState State, AffineMap FrameToCamera);
 }

@@ -2,6 +2,7 @@ using System.Collections.Immutable;
 using FractalEngine.Core.Bvh.Objects;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Fractals.Descriptions;
+using FractalEngine.Core.Fractals.Levels;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Queries;
@@ -62,8 +63,8 @@ public sealed class DeepZoomRayCaster : InstanceRayCaster
     public float GradientFactorOf(GradientKind gradient, int rootIndex, QueryContext context)
     {
         ArgumentNullException.ThrowIfNull(context);
-        var (levels, _, path) = Roots[rootIndex];
-        foreach (var (set, index) in _whole.SetsOf(levels, context.InstancePath))
+        var path = Roots[rootIndex].ColourPath;
+        foreach (var (set, index) in _whole.SetsOf(Roots[rootIndex].State, context.InstancePath))
         {
             path = path.Append(set.Maps, index);
         }
@@ -85,15 +86,15 @@ public sealed class DeepZoomRayCaster : InstanceRayCaster
 
     private static ObjectBvh? BuildInstances(FractalRayCaster whole, ImmutableArray<LodRoot> roots)
     {
-        var casters = new Dictionary<long, FractalRayCaster>();
+        var casters = new Dictionary<LevelState, FractalRayCaster>();
         var instances = new List<RayInstance>();
         for (var i = 0; i < roots.Length; i++)
         {
             var root = roots[i];
-            if (!casters.TryGetValue(root.RemainingLevels, out var caster))
+            if (!casters.TryGetValue(root.State, out var caster))
             {
-                caster = whole.At(root.RemainingLevels);
-                casters.Add(root.RemainingLevels, caster);
+                caster = whole.At(root.State);
+                casters.Add(root.State, caster);
             }
 
             if (!caster.Box.IsEmpty)

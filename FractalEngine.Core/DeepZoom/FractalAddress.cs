@@ -1,5 +1,6 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Fractals.Descriptions;
+using FractalEngine.Core.Fractals.Levels;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Visibility.Levels;
@@ -206,7 +207,7 @@ public sealed class FractalAddress
     /// <summary>Lists the sub-fractals to draw, with the depth of the one that each is a child of; −1 for no child.</summary>
     private IEnumerable<(LodRoot Root, int Parent, int Child)> EnumerateRoots(int maxAncestors)
     {
-        yield return (new(NodePath.RemainingLevelsAt(Depth), FrameToCamera, NodePath.ColourPathTo(Depth)), Depth, -1);
+        yield return (RootAt(NodePath.StateAt(Depth), FrameToCamera, NodePath.ColourPathTo(Depth)), Depth, -1);
         var frameToCamera = FrameToCamera;
         for (var depth = Depth - 1; depth >= Math.Max(0, Depth - (long)maxAncestors); depth--)
         {
@@ -222,8 +223,8 @@ public sealed class FractalAddress
             {
                 if (child != Path[depth])
                 {
-                    var root = new LodRoot(
-                        NodePath.ChildLevels(depth, child),
+                    var root = RootAt(
+                        NodePath.ChildState(depth, child),
                         frameToCamera * node.ChildMaps[child].ToAffineMap(),
                         colourPath.Append(node.ChildMapIndices[child], node.SetSize));
                     yield return (root, depth, child);
@@ -231,6 +232,9 @@ public sealed class FractalAddress
             }
         }
     }
+
+    private static LodRoot RootAt(LevelState state, AffineMap frameToCamera, ColourPath colourPath) =>
+        new(state.Level, frameToCamera, colourPath) { Way = state.Way };
 
     private double DistanceTo(LodRoot root)
     {

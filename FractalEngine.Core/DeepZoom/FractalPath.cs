@@ -1,3 +1,4 @@
+using FractalEngine.Core.Fractals.Levels;
 using FractalEngine.Core.Visibility.Levels;
 
 namespace FractalEngine.Core.DeepZoom;
@@ -11,6 +12,9 @@ internal sealed class FractalPath(LodHierarchy hierarchy)
 
     private readonly List<int> _children = [];
     private readonly List<long> _remainingLevels = [hierarchy.LevelCount];
+
+    // By which chance decides; empty where nothing is by chance.
+    private readonly List<ulong> _ways = hierarchy.HasChance ? [hierarchy.Start.Way] : [];
 
     // The number of maps that are not the identity, up to each depth.
     private readonly List<int> _mapCounts = [0];
@@ -26,7 +30,7 @@ internal sealed class FractalPath(LodHierarchy hierarchy)
 
     /// <summary>Memory of the path in bytes.</summary>
     public long StorageBytes =>
-        (sizeof(int) * ((long)_children.Capacity + _mapCounts.Capacity)) + (sizeof(long) * (long)_remainingLevels.Capacity);
+        (sizeof(int) * ((long)_children.Capacity + _mapCounts.Capacity)) + (sizeof(long) * ((long)_remainingLevels.Capacity + _ways.Capacity));
 
     /// <summary>Finds the node that the path passes through at a depth; 0 is the whole fractal.</summary>
     public LodNode NodeAt(int depth) => hierarchy.NodeAt(_remainingLevels[depth]);
@@ -34,11 +38,14 @@ internal sealed class FractalPath(LodHierarchy hierarchy)
     /// <summary>Number of levels that the sub-fractal at a depth has left.</summary>
     public long RemainingLevelsAt(int depth) => _remainingLevels[depth];
 
-    /// <summary>Computes the remaining levels of a child of the sub-fractal at a depth.</summary>
-    public long ChildLevels(int depth, int child) => NodeAt(depth).ChildLevelSteps[child].RemainingLevels(_remainingLevels[depth]);
+    /// <summary>The place of the sub-fractal at a depth.</summary>
+    public LevelState StateAt(int depth) => new(_remainingLevels[depth], hierarchy.HasChance ? _ways[depth] : 0);
+
+    /// <summary>The place of a child of the sub-fractal at a depth.</summary>
+    public LevelState ChildState(int depth, int child) => hierarchy.Enter(NodeAt(depth), child, StateAt(depth));
 
     /// <summary>Finds the node of a child of the current sub-fractal.</summary>
-    public LodNode ChildNode(int child) => hierarchy.NodeAt(ChildLevels(Depth, child));
+    public LodNode ChildNode(int child) => hierarchy.NodeAt(ChildState(Depth, child).Level);
 
     /// <summary>Copies the path, so that one of the two can change alone.</summary>
     public FractalPath Clone()
@@ -46,6 +53,7 @@ internal sealed class FractalPath(LodHierarchy hierarchy)
         var copy = new FractalPath(hierarchy);
         copy._children.AddRange(_children);
         copy._remainingLevels.AddRange(_remainingLevels.Skip(1));
+        copy._ways.AddRange(_ways.Skip(1));
         copy._mapCounts.AddRange(_mapCounts.Skip(1));
         return copy;
     }
@@ -54,7 +62,13 @@ internal sealed class FractalPath(LodHierarchy hierarchy)
     public void Enter(int child)
     {
         var node = CurrentNode;
-        _remainingLevels.Add(ChildLevels(Depth, child));
+        var state = ChildState(Depth, child);
+        _remainingLevels.Add(state.Level);
+        if (hierarchy.HasChance)
+        {
+            _ways.Add(state.Way);
+        }
+
         _children.Add(child);
         _mapCounts.Add(_mapCounts[^1] + (node.ChildMapIndices[child] < 0 ? 0 : 1));
     }
@@ -65,6 +79,11 @@ internal sealed class FractalPath(LodHierarchy hierarchy)
         var child = _children[^1];
         _children.RemoveAt(_children.Count - 1);
         _remainingLevels.RemoveAt(_remainingLevels.Count - 1);
+        if (hierarchy.HasChance)
+        {
+            _ways.RemoveAt(_ways.Count - 1);
+        }
+
         _mapCounts.RemoveAt(_mapCounts.Count - 1);
         return child;
     }

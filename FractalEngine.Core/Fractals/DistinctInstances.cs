@@ -17,7 +17,7 @@ public static class DistinctInstances
     private const int MaxProvedRounds = 1500;
 
     // Numbers of deeper fractals have thousands of digits.
-    private const int MaxCountedLevels = 1000;
+    internal const int MaxCountedLevels = 1000;
 
     // Images that touch overlap by the rounding of their coordinates.
     private const double TouchTolerance = 64 * 2.220446049250313e-16;
@@ -34,6 +34,11 @@ public static class DistinctInstances
         if (fractal.Description.IsInfinite)
         {
             return null;
+        }
+
+        if (fractal.Description.HasChance)
+        {
+            return fractal.CountRange(budget)?.Exact;
         }
 
         var maxInstances = budget ?? FractalLimits.EnumeratedInstances.Value;
@@ -70,6 +75,11 @@ public static class DistinctInstances
         if (fractal.InstanceCount is not { } chains)
         {
             return null;
+        }
+
+        if (fractal.Description.HasChance)
+        {
+            return fractal.CountRange(budget) is { } range ? range.Exact ?? range.Most : chains;
         }
 
         // What calls itself without end may leave no instance of one mesh.

@@ -30,7 +30,7 @@ internal sealed class FarthestPointSearch(FractalHierarchy hierarchy)
 
     // A forest's trees stand on one plane and are turned about its normal: to the eye of a direction they are the same.
     // Groups of children have the levels and the map of their parent, so the sub-fractal itself tells them apart.
-    private readonly HashSet<(SubFractal SubFractal, long Levels, (Vector Direction, double Offset) Key)> _seen = [];
+    private readonly HashSet<(SubFractal SubFractal, LevelState State, (Vector Direction, double Offset) Key)> _seen = [];
 
     // What may still be opened. Its place follows from that of its parent, which saves most of the memory.
     private readonly PriorityQueue<(int Parent, ChildInstance Child, double Bound), (double, int)> _open = new();
@@ -72,7 +72,7 @@ internal sealed class FarthestPointSearch(FractalHierarchy hierarchy)
         var leaf = (Priority: (double.PositiveInfinity, 0), Value: double.NegativeInfinity);
         var largestLeaf = double.NegativeInfinity;
         var node = (Parent: -1, Child: default(ChildInstance), Bound: double.PositiveInfinity);
-        var opened = new Opened(hierarchy.Root, hierarchy.Levels, map, 0);
+        var opened = new Opened(hierarchy.Root, hierarchy.Start, map, 0);
         for (var nodes = 0; ; nodes++)
         {
             if (nodes == maxNodes || (opened.Depth > 0 && opened.SubFractal.Radius * opened.Map.Linear.MaxAbsEntry() <= tolerance))
@@ -84,7 +84,7 @@ internal sealed class FarthestPointSearch(FractalHierarchy hierarchy)
             _opened.Add(opened);
             foreach (var child in opened.SubFractal.Children)
             {
-                var levels = child.RemainingLevels(opened.Levels);
+                var levels = hierarchy.Enter(child, opened.State).Level;
                 var subFractal = hierarchy.At(child, levels);
                 if (subFractal.Box.IsEmpty)
                 {
@@ -131,7 +131,7 @@ internal sealed class FarthestPointSearch(FractalHierarchy hierarchy)
                 node = next;
                 opened = Open(next.Parent, next.Child);
             }
-            while (measure.Key(opened.Map) is { } key && !_seen.Add((opened.SubFractal, opened.Levels, key)));
+            while (measure.Key(opened.Map) is { } key && !_seen.Add((opened.SubFractal, opened.State, key)));
         }
     }
 
@@ -167,10 +167,10 @@ internal sealed class FarthestPointSearch(FractalHierarchy hierarchy)
     private Opened Open(int parentIndex, ChildInstance child)
     {
         var parent = _opened[parentIndex];
-        var levels = child.RemainingLevels(parent.Levels);
-        return new(hierarchy.At(child, levels), levels, parent.Map * child.Map, parent.Depth + 1);
+        var state = hierarchy.Enter(child, parent.State);
+        return new(hierarchy.At(child, state.Level), state, parent.Map * child.Map, parent.Depth + 1);
     }
 
     /// <summary>A sub-fractal whose children were measured.</summary>
-    private readonly record struct Opened(SubFractal SubFractal, long Levels, AffineMap Map, int Depth);
+    private readonly record struct Opened(SubFractal SubFractal, LevelState State, AffineMap Map, int Depth);
 }

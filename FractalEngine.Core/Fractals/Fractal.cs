@@ -110,8 +110,34 @@ public sealed class Fractal : IEquatable<Fractal>
         init => BaseMeshPaths = [value];
     }
 
-    /// <summary>Number of chains of transformations, equal ones counted; null for infinitely many.</summary>
+    /// <summary>
+    /// Number of chains of transformations, equal ones counted; null for infinitely many. By chance it is the most that there may be, see
+    /// <see cref="CountRange"/>.
+    /// </summary>
     public BigInteger? InstanceCount => Total(static _ => 1);
+
+    /// <summary>Counts the instances of a finite fractal by chance.</summary>
+    /// <param name="budget">
+    /// Number of different places up to which they are enumerated; null for <see cref="FractalLimits.CountedInstances"/>.
+    /// </param>
+    /// <returns>Null where there is no hierarchy of the fractal, or it has more than thousand levels.</returns>
+    public InstanceRange? CountRange(long? budget = null)
+    {
+        if (Description.Composition != Composition.Affine || !(LevelCount <= DistinctInstances.MaxCountedLevels))
+        {
+            return null;
+        }
+
+        try
+        {
+            return InstanceRange.Of(this, budget ?? FractalLimits.CountedInstances.Value);
+        }
+        catch (Exception exception) when (exception is FractalLimitException or SingularMatrixException)
+        {
+            // Without a hierarchy, only chains are known.
+            return null;
+        }
+    }
 
     /// <summary>Number of faces of all instances (the paper's b·t^d); null for infinitely many.</summary>
     public BigInteger? FaceCount => Total(static mesh => mesh.FaceCount);
@@ -156,7 +182,7 @@ public sealed class Fractal : IEquatable<Fractal>
     public IReadOnlyList<PathStep>? Follow(ReadOnlySpan<int> path, long levelsAbove = 0)
     {
         var hierarchy = HierarchyBySets;
-        return hierarchy.Follow(hierarchy.Levels - levelsAbove, path)?.ConvertAll(step => new PathStep(
+        return hierarchy.Follow(levelsAbove == 0 ? hierarchy.Top : new(hierarchy.Levels - levelsAbove, 0), path)?.ConvertAll(step => new PathStep(
             step.Set.Maps[step.Index], step.Index, step.Set.Maps.Length, hierarchy.AllLevels.At(step.Level).Box,
             hierarchy.IsBase(step.Level)));
     }
@@ -305,6 +331,10 @@ public sealed class Fractal : IEquatable<Fractal>
     /// <exception cref="FractalLimitException">The fractal would have more than <see cref="FractalLimits.Levels"/> levels.</exception>
     /// <exception cref="InvalidOperationException">Nothing in the fractal is repeated.</exception>
     public Fractal WithDepth(int depth) => With(Description.WithDepth(depth));
+
+    /// <summary>Makes the same fractal with another seed for all choices; the same object where nothing is by chance.</summary>
+    /// <param name="seed">Any number.</param>
+    public Fractal WithSeed(int seed) => Description.HasChance ? With(Description.WithSeed(seed)) : this;
 
     /// <summary>Makes the same fractal moved as a whole, see <see cref="FractalDescription.WithPlacement"/>.</summary>
     /// <returns>The same object where the placement moves nothing.</returns>

@@ -83,7 +83,9 @@ public static class FractalGenerator
         _ = fractal.BaseMesh;
         return fractal.Description.IsInfinite
             ? throw LimitError(fractal, maxInstances)
-            : [.. GraphExpansion.Expand(fractal.Graph, maxInstances).Select(static instance => instance.Map)];
+            : [.. (fractal.Description.HasChance
+                ? StateExpansion.Expand(fractal.HierarchyBySets, maxInstances)
+                : GraphExpansion.Expand(fractal.Graph, maxInstances)).Select(static instance => instance.Map)];
     }
 
     /// <summary>Expands a fractal level by level, and removes the repeated instances of each level before the next.</summary>

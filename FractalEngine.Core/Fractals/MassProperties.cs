@@ -102,36 +102,37 @@ internal readonly record struct MassProperties(double Volume, Vector FirstMoment
             return null;
         }
 
-        var sums = new Dictionary<long, MassProperties>();
+        var sums = new Dictionary<LevelState, MassProperties>();
         foreach (var state in states)
         {
-            if (hierarchy.IsBase(state))
+            if (hierarchy.IsBase(state.Level))
             {
-                sums[state] = Of(hierarchy.BaseMeshes[hierarchy.At(state).BaseIndex], out var isBaseClosed);
+                sums[state] = Of(hierarchy.BaseMeshes[hierarchy.At(state.Level).BaseIndex], out var isBaseClosed);
                 isClosed &= isBaseClosed;
             }
             else
             {
-                sums[state] = Sum(hierarchy.At(state), state, sums);
+                sums[state] = Sum(hierarchy, hierarchy.At(state.Level), state, sums);
             }
         }
 
-        return sums[hierarchy.Levels];
+        return sums[hierarchy.Start];
     }
 
     /// <summary>Lists the states that the whole fractal consists of, base meshes first.</summary>
-    private static SortedSet<long>? FindStates(FractalHierarchy hierarchy)
+    private static SortedSet<LevelState>? FindStates(FractalHierarchy hierarchy)
     {
-        var states = new SortedSet<long> { hierarchy.Levels };
-        var open = new Stack<(SubFractal Part, long State)>([(hierarchy.Root, hierarchy.Levels)]);
+        var states = new SortedSet<LevelState>(Comparer<LevelState>.Create(
+            static (state1, state2) => (state1.Level, state1.Way).CompareTo((state2.Level, state2.Way)))) { hierarchy.Start };
+        var open = new Stack<(SubFractal Part, LevelState State)>([(hierarchy.Root, hierarchy.Start)]);
         while (open.TryPop(out var next) && states.Count <= MaxStates)
         {
-            foreach (var child in hierarchy.IsBase(next.State) ? [] : next.Part.Children)
+            foreach (var child in hierarchy.IsBase(next.State.Level) ? [] : next.Part.Children)
             {
-                var state = child.RemainingLevels(next.State);
+                var state = hierarchy.Enter(child, next.State);
                 if (child.Group is not null || states.Add(state))
                 {
-                    open.Push((hierarchy.At(child, state), state));
+                    open.Push((hierarchy.At(child, state.Level), state));
                 }
             }
         }
@@ -139,13 +140,14 @@ internal readonly record struct MassProperties(double Volume, Vector FirstMoment
         return states.Count <= MaxStates ? states : null;
     }
 
-    private static MassProperties Sum(SubFractal part, long state, Dictionary<long, MassProperties> sums)
+    private static MassProperties Sum(
+        FractalHierarchy hierarchy, SubFractal part, LevelState state, Dictionary<LevelState, MassProperties> sums)
     {
         var sum = default(MassProperties);
         foreach (var child in part.Children)
         {
             sum += child.Group is { } group
-                ? Sum(group, state, sums) : sums[child.RemainingLevels(state)].Transform(child.Map);
+                ? Sum(hierarchy, group, state, sums) : sums[hierarchy.Enter(child, in state)].Transform(child.Map);
         }
 
         return sum;

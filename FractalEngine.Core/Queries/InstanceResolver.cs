@@ -19,24 +19,25 @@ internal static class InstanceResolver
     /// <param name="reach">The largest absolute coordinate of a frame's origin on the way, in the frame of the query.</param>
     public static SimdAffineMap ResolveInstance(
         this FractalHierarchy hierarchy, ReadOnlySpan<int> path, in AffineMap rootMap, QueryContext context, out double reach) =>
-        ResolveInstance(hierarchy, path, hierarchy.Levels, in rootMap, context, out reach);
+        ResolveInstance(hierarchy, path, hierarchy.Top, in rootMap, context, out reach);
 
     /// <summary>Follows a path from a sub-fractal to an instance.</summary>
     /// <param name="hierarchy">The levels of the fractal.</param>
     /// <param name="path">Indices of child instances from the sub-fractal.</param>
-    /// <param name="remainingLevels">Remaining levels of the sub-fractal.</param>
+    /// <param name="start">Where the sub-fractal is, before chance decides.</param>
     /// <param name="rootMap">From the frame of the sub-fractal to that of the query.</param>
     /// <param name="context">Receives the map indices.</param>
     /// <param name="reach">The largest absolute coordinate of a frame's origin on the way, in the frame of the query.</param>
     public static SimdAffineMap ResolveInstance(
-        this FractalHierarchy hierarchy, ReadOnlySpan<int> path, long remainingLevels, in AffineMap rootMap, QueryContext context,
+        this FractalHierarchy hierarchy, ReadOnlySpan<int> path, LevelState start, in AffineMap rootMap, QueryContext context,
         out double reach)
     {
         var map = new SimdAffineMap(rootMap);
         var maxTranslation = Vector256.Abs(map.Translation);
         var exponent = 0L;
         int? end = null;
-        var subFractal = hierarchy.At(remainingLevels);
+        var state = ResolveChance(hierarchy, start, context);
+        var subFractal = hierarchy.At(state.Level);
         foreach (var childIndex in path)
         {
             var child = subFractal.Children[childIndex];
@@ -44,6 +45,16 @@ internal static class InstanceResolver
             {
                 subFractal = group;
                 continue;
+            }
+
+            var remainingLevels = state.Level;
+            var way = state.Way;
+            if (hierarchy.HasChance)
+            {
+                foreach (var edge in child.Edges)
+                {
+                    way = edge.Set.WayOf(edge.MapIndex).After(way);
+                }
             }
 
             map = SimdAffineMap.Compose(in map, child.SimdMap);
@@ -55,8 +66,8 @@ internal static class InstanceResolver
                     context.AppendToPath(edge.MapIndex);
                 }
 
-                remainingLevels = child.RemainingLevels(remainingLevels);
-                subFractal = hierarchy.At(remainingLevels);
+                state = ResolveChance(hierarchy, new(child.RemainingLevels(remainingLevels), way), context);
+                subFractal = hierarchy.At(state.Level);
                 continue;
             }
 
@@ -101,13 +112,25 @@ internal static class InstanceResolver
                 remainingLevels = childLevels;
             }
 
-            subFractal = hierarchy.At(remainingLevels);
+            state = ResolveChance(hierarchy, new(remainingLevels, way), context);
+            subFractal = hierarchy.At(state.Level);
         }
 
         context.ShortenPath(end ?? context.InstancePath.Length);
         context.MeshIndex = subFractal.BaseIndex;
         reach = SimdAffineMap.ToVector(maxTranslation).MaxAbsComponent();
         return map;
+    }
+
+    /// <summary>Goes on as far as chance decides, and appends what it decided.</summary>
+    private static LevelState ResolveChance(FractalHierarchy hierarchy, LevelState state, QueryContext context)
+    {
+        while (hierarchy.HasChance && hierarchy.TryPick(ref state, out var index))
+        {
+            context.AppendToPath(index);
+        }
+
+        return state;
     }
 
     /// <summary>Appends the map indices of an edge to the path of a result and, below the repetition, those of the identities.</summary>

@@ -6,20 +6,20 @@ namespace FractalEngine.Core.Queries;
 
 /// <summary>A sub-fractal instance that a best-first search has expanded.</summary>
 /// <param name="subFractal">The sub-fractal.</param>
-/// <param name="remainingLevels">Its remaining levels.</param>
+/// <param name="state">Its place.</param>
 /// <param name="map">From its frame to that of the query.</param>
 /// <param name="inverse">From the frame of the query to its own.</param>
 /// <param name="parentNode">Index of the node that it is a child of; −1 for the root.</param>
 /// <param name="childIndex">Index among the children of that node.</param>
 /// <param name="depth">Number of child instances that lead to it.</param>
 internal struct SearchNode(
-    SubFractal subFractal, long remainingLevels, SimdAffineMap map, SimdAffineMap inverse, int parentNode, int childIndex, int depth)
+    SubFractal subFractal, LevelState state, SimdAffineMap map, SimdAffineMap inverse, int parentNode, int childIndex, int depth)
 {
     /// <summary>The sub-fractal, shared by all its instances.</summary>
     public readonly SubFractal SubFractal = subFractal;
 
-    /// <summary>Remaining levels of the sub-fractal.</summary>
-    public readonly long RemainingLevels = remainingLevels;
+    /// <summary>The place of the sub-fractal.</summary>
+    public readonly LevelState State = state;
 
     /// <summary>From the instance's frame to that of the query.</summary>
     public readonly SimdAffineMap Map = map;

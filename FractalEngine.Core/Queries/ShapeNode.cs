@@ -9,20 +9,20 @@ namespace FractalEngine.Core.Queries;
 /// A part of a shape's tree in the frame of a query: a sub-fractal, or a node or leaf of the hierarchy of the base mesh.
 /// </summary>
 /// <param name="subFractal">The sub-fractal; null inside the base mesh.</param>
-/// <param name="remainingLevels">Its remaining levels.</param>
+/// <param name="state">Its place.</param>
 /// <param name="bvhNode">The node or leaf of the base mesh's hierarchy.</param>
 /// <param name="baseIndex">Index of the base mesh that the node is or is inside of; negative above the base meshes.</param>
 /// <param name="map">From the node's frame to that of the query.</param>
 /// <param name="localBox">A box around the node in its own frame.</param>
 /// <param name="reach">The largest absolute coordinate on the way to the node.</param>
 internal readonly struct ShapeNode(
-    SubFractal? subFractal, long remainingLevels, BvhChild bvhNode, int baseIndex, in AffineMap map, BoundingBox localBox, double reach)
+    SubFractal? subFractal, LevelState state, BvhChild bvhNode, int baseIndex, in AffineMap map, BoundingBox localBox, double reach)
 {
     /// <summary>The sub-fractal; null inside the base mesh.</summary>
     public SubFractal? SubFractal { get; } = subFractal;
 
-    /// <summary>Remaining levels of the sub-fractal.</summary>
-    public long RemainingLevels { get; } = remainingLevels;
+    /// <summary>The place of the sub-fractal.</summary>
+    public LevelState State { get; } = state;
 
     /// <summary>The node or leaf of the base mesh's hierarchy; meaningless above the base mesh.</summary>
     public BvhChild BvhNode { get; } = bvhNode;

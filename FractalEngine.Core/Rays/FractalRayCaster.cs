@@ -20,12 +20,12 @@ namespace FractalEngine.Core.Rays;
 /// what a ray still has to visit after a million bounds. Why no hit is lost is explained in docs/rays.md.
 /// </remarks>
 /// <param name="hierarchy">The levels of the fractal.</param>
-/// <param name="rootLevels">Remaining levels of the sub-fractal that rays are cast at, which the hierarchy must have kept.</param>
+/// <param name="top">The place of the sub-fractal that rays are cast at, which the hierarchy must have kept.</param>
 /// <param name="bvhs">The hierarchies of the base meshes.</param>
 /// <param name="rayLevels">The bounds of all levels.</param>
 /// <param name="basePlanes">The planes around each base mesh.</param>
 internal sealed class FractalRayCaster(
-    FractalHierarchy hierarchy, long rootLevels, TriangleBvh[] bvhs, RayLevels rayLevels, RayPlanes[] basePlanes)
+    FractalHierarchy hierarchy, LevelState top, TriangleBvh[] bvhs, RayLevels rayLevels, RayPlanes[] basePlanes)
     : ShapeRayCaster
 {
     // About a fifth of a second.
@@ -42,27 +42,28 @@ internal sealed class FractalRayCaster(
     // Longer than the way of a ray from its origin through the box of a sub-fractal, in the units of its bounds.
     private const double MaxReach = 16;
 
-    private readonly SubFractal _root = hierarchy.At(rootLevels);
-    private readonly double _minRadius = LevelPrecision.MinRadius(hierarchy.At(rootLevels));
-    private readonly ShapeTree _tree = new(hierarchy, bvhs, LevelPrecision.MinRadius(hierarchy.At(rootLevels)));
+    private readonly LevelState _start = hierarchy.Resolve(top);
+    private readonly SubFractal _root = hierarchy.At(hierarchy.Resolve(top).Level);
+    private readonly double _minRadius = LevelPrecision.MinRadius(hierarchy.At(hierarchy.Resolve(top).Level));
+    private readonly ShapeTree _tree = new(hierarchy, bvhs, LevelPrecision.MinRadius(hierarchy.At(hierarchy.Resolve(top).Level)));
 
     /// <summary>Prepares a fractal, perhaps of several base meshes.</summary>
     public FractalRayCaster(FractalHierarchy hierarchy)
         : this(
-            hierarchy, hierarchy.Levels, Array.ConvertAll(hierarchy.BaseMeshes, TriangleBvh.For), new(hierarchy),
+            hierarchy, hierarchy.Top, Array.ConvertAll(hierarchy.BaseMeshes, TriangleBvh.For), new(hierarchy),
             Array.ConvertAll(hierarchy.BaseMeshes, static mesh => new RayPlanes(mesh)))
     {
     }
 
     /// <summary>The caster of a sub-fractal in its own frame. It shares what is kept with that of the whole.</summary>
-    /// <param name="levels">Its remaining levels, which the hierarchy must have kept.</param>
-    public FractalRayCaster At(long levels) => new(hierarchy, levels, bvhs, rayLevels, basePlanes);
+    /// <param name="place">Its place, whose level the hierarchy must have kept.</param>
+    public FractalRayCaster At(LevelState place) => new(hierarchy, place, bvhs, rayLevels, basePlanes);
 
     /// <summary>The sets that a path from a sub-fractal passes, each with the index of its map.</summary>
-    /// <param name="levels">Remaining levels of the sub-fractal.</param>
+    /// <param name="place">The place of the sub-fractal.</param>
     /// <param name="path">The indices.</param>
-    public IEnumerable<(MapSet Set, int Index)> SetsOf(long levels, ReadOnlySpan<int> path) =>
-        hierarchy.Follow(levels, path)?.Select(static step => (step.Set, step.Index)) ?? [];
+    public IEnumerable<(MapSet Set, int Index)> SetsOf(LevelState place, ReadOnlySpan<int> path) =>
+        hierarchy.Follow(place, path)?.Select(static step => (step.Set, step.Index)) ?? [];
 
     /// <summary>The box of the fractal, or of the sub-fractal; empty where it has no faces.</summary>
     public BoundingBox Box => _root.Box;
@@ -72,7 +73,7 @@ internal sealed class FractalRayCaster(
         + bvhs.Sum(static bvh => bvh.StorageBytes) + basePlanes.Sum(static planes => planes.StorageBytes);
 
     /// <inheritdoc/>
-    private protected override double ShapeMagnitude { get; } = hierarchy.At(rootLevels).Box.MaxAbsCoordinate();
+    private protected override double ShapeMagnitude { get; } = hierarchy.At(hierarchy.Resolve(top).Level).Box.MaxAbsCoordinate();
 
     /// <inheritdoc/>
     internal override Mesh MeshOf(in RaySearch search) => hierarchy.BaseMeshes[search.MeshIndex];
@@ -83,7 +84,7 @@ internal sealed class FractalRayCaster(
     {
         context.ClearPath();
         var instance = hierarchy.ResolveInstance(
-            context.BestPathBuffer(pathLength)[..pathLength], rootLevels, in map, context, out _);
+            context.BestPathBuffer(pathLength)[..pathLength], top, in map, context, out _);
         return search.Proxy is { } proxy ? SimdAffineMap.Compose(in instance, in proxy.Map) : instance;
     }
 
@@ -97,14 +98,14 @@ internal sealed class FractalRayCaster(
 
         // Below the rounding of the ray, all that it comes near seems hit.
         var minRadius = Math.Max(ray.Scale * _minRadius, MinRadiusInErrors * search.Error);
-        if (hierarchy.IsBase(rootLevels) || ray.Scale * _root.Radius <= minRadius)
+        if (hierarchy.IsBase(_start.Level) || ray.Scale * _root.Radius <= minRadius)
         {
             var isRootHit = TryIntersectBase(in ray, _root.BaseIndex, null, ref search);
             pathLength = isRootHit ? 0 : pathLength;
             return isRootHit;
         }
 
-        var rootBounds = rayLevels.At(rootLevels);
+        var rootBounds = rayLevels.At(_start.Level);
         var approached = ray;
         if (!rootBounds.Box.TryApproach(ref approached, in search))
         {
@@ -132,7 +133,8 @@ internal sealed class FractalRayCaster(
         var depth = 0;
         ref var frame = ref stack[0];
         frame.SetBounds(rootBounds);
-        frame.RemainingLevels = rootLevels;
+        frame.RemainingLevels = _start.Level;
+        frame.Way = _start.Way;
         frame.PathLength = 0;
         frame.Set(in approached);
         if (!TryOpen(ref frame, hasTestedPlanes: false, ref stack.Entries(0), ref search, minRadius))
@@ -180,7 +182,8 @@ internal sealed class FractalRayCaster(
                 continue;
             }
 
-            if (child.MayBeFar && !inner.TryApproach(bounds.Box, in search))
+            var isChosen = hierarchy.HasChance && child.Group is null && TryChoose(in frame, in child, ref inner, ref bounds);
+            if (bounds.IsEmpty || ((child.MayBeFar || isChosen) && !inner.TryApproach(bounds.Box, in search)))
             {
                 continue;
             }
@@ -200,7 +203,7 @@ internal sealed class FractalRayCaster(
             else
             {
                 inner.SetBounds(bounds);
-                if (TryOpen(ref inner, child.HasTestedPlanes, ref stack.Entries(depth + 1), ref search, minRadius))
+                if (TryOpen(ref inner, child.HasTestedPlanes && !isChosen, ref stack.Entries(depth + 1), ref search, minRadius))
                 {
                     frame.Hits = hits;
                     hits = inner.Hits;
@@ -218,6 +221,44 @@ internal sealed class FractalRayCaster(
                 return true;
             }
         }
+    }
+
+    /// <summary>Goes on to what chance decides to stand in the place of a child.</summary>
+    /// <param name="frame">The ray at the parent.</param>
+    /// <param name="child">The child.</param>
+    /// <param name="inner">The ray at the child; receives the way, and the units of what stands there.</param>
+    /// <param name="bounds">The bounds of the child; receives those of what stands there.</param>
+    /// <returns>False where chance decides nothing.</returns>
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    private bool TryChoose(in RayFrame frame, in RayChild child, ref RayFrame inner, ref RayBounds bounds)
+    {
+        Span<int> path = stackalloc int[child.PathLength];
+        child.CopyPath(path);
+        var state = new LevelState(frame.RemainingLevels, frame.Way);
+        var subFractal = frame.Bounds.SubFractal;
+        foreach (var index in path)
+        {
+            var next = subFractal.Children[index];
+            state = hierarchy.Enter(next, in state);
+            subFractal = hierarchy.At(next, state.Level);
+        }
+
+        inner.Way = state.Way;
+        if (inner.RemainingLevels == state.Level)
+        {
+            return false;
+        }
+
+        var local = inner.ToLocal(bounds.Box);
+        inner.RemainingLevels = state.Level;
+        bounds = rayLevels.At(state.Level);
+        inner.SetBounds(bounds);
+        if (!bounds.IsEmpty)
+        {
+            inner.Set(in local);
+        }
+
+        return true;
     }
 
     /// <summary>Tests the children of a sub-fractal; false where the ray misses all of them.</summary>
@@ -261,7 +302,7 @@ internal sealed class FractalRayCaster(
         var prefix = new int[prefixLength];
         context.RayStack.CopyPath(depth, prefix);
         var policy = new FlatRayPolicy(ray, search);
-        var node = _tree.Node(rootLevels, prefix);
+        var node = _tree.Node(_start, prefix);
         ShapeTraversal.Run(
             _tree, node, _tree.MinRadiusSquared(AffineMap.Identity), ref policy, context.TraversalStack, ref policy.Search.BoundTests,
             ref policy.Search.FaceTests);

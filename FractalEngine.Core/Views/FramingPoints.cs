@@ -1,5 +1,6 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Fractals.Descriptions;
+using FractalEngine.Core.Fractals.Levels;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
@@ -80,13 +81,13 @@ internal sealed class FramingPoints(Vector centre)
     /// <summary>Adds the boxes of sub-fractals of about equal depth.</summary>
     private void AddParts(LodHierarchy hierarchy, AffineMap objectToWorld)
     {
-        var parts = new Queue<(long Levels, AffineMap Map)>([(hierarchy.LevelCount, objectToWorld)]);
+        var parts = new Queue<(LevelState State, AffineMap Map)>([(hierarchy.Start, objectToWorld)]);
         // Every part of an infinite fractal has children: after enough parts, none is opened any more.
         var isFull = false;
         var openedCount = 0;
         while (parts.TryDequeue(out var part))
         {
-            var node = hierarchy.NodeAt(part.Levels);
+            var node = hierarchy.NodeAt(part.State.Level);
             if (node.IsEmpty)
             {
                 continue;
@@ -101,7 +102,7 @@ internal sealed class FramingPoints(Vector centre)
 
             for (var child = 0; child < node.ChildMaps.Length; child++)
             {
-                parts.Enqueue((node.ChildLevelSteps[child].RemainingLevels(part.Levels), part.Map * node.ChildMaps[child].ToAffineMap()));
+                parts.Enqueue((hierarchy.Enter(node, child, part.State), part.Map * node.ChildMaps[child].ToAffineMap()));
             }
         }
     }

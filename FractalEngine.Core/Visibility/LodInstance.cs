@@ -1,3 +1,4 @@
+using FractalEngine.Core.Fractals.Levels;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Visibility.Levels;
 
@@ -6,13 +7,13 @@ namespace FractalEngine.Core.Visibility;
 /// <summary>A sub-fractal in its place in view space, as culling visits it.</summary>
 /// <remarks>Its members are fields, so that maps are passed on by reference.</remarks>
 internal readonly struct LodInstance(
-    LodNode node, long remainingLevels, in SimdAffineMap nodeToView, int depth, CullingPath path)
+    LodNode node, LevelState state, in SimdAffineMap nodeToView, int depth, CullingPath path)
 {
     /// <summary>Node of the sub-fractal.</summary>
     public readonly LodNode Node = node;
 
-    /// <summary>Number of levels that the sub-fractal has left.</summary>
-    public readonly long RemainingLevels = remainingLevels;
+    /// <summary>The place of the sub-fractal.</summary>
+    public readonly LevelState State = state;
 
     /// <summary>Number of child instances that lead to the sub-fractal.</summary>
     public readonly int Depth = depth;

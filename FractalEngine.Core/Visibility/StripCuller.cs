@@ -1,3 +1,4 @@
+using FractalEngine.Core.Fractals.Levels;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Visibility.Frames;
@@ -97,7 +98,7 @@ internal sealed class StripCuller
         {
             var objectToView =
                 new AffineMap(worldToView * item.ObjectToWorld.Linear, worldToView * (item.ObjectToWorld.Translation - frame.Position));
-            VisitRoot(in context, item.Hierarchy.LevelCount, objectToView, CullingPath.Start);
+            VisitRoot(in context, item.Hierarchy.Start, objectToView, CullingPath.Start);
             return;
         }
 
@@ -105,14 +106,14 @@ internal sealed class StripCuller
         {
             var frameToCamera = roots[i].FrameToCamera;
             var rootToView = new AffineMap(worldToView * frameToCamera.Linear, worldToView * frameToCamera.Translation);
-            VisitRoot(in context, roots[i].RemainingLevels, rootToView, CullingPath.FromRoot(i, roots[i].ColourPath));
+            VisitRoot(in context, roots[i].State, rootToView, CullingPath.FromRoot(i, roots[i].ColourPath));
         }
     }
 
-    private void VisitRoot(in StripContext context, long remainingLevels, AffineMap rootToView, CullingPath path)
+    private void VisitRoot(in StripContext context, LevelState state, AffineMap rootToView, CullingPath path)
     {
         ref readonly var frame = ref context.Frame;
-        var root = new LodInstance(context.Hierarchy.NodeAt(remainingLevels), remainingLevels, new SimdAffineMap(rootToView), 0, path);
+        var root = new LodInstance(context.Hierarchy.NodeAt(state.Level), state, new SimdAffineMap(rootToView), 0, path);
         // Some strips of a frame of less than eight columns have none.
         if (root.Node.IsEmpty || frame.Left >= frame.Right)
         {
@@ -242,6 +243,11 @@ internal sealed class StripCuller
                 instance = Descend(in context, in instance, 0);
             }
 
+            if (instance.Node.IsEmpty)
+            {
+                continue;
+            }
+
             if (footprint.NeedsDouble)
             {
                 VisitExact(in context, in instance);
@@ -258,11 +264,11 @@ internal sealed class StripCuller
     private LodInstance Descend(in StripContext context, in LodInstance parent, int child)
     {
         var node = parent.Node;
-        _skyPath.Set(parent.Depth, new(node, parent.RemainingLevels, child));
-        var childLevels = node.ChildLevelSteps[child].RemainingLevels(parent.RemainingLevels);
+        _skyPath.Set(parent.Depth, new(node, parent.State.Level, child));
+        var state = context.Hierarchy.Enter(node, child, parent.State);
         return new(
-            context.Hierarchy.NodeAt(childLevels),
-            childLevels,
+            context.Hierarchy.NodeAt(state.Level),
+            state,
             SimdAffineMap.Compose(in parent.NodeToView, in node.ChildMaps[child]),
             parent.Depth + 1,
             parent.Path.Append(child, parent.Depth, node.ChildMapIndices[child], node.SetSize, context.Gradient));

@@ -87,6 +87,7 @@ public sealed class FractalParser : RecursiveParser
         return ParseVectorDeclaration(cursor, out rest)
             || ParseResult(cursor, out rest)
             || ParseComposition(cursor, out rest)
+            || ParseSeed(cursor, out rest)
             || ParseValueDeclaration(cursor, out rest)
             || ParseMatrix(cursor, out rest)
             || ParseFunction(cursor, out rest)
@@ -133,7 +134,7 @@ public sealed class FractalParser : RecursiveParser
             return Fail(cursor, "'<$>'");
         }
 
-        if (!ParseChar(cursor.Advance(3), '.', out rest) || !ParseBlanks(rest, out rest) || !ParseSum(rest, out var value, out rest))
+        if (!ParseChar(cursor.Advance(3), '.', out rest) || !ParseBlanks(rest, out rest) || !ParseAny(rest, out var value, out rest))
         {
             return false;
         }
@@ -169,7 +170,7 @@ public sealed class FractalParser : RecursiveParser
     {
         if (!ParseName(cursor, "a declaration", out var name, out rest) || !ParseChar(rest, '.', out rest)
             || !ParseBlanks(rest, out rest) || !BeginObject(name) || (rest.Current == '(' && !Parentheses.HoldObject(rest.Rest))
-            || !ParseSum(rest, out var value, out rest))
+            || !ParseAny(rest, out var value, out rest))
         {
             return false;
         }

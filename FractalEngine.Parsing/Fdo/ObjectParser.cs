@@ -9,11 +9,15 @@ public abstract class ObjectParser : MapSetParser
 {
     private const int MaxParentheses = 32;
 
+    private const int MaxSeed = 999_999_999;
+
     private static readonly DeclaredObject EmptyObject = new(0, DeclaredSteps.None);
 
     private long _sumTermCount;
     private long _repeatedStepCount;
     private int _parentheses;
+    private int _alternatives;
+    private (int Number, bool IsByLevel) _seed;
     private string? _declared;
 
     private protected ObjectParser(SourceText source, FractalNumberList? numbers)
@@ -34,8 +38,109 @@ public abstract class ObjectParser : MapSetParser
     /// <summary>Begins the declaration of an object with a name, which does not know itself. Always true.</summary>
     private protected bool BeginObject(string name) => Set(ref _declared, name);
 
-    /// <summary>Parses an object: one thing, or several at one place with plus signs between them.</summary>
-    private protected bool ParseSum(Cursor cursor, out DeclaredObject value, out Cursor rest)
+    /// <summary>Parses <c>seed 7</c> or <c>seed 7 by level</c>, by which all choices below are made.</summary>
+    private protected bool ParseSeed(Cursor cursor, out Cursor rest)
+    {
+        if (!ParseWord(cursor, "seed", out rest) || !ParseBlanks(rest, out var start) || start.Offset == rest.Offset)
+        {
+            return false;
+        }
+
+        if (!ParseInteger(start, "a seed", out var number, out rest))
+        {
+            return false;
+        }
+
+        ParseBlanks(rest, out var word);
+        if (number > MaxSeed)
+        {
+            throw Error(start, FormattableString.Invariant($"a seed is at most {MaxSeed}"));
+        }
+
+        var isByLevel = ParseWord(word, "by", out var next);
+        _seed = (number, isByLevel);
+        return !isByLevel || (ParseBlanks(next, out next) && ParseWord(next, "level", out rest));
+    }
+
+    /// <summary>Parses an object: a sum, or several by chance, with weights: <c>3: a | 1: b + c</c>.</summary>
+    private protected bool ParseAny(Cursor cursor, out DeclaredObject value, out Cursor rest)
+    {
+        if (!IsWeight(cursor.Rest))
+        {
+            return ParseSum(cursor, out value, out rest);
+        }
+
+        value = EmptyObject;
+        var weights = new List<double>();
+        var alternatives = new List<int>();
+        _alternatives++;
+        var isParsed = ParseAlternatives(cursor, weights, alternatives, out rest);
+        _alternatives--;
+        if (!isParsed)
+        {
+            return false;
+        }
+
+        if (!(weights.Sum() is > 0 and < double.PositiveInfinity))
+        {
+            throw Error(cursor, "the weights of a choice are all 0, or too large to add");
+        }
+
+        var choice = new Choice([.. weights], _seed.Number, _seed.IsByLevel);
+        value = new(Bases.Parts.AddChoice([.. alternatives], choice), DeclaredSteps.None);
+        return true;
+    }
+
+    private bool ParseAlternatives(Cursor cursor, List<double> weights, List<int> alternatives, out Cursor rest)
+    {
+        for (var start = cursor; ; ParseBlanks(start.Advance(1), out start))
+        {
+            if (!ParseExpression(start, out var weight, out rest) || !ParseBlanks(rest, out rest) || !ParseChar(rest, ':', out rest)
+                || !ParseBlanks(rest, out rest) || !ParseSum(rest, out var alternative, out rest))
+            {
+                return false;
+            }
+
+            if (weight < 0)
+            {
+                throw Error(start, FormattableString.Invariant($"a weight is not negative, and this one is {weight:R}"));
+            }
+
+            RequireLimit(alternatives.Count + 1, Choice.MaxAlternatives, "the choice", "alternatives", start);
+            RequireLimit(++_sumTermCount, ParsingLimits.Names.Value, "the file", "terms of sums", start);
+            RequireRepeatedSteps(alternative.Steps.Count, start);
+            weights.Add(weight);
+            alternatives.Add(Bases.PartOf(alternative));
+            if (!ParseBlanks(rest, out start) || start.Current != '|')
+            {
+                return true;
+            }
+        }
+    }
+
+    /// <summary>Tells whether a text begins with a weight: what has a colon behind it.</summary>
+    private static bool IsWeight(ReadOnlySpan<char> text)
+    {
+        var depth = 0;
+        foreach (var character in text)
+        {
+            switch (character)
+            {
+                case ':' when depth == 0:
+                    return true;
+                case ')' when depth == 0:
+                case '\n' or '\r' or '[' or '"' or '|' or '+':
+                    return false;
+            }
+
+            depth += character == '(' ? 1 : character == ')' ? -1 : 0;
+        }
+
+        return false;
+    }
+
+    /// <summary>Parses one thing, or several at one place with plus signs between them.</summary>
+    private bool ParseSum(Cursor cursor, out DeclaredObject value, out Cursor rest)
     {
         if (!ParseObject(cursor, out value, out rest))
         {
@@ -119,7 +224,7 @@ public abstract class ObjectParser : MapSetParser
         }
 
         RequireLimit(++_parentheses, MaxParentheses, "the object", "parentheses inside each other", cursor);
-        var isParsed = ParseBlanks(cursor.Advance(1), out var start) && ParseSum(start, out value, out rest)
+        var isParsed = ParseBlanks(cursor.Advance(1), out var start) && ParseAny(start, out value, out rest)
             && ParseBlanks(rest, out rest) && ParseChar(rest, ')', out rest);
         _parentheses--;
         return isParsed;
@@ -212,7 +317,7 @@ public abstract class ObjectParser : MapSetParser
 
     private bool IsAtEndOfTerm(Cursor cursor) =>
         IsAtEndOfLine(cursor) || cursor.Current == '+' || (cursor.Current == ')' && _parentheses > 0)
-        || (cursor.Current == ',' && Calls is not null);
+        || (cursor.Current == ',' && Calls is not null) || (cursor.Current == '|' && _alternatives > 0);
 
     private void RequireStepLimits(DeclaredSteps steps, Cursor cursor)
     {

@@ -36,10 +36,17 @@ internal static class Parentheses
     /// <summary>Tells whether a text that begins with a parenthesis begins with an object, <c>(a + [t.] b)</c>.</summary>
     /// <remarks>
     /// Outside of inner parentheses, only objects have sets, quotes and plus signs, and only outputs have commas, '#', and three items.
+    /// Only choices have colons.
     /// </remarks>
     public static bool HoldObject(ReadOnlySpan<char> text)
     {
-        // What begins with a number, in however many parentheses, is an output.
+        // What else begins with a number, in however many parentheses, is an output.
+        var first = text.IndexOfAny(":)\n\r");
+        if (first >= 0 && text[first] == ':')
+        {
+            return true;
+        }
+
         if (text.TrimStart("( \t") is not [not (>= '0' and <= '9' or '-' or '.'), ..])
         {
             return false;

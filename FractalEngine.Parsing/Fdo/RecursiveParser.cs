@@ -49,7 +49,7 @@ public abstract class RecursiveParser : ObjectParser
 
         do
         {
-            if (!ParseBlanks(rest, out var start) || !ParseSum(start, out var body, out rest))
+            if (!ParseBlanks(rest, out var start) || !ParseAny(start, out var body, out rest))
             {
                 Calls = null;
                 return false;

@@ -191,7 +191,7 @@ public class RecursiveRaysTests
     {
         hierarchy = FractalHierarchyBuilder.Build(system.GraphOf(root, levels + (isPart ? 2 : 0)), keepsAllLevels: isPart);
         var caster = new FractalRayCaster(hierarchy);
-        return isPart ? caster.At(hierarchy.Levels - (2 * system.Recursives.Length)) : caster;
+        return isPart ? caster.At(new(hierarchy.Levels - (2 * system.Recursives.Length), 0)) : caster;
     }
 
     /// <summary>Finds the triangle that a hit names, and fails where it names the wrong mesh.</summary>

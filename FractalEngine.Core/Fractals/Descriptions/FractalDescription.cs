@@ -42,6 +42,15 @@ public sealed record FractalDescription(ImmutableArray<FractalStep> Steps, Compo
     /// </summary>
     public bool CanBeComponentwise => !IsInfinite && HasOnlyTransformations;
 
+    /// <summary>True where chance decides about something.</summary>
+    public bool HasChance => Parts.Any(static part => part is RecursivePart { HasChoice: true });
+
+    /// <summary>Makes the same description with another seed for all choices.</summary>
+    internal FractalDescription WithSeed(int seed) => this with
+    {
+        Parts = ImmutableArray.CreateRange(Parts, part => part is RecursivePart recursive ? recursive.WithSeed(seed) : part),
+    };
+
     /// <summary>True when all maps were declared by position, rotation and scale; others may be products of many maps.</summary>
     internal bool HasOnlyTransformations => Parts.IsEmpty && Steps.All(HasTransformations);
 

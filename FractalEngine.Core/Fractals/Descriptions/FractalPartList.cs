@@ -56,6 +56,14 @@ public sealed class FractalPartList
         };
     }
 
+    /// <summary>Adds a choice between several parts: one of them stands there, by chance.</summary>
+    /// <param name="alternatives">Indices of the parts.</param>
+    /// <param name="choice">A weight for each.</param>
+    /// <returns>Index of the part.</returns>
+    /// <exception cref="ArgumentException">There are more or fewer weights.</exception>
+    public int AddChoice(ImmutableArray<int> alternatives, Choice choice) => Add(new(
+        new RecursivePart([new(alternatives[0], [.. alternatives.Select(RecursiveCall.ToPart)]) { Choice = choice }], 0, 1), null, null));
+
     /// <summary>Adds a recursive, see <see cref="CreateRecursives"/>.</summary>
     /// <param name="recursives">The recursives of its group.</param>
     /// <param name="root">Its index in the group.</param>
@@ -98,12 +106,24 @@ public sealed class FractalPartList
 
         var recursives = new List<FractalRecursive>(bases.Select(static part => new FractalRecursive(part, [])));
         var named = new Dictionary<int, RecursiveCall>();
+        var unnamed = new FractalRecursive(bases[0], []);
         for (var i = 0; i < bodies.Length; i++)
         {
-            recursives[i] = recursives[i] with { Calls = Expand(bodies[i]) };
+            recursives[i] = Body(recursives[i], bodies[i]);
         }
 
         return [.. recursives];
+
+        // What is by chance in a body is a recursive of its own, and each of its alternatives that is more than a call.
+        FractalRecursive Body(FractalRecursive recursive, int part) =>
+            _entries[part].Part is RecursivePart { IsFlat: true, Recursives: [{ Choice: { } choice } one] } && HasCalls(part)
+                ? recursive with { Choice = choice, Calls = [.. one.Calls.Select(call => NamePart(call.Target))] }
+                : recursive with { Calls = Expand(part) };
+
+        RecursiveCall NamePart(int part) => !HasCalls(part) ? RecursiveCall.ToPart(part)
+            : _entries[part].Call is { } call ? new(AffineMap.Identity, call)
+            : named.TryGetValue(part, out var known) ? known
+            : named[part] = Name(Body(unnamed, part));
 
         ImmutableArray<RecursiveCall> Expand(int part) => _entries[part] switch
         {
@@ -112,10 +132,8 @@ public sealed class FractalPartList
             { Part: SteppedPart { Steps: var steps, Inner: var inner } } => Apply(steps, Expand(inner)),
             { Part: RecursivePart { IsSum: true, Recursives: [var sum] } } => [.. sum.Calls.SelectMany(term =>
                 !HasCalls(term.Target) ? [term]
-                : term.Map == AffineMap.Identity && _entries[term.Target].Call is { } call ? [new(AffineMap.Identity, call)]
-                : (RecursiveCall[])[Under(term.Map, named.TryGetValue(term.Target, out var known)
-                    ? known
-                    : named[term.Target] = Name(Expand(term.Target)))])],
+                : (RecursiveCall[])[Under(term.Map, NamePart(term.Target))])],
+            { Part: RecursivePart { IsFlat: true } } => [NamePart(part)],
             _ => throw new ArgumentException("a recursive within a body can't have calls of the body's recursive", nameof(bodies)),
         };
 
@@ -131,22 +149,22 @@ public sealed class FractalPartList
 
             foreach (var set in Enumerable.Reverse(sets))
             {
-                var target = Name(calls);
+                var target = Name(unnamed with { Calls = calls });
                 calls = ImmutableArray.CreateRange(set.Maps, map => Under(map, target));
             }
 
             return calls;
         }
 
-        // A set of sets, or a sum in a set, is a recursive of its own.
-        RecursiveCall Name(ImmutableArray<RecursiveCall> calls)
+        // A set of sets, or a sum or choice in a set, is a recursive of its own.
+        RecursiveCall Name(FractalRecursive recursive)
         {
-            if (calls is [{ IsConstant: false } only] && only.Map == AffineMap.Identity)
+            if (recursive is { Choice: null, Calls: [{ IsConstant: false } only] } && only.Map == AffineMap.Identity)
             {
                 return only;
             }
 
-            recursives.Add(new(bases[0], calls));
+            recursives.Add(recursive);
             return new(AffineMap.Identity, recursives.Count - 1, LevelsLess: 0);
         }
 
@@ -162,6 +180,9 @@ public sealed class FractalPartList
 
     /// <summary>Tells whether a part is a call itself.</summary>
     public bool IsCall(int part) => _entries[part].Call is not null;
+
+    /// <summary>Tells whether chance decides about something in a part.</summary>
+    private bool HasChance(int part) => _entries[part].HasChance;
 
     /// <summary>Tells whether a part is repeated without end, or made of such parts.</summary>
     public bool IsInfinite(int part) => _entries[part].IsInfinite;
@@ -246,10 +267,12 @@ public sealed class FractalPartList
     private ImmutableArray<RecursiveCall> CallsOf(int part) => _entries[part] switch
     {
         { Part: SteppedPart { Steps: [TransformationSet { Maps.IsEmpty: false } set, .. var rest], Inner: var inner } }
-            when HasCalls(inner) => ApplyTo(set, AddSteps(inner, rest)),
+            when HasCalls(inner) || HasChance(inner) => ApplyTo(set, AddSteps(inner, rest)),
         { Part: SteppedPart { Steps: [TransformationSet { Maps.Length: <= MaxInlined } set], Inner: var inner } } when !HasCalls(inner) =>
             ApplyTo(set, inner),
-        { Part: RecursivePart { IsSum: true, Recursives: [var sum] } } when sum.Calls.Length <= MaxInlined || HasCalls(part) => sum.Calls,
+        // Chance numbers the terms as they are written.
+        { Part: RecursivePart { IsSum: true, Recursives: [var sum] } }
+            when (sum.Calls.Length <= MaxInlined || HasCalls(part)) && !HasChance(part) => sum.Calls,
         _ => [RecursiveCall.ToPart(part)],
     };
 
@@ -266,6 +289,7 @@ public sealed class FractalPartList
             {
                 HasCalls = entry.Call is not null || references.Any(HasCalls),
                 IsInfinite = entry.Part?.IsInfinite == true || references.Any(IsInfinite),
+                HasChance = entry.Part is RecursivePart { HasChoice: true } || references.Any(HasChance),
             });
             _known.Add(entry, index);
         }
@@ -278,5 +302,7 @@ public sealed class FractalPartList
         public bool HasCalls { get; init; }
 
         public bool IsInfinite { get; init; }
+
+        public bool HasChance { get; init; }
     }
 }

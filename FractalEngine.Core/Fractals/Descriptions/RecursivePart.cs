@@ -39,7 +39,14 @@ public sealed class RecursivePart : FractalPart
             throw new ArgumentException("expected calls of the given recursives, with no more levels", nameof(recursives));
         }
 
-        IsSum = levels == 1 && recursives.Length == 1 && calls.Length == 0;
+        if (recursives.Any(static one => one.Choice is { } choice && (choice.Weights.Length != one.Calls.Length
+            || one.Calls.Any(static call => call.Map != AffineMap.Identity))))
+        {
+            throw new ArgumentException("expected a weight for each call of a choice, and calls of what stands as it is", nameof(recursives));
+        }
+
+        IsFlat = levels == 1 && recursives.Length == 1 && calls.Length == 0;
+        HasChoice = recursives.Any(static recursive => recursive.Choice is not null);
         Order = SortByCalls();
     }
 
@@ -62,7 +69,7 @@ public sealed class RecursivePart : FractalPart
     /// The <see cref="RecursiveCall.LevelsLess"/> of all calls where one recursive calls itself, always with as many levels less, and
     /// nothing else but constants; null for others.
     /// </summary>
-    public int? LevelsLessOfLinear => Recursives is [var only]
+    public int? LevelsLessOfLinear => Recursives is [{ Choice: null } only]
         && only.Calls.Where(static call => !call.IsConstant).Select(static call => call.LevelsLess).Distinct().ToArray() is [var less]
         ? less
         : null;
@@ -71,16 +78,22 @@ public sealed class RecursivePart : FractalPart
     public override bool IsInfinite => Levels is null;
 
     /// <inheritdoc/>
-    public override bool MayHoldInfinite => IsSum;
+    public override bool MayHoldInfinite => IsFlat;
 
     /// <inheritdoc/>
-    public override bool HasDepth => !IsSum;
+    public override bool HasDepth => !IsFlat;
 
     /// <summary>True for a sum: earlier parts, each under a map.</summary>
-    public bool IsSum { get; }
+    public bool IsSum => IsFlat && !HasChoice;
+
+    /// <summary>True for a sum, and for a choice of earlier parts: there is nothing to repeat.</summary>
+    public bool IsFlat { get; }
+
+    /// <summary>True where chance decides about the calls of a recursive.</summary>
+    public bool HasChoice { get; }
 
     /// <summary>Number of calls of all recursives, and of themselves, at all levels; null for infinitely many levels.</summary>
-    public long? CallCount => IsSum ? 0 : Levels * Recursives.Sum(static recursive => recursive.Calls.Length + 1L);
+    public long? CallCount => IsFlat ? 0 : Levels * Recursives.Sum(static recursive => recursive.Calls.Length + 1L);
 
     /// <inheritdoc/>
     public override IEnumerable<int> References => Recursives.SelectMany(static recursive => recursive.References);
@@ -104,22 +117,28 @@ public sealed class RecursivePart : FractalPart
         new([new(basePart, calls)], 0, levels);
 
     /// <inheritdoc/>
-    internal override BigInteger? CountInstances(Func<int, BigInteger?> countAt) => Levels is { } levels
-        ? LinearRecurrence.TermAt(
+    internal override BigInteger? CountInstances(Func<int, BigInteger?> countAt) => Levels is not { } levels
+        ? CountInfinite(Root, countAt, [])
+        : HasChoice
+        ? Ascend(countAt, BigInteger.Zero, static (sum, count) => sum + count,
+            static (counts, _) => counts.Any(static count => count is null) ? null : counts.Max())
+            .ElementAt(levels)[Root]
+        : LinearRecurrence.TermAt(
             Ascend(countAt, BigInteger.Zero, static (sum, count) => sum + count).Select(values => values[Root]),
-            (Recursives.Length * Math.Max(1, MaxLevelsLess)) + 1, levels)
-        : CountInfinite(Root, countAt, []);
+            (Recursives.Length * Math.Max(1, MaxLevelsLess)) + 1, levels);
 
     /// <inheritdoc/>
     internal override ScaledCount EstimateInstances(Func<int, ScaledCount> countAt) =>
-        Ascend(countAt, default, static (sum, count) => sum + count).ElementAt(Levels ?? 0)[Root];
+        Ascend(countAt, default, static (sum, count) => sum + count, static (counts, _) => counts.MaxBy(static count => (count.Scale, count.Mantissa))).ElementAt(Levels ?? 0)[Root];
 
     /// <summary>Computes a value of each recursive with 0 levels, with 1, and so on without end.</summary>
     /// <param name="valueAt">Gives the value of an earlier part.</param>
     /// <param name="zero">The value of nothing.</param>
     /// <param name="add">Adds a value to a sum.</param>
+    /// <param name="choose">Makes one value of those of the alternatives of a choice; null to add them as those of sums.</param>
     /// <returns>The values by recursives; valid until the next are asked for.</returns>
-    internal IEnumerable<T[]> Ascend<T>(Func<int, T> valueAt, T zero, Func<T, T, T> add)
+    internal IEnumerable<T[]> Ascend<T>(
+        Func<int, T> valueAt, T zero, Func<T, T, T> add, Func<T[], Choice, T>? choose = null)
     {
         T[] bases = [.. Recursives.Select(recursive => valueAt(recursive.BasePart))];
         yield return bases;
@@ -129,12 +148,17 @@ public sealed class RecursivePart : FractalPart
             var values = latest[levels % latest.Length] ??= new T[Recursives.Length];
             foreach (var caller in Order)
             {
-                var sum = zero;
-                foreach (var call in Recursives[caller].Calls)
+                var recursive = Recursives[caller];
+                if (recursive.Choice is { } choice && choose is not null)
                 {
-                    sum = add(sum, call.LevelsLess is not { } less ? valueAt(call.Target)
-                        : less >= levels ? bases[call.Target]
-                        : latest[(levels - less) % latest.Length][call.Target]);
+                    values[caller] = choose([.. recursive.Calls.Select(call => ValueOf(call, levels))], choice);
+                    continue;
+                }
+
+                var sum = zero;
+                foreach (var call in recursive.Calls)
+                {
+                    sum = add(sum, ValueOf(call, levels));
                 }
 
                 values[caller] = sum;
@@ -142,6 +166,10 @@ public sealed class RecursivePart : FractalPart
 
             yield return values;
         }
+
+        T ValueOf(RecursiveCall call, int levels) => call.LevelsLess is not { } less ? valueAt(call.Target)
+            : less >= levels ? bases[call.Target]
+            : latest[(levels - less) % latest.Length][call.Target];
     }
 
     /// <inheritdoc/>
@@ -153,7 +181,7 @@ public sealed class RecursivePart : FractalPart
         }
 
         // A term of a sum is no level of its own where it stands as it is. There may be none.
-        return IsSum
+        return IsFlat
             ? Recursives[0].Calls.Max(call => levelsAt(call.Target) + (call.Map == AffineMap.Identity ? 0 : 1)) ?? 0
             : Ascend(part => levelsAt(part)!.Value, 0, static (longest, count) => Math.Max(longest, count + 1)).ElementAt(levels)[Root];
     }
@@ -162,13 +190,19 @@ public sealed class RecursivePart : FractalPart
     internal override FractalPart WithDepth(int depth) => new RecursivePart(Recursives, Root, depth);
 
     /// <inheritdoc/>
-    internal override FractalPart WithMaxDepth(int depth) => IsSum || Levels <= depth ? this : WithDepth(depth);
+    internal override FractalPart WithMaxDepth(int depth) => IsFlat || Levels <= depth ? this : WithDepth(depth);
+
+    /// <summary>Makes the same part with another seed for all choices.</summary>
+    internal RecursivePart WithSeed(int seed) => !HasChoice ? this : new(
+        ImmutableArray.CreateRange(Recursives, recursive => recursive with { Choice = recursive.Choice?.WithSeed(seed) }), Root, Levels);
 
     /// <inheritdoc/>
     internal override FractalPart WithReferences(Func<int, int> indexOf) => new RecursivePart(
-        [.. Recursives.Select(recursive => new FractalRecursive(
-            indexOf(recursive.BasePart),
-            [.. recursive.Calls.Select(call => call.IsConstant ? call with { Target = indexOf(call.Target) } : call)]))],
+        [.. Recursives.Select(recursive => recursive with
+        {
+            BasePart = indexOf(recursive.BasePart),
+            Calls = [.. recursive.Calls.Select(call => call.IsConstant ? call with { Target = indexOf(call.Target) } : call)],
+        })],
         Root, Levels);
 
     /// <summary>Tells whether the other part has the same recursives, perhaps with another root or so many levels.</summary>

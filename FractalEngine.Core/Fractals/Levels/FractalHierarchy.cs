@@ -23,20 +23,41 @@ internal sealed class FractalHierarchy(Mesh[] baseMeshes, LevelTable<HierarchyLe
     private readonly SubFractal?[] _lowest =
         [.. Enumerable.Range(0, (int)Math.Min(top, MaxLowestLevel) + 1).Select(level => levels.At(level).SubFractal)];
 
+    /// <summary>The place of the whole fractal, before chance decides what it is.</summary>
+    public LevelState Top { get; } = new(top, 0);
+
+    /// <summary>The place of the whole fractal.</summary>
+    public LevelState Start { get; private set; } = new(top, 0);
+
     /// <summary>The base meshes, by which the lowest states are numbered.</summary>
     public Mesh[] BaseMeshes { get; } = baseMeshes;
 
     /// <summary>Number of levels of the whole fractal, which is its state; a huge number where they are infinitely many.</summary>
-    public long Levels { get; } = top;
+    public long Levels => Start.Level;
 
     /// <summary>The sub-fractal with all levels, which is the whole fractal.</summary>
-    public SubFractal Root { get; } = levels.At(top).SubFractal!;
+    public SubFractal Root { get; private set; } = levels.At(top).SubFractal!;
 
     /// <summary>Square of half the diagonal of the whole fractal's box.</summary>
-    public double RadiusSquared { get; } = 0.25 * levels.At(top).SubFractal!.Box.Size.LengthSquared();
+    public double RadiusSquared => 0.25 * Root.Box.Size.LengthSquared();
 
     /// <summary>True when all maps are similarities, so that they multiply distances by their scale.</summary>
     public bool HasOnlySimilarities { get; init; }
+
+    /// <summary>True where chance decides about something.</summary>
+    public bool HasChance
+    {
+        get;
+        init
+        {
+            field = value;
+            Start = Resolve(Top);
+            Root = At(Start.Level);
+        }
+    }
+
+    /// <summary>True where the way to a place decides by chance, and not only its level.</summary>
+    public bool DependsOnWays => AllLevels.Items.ToArray().Any(static level => level.Set?.Pick?.DependsOnWay == true);
 
     /// <summary>True when levels stand for doubled powers of one map, so that there is not one for each set.</summary>
     public bool HasDoubledPowers { get; init; }
@@ -76,6 +97,72 @@ internal sealed class FractalHierarchy(Mesh[] baseMeshes, LevelTable<HierarchyLe
     /// <param name="remainingLevels">Remaining levels of the child.</param>
     public SubFractal At(ChildInstance child, long remainingLevels) => child.Group ?? At(remainingLevels);
 
+    /// <summary>Goes on from a place to a child: as far as chance decides at once.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public LevelState Enter(ChildInstance child, in LevelState parent) =>
+        HasChance ? EnterByChance(child, in parent) : new(child.RemainingLevels(parent.Level), 0);
+
+    /// <summary>Goes on from a place by a path of children.</summary>
+    /// <param name="path">Indices of child instances, perhaps through groups.</param>
+    /// <param name="start">The place where it begins.</param>
+    /// <returns>The place where it ends, and what stands there.</returns>
+    public (LevelState State, SubFractal SubFractal) Enter(ReadOnlySpan<int> path, in LevelState start)
+    {
+        var (state, subFractal) = (start, At(start.Level));
+        foreach (var index in path)
+        {
+            var child = subFractal.Children[index];
+            state = Enter(child, in state);
+            subFractal = At(child, state.Level);
+        }
+
+        return (state, subFractal);
+    }
+
+    /// <summary>Decides by chance what stands at a place.</summary>
+    /// <param name="state">The place; receives that of the alternative.</param>
+    /// <param name="index">The index of the alternative.</param>
+    /// <returns>False where there is nothing to decide.</returns>
+    public bool TryPick(ref LevelState state, out int index)
+    {
+        index = -1;
+        if (MapSetAt(state.Level)?.Pick is not { } pick)
+        {
+            return false;
+        }
+
+        index = pick.Select(in state);
+        state = AllLevels.At(state.Level).Edges[index].Enter(in state);
+        return true;
+    }
+
+    /// <summary>Goes on from a place as far as chance decides.</summary>
+    public LevelState Resolve(LevelState state)
+    {
+        while (TryPick(ref state, out _))
+        {
+        }
+
+        return state;
+    }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    private LevelState EnterByChance(ChildInstance child, in LevelState parent)
+    {
+        if (child.Group is not null)
+        {
+            return parent;
+        }
+
+        var state = parent;
+        foreach (ref readonly var edge in child.Edges)
+        {
+            state = edge.Enter(in state);
+        }
+
+        return Resolve(state);
+    }
+
     /// <summary>The set on top of the sub-fractal with a number of remaining levels, visited or not; null for the base.</summary>
     public MapSet? MapSetAt(long remainingLevels) => AllLevels.At(remainingLevels).Set;
 
@@ -83,15 +170,7 @@ internal sealed class FractalHierarchy(Mesh[] baseMeshes, LevelTable<HierarchyLe
     /// <param name="path">Indices of child instances from the root.</param>
     public Mesh BaseMeshAt(ReadOnlySpan<int> path)
     {
-        var (subFractal, level) = (Root, Levels);
-        foreach (var childIndex in path)
-        {
-            var child = subFractal.Children[childIndex];
-            level = child.RemainingLevels(level);
-            subFractal = At(child, level);
-        }
-
-        return BaseMeshes[subFractal.BaseIndex];
+        return BaseMeshes[Enter(path, Start).SubFractal.BaseIndex];
     }
 
     /// <summary>Sums the bytes of the children, each once: levels with the same edges share them, and so do narrow ones.</summary>

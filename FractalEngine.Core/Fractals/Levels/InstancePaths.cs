@@ -7,29 +7,31 @@ internal static class InstancePaths
 {
     /// <summary>Follows a path by the indices of its maps.</summary>
     /// <param name="hierarchy">The hierarchy, see <see cref="Fractal.HierarchyBySets"/>.</param>
-    /// <param name="level">The level from which the path goes down.</param>
+    /// <param name="start">The place from which the path goes down.</param>
     /// <param name="path">For each set or call, the outermost first, the index of the map.</param>
-    /// <returns>For each index its set, and the level to which the map leads; null where the hierarchy has no such path.</returns>
+    /// <returns>
+    /// For each index its set, and the level to which the map leads; null where the hierarchy has no such path, or chance leaves it out.
+    /// </returns>
     public static List<(MapSet Set, int Index, long Level)>? Follow(
-        this FractalHierarchy hierarchy, long level, ReadOnlySpan<int> path)
+        this FractalHierarchy hierarchy, LevelState start, ReadOnlySpan<int> path)
     {
-        if (level < 0)
+        if (start.Level < 0)
         {
             return null;
         }
 
         var steps = new List<(MapSet Set, int Index, long Level)>(path.Length);
-        level = SkipLinks(hierarchy, level);
+        var state = SkipLinks(hierarchy, start);
         foreach (var index in path)
         {
-            if (SetAt(hierarchy, level) is not { } set || (uint)index >= (uint)set.Maps.Length
-                || LevelBelow(hierarchy, level, set, index) is not { } next)
+            if (SetAt(hierarchy, state.Level) is not { } set || (uint)index >= (uint)set.Maps.Length
+                || Below(hierarchy, state, set, index) is not { } next)
             {
                 return null;
             }
 
-            level = next;
-            steps.Add((set, index, level));
+            state = next;
+            steps.Add((set, index, state.Level));
         }
 
         return steps;
@@ -41,19 +43,19 @@ internal static class InstancePaths
     /// <returns>The level of each, with the map from its frame to that of the fractal.</returns>
     public static IEnumerable<(long Level, AffineMap Map)> ListAt(this FractalHierarchy hierarchy, int depth)
     {
-        var open = new Stack<(long Level, int Depth, AffineMap Map)>([(SkipLinks(hierarchy, hierarchy.Levels), 0, AffineMap.Identity)]);
+        var open = new Stack<(LevelState State, int Depth, AffineMap Map)>([(SkipLinks(hierarchy, hierarchy.Top), 0, AffineMap.Identity)]);
         while (open.TryPop(out var part))
         {
             if (part.Depth == depth)
             {
-                yield return (part.Level, part.Map);
+                yield return (part.State.Level, part.Map);
                 continue;
             }
 
-            for (var (set, index) = (SetAt(hierarchy, part.Level), 0); index < set?.Maps.Length; index++)
+            for (var (set, index) = (SetAt(hierarchy, part.State.Level), 0); index < set?.Maps.Length; index++)
             {
                 var child = set.Maps.Length - 1 - index;
-                if (LevelBelow(hierarchy, part.Level, set, child) is { } next)
+                if (Below(hierarchy, part.State, set, child) is { } next)
                 {
                     open.Push((next, part.Depth + 1, part.Map * set.Maps[child]));
                 }
@@ -64,17 +66,19 @@ internal static class InstancePaths
     /// <summary>The maps that a level has on paths; null for base meshes.</summary>
     private static MapSet? SetAt(FractalHierarchy hierarchy, long level) => hierarchy.IsBase(level) ? null : hierarchy.MapSetAt(level);
 
-    /// <summary>The level to which a map of a level leads; null where there is nothing.</summary>
-    private static long? LevelBelow(FractalHierarchy hierarchy, long level, MapSet set, int index) =>
-        (set.IsOfCalls ? LevelOfCall(hierarchy, level, index) : level - 1) is { } next ? SkipLinks(hierarchy, next) : null;
-
-    private static long? LevelOfCall(FractalHierarchy hierarchy, long level, int index)
+    /// <summary>The place to which a map leads; null where there is nothing.</summary>
+    private static LevelState? Below(FractalHierarchy hierarchy, in LevelState state, MapSet set, int index)
     {
-        foreach (var edge in hierarchy.AllLevels.At(level).Edges)
+        if (!set.IsOfCalls)
+        {
+            return SkipLinks(hierarchy, new ChildEdge(set, index, LevelStep.Down(1)).Enter(in state));
+        }
+
+        foreach (var edge in hierarchy.AllLevels.At(state.Level).Edges)
         {
             if (edge.MapIndex == index)
             {
-                return edge.RemainingLevels(level);
+                return set.Pick is { } pick && pick.Select(in state) != index ? null : SkipLinks(hierarchy, edge.Enter(in state));
             }
         }
 
@@ -82,13 +86,13 @@ internal static class InstancePaths
     }
 
     /// <summary>Goes down from levels that only lead to another part.</summary>
-    private static long SkipLinks(FractalHierarchy hierarchy, long level)
+    private static LevelState SkipLinks(FractalHierarchy hierarchy, LevelState state)
     {
-        while (hierarchy.MapSetAt(level) == MapSet.Link)
+        while (hierarchy.MapSetAt(state.Level) == MapSet.Link)
         {
-            level = hierarchy.AllLevels.At(level).Edges[0].RemainingLevels(level);
+            state = hierarchy.AllLevels.At(state.Level).Edges[0].Enter(in state);
         }
 
-        return level;
+        return state;
     }
 }

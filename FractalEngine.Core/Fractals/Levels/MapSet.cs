@@ -46,6 +46,12 @@ internal sealed class MapSet
     /// <summary>True where each map is that of a call: it leads to a recursive of its own, and skips no level by an identity.</summary>
     public bool IsOfCalls { get; init; }
 
+    /// <summary>Decides which one of the calls stands at a place; null where all do.</summary>
+    public LevelPick? Pick { get; init; }
+
+    /// <summary>For each call its number as chance counts; none for sets that are no calls.</summary>
+    public (int Term, int Map)[] Numbers { get; init; } = [];
+
     /// <summary>The set that contains the identity alone.</summary>
     public static MapSet Identity { get; } = new([AffineMap.Identity]);
 
@@ -69,6 +75,12 @@ internal sealed class MapSet
 
     /// <summary>True when all maps are similarities.</summary>
     public bool AreSimilarities { get; }
+
+    /// <summary>The way through one of the maps.</summary>
+    public WrittenWay WayOf(int index) => this == Identity || this == Link ? WrittenWay.Empty
+        : Pick is not null ? WrittenWay.Of(index)
+        : Numbers.Length > 0 ? WrittenWay.Of(Numbers[index].Term, Numbers[index].Map)
+        : WrittenWay.Of(0, index);
 
     /// <summary>Number of bytes of the arrays.</summary>
     public long StorageBytes => Maps.Length * (_inverses is null ? 14 : 26) * sizeof(double);

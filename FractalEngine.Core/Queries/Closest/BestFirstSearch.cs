@@ -29,7 +29,7 @@ internal sealed class BestFirstSearch(FractalHierarchy hierarchy, TriangleBvh[] 
         var simdPosition = SimdAffineMap.ToVector256(position);
         var expandedChildren = search.ExpandedChildren;
         expandedChildren.Clear();
-        var root = new SearchNode(hierarchy.Root, hierarchy.Levels, new(map), new(map.Inverse()), -1, 0, 0);
+        var root = new SearchNode(hierarchy.Root, hierarchy.Start, new(map), new(map.Inverse()), -1, 0, 0);
         if (search.ClosestFace < 0)
         {
             Descend(root, simdPosition, ref search);
@@ -111,10 +111,10 @@ internal sealed class BestFirstSearch(FractalHierarchy hierarchy, TriangleBvh[] 
     private SearchNode Enter(in SearchNode parent, int childIndex, int parentNode)
     {
         var child = parent.SubFractal.Children[childIndex];
-        var remainingLevels = child.RemainingLevels(parent.RemainingLevels);
+        var state = hierarchy.Enter(child, in parent.State);
         return new(
-            hierarchy.At(child, remainingLevels),
-            remainingLevels,
+            hierarchy.At(child, state.Level),
+            state,
             SimdAffineMap.Compose(in parent.Map, child.SimdMap),
             SimdAffineMap.Compose(in child.InverseSimdMap, in parent.Inverse),
             parentNode,
@@ -123,7 +123,7 @@ internal sealed class BestFirstSearch(FractalHierarchy hierarchy, TriangleBvh[] 
     }
 
     private bool IsLeaf(in SearchNode node, in FractalSearchState search) =>
-        hierarchy.IsBase(node.RemainingLevels) || node.Depth >= InstanceResolver.MaxDepth
+        hierarchy.IsBase(node.State.Level) || node.Depth >= InstanceResolver.MaxDepth
         || node.SubFractal.RadiusSquared * node.Map.FrobeniusNormSquared() <= search.MinRadiusSquared;
 
     private static ChildQueue QueueChildren(in SearchNode node, Vector256<double> position, ref FractalSearchState search)

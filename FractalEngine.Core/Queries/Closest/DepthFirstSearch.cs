@@ -27,18 +27,19 @@ internal sealed class DepthFirstSearch<TFrame, TBaseMeshes>(
     private readonly TBaseMeshes _baseMeshes = baseMeshes;
 
     /// <inheritdoc/>
-    public void Run(TFrame frame, ref FractalSearchState search) => Visit(hierarchy.Root, hierarchy.Levels, ref frame, 0, 0, ref search);
+    public void Run(TFrame frame, ref FractalSearchState search) => Visit(hierarchy.Root, hierarchy.Start, ref frame, 0, 0, ref search);
 
     /// <summary>Searches a sub-fractal and its children.</summary>
     /// <param name="subFractal">The sub-fractal.</param>
-    /// <param name="remainingLevels">Its remaining levels.</param>
+    /// <param name="state">Its place.</param>
     /// <param name="frame">Its frame, which stays as it is; an <c>in</c> parameter would be copied by each call of the interface.</param>
     /// <param name="depth">Number of child instances that lead to it.</param>
     /// <param name="offset">Where free scratch memory begins.</param>
     /// <param name="search">The state of the search.</param>
     private void Visit(
-        SubFractal subFractal, long remainingLevels, ref TFrame frame, int depth, int offset, ref FractalSearchState search)
+        SubFractal subFractal, LevelState state, ref TFrame frame, int depth, int offset, ref FractalSearchState search)
     {
+        var remainingLevels = state.Level;
         if (remainingLevels < _meshLevels && expandedLevels.At(remainingLevels) is { } expanded)
         {
             frame.TestTriangles(expanded.Bvh, expanded, depth, ref search);
@@ -68,7 +69,7 @@ internal sealed class DepthFirstSearch<TFrame, TBaseMeshes>(
             search.BoundTests += subFractal.Children.Length;
             // Outside all children, their hulls have better bounds than lanes compute.
             var refined = lanes.IsComplete && !search.NeedsTightBounds && subFractal.IsWithinRadii(position, 1) ? ulong.MaxValue : 0;
-            VisitChildren(subFractal, remainingLevels, ref frame, depth, offset + lanes.PaddedCount, queue, refined, ref search);
+            VisitChildren(subFractal, state, ref frame, depth, offset + lanes.PaddedCount, queue, refined, ref search);
         }
         else
         {
@@ -78,18 +79,18 @@ internal sealed class DepthFirstSearch<TFrame, TBaseMeshes>(
             var refined = 0UL;
             if (subFractal.Clusters is not null)
             {
-                RefineAll(subFractal, remainingLevels, ref frame, in queue, cutoffSquared, ref search);
+                RefineAll(subFractal, state, ref frame, in queue, cutoffSquared, ref search);
                 refined = ulong.MaxValue;
             }
 
-            VisitChildren(subFractal, remainingLevels, ref frame, depth, offset + length, queue, refined, ref search);
+            VisitChildren(subFractal, state, ref frame, depth, offset + length, queue, refined, ref search);
         }
     }
 
     /// <summary>Searches the children in a queue.</summary>
     /// <typeparam name="TQueue">The kind of queue; a struct, so that the search is compiled for it.</typeparam>
     /// <param name="subFractal">The sub-fractal.</param>
-    /// <param name="remainingLevels">Its remaining levels.</param>
+    /// <param name="state">Its place.</param>
     /// <param name="frame">Its frame.</param>
     /// <param name="depth">Number of child instances that lead to it.</param>
     /// <param name="offset">Where free scratch memory begins.</param>
@@ -97,7 +98,7 @@ internal sealed class DepthFirstSearch<TFrame, TBaseMeshes>(
     /// <param name="refined">One bit for each child whose bound is the best there is.</param>
     /// <param name="search">The state of the search.</param>
     private void VisitChildren<TQueue>(
-        SubFractal subFractal, long remainingLevels, ref TFrame frame, int depth, int offset, TQueue queue, ulong refined,
+        SubFractal subFractal, LevelState state, ref TFrame frame, int depth, int offset, TQueue queue, ulong refined,
         ref FractalSearchState search)
         where TQueue : struct, IChildQueue, allows ref struct
     {
@@ -108,8 +109,16 @@ internal sealed class DepthFirstSearch<TFrame, TBaseMeshes>(
         while (hasNext)
         {
             var child = children[closestChild];
-            var childLevels = child.RemainingLevels(remainingLevels);
+            var childState = hierarchy.Enter(child, in state);
+            var childLevels = childState.Level;
             var childSubFractal = hierarchy.At(child, childLevels);
+            if (hierarchy.HasChance && childSubFractal.Box.IsEmpty)
+            {
+                queue.Remove(closestChild);
+                hasNext = queue.TryPeek(cutoffSquared, cutoff, out closestChild);
+                continue;
+            }
+
             var childFrame = frame.Enter(child);
             var isSmallBase = childLevels < _baseMeshes.Count && _baseMeshes.MaxFaceCount <= MaxFacesWithoutHull;
             // While nothing excludes any child, one around the position is visited as it is; but not from far above the faces.
@@ -134,7 +143,7 @@ internal sealed class DepthFirstSearch<TFrame, TBaseMeshes>(
 
             queue.Remove(closestChild);
             search.RecordChild(depth, closestChild);
-            Visit(childSubFractal, childLevels, ref childFrame, depth + 1, offset, ref search);
+            Visit(childSubFractal, childState, ref childFrame, depth + 1, offset, ref search);
             cutoffSquared = frame.ChildCutoffSquared(in search);
             cutoff = frame.ChildCutoff(in search);
             hasNext = queue.TryPeek(cutoffSquared, cutoff, out closestChild);
@@ -143,7 +152,7 @@ internal sealed class DepthFirstSearch<TFrame, TBaseMeshes>(
 
     /// <summary>Refines all children, where their boxes are nearly empty and tell nothing of their order.</summary>
     private void RefineAll(
-        SubFractal subFractal, long remainingLevels, ref TFrame frame, in ChildQueue queue, double cutoffSquared,
+        SubFractal subFractal, LevelState state, ref TFrame frame, in ChildQueue queue, double cutoffSquared,
         ref FractalSearchState search)
     {
         for (var i = 0; i < subFractal.Children.Length; i++)
@@ -155,8 +164,8 @@ internal sealed class DepthFirstSearch<TFrame, TBaseMeshes>(
 
             var child = subFractal.Children[i];
             var childFrame = frame.Enter(child);
-            var childSubFractal = hierarchy.At(child, child.RemainingLevels(remainingLevels));
-            queue.Refine(i, frame.RefinedBoundSquared(subFractal, child, childSubFractal, ref childFrame, cutoffSquared, ref search));
+            var childSubFractal = hierarchy.At(child, hierarchy.Enter(child, in state).Level);
+            queue.Refine(i, childSubFractal.Box.IsEmpty ? double.PositiveInfinity : frame.RefinedBoundSquared(subFractal, child, childSubFractal, ref childFrame, cutoffSquared, ref search));
         }
     }
 }

@@ -12,7 +12,7 @@ namespace FractalEngine.Core.Queries.Regions;
 /// <param name="maxBoundTests">Number of bounds after which the traversal gives up.</param>
 internal readonly struct BoxPolicy(BoundingBox box, bool isRounded, long maxBoundTests) : ITraversalPolicy
 {
-    private readonly ShapeNode _boxNode = new(null, 0, default, baseIndex: 0, AffineMap.Identity, box, 0);
+    private readonly ShapeNode _boxNode = new(null, default, default, baseIndex: 0, AffineMap.Identity, box, 0);
 
     /// <inheritdoc/>
     public long MaxBoundTests => maxBoundTests;

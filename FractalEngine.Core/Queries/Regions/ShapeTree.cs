@@ -57,23 +57,23 @@ internal sealed class ShapeTree
     /// <param name="map">From the shape's frame to that of the query.</param>
     public ShapeNode Root(in AffineMap map) => _hierarchy is null
         ? CreateBase(null, 0, in map, 0)
-        : Create(_hierarchy.Root, _hierarchy.Levels, in map, MinRadiusSquared(in map), 0, 0);
+        : Create(_hierarchy.Root, _hierarchy.Start, in map, MinRadiusSquared(in map), 0, 0);
 
     /// <summary>Finds the node that a path of child instances leads to. Only for fractals.</summary>
-    /// <param name="levels">Remaining levels of the sub-fractal where the path begins, in whose frame the node is.</param>
+    /// <param name="start">The place of the sub-fractal where the path begins, in whose frame the node is.</param>
     /// <param name="path">Indices of child instances from there.</param>
-    public ShapeNode Node(long levels, ReadOnlySpan<int> path)
+    public ShapeNode Node(LevelState start, ReadOnlySpan<int> path)
     {
-        var (subFractal, map) = (_hierarchy!.At(levels), AffineMap.Identity);
+        var (subFractal, state, map) = (_hierarchy!.At(start.Level), start, AffineMap.Identity);
         foreach (var index in path)
         {
             var child = subFractal.Children[index];
-            levels = child.RemainingLevels(levels);
-            subFractal = _hierarchy.At(child, levels);
+            state = _hierarchy.Enter(child, in state);
+            subFractal = _hierarchy.At(child, state.Level);
             map = child.Group is null ? map * child.Map : map;
         }
 
-        return Create(subFractal, levels, in map, MinRadiusSquared(AffineMap.Identity), path.Length, Box.MaxAbsCoordinate());
+        return Create(subFractal, state, in map, MinRadiusSquared(AffineMap.Identity), path.Length, Box.MaxAbsCoordinate());
     }
 
     /// <summary>Square of the radius in the frame of the query at which a sub-fractal is replaced by a base mesh; 0 for a mesh.</summary>
@@ -97,13 +97,13 @@ internal sealed class ShapeTree
         if (node.IsBase)
         {
             var exists = _bvhs![node.BaseIndex].TryGetChild(node.BvhNode, index, out var bvhNode, out var box);
-            child = exists ? new(null, 0, bvhNode, node.BaseIndex, node.Map, box, node.Reach) : default;
+            child = exists ? new(null, default, bvhNode, node.BaseIndex, node.Map, box, node.Reach) : default;
             return exists;
         }
 
         var instance = node.SubFractal!.Children[index];
-        var levels = instance.RemainingLevels(node.RemainingLevels);
-        var subFractal = _hierarchy!.At(instance, levels);
+        var state = _hierarchy!.Enter(instance, node.State);
+        var subFractal = _hierarchy.At(instance, state.Level);
         if (subFractal.Box.IsEmpty)
         {
             child = default;
@@ -111,7 +111,7 @@ internal sealed class ShapeTree
         }
 
         var map = instance.Group is null ? node.Map * instance.Map : node.Map;
-        child = Create(subFractal, levels, in map, minRadiusSquared, depth, node.Reach);
+        child = Create(subFractal, state, in map, minRadiusSquared, depth, node.Reach);
         return true;
     }
 
@@ -179,12 +179,12 @@ internal sealed class ShapeTree
         map.Linear.V1.LengthSquared() + map.Linear.V2.LengthSquared() + map.Linear.V3.LengthSquared();
 
     private ShapeNode Create(
-        SubFractal subFractal, long levels, in AffineMap map, double minRadiusSquared, int depth, double reach) =>
-        _hierarchy!.IsBase(levels) ? CreateBase(subFractal, subFractal.BaseIndex, in map, reach)
+        SubFractal subFractal, LevelState state, in AffineMap map, double minRadiusSquared, int depth, double reach) =>
+        _hierarchy!.IsBase(state.Level) ? CreateBase(subFractal, subFractal.BaseIndex, in map, reach)
         : depth >= InstanceResolver.MaxDepth || subFractal.RadiusSquared * FrobeniusNormSquared(in map) <= minRadiusSquared
             ? CreateBase(null, subFractal.BaseIndex, in map, reach)
-            : new(subFractal, levels, default, baseIndex: -1, in map, subFractal.Box, reach);
+            : new(subFractal, state, default, baseIndex: -1, in map, subFractal.Box, reach);
 
     private ShapeNode CreateBase(SubFractal? subFractal, int baseIndex, in AffineMap map, double reach) =>
-        new(subFractal, 0, BvhChild.Root, baseIndex, in map, subFractal?.Box ?? _meshes[baseIndex].UsedBounds, reach);
+        new(subFractal, default, BvhChild.Root, baseIndex, in map, subFractal?.Box ?? _meshes[baseIndex].UsedBounds, reach);
 }

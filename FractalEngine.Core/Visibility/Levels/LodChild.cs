@@ -1,3 +1,4 @@
+using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Fractals.Levels;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
@@ -9,4 +10,8 @@ namespace FractalEngine.Core.Visibility.Levels;
 /// <param name="Box">Box that holds the child, in the node's frame.</param>
 /// <param name="LevelStep">Step from the node's remaining levels to the child's.</param>
 /// <param name="MapIndex">Index of the map in its set; −1 for the identity, which changes no colour.</param>
-internal readonly record struct LodChild(AffineMap Map, BoundingBox Box, LevelStep LevelStep, int MapIndex);
+internal readonly record struct LodChild(AffineMap Map, BoundingBox Box, LevelStep LevelStep, int MapIndex)
+{
+    /// <summary>The way to the child, by which chance decides.</summary>
+    public WrittenWay Way { get; init; } = WrittenWay.Empty;
+}

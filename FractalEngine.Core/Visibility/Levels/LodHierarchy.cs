@@ -26,7 +26,7 @@ public sealed class LodHierarchy
     internal LodHierarchy(LevelTable<LodNode> nodes, long levelCount, Mesh mesh)
     {
         _nodes = nodes;
-        LevelCount = levelCount;
+        Start = new(levelCount, 0);
         ColourLevels = levelCount;
         Mesh = mesh;
         Occluder = new(mesh);
@@ -45,7 +45,21 @@ public sealed class LodHierarchy
     internal VisibleSides VisibleSides => _visibleSides ??= new(Mesh);
 
     /// <summary>Number of levels of the whole fractal; a huge number where they are infinitely many.</summary>
-    internal long LevelCount { get; }
+    internal long LevelCount => Start.Level;
+
+    /// <summary>The place of the whole fractal.</summary>
+    internal LevelState Start { get; private set; }
+
+    /// <summary>True where chance decides about something.</summary>
+    internal bool HasChance
+    {
+        get;
+        init
+        {
+            field = value;
+            Start = Resolve(Start);
+        }
+    }
 
     /// <summary>Number of maps of the longest chain, by which gradients go; a huge number where they are infinitely many.</summary>
     internal long ColourLevels { get; init; }
@@ -110,6 +124,27 @@ public sealed class LodHierarchy
     /// <summary>Finds the masks of a node with a number of remaining levels; null for none.</summary>
     internal SkyMasks? SkyMasksAt(LodNode node, long remainingLevels) =>
         remainingLevels < _lastSkyMasks.Length ? _lastSkyMasks[remainingLevels] : node.SkyMasks;
+
+    /// <summary>Goes on from a place to a child: as far as chance decides at once.</summary>
+    /// <param name="node">The node of the place.</param>
+    /// <param name="child">Index of the child.</param>
+    /// <param name="parent">The place.</param>
+    internal LevelState Enter(LodNode node, int child, in LevelState parent)
+    {
+        var level = node.ChildLevelSteps[child].RemainingLevels(parent.Level);
+        return HasChance ? Resolve(new(level, node.ChildWays[child].After(parent.Way))) : new(level, 0);
+    }
+
+    private LevelState Resolve(LevelState state)
+    {
+        while (HasChance && NodeAt(state.Level) is { Pick: { } pick } node)
+        {
+            var index = pick.Select(in state);
+            state = new(node.ChildLevelSteps[index].RemainingLevels(state.Level), node.ChildWays[index].After(state.Way));
+        }
+
+        return state;
+    }
 
     /// <summary>Finds the node of a number of remaining levels.</summary>
     internal LodNode NodeAt(long remainingLevels) => _nodes.At(remainingLevels);

@@ -23,20 +23,26 @@ internal static class LodHierarchyBuilder
         var mesh = fractal.HasSeveralMeshes ? Mesh.Empty : fractal.BaseMesh;
         var baseBox = fractal.HasSeveralMeshes ? BoundingBox.Empty
             : hierarchy.AllLevels.Items[fractal.BaseMeshes.IndexOf(mesh)].Box;
-        return new(hierarchy.AllLevels.Select(level => BuildNode(level, baseBox)), hierarchy.Levels, mesh)
+        return new(hierarchy.AllLevels.Select(level => BuildNode(level, baseBox)), hierarchy.Top.Level, mesh)
         {
-            ColourLevels = fractal.LevelCount ?? hierarchy.Levels,
+            HasChance = hierarchy.HasChance,
+            ColourLevels = fractal.LevelCount ?? hierarchy.Top.Level,
         };
     }
 
     private static LodNode BuildNode(HierarchyLevel level, BoundingBox baseBox)
     {
-        var children = level.Edges.Zip(level.GetEdgeBoxes()).Where(static child => !child.Second.IsEmpty);
-        return new(level.Box, ComputeProxyMap(baseBox, level.Box), [.. children.Select(CreateChild)], level.Set?.Maps.Length ?? 0);
+        // Chance knows the alternatives by their numbers, so that none is left out.
+        var pick = level.Set?.Pick;
+        var children = level.Edges.Zip(level.GetEdgeBoxes()).Where(child => pick is not null || !child.Second.IsEmpty);
+        return new(level.Box, ComputeProxyMap(baseBox, level.Box), [.. children.Select(CreateChild)], level.Set?.Maps.Length ?? 0, pick);
     }
 
     private static LodChild CreateChild((ChildEdge Edge, BoundingBox Box) child) => new(
-        child.Edge.Map, child.Box, child.Edge.LevelStep, child.Edge.Map == AffineMap.Identity ? -1 : child.Edge.MapIndex);
+        child.Edge.Map, child.Box, child.Edge.LevelStep, child.Edge.Map == AffineMap.Identity ? -1 : child.Edge.MapIndex)
+        {
+            Way = child.Edge.Set.WayOf(child.Edge.MapIndex),
+        };
 
     /// <summary>Computes the map under which the base mesh is the proxy of what a box holds.</summary>
     /// <remarks>

@@ -1,4 +1,5 @@
 using System.Runtime.Intrinsics;
+using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Fractals.Levels;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
@@ -30,8 +31,10 @@ internal sealed class LodNode
     /// </param>
     /// <param name="children">Child instances, each once; none for the base mesh itself.</param>
     /// <param name="setSize">Number of maps of the set that the maps of the children are of.</param>
-    public LodNode(BoundingBox box, AffineMap proxyMap, ReadOnlySpan<LodChild> children, int setSize)
+    /// <param name="pick">Decides which one of the children stands at a place; null where all do.</param>
+    public LodNode(BoundingBox box, AffineMap proxyMap, ReadOnlySpan<LodChild> children, int setSize, LevelPick? pick = null)
     {
+        Pick = pick;
         SetSize = setSize;
         Box = box;
         IsEmpty = box.IsEmpty;
@@ -40,6 +43,7 @@ internal sealed class LodNode
         ChildMaps = new SimdAffineMap[children.Length];
         ChildLevelSteps = new LevelStep[children.Length];
         ChildMapIndices = new int[children.Length];
+        ChildWays = new WrittenWay[children.Length];
         var paddedCount = (children.Length + Lanes - 1) / Lanes * Lanes;
         ChildBoxes = new float[paddedCount * BoxRows];
         if (IsEmpty)
@@ -56,6 +60,7 @@ internal sealed class LodNode
             ChildMaps[i] = new(child.Map);
             ChildLevelSteps[i] = child.LevelStep;
             ChildMapIndices[i] = child.MapIndex;
+            ChildWays[i] = child.Way;
             var offset = child.Box.Centre - box.Centre;
             var padding = (RelativeRounding * (child.Box.Diagonal + (RelativeRounding * coordinateExtent)))
                 + (SingleUnitRoundoff * offset.MaxAbsComponent());
@@ -100,6 +105,12 @@ internal sealed class LodNode
 
     /// <summary>Indices of the children's maps in their sets; −1 for the identity, which changes no colour.</summary>
     public int[] ChildMapIndices { get; }
+
+    /// <summary>The ways to the children, by which chance decides.</summary>
+    public WrittenWay[] ChildWays { get; }
+
+    /// <summary>Decides which one of the children stands at a place; null where all do.</summary>
+    public LevelPick? Pick { get; }
 
     /// <summary>Number of maps of that set: children that are empty, or there already, have none.</summary>
     public int SetSize { get; }

@@ -1,3 +1,4 @@
+using FractalEngine.Core.Fractals.Levels;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Visibility.Levels;
@@ -6,4 +7,11 @@ namespace FractalEngine.Core.Visibility.Levels;
 /// <param name="RemainingLevels">Number of levels that the sub-fractal has left.</param>
 /// <param name="FrameToCamera">Map from the sub-fractal's frame to world axes about the camera, in any unit.</param>
 /// <param name="ColourPath">Path of maps that lead to the sub-fractal; its colours continue from there.</param>
-public readonly record struct LodRoot(long RemainingLevels, AffineMap FrameToCamera, ColourPath ColourPath);
+public readonly record struct LodRoot(long RemainingLevels, AffineMap FrameToCamera, ColourPath ColourPath)
+{
+    /// <summary>The number of the way to it, by which chance decides.</summary>
+    internal ulong Way { get; init; }
+
+    /// <summary>The place of the sub-fractal.</summary>
+    internal LevelState State => new(RemainingLevels, Way);
+}

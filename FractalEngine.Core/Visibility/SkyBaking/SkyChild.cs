@@ -23,6 +23,13 @@ internal readonly record struct SkyChild(LodNode Node, long Levels, AffineMap In
         {
             var childLevels = node.ChildLevelSteps[i].RemainingLevels(levels);
             var child = hierarchy.NodeAt(childLevels);
+            // Masks are those of a node wherever it stands: the likeliest alternative stands for all.
+            while (child.Pick is { } pick)
+            {
+                childLevels = child.ChildLevelSteps[pick.Likeliest].RemainingLevels(childLevels);
+                child = hierarchy.NodeAt(childLevels);
+            }
+
             var map = node.ChildMaps[i].ToAffineMap();
             var box = child.Box.Transform(map);
             children[i] = new(child, childLevels, map.Inverse(), box, box.Diagonal / node.Box.Diagonal);

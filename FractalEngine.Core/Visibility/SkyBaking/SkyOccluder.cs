@@ -139,23 +139,31 @@ internal sealed class SkyOccluder
 
     private void CollectNodes()
     {
-        Add(_hierarchy.NodeAt(_hierarchy.LevelCount), _hierarchy.LevelCount);
+        Add(_hierarchy.LevelCount);
         for (var levels = LastLevels; levels > 0; levels--)
         {
-            Add(_hierarchy.NodeAt(levels), levels);
+            Add(levels);
         }
 
         for (var i = 0; i < Nodes.Count; i++)
         {
-            foreach (var child in ChildrenOf(Nodes[i].Node, Nodes[i].Levels))
+            foreach (var step in Nodes[i].Node.ChildLevelSteps)
             {
-                Add(child.Node, child.Levels);
+                Add(step.RemainingLevels(Nodes[i].Levels));
             }
         }
 
-        void Add(LodNode node, long levels)
+        void Add(long levels)
         {
-            if (!node.IsEmpty && !_children.ContainsKey(KeyOf(node, levels)))
+            var node = _hierarchy.NodeAt(levels);
+            if (node.Pick is not null)
+            {
+                foreach (var step in node.ChildLevelSteps)
+                {
+                    Add(step.RemainingLevels(levels));
+                }
+            }
+            else if (!node.IsEmpty && !_children.ContainsKey(KeyOf(node, levels)))
             {
                 _children[KeyOf(node, levels)] = SkyChild.ChildrenOf(_hierarchy, node, levels);
                 Nodes.Add((node, levels));

@@ -16,6 +16,7 @@ internal sealed class FractalPartWriter(FractalWriter writer, List<string> names
     // By their recursives: the names of those that others call with fewer levels, or that are parts themselves.
     private readonly List<(RecursivePart Part, Dictionary<int, string> Names)> _groups = [];
     private int _depth;
+    private string? _seed;
 
     /// <summary>Writes the declarations of parts, in their order.</summary>
     public void Write(ImmutableArray<FractalPart> parts)
@@ -25,6 +26,8 @@ internal sealed class FractalPartWriter(FractalWriter writer, List<string> names
             var value = part switch
             {
                 SteppedPart stepped => writer.WriteSteps(stepped.Steps, names[stepped.Inner]),
+                RecursivePart { IsFlat: true, Recursives: [{ Choice: { } choice } one] } =>
+                    FormatChoice(choice, [.. one.Calls.Select(FormatConstant)]),
                 RecursivePart { IsSum: true, Recursives: [var sum] } => FormatSum(sum.Calls, names[0], FormatConstant, isWhole: true),
                 RecursivePart recursive => FormatRecursive(recursive, GroupOf(recursive, parts)),
                 _ => throw new ArgumentException($"{part.GetType().Name} is no part of a fractal"),
@@ -71,6 +74,12 @@ internal sealed class FractalPartWriter(FractalWriter writer, List<string> names
             bases.Add(head, name);
         }
 
+        if (part.Recursives.Select(static recursive => recursive.Choice).OfType<Choice>().Select(static one => (one.Seed, one.IsByLevel))
+            .Distinct().Count() > 1)
+        {
+            throw FractalWriter.Fault(ErrorKind.Input, "recursives that call each other have choices of several seeds");
+        }
+
         var group = heads.ToDictionary(static head => head, _ => writer.NextRecursiveName());
         var bodies = heads.Select(head => FormatBody(part, head, bases, isWhole: true)).ToArray();
         writer.AppendLine($"{string.Join(", ", heads.Select(head => $"{group[head]}<{bases[head]}>"))}. {string.Join(", ", bodies)}");
@@ -85,17 +94,32 @@ internal sealed class FractalPartWriter(FractalWriter writer, List<string> names
             throw FractalWriter.Fault(ErrorKind.Limit, $"a body has more than the limit of {FractalLimits.Steps.Value} sets on each other");
         }
 
-        var body = FormatSum(
-            part.Recursives[recursive].Calls,
-            bases.Values.First(),
-            call => call.IsConstant ? FormatConstant(call)
-                : call.LevelsLess == 1 && bases.TryGetValue(call.Target, out var name) ? name
-                : call.LevelsLess == 0 ? FormatBody(part, call.Target, bases, isWhole: false)
-                : throw FractalWriter.Fault(ErrorKind.Input, "a recursive calls another one with more than one level less"),
-            isWhole);
+        var (calls, choice) = (part.Recursives[recursive].Calls, part.Recursives[recursive].Choice);
+        var body = choice is not null
+            ? FormatChoice(choice, [.. calls.Select(FormatTarget)])
+            : FormatSum(
+                calls, bases.Values.First(), FormatTarget, isWhole, call => part.Recursives[call.Target].Choice is not null);
         _depth--;
         FractalWriter.RequireLength(body.Length);
-        return isWhole || IsSetOnOne(part.Recursives[recursive].Calls) ? body : $"({body})";
+        return isWhole || (choice is null && IsSetOnOne(calls)) ? body : $"({body})";
+
+        string FormatTarget(RecursiveCall call) => call.IsConstant ? FormatConstant(call)
+            : call.LevelsLess == 1 && bases.TryGetValue(call.Target, out var name) ? name
+            : call.LevelsLess == 0 ? FormatBody(part, call.Target, bases, isWhole: false)
+            : throw FractalWriter.Fault(ErrorKind.Input, "a recursive calls another one with more than one level less");
+    }
+
+    /// <summary>Formats a choice, below the line with its seed.</summary>
+    private string FormatChoice(Choice choice, string[] alternatives)
+    {
+        var seed = FormattableString.Invariant($"seed {choice.Seed}{(choice.IsByLevel ? " by level" : "")}");
+        if (seed != _seed)
+        {
+            writer.AppendLine(seed);
+            _seed = seed;
+        }
+
+        return string.Join(" | ", choice.Weights.Zip(alternatives, static (weight, one) => FormattableString.Invariant($"{weight:R}: {one}")));
     }
 
     /// <summary>Tells whether calls are one set on one target, so that they need no parentheses.</summary>
@@ -108,7 +132,8 @@ internal sealed class FractalPartWriter(FractalWriter writer, List<string> names
     private string FormatConstant(RecursiveCall call) => names[call.Target];
 
     /// <summary>Formats calls as terms: those of the same target one after the other are a set. Without calls it is an empty set.</summary>
-    private string FormatSum(ImmutableArray<RecursiveCall> calls, string anyName, Func<RecursiveCall, string> formatTarget, bool isWhole)
+    private string FormatSum(ImmutableArray<RecursiveCall> calls, string anyName, Func<RecursiveCall, string> formatTarget, bool isWhole,
+        Func<RecursiveCall, bool>? isChoice = null)
     {
         if (calls.IsEmpty)
         {
@@ -129,7 +154,8 @@ internal sealed class FractalPartWriter(FractalWriter writer, List<string> names
             }
 
             // A set or sum of calls that stands as it is would be part of the sum around it.
-            terms.Add(set is ["#"] && first.LevelsLess != 0 ? formatTarget(first) : $"[{string.Join(", ", set)}] {formatTarget(first)}");
+            var isWithin = first.LevelsLess == 0 && isChoice?.Invoke(first) != true;
+            terms.Add(set is ["#"] && !isWithin ? formatTarget(first) : $"[{string.Join(", ", set)}] {formatTarget(first)}");
         }
 
         return string.Join(" + ", terms);

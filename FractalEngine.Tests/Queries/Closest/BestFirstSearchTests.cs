@@ -88,7 +88,7 @@ public sealed class BestFirstSearchTests
     {
         var mesh = new ShapeTree(Samples.Tetrahedron, null);
         Assert.Equal((false, false), (mesh.IsFractal, mesh.IsEmpty));
-        Assert.Equal((0L, 0), (mesh.Root(AffineMap.Identity).RemainingLevels, mesh.ChildCount(mesh.Root(AffineMap.Identity))));
+        Assert.Equal((0L, 0), (mesh.Root(AffineMap.Identity).State.Level, mesh.ChildCount(mesh.Root(AffineMap.Identity))));
         Assert.Equal(new[] { 0, 1, 2, 3 }, mesh.Faces(mesh.Root(AffineMap.Identity)).ToArray());
         Assert.Equal(0, mesh.MinRadiusSquared(AffineMap.Identity));
         Assert.Empty(mesh.InstancePath([], new()));

@@ -226,7 +226,7 @@ public sealed class SearchPrimitivesTests
         for (var i = 99; i >= 0; i--)
         {
             Assert.True(stack.TryPop(out var node, out var depth));
-            Assert.Equal(((long)i, i + 1), (node.RemainingLevels, depth));
+            Assert.Equal(((long)i, i + 1), (node.State.Level, depth));
             Assert.True(i % 3 == 1 || stack.Path(depth)[i] == i);
             Assert.Equal(depth, stack.Path(depth).Length);
         }
@@ -254,11 +254,11 @@ public sealed class SearchPrimitivesTests
 
         stack.MoveNearestToTop(first);
         Assert.True(stack.TryPop(out var top, out _));
-        Assert.Equal(expectedTop, top.RemainingLevels);
+        Assert.Equal(expectedTop, top.State.Level);
         var rest = new List<long>();
         while (stack.TryPop(out var node, out _))
         {
-            rest.Add(node.RemainingLevels);
+            rest.Add(node.State.Level);
         }
 
         Assert.Equal(Enumerable.Range(0, 6).Where(i => i != expectedTop).Select(i => (long)i), rest.Order());
@@ -338,13 +338,13 @@ public sealed class SearchPrimitivesTests
     public void Slack_OfANode_IsThatOfItsLargestProducts()
     {
         var map = new AffineMap(Matrix.Diagonal(new(2, -3, 1)), new(1, 10, 0));
-        var node = new ShapeNode(null, 0, default, 0, in map, new(new(-1, -4, 0), Vector.One), 7);
+        var node = new ShapeNode(null, default, default, 0, in map, new(new(-1, -4, 0), Vector.One), 7);
         Assert.Equal(12 + 10, node.Reach);
         Near.Equal(22 * Rounding, node.Slack, 1e-28);
         Assert.Equal(new BoundingBox(new(-1, 7, 0), new(3, 22, 1)), node.Box);
         Assert.True(node.IsBoundedByBox && node.IsBase);
-        Assert.Equal(100, new ShapeNode(null, 0, default, 0, in map, Unit, 100).Reach);
-        Assert.False(new ShapeNode(null, 0, default, -1, in map, Unit, 0).IsBase);
+        Assert.Equal(100, new ShapeNode(null, default, default, 0, in map, Unit, 100).Reach);
+        Assert.False(new ShapeNode(null, default, default, -1, in map, Unit, 0).IsBase);
         Assert.False(NodeOf(Unit, Turned(Vector.Zero)).IsBoundedByBox);
     }
 
@@ -450,12 +450,12 @@ public sealed class SearchPrimitivesTests
 
     private static BoxPolicy PolicyOf(BoundingBox box) => new(box, true, 5);
 
-    private static ShapeNode NodeOf(long number) => new(null, number, default, 0, AffineMap.Identity, Unit, 0);
+    private static ShapeNode NodeOf(long number) => new(null, new(number, 0), default, 0, AffineMap.Identity, Unit, 0);
 
-    private static ShapeNode NodeOf(BoundingBox box, AffineMap map) => new(null, 0, default, 0, in map, box, 0);
+    private static ShapeNode NodeOf(BoundingBox box, AffineMap map) => new(null, default, default, 0, in map, box, 0);
 
     private static SearchNode NodeBelow(int parent, int depth) =>
-        new(null!, 0, SimdAffineMap.Identity, SimdAffineMap.Identity, parent, 0, depth);
+        new(null!, default, SimdAffineMap.Identity, SimdAffineMap.Identity, parent, 0, depth);
 
     private static AffineMap Turned(Vector translation) => new(new Vector(0, 0, 45).LocalAxesFromDegrees(), translation);
 

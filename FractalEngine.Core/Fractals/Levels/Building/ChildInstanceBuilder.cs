@@ -94,6 +94,11 @@ internal sealed class ChildInstanceBuilder(int baseCount)
     /// <param name="edgesAt">Gives the edges of a lower level by its remaining levels; it is never called for a base mesh.</param>
     public ChildInstance[] ExpandChildren(long level, ChildEdge[] edges, Func<long, ChildEdge[]> edgesAt)
     {
+        if (IsPick(edges))
+        {
+            return Array.ConvertAll(edges, edge => GetOrCreate([edge]));
+        }
+
         if (edges.Length > MaxChildrenForSameLevel && !LeadToNothing(level, edges, edgesAt))
         {
             // Too many to expand, and perhaps so many that the list would take more memory than they do.
@@ -113,7 +118,7 @@ internal sealed class ChildInstanceBuilder(int baseCount)
             }
 
             var nextEdges = edgesAt(highestLevel);
-            if (!CanExpand(chains, highestLevel, nextEdges.Length))
+            if (IsPick(nextEdges) || !CanExpand(chains, highestLevel, nextEdges.Length))
             {
                 break;
             }
@@ -129,6 +134,9 @@ internal sealed class ChildInstanceBuilder(int baseCount)
 
         return [.. best.Select(chain => GetOrCreate(chain.Edges))];
     }
+
+    /// <summary>Tells whether chance decides about edges: only a search knows which one stands there.</summary>
+    private static bool IsPick(ChildEdge[] edges) => edges is [{ Set.Pick: not null }, ..];
 
     /// <summary>Tells whether the highest level that edges lead to has no edges itself.</summary>
     private bool LeadToNothing(long level, ChildEdge[] edges, Func<long, ChildEdge[]> edgesAt)

@@ -24,6 +24,9 @@ internal sealed class FractalHierarchyBuilder(FractalGraph graph, bool doublesPo
 
     // By parts: the level where each of those built is the whole.
     private readonly List<long> _tops = [.. Enumerable.Range(0, graph.BaseMeshes.Length)];
+
+    // By parts: whether chance decides about something in it.
+    private readonly List<bool> _hasChance = [.. Enumerable.Repeat(false, graph.BaseMeshes.Length)];
     private readonly Dictionary<TransformationSet, MapSet> _sets = new(ReferenceEqualityComparer.Instance);
     private readonly LevelBuilder _levels = new(graph);
 
@@ -48,6 +51,7 @@ internal sealed class FractalHierarchyBuilder(FractalGraph graph, bool doublesPo
         LevelBuilder.RequireAllowedChildren(graph.Parts.OfType<SteppedPart>().Sum(part => part.Steps.Sum(CountWideChildren)));
         foreach (var part in graph.Parts)
         {
+            _hasChance.Add(part is RecursivePart { HasChoice: true } || part.References.Any(index => _hasChance[index]));
             _levels.BeginPart();
             _tops.Add(part switch
             {
@@ -67,6 +71,7 @@ internal sealed class FractalHierarchyBuilder(FractalGraph graph, bool doublesPo
         {
             HasOnlySimilarities = graph.HasOnlySimilarities,
             HasDoubledPowers = HasDoubledPowers,
+            HasChance = _hasChance[^1],
         };
     }
 
@@ -140,7 +145,7 @@ internal sealed class FractalHierarchyBuilder(FractalGraph graph, bool doublesPo
     private void AddStep(FractalStep step)
     {
         var repetition = step as Repetition ?? new([step], 1);
-        if (doublesPowers && MapPowers.TryCreate(repetition) is { } powers)
+        if (doublesPowers && !_hasChance[^1] && MapPowers.TryCreate(repetition) is { } powers)
         {
             HasDoubledPowers = true;
             powers.AddLevels(Built.Top, _levels.Add);
@@ -197,12 +202,16 @@ internal sealed class FractalHierarchyBuilder(FractalGraph graph, bool doublesPo
             _sets[set] = mapSet;
         }
 
-        var edges = ChildInstanceBuilder.EdgesAt(Built.Top + 1, levelsBelowRepetition, period, mapSet, Built.MapSetAt);
-        _levels.Add(edges, mapSet);
+        _levels.Add(EdgesAt(Built.Top + 1, levelsBelowRepetition, period, mapSet, Built.MapSetAt), mapSet);
     }
 
+    /// <summary>The edges of a level of steps, one for each map where chance decides what lies below.</summary>
+    private ChildEdge[] EdgesAt(long level, long levelsBelowRepetition, int period, MapSet set, Func<long, MapSet> setAt) => _hasChance[^1]
+        ? [.. set.Maps.Select((_, index) => new ChildEdge(set, index, LevelStep.Down(1)))]
+        : ChildInstanceBuilder.EdgesAt(level, levelsBelowRepetition, period, set, setAt);
+
     /// <summary>The edges of a level of a repetition, built or above the last round.</summary>
-    private ChildEdge[] EdgesOfRepetition(PeriodicBound bound, long level, long levelsBelowRepetition) => ChildInstanceBuilder.EdgesAt(
+    private ChildEdge[] EdgesOfRepetition(PeriodicBound bound, long level, long levelsBelowRepetition) => EdgesAt(
         level,
         levelsBelowRepetition,
         bound.Period,
@@ -218,12 +227,12 @@ internal sealed class FractalHierarchyBuilder(FractalGraph graph, bool doublesPo
             return _tops[part.Recursives[part.Root].BasePart];
         }
 
-        if (part.LevelsLessOfLinear is { } levelsLess)
+        if (part.LevelsLessOfLinear is { } levelsLess && !_hasChance[^1])
         {
             return AddLinear(part.Recursives[0], levelsLess, part.Levels);
         }
 
-        var recursives = new RecursiveLevels(part, Built.Top + 1, index => _tops[index]);
+        var recursives = new RecursiveLevels(part, Built.Top + 1, index => _tops[index], _hasChance[^1]);
         var period = recursives.Period;
         var nextAttempt = 0L;
         for (var round = 0L; round < (part.Levels ?? EndlessRounds); round++)

@@ -14,11 +14,22 @@ namespace FractalEngine.Core.Fractals.Levels.Building;
 /// <param name="part">The recursives.</param>
 /// <param name="firstLevel">The lowest level.</param>
 /// <param name="levelOf">Gives the level of an earlier part.</param>
-internal sealed class RecursiveLevels(RecursivePart part, long firstLevel, Func<int, long> levelOf)
+/// <param name="hasChance">True where chance decides about something: equal calls lead to different places then.</param>
+internal sealed class RecursiveLevels(RecursivePart part, long firstLevel, Func<int, long> levelOf, bool hasChance)
 {
     private readonly ChildEdge[][] _edges = new ChildEdge[part.Recursives.Length][];
 
-    private readonly MapSet[] _sets = [.. part.MapSets.Select(static maps => new MapSet([.. maps]) { IsOfCalls = true })];
+    private readonly MapSet[] _sets =
+    [
+        .. part.MapSets.Zip(part.Recursives, (maps, recursive) => new MapSet([.. maps])
+        {
+            IsOfCalls = true,
+            Numbers = hasChance ? [.. recursive.NumberCalls()] : [],
+            Pick = recursive.Choice is { } choice
+                ? new(choice, NumberOf(recursive, part), firstLevel, part.Recursives.Length, part.Levels ?? FractalHierarchyBuilder.EndlessRounds)
+                : null,
+        }),
+    ];
 
     /// <summary>Number of recursives, and so of the levels after which they recur.</summary>
     public int Period => part.Recursives.Length;
@@ -36,6 +47,10 @@ internal sealed class RecursiveLevels(RecursivePart part, long firstLevel, Func<
         return rounds >= part.MaxLevelsLess ? _edges[turn] ??= CreateEdges(rounds, (int)turn) : CreateEdges(rounds, (int)turn);
     }
 
+    /// <summary>The number of a choice among those of its group.</summary>
+    private static int NumberOf(FractalRecursive recursive, RecursivePart part) =>
+        part.Recursives.Where(static one => one.Choice is not null).TakeWhile(one => !ReferenceEquals(one, recursive)).Count();
+
     private ChildEdge[] CreateEdges(long rounds, int turn)
     {
         var edges = new List<ChildEdge>();
@@ -46,7 +61,7 @@ internal sealed class RecursiveLevels(RecursivePart part, long firstLevel, Func<
             var step = call.LevelsLess is not { } less ? LevelStep.To(levelOf(call.Target))
                 : less <= rounds ? LevelStep.Down(((long)less * Period) + turn - part.Order.IndexOf(call.Target))
                 : LevelStep.To(levelOf(part.Recursives[call.Target].BasePart));
-            if (seen.Add((call.Map, step)))
+            if (hasChance || seen.Add((call.Map, step)))
             {
                 edges.Add(new(_sets[recursive], i, step));
             }

@@ -60,6 +60,7 @@ internal sealed class RayBounds
         SubFractal subFractal, BoundingBox baseBox, RayDescendant[] descendants, RayChild[] children, RayNormals normals, RayBounds? single,
         double minInnerRadius)
     {
+        SubFractal = subFractal;
         Box = new(subFractal.Box);
         Radius = subFractal.Radius * Box.InverseHalfExtent;
         MinInnerRadius = minInnerRadius;
@@ -76,6 +77,12 @@ internal sealed class RayBounds
         var thickness = MinThickness * Math.Max(ownBox.Size.MaxAbsComponent(), baseBox.Size.MaxAbsComponent());
         Proxy = new(ProxyMapTo(ownBox, ownBox.Size + (thickness * Vector.One), baseBox));
     }
+
+    /// <summary>The sub-fractal, or the group of children.</summary>
+    public SubFractal SubFractal { get; }
+
+    /// <summary>True where there are no faces.</summary>
+    public bool IsEmpty => SubFractal.Box.IsEmpty;
 
     /// <summary>The bounds with the children themselves; these where no descendants take their places.</summary>
     public RayBounds Single { get; }

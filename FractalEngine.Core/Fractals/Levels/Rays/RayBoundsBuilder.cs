@@ -46,7 +46,7 @@ internal static class RayBoundsBuilder
         foreach (var descendant in descendants)
         {
             var size = descendant.Norm * descendant.Target.Radius;
-            if (descendant.IsGroup || descendant.Target.Children.Length == 0 || size < MinMergedSize * radius)
+            if (descendant.IsGroup || descendant.Target is { Children: [] } or { Set.Pick: not null } || size < MinMergedSize * radius)
             {
                 merged.Add(descendant);
             }

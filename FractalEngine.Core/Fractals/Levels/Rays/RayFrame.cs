@@ -25,6 +25,9 @@ internal struct RayFrame
     /// <summary>Remaining levels of the sub-fractal.</summary>
     public long RemainingLevels;
 
+    /// <summary>The number of the way to it, by which chance decides.</summary>
+    public ulong Way;
+
     /// <summary>Where the ray starts: x, y, z, 0.</summary>
     public Vector256<double> Origin;
 
@@ -143,6 +146,7 @@ internal struct RayFrame
         DistancePerParameter = parent.DistancePerParameter * child.InverseNorm;
         PathLength = parent.PathLength + child.PathLength;
         RemainingLevels = child.RemainingLevels(parent.RemainingLevels);
+        Way = parent.Way;
         if (child.IsScaling)
         {
             Origin = Vector256.FusedMultiplyAdd(origin, Vector256.Create(child.Norm), child.Map.Translation);

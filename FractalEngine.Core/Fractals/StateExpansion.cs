@@ -1,0 +1,47 @@
+using System.Collections.Immutable;
+using FractalEngine.Core.Fractals.Descriptions;
+using FractalEngine.Core.Fractals.Levels;
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Fractals;
+
+/// <summary>Expands a fractal by chance into one list of instances: way by way, since each may lead to something else.</summary>
+internal static class StateExpansion
+{
+    /// <summary>Lists the instances with faces, in the order of their ways.</summary>
+    /// <param name="hierarchy">One level for each set, of a finite fractal.</param>
+    /// <param name="maxInstances">Maximum number of instances.</param>
+    /// <exception cref="FractalLimitException">The fractal has more instances, or takes too long to expand.</exception>
+    /// <remarks>Time is proportional to the instances times the levels. What lies in a part without chance is listed once, as anywhere.</remarks>
+    public static ImmutableArray<MeshInstance> Expand(FractalHierarchy hierarchy, long maxInstances)
+    {
+        var instances = ImmutableArray.CreateBuilder<MeshInstance>();
+        var open = new Stack<(LevelState State, AffineMap Map)>([(hierarchy.Start, AffineMap.Identity)]);
+        for (var steps = 0L; open.TryPop(out var part); steps++)
+        {
+            var level = hierarchy.AllLevels.At(part.State.Level);
+            if (level.Box.IsEmpty)
+            {
+                continue;
+            }
+
+            if (hierarchy.IsBase(part.State.Level))
+            {
+                instances.Add(new(level.BaseIndex, part.Map));
+            }
+
+            if (instances.Count > maxInstances || steps > FractalLimits.ComparedProducts.Value + (8 * maxInstances))
+            {
+                throw new FractalLimitException(
+                    $"the fractal has more than the limit of {DecimalText.FormatApproximately(maxInstances)} instances");
+            }
+
+            for (var i = level.Edges.Length - 1; i >= 0; i--)
+            {
+                open.Push((hierarchy.Resolve(level.Edges[i].Enter(part.State)), part.Map * level.Edges[i].Map));
+            }
+        }
+
+        return instances.DrainToImmutable();
+    }
+}
