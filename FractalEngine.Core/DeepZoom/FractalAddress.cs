@@ -234,7 +234,7 @@ public sealed class FractalAddress
     }
 
     private static LodRoot RootAt(LevelState state, AffineMap frameToCamera, ColourPath colourPath) =>
-        new(state.Level, frameToCamera, colourPath) { Way = state.Way };
+        new(state.Level, frameToCamera, colourPath) { State = state };
 
     private double DistanceTo(LodRoot root)
     {

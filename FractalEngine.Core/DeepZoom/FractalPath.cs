@@ -13,8 +13,8 @@ internal sealed class FractalPath(LodHierarchy hierarchy)
     private readonly List<int> _children = [];
     private readonly List<long> _remainingLevels = [hierarchy.LevelCount];
 
-    // By which chance decides; empty where nothing is by chance.
-    private readonly List<ulong> _ways = hierarchy.HasChance ? [hierarchy.Start.Way] : [];
+    // What places depend on beside their levels; empty where there is nothing.
+    private readonly List<(ulong Way, long Size)> _ways = hierarchy.HasPicks ? [(hierarchy.Start.Way, hierarchy.Start.Size)] : [];
 
     // The number of maps that are not the identity, up to each depth.
     private readonly List<int> _mapCounts = [0];
@@ -30,7 +30,7 @@ internal sealed class FractalPath(LodHierarchy hierarchy)
 
     /// <summary>Memory of the path in bytes.</summary>
     public long StorageBytes =>
-        (sizeof(int) * ((long)_children.Capacity + _mapCounts.Capacity)) + (sizeof(long) * ((long)_remainingLevels.Capacity + _ways.Capacity));
+        (sizeof(int) * ((long)_children.Capacity + _mapCounts.Capacity)) + (sizeof(long) * ((long)_remainingLevels.Capacity + (2 * _ways.Capacity)));
 
     /// <summary>Finds the node that the path passes through at a depth; 0 is the whole fractal.</summary>
     public LodNode NodeAt(int depth) => hierarchy.NodeAt(_remainingLevels[depth]);
@@ -39,7 +39,9 @@ internal sealed class FractalPath(LodHierarchy hierarchy)
     public long RemainingLevelsAt(int depth) => _remainingLevels[depth];
 
     /// <summary>The place of the sub-fractal at a depth.</summary>
-    public LevelState StateAt(int depth) => new(_remainingLevels[depth], hierarchy.HasChance ? _ways[depth] : 0);
+    public LevelState StateAt(int depth) => hierarchy.HasPicks
+        ? new(_remainingLevels[depth], _ways[depth].Way, _ways[depth].Size)
+        : new(_remainingLevels[depth]);
 
     /// <summary>The place of a child of the sub-fractal at a depth.</summary>
     public LevelState ChildState(int depth, int child) => hierarchy.Enter(NodeAt(depth), child, StateAt(depth));
@@ -64,9 +66,9 @@ internal sealed class FractalPath(LodHierarchy hierarchy)
         var node = CurrentNode;
         var state = ChildState(Depth, child);
         _remainingLevels.Add(state.Level);
-        if (hierarchy.HasChance)
+        if (hierarchy.HasPicks)
         {
-            _ways.Add(state.Way);
+            _ways.Add((state.Way, state.Size));
         }
 
         _children.Add(child);
@@ -79,7 +81,7 @@ internal sealed class FractalPath(LodHierarchy hierarchy)
         var child = _children[^1];
         _children.RemoveAt(_children.Count - 1);
         _remainingLevels.RemoveAt(_remainingLevels.Count - 1);
-        if (hierarchy.HasChance)
+        if (hierarchy.HasPicks)
         {
             _ways.RemoveAt(_ways.Count - 1);
         }

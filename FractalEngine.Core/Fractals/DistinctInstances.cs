@@ -36,7 +36,7 @@ public static class DistinctInstances
             return null;
         }
 
-        if (fractal.Description.HasChance)
+        if (fractal.Description.HasPicks)
         {
             return fractal.CountRange(budget)?.Exact;
         }
@@ -72,14 +72,14 @@ public static class DistinctInstances
     public static BigInteger? CountAtMost(Fractal fractal, long budget = 1000)
     {
         ArgumentNullException.ThrowIfNull(fractal);
+        if (fractal.Description.HasPicks)
+        {
+            return fractal.CountRange(budget) is { } range ? range.Exact ?? range.Most : fractal.InstanceCount;
+        }
+
         if (fractal.InstanceCount is not { } chains)
         {
             return null;
-        }
-
-        if (fractal.Description.HasChance)
-        {
-            return fractal.CountRange(budget) is { } range ? range.Exact ?? range.Most : chains;
         }
 
         // What calls itself without end may leave no instance of one mesh.

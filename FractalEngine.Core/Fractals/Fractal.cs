@@ -65,7 +65,9 @@ public sealed class Fractal : IEquatable<Fractal>
         _onlyMesh = FindOnlyMesh(baseMeshes);
         _preservesOrientation = new(() => description.PreservesOrientation);
         Graph = new(baseMeshes, description.AllParts());
-        _instanceCounts = new(() => Graph.ChainCounts);
+        _instanceCounts = new(() => description.HasSizes
+            ? [.. Enumerable.Range(0, baseMeshes.Length).Select(mesh => CountStates(mesh, FractalLimits.CountedInstances.Value)?.Exact)]
+            : Graph.ChainCounts);
         _byMesh = new(() => baseMeshes.Length == 1 ? [this] : [.. Enumerable.Range(0, baseMeshes.Length).Select(OnlyMesh)]);
         _levelCount = new(() => description.LevelCount);
         _bounds = new(() => FractalBounds.ComputeBox(this));
@@ -116,21 +118,26 @@ public sealed class Fractal : IEquatable<Fractal>
     /// </summary>
     public BigInteger? InstanceCount => Total(static _ => 1);
 
-    /// <summary>Counts the instances of a finite fractal by chance.</summary>
+    /// <summary>Counts the instances of a finite fractal in which places decide what stands there: by chance, or by size.</summary>
     /// <param name="budget">
     /// Number of different places up to which they are enumerated; null for <see cref="FractalLimits.CountedInstances"/>.
     /// </param>
     /// <returns>Null where there is no hierarchy of the fractal, or it has more than thousand levels.</returns>
-    public InstanceRange? CountRange(long? budget = null)
+    public InstanceRange? CountRange(long? budget = null) => CountStates(null, budget ?? FractalLimits.CountedInstances.Value);
+
+    /// <summary>Counts the instances that show a mesh; null for all that count.</summary>
+    private InstanceRange? CountStates(int? mesh, long budget)
     {
-        if (Description.Composition != Composition.Affine || !(LevelCount <= DistinctInstances.MaxCountedLevels))
+        if (Description.Composition != Composition.Affine || Description.IsInfinite
+            || (!Description.HasSizes && !(LevelCount <= DistinctInstances.MaxCountedLevels)))
         {
             return null;
         }
 
         try
         {
-            return InstanceRange.Of(this, budget ?? FractalLimits.CountedInstances.Value);
+            return InstanceRange.Of(
+                HierarchyBySets, index => (mesh is null ? CountsMesh(index) : index == mesh) ? BigInteger.One : BigInteger.Zero, budget);
         }
         catch (Exception exception) when (exception is FractalLimitException or SingularMatrixException)
         {
@@ -168,7 +175,10 @@ public sealed class Fractal : IEquatable<Fractal>
     /// <param name="keepsAllLevels">True to keep levels that no search from the whole fractal visits.</param>
     /// <exception cref="FractalLimitException">Bounds overflow a double, or don't converge; the message names the level.</exception>
     internal FractalHierarchy BuildHierarchy(bool doublesPowers = true, bool keepsAllLevels = false) =>
-        FractalHierarchyBuilder.Build(Graph, doublesPowers, keepsAllLevels);
+        FractalHierarchyBuilder.Build(Graph, doublesPowers, keepsAllLevels, Whole?.Hierarchy.SizeLimits);
+
+    /// <summary>What this is a part of, which shows other meshes too; null for a whole.</summary>
+    private Fractal? Whole { get; init; }
 
     /// <summary>The base meshes and all parts.</summary>
     internal FractalGraph Graph { get; }
@@ -245,6 +255,34 @@ public sealed class Fractal : IEquatable<Fractal>
     /// <summary>Makes two fractals one, see <see cref="Sum"/>.</summary>
     public static Fractal operator +(Fractal term1, Fractal term2) => Sum(term1, term2);
 
+    /// <summary>Makes a choice: one of several fractals stands there, at each place another one by chance.</summary>
+    /// <param name="seed">Another seed is another fractal of the same kind.</param>
+    /// <param name="alternatives">
+    /// The fractals, in affine composition, each with how often it stands there relative to the others. Base meshes that are the same
+    /// object become one.
+    /// </param>
+    /// <exception cref="ArgumentException">There are none, a weight is negative, all are 0, or a fractal is composed componentwise.</exception>
+    public static Fractal Choose(int seed, params ImmutableArray<(double Weight, Fractal Fractal)> alternatives)
+    {
+        var choice = new Choice([.. alternatives.Select(static one => one.Weight)], seed);
+        var list = new FractalPartList();
+        var meshes = new MeshList();
+        return meshes.Make(list, list.AddChoice([.. alternatives.Select(one => meshes.AddAll(list, one.Fractal))], choice));
+    }
+
+    /// <summary>Makes a recursive that ends by its size, whatever its depth.</summary>
+    /// <param name="start">The fractal that stands at the ends.</param>
+    /// <param name="until">
+    /// A call goes on while the start, stretched as the maps on the way do at most, has at least a diagonal of this length, in the frame of
+    /// the whole fractal.
+    /// </param>
+    /// <param name="body">See <see cref="Recurse"/>.</param>
+    /// <exception cref="ArgumentException">
+    /// The body does something else with the recursive, or calls it without making it smaller; or a fractal is infinite.
+    /// </exception>
+    /// <exception cref="FractalLimitException">The result exceeds one of <see cref="FractalLimits"/>.</exception>
+    public static Fractal RecurseUntil(Fractal start, double until, Func<Fractal, Fractal> body) => MakeRecursive(start, null, body, until);
+
     /// <summary>Makes a recursive: without levels it is its start, and with levels what a body makes of the same with one less.</summary>
     /// <param name="start">The fractal without levels.</param>
     /// <param name="depth">Number of levels, at most <see cref="FractalLimits.Depth"/>; null for the infinite fractal.</param>
@@ -256,12 +294,17 @@ public sealed class Fractal : IEquatable<Fractal>
     /// <exception cref="FractalLimitException">The result exceeds one of <see cref="FractalLimits"/>.</exception>
     public static Fractal Recurse(Fractal start, int? depth, Func<Fractal, Fractal> body)
     {
-        ArgumentNullException.ThrowIfNull(body);
         if (depth is { } count)
         {
             RequireDepth(count);
         }
 
+        return MakeRecursive(start, depth, body, null);
+    }
+
+    private static Fractal MakeRecursive(Fractal start, int? depth, Func<Fractal, Fractal> body, double? until)
+    {
+        ArgumentNullException.ThrowIfNull(body);
         var self = new Mesh([], []);
         var made = Affine(body(Of(self)));
         var list = new FractalPartList();
@@ -275,8 +318,8 @@ public sealed class Fractal : IEquatable<Fractal>
         }
 
         // A recursive of one call is a repetition of its steps, as in files.
-        return meshes.Make(list, list.StepsOnCall(whole) is not { } round
-            ? list.AddRecursive(list.CreateRecursives([first], [whole]), 0, depth)
+        return meshes.Make(list, until is not null || list.StepsOnCall(whole) is not { } round
+            ? list.AddRecursive(list.CreateRecursives([first], [whole]), 0, depth, until)
             : list.AddSteps(first, round.IsEmpty ? [] : [new Repetition(round, depth)]));
     }
 
@@ -400,7 +443,11 @@ public sealed class Fractal : IEquatable<Fractal>
     }
 
     private Fractal OnlyMesh(int index) =>
-        new(Description, [.. BaseMeshes.Select((mesh, other) => other == index ? mesh : Mesh.Empty)]) { BaseMeshPaths = BaseMeshPaths };
+        new(Description, [.. BaseMeshes.Select((mesh, other) => other == index ? mesh : Mesh.Empty)])
+        {
+            BaseMeshPaths = BaseMeshPaths,
+            Whole = Description.HasPicks ? this : null,
+        };
 
     /// <summary>Whether the instances of a base mesh count as such: those without faces do not, but the only mesh does.</summary>
     internal bool CountsMesh(int index) => BaseMeshes.Length == 1 || BaseMeshes[index].FaceCount > 0;

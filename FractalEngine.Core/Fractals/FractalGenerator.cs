@@ -83,7 +83,7 @@ public static class FractalGenerator
         _ = fractal.BaseMesh;
         return fractal.Description.IsInfinite
             ? throw LimitError(fractal, maxInstances)
-            : [.. (fractal.Description.HasChance
+            : [.. (fractal.Description.HasPicks
                 ? StateExpansion.Expand(fractal.HierarchyBySets, maxInstances)
                 : GraphExpansion.Expand(fractal.Graph, maxInstances)).Select(static instance => instance.Map)];
     }

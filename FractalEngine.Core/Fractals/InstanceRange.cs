@@ -3,27 +3,34 @@ using FractalEngine.Core.Fractals.Levels;
 
 namespace FractalEngine.Core.Fractals;
 
-/// <summary>How many instances a fractal by chance may have, and has.</summary>
-/// <remarks>What has no choice in it is counted as <see cref="DistinctInstances"/> does, and all else a way each.</remarks>
-/// <param name="Least">The fewest that choices allow.</param>
-/// <param name="Expected">The mean over all seeds, rounded down.</param>
-/// <param name="Most">The most that choices allow.</param>
-/// <param name="Exact">The number; null where there are too many to enumerate.</param>
-public readonly record struct InstanceRange(BigInteger Least, BigInteger Expected, BigInteger Most, BigInteger? Exact)
+/// <summary>How many instances a fractal may have, and has, in which places decide what stands there: by chance, or by size.</summary>
+/// <remarks>What has neither in it is counted as <see cref="DistinctInstances"/> does, and all else a way each.</remarks>
+/// <param name="Least">The fewest that choices allow; null where something ends by its size.</param>
+/// <param name="Expected">The mean over all seeds, rounded down; null where something ends by its size.</param>
+/// <param name="Most">The most that choices allow; null where something ends by its size.</param>
+/// <param name="Exact">
+/// The number, by enumeration of the different places: those of equal size and level are one where no choice depends on the way to them.
+/// Null where there are too many.
+/// </param>
+public readonly record struct InstanceRange(BigInteger? Least, BigInteger? Expected, BigInteger? Most, BigInteger? Exact)
 {
     // Of the expected number, and of probabilities.
     private const int FractionBits = 64;
 
-    /// <summary>Counts the instances of a fractal.</summary>
-    /// <param name="fractal">In affine composition, finite, and of no more than some thousand levels.</param>
+    // The recursion takes some of the stack for each.
+    private const int MaxLevels = 2000;
+
+    /// <summary>Counts the instances of a fractal in affine composition that is finite.</summary>
+    /// <param name="hierarchy">With a level for each set.</param>
+    /// <param name="valueOfBase">What an instance of a base mesh counts.</param>
     /// <param name="maxStates">Number of different places up to which they are enumerated.</param>
-    /// <exception cref="Descriptions.FractalLimitException">The bounds of some level overflow a double, or don't converge.</exception>
-    internal static InstanceRange Of(Fractal fractal, long maxStates)
+    internal static InstanceRange Of(FractalHierarchy hierarchy, Func<int, BigInteger> valueOfBase, long maxStates)
     {
-        var hierarchy = fractal.HierarchyBySets;
-        var counter = new Counter(hierarchy, index => fractal.CountsMesh(index) ? BigInteger.One : BigInteger.Zero, maxStates);
-        return counter.RangeAt(hierarchy.Top.Level) is var (least, expected, most, _)
-            ? new(least, expected >> FractionBits, most, counter.CountAt(hierarchy.Start)) : default;
+        var counter = new Counter(hierarchy, valueOfBase, maxStates);
+        var exact = counter.CountAt(hierarchy.Start, 0);
+        return hierarchy.DependsOnSizes ? new(null, null, null, exact)
+            : counter.RangeAt(hierarchy.Top.Level) with { Exact = exact } is var range
+            ? range with { Expected = range.Expected >> FractionBits } : default;
     }
 
     private sealed class Counter(FractalHierarchy hierarchy, Func<int, BigInteger> valueOfBase, long maxStates)
@@ -45,32 +52,40 @@ public readonly record struct InstanceRange(BigInteger Least, BigInteger Expecte
                 return range;
             }
 
-            var edges = hierarchy.AllLevels.At(level).Edges;
             var pick = hierarchy.MapSetAt(level)?.Pick;
-            var parts = edges.Select(edge => RangeAt(edge.RemainingLevels(level))).ToArray();
-            range = pick is null
-                ? parts.Aggregate(new InstanceRange(0, 0, 0, BigInteger.Zero), static (sum, part) => new(
-                    sum.Least + part.Least, sum.Expected + part.Expected, sum.Most + part.Most, sum.Exact + part.Exact))
-                : new(
-                    parts.Where((_, i) => pick.ProbabilityOf(i) > 0).Min(static part => part.Least),
-                    parts.Select((part, i) => (part.Expected * pick.ProbabilityOf(i)) >> FractionBits)
-                        .Aggregate(BigInteger.Zero, static (sum, part) => sum + part),
-                    parts.Where((_, i) => pick.ProbabilityOf(i) > 0).Max(static part => part.Most),
-                    null);
+            range = pick is null ? new(0, 0, 0, 0) : new(null, 0, null, null);
+            foreach (var (i, edge) in hierarchy.AllLevels.At(level).Edges.Index())
+            {
+                var part = RangeAt(edge.RemainingLevels(level));
+                var probability = pick?.ProbabilityOf(i);
+                range = probability is null
+                    ? new(range.Least + part.Least, range.Expected + part.Expected, range.Most + part.Most, range.Exact + part.Exact)
+                    : probability.Value.IsZero ? range
+                    : new(
+                        range.Least < part.Least ? range.Least : part.Least,
+                        range.Expected + ((part.Expected * probability) >> FractionBits),
+                        range.Most > part.Most ? range.Most : part.Most,
+                        null);
+            }
+
             return _ranges[level] = range;
         }
 
         /// <summary>Counts by enumeration, each place once; null where there are too many.</summary>
-        public BigInteger? CountAt(LevelState state)
+        public BigInteger? CountAt(LevelState state, int depth)
         {
+            if (hierarchy.IsBase(state.Level))
+            {
+                return valueOfBase(hierarchy.AllLevels.At(state.Level).BaseIndex);
+            }
+
             // Below what has no choices the way is of no account.
-            if (RangeAt(state.Level).Exact is { } known)
+            if (!hierarchy.DependsOnSizes && RangeAt(state.Level).Exact is { } known)
             {
                 return known;
             }
 
-            state = hierarchy.DependsOnWays ? state : state with { Way = 0 };
-            if (_counts.TryGetValue(state, out var count) || _counts.Count > maxStates)
+            if (_counts.TryGetValue(state, out var count) || _counts.Count > maxStates || depth > MaxLevels)
             {
                 return count;
             }
@@ -78,7 +93,7 @@ public readonly record struct InstanceRange(BigInteger Least, BigInteger Expecte
             count = BigInteger.Zero;
             foreach (var edge in hierarchy.AllLevels.At(state.Level).Edges)
             {
-                count += CountAt(hierarchy.Resolve(edge.Enter(in state)));
+                count += CountAt(hierarchy.Resolve(edge.Enter(in state)), depth + 1);
                 if (count is null)
                 {
                     break;

@@ -123,7 +123,7 @@ internal readonly record struct MassProperties(double Volume, Vector FirstMoment
     private static SortedSet<LevelState>? FindStates(FractalHierarchy hierarchy)
     {
         var states = new SortedSet<LevelState>(Comparer<LevelState>.Create(
-            static (state1, state2) => (state1.Level, state1.Way).CompareTo((state2.Level, state2.Way)))) { hierarchy.Start };
+            static (state1, state2) => (state1.Level, state1.Way, state1.Size).CompareTo((state2.Level, state2.Way, state2.Size)))) { hierarchy.Start };
         var open = new Stack<(SubFractal Part, LevelState State)>([(hierarchy.Root, hierarchy.Start)]);
         while (open.TryPop(out var next) && states.Count <= MaxStates)
         {

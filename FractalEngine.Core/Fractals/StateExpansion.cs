@@ -5,14 +5,17 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Fractals;
 
-/// <summary>Expands a fractal by chance into one list of instances: way by way, since each may lead to something else.</summary>
+/// <summary>
+/// Expands a fractal, in which places decide what stands there, into one list of instances: way by way, since each may lead to something
+/// else.
+/// </summary>
 internal static class StateExpansion
 {
     /// <summary>Lists the instances with faces, in the order of their ways.</summary>
     /// <param name="hierarchy">One level for each set, of a finite fractal.</param>
     /// <param name="maxInstances">Maximum number of instances.</param>
     /// <exception cref="FractalLimitException">The fractal has more instances, or takes too long to expand.</exception>
-    /// <remarks>Time is proportional to the instances times the levels. What lies in a part without chance is listed once, as anywhere.</remarks>
+    /// <remarks>Time is proportional to the instances times the levels. What lies in a part without such places is listed once, as anywhere.</remarks>
     public static ImmutableArray<MeshInstance> Expand(FractalHierarchy hierarchy, long maxInstances)
     {
         var instances = ImmutableArray.CreateBuilder<MeshInstance>();

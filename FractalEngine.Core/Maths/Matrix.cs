@@ -80,6 +80,33 @@ public readonly record struct Matrix(Vector V1, Vector V2, Vector V3)
     /// <summary>Exchanges the rows and columns.</summary>
     public Matrix Transpose() => new(new(V1.X, V2.X, V3.X), new(V1.Y, V2.Y, V3.Y), new(V1.Z, V2.Z, V3.Z));
 
+    /// <summary>
+    /// Computes the greatest stretch: of the longest vector that the matrix makes of a unit vector, which is its largest singular value.
+    /// </summary>
+    /// <remarks>The largest eigenvalue of MᵀM in closed form (O. K. Smith, Communications of the ACM 4, 1961).</remarks>
+    public double OperatorNorm()
+    {
+        var scale = MaxAbsEntry();
+        if (scale == 0)
+        {
+            return 0;
+        }
+
+        var (x, y, z) = (V1 / scale, V2 / scale, V3 / scale);
+        var (xy, yz, zx) = (Vector.Dot(x, y), Vector.Dot(y, z), Vector.Dot(z, x));
+        var mean = (x.LengthSquared() + y.LengthSquared() + z.LengthSquared()) / 3;
+        var offset = new Vector(x.LengthSquared() - mean, y.LengthSquared() - mean, z.LengthSquared() - mean);
+        var spread = Math.Sqrt((offset.LengthSquared() + (2 * ((xy * xy) + (yz * yz) + (zx * zx)))) / 6);
+        if (spread == 0)
+        {
+            return scale * Math.Sqrt(mean);
+        }
+
+        var deviation = new Matrix(new(offset.X, xy, zx), new(xy, offset.Y, yz), new(zx, yz, offset.Z));
+        var ratio = Math.Clamp(((1 / spread) * deviation).Determinant() / 2, -1, 1);
+        return scale * Math.Sqrt(mean + (2 * spread * Math.Cos(Math.Acos(ratio) / 3)));
+    }
+
     /// <summary>Computes the signed volume of the image of the unit cube: <c>Dot(V1, Cross(V2, V3))</c>.</summary>
     public double Determinant() => Vector.Dot(V1, AccurateCross(V2, V3));
 

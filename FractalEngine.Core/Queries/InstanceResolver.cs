@@ -36,7 +36,7 @@ internal static class InstanceResolver
         var maxTranslation = Vector256.Abs(map.Translation);
         var exponent = 0L;
         int? end = null;
-        var state = ResolveChance(hierarchy, start, context);
+        var state = ResolvePicks(hierarchy, start, context);
         var subFractal = hierarchy.At(state.Level);
         foreach (var childIndex in path)
         {
@@ -48,12 +48,12 @@ internal static class InstanceResolver
             }
 
             var remainingLevels = state.Level;
-            var way = state.Way;
-            if (hierarchy.HasChance)
+            var place = state;
+            if (hierarchy.HasPicks)
             {
                 foreach (var edge in child.Edges)
                 {
-                    way = edge.Set.WayOf(edge.MapIndex).After(way);
+                    place = edge.Enter(in place);
                 }
             }
 
@@ -66,7 +66,7 @@ internal static class InstanceResolver
                     context.AppendToPath(edge.MapIndex);
                 }
 
-                state = ResolveChance(hierarchy, new(child.RemainingLevels(remainingLevels), way), context);
+                state = ResolvePicks(hierarchy, place with { Level = child.RemainingLevels(remainingLevels) }, context);
                 subFractal = hierarchy.At(state.Level);
                 continue;
             }
@@ -112,7 +112,7 @@ internal static class InstanceResolver
                 remainingLevels = childLevels;
             }
 
-            state = ResolveChance(hierarchy, new(remainingLevels, way), context);
+            state = ResolvePicks(hierarchy, place with { Level = remainingLevels }, context);
             subFractal = hierarchy.At(state.Level);
         }
 
@@ -122,12 +122,15 @@ internal static class InstanceResolver
         return map;
     }
 
-    /// <summary>Goes on as far as chance decides, and appends what it decided.</summary>
-    private static LevelState ResolveChance(FractalHierarchy hierarchy, LevelState state, QueryContext context)
+    /// <summary>Goes on as far as places decide, and appends what chance decided.</summary>
+    private static LevelState ResolvePicks(FractalHierarchy hierarchy, LevelState state, QueryContext context)
     {
-        while (hierarchy.HasChance && hierarchy.TryPick(ref state, out var index))
+        while (hierarchy.HasPicks && hierarchy.MapSetAt(state.Level)?.Pick is { } pick && hierarchy.TryPick(ref state, out var index))
         {
-            context.AppendToPath(index);
+            if (!pick.DependsOnSize)
+            {
+                context.AppendToPath(index);
+            }
         }
 
         return state;

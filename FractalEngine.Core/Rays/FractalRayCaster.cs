@@ -135,6 +135,7 @@ internal sealed class FractalRayCaster(
         frame.SetBounds(rootBounds);
         frame.RemainingLevels = _start.Level;
         frame.Way = _start.Way;
+        frame.Size = _start.Size;
         frame.PathLength = 0;
         frame.Set(in approached);
         if (!TryOpen(ref frame, hasTestedPlanes: false, ref stack.Entries(0), ref search, minRadius))
@@ -182,8 +183,8 @@ internal sealed class FractalRayCaster(
                 continue;
             }
 
-            var isChosen = hierarchy.HasChance && child.Group is null && TryChoose(in frame, in child, ref inner, ref bounds);
-            if (bounds.IsEmpty || ((child.MayBeFar || isChosen) && !inner.TryApproach(bounds.Box, in search)))
+            var isPicked = hierarchy.HasPicks && child.Group is null && TryPick(in frame, in child, ref inner, ref bounds);
+            if (bounds.IsEmpty || ((child.MayBeFar || isPicked) && !inner.TryApproach(bounds.Box, in search)))
             {
                 continue;
             }
@@ -203,7 +204,7 @@ internal sealed class FractalRayCaster(
             else
             {
                 inner.SetBounds(bounds);
-                if (TryOpen(ref inner, child.HasTestedPlanes && !isChosen, ref stack.Entries(depth + 1), ref search, minRadius))
+                if (TryOpen(ref inner, child.HasTestedPlanes && !isPicked, ref stack.Entries(depth + 1), ref search, minRadius))
                 {
                     frame.Hits = hits;
                     hits = inner.Hits;
@@ -223,18 +224,18 @@ internal sealed class FractalRayCaster(
         }
     }
 
-    /// <summary>Goes on to what chance decides to stand in the place of a child.</summary>
+    /// <summary>Goes on to what the place of a child decides to stand there.</summary>
     /// <param name="frame">The ray at the parent.</param>
     /// <param name="child">The child.</param>
     /// <param name="inner">The ray at the child; receives the way, and the units of what stands there.</param>
     /// <param name="bounds">The bounds of the child; receives those of what stands there.</param>
-    /// <returns>False where chance decides nothing.</returns>
+    /// <returns>False where there is nothing to decide.</returns>
     [MethodImpl(MethodImplOptions.NoInlining)]
-    private bool TryChoose(in RayFrame frame, in RayChild child, ref RayFrame inner, ref RayBounds bounds)
+    private bool TryPick(in RayFrame frame, in RayChild child, ref RayFrame inner, ref RayBounds bounds)
     {
         Span<int> path = stackalloc int[child.PathLength];
         child.CopyPath(path);
-        var state = new LevelState(frame.RemainingLevels, frame.Way);
+        var state = new LevelState(frame.RemainingLevels, frame.Way, frame.Size);
         var subFractal = frame.Bounds.SubFractal;
         foreach (var index in path)
         {
@@ -243,7 +244,7 @@ internal sealed class FractalRayCaster(
             subFractal = hierarchy.At(next, state.Level);
         }
 
-        inner.Way = state.Way;
+        (inner.Way, inner.Size) = (state.Way, state.Size);
         if (inner.RemainingLevels == state.Level)
         {
             return false;

@@ -38,7 +38,7 @@ public sealed class FileSummary(LoadedFile file, TimeSpan loadTime, TimeSpan? pr
             ("faces", FormatCount(Sum(static mesh => mesh.FaceCount), format)),
             ("instances", FormatCount(Sum(static _ => 1), format)),
             ("chains", FormatCount(chains, format)),
-            ("infinite", format(chains is null)),
+            ("infinite", format(scene.Models.Any(static model => model is FractalModel { Fractal.Description.IsInfinite: true }))),
             ("boundsMin", format(bounds.IsEmpty ? null : bounds.Minimum)),
             ("boundsMax", format(bounds.IsEmpty ? null : bounds.Maximum)),
             ("storageBytes", format(file.StorageBytes)),

@@ -15,4 +15,7 @@ internal sealed record DeclaredJointRecursive(FractalPartList Parts, ImmutableAr
 
     /// <inheritdoc/>
     public override DeclaredObject WithDepth(int depth) => new(Parts.AddRecursive(Recursives, Index, depth), DeclaredSteps.None);
+
+    /// <inheritdoc/>
+    public override (ImmutableArray<FractalRecursive> Recursives, int Index) GetRecursives(FractalPartList parts) => (Recursives, Index);
 }

@@ -15,4 +15,10 @@ internal sealed record DeclaredRecursive(DeclaredObject Base, ImmutableArray<Fra
     /// <summary>Returns the recursion to a finite depth: Sⁿ after the base. Depth 0 is the base itself.</summary>
     public override DeclaredObject WithDepth(int depth) =>
         new(Part, Base.Steps.Prepend(new Repetition(IterationSteps, depth)));
+
+    /// <inheritdoc/>
+    public override (ImmutableArray<FractalRecursive> Recursives, int Index) GetRecursives(FractalPartList parts) => (
+        parts.CreateRecursives(
+            [parts.AddSteps(Base.Part, Base.Steps.Take(Base.Steps.Count))], [parts.AddSteps(parts.AddCall(0), IterationSteps)]),
+        0);
 }

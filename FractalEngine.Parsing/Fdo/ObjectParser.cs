@@ -252,22 +252,18 @@ public abstract class ObjectParser : MapSetParser
             throw Error(depthStart, "the depth of a recursive must not be negative");
         }
 
+        if (depthStart.Offset > rest.Offset && ParseWord(depthStart, "until", out var word))
+        {
+            return ParseUntil(cursor, name, depthStart, word, out value, out rest);
+        }
+
         if ((depthStart.Current == '(' ? !Names.IsRecursive(name) : depthStart.Offset == rest.Offset)
             || !ParseDepth(depthStart, out var depth, out rest))
         {
             return Fail(depthStart, SyntaxFailure.EndOfLine);
         }
 
-        if (call is not null)
-        {
-            throw Error(depthStart, $"'{name}' is here the recursive with one level less, so it has no depth of its own");
-        }
-
-        if (FindObject(cursor, name) is not DeclaredRecursion recursive)
-        {
-            throw Error(depthStart, $"'{name}' is no recursive, so it has no depth");
-        }
-
+        var recursive = FindRecursion(cursor, name, depthStart);
         if (depth > FractalLimits.Depth.Value)
         {
             throw Error(depthStart, $"the depth is more than the limit of {FractalLimits.Depth.Value}", isLimitExceeded: true);
@@ -280,6 +276,42 @@ public abstract class ObjectParser : MapSetParser
             Numbers?.AddDepth(name, depthStart, rest, (int)depth);
         }
 
+        return true;
+    }
+
+    /// <summary>Returns the recursive with a name, which has a depth or an end by size behind it.</summary>
+    private DeclaredRecursion FindRecursion(Cursor cursor, string name, Cursor end) => Calls?.ContainsKey(name) == true
+        ? throw Error(end, $"'{name}' is here the recursive with one level less, so it has no depth of its own")
+        : FindObject(cursor, name) as DeclaredRecursion ?? throw Error(end, $"'{name}' is no recursive, so it has no depth");
+
+    /// <summary>Parses the end of a recursive by its size, <c>z until 0.02</c>, behind the keyword.</summary>
+    private bool ParseUntil(Cursor cursor, string name, Cursor keyword, Cursor behind, out DeclaredObject value, out Cursor rest)
+    {
+        value = EmptyObject;
+        if (!ParseBlanks(behind, out var start) || !ParseExpression(start, out var length, out rest))
+        {
+            rest = behind;
+            return false;
+        }
+
+        var recursive = FindRecursion(cursor, name, keyword);
+        if (!(length > 0))
+        {
+            throw Error(start, FormattableString.Invariant($"a recursive ends at a size above 0, and this one is {length:R}"));
+        }
+
+        var (recursives, index) = recursive.GetRecursives(Bases.Parts);
+        RequireRepeatedSteps(recursives.Sum(static one => one.Calls.Length), cursor);
+        if (RecursiveCycles.FindGrowing(recursives) is { } cycle)
+        {
+            // Sets of sets, and sums and choices in sets, are recursives without names.
+            var names = cycle.Where(one => one < recursive.Names.Length).Select(one => $"'{recursive.Names[one]}'").ToArray();
+            throw Error(keyword, names is [var only]
+                ? $"{only} calls itself without getting smaller, so that it never ends by its size"
+                : $"{string.Join(", ", names)} call each other without getting smaller, so that they never end by their size");
+        }
+
+        value = new(Bases.Parts.AddRecursive(recursives, index, null, length), DeclaredSteps.None);
         return true;
     }
 

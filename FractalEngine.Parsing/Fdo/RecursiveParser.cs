@@ -142,7 +142,7 @@ public abstract class RecursiveParser : ObjectParser
             body.Steps.LevelCount - (isCall ? 0 : baseObject.Steps.LevelCount), FractalLimits.Levels.Value, "the fractal", "levels",
             bodyStart);
         RequireRepeatedSteps(stepCount, bodyStart);
-        Names.Add(head.Start, name, new DeclaredRecursive(baseObject, body.Steps.Take(stepCount)));
+        Names.Add(head.Start, name, new DeclaredRecursive(baseObject, body.Steps.Take(stepCount)) { Names = [name] });
     }
 
     /// <summary>Adds recursives that call themselves and each other.</summary>
@@ -164,9 +164,10 @@ public abstract class RecursiveParser : ObjectParser
         RequireRepeatedSteps(
             heads.Count * recursives.Sum(static recursive => recursive.Calls.Length + 1L), bodies[0].Start,
             "calls of recursives that call each other, times the number of these");
+        ImmutableArray<string> names = [.. heads.Select(static head => head.Name)];
         foreach (var (i, head) in heads.Index())
         {
-            Names.Add(head.Start, head.Name, new DeclaredJointRecursive(Bases.Parts, recursives, i));
+            Names.Add(head.Start, head.Name, new DeclaredJointRecursive(Bases.Parts, recursives, i) { Names = names });
         }
     }
 

@@ -42,6 +42,12 @@ public sealed record FractalDescription(ImmutableArray<FractalStep> Steps, Compo
     /// </summary>
     public bool CanBeComponentwise => !IsInfinite && HasOnlyTransformations;
 
+    /// <summary>True where places decide what stands there: by chance, or by size.</summary>
+    internal bool HasPicks => Parts.Any(static part => part is RecursivePart { HasPicks: true });
+
+    /// <summary>True where something ends by its size alone, so that its levels and instances are not known without its meshes.</summary>
+    internal bool HasSizes => Parts.Any(static part => part is RecursivePart { Levels: null, Until: not null });
+
     /// <summary>True where chance decides about something.</summary>
     public bool HasChance => Parts.Any(static part => part is RecursivePart { HasChoice: true });
 

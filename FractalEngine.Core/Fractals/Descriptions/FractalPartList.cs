@@ -67,10 +67,11 @@ public sealed class FractalPartList
     /// <summary>Adds a recursive, see <see cref="CreateRecursives"/>.</summary>
     /// <param name="recursives">The recursives of its group.</param>
     /// <param name="root">Its index in the group.</param>
-    /// <param name="levels">Number of its levels; null for infinitely many.</param>
+    /// <param name="levels">Number of its levels; null for no limit.</param>
+    /// <param name="until">The length at which it ends; null for none. See <see cref="RecursivePart"/>.</param>
     /// <returns>Index of the part.</returns>
-    public int AddRecursive(ImmutableArray<FractalRecursive> recursives, int root, int? levels) =>
-        Add(new(new RecursivePart(recursives, root, levels), null, null));
+    public int AddRecursive(ImmutableArray<FractalRecursive> recursives, int root, int? levels, double? until = null) =>
+        Add(new(new RecursivePart(recursives, root, levels, until), null, null));
 
     /// <summary>Adds all that a description is made of.</summary>
     /// <param name="description">The description.</param>

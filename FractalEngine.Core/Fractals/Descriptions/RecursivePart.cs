@@ -17,9 +17,16 @@ public sealed class RecursivePart : FractalPart
     /// <summary>Makes a part of recursives.</summary>
     /// <param name="recursives">The recursives, which refer to each other by their indices: at least one.</param>
     /// <param name="root">Index of the recursive that the part is.</param>
-    /// <param name="levels">Number of its levels; null for infinitely many.</param>
-    /// <exception cref="ArgumentException">A call leads to no recursive, or some call each other without end at the same level.</exception>
-    public RecursivePart(ImmutableArray<FractalRecursive> recursives, int root, int? levels)
+    /// <param name="levels">Number of its levels; null for no limit.</param>
+    /// <param name="until">
+    /// Length in the frame of the fractal; null for none. A call goes on while the base of its recursive, stretched as the maps on the way
+    /// do at most, has at least a diagonal of that length.
+    /// </param>
+    /// <exception cref="ArgumentException">
+    /// A call leads to no recursive, or some call each other without end at the same level; or the length is not positive, or some call
+    /// each other without getting smaller.
+    /// </exception>
+    public RecursivePart(ImmutableArray<FractalRecursive> recursives, int root, int? levels, double? until = null)
     {
         if (recursives.IsDefaultOrEmpty)
         {
@@ -32,6 +39,8 @@ public sealed class RecursivePart : FractalPart
         Recursives = recursives;
         Root = root;
         Levels = levels;
+        Until = until is null or (> 0 and < double.PositiveInfinity) ? until
+            : throw new ArgumentException("expected a positive length", nameof(until));
         RecursiveCall[] calls = [.. recursives.SelectMany(static recursive => recursive.Calls).Where(static call => !call.IsConstant)];
         MaxLevelsLess = calls.Select(static call => call.LevelsLess!.Value).DefaultIfEmpty().Max();
         if (calls.Any(call => (uint)call.Target >= (uint)recursives.Length || call.LevelsLess < 0))
@@ -45,9 +54,13 @@ public sealed class RecursivePart : FractalPart
             throw new ArgumentException("expected a weight for each call of a choice, and calls of what stands as it is", nameof(recursives));
         }
 
-        IsFlat = levels == 1 && recursives.Length == 1 && calls.Length == 0;
+        IsFlat = levels == 1 && until is null && recursives.Length == 1 && calls.Length == 0;
         HasChoice = recursives.Any(static recursive => recursive.Choice is not null);
         Order = SortByCalls();
+        if (until is not null && RecursiveCycles.FindGrowing(recursives) is not null)
+        {
+            throw new ArgumentException("expected recursives that get smaller in each cycle of calls", nameof(recursives));
+        }
     }
 
     /// <summary>The recursives, which refer to each other by their indices.</summary>
@@ -56,8 +69,14 @@ public sealed class RecursivePart : FractalPart
     /// <summary>Index of the recursive that the part is.</summary>
     public int Root { get; }
 
-    /// <summary>Number of its levels; null for infinitely many.</summary>
+    /// <summary>Number of its levels; null for no limit.</summary>
     public int? Levels { get; }
+
+    /// <summary>The length of diagonals at which calls end; null where only <see cref="Levels"/> ends them.</summary>
+    public double? Until { get; }
+
+    /// <summary>True where places decide what stands there: by chance or by size.</summary>
+    internal bool HasPicks => HasChoice || Until is not null;
 
     /// <summary>The largest <see cref="RecursiveCall.LevelsLess"/> of the calls; 0 without calls.</summary>
     public int MaxLevelsLess { get; }
@@ -75,7 +94,7 @@ public sealed class RecursivePart : FractalPart
         : null;
 
     /// <inheritdoc/>
-    public override bool IsInfinite => Levels is null;
+    public override bool IsInfinite => Levels is null && Until is null;
 
     /// <inheritdoc/>
     public override bool MayHoldInfinite => IsFlat;
@@ -118,7 +137,7 @@ public sealed class RecursivePart : FractalPart
 
     /// <inheritdoc/>
     internal override BigInteger? CountInstances(Func<int, BigInteger?> countAt) => Levels is not { } levels
-        ? CountInfinite(Root, countAt, [])
+        ? Until is null ? CountInfinite(Root, countAt, []) : null
         : HasChoice
         ? Ascend(countAt, BigInteger.Zero, static (sum, count) => sum + count,
             static (counts, _) => counts.Any(static count => count is null) ? null : counts.Max())
@@ -187,14 +206,14 @@ public sealed class RecursivePart : FractalPart
     }
 
     /// <inheritdoc/>
-    internal override FractalPart WithDepth(int depth) => new RecursivePart(Recursives, Root, depth);
+    internal override FractalPart WithDepth(int depth) => new RecursivePart(Recursives, Root, depth, Until);
 
     /// <inheritdoc/>
     internal override FractalPart WithMaxDepth(int depth) => IsFlat || Levels <= depth ? this : WithDepth(depth);
 
     /// <summary>Makes the same part with another seed for all choices.</summary>
     internal RecursivePart WithSeed(int seed) => !HasChoice ? this : new(
-        ImmutableArray.CreateRange(Recursives, recursive => recursive with { Choice = recursive.Choice?.WithSeed(seed) }), Root, Levels);
+        ImmutableArray.CreateRange(Recursives, recursive => recursive with { Choice = recursive.Choice?.WithSeed(seed) }), Root, Levels, Until);
 
     /// <inheritdoc/>
     internal override FractalPart WithReferences(Func<int, int> indexOf) => new RecursivePart(
@@ -203,7 +222,7 @@ public sealed class RecursivePart : FractalPart
             BasePart = indexOf(recursive.BasePart),
             Calls = [.. recursive.Calls.Select(call => call.IsConstant ? call with { Target = indexOf(call.Target) } : call)],
         })],
-        Root, Levels);
+        Root, Levels, Until);
 
     /// <summary>Tells whether the other part has the same recursives, perhaps with another root or so many levels.</summary>
     public bool HasRecursivesOf(RecursivePart other)
@@ -214,10 +233,10 @@ public sealed class RecursivePart : FractalPart
 
     /// <inheritdoc/>
     public override bool Equals(FractalPart? other) =>
-        other is RecursivePart part && Root == part.Root && Levels == part.Levels && HasRecursivesOf(part);
+        other is RecursivePart part && Root == part.Root && Levels == part.Levels && Until == part.Until && HasRecursivesOf(part);
 
     /// <inheritdoc/>
-    public override int GetHashCode() => HashCode.Combine(Root, Levels, Recursives.Length, Recursives[0]);
+    public override int GetHashCode() => HashCode.Combine(Root, Levels, Until, Recursives.Length, Recursives[0]);
 
     /// <summary>Counts the chains of infinitely many levels: what a cycle of calls leads to, it does so without end.</summary>
     private BigInteger? CountInfinite(int recursive, Func<int, BigInteger?> countAt, Dictionary<int, BigInteger?> known)

@@ -18,7 +18,8 @@ internal readonly record struct ChildEdge(MapSet Set, int MapIndex, LevelStep Le
     public double OperatorNormBound => Set.OperatorNormBounds[MapIndex];
 
     /// <summary>Goes on from a place by the edge.</summary>
-    public LevelState Enter(in LevelState parent) => new(RemainingLevels(parent.Level), Set.WayOf(MapIndex).After(parent.Way));
+    public LevelState Enter(in LevelState parent) => new(
+        RemainingLevels(parent.Level), Set.WayOf(MapIndex).After(parent.Way), parent.Size + Set.SizeOf(MapIndex));
 
     /// <summary>The edge from a sub-fractal to a group of its own children: it stays on its level.</summary>
     public static ChildEdge ToGroup { get; } = new(MapSet.Identity, 0, LevelStep.Down(0));

@@ -1,3 +1,4 @@
+using System.Collections.Immutable;
 using System.Runtime.CompilerServices;
 using FractalEngine.Core.Geometry;
 
@@ -23,11 +24,11 @@ internal sealed class FractalHierarchy(Mesh[] baseMeshes, LevelTable<HierarchyLe
     private readonly SubFractal?[] _lowest =
         [.. Enumerable.Range(0, (int)Math.Min(top, MaxLowestLevel) + 1).Select(level => levels.At(level).SubFractal)];
 
-    /// <summary>The place of the whole fractal, before chance decides what it is.</summary>
-    public LevelState Top { get; } = new(top, 0);
+    /// <summary>The place of the whole fractal, before it decides what stands there.</summary>
+    public LevelState Top { get; } = new(top);
 
     /// <summary>The place of the whole fractal.</summary>
-    public LevelState Start { get; private set; } = new(top, 0);
+    public LevelState Start { get; private set; } = new(top);
 
     /// <summary>The base meshes, by which the lowest states are numbered.</summary>
     public Mesh[] BaseMeshes { get; } = baseMeshes;
@@ -44,20 +45,32 @@ internal sealed class FractalHierarchy(Mesh[] baseMeshes, LevelTable<HierarchyLe
     /// <summary>True when all maps are similarities, so that they multiply distances by their scale.</summary>
     public bool HasOnlySimilarities { get; init; }
 
-    /// <summary>True where chance decides about something.</summary>
-    public bool HasChance
+    /// <summary>True where places decide what stands there, by chance or by size.</summary>
+    public bool HasPicks
     {
         get;
         init
         {
             field = value;
+            foreach (var level in value ? AllLevels.Items : [])
+            {
+                DependsOnWays |= level.Set?.Pick?.DependsOnWay == true;
+                DependsOnSizes |= level.Set?.Pick?.DependsOnSize == true;
+            }
+
             Start = Resolve(Top);
             Root = At(Start.Level);
         }
     }
 
-    /// <summary>True where the way to a place decides by chance, and not only its level.</summary>
-    public bool DependsOnWays => AllLevels.Items.ToArray().Any(static level => level.Set?.Pick?.DependsOnWay == true);
+    /// <summary>By parts that end by size: for each recursive, the largest number of a size that it has levels at.</summary>
+    public IReadOnlyDictionary<int, ImmutableArray<long>> SizeLimits { get; init; } = ImmutableDictionary<int, ImmutableArray<long>>.Empty;
+
+    /// <summary>True where sizes at places decide what stands there.</summary>
+    public bool DependsOnSizes { get; private set; }
+
+    /// <summary>True where the ways to places decide what stands there, and not only their levels and sizes.</summary>
+    public bool DependsOnWays { get; private set; }
 
     /// <summary>True when levels stand for doubled powers of one map, so that there is not one for each set.</summary>
     public bool HasDoubledPowers { get; init; }
@@ -97,10 +110,10 @@ internal sealed class FractalHierarchy(Mesh[] baseMeshes, LevelTable<HierarchyLe
     /// <param name="remainingLevels">Remaining levels of the child.</param>
     public SubFractal At(ChildInstance child, long remainingLevels) => child.Group ?? At(remainingLevels);
 
-    /// <summary>Goes on from a place to a child: as far as chance decides at once.</summary>
+    /// <summary>Goes on from a place to a child: as far as places decide at once.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public LevelState Enter(ChildInstance child, in LevelState parent) =>
-        HasChance ? EnterByChance(child, in parent) : new(child.RemainingLevels(parent.Level), 0);
+        HasPicks ? EnterByPicks(child, in parent) : new(child.RemainingLevels(parent.Level));
 
     /// <summary>Goes on from a place by a path of children.</summary>
     /// <param name="path">Indices of child instances, perhaps through groups.</param>
@@ -119,7 +132,7 @@ internal sealed class FractalHierarchy(Mesh[] baseMeshes, LevelTable<HierarchyLe
         return (state, subFractal);
     }
 
-    /// <summary>Decides by chance what stands at a place.</summary>
+    /// <summary>Decides what stands at a place.</summary>
     /// <param name="state">The place; receives that of the alternative.</param>
     /// <param name="index">The index of the alternative.</param>
     /// <returns>False where there is nothing to decide.</returns>
@@ -136,18 +149,19 @@ internal sealed class FractalHierarchy(Mesh[] baseMeshes, LevelTable<HierarchyLe
         return true;
     }
 
-    /// <summary>Goes on from a place as far as chance decides.</summary>
+    /// <summary>Goes on from a place as far as places decide.</summary>
     public LevelState Resolve(LevelState state)
     {
         while (TryPick(ref state, out _))
         {
         }
 
-        return state;
+        // Places that nothing tells apart are equal.
+        return new(state.Level, DependsOnWays ? state.Way : 0, DependsOnSizes ? state.Size : 0);
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]
-    private LevelState EnterByChance(ChildInstance child, in LevelState parent)
+    private LevelState EnterByPicks(ChildInstance child, in LevelState parent)
     {
         if (child.Group is not null)
         {

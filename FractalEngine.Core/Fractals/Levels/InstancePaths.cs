@@ -85,12 +85,12 @@ internal static class InstancePaths
         return null;
     }
 
-    /// <summary>Goes down from levels that only lead to another part.</summary>
+    /// <summary>Goes down from levels that are no part of paths.</summary>
     private static LevelState SkipLinks(FractalHierarchy hierarchy, LevelState state)
     {
-        while (hierarchy.MapSetAt(state.Level) == MapSet.Link)
+        while (hierarchy.MapSetAt(state.Level) is { } set && (set == MapSet.Link || set.Pick is { DependsOnSize: true }))
         {
-            state = hierarchy.AllLevels.At(state.Level).Edges[0].Enter(in state);
+            state = hierarchy.AllLevels.At(state.Level).Edges[set.Pick?.Select(in state) ?? 0].Enter(in state);
         }
 
         return state;

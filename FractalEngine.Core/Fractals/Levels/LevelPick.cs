@@ -3,25 +3,58 @@ using FractalEngine.Core.Fractals.Descriptions;
 
 namespace FractalEngine.Core.Fractals.Levels;
 
-/// <summary>Decides which one of the edges of a level stands at a place. A search goes on there at once, and never visits the level.</summary>
-/// <param name="choice">Decides by chance.</param>
-/// <param name="number">The number of the choice among those of its recursives.</param>
-/// <param name="firstLevel">The lowest level of the recursives.</param>
-/// <param name="period">Number of recursives.</param>
-/// <param name="rounds">Number of levels of the recursives.</param>
-internal sealed class LevelPick(Choice choice, int number, long firstLevel, int period, long rounds)
+/// <summary>
+/// Decides which one of the edges of a level stands at a place: by chance, or by size. A search goes on there at once, and never visits
+/// the level.
+/// </summary>
+internal abstract class LevelPick
 {
-    /// <summary>The index of the edge that stands at a place.</summary>
-    public int Select(in LevelState state) => choice.Select(choice.IsByLevel
-        ? WrittenWay.Of(rounds - 1 - ((state.Level - firstLevel) / period), number).After(0)
-        : state.Way);
+    /// <summary>True where the way to a place decides.</summary>
+    public virtual bool DependsOnWay => false;
 
-    /// <summary>True where the way to a place decides, and not only its level.</summary>
-    public bool DependsOnWay => !choice.IsByLevel;
-
-    /// <summary>How often an edge stands there, of 2⁶⁴.</summary>
-    public BigInteger ProbabilityOf(int index) => choice.ProbabilityOf(index);
+    /// <summary>True where the size at a place decides. Paths don't tell of that.</summary>
+    public virtual bool DependsOnSize => false;
 
     /// <summary>The index of the likeliest edge, the first of such.</summary>
-    public int Likeliest => choice.Weights.IndexOf(choice.Weights.Max());
+    public virtual int Likeliest => 0;
+
+    /// <summary>The index of the edge that stands at a place.</summary>
+    public abstract int Select(in LevelState state);
+
+    /// <summary>How often an edge stands there, of 2⁶⁴; null where that is no chance.</summary>
+    public virtual BigInteger? ProbabilityOf(int index) => null;
+
+    /// <summary>Decides by chance.</summary>
+    /// <param name="choice">The weights and the seed.</param>
+    /// <param name="number">The number of the choice among those of its recursives.</param>
+    /// <param name="firstLevel">The lowest level of the recursives.</param>
+    /// <param name="period">Number of recursives.</param>
+    /// <param name="rounds">Number of levels of the recursives.</param>
+    internal sealed class ByChance(Choice choice, int number, long firstLevel, int period, long rounds) : LevelPick
+    {
+        /// <inheritdoc/>
+        public override bool DependsOnWay => !choice.IsByLevel;
+
+        /// <inheritdoc/>
+        public override int Likeliest => choice.Weights.IndexOf(choice.Weights.Max());
+
+        /// <inheritdoc/>
+        public override int Select(in LevelState state) => choice.Select(choice.IsByLevel
+            ? WrittenWay.Of(rounds - 1 - ((state.Level - firstLevel) / period), number).After(0)
+            : state.Way);
+
+        /// <inheritdoc/>
+        public override BigInteger? ProbabilityOf(int index) => choice.ProbabilityOf(index);
+    }
+
+    /// <summary>Goes on by the first edge down to a size, and ends by the second one.</summary>
+    /// <param name="limit">The largest number of a size that is not too small yet.</param>
+    internal sealed class BySize(long limit) : LevelPick
+    {
+        /// <inheritdoc/>
+        public override bool DependsOnSize => true;
+
+        /// <inheritdoc/>
+        public override int Select(in LevelState state) => state.Size <= limit ? 0 : 1;
+    }
 }

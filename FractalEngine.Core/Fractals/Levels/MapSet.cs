@@ -10,6 +10,7 @@ internal sealed class MapSet
 {
     // Computed twice at worst, with the same result.
     private AffineMap[]? _inverses;
+    private long[]? _sizes;
 
     /// <summary>Computes the terms of a transformation set.</summary>
     /// <exception cref="SingularMatrixException">A map has no inverse.</exception>
@@ -77,10 +78,13 @@ internal sealed class MapSet
     public bool AreSimilarities { get; }
 
     /// <summary>The way through one of the maps.</summary>
-    public WrittenWay WayOf(int index) => this == Identity || this == Link ? WrittenWay.Empty
+    public WrittenWay WayOf(int index) => this == Identity || this == Link || Pick is { DependsOnSize: true } ? WrittenWay.Empty
         : Pick is not null ? WrittenWay.Of(index)
         : Numbers.Length > 0 ? WrittenWay.Of(Numbers[index].Term, Numbers[index].Map)
         : WrittenWay.Of(0, index);
+
+    /// <summary>How much smaller one of the maps makes things, see <see cref="StretchSize"/>.</summary>
+    public long SizeOf(int index) => (_sizes ??= Array.ConvertAll(Maps, static map => StretchSize.Of(map.Linear)))[index];
 
     /// <summary>Number of bytes of the arrays.</summary>
     public long StorageBytes => Maps.Length * (_inverses is null ? 14 : 26) * sizeof(double);

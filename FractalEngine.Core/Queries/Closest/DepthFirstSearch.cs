@@ -112,7 +112,7 @@ internal sealed class DepthFirstSearch<TFrame, TBaseMeshes>(
             var childState = hierarchy.Enter(child, in state);
             var childLevels = childState.Level;
             var childSubFractal = hierarchy.At(child, childLevels);
-            if (hierarchy.HasChance && childSubFractal.Box.IsEmpty)
+            if (hierarchy.HasPicks && childSubFractal.Box.IsEmpty)
             {
                 queue.Remove(closestChild);
                 hasNext = queue.TryPeek(cutoffSquared, cutoff, out closestChild);

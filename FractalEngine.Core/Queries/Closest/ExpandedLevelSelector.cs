@@ -44,7 +44,7 @@ internal sealed class ExpandedLevelSelector(FractalHierarchy hierarchy, Triangle
     /// <param name="bvh">The hierarchy of the base mesh.</param>
     /// <remarks>Cost: up to a few milliseconds.</remarks>
     public static ExpandedLevels Select(FractalHierarchy hierarchy, TriangleBvh bvh) =>
-        !hierarchy.HasChance && hierarchy.Levels is > 0 and <= MaxLevels
+        !hierarchy.HasPicks && hierarchy.Levels is > 0 and <= MaxLevels
             ? new ExpandedLevelSelector(hierarchy, bvh).Select()
             : ExpandedLevels.None;
 

@@ -1,4 +1,3 @@
-using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Fractals.Levels;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
@@ -12,6 +11,6 @@ namespace FractalEngine.Core.Visibility.Levels;
 /// <param name="MapIndex">Index of the map in its set; −1 for the identity, which changes no colour.</param>
 internal readonly record struct LodChild(AffineMap Map, BoundingBox Box, LevelStep LevelStep, int MapIndex)
 {
-    /// <summary>The way to the child, by which chance decides.</summary>
-    public WrittenWay Way { get; init; } = WrittenWay.Empty;
+    /// <summary>The edge to the child, where places decide what stands there.</summary>
+    public ChildEdge? Edge { get; init; }
 }

@@ -26,7 +26,7 @@ public sealed class LodHierarchy
     internal LodHierarchy(LevelTable<LodNode> nodes, long levelCount, Mesh mesh)
     {
         _nodes = nodes;
-        Start = new(levelCount, 0);
+        Start = new(levelCount);
         ColourLevels = levelCount;
         Mesh = mesh;
         Occluder = new(mesh);
@@ -50,8 +50,8 @@ public sealed class LodHierarchy
     /// <summary>The place of the whole fractal.</summary>
     internal LevelState Start { get; private set; }
 
-    /// <summary>True where chance decides about something.</summary>
-    internal bool HasChance
+    /// <summary>True where places decide what stands there, by chance or by size.</summary>
+    internal bool HasPicks
     {
         get;
         init
@@ -125,22 +125,19 @@ public sealed class LodHierarchy
     internal SkyMasks? SkyMasksAt(LodNode node, long remainingLevels) =>
         remainingLevels < _lastSkyMasks.Length ? _lastSkyMasks[remainingLevels] : node.SkyMasks;
 
-    /// <summary>Goes on from a place to a child: as far as chance decides at once.</summary>
+    /// <summary>Goes on from a place to a child: as far as places decide at once.</summary>
     /// <param name="node">The node of the place.</param>
     /// <param name="child">Index of the child.</param>
     /// <param name="parent">The place.</param>
-    internal LevelState Enter(LodNode node, int child, in LevelState parent)
-    {
-        var level = node.ChildLevelSteps[child].RemainingLevels(parent.Level);
-        return HasChance ? Resolve(new(level, node.ChildWays[child].After(parent.Way))) : new(level, 0);
-    }
+    internal LevelState Enter(LodNode node, int child, in LevelState parent) => HasPicks
+        ? Resolve(node.ChildEdges[child].Enter(in parent))
+        : new(node.ChildLevelSteps[child].RemainingLevels(parent.Level));
 
     private LevelState Resolve(LevelState state)
     {
-        while (HasChance && NodeAt(state.Level) is { Pick: { } pick } node)
+        while (HasPicks && NodeAt(state.Level) is { Pick: { } pick } node)
         {
-            var index = pick.Select(in state);
-            state = new(node.ChildLevelSteps[index].RemainingLevels(state.Level), node.ChildWays[index].After(state.Way));
+            state = node.ChildEdges[pick.Select(in state)].Enter(in state);
         }
 
         return state;

@@ -23,25 +23,25 @@ internal static class LodHierarchyBuilder
         var mesh = fractal.HasSeveralMeshes ? Mesh.Empty : fractal.BaseMesh;
         var baseBox = fractal.HasSeveralMeshes ? BoundingBox.Empty
             : hierarchy.AllLevels.Items[fractal.BaseMeshes.IndexOf(mesh)].Box;
-        return new(hierarchy.AllLevels.Select(level => BuildNode(level, baseBox)), hierarchy.Top.Level, mesh)
+        return new(hierarchy.AllLevels.Select(level => BuildNode(level, baseBox, hierarchy.HasPicks)), hierarchy.Top.Level, mesh)
         {
-            HasChance = hierarchy.HasChance,
+            HasPicks = hierarchy.HasPicks,
             ColourLevels = fractal.LevelCount ?? hierarchy.Top.Level,
         };
     }
 
-    private static LodNode BuildNode(HierarchyLevel level, BoundingBox baseBox)
+    private static LodNode BuildNode(HierarchyLevel level, BoundingBox baseBox, bool hasPicks)
     {
-        // Chance knows the alternatives by their numbers, so that none is left out.
+        // A pick knows the alternatives by their numbers, so that none is left out.
         var pick = level.Set?.Pick;
         var children = level.Edges.Zip(level.GetEdgeBoxes()).Where(child => pick is not null || !child.Second.IsEmpty);
-        return new(level.Box, ComputeProxyMap(baseBox, level.Box), [.. children.Select(CreateChild)], level.Set?.Maps.Length ?? 0, pick);
+        return new(level.Box, ComputeProxyMap(baseBox, level.Box), [.. children.Select(child => CreateChild(child.First, child.Second, hasPicks))], level.Set?.Maps.Length ?? 0, pick);
     }
 
-    private static LodChild CreateChild((ChildEdge Edge, BoundingBox Box) child) => new(
-        child.Edge.Map, child.Box, child.Edge.LevelStep, child.Edge.Map == AffineMap.Identity ? -1 : child.Edge.MapIndex)
+    private static LodChild CreateChild(ChildEdge edge, BoundingBox box, bool hasPicks) => new(
+        edge.Map, box, edge.LevelStep, edge.Map == AffineMap.Identity ? -1 : edge.MapIndex)
         {
-            Way = child.Edge.Set.WayOf(child.Edge.MapIndex),
+            Edge = hasPicks ? edge : null,
         };
 
     /// <summary>Computes the map under which the base mesh is the proxy of what a box holds.</summary>

@@ -1,5 +1,4 @@
 using System.Runtime.Intrinsics;
-using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Fractals.Levels;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
@@ -43,7 +42,7 @@ internal sealed class LodNode
         ChildMaps = new SimdAffineMap[children.Length];
         ChildLevelSteps = new LevelStep[children.Length];
         ChildMapIndices = new int[children.Length];
-        ChildWays = new WrittenWay[children.Length];
+        ChildEdges = children is [{ Edge: not null }, ..] ? new ChildEdge[children.Length] : [];
         var paddedCount = (children.Length + Lanes - 1) / Lanes * Lanes;
         ChildBoxes = new float[paddedCount * BoxRows];
         if (IsEmpty)
@@ -60,7 +59,11 @@ internal sealed class LodNode
             ChildMaps[i] = new(child.Map);
             ChildLevelSteps[i] = child.LevelStep;
             ChildMapIndices[i] = child.MapIndex;
-            ChildWays[i] = child.Way;
+            if (child.Edge is { } edge)
+            {
+                ChildEdges[i] = edge;
+            }
+
             var offset = child.Box.Centre - box.Centre;
             var padding = (RelativeRounding * (child.Box.Diagonal + (RelativeRounding * coordinateExtent)))
                 + (SingleUnitRoundoff * offset.MaxAbsComponent());
@@ -106,8 +109,8 @@ internal sealed class LodNode
     /// <summary>Indices of the children's maps in their sets; −1 for the identity, which changes no colour.</summary>
     public int[] ChildMapIndices { get; }
 
-    /// <summary>The ways to the children, by which chance decides.</summary>
-    public WrittenWay[] ChildWays { get; }
+    /// <summary>The edges to the children, where places decide what stands there; none elsewhere.</summary>
+    public ChildEdge[] ChildEdges { get; }
 
     /// <summary>Decides which one of the children stands at a place; null where all do.</summary>
     public LevelPick? Pick { get; }

@@ -9,9 +9,6 @@ namespace FractalEngine.Core.Visibility.Levels;
 /// <param name="ColourPath">Path of maps that lead to the sub-fractal; its colours continue from there.</param>
 public readonly record struct LodRoot(long RemainingLevels, AffineMap FrameToCamera, ColourPath ColourPath)
 {
-    /// <summary>The number of the way to it, by which chance decides.</summary>
-    internal ulong Way { get; init; }
-
     /// <summary>The place of the sub-fractal.</summary>
-    internal LevelState State => new(RemainingLevels, Way);
+    internal LevelState State { get => new(RemainingLevels, field.Way, field.Size); init; }
 }

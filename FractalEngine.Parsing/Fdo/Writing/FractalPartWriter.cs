@@ -37,9 +37,13 @@ internal sealed class FractalPartWriter(FractalWriter writer, List<string> names
         }
     }
 
-    private static string FormatRecursive(RecursivePart part, Dictionary<int, string> group) => part.Levels is { } levels
-        ? FormattableString.Invariant($"{group[part.Root]} {levels}")
-        : group[part.Root];
+    private static string FormatRecursive(RecursivePart part, Dictionary<int, string> group) => (part.Levels, part.Until) switch
+    {
+        ({ } levels, null) => FormattableString.Invariant($"{group[part.Root]} {levels}"),
+        (null, { } until) => FormattableString.Invariant($"{group[part.Root]} until {until:R}"),
+        (null, null) => group[part.Root],
+        _ => throw FractalWriter.Fault(ErrorKind.Input, "a recursive ends both by its depth and by its size"),
+    };
 
     /// <summary>Returns the names of recursives that call each other, and declares them if they are new.</summary>
     private Dictionary<int, string> GroupOf(RecursivePart part, ImmutableArray<FractalPart> parts)

@@ -14,7 +14,11 @@ namespace FractalEngine.Core.Fractals.Levels.Building;
 /// <param name="doublesPowers">
 /// True to double the levels of one map, see <see cref="MapPowers"/>; false for one level for each set, whose path colours need.
 /// </param>
-internal sealed class FractalHierarchyBuilder(FractalGraph graph, bool doublesPowers)
+/// <param name="knownLimits">
+/// <see cref="FractalHierarchy.SizeLimits"/> of the whole that this is a part of, whose meshes decide; null for a whole.
+/// </param>
+internal sealed class FractalHierarchyBuilder(
+    FractalGraph graph, bool doublesPowers, IReadOnlyDictionary<int, ImmutableArray<long>>? knownLimits)
 {
     /// <summary>Stands for infinitely many rounds: no search descends so many levels.</summary>
     public const long EndlessRounds = 1L << 40;
@@ -25,8 +29,9 @@ internal sealed class FractalHierarchyBuilder(FractalGraph graph, bool doublesPo
     // By parts: the level where each of those built is the whole.
     private readonly List<long> _tops = [.. Enumerable.Range(0, graph.BaseMeshes.Length)];
 
-    // By parts: whether chance decides about something in it.
-    private readonly List<bool> _hasChance = [.. Enumerable.Repeat(false, graph.BaseMeshes.Length)];
+    // By parts: whether places decide what stands there.
+    private readonly Dictionary<int, ImmutableArray<long>> _sizeLimits = [];
+    private readonly List<bool> _hasPicks = [.. Enumerable.Repeat(false, graph.BaseMeshes.Length)];
     private readonly Dictionary<TransformationSet, MapSet> _sets = new(ReferenceEqualityComparer.Instance);
     private readonly LevelBuilder _levels = new(graph);
 
@@ -41,9 +46,12 @@ internal sealed class FractalHierarchyBuilder(FractalGraph graph, bool doublesPo
     /// <param name="graph">The graph.</param>
     /// <param name="doublesPowers">False for one level for each set, see <see cref="MapPowers"/>.</param>
     /// <param name="keepsAllLevels">True to keep levels that no search from the whole fractal visits.</param>
+    /// <param name="knownLimits">Sizes at which recursives end; null to find them.</param>
     /// <exception cref="FractalLimitException">Bounds overflow a double, or don't converge; the message names the level.</exception>
-    public static FractalHierarchy Build(FractalGraph graph, bool doublesPowers = true, bool keepsAllLevels = false) =>
-        new FractalHierarchyBuilder(graph, doublesPowers).Build(keepsAllLevels);
+    public static FractalHierarchy Build(
+        FractalGraph graph, bool doublesPowers = true, bool keepsAllLevels = false,
+        IReadOnlyDictionary<int, ImmutableArray<long>>? knownLimits = null) =>
+        new FractalHierarchyBuilder(graph, doublesPowers, knownLimits).Build(keepsAllLevels);
 
     /// <summary>Adds the levels of all parts, each on top of those before.</summary>
     private FractalHierarchy Build(bool keepsAllLevels)
@@ -51,7 +59,7 @@ internal sealed class FractalHierarchyBuilder(FractalGraph graph, bool doublesPo
         LevelBuilder.RequireAllowedChildren(graph.Parts.OfType<SteppedPart>().Sum(part => part.Steps.Sum(CountWideChildren)));
         foreach (var part in graph.Parts)
         {
-            _hasChance.Add(part is RecursivePart { HasChoice: true } || part.References.Any(index => _hasChance[index]));
+            _hasPicks.Add(part is RecursivePart { HasPicks: true } || part.References.Any(index => _hasPicks[index]));
             _levels.BeginPart();
             _tops.Add(part switch
             {
@@ -71,7 +79,8 @@ internal sealed class FractalHierarchyBuilder(FractalGraph graph, bool doublesPo
         {
             HasOnlySimilarities = graph.HasOnlySimilarities,
             HasDoubledPowers = HasDoubledPowers,
-            HasChance = _hasChance[^1],
+            HasPicks = _hasPicks[^1],
+            SizeLimits = _sizeLimits,
         };
     }
 
@@ -145,7 +154,7 @@ internal sealed class FractalHierarchyBuilder(FractalGraph graph, bool doublesPo
     private void AddStep(FractalStep step)
     {
         var repetition = step as Repetition ?? new([step], 1);
-        if (doublesPowers && !_hasChance[^1] && MapPowers.TryCreate(repetition) is { } powers)
+        if (doublesPowers && !_hasPicks[^1] && MapPowers.TryCreate(repetition) is { } powers)
         {
             HasDoubledPowers = true;
             powers.AddLevels(Built.Top, _levels.Add);
@@ -205,8 +214,8 @@ internal sealed class FractalHierarchyBuilder(FractalGraph graph, bool doublesPo
         _levels.Add(EdgesAt(Built.Top + 1, levelsBelowRepetition, period, mapSet, Built.MapSetAt), mapSet);
     }
 
-    /// <summary>The edges of a level of steps, one for each map where chance decides what lies below.</summary>
-    private ChildEdge[] EdgesAt(long level, long levelsBelowRepetition, int period, MapSet set, Func<long, MapSet> setAt) => _hasChance[^1]
+    /// <summary>The edges of a level of steps, one for each map where places decide what stands below.</summary>
+    private ChildEdge[] EdgesAt(long level, long levelsBelowRepetition, int period, MapSet set, Func<long, MapSet> setAt) => _hasPicks[^1]
         ? [.. set.Maps.Select((_, index) => new ChildEdge(set, index, LevelStep.Down(1)))]
         : ChildInstanceBuilder.EdgesAt(level, levelsBelowRepetition, period, set, setAt);
 
@@ -218,6 +227,22 @@ internal sealed class FractalHierarchyBuilder(FractalGraph graph, bool doublesPo
         Built.MapSetAt(bound.EquivalentLevel(level)),
         lower => Built.MapSetAt(bound.EquivalentLevel(lower)));
 
+    /// <summary>
+    /// The largest numbers of sizes that recursives have levels at, by the diagonals of their bases; none where size ends none of them.
+    /// </summary>
+    private ImmutableArray<long> SizeLimitsOf(RecursivePart part)
+    {
+        if (part.Until is { } until)
+        {
+            var limits = knownLimits?[_tops.Count] ?? [.. part.Recursives.Select(
+                recursive => StretchSize.LimitOf(Built.VolumeAt(_tops[recursive.BasePart]).Box.Diagonal, until))];
+            _sizeLimits.Add(_tops.Count, limits);
+            return limits;
+        }
+
+        return [];
+    }
+
     /// <summary>Adds the levels of recursives in turns, up to that of the root.</summary>
     /// <returns>The level of the whole.</returns>
     private long AddRecursives(RecursivePart part)
@@ -227,12 +252,13 @@ internal sealed class FractalHierarchyBuilder(FractalGraph graph, bool doublesPo
             return _tops[part.Recursives[part.Root].BasePart];
         }
 
-        if (part.LevelsLessOfLinear is { } levelsLess && !_hasChance[^1])
+        if (part.LevelsLessOfLinear is { } levelsLess && !_hasPicks[^1])
         {
             return AddLinear(part.Recursives[0], levelsLess, part.Levels);
         }
 
-        var recursives = new RecursiveLevels(part, Built.Top + 1, index => _tops[index], _hasChance[^1]);
+        var recursives = RecursiveLevels.Create(part, Built.Top + 1, index => _tops[index], _hasPicks[^1], SizeLimitsOf(part));
+        part = recursives.Part;
         var period = recursives.Period;
         var nextAttempt = 0L;
         for (var round = 0L; round < (part.Levels ?? EndlessRounds); round++)

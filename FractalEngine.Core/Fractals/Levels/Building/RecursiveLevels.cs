@@ -1,3 +1,4 @@
+using System.Collections.Immutable;
 using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Maths;
 
@@ -14,22 +15,57 @@ namespace FractalEngine.Core.Fractals.Levels.Building;
 /// <param name="part">The recursives.</param>
 /// <param name="firstLevel">The lowest level.</param>
 /// <param name="levelOf">Gives the level of an earlier part.</param>
-/// <param name="hasChance">True where chance decides about something: equal calls lead to different places then.</param>
-internal sealed class RecursiveLevels(RecursivePart part, long firstLevel, Func<int, long> levelOf, bool hasChance)
+/// <param name="hasPicks">True where places decide what stands there: equal calls lead to different ones then.</param>
+/// <param name="limits">By recursives, the largest number of a size that one has levels at; none where size ends none.</param>
+internal sealed class RecursiveLevels(
+    RecursivePart part, long firstLevel, Func<int, long> levelOf, bool hasPicks, ImmutableArray<long> limits)
 {
     private readonly ChildEdge[][] _edges = new ChildEdge[part.Recursives.Length][];
 
-    private readonly MapSet[] _sets =
-    [
-        .. part.MapSets.Zip(part.Recursives, (maps, recursive) => new MapSet([.. maps])
+    private readonly MapSet[] _sets = [.. part.Recursives.Select((recursive, index) =>
+        new MapSet([.. recursive.Calls.Select(static call => call.Map)])
         {
             IsOfCalls = true,
-            Numbers = hasChance ? [.. recursive.NumberCalls()] : [],
-            Pick = recursive.Choice is { } choice
-                ? new(choice, NumberOf(recursive, part), firstLevel, part.Recursives.Length, part.Levels ?? FractalHierarchyBuilder.EndlessRounds)
+            Numbers = hasPicks ? [.. recursive.NumberCalls()] : [],
+            Pick = index < limits.Length ? new LevelPick.BySize(limits[index])
+                : recursive.Choice is { } choice ? new LevelPick.ByChance(
+                    choice, part.Recursives.Take(index).Count(static one => one.Choice is not null), firstLevel, part.Recursives.Length,
+                    part.Levels ?? FractalHierarchyBuilder.EndlessRounds)
                 : null,
-        }),
-    ];
+        })];
+
+    /// <summary>Prepares the levels of recursives, which may end by size.</summary>
+    /// <param name="part">The recursives.</param>
+    /// <param name="firstLevel">The lowest level.</param>
+    /// <param name="levelOf">Gives the level of an earlier part.</param>
+    /// <param name="hasPicks">True where places decide what stands there.</param>
+    /// <param name="limits">By recursives, the largest number of a size that one has levels at; none where size ends none.</param>
+    public static RecursiveLevels Create(
+        RecursivePart part, long firstLevel, Func<int, long> levelOf, bool hasPicks, ImmutableArray<long> limits)
+    {
+        if (limits.IsEmpty)
+        {
+            return new(part, firstLevel, levelOf, hasPicks, limits);
+        }
+
+        // Each recursive, as calls mean it, is its body where it is large enough, and its base elsewhere.
+        var count = part.Recursives.Length;
+        return new(
+            new(
+                [
+                    .. part.Recursives.Select((recursive, index) => new FractalRecursive(
+                        recursive.BasePart, [new(AffineMap.Identity, count + index, 0), RecursiveCall.ToPart(recursive.BasePart)])),
+                    .. part.Recursives.Select(recursive => recursive with
+                    {
+                        Calls = [.. recursive.Calls.Select(call => call.LevelsLess == 0 ? call with { Target = count + call.Target } : call)],
+                    }),
+                ],
+                part.Root, part.Levels),
+            firstLevel, levelOf, hasPicks, limits);
+    }
+
+    /// <summary>The recursives, and those that size decides about.</summary>
+    public RecursivePart Part => part;
 
     /// <summary>Number of recursives, and so of the levels after which they recur.</summary>
     public int Period => part.Recursives.Length;
@@ -47,10 +83,6 @@ internal sealed class RecursiveLevels(RecursivePart part, long firstLevel, Func<
         return rounds >= part.MaxLevelsLess ? _edges[turn] ??= CreateEdges(rounds, (int)turn) : CreateEdges(rounds, (int)turn);
     }
 
-    /// <summary>The number of a choice among those of its group.</summary>
-    private static int NumberOf(FractalRecursive recursive, RecursivePart part) =>
-        part.Recursives.Where(static one => one.Choice is not null).TakeWhile(one => !ReferenceEquals(one, recursive)).Count();
-
     private ChildEdge[] CreateEdges(long rounds, int turn)
     {
         var edges = new List<ChildEdge>();
@@ -61,7 +93,7 @@ internal sealed class RecursiveLevels(RecursivePart part, long firstLevel, Func<
             var step = call.LevelsLess is not { } less ? LevelStep.To(levelOf(call.Target))
                 : less <= rounds ? LevelStep.Down(((long)less * Period) + turn - part.Order.IndexOf(call.Target))
                 : LevelStep.To(levelOf(part.Recursives[call.Target].BasePart));
-            if (hasChance || seen.Add((call.Map, step)))
+            if (hasPicks || seen.Add((call.Map, step)))
             {
                 edges.Add(new(_sets[recursive], i, step));
             }

@@ -25,8 +25,11 @@ internal struct RayFrame
     /// <summary>Remaining levels of the sub-fractal.</summary>
     public long RemainingLevels;
 
-    /// <summary>The number of the way to it, by which chance decides.</summary>
+    /// <summary>The number of the way to it, as in <see cref="LevelState"/>.</summary>
     public ulong Way;
+
+    /// <summary>The number of its size, as in <see cref="LevelState"/>.</summary>
+    public long Size;
 
     /// <summary>Where the ray starts: x, y, z, 0.</summary>
     public Vector256<double> Origin;
@@ -147,6 +150,7 @@ internal struct RayFrame
         PathLength = parent.PathLength + child.PathLength;
         RemainingLevels = child.RemainingLevels(parent.RemainingLevels);
         Way = parent.Way;
+        Size = parent.Size;
         if (child.IsScaling)
         {
             Origin = Vector256.FusedMultiplyAdd(origin, Vector256.Create(child.Norm), child.Map.Translation);
