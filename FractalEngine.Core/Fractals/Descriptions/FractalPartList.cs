@@ -46,7 +46,8 @@ public sealed class FractalPartList
             return only;
         }
 
-        ImmutableArray<RecursiveCall> calls = [.. terms.SelectMany(term => CallsOf(term))];
+        var keepsSums = terms.Any(HasChance);
+        ImmutableArray<RecursiveCall> calls = [.. terms.SelectMany(term => CallsOf(term, keepsSums))];
         return calls switch
         {
             [] => terms[0],
@@ -117,7 +118,7 @@ public sealed class FractalPartList
 
         // What is by chance in a body is a recursive of its own, and each of its alternatives that is more than a call.
         FractalRecursive Body(FractalRecursive recursive, int part) =>
-            _entries[part].Part is RecursivePart { IsFlat: true, Recursives: [{ Choice: { } choice } one] } && HasCalls(part)
+            _entries[part].Part is RecursivePart { IsFlat: true, Recursives: [{ Choice: { } choice } one] }
                 ? recursive with { Choice = choice, Calls = [.. one.Calls.Select(call => NamePart(call.Target))] }
                 : recursive with { Calls = Expand(part) };
 
@@ -129,7 +130,7 @@ public sealed class FractalPartList
         ImmutableArray<RecursiveCall> Expand(int part) => _entries[part] switch
         {
             { Call: { } call } => [new(AffineMap.Identity, call)],
-            _ when !HasCalls(part) => CallsOf(part),
+            _ when !HasCalls(part) && !(HasChance(part) && IsSum(part)) => CallsOf(part, keepsSums: HasChance(part)),
             { Part: SteppedPart { Steps: var steps, Inner: var inner } } => Apply(steps, Expand(inner)),
             { Part: RecursivePart { IsSum: true, Recursives: [var sum] } } => [.. sum.Calls.SelectMany(term =>
                 !HasCalls(term.Target) ? [term]
@@ -181,6 +182,8 @@ public sealed class FractalPartList
 
     /// <summary>Tells whether a part is a call itself.</summary>
     public bool IsCall(int part) => _entries[part].Call is not null;
+
+    private bool IsSum(int part) => _entries[part].Part is RecursivePart { IsSum: true };
 
     /// <summary>Tells whether chance decides about something in a part.</summary>
     private bool HasChance(int part) => _entries[part].HasChance;
@@ -265,15 +268,16 @@ public sealed class FractalPartList
     /// <summary>
     /// The calls of a part that stands as a constant: a set on a part is as many calls of that. Without any, calls below it are still seen.
     /// </summary>
-    private ImmutableArray<RecursiveCall> CallsOf(int part) => _entries[part] switch
+    /// <param name="part">Index of the part.</param>
+    /// <param name="keepsSums">True where chance numbers the terms as they are written, so that sums of sums stay so.</param>
+    private ImmutableArray<RecursiveCall> CallsOf(int part, bool keepsSums) => _entries[part] switch
     {
         { Part: SteppedPart { Steps: [TransformationSet { Maps.IsEmpty: false } set, .. var rest], Inner: var inner } }
             when HasCalls(inner) || HasChance(inner) => ApplyTo(set, AddSteps(inner, rest)),
         { Part: SteppedPart { Steps: [TransformationSet { Maps.Length: <= MaxInlined } set], Inner: var inner } } when !HasCalls(inner) =>
             ApplyTo(set, inner),
-        // Chance numbers the terms as they are written.
         { Part: RecursivePart { IsSum: true, Recursives: [var sum] } }
-            when (sum.Calls.Length <= MaxInlined || HasCalls(part)) && !HasChance(part) => sum.Calls,
+            when !keepsSums && (sum.Calls.Length <= MaxInlined || HasCalls(part)) => sum.Calls,
         _ => [RecursiveCall.ToPart(part)],
     };
 
