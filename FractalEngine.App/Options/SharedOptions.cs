@@ -18,6 +18,11 @@ internal sealed class SharedOptions
     /// <summary>Largest width and height of an image that the command line takes, in pixels; drivers allow less.</summary>
     public const int MaxImageSide = 1_000_000;
 
+    /// <summary>Name of the option for seeds.</summary>
+    public const string SeedName = "--seed";
+
+    private const int MaxSeed = 999_999_999;
+
     /// <summary>Largest time of the physics before an image, in seconds.</summary>
     public const double MaxTime = 3600;
 
@@ -44,6 +49,10 @@ internal sealed class SharedOptions
         AllowMultipleArgumentsPerToken = false,
     };
 
+    /// <summary>The option that makes other fractals by chance.</summary>
+    public Option<int?> Seed { get; } = NumberOption.Integer(
+        SeedName, "N", 0, MaxSeed, "Seed of fractals by chance, overriding their files, and of a traced image (default: 0).");
+
     /// <summary>Adds the input file and the options of loading to a command.</summary>
     public void AddTo(Command command, bool hasComposition = true)
     {
@@ -53,6 +62,7 @@ internal sealed class SharedOptions
         {
             command.Add(Values);
             command.Add(Composition);
+            command.Add(Seed);
         }
     }
 
@@ -73,6 +83,7 @@ internal sealed class SharedOptions
         return !result.CommandResult.Command.Options.Contains(Composition) ? options : options with
         {
             Composition = result.GetValue(Composition),
+            Seed = result.GetValue(Seed),
             Values = ImmutableDictionary<string, double>.Empty.SetItems((result.GetValue(Values) ?? []).Select(ParseValue)),
         };
     }

@@ -15,24 +15,20 @@ internal sealed class TraceOptions(bool canKeepPartial)
         "--trace", "SAMPLES", 1, MaxSamples,
         "Follow light through the scene instead of drawing it, with so many samples of each pixel: 64 show it, 1024 are smooth.");
 
-    private readonly Option<int?> _seed = NumberOption.Integer("--seed", "N", 0, int.MaxValue, "Seed of a traced image (default: 0).");
-
     private readonly Option<bool> _keepsPartial = SharedOptions.Flag(
         "--keep-partial", "Write a traced image that is interrupted as far as it is.");
 
     public void AddTo(Command command) =>
-        SharedOptions.AddAll(command, canKeepPartial ? [_samples, _seed, _keepsPartial] : [_samples, _seed]);
+        SharedOptions.AddAll(command, canKeepPartial ? [_samples, _keepsPartial] : [_samples]);
 
     /// <summary>How the image is traced; null where it is drawn.</summary>
     /// <exception cref="UsageException">An option has a meaning for traced images only.</exception>
     public TracedImage? Choice(ParseResult result)
     {
         var samples = result.GetValue(_samples);
-        var seed = result.GetValue(_seed);
         var keepsPartial = canKeepPartial && result.GetValue(_keepsPartial);
-        return samples is { } count ? new(count, seed ?? 0, keepsPartial)
-            : seed is not null || keepsPartial
-                ? throw new UsageException(canKeepPartial ? "--seed and --keep-partial need --trace" : "--seed needs --trace")
+        return samples is { } count ? new(count, result.GetValue<int?>(SharedOptions.SeedName) ?? 0, keepsPartial)
+            : keepsPartial ? throw new UsageException("--keep-partial needs --trace")
             : null;
     }
 }

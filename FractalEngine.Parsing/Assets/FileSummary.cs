@@ -28,6 +28,8 @@ public sealed class FileSummary(LoadedFile file, TimeSpan loadTime, TimeSpan? pr
         var scene = file.Scene;
         var bounds = scene.Bounds;
         var chains = scene.Sum(static model => model.InstanceCount);
+        var ranges = scene.Models.OfType<FractalModel>().Where(static model => model.Fractal.Description.HasChance).Distinct()
+            .ToDictionary(static model => (Model)model, static model => model.Fractal.CountRange(0));
         var instances = scene.Models.SelectMany(static model => model.Parts).ToDictionary(part => part, CountInstances);
         return
         [
@@ -38,6 +40,12 @@ public sealed class FileSummary(LoadedFile file, TimeSpan loadTime, TimeSpan? pr
             ("faces", FormatCount(Sum(static mesh => mesh.FaceCount), format)),
             ("instances", FormatCount(Sum(static _ => 1), format)),
             ("chains", FormatCount(chains, format)),
+            .. ranges.Count == 0 ? [] : new (string Name, string Value)[]
+            {
+                ("leastInstances", FormatCount(SumRanges(static range => range?.Least), format)),
+                ("expectedInstances", FormatCount(SumRanges(static range => range?.Expected), format)),
+                ("mostInstances", FormatCount(SumRanges(static range => range?.Most), format)),
+            },
             ("infinite", format(scene.Models.Any(static model => model is FractalModel { Fractal.Description.IsInfinite: true }))),
             ("boundsMin", format(bounds.IsEmpty ? null : bounds.Minimum)),
             ("boundsMax", format(bounds.IsEmpty ? null : bounds.Maximum)),
@@ -46,8 +54,13 @@ public sealed class FileSummary(LoadedFile file, TimeSpan loadTime, TimeSpan? pr
             ("prepareMilliseconds", FormatTime(prepareTime, format)),
         ];
 
-        BigInteger? Sum(Func<Mesh, long> valueOf) => scene.Sum(model => model.Parts.Aggregate(
-            (BigInteger?)BigInteger.Zero, (sum, part) => sum + (instances[part] * valueOf(part.Mesh))));
+        BigInteger? SumRanges(Func<InstanceRange?, BigInteger?> valueOf) => scene.Sum(model =>
+            ranges.TryGetValue(model, out var range) ? valueOf(range) : SumOf(model, static _ => 1));
+
+        BigInteger? Sum(Func<Mesh, long> valueOf) => scene.Sum(model => SumOf(model, valueOf));
+
+        BigInteger? SumOf(Model model, Func<Mesh, long> valueOf) => model.Parts.Aggregate(
+            (BigInteger?)BigInteger.Zero, (sum, part) => sum + (instances[part] * valueOf(part.Mesh)));
     }
 
     private static string MeshNames(FractalModel model) =>

@@ -19,6 +19,9 @@ public sealed record LoadOptions
     /// </summary>
     public int? Depth { get; init; }
 
+    /// <summary>Seed of all fractals by chance; null for what each file states.</summary>
+    public int? Seed { get; init; }
+
     /// <summary>Values that named numbers of fractals have in place of those that the files give them; finite.</summary>
     public ImmutableDictionary<string, double> Values { get; init; } = ImmutableDictionary<string, double>.Empty;
 

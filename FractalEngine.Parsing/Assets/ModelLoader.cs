@@ -256,6 +256,7 @@ internal sealed class ModelLoader
 
         var fractal = description == joined.Description ? joined
             : new(description, joined.BaseMeshes) { BaseMeshPaths = joined.BaseMeshPaths };
+        fractal = _options.Seed is { } seed ? fractal.WithSeed(seed) : fractal;
         return FractalCheck.FindBoundsFault(fractal) is not { } boundsFault ? fractal
             : throw parsed.Source.Error(parsed.ResultOffset, boundsFault, isLimitExceeded: !description.IsInfinite);
     }

@@ -24,6 +24,16 @@ internal static class FractalMistakes
     // Text before and after the failure with a line feed between them, what to say, and what was expected there.
     private static readonly ImmutableArray<(string Pattern, string Message, string Expected)> Rows =
     [
+        // seed 1.5
+        (@"^[ \t]*seed[ \t]+[0-9]*\n[-.]", "a seed is a whole number that is not negative", ""),
+        // <$>. box | ball
+        (@"\n\|", "what stands there by chance has weights, as in '1: box | 1: ball'", ""),
+        // [t.] 1: box | 2: ball
+        (@"\][ \t]*\n[0-9.]+[ \t]*:", "a choice behind a set stands in parentheses, as in '[t.] (1: box | 2: ball)'", ""),
+        // 1 box | 1 ball
+        (@"\n(?<weight>[0-9.]+)[ \t]+[\p{L}_(\[][^|]*\|", "a weight has a colon behind it, as in '${weight}: box'", ObjectName),
+        // z 4 until 0.2
+        (@"\nuntil[ \t]", "a recursive ends by its depth or by its size, as in 'z until 0.02'", SyntaxFailure.EndOfLine),
         // t.a. (a, #, 0.5)
         (@"\n[-+.0-9]", "numbers stand in parentheses, as in '(0.5)' or '(0, 1, 0)', but for that of a vector", VectorNumber),
         // t. (1, #) or [((1, 0, 0), #)]

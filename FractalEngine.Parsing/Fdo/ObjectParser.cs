@@ -95,6 +95,11 @@ public abstract class ObjectParser : MapSetParser
     {
         for (var start = cursor; ; ParseBlanks(start.Advance(1), out start))
         {
+            if (!IsWeight(start.Rest))
+            {
+                throw Error(start, "each alternative of a choice has a weight and a colon, as in '1: box'");
+            }
+
             if (!ParseExpression(start, out var weight, out rest) || !ParseBlanks(rest, out rest) || !ParseChar(rest, ':', out rest)
                 || !ParseBlanks(rest, out rest) || !ParseSum(rest, out var alternative, out rest))
             {

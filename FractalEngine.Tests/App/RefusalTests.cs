@@ -92,7 +92,7 @@ public sealed class RefusalTests : IDisposable
     [InlineData("render cube.obj -o a.png --time 1", "cube.obj has no physics objects, so --time has no effect")]
     [InlineData("render cube.obj -o a.png --up (0,1,0)", "--up needs --look-from or --look-at")]
     [InlineData("render cube.obj -o a.png --view top --up (0,1,0)", "--up needs --look-from or --look-at")]
-    [InlineData("render cube.obj -o a.png --keep-partial", "--seed and --keep-partial need --trace")]
+    [InlineData("render cube.obj -o a.png --keep-partial", "--keep-partial needs --trace")]
     [InlineData("render cube.obj -o a.png --trace 1 --samples 8", "--samples draws triangles, and has no effect with --trace")]
     [InlineData("render cube.obj -o a.png --trace 1 --detail 0", "--detail draws triangles, and has no effect with --trace")]
     [InlineData("render cube.obj -o a.png --trace 1 --instances 1", "--instances draws triangles, and has no effect with --trace")]
@@ -113,7 +113,7 @@ public sealed class RefusalTests : IDisposable
     [InlineData("render cube.obj -o a.png --shading vertex --no-shadows", "--no-shadows has no effect with --shading vertex")]
     [InlineData("render cube.obj -o a.png --shading vertex --no-ambient-occlusion",
         "--no-ambient-occlusion has no effect with --shading vertex")]
-    [InlineData("animate cube.obj -o a.apng --turntable --seed 1", "--seed needs --trace")]
+    [InlineData("animate cube.obj -o a.apng --turntable --seed 1", "nothing in cube.obj is by chance, so --seed has no effect")]
     [InlineData("animate cube.obj -o a.apng --turntable --time 1", "cube.obj has no physics objects, so --time has no effect")]
     [InlineData("animate cube.obj -o a.png --turntable --fps 5",
         "--fps has no effect on numbered images unless --simulate moves something")]

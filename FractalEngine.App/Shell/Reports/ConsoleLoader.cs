@@ -28,6 +28,12 @@ internal static class ConsoleLoader
             throw new UsageException($"{path} has no fractal, so --composition has no effect");
         }
 
+        if (options.Seed is not null && !isTraced
+            && !file.Scene.Models.Any(static model => model is FractalModel { Fractal.Description.HasChance: true }))
+        {
+            throw new UsageException($"nothing in {path} is by chance, so --seed has no effect");
+        }
+
         var numbers = file.Scene.Models.OfType<FractalModel>().SelectMany(static model => model.NumberNames);
         if (options.Values.Keys.FirstOrDefault(name => !numbers.Contains(name)) is { } unknown)
         {
