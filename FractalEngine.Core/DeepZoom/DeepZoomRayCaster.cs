@@ -72,6 +72,16 @@ public sealed class DeepZoomRayCaster : InstanceRayCaster
         return path.ComputeGradientFactor(gradient, _fractal.LevelCount ?? long.MaxValue);
     }
 
+    /// <summary>Computes what the maps that lead to the instance that was hit last mix into its colour.</summary>
+    /// <param name="rootIndex">Index of the sub-fractal that was hit.</param>
+    /// <param name="context">That of the query.</param>
+    public Tint TintOf(int rootIndex, QueryContext context)
+    {
+        ArgumentNullException.ThrowIfNull(context);
+        return _whole.SetsOf(Roots[rootIndex].State, context.InstancePath).Aggregate(
+            Roots[rootIndex].Tint, static (tint, step) => tint.Then(Tint.Of(step.Set.ColourOf(step.Index))));
+    }
+
     private static Fractal Checked(Fractal fractal)
     {
         ArgumentNullException.ThrowIfNull(fractal);

@@ -207,7 +207,7 @@ public sealed class FractalAddress
     /// <summary>Lists the sub-fractals to draw, with the depth of the one that each is a child of; −1 for no child.</summary>
     private IEnumerable<(LodRoot Root, int Parent, int Child)> EnumerateRoots(int maxAncestors)
     {
-        yield return (RootAt(NodePath.StateAt(Depth), FrameToCamera, NodePath.ColourPathTo(Depth)), Depth, -1);
+        yield return (RootAt(NodePath.StateAt(Depth), FrameToCamera, NodePath.ColourPathTo(Depth), NodePath.TintTo(Depth)), Depth, -1);
         var frameToCamera = FrameToCamera;
         for (var depth = Depth - 1; depth >= Math.Max(0, Depth - (long)maxAncestors); depth--)
         {
@@ -219,6 +219,7 @@ public sealed class FractalAddress
             }
 
             var colourPath = NodePath.ColourPathTo(depth);
+            var tint = NodePath.TintTo(depth);
             for (var child = 0; child < node.ChildMaps.Length; child++)
             {
                 if (child != Path[depth])
@@ -226,15 +227,16 @@ public sealed class FractalAddress
                     var root = RootAt(
                         NodePath.ChildState(depth, child),
                         frameToCamera * node.ChildMaps[child].ToAffineMap(),
-                        colourPath.Append(node.ChildMapIndices[child], node.SetSize));
+                        colourPath.Append(node.ChildMapIndices[child], node.SetSize),
+                        tint.Then(node.TintOf(child)));
                     yield return (root, depth, child);
                 }
             }
         }
     }
 
-    private static LodRoot RootAt(LevelState state, AffineMap frameToCamera, ColourPath colourPath) =>
-        new(state.Level, frameToCamera, colourPath) { State = state };
+    private static LodRoot RootAt(LevelState state, AffineMap frameToCamera, ColourPath colourPath, Tint tint) =>
+        new(state.Level, frameToCamera, colourPath) { State = state, Tint = tint };
 
     private double DistanceTo(LodRoot root)
     {

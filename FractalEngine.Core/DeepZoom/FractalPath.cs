@@ -10,6 +10,9 @@ internal sealed class FractalPath(LodHierarchy hierarchy)
     // Deeper in the path the weights are below the last place of a colour.
     private const int MaxColouredLevels = 64;
 
+    // A hundredth of a colour on each level leaves nothing of what is deeper.
+    private const int MaxTintedLevels = 4096;
+
     private readonly List<int> _children = [];
     private readonly List<long> _remainingLevels = [hierarchy.LevelCount];
 
@@ -101,5 +104,17 @@ internal sealed class FractalPath(LodHierarchy hierarchy)
         }
 
         return colourPath with { MapCount = _mapCounts[depth] };
+    }
+
+    /// <summary>Computes what the maps that lead to the sub-fractal at a depth mix into colours.</summary>
+    public Tint TintTo(int depth)
+    {
+        var tint = Tint.None;
+        for (var i = 0; hierarchy.HasColours && i < Math.Min(depth, MaxTintedLevels); i++)
+        {
+            tint = tint.Then(NodeAt(i).TintOf(_children[i]));
+        }
+
+        return tint;
     }
 }

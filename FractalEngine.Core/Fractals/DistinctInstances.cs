@@ -36,7 +36,7 @@ public static class DistinctInstances
             return null;
         }
 
-        if (fractal.Description.HasPicks)
+        if (fractal.Description.CountsWays)
         {
             return fractal.CountRange(budget)?.Exact;
         }
@@ -72,7 +72,7 @@ public static class DistinctInstances
     public static BigInteger? CountAtMost(Fractal fractal, long budget = 1000)
     {
         ArgumentNullException.ThrowIfNull(fractal);
-        if (fractal.Description.HasPicks)
+        if (fractal.Description.CountsWays)
         {
             return fractal.CountRange(budget) is { } range ? range.Exact ?? range.Most : fractal.InstanceCount;
         }

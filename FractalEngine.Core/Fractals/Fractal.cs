@@ -194,7 +194,10 @@ public sealed class Fractal : IEquatable<Fractal>
         var hierarchy = HierarchyBySets;
         return hierarchy.Follow(levelsAbove == 0 ? hierarchy.Top : new(hierarchy.Levels - levelsAbove, 0), path)?.ConvertAll(step => new PathStep(
             step.Set.Maps[step.Index], step.Index, step.Set.Maps.Length, hierarchy.AllLevels.At(step.Level).Box,
-            hierarchy.IsBase(step.Level)));
+            hierarchy.IsBase(step.Level))
+        {
+            Colour = step.Set.ColourOf(step.Index),
+        });
     }
 
     /// <summary>Lists the boxes of the sub-fractals below so many sets or calls, of a fractal of affine composition.</summary>
@@ -407,7 +410,7 @@ public sealed class Fractal : IEquatable<Fractal>
     /// <inheritdoc/>
     public override int GetHashCode() => HashCode.Combine(Description, BaseMeshes[0]);
 
-    private Fractal With(FractalDescription description) => new(description, BaseMeshes) { BaseMeshPaths = BaseMeshPaths };
+    private Fractal With(FractalDescription description) => new(description, BaseMeshes) { BaseMeshPaths = BaseMeshPaths, Whole = Whole };
 
     private Fractal Prepend(FractalStep step)
     {
@@ -455,6 +458,12 @@ public sealed class Fractal : IEquatable<Fractal>
     /// <summary>Sums a number of the base meshes over all instances; those without faces are none, but of the only mesh.</summary>
     private BigInteger? Total(Func<Mesh, long> valueOf)
     {
+        if (Description is { HasChance: true, HasSizes: false })
+        {
+            // Alternatives may show several meshes.
+            return Graph.Counts.CountInstances(index => CountsMesh(index) ? valueOf(BaseMeshes[index]) : BigInteger.Zero);
+        }
+
         BigInteger? sum = BigInteger.Zero;
         for (var i = 0; i < BaseMeshes.Length; i++)
         {

@@ -38,7 +38,7 @@ public static class FractalGenerator
             return ExpandDistinctSums(fractal, maxInstances);
         }
 
-        if (!fractal.Description.Parts.IsEmpty)
+        if (!fractal.Description.Parts.IsEmpty || fractal.Description.HasColours)
         {
             return ExpandParts(fractal, maxInstances);
         }
@@ -83,7 +83,7 @@ public static class FractalGenerator
         _ = fractal.BaseMesh;
         return fractal.Description.IsInfinite
             ? throw LimitError(fractal, maxInstances)
-            : [.. (fractal.Description.HasPicks
+            : [.. (fractal.Description.CountsWays
                 ? StateExpansion.Expand(fractal.HierarchyBySets, maxInstances)
                 : GraphExpansion.Expand(fractal.Graph, maxInstances)).Select(static instance => instance.Map)];
     }

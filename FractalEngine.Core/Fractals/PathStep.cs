@@ -1,3 +1,4 @@
+using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
@@ -9,4 +10,8 @@ namespace FractalEngine.Core.Fractals;
 /// <param name="SetSize">Number of maps of the set, or of calls of the recursive.</param>
 /// <param name="Box">A box that holds the inner sub-fractal, in its frame.</param>
 /// <param name="IsInstance">True where the inner sub-fractal is an instance of a base mesh.</param>
-public readonly record struct PathStep(AffineMap Map, int Index, int SetSize, BoundingBox Box, bool IsInstance);
+public readonly record struct PathStep(AffineMap Map, int Index, int SetSize, BoundingBox Box, bool IsInstance)
+{
+    /// <summary>What the map mixes into the colours of what it makes.</summary>
+    public MapColour Colour { get; init; }
+}

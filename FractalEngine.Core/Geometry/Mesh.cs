@@ -112,6 +112,19 @@ public sealed record Mesh
     public Vector Vertex(int vertex) =>
         new(Positions[3 * vertex], Positions[(3 * vertex) + 1], Positions[(3 * vertex) + 2]);
 
+    /// <summary>Computes the area of all faces together, scene units².</summary>
+    public double SurfaceArea()
+    {
+        var area = 0.0;
+        for (var face = 0; face < FaceCount; face++)
+        {
+            var (a, b, c) = Face(face);
+            area += 0.5 * Vector.Cross(b - a, c - a).Length();
+        }
+
+        return area;
+    }
+
     /// <summary>The three corners of a face.</summary>
     /// <param name="face">From 0.</param>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

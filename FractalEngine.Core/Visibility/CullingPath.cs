@@ -1,4 +1,5 @@
 using System.Runtime.CompilerServices;
+using System.Runtime.Intrinsics;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Visibility.Levels;
@@ -10,6 +11,9 @@ namespace FractalEngine.Core.Visibility;
 /// <param name="ColourPath">Path that decides about the colour; stays as it is where the object has no gradient.</param>
 internal readonly record struct CullingPath(ulong Hash, ColourPath ColourPath)
 {
+    /// <summary>What the maps on the path mix into colours.</summary>
+    public Vector128<float> Tint { get; init; } = Levels.Tint.None.ToSingle();
+
     // Roots differ in bits that child indices do not reach.
     private const int RootShift = 40;
 
@@ -19,7 +23,9 @@ internal readonly record struct CullingPath(ulong Hash, ColourPath ColourPath)
     /// <summary>Creates the path of one of several roots.</summary>
     /// <param name="index">Index of the root among those of its object.</param>
     /// <param name="colourPath">Path of maps that lead to the root.</param>
-    public static CullingPath FromRoot(int index, ColourPath colourPath) => new((ulong)(index + 1) << RootShift, colourPath);
+    /// <param name="tint">What the maps that lead to the root mix into colours.</param>
+    public static CullingPath FromRoot(int index, ColourPath colourPath, Tint tint) =>
+        new((ulong)(index + 1) << RootShift, colourPath) { Tint = tint.ToSingle() };
 
     /// <summary>Appends one child instance to the path.</summary>
     /// <param name="childIndex">Index of the child instance among its siblings.</param>
@@ -30,5 +36,14 @@ internal readonly record struct CullingPath(ulong Hash, ColourPath ColourPath)
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public CullingPath Append(int childIndex, int depth, int mapIndex, int setSize, GradientKind gradient) => new(
         ((Hash ^ (ulong)(childIndex + 1)) * HashMixing.GoldenGamma) + (ulong)depth,
-        gradient == GradientKind.None ? ColourPath : ColourPath.Append(mapIndex, setSize));
+        gradient == GradientKind.None ? ColourPath : ColourPath.Append(mapIndex, setSize))
+        {
+            Tint = Tint,
+        };
+
+    /// <summary>Appends the tint of a child instance to that of the path.</summary>
+    public CullingPath WithTint(Vector128<float> tint) => this with
+    {
+        Tint = (Vector128.Create(Tint[3]) * tint) + Tint.WithElement(3, 0),
+    };
 }

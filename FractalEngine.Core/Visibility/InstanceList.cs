@@ -13,6 +13,9 @@ internal sealed class InstanceList(bool hasPathHashes)
     /// <summary>Number of floats that one instance takes.</summary>
     public const int FloatsPerInstance = 12;
 
+    /// <summary>Number of floats that one tint takes.</summary>
+    public const int FloatsPerTint = 4;
+
     // The list grows by a quarter, so that most of the memory is used.
     private const int GrowthDivisor = 4;
 
@@ -20,6 +23,7 @@ internal sealed class InstanceList(bool hasPathHashes)
     private float[] _rows = new float[64 * FloatsPerInstance];
     private float[] _gradientFactors = [];
     private float[] _skyParts = [];
+    private float[] _tints = [];
     private ulong[] _pathHashes = [];
 
     /// <summary>Number of instances in the list.</summary>
@@ -35,6 +39,10 @@ internal sealed class InstanceList(bool hasPathHashes)
     /// <summary>Gradient factors from 0 to 1 of the instances of an object with a gradient, [n].</summary>
     /// <param name="rank">Rank of the object in the order of culling.</param>
     public ReadOnlySpan<float> GradientFactorsOf(int rank) => Slice(_gradientFactors, 1, rank);
+
+    /// <summary>Tints of the instances of an object with colours: what is added, and what is kept, [n × 4].</summary>
+    /// <param name="rank">Rank of the object in the order of culling.</param>
+    public ReadOnlySpan<float> TintsOf(int rank) => Slice(_tints, FloatsPerTint, rank);
 
     /// <summary>Parts of the sky that the six sides of the instances of an object with masks see, [n × 6].</summary>
     /// <param name="rank">Rank of the object in the order of culling.</param>
@@ -100,6 +108,11 @@ internal sealed class InstanceList(bool hasPathHashes)
             SetGradientFactor(other._gradientFactors[index]);
         }
 
+        if (index * FloatsPerTint < other._tints.Length)
+        {
+            SetTint(Vector128.Create<float>(other._tints.AsSpan(index * FloatsPerTint, FloatsPerTint)));
+        }
+
         if (index * AmbientCube.Count < other._skyParts.Length)
         {
             other._skyParts.AsSpan(index * AmbientCube.Count, AmbientCube.Count).CopyTo(LastSkyParts());
@@ -115,6 +128,17 @@ internal sealed class InstanceList(bool hasPathHashes)
         }
 
         _gradientFactors[Count - 1] = gradientFactor;
+    }
+
+    /// <summary>Sets the tint of the last instance.</summary>
+    public void SetTint(Vector128<float> tint)
+    {
+        if (_tints.Length < Count * FloatsPerTint)
+        {
+            Array.Resize(ref _tints, _rows.Length / FloatsPerInstance * FloatsPerTint);
+        }
+
+        tint.CopyTo(_tints.AsSpan((Count - 1) * FloatsPerTint));
     }
 
     /// <summary>Returns the place of the last instance's parts of the sky.</summary>

@@ -36,6 +36,9 @@ internal readonly ref struct StripContext(ref readonly StripFrame frame, CulledO
     /// <summary>Kind of the object's gradient.</summary>
     public GradientKind Gradient { get; } = item.GradientKind;
 
+    /// <summary>Whether instances come with tints.</summary>
+    public bool HasColours { get; } = item.Hierarchy.HasColours;
+
     /// <summary>Whether instances come with the parts of the sky that they see.</summary>
     public bool HasSkyParts { get; } = frame.HasSkyVisibility && item.HasSkyMasks;
 

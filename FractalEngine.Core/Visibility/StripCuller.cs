@@ -106,7 +106,7 @@ internal sealed class StripCuller
         {
             var frameToCamera = roots[i].FrameToCamera;
             var rootToView = new AffineMap(worldToView * frameToCamera.Linear, worldToView * frameToCamera.Translation);
-            VisitRoot(in context, roots[i].State, rootToView, CullingPath.FromRoot(i, roots[i].ColourPath));
+            VisitRoot(in context, roots[i].State, rootToView, CullingPath.FromRoot(i, roots[i].ColourPath, roots[i].Tint));
         }
     }
 
@@ -266,12 +266,13 @@ internal sealed class StripCuller
         var node = parent.Node;
         _skyPath.Set(parent.Depth, new(node, parent.State.Level, child));
         var state = context.Hierarchy.Enter(node, child, parent.State);
+        var path = parent.Path.Append(child, parent.Depth, node.ChildMapIndices[child], node.SetSize, context.Gradient);
         return new(
             context.Hierarchy.NodeAt(state.Level),
             state,
             SimdAffineMap.Compose(in parent.NodeToView, in node.ChildMaps[child]),
             parent.Depth + 1,
-            parent.Path.Append(child, parent.Depth, node.ChildMapIndices[child], node.SetSize, context.Gradient));
+            node.ChildTints.Length == 0 ? path : path.WithTint(node.ChildTints[child]));
     }
 
     /// <summary>Appends the base mesh under a sub-fractal's proxy map to the output, unless closer instances hide it.</summary>
@@ -302,6 +303,11 @@ internal sealed class StripCuller
         if (context.Gradient != GradientKind.None)
         {
             instances.SetGradientFactor(instance.Path.ColourPath.ComputeGradientFactor(context.Gradient, context.Hierarchy.ColourLevels));
+        }
+
+        if (context.HasColours)
+        {
+            instances.SetTint(instance.Path.WithTint(instance.Node.MeanTint).Tint);
         }
 
         if (context.HasSkyParts)

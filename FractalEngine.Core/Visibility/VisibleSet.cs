@@ -110,6 +110,14 @@ public sealed class VisibleSet
     public ReadOnlySpan<float> GradientFactors(int objectIndex, int chunk) => ListOf(chunk).GradientFactorsOf(RankOf(objectIndex));
 
     /// <summary>
+    /// Tints, one for each of <see cref="Instances"/>, of an object whose maps have colours: what they add to its colour in linear light,
+    /// and the share that it keeps, [n × 4].
+    /// </summary>
+    /// <param name="objectIndex">Index of the object in the list of <see cref="Cull"/>.</param>
+    /// <param name="chunk">Index of the chunk, less than <see cref="ChunkCount"/>.</param>
+    public ReadOnlySpan<float> Tints(int objectIndex, int chunk) => ListOf(chunk).TintsOf(RankOf(objectIndex));
+
+    /// <summary>
     /// Parts of the sky from 0 to 1 that the sides of each of <see cref="Instances"/> see, towards +x, +y, +z, −x, −y, −z of the base
     /// mesh, [n × 6]; 1 for sides that the camera does not see. Meaningful where <see cref="CullingSettings.SkyVisibility"/> is on and
     /// the object's hierarchy has masks.

@@ -1,3 +1,4 @@
+using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Maths;
 using FractalEngine.Parsing.Text;
 using FractalEngine.Parsing.Text.Grammar;
@@ -171,7 +172,13 @@ public abstract class CallParser : TransformationParser
 
         (Parameters, Arguments, CallOffset) = (function.Parameters, _arguments, cursor.Offset);
         var transformation = new Transformation(Resolve(function.Position), Resolve(function.Rotation), Resolve(function.Scale));
-        map = new(transformation);
+        var colour = default(MapColour);
+        if (function.Colour is { } start)
+        {
+            ParseMapColour(start, out colour, out _);
+        }
+
+        map = new(transformation, colour);
         (Parameters, Arguments) = (FractalParameters.None, null);
         Hint(cursor, RotationUnits.DescribeRadians(transformation.Rotation));
         return ScaleCheck.IsInvertible(transformation.Scale)

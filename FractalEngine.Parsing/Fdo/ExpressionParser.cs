@@ -229,7 +229,8 @@ public abstract class ExpressionParser : Parser
         return true;
     }
 
-    private bool ParseProduct(Cursor cursor, out double value, out Cursor rest)
+    /// <summary>Parses and computes a product or a single number, which ends before plus signs.</summary>
+    private protected bool ParseProduct(Cursor cursor, out double value, out Cursor rest)
     {
         if (!ParseSigned(cursor, out value, out rest))
         {
@@ -251,7 +252,7 @@ public abstract class ExpressionParser : Parser
         return true;
     }
 
-    private bool ParseSigned(Cursor cursor, out double value, out Cursor rest)
+    private protected bool ParseSigned(Cursor cursor, out double value, out Cursor rest)
     {
         var sign = 1;
         for (rest = cursor; rest.Current is '-' or '+'; ParseBlanks(rest.Advance(1), out rest))

@@ -14,7 +14,7 @@ internal static class FractalCheck
         : description.IsInfinite ? "an infinite fractal can't be composed componentwise: its positions don't shrink; give it a depth"
         : !description.Parts.IsEmpty
             ? "sums, and recursives of several calls, can't be composed componentwise: that adds positions on each level"
-        : "matrices, powers and products of maps can't be composed componentwise: that adds positions and rotations";
+        : "matrices, powers and products of maps, and colours can't be composed componentwise: that adds positions and rotations";
 
     /// <summary>Returns what is wrong with the bounds of a fractal; null if they are finite.</summary>
     public static string? FindBoundsFault(Fractal fractal)

@@ -24,6 +24,8 @@ internal static class FractalMistakes
     // Text before and after the failure with a line feed between them, what to say, and what was expected there.
     private static readonly ImmutableArray<(string Pattern, string Message, string Expected)> Rows =
     [
+        // t. (#, #, #) color (1, 0, 0) 0.5
+        (@"\n(?i:colou?r)\b", "a colour is written as 'colour (1, 0, 0) 0.5', behind the three outputs of a map", ""),
         // seed 1.5
         (@"^[ \t]*seed[ \t]+[0-9]*\n[-.]", "a seed is a whole number that is not negative", ""),
         // <$>. box | ball

@@ -1,3 +1,4 @@
+using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Parsing.Fdo;
@@ -6,12 +7,24 @@ namespace FractalEngine.Parsing.Fdo;
 internal readonly record struct MapFactor
 {
     private readonly AffineMap[]? _maps;
+    private readonly MapColour[]? _colours;
 
     /// <summary>Makes the factor of a call.</summary>
-    public MapFactor(Transformation transformation) => Transformation = transformation;
+    /// <param name="transformation">The transformation.</param>
+    /// <param name="colour">What it mixes into colours.</param>
+    public MapFactor(Transformation transformation, MapColour colour = default)
+    {
+        Transformation = transformation;
+        _colours = colour.IsNone ? null : [colour];
+    }
 
     /// <summary>Makes the factor of maps that are no transformations.</summary>
-    public MapFactor(AffineMap[] maps) => _maps = maps;
+    /// <param name="maps">The maps.</param>
+    /// <param name="colours">What each mixes into colours; null for nothing.</param>
+    public MapFactor(AffineMap[] maps, MapColour[]? colours = null) => (_maps, _colours) = (maps, colours);
+
+    /// <summary>True where a map has a colour.</summary>
+    public bool HasColours => _colours is not null;
 
     /// <summary>The transformation; null where there are other maps.</summary>
     public Transformation? Transformation { get; }
@@ -22,11 +35,20 @@ internal readonly record struct MapFactor
     /// <summary>The maps, in their order.</summary>
     public AffineMap[] Maps => _maps ?? [Transformation!.Value.ToAffineMap()];
 
+    /// <summary>What a map mixes into colours.</summary>
+    public MapColour ColourOf(int map) => _colours is null ? default : _colours[map];
+
     /// <summary>Makes all products with the maps of another factor, which are applied first.</summary>
     public MapFactor Times(in MapFactor other)
     {
         var others = other.Maps;
-        return new([.. Maps.SelectMany(map => others, static (map, inner) => map * inner)]);
+        var inner = other;
+        return new(
+            [.. Maps.SelectMany(map => others, static (map, inner) => map * inner)],
+            HasColours || other.HasColours
+                ? [.. Enumerable.Range(0, Count).Select(ColourOf).SelectMany(
+                    colour => Enumerable.Range(0, inner.Count).Select(index => colour.Over(inner.ColourOf(index))))]
+                : null);
     }
 
     /// <summary>
@@ -54,7 +76,25 @@ internal readonly record struct MapFactor
             powers[exponent - from] = turn.Close(powers[exponent - from + 1] * inverse);
         }
 
-        return new(powers);
+        return new(powers, HasColours ? ColourPowers(from, to) : null);
+    }
+
+    /// <summary>The colours of powers that are not negative: as often mixed in.</summary>
+    private MapColour[] ColourPowers(int from, int to)
+    {
+        var colours = new MapColour[to - from + 1];
+        var colour = default(MapColour);
+        for (var exponent = 0; exponent <= to; exponent++)
+        {
+            if (exponent >= from)
+            {
+                colours[exponent - from] = colour;
+            }
+
+            colour = colour.Over(ColourOf(0));
+        }
+
+        return colours;
     }
 
     /// <summary>Recognises powers that have come back to the identity, compared with how far the ones before were from it.</summary>

@@ -127,6 +127,11 @@ public abstract class MapSetParser : CallParser
         }
 
         RequireMapCount((long)to - from + 1, cursor);
+        if (from < 0 && power.HasColours)
+        {
+            throw Error(cursor, "a map with a colour has no powers below 0: what is mixed in can't be taken out");
+        }
+
         power = power.ToPowers(from, to);
         RequireInvertible(cursor, power.Maps);
         return true;

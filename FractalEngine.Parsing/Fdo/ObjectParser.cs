@@ -133,7 +133,7 @@ public abstract class ObjectParser : MapSetParser
             {
                 case ':' when depth == 0:
                     return true;
-                case ')' when depth == 0:
+                case ')' or ',' when depth == 0:
                 case '\n' or '\r' or '[' or '"' or '|' or '+':
                     return false;
             }
@@ -293,7 +293,7 @@ public abstract class ObjectParser : MapSetParser
     private bool ParseUntil(Cursor cursor, string name, Cursor keyword, Cursor behind, out DeclaredObject value, out Cursor rest)
     {
         value = EmptyObject;
-        if (!ParseBlanks(behind, out var start) || !ParseExpression(start, out var length, out rest))
+        if (!ParseBlanks(behind, out var start) || !ParseProduct(start, out var length, out rest))
         {
             rest = behind;
             return false;

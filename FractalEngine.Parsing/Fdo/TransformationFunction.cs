@@ -1,4 +1,5 @@
 using FractalEngine.Core.Maths;
+using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.Parsing.Fdo;
 
@@ -15,6 +16,9 @@ internal sealed record TransformationFunction(
 {
     /// <summary>The one map that the file states as a matrix; null for a position, a rotation and a scale.</summary>
     public AffineMap[]? Matrix { get; init; }
+
+    /// <summary>Where a colour begins that the function mixes in; null for none. It is read again for each call.</summary>
+    public Cursor? Colour { get; init; }
 
     /// <summary>The highest vector number of the outputs; 0 without any.</summary>
     public int LastVectorNumber { get; } =

@@ -1,4 +1,5 @@
 using System.Diagnostics.CodeAnalysis;
+using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Maths;
 using FractalEngine.Parsing.Text;
 using FractalEngine.Parsing.Text.Grammar;
@@ -116,7 +117,51 @@ public abstract class TransformationParser : ExpressionParser
         }
 
         function = new(Parameters, position, rotation, scale);
+        if (ParseBlanks(rest, out var word) && ParseWord(word, "colour", out var behind) && behind.Current != '.' && ParseBlanks(behind, out var colour))
+        {
+            function = function with { Colour = colour };
+            return ParseMapColour(colour, out _, out rest);
+        }
+
         return true;
+    }
+
+    /// <summary>Parses a colour and its amount, <c>(0.9, 0.8, 0.2) 0.05</c>: what a map mixes into all that it makes.</summary>
+    private protected bool ParseMapColour(Cursor cursor, out MapColour colour, out Cursor rest)
+    {
+        colour = default;
+        if (!ParseColourVector(cursor, out var vector, out rest) || !ParseBlanks(rest, out var start)
+            || !ParseSigned(start, out var amount, out rest))
+        {
+            return false;
+        }
+
+        // What has parameters is no number in the declaration.
+        if (vector.IsFinite() && !(Vector.Min(vector, Vector.One) == vector && Vector.Max(vector, Vector.Zero) == vector))
+        {
+            throw Error(cursor, $"the components of a colour are from 0 to 1, not {vector}");
+        }
+
+        if (amount is < 0 or > 1)
+        {
+            throw Error(start, FormattableString.Invariant($"the amount of a colour is from 0 to 1, not {amount:R}"));
+        }
+
+        var (red, green, blue) = vector;
+        colour = new(new(red, green, blue), amount);
+        return true;
+    }
+
+    private bool ParseColourVector(Cursor cursor, out Vector vector, out Cursor rest)
+    {
+        if (BeginsName(cursor) && ParseName(cursor, "a parameter", out var name, out rest) && Parameters.IndexOf(name) is >= 0 and var index)
+        {
+            RequireUse(cursor, index, asNumber: false);
+            vector = Arguments is null ? double.NaN * Vector.One : Arguments[index].Vector;
+            return true;
+        }
+
+        return ParseVectorTerm(cursor, out vector, out rest);
     }
 
     private bool ParseParameters(Cursor cursor, out List<string> parameters, out Cursor rest)

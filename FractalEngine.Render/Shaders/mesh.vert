@@ -19,6 +19,7 @@ layout(location = 7) in vec3 vertexColour; // linear light
 layout(location = 8) in vec3 skyAbove; // parts of the sky that the instance's sides see, towards x, y and z of the mesh
 layout(location = 9) in vec3 skyBelow; // towards -x, -y and -z
 #endif
+layout(location = 10) in vec4 mapTint; // what maps add to the colour, linear light, and the share w that it keeps; else 0, 0, 0, 1
 
 layout(std140) uniform ObjectBlock
 {
@@ -102,6 +103,7 @@ void main()
 #ifdef VERTEX_COLOURS
     surface *= vertexColour;
 #endif
+    surface = mapTint.rgb + mapTint.w * surface;
 #ifdef TEXTURED
     // Textures are stored from the top, texture coordinates count from the bottom.
     vec2 scaledCoordinates = textureCoordinates * material[3].xy + material[3].zw;

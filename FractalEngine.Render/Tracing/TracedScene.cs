@@ -198,6 +198,7 @@ internal sealed record TracedScene
             map.Linear.Cofactors() * model.InterpolateNormal(hit.FaceIndex, hit.Barycentrics), faceNormal, direction);
         var colour = material.BaseColour?.Stretch(_tints[_zoom?.ObjectIndex ?? index]) ?? ObjectColour(index, in hit, context);
         colour = colour.Stretch(model.InterpolateColour(hit.FaceIndex, hit.Barycentrics));
+        colour = TintOf(index, context).Apply(colour);
         var opacity = material.Opacity;
         if (material.IsTextured && model.TryGetTextureTriangle(hit.FaceIndex, out var corners, out var coordinates))
         {
@@ -231,6 +232,12 @@ internal sealed record TracedScene
         // Seen from behind, an interpolated normal would turn away from the light.
         return Vector.Dot(normal, direction) < 0 ? normal : faceNormal;
     }
+
+    /// <summary>What the maps of a fractal mix into the colour of an instance.</summary>
+    private Tint TintOf(int index, QueryContext context) =>
+        _objects[_zoom?.ObjectIndex ?? index].Model is not FractalModel { Fractal: { Description.HasColours: true } fractal } ? Tint.None
+        : _caster is DeepZoomRayCaster zoomed ? zoomed.TintOf(index, context)
+        : Tint.Of(fractal, context.InstancePath);
 
     /// <summary>The colour of an instance of an object, or in a deep zoom of a sub-fractal.</summary>
     private Vector ObjectColour(int index, in RayHit hit, QueryContext context)

@@ -56,8 +56,9 @@ internal sealed class SceneCuller : IDisposable
             {
                 var hasSkyMasks = usesSkyMasks && hierarchy.HasSkyMasks;
                 var hasTints = item.Gradient is not null;
-                var isSingle = hierarchy.HasNoLevels && !hasTints && !hasSkyMasks;
-                _visibleInstances[i] = new(resources, item.Name, models[model], isSingle, hasTints, hasSkyMasks);
+                var isSingle = hierarchy.HasNoLevels && !hasTints && !hasSkyMasks && !hierarchy.HasColours;
+                _visibleInstances[i] = new(
+                    resources, item.Name, models[model], isSingle, hasTints, hasSkyMasks, hierarchy.HasColours);
                 culledObjects.Add(new(hierarchy, item.Map, model.MeshOrigin, model.MeshWindingSign, !model.IsSeeThrough)
                 {
                     GradientKind = item.Gradient?.Kind ?? GradientKind.None,

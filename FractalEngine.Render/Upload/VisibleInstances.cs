@@ -14,10 +14,12 @@ internal sealed class VisibleInstances : IDisposable
     private const int TintLocation = 5;
     private const int SkyAboveLocation = 8;
     private const int SkyBelowLocation = 9;
+    private const int MapTintLocation = 10;
 
     private readonly GlBuffer? _instances;
     private readonly GlBuffer? _tints;
     private readonly GlBuffer? _skyParts;
+    private readonly GlBuffer? _mapTints;
     private readonly VertexArray _vertexArray;
     private readonly float[] _map = [];
     private int _instanceCount;
@@ -29,7 +31,9 @@ internal sealed class VisibleInstances : IDisposable
     /// <param name="isSingle">Whether there is at most one instance, without position in a gradient and without parts of the sky.</param>
     /// <param name="hasTints">Whether the object has a gradient, so that each instance has a position in it.</param>
     /// <param name="hasSkyParts">Whether instances come with the parts of the sky that they see.</param>
-    public VisibleInstances(GlResources resources, string name, ModelBuffers model, bool isSingle, bool hasTints, bool hasSkyParts)
+    /// <param name="hasMapTints">Whether instances come with what maps mix into their colours.</param>
+    public VisibleInstances(
+        GlResources resources, string name, ModelBuffers model, bool isSingle, bool hasTints, bool hasSkyParts, bool hasMapTints)
     {
         if (isSingle)
         {
@@ -45,6 +49,13 @@ internal sealed class VisibleInstances : IDisposable
         {
             _tints = new(resources, $"tints of {name}", BufferTarget.ArrayBuffer);
             _vertexArray.Attribute(_tints, TintLocation, 1, 1, 0, divisor: 1);
+            _vertexArray.Unbind();
+        }
+
+        if (hasMapTints)
+        {
+            _mapTints = new(resources, $"colours of maps of {name}", BufferTarget.ArrayBuffer);
+            _vertexArray.Attribute(_mapTints, MapTintLocation, 4, 4, 0, divisor: 1);
             _vertexArray.Unbind();
         }
 
@@ -79,6 +90,11 @@ internal sealed class VisibleInstances : IDisposable
             Upload(_tints, 1, static (set, index, chunk) => set.GradientFactors(index, chunk));
         }
 
+        if (_mapTints is not null)
+        {
+            Upload(_mapTints, 4, static (set, index, chunk) => set.Tints(index, chunk));
+        }
+
         if (_skyParts is not null && hasSkyParts)
         {
             Upload(_skyParts, 6, static (set, index, chunk) => set.SkyParts(index, chunk));
@@ -109,7 +125,7 @@ internal sealed class VisibleInstances : IDisposable
     }
 
     /// <inheritdoc/>
-    public void Dispose() => GlObject.DisposeAll(_instances is null ? null : _vertexArray, _tints, _skyParts, _instances);
+    public void Dispose() => GlObject.DisposeAll(_instances is null ? null : _vertexArray, _tints, _mapTints, _skyParts, _instances);
 
     private void CopyMap(VisibleSet visible, int objectIndex)
     {

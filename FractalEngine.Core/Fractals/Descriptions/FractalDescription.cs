@@ -45,8 +45,21 @@ public sealed record FractalDescription(ImmutableArray<FractalStep> Steps, Compo
     /// <summary>True where places decide what stands there: by chance, or by size.</summary>
     internal bool HasPicks => Parts.Any(static part => part is RecursivePart { HasPicks: true });
 
+    /// <summary>
+    /// True where instances are told apart by more than their shape: places decide what stands there, or maps have colours.
+    /// </summary>
+    internal bool CountsWays => HasPicks || HasColours;
+
     /// <summary>True where something ends by its size alone, so that its levels and instances are not known without its meshes.</summary>
     internal bool HasSizes => Parts.Any(static part => part is RecursivePart { Levels: null, Until: not null });
+
+    /// <summary>True where maps mix colours into what they make.</summary>
+    public bool HasColours => AllParts().Any(static part => part switch
+    {
+        SteppedPart stepped => stepped.Steps.Any(static step => step.Sets.Any(static set => !set.Colours.IsEmpty)),
+        RecursivePart recursive => recursive.HasColours,
+        _ => false,
+    });
 
     /// <summary>True where chance decides about something.</summary>
     public bool HasChance => Parts.Any(static part => part is RecursivePart { HasChoice: true });
@@ -127,7 +140,7 @@ public sealed record FractalDescription(ImmutableArray<FractalStep> Steps, Compo
     private static bool HasTransformations(FractalStep step) => step switch
     {
         Repetition repetition => repetition.Round.All(HasTransformations),
-        TransformationSet set => set.HasTransformations,
+        TransformationSet set => set.HasTransformations && set.Colours.IsEmpty,
         _ => false,
     };
 

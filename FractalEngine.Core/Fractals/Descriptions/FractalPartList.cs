@@ -51,8 +51,8 @@ public sealed class FractalPartList
         return calls switch
         {
             [] => terms[0],
-            [{ IsConstant: true } one] => one.Map == AffineMap.Identity ? one.Target
-                : AddSteps(one.Target, [new TransformationSet([one.Map])]),
+            [{ IsConstant: true } one] => one.IsPlain ? one.Target
+                : AddSteps(one.Target, [new TransformationSet([one.Map], [one.Colour])]),
             _ => Add(new(RecursivePart.Sum(calls), null, null)),
         };
     }
@@ -122,7 +122,7 @@ public sealed class FractalPartList
                 ? recursive with { Choice = choice, Calls = [.. one.Calls.Select(call => NamePart(call.Target))] }
                 : recursive with { Calls = Expand(part) };
 
-        RecursiveCall NamePart(int part) => !HasCalls(part) ? RecursiveCall.ToPart(part)
+        RecursiveCall NamePart(int part) => !IsOfBody(part) ? RecursiveCall.ToPart(part)
             : _entries[part].Call is { } call ? new(AffineMap.Identity, call)
             : named.TryGetValue(part, out var known) ? known
             : named[part] = Name(Body(unnamed, part));
@@ -130,11 +130,11 @@ public sealed class FractalPartList
         ImmutableArray<RecursiveCall> Expand(int part) => _entries[part] switch
         {
             { Call: { } call } => [new(AffineMap.Identity, call)],
-            _ when !HasCalls(part) && !(HasChance(part) && IsSum(part)) => CallsOf(part, keepsSums: HasChance(part)),
+            _ when !IsOfBody(part) && !(HasChance(part) && IsSum(part)) => CallsOf(part, keepsSums: HasChance(part)),
             { Part: SteppedPart { Steps: var steps, Inner: var inner } } => Apply(steps, Expand(inner)),
             { Part: RecursivePart { IsSum: true, Recursives: [var sum] } } => [.. sum.Calls.SelectMany(term =>
-                !HasCalls(term.Target) ? [term]
-                : (RecursiveCall[])[Under(term.Map, NamePart(term.Target))])],
+                !IsOfBody(term.Target) ? [term]
+                : (RecursiveCall[])[Under(term.Map, term.Colour, NamePart(term.Target))])],
             { Part: RecursivePart { IsFlat: true } } => [NamePart(part)],
             _ => throw new ArgumentException("a recursive within a body can't have calls of the body's recursive", nameof(bodies)),
         };
@@ -152,7 +152,7 @@ public sealed class FractalPartList
             foreach (var set in Enumerable.Reverse(sets))
             {
                 var target = Name(unnamed with { Calls = calls });
-                calls = ImmutableArray.CreateRange(set.Maps, map => Under(map, target));
+                calls = [.. set.Maps.Select((map, index) => Under(map, set.ColourOf(index), target))];
             }
 
             return calls;
@@ -161,7 +161,7 @@ public sealed class FractalPartList
         // A set of sets, or a sum or choice in a set, is a recursive of its own.
         RecursiveCall Name(FractalRecursive recursive)
         {
-            if (recursive is { Choice: null, Calls: [{ IsConstant: false } only] } && only.Map == AffineMap.Identity)
+            if (recursive is { Choice: null, Calls: [{ IsConstant: false, IsPlain: true } only] })
             {
                 return only;
             }
@@ -170,7 +170,8 @@ public sealed class FractalPartList
             return new(AffineMap.Identity, recursives.Count - 1, LevelsLess: 0);
         }
 
-        static RecursiveCall Under(in AffineMap map, RecursiveCall target) => target with { Map = map };
+        static RecursiveCall Under(in AffineMap map, MapColour colour, RecursiveCall target) =>
+            target with { Map = map, Colour = colour.Over(target.Colour) };
     }
 
     /// <summary>Tells whether a part has calls that belong to no recursive yet.</summary>
@@ -182,6 +183,9 @@ public sealed class FractalPartList
 
     /// <summary>Tells whether a part is a call itself.</summary>
     public bool IsCall(int part) => _entries[part].Call is not null;
+
+    /// <summary>Tells whether a part depends on the level of the body that it stands in.</summary>
+    private bool IsOfBody(int part) => HasCalls(part) || _entries[part].CountsLevels;
 
     private bool IsSum(int part) => _entries[part].Part is RecursivePart { IsSum: true };
 
@@ -282,7 +286,7 @@ public sealed class FractalPartList
     };
 
     private static ImmutableArray<RecursiveCall> ApplyTo(TransformationSet set, int part) =>
-        ImmutableArray.CreateRange(set.Maps, map => RecursiveCall.ToPart(map, part));
+        [.. set.Maps.Select((map, index) => RecursiveCall.ToPart(map, part) with { Colour = set.ColourOf(index) })];
 
     private int Add(Entry entry)
     {
@@ -294,6 +298,14 @@ public sealed class FractalPartList
             {
                 HasCalls = entry.Call is not null || references.Any(HasCalls),
                 IsInfinite = entry.Part?.IsInfinite == true || references.Any(IsInfinite),
+                CountsLevels = entry.Part switch
+                {
+                    RecursivePart { IsFlat: true, Recursives: [{ Choice.IsByLevel: true }] } => true,
+                    RecursivePart { IsFlat: true } => references.Any(reference => _entries[reference].CountsLevels),
+                    SteppedPart { Inner: var inner } stepped =>
+                        _entries[inner].CountsLevels && stepped.Steps.All(static step => step is TransformationSet),
+                    _ => false,
+                },
                 HasChance = entry.Part is RecursivePart { HasChoice: true } || references.Any(HasChance),
             });
             _known.Add(entry, index);
@@ -307,6 +319,9 @@ public sealed class FractalPartList
         public bool HasCalls { get; init; }
 
         public bool IsInfinite { get; init; }
+
+        // A choice by level counts the levels of the body that it stands in.
+        public bool CountsLevels { get; init; }
 
         public bool HasChance { get; init; }
     }

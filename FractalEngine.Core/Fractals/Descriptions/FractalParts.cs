@@ -20,8 +20,11 @@ internal readonly struct FractalParts(int meshCount, ImmutableArray<FractalPart>
 
     /// <summary>Counts the chains of maps that lead to a base mesh, equal ones counted; null for infinitely many.</summary>
     /// <remarks>Exact at any size: numbers of millions of digits take about a second.</remarks>
-    public BigInteger? CountInstances(int mesh) =>
-        Evaluate<BigInteger?>(index => index == mesh ? 1 : 0, static (part, countAt) => part.CountInstances(countAt));
+    public BigInteger? CountInstances(int mesh) => CountInstances(index => index == mesh ? BigInteger.One : BigInteger.Zero);
+
+    /// <summary>Sums a number of the base meshes over all chains of maps; null for infinitely many.</summary>
+    public BigInteger? CountInstances(Func<int, BigInteger> valueOfMesh) =>
+        Evaluate<BigInteger?>(index => valueOfMesh(index), static (part, countAt) => part.CountInstances(countAt));
 
     /// <summary>Tells whether there are at most so many chains of maps, at next to no cost.</summary>
     /// <param name="limit">At most 2⁵³.</param>

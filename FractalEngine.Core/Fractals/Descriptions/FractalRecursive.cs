@@ -19,7 +19,7 @@ public sealed record FractalRecursive(int BasePart, ImmutableArray<RecursiveCall
         var (term, map) = (-1, 0);
         for (var i = 0; i < Calls.Length; i++)
         {
-            (term, map) = i > 0 && Calls[i] with { Map = Calls[i - 1].Map } == Calls[i - 1] ? (term, map + 1) : (term + 1, 0);
+            (term, map) = i > 0 && Calls[i].HasTargetOf(Calls[i - 1]) ? (term, map + 1) : (term + 1, 0);
             yield return (term, map);
         }
     }

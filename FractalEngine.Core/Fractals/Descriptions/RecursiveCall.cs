@@ -11,6 +11,15 @@ namespace FractalEngine.Core.Fractals.Descriptions;
 /// </param>
 public readonly record struct RecursiveCall(AffineMap Map, int Target, int? LevelsLess = 1)
 {
+    /// <summary>What the map mixes into the colours of all that it makes.</summary>
+    public MapColour Colour { get; init; }
+
+    /// <summary>True where the target stands as it is: where it is, and in its colours.</summary>
+    public bool IsPlain => Map == AffineMap.Identity && Colour.IsNone;
+
+    /// <summary>Tells whether this is another map of the same set as another call: one of the same target.</summary>
+    public bool HasTargetOf(RecursiveCall other) => Target == other.Target && LevelsLess == other.LevelsLess;
+
     /// <summary>True where the target is an earlier part of the graph.</summary>
     public bool IsConstant => LevelsLess is null;
 

@@ -49,7 +49,7 @@ public sealed class RecursivePart : FractalPart
         }
 
         if (recursives.Any(static one => one.Choice is { } choice && (choice.Weights.Length != one.Calls.Length
-            || one.Calls.Any(static call => call.Map != AffineMap.Identity))))
+            || !one.Calls.All(static call => call.IsPlain))))
         {
             throw new ArgumentException("expected a weight for each call of a choice, and calls of what stands as it is", nameof(recursives));
         }
@@ -75,6 +75,9 @@ public sealed class RecursivePart : FractalPart
     /// <summary>The length of diagonals at which calls end; null where only <see cref="Levels"/> ends them.</summary>
     public double? Until { get; }
 
+    /// <summary>True where a map has a colour.</summary>
+    internal bool HasColours => Recursives.Any(static recursive => recursive.Calls.Any(static call => !call.Colour.IsNone));
+
     /// <summary>True where places decide what stands there: by chance or by size.</summary>
     internal bool HasPicks => HasChoice || Until is not null;
 
@@ -88,7 +91,7 @@ public sealed class RecursivePart : FractalPart
     /// The <see cref="RecursiveCall.LevelsLess"/> of all calls where one recursive calls itself, always with as many levels less, and
     /// nothing else but constants; null for others.
     /// </summary>
-    public int? LevelsLessOfLinear => Recursives is [{ Choice: null } only]
+    public int? LevelsLessOfLinear => Recursives is [{ Choice: null } only] && !HasColours
         && only.Calls.Where(static call => !call.IsConstant).Select(static call => call.LevelsLess).Distinct().ToArray() is [var less]
         ? less
         : null;

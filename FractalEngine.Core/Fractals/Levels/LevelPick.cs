@@ -24,6 +24,9 @@ internal abstract class LevelPick
     /// <summary>How often an edge stands there, of 2⁶⁴; null where that is no chance.</summary>
     public virtual BigInteger? ProbabilityOf(int index) => null;
 
+    /// <summary>The share of places at which an edge stands, about.</summary>
+    public double ShareOf(int index) => ProbabilityOf(index) is { } probability ? Math.ScaleB((double)probability, -64) : index == 0 ? 1 : 1e-9;
+
     /// <summary>Decides by chance.</summary>
     /// <param name="choice">The weights and the seed.</param>
     /// <param name="number">The number of the choice among those of its recursives.</param>

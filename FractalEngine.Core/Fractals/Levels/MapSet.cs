@@ -16,15 +16,16 @@ internal sealed class MapSet
     /// <exception cref="SingularMatrixException">A map has no inverse.</exception>
     public MapSet(TransformationSet set)
         // Shared, since nothing writes into it: wide sets take much memory.
-        : this(ImmutableCollectionsMarshal.AsArray(set.Maps)!)
+        : this(ImmutableCollectionsMarshal.AsArray(set.Maps)!, ImmutableCollectionsMarshal.AsArray(set.Colours)!)
     {
     }
 
     /// <summary>Computes the terms of some maps.</summary>
     /// <exception cref="SingularMatrixException">A map has no inverse.</exception>
-    public MapSet(AffineMap[] maps)
+    public MapSet(AffineMap[] maps, params MapColour[] colours)
     {
         Maps = maps;
+        Colours = colours.All(static one => one.IsNone) ? [] : colours;
         ScalesSquared = new double[maps.Length];
         OperatorNormBounds = new double[maps.Length];
         IdentityIndex = -1;
@@ -37,7 +38,7 @@ internal sealed class MapSet
             ScalesSquared[i] = map.Linear.V1.LengthSquared();
             OperatorNormBounds[i] = BoundingSphere.OperatorNormBound(map.Linear) * (1 + RoundingErrors.Norm);
             AreSimilarities &= map.Linear.IsChainableSimilarity();
-            IdentityIndex = IdentityIndex < 0 && map == AffineMap.Identity ? i : IdentityIndex;
+            IdentityIndex = IdentityIndex < 0 && IsIdentity(i) ? i : IdentityIndex;
         }
     }
 
@@ -64,6 +65,15 @@ internal sealed class MapSet
 
     /// <summary>The inverses of the maps, computed at the first use: they are as large as the maps, and few searches need them.</summary>
     public AffineMap[] Inverses => _inverses ??= Array.ConvertAll(Maps, static map => map.Inverse());
+
+    /// <summary>What each map mixes into the colours of what it makes; empty where none does.</summary>
+    public MapColour[] Colours { get; }
+
+    /// <summary>Tells whether a map changes nothing: neither places nor colours.</summary>
+    public bool IsIdentity(int index) => Maps[index] == AffineMap.Identity && ColourOf(index).IsNone;
+
+    /// <summary>What a map mixes into the colours of what it makes.</summary>
+    public MapColour ColourOf(int index) => Colours.Length == 0 ? default : Colours[index];
 
     /// <summary>Squares of the factors by which the maps lengthen vectors; meaningful for similarities only.</summary>
     public double[] ScalesSquared { get; }

@@ -11,6 +11,9 @@ namespace FractalEngine.Core.Visibility.Levels;
 /// <param name="MapIndex">Index of the map in its set; −1 for the identity, which changes no colour.</param>
 internal readonly record struct LodChild(AffineMap Map, BoundingBox Box, LevelStep LevelStep, int MapIndex)
 {
+    /// <summary>What the map mixes into colours.</summary>
+    public Tint? Tint { get; init; }
+
     /// <summary>The edge to the child, where places decide what stands there.</summary>
     public ChildEdge? Edge { get; init; }
 }

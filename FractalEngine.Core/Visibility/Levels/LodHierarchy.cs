@@ -50,6 +50,9 @@ public sealed class LodHierarchy
     /// <summary>The place of the whole fractal.</summary>
     internal LevelState Start { get; private set; }
 
+    /// <summary>True where maps mix colours into what they make, so that instances have tints.</summary>
+    public bool HasColours { get; internal init; }
+
     /// <summary>True where places decide what stands there, by chance or by size.</summary>
     internal bool HasPicks
     {

@@ -23,25 +23,35 @@ internal static class LodHierarchyBuilder
         var mesh = fractal.HasSeveralMeshes ? Mesh.Empty : fractal.BaseMesh;
         var baseBox = fractal.HasSeveralMeshes ? BoundingBox.Empty
             : hierarchy.AllLevels.Items[fractal.BaseMeshes.IndexOf(mesh)].Box;
-        return new(hierarchy.AllLevels.Select(level => BuildNode(level, baseBox, hierarchy.HasPicks)), hierarchy.Top.Level, mesh)
+        var hasColours = fractal.Description.HasColours;
+        var means = hasColours ? MeanTints.Compute(hierarchy).Zip(hierarchy.AllLevels.Items.ToArray()).ToDictionary(
+            static pair => pair.Second, static pair => pair.First) : null;
+        return new(
+            hierarchy.AllLevels.Select(level => BuildNode(level, baseBox, hierarchy.HasPicks, means?[level])), hierarchy.Top.Level, mesh)
         {
+            HasColours = hasColours,
             HasPicks = hierarchy.HasPicks,
             ColourLevels = fractal.LevelCount ?? hierarchy.Top.Level,
         };
     }
 
-    private static LodNode BuildNode(HierarchyLevel level, BoundingBox baseBox, bool hasPicks)
+    private static LodNode BuildNode(HierarchyLevel level, BoundingBox baseBox, bool hasPicks, Tint? mean)
     {
         // A pick knows the alternatives by their numbers, so that none is left out.
         var pick = level.Set?.Pick;
         var children = level.Edges.Zip(level.GetEdgeBoxes()).Where(child => pick is not null || !child.Second.IsEmpty);
-        return new(level.Box, ComputeProxyMap(baseBox, level.Box), [.. children.Select(child => CreateChild(child.First, child.Second, hasPicks))], level.Set?.Maps.Length ?? 0, pick);
+        LodChild[] all = [.. children.Select(child => CreateChild(child.First, child.Second, hasPicks, mean is not null))];
+        return new(level.Box, ComputeProxyMap(baseBox, level.Box), all, level.Set?.Maps.Length ?? 0, pick)
+        {
+            MeanTint = (mean ?? Tint.None).ToSingle(),
+        };
     }
 
-    private static LodChild CreateChild(ChildEdge edge, BoundingBox box, bool hasPicks) => new(
+    private static LodChild CreateChild(ChildEdge edge, BoundingBox box, bool hasPicks, bool hasColours) => new(
         edge.Map, box, edge.LevelStep, edge.Map == AffineMap.Identity ? -1 : edge.MapIndex)
         {
             Edge = hasPicks ? edge : null,
+            Tint = hasColours ? Tint.Of(edge.Set.ColourOf(edge.MapIndex)) : null,
         };
 
     /// <summary>Computes the map under which the base mesh is the proxy of what a box holds.</summary>

@@ -42,6 +42,7 @@ internal sealed class LodNode
         ChildMaps = new SimdAffineMap[children.Length];
         ChildLevelSteps = new LevelStep[children.Length];
         ChildMapIndices = new int[children.Length];
+        ChildTints = children is [{ Tint: not null }, ..] ? new Vector128<float>[children.Length] : [];
         ChildEdges = children is [{ Edge: not null }, ..] ? new ChildEdge[children.Length] : [];
         var paddedCount = (children.Length + Lanes - 1) / Lanes * Lanes;
         ChildBoxes = new float[paddedCount * BoxRows];
@@ -59,6 +60,11 @@ internal sealed class LodNode
             ChildMaps[i] = new(child.Map);
             ChildLevelSteps[i] = child.LevelStep;
             ChildMapIndices[i] = child.MapIndex;
+            if (child.Tint is { } tint)
+            {
+                ChildTints[i] = tint.ToSingle();
+            }
+
             if (child.Edge is { } edge)
             {
                 ChildEdges[i] = edge;
@@ -72,6 +78,16 @@ internal sealed class LodNode
             MaxChildSizeRatio = Math.Max(MaxChildSizeRatio, child.Box.Diagonal / box.Diagonal);
         }
     }
+
+    /// <summary>The mean tint of the instances, which the proxy has.</summary>
+    public Vector128<float> MeanTint { get; init; } = Levels.Tint.None.ToSingle();
+
+    /// <summary>What the maps of the children mix into colours; none where no map does.</summary>
+    public Vector128<float>[] ChildTints { get; }
+
+    /// <summary>What the map of a child mixes into colours.</summary>
+    public Tint TintOf(int child) => ChildTints.Length == 0 ? Tint.None
+        : new(new(ChildTints[child][0], ChildTints[child][1], ChildTints[child][2]), ChildTints[child][3]);
 
     /// <summary>Whether there is nothing to draw.</summary>
     public bool IsEmpty { get; }

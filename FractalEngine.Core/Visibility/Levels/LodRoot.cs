@@ -9,6 +9,9 @@ namespace FractalEngine.Core.Visibility.Levels;
 /// <param name="ColourPath">Path of maps that lead to the sub-fractal; its colours continue from there.</param>
 public readonly record struct LodRoot(long RemainingLevels, AffineMap FrameToCamera, ColourPath ColourPath)
 {
+    /// <summary>What the maps that lead to the sub-fractal mix into colours.</summary>
+    public Tint Tint { get; init; } = Tint.None;
+
     /// <summary>The place of the sub-fractal.</summary>
     internal LevelState State { get => new(RemainingLevels, field.Way, field.Size); init; }
 }

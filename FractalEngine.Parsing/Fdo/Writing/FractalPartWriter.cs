@@ -1,7 +1,6 @@
 using System.Collections.Immutable;
 using FractalEngine.Core;
 using FractalEngine.Core.Fractals.Descriptions;
-using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Parsing.Fdo.Writing;
 
@@ -131,7 +130,7 @@ internal sealed class FractalPartWriter(FractalWriter writer, List<string> names
         && (!calls[0].IsConstant || calls.Length <= MaxSetLength);
 
     private static bool AreOfOneTarget(ImmutableArray<RecursiveCall> calls) =>
-        calls.All(call => call with { Map = calls[0].Map } == calls[0]);
+        calls.All(call => call.HasTargetOf(calls[0]));
 
     private string FormatConstant(RecursiveCall call) => names[call.Target];
 
@@ -152,9 +151,9 @@ internal sealed class FractalPartWriter(FractalWriter writer, List<string> names
             var first = calls[i];
             var set = new List<string>();
             var maxLength = isOneTarget && i == 0 ? 1 : first.IsConstant ? MaxSetLength : int.MaxValue;
-            for (; i < calls.Length && set.Count < maxLength && calls[i] with { Map = first.Map } == first; i++)
+            for (; i < calls.Length && set.Count < maxLength && calls[i].HasTargetOf(first); i++)
             {
-                set.Add(calls[i].Map == AffineMap.Identity ? "#" : writer.MatrixFor(calls[i].Map));
+                set.Add(calls[i].IsPlain ? "#" : writer.FormatMap(calls[i].Map, calls[i].Colour));
             }
 
             // A set or sum of calls that stands as it is would be part of the sum around it.

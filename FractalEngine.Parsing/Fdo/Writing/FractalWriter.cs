@@ -210,16 +210,23 @@ public sealed class FractalWriter
     {
         var function = form.HasTransformations ? FunctionFor(form) : "";
         var calls = form.Set.HasTransformations
-            ? form.Set.Transformations.Select(transformation => FormatCall(form, function, transformation))
-            : form.Set.Maps.Select(MatrixFor);
+            ? form.Set.Transformations.Select(
+                (transformation, i) => FormatCall(form, function, transformation, form.Set.ColourOf(i)))
+            : form.Set.Maps.Select((map, i) => FormatMap(map, form.Set.ColourOf(i)));
         var text = $"[{string.Join(", ", calls)}]";
         _setCharacters += text.Length;
         RequireLength(_setCharacters);
         return text;
     }
 
-    private string FormatCall(FractalSetForm form, string function, Transformation transformation)
+    private string FormatCall(FractalSetForm form, string function, Transformation transformation, MapColour colour)
     {
+        if (!colour.IsNone)
+        {
+            return $"({FormatVector(transformation.Position)}, {FormatVector(transformation.Rotation)}, "
+                + $"{FormatVector(transformation.Scale)}){FormatColour(colour)}";
+        }
+
         if (FractalSetForm.IsIdentity(transformation))
         {
             return "#";
@@ -228,6 +235,15 @@ public sealed class FractalWriter
         var arguments = form.Arguments(transformation).Select(vector => FormattableString.Invariant($"{_vectors.NumberOf(vector)}"));
         return $"{function}.{string.Join('.', arguments)}";
     }
+
+    /// <summary>Formats a map with what it mixes into colours: a map of its own that only mixes comes first.</summary>
+    internal string FormatMap(AffineMap map, MapColour colour) => colour.IsNone ? MatrixFor(map)
+        : $"(#, #, #){FormatColour(colour)} * {MatrixFor(map)}";
+
+    private static string FormatVector(Vector vector) => FormattableString.Invariant($"({vector.X:R}, {vector.Y:R}, {vector.Z:R})");
+
+    private static string FormatColour(MapColour colour) =>
+        FormattableString.Invariant($" colour {colour.Colour} {colour.Amount:R}");
 
     /// <summary>Returns the name of the function that makes the transformations of a set, and declares it if it is new.</summary>
     private string FunctionFor(FractalSetForm form)

@@ -1,3 +1,4 @@
+using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Fractals.Levels.Building;
@@ -46,7 +47,7 @@ internal sealed class ChildInstanceBuilder(int baseCount)
     {
         // One more, for the edge at the end: a list that grows would be twice as large.
         var edges = new List<ChildEdge>(set.Maps.Length + 1);
-        var offeredMaps = new HashSet<AffineMap>();
+        var offeredMaps = new HashSet<(AffineMap Map, MapColour Colour)>();
         var currentSet = set;
         for (var levelsDown = 1L; ; levelsDown++)
         {
@@ -71,7 +72,7 @@ internal sealed class ChildInstanceBuilder(int baseCount)
             }
 
             // Only where another level follows: these are as many bytes as the maps.
-            offeredMaps.UnionWith(currentSet.Maps);
+            offeredMaps.UnionWith(currentSet.Maps.Select((map, index) => (map, currentSet.ColourOf(index))));
             currentSet = setAt(level - levelsDown);
         }
     }
@@ -246,15 +247,15 @@ internal sealed class ChildInstanceBuilder(int baseCount)
     /// <param name="offeredMaps">The maps of the levels above.</param>
     /// <param name="set">The set.</param>
     /// <param name="levelsDown">Number of levels from the parent to the children.</param>
-    private static void AddEdges(List<ChildEdge> edges, HashSet<AffineMap> offeredMaps, MapSet set, long levelsDown)
+    private static void AddEdges(List<ChildEdge> edges, HashSet<(AffineMap Map, MapColour Colour)> offeredMaps, MapSet set, long levelsDown)
     {
         // The order of the indices is sorted, since maps of wide sets are many bytes.
-        var mapsOfThisLevel = new HashSet<int>(set.Maps.Length, new MapIndexComparer(set.Maps));
+        var mapsOfThisLevel = new HashSet<int>(set.Maps.Length, new MapIndexComparer(set));
         for (var i = 0; i < set.Maps.Length; i++)
         {
             // A map that a level above offers is found there, provided that this level could be skipped instead.
-            var isNew = set.IdentityIndex < 0 || !offeredMaps.Contains(set.Maps[i]);
-            if (set.Maps[i] != AffineMap.Identity && mapsOfThisLevel.Add(i) && isNew)
+            var isNew = set.IdentityIndex < 0 || !offeredMaps.Contains((set.Maps[i], set.ColourOf(i)));
+            if (!set.IsIdentity(i) && mapsOfThisLevel.Add(i) && isNew)
             {
                 edges.Add(new(set, i, LevelStep.Down(levelsDown)));
             }

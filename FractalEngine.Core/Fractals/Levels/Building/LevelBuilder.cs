@@ -145,12 +145,7 @@ internal sealed class LevelBuilder
         }
 
         var areas = new double[graph.BaseMeshes.Length];
-        for (var face = 0; face < graph.BaseMeshes[index].FaceCount; face++)
-        {
-            var (a, b, c) = graph.BaseMeshes[index].Face(face);
-            areas[index] += 0.5 * Vector.Cross(b - a, c - a).Length();
-        }
-
+        areas[index] = graph.BaseMeshes[index].SurfaceArea();
         return areas;
     }
 

@@ -23,7 +23,8 @@ internal sealed class RecursiveLevels(
     private readonly ChildEdge[][] _edges = new ChildEdge[part.Recursives.Length][];
 
     private readonly MapSet[] _sets = [.. part.Recursives.Select((recursive, index) =>
-        new MapSet([.. recursive.Calls.Select(static call => call.Map)])
+        new MapSet(
+            [.. recursive.Calls.Select(static call => call.Map)], [.. recursive.Calls.Select(static call => call.Colour)])
         {
             IsOfCalls = true,
             Numbers = hasPicks ? [.. recursive.NumberCalls()] : [],
@@ -86,14 +87,14 @@ internal sealed class RecursiveLevels(
     private ChildEdge[] CreateEdges(long rounds, int turn)
     {
         var edges = new List<ChildEdge>();
-        var seen = new HashSet<(AffineMap Map, LevelStep Step)>();
+        var seen = new HashSet<(AffineMap Map, MapColour Colour, LevelStep Step)>();
         var recursive = part.Order[turn];
         foreach (var (i, call) in part.Recursives[recursive].Calls.Index())
         {
             var step = call.LevelsLess is not { } less ? LevelStep.To(levelOf(call.Target))
                 : less <= rounds ? LevelStep.Down(((long)less * Period) + turn - part.Order.IndexOf(call.Target))
                 : LevelStep.To(levelOf(part.Recursives[call.Target].BasePart));
-            if (hasPicks || seen.Add((call.Map, step)))
+            if (hasPicks || seen.Add((call.Map, call.Colour, step)))
             {
                 edges.Add(new(_sets[recursive], i, step));
             }

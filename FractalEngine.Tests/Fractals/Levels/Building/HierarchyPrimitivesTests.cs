@@ -77,7 +77,7 @@ public sealed class HierarchyPrimitivesTests
     public void Comparers_OfMapsAndEdges_TellEqualOnesFromOthers()
     {
         AffineMap[] maps = [Scaled(2), Scaled(3), Scaled(2)];
-        var comparer = new MapIndexComparer(maps);
+        var comparer = new MapIndexComparer(new(maps));
         Assert.True(comparer.Equals(0, 2) && !comparer.Equals(0, 1));
         Assert.Equal(comparer.GetHashCode(0), comparer.GetHashCode(2));
         Assert.NotEqual(comparer.GetHashCode(0), comparer.GetHashCode(1));
