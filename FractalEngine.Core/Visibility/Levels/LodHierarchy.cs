@@ -138,7 +138,7 @@ public sealed class LodHierarchy
 
     private LevelState Resolve(LevelState state)
     {
-        while (HasPicks && NodeAt(state.Level) is { Pick: { } pick } node)
+        while (HasPicks && NodeAt(state.Level) is { Pick: { } pick, IsEmpty: false } node)
         {
             state = node.ChildEdges[pick.Select(in state)].Enter(in state);
         }

@@ -24,7 +24,7 @@ internal readonly record struct SkyChild(LodNode Node, long Levels, AffineMap In
             var childLevels = node.ChildLevelSteps[i].RemainingLevels(levels);
             var child = hierarchy.NodeAt(childLevels);
             // Masks are those of a node wherever it stands: the likeliest alternative stands for all.
-            while (child.Pick is { } pick)
+            while (child is { Pick: { } pick, IsEmpty: false })
             {
                 childLevels = child.ChildLevelSteps[pick.Likeliest].RemainingLevels(childLevels);
                 child = hierarchy.NodeAt(childLevels);

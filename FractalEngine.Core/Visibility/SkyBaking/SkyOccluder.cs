@@ -156,7 +156,7 @@ internal sealed class SkyOccluder
         void Add(long levels)
         {
             var node = _hierarchy.NodeAt(levels);
-            if (node.Pick is not null)
+            if (node is { Pick: not null, IsEmpty: false })
             {
                 foreach (var step in node.ChildLevelSteps)
                 {
