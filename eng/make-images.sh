@@ -72,7 +72,9 @@ make_image() {
         tree-10) draw "$1" assets/examples/tree-10.sdo 360x240 --time 0.9 ;;
         gallery | forest) draw "$1" "assets/scenes/$1.sdo" 1280x720 ;;
         gradients) draw "$1" assets/scenes/gradients.sdo 960x480 ;;
-        appendix-b | inside | menger | textured | reef | cathedral | winter) draw "$1" "assets/scenes/$1.sdo" 720x405 ;;
+        appendix-b | inside | menger | textured | reef | cathedral | winter | wood | city) draw "$1" "assets/scenes/$1.sdo" 720x405 ;;
+        conifer | coral | tower) draw "$1" "assets/scenes/$1.sdo" 480x320 ;;
+        flake) draw "$1" "assets/scenes/$1.sdo" 320x320 ;;
         traced-*) draw "$1" "assets/scenes/${1#traced-}.sdo" 640x360 --trace 64 ;;
         playground | light) "$1" ;;
         zoom)
@@ -96,6 +98,7 @@ make_image() {
 
 all=(
     forest gallery cathedral reef menger inside appendix-b gradients textured winter playground angles
+    wood city conifer coral tower flake
     tree-01 tree-02 tree-03 tree-04 tree-05 tree-06 tree-07 tree-08 tree-09 tree-10
     traced-gallery traced-menger traced-playground light zoom stair window-fractal window-keys window-selection
 )

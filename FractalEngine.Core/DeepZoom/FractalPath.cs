@@ -33,7 +33,8 @@ internal sealed class FractalPath(LodHierarchy hierarchy)
 
     /// <summary>Memory of the path in bytes.</summary>
     public long StorageBytes =>
-        (sizeof(int) * ((long)_children.Capacity + _mapCounts.Capacity)) + (sizeof(long) * ((long)_remainingLevels.Capacity + (2 * _ways.Capacity)));
+        (sizeof(int) * ((long)_children.Capacity + _mapCounts.Capacity))
+        + (sizeof(long) * ((long)_remainingLevels.Capacity + (2 * _ways.Capacity)));
 
     /// <summary>Finds the node that the path passes through at a depth; 0 is the whole fractal.</summary>
     public LodNode NodeAt(int depth) => hierarchy.NodeAt(_remainingLevels[depth]);

@@ -192,7 +192,8 @@ public sealed class Fractal : IEquatable<Fractal>
     public IReadOnlyList<PathStep>? Follow(ReadOnlySpan<int> path, long levelsAbove = 0)
     {
         var hierarchy = HierarchyBySets;
-        return hierarchy.Follow(levelsAbove == 0 ? hierarchy.Top : new(hierarchy.Levels - levelsAbove, 0), path)?.ConvertAll(step => new PathStep(
+        var start = levelsAbove == 0 ? hierarchy.Top : new(hierarchy.Levels - levelsAbove);
+        return hierarchy.Follow(start, path)?.ConvertAll(step => new PathStep(
             step.Set.Maps[step.Index], step.Index, step.Set.Maps.Length, hierarchy.AllLevels.At(step.Level).Box,
             hierarchy.IsBase(step.Level))
         {
@@ -264,9 +265,16 @@ public sealed class Fractal : IEquatable<Fractal>
     /// The fractals, in affine composition, each with how often it stands there relative to the others. Base meshes that are the same
     /// object become one.
     /// </param>
-    /// <exception cref="ArgumentException">There are none, a weight is negative, all are 0, or a fractal is composed componentwise.</exception>
+    /// <exception cref="ArgumentException">
+    /// There are none, a weight is negative, all are 0, or a fractal is composed componentwise.
+    /// </exception>
     public static Fractal Choose(int seed, params ImmutableArray<(double Weight, Fractal Fractal)> alternatives)
     {
+        if (alternatives.IsDefaultOrEmpty)
+        {
+            throw new ArgumentException("expected at least one alternative", nameof(alternatives));
+        }
+
         var choice = new Choice([.. alternatives.Select(static one => one.Weight)], seed);
         var list = new FractalPartList();
         var meshes = new MeshList();

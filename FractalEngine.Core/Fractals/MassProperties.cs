@@ -122,8 +122,9 @@ internal readonly record struct MassProperties(double Volume, Vector FirstMoment
     /// <summary>Lists the states that the whole fractal consists of, base meshes first.</summary>
     private static SortedSet<LevelState>? FindStates(FractalHierarchy hierarchy)
     {
-        var states = new SortedSet<LevelState>(Comparer<LevelState>.Create(
-            static (state1, state2) => (state1.Level, state1.Way, state1.Size).CompareTo((state2.Level, state2.Way, state2.Size)))) { hierarchy.Start };
+        var order = Comparer<LevelState>.Create(
+            static (state1, state2) => (state1.Level, state1.Way, state1.Size).CompareTo((state2.Level, state2.Way, state2.Size)));
+        var states = new SortedSet<LevelState>(order) { hierarchy.Start };
         var open = new Stack<(SubFractal Part, LevelState State)>([(hierarchy.Root, hierarchy.Start)]);
         while (open.TryPop(out var next) && states.Count <= MaxStates)
         {

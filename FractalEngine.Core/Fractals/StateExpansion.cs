@@ -15,7 +15,9 @@ internal static class StateExpansion
     /// <param name="hierarchy">One level for each set, of a finite fractal.</param>
     /// <param name="maxInstances">Maximum number of instances.</param>
     /// <exception cref="FractalLimitException">The fractal has more instances, or takes too long to expand.</exception>
-    /// <remarks>Time is proportional to the instances times the levels. What lies in a part without such places is listed once, as anywhere.</remarks>
+    /// <remarks>
+    /// Time is proportional to the instances times the levels. What lies in a part without such places is listed once, as anywhere.
+    /// </remarks>
     public static ImmutableArray<MeshInstance> Expand(FractalHierarchy hierarchy, long maxInstances)
     {
         var instances = ImmutableArray.CreateBuilder<MeshInstance>();

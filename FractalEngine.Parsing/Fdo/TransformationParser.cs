@@ -117,7 +117,8 @@ public abstract class TransformationParser : ExpressionParser
         }
 
         function = new(Parameters, position, rotation, scale);
-        if (ParseBlanks(rest, out var word) && ParseWord(word, "colour", out var behind) && behind.Current != '.' && ParseBlanks(behind, out var colour))
+        if (ParseBlanks(rest, out var word) && ParseWord(word, "colour", out var behind) && behind.Current != '.'
+            && ParseBlanks(behind, out var colour))
         {
             function = function with { Colour = colour };
             return ParseMapColour(colour, out _, out rest);
@@ -154,7 +155,8 @@ public abstract class TransformationParser : ExpressionParser
 
     private bool ParseColourVector(Cursor cursor, out Vector vector, out Cursor rest)
     {
-        if (BeginsName(cursor) && ParseName(cursor, "a parameter", out var name, out rest) && Parameters.IndexOf(name) is >= 0 and var index)
+        if (BeginsName(cursor) && ParseName(cursor, "a parameter", out var name, out rest)
+            && Parameters.IndexOf(name) is >= 0 and var index)
         {
             RequireUse(cursor, index, asNumber: false);
             vector = Arguments is null ? double.NaN * Vector.One : Arguments[index].Vector;

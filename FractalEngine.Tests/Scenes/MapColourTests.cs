@@ -1,7 +1,6 @@
 using FractalEngine.Core.Colliders;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Fractals.Descriptions;
-using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Queries;
 using FractalEngine.Core.Visibility;
@@ -103,8 +102,8 @@ public sealed class MapColourTests : IDisposable
     public void MeanTint_OfSimilarities_IsWeightedByArea()
     {
         var fractal = Read(
-            "z<box>. [((-2, 0, 0), #, (0.5)) colour (1, 0, 0) 0.5, ((2, 0, 0), #, (0.25)) colour (0, 0, 1) 0.25, ((0, 2, 0), #, (0.7))] box\n"
-            + "<$>. z 3");
+            "a. ((-2, 0, 0), #, (0.5)) colour (1, 0, 0) 0.5\nb. ((2, 0, 0), #, (0.25)) colour (0, 0, 1) 0.25\n"
+            + "z<box>. [a., b., ((0, 2, 0), #, (0.7))] box\n<$>. z 3");
         var (sum, area) = (Vector.Zero, 0.0);
         (double Scale, Vector Colour, double Amount)[] maps =
             [(0.5, Vector.I, 0.5), (0.25, Vector.K, 0.25), (0.7, Vector.Zero, 0)];

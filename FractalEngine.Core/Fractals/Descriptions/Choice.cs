@@ -18,7 +18,7 @@ public sealed record Choice
     private readonly ulong _start;
     private readonly int _last;
 
-    /// <summary>Makes a choice.</summary>
+    /// <summary>Makes a choice by weights.</summary>
     /// <param name="weights">For each call how often it stands there, relative to the others: not negative, and not all 0.</param>
     /// <param name="seed">Another seed is another fractal of the same kind.</param>
     /// <param name="isByLevel">True where all places with as many calls above them have the same alternative.</param>

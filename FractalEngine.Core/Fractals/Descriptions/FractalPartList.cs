@@ -111,13 +111,13 @@ public sealed class FractalPartList
         var unnamed = new FractalRecursive(bases[0], []);
         for (var i = 0; i < bodies.Length; i++)
         {
-            recursives[i] = Body(recursives[i], bodies[i]);
+            recursives[i] = BodyOf(recursives[i], bodies[i]);
         }
 
         return [.. recursives];
 
         // What is by chance in a body is a recursive of its own, and each of its alternatives that is more than a call.
-        FractalRecursive Body(FractalRecursive recursive, int part) =>
+        FractalRecursive BodyOf(FractalRecursive recursive, int part) =>
             _entries[part].Part is RecursivePart { IsFlat: true, Recursives: [{ Choice: { } choice } one] }
                 ? recursive with { Choice = choice, Calls = [.. one.Calls.Select(call => NamePart(call.Target))] }
                 : recursive with { Calls = Expand(part) };
@@ -125,7 +125,7 @@ public sealed class FractalPartList
         RecursiveCall NamePart(int part) => !IsOfBody(part) ? RecursiveCall.ToPart(part)
             : _entries[part].Call is { } call ? new(AffineMap.Identity, call)
             : named.TryGetValue(part, out var known) ? known
-            : named[part] = Name(Body(unnamed, part));
+            : named[part] = Name(BodyOf(unnamed, part));
 
         ImmutableArray<RecursiveCall> Expand(int part) => _entries[part] switch
         {
@@ -273,11 +273,13 @@ public sealed class FractalPartList
     /// The calls of a part that stands as a constant: a set on a part is as many calls of that. Without any, calls below it are still seen.
     /// </summary>
     /// <param name="part">Index of the part.</param>
-    /// <param name="keepsSums">True where chance numbers the terms as they are written, so that sums of sums stay so.</param>
+    /// <param name="keepsSums">
+    /// True where chance numbers the terms as they are written, so that sums of sums stay so, and sets on one object are one term.
+    /// </param>
     private ImmutableArray<RecursiveCall> CallsOf(int part, bool keepsSums) => _entries[part] switch
     {
         { Part: SteppedPart { Steps: [TransformationSet { Maps.IsEmpty: false } set, .. var rest], Inner: var inner } }
-            when HasCalls(inner) || HasChance(inner) => ApplyTo(set, AddSteps(inner, rest)),
+            when HasCalls(inner) || keepsSums => ApplyTo(set, AddSteps(inner, rest)),
         { Part: SteppedPart { Steps: [TransformationSet { Maps.Length: <= MaxInlined } set], Inner: var inner } } when !HasCalls(inner) =>
             ApplyTo(set, inner),
         { Part: RecursivePart { IsSum: true, Recursives: [var sum] } }

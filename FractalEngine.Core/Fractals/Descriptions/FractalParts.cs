@@ -29,7 +29,8 @@ internal readonly struct FractalParts(int meshCount, ImmutableArray<FractalPart>
     /// <summary>Tells whether there are at most so many chains of maps, at next to no cost.</summary>
     /// <param name="limit">At most 2⁵³.</param>
     public bool HasAtMostInstances(long limit) => !IsInfinite
-        && !parts.Any(static part => part is RecursivePart { Levels: null }) && EstimateInstances() is { Scale: 0 } count && count.Mantissa <= limit;
+        && !parts.Any(static part => part is RecursivePart { Levels: null })
+        && EstimateInstances() is { Scale: 0 } count && count.Mantissa <= limit;
 
     private ScaledCount EstimateInstances() =>
         Evaluate(static _ => new ScaledCount(1, 0), static (part, countAt) => part.EstimateInstances(countAt));

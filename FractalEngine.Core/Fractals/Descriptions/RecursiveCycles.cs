@@ -1,5 +1,4 @@
 using System.Collections.Immutable;
-using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Fractals.Descriptions;
 
@@ -14,9 +13,8 @@ public static class RecursiveCycles
     {
         // Of all calls of one target only the one that stretches most counts.
         var calls = recursives.Index().SelectMany(static caller => caller.Item.Calls.Where(static call => !call.IsConstant)
-                .GroupBy(static call => call.Target)
-                .Select(group => (Caller: caller.Index, Target: group.Key, Size: group.Min(static call => StretchSize.Of(call.Map.Linear)))))
-            .ToArray();
+            .GroupBy(static call => call.Target, static call => StretchSize.Of(call.Map.Linear))
+            .Select(group => (Caller: caller.Index, Target: group.Key, Size: group.Min()))).ToArray();
         var sizes = new Int128[recursives.Length];
         var callers = new int[recursives.Length];
         var last = -1;

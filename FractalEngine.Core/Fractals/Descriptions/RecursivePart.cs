@@ -51,7 +51,8 @@ public sealed class RecursivePart : FractalPart
         if (recursives.Any(static one => one.Choice is { } choice && (choice.Weights.Length != one.Calls.Length
             || !one.Calls.All(static call => call.IsPlain))))
         {
-            throw new ArgumentException("expected a weight for each call of a choice, and calls of what stands as it is", nameof(recursives));
+            throw new ArgumentException(
+                "expected a weight for each call of a choice, and calls of what stands as it is", nameof(recursives));
         }
 
         IsFlat = levels == 1 && until is null && recursives.Length == 1 && calls.Length == 0;
@@ -142,16 +143,31 @@ public sealed class RecursivePart : FractalPart
     internal override BigInteger? CountInstances(Func<int, BigInteger?> countAt) => Levels is not { } levels
         ? Until is null ? CountInfinite(Root, countAt, []) : null
         : HasChoice
-        ? Ascend(countAt, BigInteger.Zero, static (sum, count) => sum + count,
-            static (counts, _) => counts.Any(static count => count is null) ? null : counts.Max())
+        ? Ascend(countAt, BigInteger.Zero, static (sum, count) => sum + count, static (counts, choice) => LargestOf(counts, choice))
             .ElementAt(levels)[Root]
         : LinearRecurrence.TermAt(
             Ascend(countAt, BigInteger.Zero, static (sum, count) => sum + count).Select(values => values[Root]),
             (Recursives.Length * Math.Max(1, MaxLevelsLess)) + 1, levels);
 
+    /// <summary>The largest count of the alternatives that may stand there; null for infinitely many.</summary>
+    private static BigInteger? LargestOf(BigInteger?[] counts, Choice choice)
+    {
+        var largest = (BigInteger?)BigInteger.Zero;
+        for (var i = 0; i < counts.Length && largest is not null; i++)
+        {
+            largest = choice.Weights[i] == 0 ? largest
+                : counts[i] is { } count ? BigInteger.Max(count, largest.Value)
+                : null;
+        }
+
+        return largest;
+    }
+
     /// <inheritdoc/>
     internal override ScaledCount EstimateInstances(Func<int, ScaledCount> countAt) =>
-        Ascend(countAt, default, static (sum, count) => sum + count, static (counts, _) => counts.MaxBy(static count => (count.Scale, count.Mantissa))).ElementAt(Levels ?? 0)[Root];
+        Ascend(
+            countAt, default, static (sum, count) => sum + count,
+            static (counts, _) => counts.MaxBy(static count => (count.Scale, count.Mantissa))).ElementAt(Levels ?? 0)[Root];
 
     /// <summary>Computes a value of each recursive with 0 levels, with 1, and so on without end.</summary>
     /// <param name="valueAt">Gives the value of an earlier part.</param>
@@ -216,7 +232,8 @@ public sealed class RecursivePart : FractalPart
 
     /// <summary>Makes the same part with another seed for all choices.</summary>
     internal RecursivePart WithSeed(int seed) => !HasChoice ? this : new(
-        ImmutableArray.CreateRange(Recursives, recursive => recursive with { Choice = recursive.Choice?.WithSeed(seed) }), Root, Levels, Until);
+        ImmutableArray.CreateRange(Recursives, recursive => recursive with { Choice = recursive.Choice?.WithSeed(seed) }),
+        Root, Levels, Until);
 
     /// <inheritdoc/>
     internal override FractalPart WithReferences(Func<int, int> indexOf) => new RecursivePart(

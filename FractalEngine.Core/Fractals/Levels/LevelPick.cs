@@ -25,9 +25,11 @@ internal abstract class LevelPick
     public virtual BigInteger? ProbabilityOf(int index) => null;
 
     /// <summary>The share of places at which an edge stands, about.</summary>
-    public double ShareOf(int index) => ProbabilityOf(index) is { } probability ? Math.ScaleB((double)probability, -64) : index == 0 ? 1 : 1e-9;
+    public double ShareOf(int index) => ProbabilityOf(index) is { } probability ? Math.ScaleB((double)probability, -64)
+        : index == 0 ? 1
+        : 1e-9;
 
-    /// <summary>Decides by chance.</summary>
+    /// <summary>Decides by chance, with weights.</summary>
     /// <param name="choice">The weights and the seed.</param>
     /// <param name="number">The number of the choice among those of its recursives.</param>
     /// <param name="firstLevel">The lowest level of the recursives.</param>

@@ -88,7 +88,8 @@ internal sealed class MapSet
     public bool AreSimilarities { get; }
 
     /// <summary>The way through one of the maps.</summary>
-    public WrittenWay WayOf(int index) => (!IsOfCalls && Maps.Length == 1 && IdentityIndex == 0) || Pick is { DependsOnSize: true } ? WrittenWay.Empty
+    public WrittenWay WayOf(int index) =>
+        (!IsOfCalls && Maps.Length == 1 && IdentityIndex == 0) || Pick is { DependsOnSize: true } ? WrittenWay.Empty
         : Pick is not null ? WrittenWay.Of(index)
         : Numbers.Length > 0 ? WrittenWay.Of(Numbers[index].Term, Numbers[index].Map)
         : WrittenWay.Of(0, index);

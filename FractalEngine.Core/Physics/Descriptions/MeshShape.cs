@@ -26,7 +26,8 @@ public sealed class MeshShape
         Model = model;
         Linear = linear ?? Matrix.Identity;
         var map = new AffineMap(Linear, Vector.Zero);
-        ArgumentCheck.Require(model is not FractalModel { Fractal.Description.IsInfinite: true }, "a body needs a fractal with a finite depth");
+        ArgumentCheck.Require(
+            model is not FractalModel { Fractal.Description.IsInfinite: true }, "a body needs a fractal with a finite depth");
         var fractal = (model as FractalModel)?.Fractal;
         ArgumentCheck.Require(
             fractal is not { Description.Composition: not Composition.Affine }, "a body needs a fractal with affine composition");

@@ -165,7 +165,8 @@ internal sealed class DepthFirstSearch<TFrame, TBaseMeshes>(
             var child = subFractal.Children[i];
             var childFrame = frame.Enter(child);
             var childSubFractal = hierarchy.At(child, hierarchy.Enter(child, in state).Level);
-            queue.Refine(i, childSubFractal.Box.IsEmpty ? double.PositiveInfinity : frame.RefinedBoundSquared(subFractal, child, childSubFractal, ref childFrame, cutoffSquared, ref search));
+            queue.Refine(i, childSubFractal.Box.IsEmpty ? double.PositiveInfinity
+                : frame.RefinedBoundSquared(subFractal, child, childSubFractal, ref childFrame, cutoffSquared, ref search));
         }
     }
 }

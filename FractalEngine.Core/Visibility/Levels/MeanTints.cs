@@ -27,7 +27,7 @@ internal static class MeanTints
         foreach (var region in regions)
         {
             var isFinite = true;
-            for (var offset = 0L; offset < Math.Min(region.LevelCount, Math.Max(region.Period, MaxRounds * region.Period)) && isFinite; offset++)
+            for (var offset = 0L; offset < Math.Min(region.LevelCount, MaxRounds * region.Period) && isFinite; offset++)
             {
                 var level = region.FirstLevel + offset;
                 var index = LevelRegion.FindIndex(regions, level);

@@ -122,7 +122,8 @@ internal sealed class FractalPartWriter(FractalWriter writer, List<string> names
             _seed = seed;
         }
 
-        return string.Join(" | ", choice.Weights.Zip(alternatives, static (weight, one) => FormattableString.Invariant($"{weight:R}: {one}")));
+        return string.Join(" | ", choice.Weights.Zip(
+            alternatives, static (weight, one) => FormattableString.Invariant($"{weight:R}: {one}")));
     }
 
     /// <summary>Tells whether calls are one set on one target, so that they need no parentheses.</summary>

@@ -2,7 +2,6 @@ using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Fractals.Graphs;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Geometry.Hulls;
-using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Fractals.Levels.Building;
 

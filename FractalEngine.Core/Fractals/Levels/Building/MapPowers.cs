@@ -25,7 +25,8 @@ internal sealed class MapPowers(AffineMap map, int mapIndex, int identityIndex, 
     /// <summary>Recognises a finite repetition of one map, with or without the identity, that does not shrink; null for others.</summary>
     public static MapPowers? TryCreate(Repetition repetition)
     {
-        if (repetition is not { Round: [TransformationSet set], Count: >= MinCount and var count } || set.Maps.IsEmpty || !set.Colours.IsEmpty)
+        if (repetition is not { Round: [TransformationSet set], Count: >= MinCount and var count }
+            || set.Maps.IsEmpty || !set.Colours.IsEmpty)
         {
             return null;
         }

@@ -58,7 +58,8 @@ internal sealed class RecursiveLevels(
                         recursive.BasePart, [new(AffineMap.Identity, count + index, 0), RecursiveCall.ToPart(recursive.BasePart)])),
                     .. part.Recursives.Select(recursive => recursive with
                     {
-                        Calls = [.. recursive.Calls.Select(call => call.LevelsLess == 0 ? call with { Target = count + call.Target } : call)],
+                        Calls = ImmutableArray.CreateRange(
+                            recursive.Calls, call => call.LevelsLess == 0 ? call with { Target = count + call.Target } : call),
                     }),
                 ],
                 part.Root, part.Levels),
