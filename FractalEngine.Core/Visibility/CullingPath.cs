@@ -37,9 +37,9 @@ internal readonly record struct CullingPath(ulong Hash, ColourPath ColourPath)
     public CullingPath Append(int childIndex, int depth, int mapIndex, int setSize, GradientKind gradient) => new(
         ((Hash ^ (ulong)(childIndex + 1)) * HashMixing.GoldenGamma) + (ulong)depth,
         gradient == GradientKind.None ? ColourPath : ColourPath.Append(mapIndex, setSize))
-        {
-            Tint = Tint,
-        };
+    {
+        Tint = Tint,
+    };
 
     /// <summary>Appends the tint of a child instance to that of the path.</summary>
     public CullingPath WithTint(Vector128<float> tint) => this with

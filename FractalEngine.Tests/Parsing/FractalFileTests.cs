@@ -71,10 +71,12 @@ public sealed class FractalFileTests : IDisposable
         var path = _folder["assets/new/folder/copy.fdo"];
         FractalFile.Write(path, fractal);
         Assert.Equal([path], Directory.GetFiles(Path.GetDirectoryName(path)!));
-        Assert.Contains("\"../../", File.ReadAllText(path), StringComparison.Ordinal);
+        Assert.Equal(
+            fractal.BaseMeshPaths.Any(static mesh => mesh is not null),
+            File.ReadAllText(path).Contains("\"../../", StringComparison.Ordinal));
         var read = FractalFile.Read(path);
         Assert.Equal(fractal, read);
-        Assert.Equal(fractal.BaseMeshPath, read.BaseMeshPath);
+        Assert.Equal(fractal.BaseMeshPaths, read.BaseMeshPaths);
     }
 
     [Fact]

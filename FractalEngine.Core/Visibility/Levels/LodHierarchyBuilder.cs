@@ -49,10 +49,10 @@ internal static class LodHierarchyBuilder
 
     private static LodChild CreateChild(ChildEdge edge, BoundingBox box, bool hasPicks, bool hasColours) => new(
         edge.Map, box, edge.LevelStep, edge.Map == AffineMap.Identity ? -1 : edge.MapIndex)
-        {
-            Edge = hasPicks ? edge : null,
-            Tint = hasColours ? Tint.Of(edge.Set.ColourOf(edge.MapIndex)) : null,
-        };
+    {
+        Edge = hasPicks ? edge : null,
+        Tint = hasColours ? Tint.Of(edge.Set.ColourOf(edge.MapIndex)) : null,
+    };
 
     /// <summary>Computes the map under which the base mesh is the proxy of what a box holds.</summary>
     /// <remarks>

@@ -116,7 +116,7 @@ public sealed class AnimateCommandTests : DrawingCommandTests
     [InlineData("--turntable, --zoom and --path exclude each other", "--output", "a.apng", "--turntable", "--zoom", "2")]
     [InlineData("--output 'a.avi' must end in .png, .apng, .mp4, .webm or .gif", "--output", "a.avi", "--turntable")]
     [InlineData("scene.sdo has no physics objects, so there is nothing to simulate", "--output", "a.apng", "--simulate")]
-    [InlineData("--seed needs --trace", "--output", "a.apng", "--turntable", "--seed", "1")]
+    [InlineData("nothing in scene.sdo is by chance, so --seed has no effect", "--output", "a.apng", "--turntable", "--seed", "1")]
     [InlineData("--trace draws no transparent background: expected a colour",
         "--output", "a.apng", "--turntable", "--trace", "1", "--background", "transparent")]
     [InlineData("--zoom needs a fractal, or a scene whose only object is one, and --detail above 0",
