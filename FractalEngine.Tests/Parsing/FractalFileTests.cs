@@ -76,7 +76,7 @@ public sealed class FractalFileTests : IDisposable
             File.ReadAllText(path).Contains("\"../../", StringComparison.Ordinal));
         var read = FractalFile.Read(path);
         Assert.Equal(fractal, read);
-        Assert.Equal(fractal.BaseMeshPaths, read.BaseMeshPaths);
+        Assert.Equal(fractal.BaseMeshPaths.ToArray(), read.BaseMeshPaths.ToArray());
     }
 
     [Fact]

@@ -25,8 +25,7 @@ internal sealed class FractalPartWriter(FractalWriter writer, List<string> names
             var value = part switch
             {
                 SteppedPart stepped => writer.WriteSteps(stepped.Steps, names[stepped.Inner]),
-                RecursivePart { IsFlat: true, Recursives: [{ Choice: { } choice } one] } =>
-                    FormatChoice(choice, [.. one.Calls.Select(FormatConstant)]),
+                RecursivePart { IsFlat: true, Recursives: [{ Choice: { } choice } one] } => FormatFlat(choice, one.Calls),
                 RecursivePart { IsSum: true, Recursives: [var sum] } => FormatSum(sum.Calls, names[0], FormatConstant, isWhole: true),
                 RecursivePart recursive => FormatRecursive(recursive, GroupOf(recursive, parts)),
                 _ => throw new ArgumentException($"{part.GetType().Name} is no part of a fractal"),
@@ -34,6 +33,12 @@ internal sealed class FractalPartWriter(FractalWriter writer, List<string> names
             names.Add(writer.NextObjectName());
             writer.AppendLine($"{names[^1]}. {value}");
         }
+    }
+
+    private string FormatFlat(Choice choice, ImmutableArray<RecursiveCall> calls)
+    {
+        DeclareSeed(FormatSeed(choice));
+        return FormatChoice(choice, calls.Select(FormatConstant));
     }
 
     private static string FormatRecursive(RecursivePart part, Dictionary<int, string> group) => (part.Levels, part.Until) switch
@@ -77,14 +82,23 @@ internal sealed class FractalPartWriter(FractalWriter writer, List<string> names
             bases.Add(head, name);
         }
 
-        if (part.Recursives.Select(static recursive => recursive.Choice).OfType<Choice>().Select(static one => (one.Seed, one.IsByLevel))
-            .Distinct().Count() > 1)
+        string[] seeds =
+        [
+            .. Enumerable.Range(0, part.Recursives.Length).Where(index => HasCalls(part, index))
+                .Select(index => part.Recursives[index].Choice).OfType<Choice>().Select(FormatSeed).Distinct(),
+        ];
+        if (seeds.Length > 1)
         {
             throw FractalWriter.Fault(ErrorKind.Input, "recursives that call each other have choices of several seeds");
         }
 
         var group = heads.ToDictionary(static head => head, _ => writer.NextRecursiveName());
         var bodies = heads.Select(head => FormatBody(part, head, bases, isWhole: true)).ToArray();
+        foreach (var seed in seeds)
+        {
+            DeclareSeed(seed);
+        }
+
         writer.AppendLine($"{string.Join(", ", heads.Select(head => $"{group[head]}<{bases[head]}>"))}. {string.Join(", ", bodies)}");
         _groups.Add((part, group));
         return group;
@@ -99,11 +113,20 @@ internal sealed class FractalPartWriter(FractalWriter writer, List<string> names
 
         var (calls, choice) = (part.Recursives[recursive].Calls, part.Recursives[recursive].Choice);
         var body = choice is not null
-            ? FormatChoice(choice, [.. calls.Select(FormatTarget)])
+            ? FormatChoice(choice, calls.Select(FormatTarget))
             : FormatSum(
                 calls, bases.Values.First(), FormatTarget, isWhole, call => part.Recursives[call.Target].Choice is not null);
         _depth--;
         FractalWriter.RequireLength(body.Length);
+        if (choice is not null && !HasCalls(part, recursive))
+        {
+            // Its seed may be another one, and it is part of the body by its name, too.
+            DeclareSeed(FormatSeed(choice));
+            var name = writer.NextObjectName();
+            writer.AppendLine($"{name}. {body}");
+            return name;
+        }
+
         return isWhole || (choice is null && IsSetOnOne(calls)) ? body : $"({body})";
 
         string FormatTarget(RecursiveCall call) => call.IsConstant ? FormatConstant(call)
@@ -112,19 +135,25 @@ internal sealed class FractalPartWriter(FractalWriter writer, List<string> names
             : throw FractalWriter.Fault(ErrorKind.Input, "a recursive calls another one with more than one level less");
     }
 
-    /// <summary>Formats a choice, below the line with its seed.</summary>
-    private string FormatChoice(Choice choice, string[] alternatives)
+    /// <summary>Tells whether a recursive calls one with fewer levels.</summary>
+    private static bool HasCalls(RecursivePart part, int recursive) => part.Recursives[recursive].Calls.Any(
+        call => call.LevelsLess > 0 || (call.LevelsLess == 0 && HasCalls(part, call.Target)));
+
+    private static string FormatSeed(Choice choice) =>
+        FormattableString.Invariant($"seed {choice.Seed}{(choice.IsByLevel ? " by level" : "")}");
+
+    /// <summary>Declares the seed of the choices in the lines below, unless it is that already.</summary>
+    private void DeclareSeed(string seed)
     {
-        var seed = FormattableString.Invariant($"seed {choice.Seed}{(choice.IsByLevel ? " by level" : "")}");
         if (seed != _seed)
         {
             writer.AppendLine(seed);
             _seed = seed;
         }
-
-        return string.Join(" | ", choice.Weights.Zip(
-            alternatives, static (weight, one) => FormattableString.Invariant($"{weight:R}: {one}")));
     }
+
+    private static string FormatChoice(Choice choice, IEnumerable<string> alternatives) => string.Join(" | ", choice.Weights.Zip(
+        alternatives, static (weight, one) => FormattableString.Invariant($"{weight:R}: {one}")));
 
     /// <summary>Tells whether calls are one set on one target, so that they need no parentheses.</summary>
     private static bool IsSetOnOne(ImmutableArray<RecursiveCall> calls) => !calls.IsEmpty && AreOfOneTarget(calls)

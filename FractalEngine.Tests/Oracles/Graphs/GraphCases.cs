@@ -1,4 +1,5 @@
 using System.Collections.Concurrent;
+using System.Collections.Immutable;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Parsing;
 using FractalEngine.Tests.Oracles.Graphs.Expansion;
@@ -13,7 +14,7 @@ namespace FractalEngine.Tests.Oracles.Graphs;
 /// <param name="points">Number of positions for each.</param>
 /// <param name="rays">Number of rays for each.</param>
 /// <param name="source">How the fractals are made.</param>
-internal sealed class GraphCases(GraphOptions options, int points, int rays, GraphSource source)
+internal class GraphCases(GraphOptions options, int points, int rays, GraphSource source)
 {
     // A few show whether they have one cause.
     private const int MaxFailures = 4;
@@ -28,6 +29,17 @@ internal sealed class GraphCases(GraphOptions options, int points, int rays, Gra
         return _failures.IsEmpty ? tally : throw new XunitException(string.Join("\n", _failures));
     }
 
+    /// <summary>Draws a model with its expansion.</summary>
+    protected virtual (GraphFile File, ImmutableArray<PlacedMesh> Instances) Create(Random random) =>
+        RandomGraphFiles.Create(random, options);
+
+    /// <summary>Expands a model that may be one without a meaning.</summary>
+    protected virtual ImmutableArray<PlacedMesh>? TryExpand(GraphFile file) => ModelExpansion.TryExpand(file);
+
+    /// <summary>Compares what else the engine says of the fractal.</summary>
+    protected virtual void CheckStructure(GraphFile file, Fractal fractal, TriangleSoup soup, Random random) =>
+        GraphStructureChecker.Check(fractal, soup, random);
+
     private GraphTally RunOne(int seed)
     {
         if (_failures.Count >= MaxFailures)
@@ -36,7 +48,7 @@ internal sealed class GraphCases(GraphOptions options, int points, int rays, Gra
         }
 
         Random random = new(seed);
-        var (file, instances) = RandomGraphFiles.Create(random, options);
+        var (file, instances) = Create(random);
         var texts = GraphTexts.Of(file, random);
         try
         {
@@ -57,11 +69,12 @@ internal sealed class GraphCases(GraphOptions options, int points, int rays, Gra
         }
 
         Random random = new(seed);
-        GraphStructureChecker.Check(fractal, soup, random);
+        CheckStructure(file, fractal, soup, random);
         return new GraphChecker(fractal, soup, random).Check(points, rays);
     }
 
-    private Fractal? Make(GraphFile file, GraphTexts texts)
+    /// <summary>Makes the fractal of a model; null for one that can't be made, or is left out.</summary>
+    protected virtual Fractal? Make(GraphFile file, GraphTexts texts)
     {
         if (source == GraphSource.Code)
         {
@@ -87,7 +100,7 @@ internal sealed class GraphCases(GraphOptions options, int points, int rays, Gra
             try
             {
                 // Names may be gone, which fails in another way.
-                if (ModelExpansion.TryExpand(candidate) is { } instances)
+                if (TryExpand(candidate) is { } instances)
                 {
                     Check(candidate, GraphTexts.Of(candidate), new(instances), seed);
                 }

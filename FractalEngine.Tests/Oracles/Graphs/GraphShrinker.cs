@@ -44,13 +44,22 @@ internal static class GraphShrinker
             });
         }
 
-        return file with { Declarations = [.. file.Declarations.Where(declaration => declaration.Names.Any(used.Contains))] };
+        return file with
+        {
+            Declarations =
+            [
+                .. file.Declarations.Where(
+                    declaration => declaration is GraphDeclaration.Seed || declaration.Names.Any(used.Contains)),
+            ],
+        };
     }
 
     private static IEnumerable<string> Names(ObjectTerm term) => term switch
     {
         ObjectTerm.Named(var name) => [name],
         ObjectTerm.AtDepth(var name, _) => [name],
+        ObjectTerm.Until(var name, _) => [name],
+        ObjectTerm.Choice(var alternatives) => alternatives.SelectMany(static one => Names(one.Term)),
         ObjectTerm.Mapped(_, var inner) => Names(inner),
         ObjectTerm.Sum(var terms) => terms.SelectMany(Names),
         _ => [],
@@ -70,6 +79,11 @@ internal static class GraphShrinker
 
         for (var i = 0; i < file.Declarations.Length; i++)
         {
+            if (file.Declarations[i] is GraphDeclaration.Seed)
+            {
+                yield return file with { Declarations = file.Declarations.RemoveAt(i) };
+            }
+
             foreach (var declaration in Variants(file.Declarations[i], file))
             {
                 yield return file with { Declarations = file.Declarations.SetItem(i, declaration) };
@@ -85,6 +99,10 @@ internal static class GraphShrinker
             {
                 yield return alias with { Body = body };
             }
+        }
+        else if (declaration is GraphDeclaration.Seed(not 1, var isByLevel))
+        {
+            yield return new GraphDeclaration.Seed(1, isByLevel);
         }
         else if (declaration is GraphDeclaration.Group group)
         {
@@ -122,6 +140,45 @@ internal static class GraphShrinker
             case ObjectTerm.AtDepth(var name, > 0 and var depth):
                 yield return new ObjectTerm.AtDepth(name, 0);
                 yield return new ObjectTerm.AtDepth(name, depth - 1);
+                break;
+            case ObjectTerm.Until(var name, var size):
+                yield return new ObjectTerm.AtDepth(name, 0);
+                yield return new ObjectTerm.AtDepth(name, 1);
+                yield return new ObjectTerm.AtDepth(name, 2);
+                foreach (var larger in (double[])[2 * size, Math.Round(size, 1), Math.Round(size)])
+                {
+                    if (larger > 0 && larger != size && larger < 1e6)
+                    {
+                        yield return new ObjectTerm.Until(name, larger);
+                    }
+                }
+
+                break;
+            case ObjectTerm.Choice(var alternatives):
+                foreach (var (_, alternative) in alternatives)
+                {
+                    yield return alternative;
+                }
+
+                for (var i = 0; i < alternatives.Length; i++)
+                {
+                    if (alternatives.Length > 1)
+                    {
+                        yield return new ObjectTerm.Choice(alternatives.RemoveAt(i));
+                    }
+
+                    var (weight, alternative) = alternatives[i];
+                    if (weight is not 0 and not 1)
+                    {
+                        yield return new ObjectTerm.Choice(alternatives.SetItem(i, (1, alternative)));
+                    }
+
+                    foreach (var smaller in Variants(alternative, file))
+                    {
+                        yield return new ObjectTerm.Choice(alternatives.SetItem(i, (weight, smaller)));
+                    }
+                }
+
                 break;
             case ObjectTerm.Mapped(var set, var inner):
                 yield return inner;
@@ -186,6 +243,7 @@ internal static class GraphShrinker
     {
         ObjectTerm.Mesh(var mesh) => [mesh],
         ObjectTerm.File(var other) => MeshesIn(other),
+        ObjectTerm.Choice(var alternatives) => alternatives.SelectMany(static one => MeshesIn(one.Term)),
         ObjectTerm.Mapped(_, var inner) => MeshesIn(inner),
         ObjectTerm.Sum(var terms) => terms.SelectMany(MeshesIn),
         _ => [],
@@ -208,6 +266,8 @@ internal static class GraphShrinker
             ObjectTerm.Mesh(var found) when ReferenceEquals(found, mesh) => new ObjectTerm.Mesh(other),
             ObjectTerm.File(var inner) => new ObjectTerm.File(Replace(inner, mesh, other)),
             ObjectTerm.Mapped(var set, var inner) => new ObjectTerm.Mapped(set, ReplaceInTerm(inner)),
+            ObjectTerm.Choice(var alternatives) => new ObjectTerm.Choice(
+                [.. alternatives.Select(one => (one.Weight, ReplaceInTerm(one.Term)))]),
             ObjectTerm.Sum(var terms) => new ObjectTerm.Sum([.. terms.Select(ReplaceInTerm)]),
             _ => term,
         };

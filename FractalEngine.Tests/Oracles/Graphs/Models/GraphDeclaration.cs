@@ -14,6 +14,9 @@ internal abstract record GraphDeclaration
     /// <summary>A recursive: the object of its base at depth 0, and otherwise its body.</summary>
     internal sealed record Recursive(string Name, string Base, ObjectTerm Body);
 
+    /// <summary>The seed of the choices below, up to the next one.</summary>
+    internal sealed record Seed(int Value, bool IsByLevel) : GraphDeclaration;
+
     /// <summary>All names that the declaration makes.</summary>
     public IEnumerable<string> Names => this switch
     {

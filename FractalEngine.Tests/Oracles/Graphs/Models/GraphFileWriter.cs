@@ -35,6 +35,7 @@ internal sealed class GraphFileWriter(GraphFile file, Random? random)
             {
                 GraphDeclaration.Alias alias => $"{alias.Name}.{Blank()}{Format(alias.Body)}",
                 GraphDeclaration.Group group => Format(group),
+                GraphDeclaration.Seed(var value, var isByLevel) => $"seed {value}{(isByLevel ? " by level" : "")}",
                 _ => throw new InvalidOperationException("a declaration of another kind"),
             };
             AddLine(line);
@@ -53,7 +54,7 @@ internal sealed class GraphFileWriter(GraphFile file, Random? random)
 
     private static bool HasSum(ObjectTerm term) => term switch
     {
-        ObjectTerm.Sum or ObjectTerm.File => true,
+        ObjectTerm.Sum or ObjectTerm.File or ObjectTerm.Choice => true,
         ObjectTerm.Mapped(_, var inner) => HasSum(inner),
         _ => false,
     };
@@ -81,6 +82,14 @@ internal sealed class GraphFileWriter(GraphFile file, Random? random)
                 return name;
             case ObjectTerm.AtDepth(var name, { } depth):
                 return Choose($"{name} {depth}", $"{name} {depth}", $"{name} ({depth})", $"{name}({depth + 1}{Blank()}-{Blank()}1)");
+            case ObjectTerm.Until(var name, var size):
+                // Without parentheses a sum behind it would be one of numbers.
+                var until = $"{name} until {Number(size)}";
+                return isOperand ? $"({until})" : until;
+            case ObjectTerm.Choice(var alternatives):
+                var forms = alternatives.Select(one => $"{Number(one.Weight)}:{Blank()}{FormatAlternative(one.Term)}");
+                var choice = string.Join($"{Blank()}|{Blank()}", forms);
+                return isOperand ? $"({Blank("")}{choice}{Blank("")})" : choice;
             case ObjectTerm.Mapped(var set, var inner):
                 return $"[{Blank("")}{Format(set)}{Blank("")}]{Blank()}{Format(inner, isOperand: true)}";
             case ObjectTerm.Sum(var terms):
@@ -90,6 +99,9 @@ internal sealed class GraphFileWriter(GraphFile file, Random? random)
                 throw new InvalidOperationException("a term of another kind");
         }
     }
+
+    // A choice in a choice is one in parentheses.
+    private string FormatAlternative(ObjectTerm term) => Format(term, isOperand: term is ObjectTerm.Choice);
 
     // What had no sums could not have parentheses either.
     private string Parenthesise(string text) => _hasSums && Happens(6) ? $"({Blank("")}{text})" : text;

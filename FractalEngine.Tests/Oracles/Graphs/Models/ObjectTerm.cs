@@ -17,6 +17,12 @@ internal abstract record ObjectTerm
     /// <summary>A recursive at a depth; null for the infinite one.</summary>
     internal sealed record AtDepth(string Name, int? Depth) : ObjectTerm;
 
+    /// <summary>A recursive that ends by its size.</summary>
+    internal sealed record Until(string Name, double Size) : ObjectTerm;
+
+    /// <summary>One of several objects by chance, each with its weight.</summary>
+    internal sealed record Choice(ImmutableArray<(double Weight, ObjectTerm Term)> Alternatives) : ObjectTerm;
+
     /// <summary>An object for each map of a set.</summary>
     internal sealed record Mapped(ImmutableArray<MapProduct> Set, ObjectTerm Term) : ObjectTerm;
 
