@@ -1,5 +1,4 @@
 using System.Numerics;
-using FractalEngine.Tests.Oracles.Graphs.Expansion;
 
 namespace FractalEngine.Tests.Oracles.Chance;
 

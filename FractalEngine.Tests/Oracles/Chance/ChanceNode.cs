@@ -1,5 +1,4 @@
 using System.Collections.Immutable;
-using FractalEngine.Tests.Oracles.Graphs.Expansion;
 using FractalEngine.Tests.Oracles.Graphs.Models;
 
 namespace FractalEngine.Tests.Oracles.Chance;

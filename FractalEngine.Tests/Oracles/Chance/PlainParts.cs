@@ -1,5 +1,4 @@
 using FractalEngine.Tests.Oracles.Graphs.Expansion;
-using FractalEngine.Tests.Oracles.Graphs.Models;
 
 namespace FractalEngine.Tests.Oracles.Chance;
 
@@ -45,7 +44,8 @@ internal static class PlainParts
 
     private static bool HasEqual(PlacedMesh[] instances)
     {
-        var images = instances.Select(static instance => (instance.Mesh, Corners: instance.Mesh.Vertices.Select(instance.Map.Apply).ToArray()))
+        var images = instances.Select(static instance => (
+                instance.Mesh, Corners: instance.Mesh.Vertices.Select(instance.Map.Apply).ToArray()))
             .OrderBy(static image => image.Corners[0].X).ToArray();
         for (var i = 0; i < images.Length; i++)
         {

@@ -167,7 +167,7 @@ internal sealed class RandomChanceFiles
             (18, () => CreateChoice(() => CreateTerm(height - 1, isAllowed))))();
 
     /// <summary>Draws a sum, at times with successive terms of the same object.</summary>
-    private ObjectTerm CreateSum(Func<ObjectTerm> createTerm)
+    private ObjectTerm.Sum CreateSum(Func<ObjectTerm> createTerm)
     {
         List<ObjectTerm> terms = [];
         while (terms.Count < 2 || _random.Happens(30))

@@ -26,8 +26,11 @@ internal sealed class SetMap(RowMap[] steps, bool isProduct = false)
             static (all, factor) => [.. all.SelectMany(first => Powers(factor).Select(power => (RowMap[])[.. first, .. power]))])
         .Select(steps => new SetMap(steps, product.Factors is not [(_, 1, 1)]));
 
-    /// <summary>The text of the map, equal for equal ones. Powers and products count as other ones than maps as they are declared.</summary>
-    public override string ToString() => (isProduct ? "product " : "") + steps.Aggregate(RowMap.Identity, static (map, step) => map.After(step)).ToAffineMap().ToString();
+    /// <summary>
+    /// The text of the map, equal for equal ones. Powers and products count as other ones than maps as they are declared.
+    /// </summary>
+    public override string ToString() => (isProduct ? "product " : "")
+        + steps.Aggregate(RowMap.Identity, static (map, step) => map.After(step)).ToAffineMap().ToString();
 
     private static IEnumerable<RowMap[]> Powers(MapPower power)
     {
