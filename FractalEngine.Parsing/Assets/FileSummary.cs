@@ -29,7 +29,7 @@ public sealed class FileSummary(LoadedFile file, TimeSpan loadTime, TimeSpan? pr
         var bounds = scene.Bounds;
         var chains = scene.Sum(static model => model.InstanceCount);
         var ranges = scene.Models.OfType<FractalModel>().Where(static model => model.Fractal.Description.HasChance).Distinct()
-            .ToDictionary(static model => (Model)model, static model => model.Fractal.CountRange(0));
+            .ToDictionary(static model => (Model)model, static model => model.Fractal.CountRange());
         var instances = scene.Models.SelectMany(static model => model.Parts).ToDictionary(part => part, CountInstances);
         return
         [
@@ -38,7 +38,7 @@ public sealed class FileSummary(LoadedFile file, TimeSpan loadTime, TimeSpan? pr
             ("meshes", format(scene.Objects is [{ Model: FractalModel model }] ? MeshNames(model) : null)),
             ("vertices", FormatCount(Sum(static mesh => mesh.VertexCount), format)),
             ("faces", FormatCount(Sum(static mesh => mesh.FaceCount), format)),
-            ("instances", FormatCount(Sum(static _ => 1), format)),
+            ("instances", FormatCount(SumRanges(static range => range?.Exact ?? range?.Most), format)),
             ("chains", FormatCount(chains, format)),
             .. ranges.Count == 0 ? [] : new (string Name, string Value)[]
             {
