@@ -21,8 +21,6 @@ internal sealed class SharedOptions
     /// <summary>Name of the option for seeds.</summary>
     public const string SeedName = "--seed";
 
-    private const int MaxSeed = 999_999_999;
-
     /// <summary>Largest time of the physics before an image, in seconds.</summary>
     public const double MaxTime = 3600;
 
@@ -51,7 +49,7 @@ internal sealed class SharedOptions
 
     /// <summary>The option that makes other fractals by chance.</summary>
     public Option<int?> Seed { get; } = NumberOption.Integer(
-        SeedName, "N", 0, MaxSeed, "Seed of fractals by chance, overriding their files, and of a traced image (default: 0).");
+        SeedName, "N", 0, Choice.MaxSeed, "Seed of fractals by chance, overriding their files, and of a traced image (default: 0).");
 
     /// <summary>Adds the input file and the options of loading to a command.</summary>
     public void AddTo(Command command, bool hasComposition = true)

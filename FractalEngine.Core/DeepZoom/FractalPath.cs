@@ -10,14 +10,14 @@ internal sealed class FractalPath(LodHierarchy hierarchy)
     // Deeper in the path the weights are below the last place of a colour.
     private const int MaxColouredLevels = 64;
 
-    // A hundredth of a colour on each level leaves nothing of what is deeper.
-    private const int MaxTintedLevels = 4096;
-
     private readonly List<int> _children = [];
     private readonly List<long> _remainingLevels = [hierarchy.LevelCount];
 
     // What places depend on beside their levels; empty where there is nothing.
     private readonly List<(ulong Way, long Size)> _ways = hierarchy.HasPicks ? [(hierarchy.Start.Way, hierarchy.Start.Size)] : [];
+
+    // What the maps up to each depth mix into colours; empty where none does.
+    private readonly List<Tint> _tints = hierarchy.HasColours ? [Tint.None] : [];
 
     // The number of maps that are not the identity, up to each depth.
     private readonly List<int> _mapCounts = [0];
@@ -34,7 +34,7 @@ internal sealed class FractalPath(LodHierarchy hierarchy)
     /// <summary>Memory of the path in bytes.</summary>
     public long StorageBytes =>
         (sizeof(int) * ((long)_children.Capacity + _mapCounts.Capacity))
-        + (sizeof(long) * ((long)_remainingLevels.Capacity + (2 * _ways.Capacity)));
+        + (sizeof(long) * ((long)_remainingLevels.Capacity + (2 * _ways.Capacity) + (4 * _tints.Capacity)));
 
     /// <summary>Finds the node that the path passes through at a depth; 0 is the whole fractal.</summary>
     public LodNode NodeAt(int depth) => hierarchy.NodeAt(_remainingLevels[depth]);
@@ -60,6 +60,7 @@ internal sealed class FractalPath(LodHierarchy hierarchy)
         copy._children.AddRange(_children);
         copy._remainingLevels.AddRange(_remainingLevels.Skip(1));
         copy._ways.AddRange(_ways.Skip(1));
+        copy._tints.AddRange(_tints.Skip(1));
         copy._mapCounts.AddRange(_mapCounts.Skip(1));
         return copy;
     }
@@ -75,6 +76,11 @@ internal sealed class FractalPath(LodHierarchy hierarchy)
             _ways.Add((state.Way, state.Size));
         }
 
+        if (hierarchy.HasColours)
+        {
+            _tints.Add(_tints[^1].Then(node.TintOf(child)));
+        }
+
         _children.Add(child);
         _mapCounts.Add(_mapCounts[^1] + (node.ChildMapIndices[child] < 0 ? 0 : 1));
     }
@@ -88,6 +94,11 @@ internal sealed class FractalPath(LodHierarchy hierarchy)
         if (hierarchy.HasPicks)
         {
             _ways.RemoveAt(_ways.Count - 1);
+        }
+
+        if (hierarchy.HasColours)
+        {
+            _tints.RemoveAt(_tints.Count - 1);
         }
 
         _mapCounts.RemoveAt(_mapCounts.Count - 1);
@@ -107,15 +118,6 @@ internal sealed class FractalPath(LodHierarchy hierarchy)
         return colourPath with { MapCount = _mapCounts[depth] };
     }
 
-    /// <summary>Computes what the maps that lead to the sub-fractal at a depth mix into colours.</summary>
-    public Tint TintTo(int depth)
-    {
-        var tint = Tint.None;
-        for (var i = 0; hierarchy.HasColours && i < Math.Min(depth, MaxTintedLevels); i++)
-        {
-            tint = tint.Then(NodeAt(i).TintOf(_children[i]));
-        }
-
-        return tint;
-    }
+    /// <summary>What the maps that lead to the sub-fractal at a depth mix into colours.</summary>
+    public Tint TintTo(int depth) => hierarchy.HasColours ? _tints[depth] : Tint.None;
 }

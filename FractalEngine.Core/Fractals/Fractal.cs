@@ -24,6 +24,7 @@ public sealed class Fractal : IEquatable<Fractal>
     private readonly Lazy<ImmutableArray<BigInteger?>> _instanceCounts;
     private readonly Lazy<ImmutableArray<Fractal>> _byMesh;
     private readonly Lazy<bool> _preservesOrientation;
+    private readonly Lazy<bool> _hasColours;
     private readonly int? _onlyMesh;
     private readonly Lazy<long?> _levelCount;
     private readonly Lazy<BoundingBox> _bounds;
@@ -64,6 +65,7 @@ public sealed class Fractal : IEquatable<Fractal>
         BaseMeshes = baseMeshes;
         _onlyMesh = FindOnlyMesh(baseMeshes);
         _preservesOrientation = new(() => description.PreservesOrientation);
+        _hasColours = new(() => description.HasColours);
         Graph = new(baseMeshes, description.AllParts());
         _instanceCounts = new(() => description.HasSizes
             ? [.. Enumerable.Range(0, baseMeshes.Length).Select(mesh => CountStates(mesh, FractalLimits.CountedInstances.Value)?.Exact)]
@@ -92,6 +94,9 @@ public sealed class Fractal : IEquatable<Fractal>
 
     /// <summary>See <see cref="FractalDescription.PreservesOrientation"/>; computed once.</summary>
     public bool PreservesOrientation => _preservesOrientation.Value;
+
+    /// <summary>See <see cref="FractalDescription.HasColours"/>; computed once.</summary>
+    public bool HasColours => _hasColours.Value;
 
     /// <summary>
     /// The fractal by its base meshes: one fractal for each, with the instances that show it and no others. Made by the first who asks.

@@ -38,7 +38,7 @@ public static class FractalGenerator
             return ExpandDistinctSums(fractal, maxInstances);
         }
 
-        if (!fractal.Description.Parts.IsEmpty || fractal.Description.HasColours)
+        if (!fractal.Description.Parts.IsEmpty || fractal.HasColours)
         {
             return ExpandParts(fractal, maxInstances);
         }

@@ -28,9 +28,13 @@ public readonly record struct InstanceRange(BigInteger? Least, BigInteger? Expec
     {
         var counter = new Counter(hierarchy, valueOfBase, maxStates);
         var exact = counter.CountAt(hierarchy.Start, 0);
-        return hierarchy.DependsOnSizes ? new(null, null, null, exact)
-            : counter.RangeAt(hierarchy.Top.Level) with { Exact = exact } is var range
-            ? range with { Expected = range.Expected >> FractionBits } : default;
+        if (hierarchy.DependsOnSizes)
+        {
+            return new(null, null, null, exact);
+        }
+
+        var range = counter.RangeAt(hierarchy.Top.Level);
+        return range with { Expected = range.Expected >> FractionBits, Exact = exact };
     }
 
     private sealed class Counter(FractalHierarchy hierarchy, Func<int, BigInteger> valueOfBase, long maxStates)

@@ -235,15 +235,7 @@ internal sealed class FractalRayCaster(
     {
         Span<int> path = stackalloc int[child.PathLength];
         child.CopyPath(path);
-        var state = new LevelState(frame.RemainingLevels, frame.Way, frame.Size);
-        var subFractal = frame.Bounds.SubFractal;
-        foreach (var index in path)
-        {
-            var next = subFractal.Children[index];
-            state = hierarchy.Enter(next, in state);
-            subFractal = hierarchy.At(next, state.Level);
-        }
-
+        var (state, _) = hierarchy.Enter(path, new(frame.RemainingLevels, frame.Way, frame.Size), frame.Bounds.SubFractal);
         (inner.Way, inner.Size) = (state.Way, state.Size);
         if (inner.RemainingLevels == state.Level)
         {

@@ -9,8 +9,6 @@ public abstract class ObjectParser : MapSetParser
 {
     private const int MaxParentheses = 32;
 
-    private const int MaxSeed = 999_999_999;
-
     private static readonly DeclaredObject EmptyObject = new(0, DeclaredSteps.None);
 
     private long _sumTermCount;
@@ -52,9 +50,9 @@ public abstract class ObjectParser : MapSetParser
         }
 
         ParseBlanks(rest, out var word);
-        if (number > MaxSeed)
+        if (number > Choice.MaxSeed)
         {
-            throw Error(start, FormattableString.Invariant($"a seed is at most {MaxSeed}"));
+            throw Error(start, FormattableString.Invariant($"a seed is at most {Choice.MaxSeed}"));
         }
 
         var isByLevel = ParseWord(word, "by", out var next);

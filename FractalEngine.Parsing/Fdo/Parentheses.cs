@@ -36,13 +36,13 @@ internal static class Parentheses
     /// <summary>Tells whether a text that begins with a parenthesis begins with an object, <c>(a + [t.] b)</c>.</summary>
     /// <remarks>
     /// Outside of inner parentheses, only objects have sets, quotes and plus signs, and only outputs have commas, '#', and three items.
-    /// Only choices have colons.
+    /// Only choices have colons, and only ends by size the word 'until'.
     /// </remarks>
     public static bool HoldObject(ReadOnlySpan<char> text)
     {
         // What else begins with a number, in however many parentheses, is an output.
-        var first = text.IndexOfAny(":)\n\r");
-        if (first >= 0 && text[first] == ':')
+        var end = text.IndexOfAny(":)\n\r");
+        if (end >= 0 && (text[end] == ':' || text[..end].Contains(" until ", StringComparison.Ordinal)))
         {
             return true;
         }

@@ -235,7 +235,7 @@ internal sealed record TracedScene
 
     /// <summary>What the maps of a fractal mix into the colour of an instance.</summary>
     private Tint TintOf(int index, QueryContext context) =>
-        _objects[_zoom?.ObjectIndex ?? index].Model is not FractalModel { Fractal: { Description.HasColours: true } fractal } ? Tint.None
+        _objects[_zoom?.ObjectIndex ?? index].Model is not FractalModel { Fractal: { HasColours: true } fractal } ? Tint.None
         : _caster is DeepZoomRayCaster zoomed ? zoomed.TintOf(index, context)
         : Tint.Of(fractal, context.InstancePath);
 

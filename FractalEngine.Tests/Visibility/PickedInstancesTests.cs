@@ -56,6 +56,27 @@ public sealed class PickedInstancesTests : IDisposable
         Assert.Equal(fractal.ByMesh.Sum(static part => part.Expand(100_000).Length), fractal.CountRange()!.Value.Exact);
     }
 
+    /// <summary>Numbers of instances for the seeds 1 to 7, by an expansion that shares nothing with the engine.</summary>
+    [Theory]
+    [InlineData("t. ((1, 0, 0), #, (0.5))\nz<plate>. 1: box + cone | 1: [t.] plate\n<$>. z until 1", "2 1 2 2 1 2 1")]
+    [InlineData("t. ((1, 0, 0), #, (0.5))\nz<plate>. 1: box + cone | 1: [t.] plate\n<$>. z 1", "2 1 2 2 1 2 1")]
+    [InlineData(
+        "t. ((1, 0, 0), #, (0.5))\nv. ((0, 1, 0), #, (0.6))\n"
+        + "z<box>. [t.] box + (1: plate | 1: [#, v.] plate)\n<$>. z 4", "8 8 7 6 9 8 6")]
+    public void ChoicesByLevel_CountLevelsFromTheTop(string text, string counts) => Assert.Equal(
+        counts,
+        string.Join(' ', Enumerable.Range(1, 7).Select(seed => FractalFile.Read(
+            _folder.Write("a.fdo", $"seed {seed} by level\n{text}\n")).CountRange()!.Value.Exact)));
+
+    [Fact]
+    public void EndBySize_InParentheses_BeginsAnObject()
+    {
+        const string text = "a<cylinder>. [(#, #, (0.8))] cylinder + box\n";
+        var sum = FractalFile.Read(_folder.Write("a.fdo", text + "y. (a until 0.5) + box\n<$>. y\n"));
+        var other = FractalFile.Read(_folder.Write("b.fdo", text + "<$>. (a until 0.5) + box\n"));
+        Assert.Equal(other, sum);
+    }
+
     [Fact]
     public void Wood_OfAMillionTrees_TakesKilobytesAndFindsWhatAnExportOfOneTreeHas()
     {

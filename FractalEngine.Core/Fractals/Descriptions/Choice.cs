@@ -14,6 +14,9 @@ public sealed record Choice
     /// <summary>Most alternatives of one choice: searches keep one bit of a word for each.</summary>
     public const int MaxAlternatives = 64;
 
+    /// <summary>Largest seed that files and options may state.</summary>
+    public const int MaxSeed = 999_999_999;
+
     private readonly ulong[] _ends;
     private readonly ulong _start;
     private readonly int _last;

@@ -17,7 +17,7 @@ public readonly record struct WrittenWay(ulong Factor, ulong Offset)
     /// <summary>The part without any set.</summary>
     public static WrittenWay Empty => new(1, 0);
 
-    /// <summary>The way through one set.</summary>
+    /// <summary>The way through one map of a set.</summary>
     /// <param name="term">The term of the sum from 0, the only one where there is no sum.</param>
     /// <param name="map">The map of the set from 0.</param>
     public static WrittenWay Of(long term, int map) => Of(term).Then(Of(map));

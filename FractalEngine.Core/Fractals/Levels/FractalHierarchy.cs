@@ -118,10 +118,11 @@ internal sealed class FractalHierarchy(Mesh[] baseMeshes, LevelTable<HierarchyLe
     /// <summary>Goes on from a place by a path of children.</summary>
     /// <param name="path">Indices of child instances, perhaps through groups.</param>
     /// <param name="start">The place where it begins.</param>
+    /// <param name="from">The group of children there that it begins at; null for what stands there.</param>
     /// <returns>The place where it ends, and what stands there.</returns>
-    public (LevelState State, SubFractal SubFractal) Enter(ReadOnlySpan<int> path, in LevelState start)
+    public (LevelState State, SubFractal SubFractal) Enter(ReadOnlySpan<int> path, in LevelState start, SubFractal? from = null)
     {
-        var (state, subFractal) = (start, At(start.Level));
+        var (state, subFractal) = (start, from ?? At(start.Level));
         foreach (var index in path)
         {
             var child = subFractal.Children[index];

@@ -34,9 +34,11 @@ internal abstract class LevelPick
     /// <param name="number">The number of the choice among those of its recursives.</param>
     /// <param name="firstLevel">The lowest level of the recursives.</param>
     /// <param name="period">Number of recursives.</param>
-    /// <param name="rounds">Number of levels of the recursives.</param>
-    internal sealed class ByChance(Choice choice, int number, long firstLevel, int period, long rounds) : LevelPick
+    internal sealed class ByChance(Choice choice, int number, long firstLevel, int period) : LevelPick
     {
+        /// <summary>The highest level of the recursives.</summary>
+        public long TopLevel { get; set; }
+
         /// <inheritdoc/>
         public override bool DependsOnWay => !choice.IsByLevel;
 
@@ -45,7 +47,7 @@ internal abstract class LevelPick
 
         /// <inheritdoc/>
         public override int Select(in LevelState state) => choice.Select(choice.IsByLevel
-            ? WrittenWay.Of(rounds - 1 - ((state.Level - firstLevel) / period), number).After(0)
+            ? WrittenWay.Of(((TopLevel - firstLevel) / period) - ((state.Level - firstLevel) / period), number).After(0)
             : state.Way);
 
         /// <inheritdoc/>

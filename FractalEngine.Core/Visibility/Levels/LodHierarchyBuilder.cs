@@ -23,7 +23,7 @@ internal static class LodHierarchyBuilder
         var mesh = fractal.HasSeveralMeshes ? Mesh.Empty : fractal.BaseMesh;
         var baseBox = fractal.HasSeveralMeshes ? BoundingBox.Empty
             : hierarchy.AllLevels.Items[fractal.BaseMeshes.IndexOf(mesh)].Box;
-        var hasColours = fractal.Description.HasColours;
+        var hasColours = fractal.HasColours;
         var means = hasColours ? MeanTints.Compute(hierarchy).Zip(hierarchy.AllLevels.Items.ToArray()).ToDictionary(
             static pair => pair.Second, static pair => pair.First) : null;
         return new(

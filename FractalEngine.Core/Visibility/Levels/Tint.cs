@@ -13,7 +13,7 @@ public readonly record struct Tint(Vector Added, double Kept)
     /// <summary>The tint that changes nothing.</summary>
     public static Tint None => new(Vector.Zero, 1);
 
-    /// <summary>The tint of one map.</summary>
+    /// <summary>The tint that one map gives to what it makes.</summary>
     public static Tint Of(MapColour colour) => colour.IsNone ? None : new(colour.Mix(Vector.Zero), 1 - colour.Amount);
 
     /// <summary>Computes the tint of an instance of a fractal.</summary>

@@ -4,7 +4,7 @@ namespace FractalEngine.Tests.Oracles.Chance;
 internal static class ChanceCycles
 {
     // Cycles that shrink less are left out: rounding decides of them, or they are long.
-    private const double MostStretch = 0.97;
+    private const double GreatestStretch = 0.97;
 
     /// <summary>Refuses a group with calls that lead back without being much smaller.</summary>
     public static void RequireShrinking(ChanceGroup group)
@@ -30,7 +30,7 @@ internal static class ChanceCycles
 
         for (var i = 0; i < count; i++)
         {
-            ChanceResolver.Require(stretches[i, i] < MostStretch, "calls that don't shrink");
+            ChanceResolver.Require(stretches[i, i] < GreatestStretch, "calls that don't shrink");
         }
 
         void Visit(ChanceNode node, double stretch, int from)

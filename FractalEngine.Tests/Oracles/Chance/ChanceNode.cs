@@ -8,7 +8,7 @@ namespace FractalEngine.Tests.Oracles.Chance;
 /// <param name="HasSizes">Whether something in it ends by its size.</param>
 internal abstract record ChanceNode(bool IsPlain, bool HasSizes)
 {
-    /// <summary>A base mesh.</summary>
+    /// <summary>A place where one base mesh stands.</summary>
     internal sealed record Base(OracleMesh Mesh) : ChanceNode(true, false);
 
     /// <summary>An object for each of some maps.</summary>

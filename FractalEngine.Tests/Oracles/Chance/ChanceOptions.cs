@@ -22,7 +22,7 @@ internal sealed record ChanceOptions
     public bool HasDepthZeroInSums { get; init; }
 
     /// <summary>What ends by its size may choose by level.</summary>
-    public bool HasSizesByLevel { get; init; }
+    public bool HasSizesByLevel { get; init; } = true;
 
     /// <summary>Sums by chance may have successive terms of the same set on something without chance.</summary>
     public bool HasPlainSetsOnSets { get; init; } = true;

@@ -14,7 +14,7 @@ namespace FractalEngine.Tests.Oracles.Chance;
 /// <summary>Compares counts, instances, the box and the written file of a fractal with an expansion.</summary>
 internal static class ChanceStructureChecker
 {
-    /// <summary>Checks all of them.</summary>
+    /// <summary>Checks counts, instances and the written file of a fractal.</summary>
     /// <exception cref="GraphMismatch">Something differs.</exception>
     public static void Check(Fractal fractal, ChanceNode node, TriangleSoup soup)
     {

@@ -29,8 +29,9 @@ internal sealed class FractalHierarchyBuilder(
     // By parts: the level where each of those built is the whole.
     private readonly List<long> _tops = [.. Enumerable.Range(0, graph.BaseMeshes.Length)];
 
-    // By parts: whether places decide what stands there.
     private readonly Dictionary<int, ImmutableArray<long>> _sizeLimits = [];
+
+    // By parts: whether places decide what stands there.
     private readonly List<bool> _hasPicks = [.. Enumerable.Repeat(false, graph.BaseMeshes.Length)];
     private readonly Dictionary<TransformationSet, MapSet> _sets = new(ReferenceEqualityComparer.Instance);
     private readonly LevelBuilder _levels = new(graph);
@@ -278,7 +279,7 @@ internal sealed class FractalHierarchyBuilder(
                             recursives.EdgesAt,
                             levelCount))
                     {
-                        return Built.Top;
+                        return recursives.EndAt(Built.Top);
                     }
                 }
 
@@ -294,6 +295,6 @@ internal sealed class FractalHierarchyBuilder(
             }
         }
 
-        return Built.Top;
+        return recursives.EndAt(Built.Top);
     }
 }

@@ -30,8 +30,7 @@ internal sealed class RecursiveLevels(
             Numbers = hasPicks ? [.. recursive.NumberCalls()] : [],
             Pick = index < limits.Length ? new LevelPick.BySize(limits[index])
                 : recursive.Choice is { } choice ? new LevelPick.ByChance(
-                    choice, part.Recursives.Take(index).Count(static one => one.Choice is not null), firstLevel, part.Recursives.Length,
-                    part.Levels ?? FractalHierarchyBuilder.EndlessRounds)
+                    choice, part.Recursives.Take(index).Count(static one => one.Choice is not null), firstLevel, part.Recursives.Length)
                 : null,
         })];
 
@@ -74,6 +73,19 @@ internal sealed class RecursiveLevels(
 
     /// <summary>The largest number of rounds between a sub-fractal and its children: the last call may lead to a later turn.</summary>
     public int MaxExpandedRounds => (ChildInstanceBuilder.MaxExpandedLevels * part.MaxLevelsLess) + (Period > 1 ? 1 : 0);
+
+    /// <summary>Ends the levels, from which choices by level count.</summary>
+    /// <param name="top">The highest level, which is that of the root.</param>
+    /// <returns>The same level.</returns>
+    public long EndAt(long top)
+    {
+        foreach (var pick in _sets.Select(static set => set.Pick).OfType<LevelPick.ByChance>())
+        {
+            pick.TopLevel = top;
+        }
+
+        return top;
+    }
 
     /// <summary>The maps of the calls of a level's recursive.</summary>
     public MapSet SetAt(long level) => _sets[part.Order[(int)((level - firstLevel) % Period)]];
