@@ -24,6 +24,9 @@ run() {
 # draw NAME FILE SIZE [OPTION ...]
 draw() { run render "$2" --output "$images/$1.png" --resolution "$3" "${@:4}"; }
 
+# classic NAME CAMERA: one of the ten classics of the manual.
+classic() { draw "classic-$1" "assets/classics/$1.fdo" 480x360 --background '(0.92, 0.93, 0.95)' --camera "$2"; }
+
 # Shows a window of 1280 x 720 on a file, sends it what xdotool understands, and keeps what is seen.
 window() {
     local name="$1" file="$2"
@@ -75,6 +78,16 @@ make_image() {
         appendix-b | inside | menger | textured | reef | cathedral | winter | wood | city) draw "$1" "assets/scenes/$1.sdo" 720x405 ;;
         conifer | coral | tower) draw "$1" "assets/scenes/$1.sdo" 480x320 ;;
         flake) draw "$1" "assets/scenes/$1.sdo" 320x320 ;;
+        classic-bush) classic bush '(3.69, 2, -6.85) look-at (0.29, 1.18, -0.05) 25' ;;
+        classic-context-tree) classic context-tree '(0, 6.16, -30.5) look-at (0, 6.16, 0) 27' ;;
+        classic-arch) classic arch '(2.55, 2.04, -4.25) look-at (0.02, 0.73, 0) 28' ;;
+        classic-synth-tree) classic synth-tree '(11.4, 7.6, -24.4) look-at (-1.2, 5.1, 0.8) 25' ;;
+        classic-dragon) classic dragon '(0.42, 0.17, -3) look-at (0.42, 0.17, 0) 24' ;;
+        classic-koch) classic koch '(3.25, 2.9, -4.8) look-at (0, 0, 0) 21' ;;
+        classic-jerusalem) classic jerusalem '(1.5, 1.1, -3.4) look-at (0, -0.02, 0) 24' ;;
+        classic-vicsek) classic vicsek '(1.3, 1.9, -4) look-at (0, 0.01, 0) 14' ;;
+        classic-cantor) classic cantor '(1.7, 1.4, -4.4) look-at (0, -0.02, 0) 18' ;;
+        classic-pythagoras) classic pythagoras '(6.14, 4.04, -9.83) look-at (0, 1.28, 0) 25' ;;
         traced-*) draw "$1" "assets/scenes/${1#traced-}.sdo" 640x360 --trace 64 ;;
         playground | light) "$1" ;;
         zoom)
@@ -99,6 +112,8 @@ make_image() {
 all=(
     forest gallery cathedral reef menger inside appendix-b gradients textured winter playground angles
     wood city conifer coral tower flake
+    classic-bush classic-context-tree classic-arch classic-synth-tree classic-dragon
+    classic-koch classic-jerusalem classic-vicsek classic-cantor classic-pythagoras
     tree-01 tree-02 tree-03 tree-04 tree-05 tree-06 tree-07 tree-08 tree-09 tree-10
     traced-gallery traced-menger traced-playground light zoom stair window-fractal window-keys window-selection
 )

@@ -36,7 +36,7 @@ internal sealed class ExportedMaterials
     /// <exception cref="UsageException">Another file has its name.</exception>
     public static ExportedMaterials? For(LoadedScene scene, string output)
     {
-        if (output == StandardInput.Name || FileTypes.IsSpecial(output) || SceneMaterials.Of(scene) is not { Count: > 0 } materials)
+        if (output == StandardInput.Name || FileTypes.IsSpecial(output) || SceneMaterials.Of(scene) is not { IsEmpty: false } materials)
         {
             return null;
         }

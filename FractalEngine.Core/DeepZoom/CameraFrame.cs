@@ -155,10 +155,14 @@ internal sealed class CameraFrame(LodHierarchy hierarchy, FractalPath path, Affi
 
     private void UpdateFrame()
     {
-        while (TryLeave() || TryEnterClosestChild())
+        while (TryLeave() || (IsNearWhole() && TryEnterClosestChild()))
         {
         }
     }
+
+    /// <summary>Tells whether the camera is near what stands there, where the boxes of children hold much that does not.</summary>
+    private bool IsNearWhole() => Depth > 0 || hierarchy.TrueBounds is not { } box
+        || DistanceToBox(box, CameraPosition()) <= EnterDistanceRatio * box.Diagonal;
 
     private bool TryLeave()
     {

@@ -1,4 +1,5 @@
 using System.Collections.Immutable;
+using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Fractals.Levels;
 using FractalEngine.Core.Geometry;

@@ -1,3 +1,4 @@
+using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Fractals.Levels;
 using FractalEngine.Core.Visibility.Levels;
 

@@ -19,6 +19,9 @@ public static class DistinctInstances
     // Numbers of deeper fractals have thousands of digits.
     internal const int MaxCountedLevels = 1000;
 
+    // Takes some tenths of a second.
+    private const long MaxCountedPlaces = 50_000;
+
     // Images that touch overlap by the rounding of their coordinates.
     private const double TouchTolerance = 64 * 2.220446049250313e-16;
 
@@ -74,7 +77,7 @@ public static class DistinctInstances
         ArgumentNullException.ThrowIfNull(fractal);
         if (fractal.Description.CountsWays)
         {
-            return fractal.CountRange(budget) is { } range ? range.Exact ?? range.Most : fractal.InstanceCount;
+            return fractal.CountRange(Math.Max(budget, MaxCountedPlaces)) is { } range ? range.Exact ?? range.Most : fractal.InstanceCount;
         }
 
         if (fractal.InstanceCount is not { } chains)

@@ -190,20 +190,19 @@ public sealed class Fractal : IEquatable<Fractal>
 
     /// <summary>Follows a path of a query (<c>QueryContext.InstancePath</c>) in a fractal of affine composition.</summary>
     /// <param name="path">Indices of maps, the outermost first; as many as wanted.</param>
-    /// <param name="levelsAbove">Number of levels above the sub-fractal from which the path goes on, such as that around a camera.</param>
-    /// <returns>A step for each index; null where the fractal has no such path.</returns>
+    /// <param name="firstStep">Number of steps that are not wanted, such as those to what a camera is in.</param>
+    /// <returns>A step for each further index; null where the fractal has no such path.</returns>
     /// <exception cref="FractalLimitException">The bounds of some level overflow a double, or don't converge.</exception>
     /// <exception cref="SingularMatrixException">A map has no inverse.</exception>
-    public IReadOnlyList<PathStep>? Follow(ReadOnlySpan<int> path, long levelsAbove = 0)
+    public IReadOnlyList<PathStep>? Follow(ReadOnlySpan<int> path, int firstStep = 0)
     {
         var hierarchy = HierarchyBySets;
-        var start = levelsAbove == 0 ? hierarchy.Top : new(hierarchy.Levels - levelsAbove);
-        return hierarchy.Follow(start, path)?.ConvertAll(step => new PathStep(
+        return hierarchy.Follow(hierarchy.Top, path)?.Skip(firstStep).Select(step => new PathStep(
             step.Set.Maps[step.Index], step.Index, step.Set.Maps.Length, hierarchy.AllLevels.At(step.Level).Box,
             hierarchy.IsBase(step.Level))
         {
             Colour = step.Set.ColourOf(step.Index),
-        });
+        }).ToList();
     }
 
     /// <summary>Lists the boxes of the sub-fractals below so many sets or calls, of a fractal of affine composition.</summary>
@@ -242,7 +241,7 @@ public sealed class Fractal : IEquatable<Fractal>
             return new(description, only.BaseMeshes) { BaseMeshPaths = only.BaseMeshPaths };
         }
 
-        var list = new FractalPartList();
+        var list = new FractalPartList(description.HasChance || bases.Any(static one => one.Description.HasChance));
         var meshes = new MeshList();
         return meshes.Make(list, list.AddAll(description, index => meshes.AddAll(list, bases[index])), description.Composition);
     }
@@ -253,9 +252,10 @@ public sealed class Fractal : IEquatable<Fractal>
     /// <exception cref="FractalLimitException">The result exceeds one of <see cref="FractalLimits"/>.</exception>
     public static Fractal Sum(params IEnumerable<Fractal> terms)
     {
-        var list = new FractalPartList();
+        Fractal[] fractals = [.. terms];
+        var list = new FractalPartList(fractals.Any(static term => term.Description.HasChance));
         var meshes = new MeshList();
-        int[] parts = [.. terms.Select(term => meshes.AddAll(list, term))];
+        int[] parts = [.. fractals.Select(term => meshes.AddAll(list, term))];
         return parts.Length > 0
             ? meshes.Make(list, list.AddSum([.. parts]))
             : throw new ArgumentException("expected at least one term", nameof(terms));
@@ -323,7 +323,7 @@ public sealed class Fractal : IEquatable<Fractal>
         ArgumentNullException.ThrowIfNull(body);
         var self = new Mesh([], []);
         var made = Affine(body(Of(self)));
-        var list = new FractalPartList();
+        var list = new FractalPartList(made.Description.HasChance);
         var meshes = new MeshList();
         var first = meshes.AddAll(list, start);
         var whole = list.AddAll(made.Description, mesh =>

@@ -40,7 +40,7 @@ public static class FractalGenerator
 
         if (!fractal.Description.Parts.IsEmpty || fractal.HasColours)
         {
-            return ExpandParts(fractal, maxInstances);
+            return [.. ExpandByParts(fractal, maxInstances).Select(static instance => instance.Map)];
         }
 
         return FractalSteps.HasAtMostInstances(fractal.Description.Steps, maxInstances) && !fractal.Description.IsInfinite
@@ -76,16 +76,33 @@ public static class FractalGenerator
             ?? throw LimitError(fractal, maxInstances);
     }
 
+    /// <summary>Expands a fractal into its instances, with what maps mix into their colours.</summary>
+    /// <param name="fractal">Fractal with finitely many levels.</param>
+    /// <param name="maxInstances">Maximum number of instances.</param>
+    /// <returns>The maps, as those of <see cref="ExpandDistinct"/>, and for each its tint; no tints where no map has a colour.</returns>
+    /// <exception cref="FractalLimitException">The fractal has more instances, or takes too long to enumerate.</exception>
+    public static (ImmutableArray<AffineMap> Maps, ImmutableArray<Tint> Tints) ExpandTinted(this Fractal fractal, long maxInstances)
+    {
+        ArgumentNullException.ThrowIfNull(fractal);
+        if (!fractal.HasColours)
+        {
+            return (ExpandDistinct(fractal, maxInstances), []);
+        }
+
+        var instances = ExpandByParts(fractal, Math.Min(maxInstances, Array.MaxLength));
+        return ([.. instances.Select(static instance => instance.Map)], [.. instances.Select(static instance => instance.Tint)]);
+    }
+
     /// <summary>Expands a fractal of several parts that shows one mesh.</summary>
-    private static ImmutableArray<AffineMap> ExpandParts(Fractal fractal, long maxInstances)
+    private static ImmutableArray<MeshInstance> ExpandByParts(Fractal fractal, long maxInstances)
     {
         // One that shows several meshes is expanded by these.
         _ = fractal.BaseMesh;
         return fractal.Description.IsInfinite
             ? throw LimitError(fractal, maxInstances)
-            : [.. (fractal.Description.CountsWays
+            : fractal.Description.CountsWays
                 ? StateExpansion.Expand(fractal.HierarchyBySets, maxInstances)
-                : GraphExpansion.Expand(fractal.Graph, maxInstances)).Select(static instance => instance.Map)];
+                : GraphExpansion.Expand(fractal.Graph, maxInstances);
     }
 
     /// <summary>Expands a fractal level by level, and removes the repeated instances of each level before the next.</summary>

@@ -71,7 +71,7 @@ internal sealed class GraphExpansion
         {
             var images = DistinctMaps.Images(mesh.UsedBounds, null, Math.Max(1, _maps[index].Count));
             return _maps[index].All(map => images.TryAdd(map, _maxInstances))
-                ? images.Items.ToArray().Select(map => new MeshInstance(index, map))
+                ? images.Items.ToArray().Select(map => new MeshInstance(index, map, Tint.None))
                 : throw LimitError();
         })];
     }

@@ -5,4 +5,5 @@ namespace FractalEngine.Core.Fractals;
 /// <summary>An instance of one of several base meshes.</summary>
 /// <param name="MeshIndex">Index of the base mesh.</param>
 /// <param name="Map">From the frame of the base mesh to that of the fractal.</param>
-internal readonly record struct MeshInstance(int MeshIndex, AffineMap Map);
+/// <param name="Tint">What the maps on its way mix into its colour.</param>
+internal readonly record struct MeshInstance(int MeshIndex, AffineMap Map, Tint Tint);

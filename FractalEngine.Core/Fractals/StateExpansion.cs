@@ -21,7 +21,7 @@ internal static class StateExpansion
     public static ImmutableArray<MeshInstance> Expand(FractalHierarchy hierarchy, long maxInstances)
     {
         var instances = ImmutableArray.CreateBuilder<MeshInstance>();
-        var open = new Stack<(LevelState State, AffineMap Map)>([(hierarchy.Start, AffineMap.Identity)]);
+        var open = new Stack<(LevelState State, AffineMap Map, Tint Tint)>([(hierarchy.Start, AffineMap.Identity, Tint.None)]);
         for (var steps = 0L; open.TryPop(out var part); steps++)
         {
             var level = hierarchy.AllLevels.At(part.State.Level);
@@ -32,7 +32,7 @@ internal static class StateExpansion
 
             if (hierarchy.IsBase(part.State.Level))
             {
-                instances.Add(new(level.BaseIndex, part.Map));
+                instances.Add(new(level.BaseIndex, part.Map, part.Tint));
             }
 
             if (instances.Count > maxInstances || steps > FractalLimits.ComparedProducts.Value + (8 * maxInstances))
@@ -43,7 +43,11 @@ internal static class StateExpansion
 
             for (var i = level.Edges.Length - 1; i >= 0; i--)
             {
-                open.Push((hierarchy.Resolve(level.Edges[i].Enter(part.State)), part.Map * level.Edges[i].Map));
+                var edge = level.Edges[i];
+                var colour = edge.Set.ColourOf(edge.MapIndex);
+                open.Push((
+                    hierarchy.Resolve(edge.Enter(part.State)), part.Map * edge.Map,
+                    colour.IsNone ? part.Tint : part.Tint.Then(Tint.Of(colour))));
             }
         }
 

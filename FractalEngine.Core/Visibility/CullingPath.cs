@@ -1,5 +1,6 @@
 using System.Runtime.CompilerServices;
 using System.Runtime.Intrinsics;
+using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Visibility.Levels;
@@ -12,7 +13,7 @@ namespace FractalEngine.Core.Visibility;
 internal readonly record struct CullingPath(ulong Hash, ColourPath ColourPath)
 {
     /// <summary>What the maps on the path mix into colours.</summary>
-    public Vector128<float> Tint { get; init; } = Levels.Tint.None.ToSingle();
+    public Vector128<float> MapTint { get; init; } = Tint.None.ToSingle();
 
     // Roots differ in bits that child indices do not reach.
     private const int RootShift = 40;
@@ -25,7 +26,7 @@ internal readonly record struct CullingPath(ulong Hash, ColourPath ColourPath)
     /// <param name="colourPath">Path of maps that lead to the root.</param>
     /// <param name="tint">What the maps that lead to the root mix into colours.</param>
     public static CullingPath FromRoot(int index, ColourPath colourPath, Tint tint) =>
-        new((ulong)(index + 1) << RootShift, colourPath) { Tint = tint.ToSingle() };
+        new((ulong)(index + 1) << RootShift, colourPath) { MapTint = tint.ToSingle() };
 
     /// <summary>Appends one child instance to the path.</summary>
     /// <param name="childIndex">Index of the child instance among its siblings.</param>
@@ -38,12 +39,12 @@ internal readonly record struct CullingPath(ulong Hash, ColourPath ColourPath)
         ((Hash ^ (ulong)(childIndex + 1)) * HashMixing.GoldenGamma) + (ulong)depth,
         gradient == GradientKind.None ? ColourPath : ColourPath.Append(mapIndex, setSize))
     {
-        Tint = Tint,
+        MapTint = MapTint,
     };
 
     /// <summary>Appends the tint of a child instance to that of the path.</summary>
     public CullingPath WithTint(Vector128<float> tint) => this with
     {
-        Tint = (Vector128.Create(Tint[3]) * tint) + Tint.WithElement(3, 0),
+        MapTint = (Vector128.Create(MapTint[3]) * tint) + MapTint.WithElement(3, 0),
     };
 }

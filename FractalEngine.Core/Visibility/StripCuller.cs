@@ -307,7 +307,7 @@ internal sealed class StripCuller
 
         if (context.HasColours)
         {
-            instances.SetTint(instance.Path.WithTint(instance.Node.MeanTint).Tint);
+            instances.SetTint(instance.Path.WithTint(instance.Node.MeanTint).MapTint);
         }
 
         if (context.HasSkyParts)

@@ -38,8 +38,8 @@ public sealed class FileSummary(LoadedFile file, TimeSpan loadTime, TimeSpan? pr
             ("meshes", format(scene.Objects is [{ Model: FractalModel model }] ? MeshNames(model) : null)),
             ("vertices", FormatCount(Sum(static mesh => mesh.VertexCount), format)),
             ("faces", FormatCount(Sum(static mesh => mesh.FaceCount), format)),
-            ("instances", FormatCount(SumRanges(static range => range?.Exact ?? range?.Most), format)),
-            ("chains", FormatCount(chains, format)),
+            ("instances", FormatCount(SumRanges(static range => range?.Exact), format)),
+            ("chains", FormatCount(ranges.Count == 0 ? chains : SumRanges(static range => range?.Exact), format)),
             .. ranges.Count == 0 ? [] : new (string Name, string Value)[]
             {
                 ("leastInstances", FormatCount(SumRanges(static range => range?.Least), format)),

@@ -122,6 +122,8 @@ internal sealed class ModelLoader
         var parsed = ReadOrFindFractal(fullPath, displayName);
         Warnings.AddRange(parsed.Warnings);
         var bases = LoadBases(parsed, fullPath);
+        parsed = parsed.KeepsSums || !bases.Exists(static one => one.Fractal.Description.HasChance) ? parsed
+            : FractalParser.ParseKeepingSums(parsed.Source, _options.Values);
         var joined = Join(parsed, bases);
         // Options are those of the whole, and so are bounds.
         var fractal = _openFractals.Count > 0 ? joined : ApplyOptions(parsed, joined);

@@ -11,8 +11,8 @@ public abstract class CallParser : TransformationParser
     // The arguments of the call that is read.
     private readonly FractalValue[] _arguments = new FractalValue[MaxParameters];
 
-    private protected CallParser(SourceText source, FractalNumberList? numbers)
-        : base(source, numbers)
+    private protected CallParser(SourceText source, FractalNumberList? numbers, bool keepsSums)
+        : base(source, numbers, keepsSums)
     {
     }
 

@@ -3,12 +3,14 @@ using FractalEngine.Core.Fractals.Descriptions;
 namespace FractalEngine.Parsing.Fdo;
 
 /// <summary>The parts of a fractal file, and the files and shapes that they begin with.</summary>
-internal sealed class DeclaredBases
+/// <param name="keepsSums">Whether sums and sets stay as they are written, see <see cref="FractalPartList"/>.</param>
+internal sealed class DeclaredBases(bool keepsSums)
 {
     private readonly List<BaseReference> _references = [];
+    private readonly Dictionary<string, int> _numbers = [];
 
     /// <summary>The parts of all objects.</summary>
-    public FractalPartList Parts { get; } = new();
+    public FractalPartList Parts { get; } = new(keepsSums);
 
     /// <summary>The files and shapes, in the order in which they were named.</summary>
     public IReadOnlyList<BaseReference> References => _references;
@@ -18,8 +20,13 @@ internal sealed class DeclaredBases
     /// <param name="offset">Offset of the name in the text.</param>
     public DeclaredObject Add(string name, int offset)
     {
-        _references.Add(new(name, offset));
-        return new(Parts.AddMesh(_references.Count - 1), DeclaredSteps.None);
+        // By chance, one file is one object wherever it is named.
+        if (!keepsSums || _numbers.TryAdd(name, _references.Count))
+        {
+            _references.Add(new(name, offset));
+        }
+
+        return new(Parts.AddMesh(keepsSums ? _numbers[name] : _references.Count - 1), DeclaredSteps.None);
     }
 
     /// <summary>Returns the part that an object with all its steps is.</summary>

@@ -7,6 +7,9 @@ namespace FractalEngine.Parsing.Fdo;
 /// <param name="Steps">Steps applied to it, outermost first.</param>
 internal record DeclaredObject(int Part, DeclaredSteps Steps)
 {
+    /// <summary>True for what is written as a name: one thing, whatever steps it is made by.</summary>
+    public bool IsName { get; init; }
+
     /// <summary>Returns whether this object is the other one, or was made from it in any number of declarations.</summary>
     public bool IsDerivedFrom(DeclaredObject other) => Part == other.Part && Steps.EndWith(other.Steps);
 }

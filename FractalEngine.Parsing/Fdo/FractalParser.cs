@@ -17,8 +17,8 @@ public sealed class FractalParser : RecursiveParser
 
     private protected override string? Explain(SyntaxFailure failure) => ExplainOutput(failure) ?? FractalMistakes.Explain(failure);
 
-    private FractalParser(SourceText source, FractalNumberList? numbers)
-        : base(source, numbers)
+    private FractalParser(SourceText source, FractalNumberList? numbers, bool keepsSums = false)
+        : base(source, numbers, keepsSums)
     {
     }
 
@@ -27,10 +27,22 @@ public sealed class FractalParser : RecursiveParser
     /// <param name="values">Numbers that take the place of those that the file gives to names; null for none.</param>
     /// <exception cref="SourceException">The text is not a fractal, or has no valid meaning.</exception>
     /// <exception cref="ArgumentException">A number is not finite.</exception>
-    public static ParsedFractal Parse(SourceText source, IReadOnlyDictionary<string, double>? values = null) =>
-        values?.Values.All(double.IsFinite) != false
-            ? new FractalParser(source, null) { Overrides = values }.ParseFile()
-            : throw new ArgumentException("expected finite numbers", nameof(values));
+    public static ParsedFractal Parse(SourceText source, IReadOnlyDictionary<string, double>? values = null)
+    {
+        if (values?.Values.All(double.IsFinite) == false)
+        {
+            throw new ArgumentException("expected finite numbers", nameof(values));
+        }
+
+        var parser = new FractalParser(source, null) { Overrides = values };
+        var parsed = parser.ParseFile();
+        // Few files have choices, and these take no second time of note.
+        return parser.Bases.Parts.HasChoices ? ParseKeepingSums(source, values) : parsed;
+    }
+
+    /// <summary>Parses a file that may name another one with chance in it: all sums and sets stay as they are written then.</summary>
+    internal static ParsedFractal ParseKeepingSums(SourceText source, IReadOnlyDictionary<string, double>? values) =>
+        new FractalParser(source, null, keepsSums: true) { Overrides = values }.ParseFile() with { KeepsSums = true };
 
     /// <summary>Parses a file, and lists its numbers.</summary>
     internal static ImmutableArray<FractalNumber> FindNumbers(SourceText source)

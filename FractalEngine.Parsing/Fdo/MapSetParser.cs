@@ -10,8 +10,8 @@ public abstract class MapSetParser : CallParser
 {
     private long _mapCount;
 
-    private protected MapSetParser(SourceText source, FractalNumberList? numbers)
-        : base(source, numbers)
+    private protected MapSetParser(SourceText source, FractalNumberList? numbers, bool keepsSums)
+        : base(source, numbers, keepsSums)
     {
     }
 

@@ -18,8 +18,8 @@ public abstract class ObjectParser : MapSetParser
     private (int Number, bool IsByLevel) _seed;
     private string? _declared;
 
-    private protected ObjectParser(SourceText source, FractalNumberList? numbers)
-        : base(source, numbers)
+    private protected ObjectParser(SourceText source, FractalNumberList? numbers, bool keepsSums)
+        : base(source, numbers, keepsSums)
     {
     }
 
@@ -85,7 +85,7 @@ public abstract class ObjectParser : MapSetParser
         }
 
         var choice = new Choice([.. weights], _seed.Number, _seed.IsByLevel);
-        value = new(Bases.Parts.AddChoice([.. alternatives], choice), DeclaredSteps.None);
+        value = new(Bases.Parts.AddChoice([.. alternatives], choice, isOfBody: Calls is not null), DeclaredSteps.None);
         return true;
     }
 
@@ -150,10 +150,10 @@ public abstract class ObjectParser : MapSetParser
             return false;
         }
 
-        List<int>? terms = null;
+        List<DeclaredObject>? terms = null;
         while (ParseBlanks(rest, out var sign) && sign.Current == '+')
         {
-            terms ??= [Bases.PartOf(value)];
+            terms ??= [value];
             if (!ParseBlanks(sign.Advance(1), out var start) || !ParseObject(start, out var term, out rest))
             {
                 return false;
@@ -161,10 +161,11 @@ public abstract class ObjectParser : MapSetParser
 
             RequireLimit(++_sumTermCount, ParsingLimits.Names.Value, "the file", "terms of sums", start);
             RequireRepeatedSteps(term.Steps.Count, start);
-            terms.Add(Bases.PartOf(term));
+            terms.Add(term);
         }
 
-        value = terms is null ? value : new(Bases.Parts.AddSum([.. terms]), DeclaredSteps.None);
+        value = terms is null ? value
+            : new(Bases.Parts.AddSum([.. terms.Select(Bases.PartOf)], index => terms[index].IsName), DeclaredSteps.None);
         return true;
     }
 
@@ -188,7 +189,7 @@ public abstract class ObjectParser : MapSetParser
 
         Fail(rest, "'['");
         if (!ParseBaseFile(rest, out value, out rest) && !ParseParentheses(rest, out value, out rest)
-            && !ParseReference(rest, out value, out rest))
+            && !(ParseReference(rest, out value, out rest) && Set(ref value, value with { IsName = true })))
         {
             return false;
         }

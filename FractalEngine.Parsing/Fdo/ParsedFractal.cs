@@ -16,6 +16,9 @@ public sealed record ParsedFractal(
     /// <summary>Name of the first base mesh's file, relative to the fractal file, or one of the <see cref="BaseShapes"/>.</summary>
     public string BaseFile => Bases[0].File;
 
+    /// <summary>Whether sums and sets are those of the text, see <see cref="FractalPartList"/>.</summary>
+    internal bool KeepsSums { get; init; }
+
     /// <summary>Names of the numbers that the file declares, in their order.</summary>
     public ImmutableArray<string> NumberNames { get; init; } = [];
 

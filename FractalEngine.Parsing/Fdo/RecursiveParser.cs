@@ -7,8 +7,8 @@ namespace FractalEngine.Parsing.Fdo;
 /// <summary>Parses the recursives of fractal files: those that repeat sets over a base, and those that call each other.</summary>
 public abstract class RecursiveParser : ObjectParser
 {
-    private protected RecursiveParser(SourceText source, FractalNumberList? numbers)
-        : base(source, numbers)
+    private protected RecursiveParser(SourceText source, FractalNumberList? numbers, bool keepsSums)
+        : base(source, numbers, keepsSums)
     {
     }
 
@@ -159,7 +159,8 @@ public abstract class RecursiveParser : ObjectParser
             throw Error(bodies[0].Start, "no recursive has a base in its body: its name there is the recursive with one level less");
         }
 
-        var recursives = Bases.Parts.CreateRecursives([.. bases.Select(Bases.PartOf)], parts);
+        var recursives = Bases.Parts.CreateRecursives(
+            [.. bases.Select(Bases.PartOf)], parts, index => bodies[index].Value.IsName);
         // Each of them is a part that holds all.
         RequireRepeatedSteps(
             heads.Count * recursives.Sum(static recursive => recursive.Calls.Length + 1L), bodies[0].Start,

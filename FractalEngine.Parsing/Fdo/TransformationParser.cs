@@ -15,14 +15,18 @@ public abstract class TransformationParser : ExpressionParser
 
     private (int Offset, string Name)? _unknownOutput;
 
-    private protected TransformationParser(SourceText source, FractalNumberList? numbers)
-        : base(source, numbers) => Names = new(source, Bases);
+    private protected TransformationParser(SourceText source, FractalNumberList? numbers, bool keepsSums)
+        : base(source, numbers)
+    {
+        Bases = new(keepsSums);
+        Names = new(source, Bases);
+    }
 
     /// <summary>The vectors that were declared so far, in the order of their numbers.</summary>
     private protected List<Vector> Vectors { get; } = [];
 
     /// <summary>The parts of all objects, and what they begin with.</summary>
-    private protected DeclaredBases Bases { get; } = new();
+    private protected DeclaredBases Bases { get; }
 
     /// <summary>The names of objects and transformations that were declared so far.</summary>
     private protected DeclaredNames Names { get; }

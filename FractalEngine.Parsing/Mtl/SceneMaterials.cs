@@ -2,6 +2,7 @@ using System.Globalization;
 using System.Text;
 using FractalEngine.Core;
 using FractalEngine.Core.Files;
+using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Text;
@@ -13,12 +14,16 @@ namespace FractalEngine.Parsing.Mtl;
 /// </summary>
 /// <remarks>
 /// The colour that the scene gives to an object is part of its materials, and is a material of its own for faces without one. Materials
-/// that are equal then are written once. Gradients of fractals are not among them.
+/// that are equal then are written once, and so are those that colours of maps make, rounded to 8 bits. Gradients of fractals are not among
+/// them.
 /// </remarks>
 public sealed class SceneMaterials
 {
     /// <summary>First line of each material file, by which an earlier export is known again.</summary>
     private const string FirstLine = "# Materials of an exported mesh.";
+
+    // Further ones are rounded to 16 steps of each component.
+    private const int MaxFineColours = 4096;
 
     private readonly Dictionary<string, Material> _materials = new(StringComparer.Ordinal);
     private readonly Dictionary<Material, string> _namesOfEqual = [];
@@ -29,8 +34,11 @@ public sealed class SceneMaterials
     {
     }
 
-    /// <summary>Number of materials that differ, each under its own name.</summary>
+    /// <summary>Number of materials that differ, each under its own name. Those of colours of maps count when they are named.</summary>
     public int Count => _materials.Count;
+
+    /// <summary>True where no face has a material.</summary>
+    public bool IsEmpty { get; private set; }
 
     /// <summary>Collects the materials that faces of a scene have.</summary>
     /// <param name="scene">With full paths of textures.</param>
@@ -38,13 +46,22 @@ public sealed class SceneMaterials
     {
         ArgumentNullException.ThrowIfNull(scene);
         var result = new SceneMaterials();
+        var hasColours = false;
         foreach (var placed in scene.Objects.SelectMany(static placed => placed.Parts))
         {
+            if (placed.Model is FractalModel { Fractal.HasColours: true })
+            {
+                hasColours = true;
+                continue;
+            }
+
             foreach (var group in GroupMaterials(placed.Model.Mesh))
             {
                 result.Add(placed, group);
             }
         }
+
+        result.IsEmpty = result.Count == 0 && !hasColours;
 
         return result;
     }
@@ -56,6 +73,27 @@ public sealed class SceneMaterials
     {
         ArgumentNullException.ThrowIfNull(placed);
         return _names.GetValueOrDefault((placed.Model, placed.Declaration.Colour, group), "");
+    }
+
+    /// <summary>Returns the name of the material of an instance with a tint, which is added where it is new.</summary>
+    /// <param name="placed">Object of the scene.</param>
+    /// <param name="index">Its index, and that of the mesh added, see <see cref="ObjectPalette"/>.</param>
+    /// <param name="group">Name of the material in the object's mesh; empty for none.</param>
+    /// <param name="tint">What maps mix into the colour.</param>
+    public string NameOf(PlacedModel placed, int index, string group, Tint tint)
+    {
+        ArgumentNullException.ThrowIfNull(placed);
+        var material = placed.Model.Materials.GetValueOrDefault(group);
+        var colour = material is null ? ObjectPalette.ColourOf(placed, index) : MixedWith(placed.Declaration.Colour, material).Diffuse;
+        var (red, green, blue) = tint.Apply(colour.ToLinearVector());
+        var mixed = new Colour(red, green, blue).FromLinear();
+        var steps = Count < MaxFineColours ? 255 : 15;
+        return AddUnique((material ?? new("colour")) with
+        {
+            Diffuse = new(Round(mixed.Red), Round(mixed.Green), Round(mixed.Blue)),
+        });
+
+        double Round(double component) => Math.Round(component * steps) / steps;
     }
 
     /// <summary>Writes the material file.</summary>
@@ -114,13 +152,16 @@ public sealed class SceneMaterials
 
         if (placed.Model.Materials.GetValueOrDefault(group) is { } material)
         {
-            _names[key] = AddUnique(tint is { } colour ? material with { Diffuse = Multiply(material.Diffuse, colour) } : material);
+            _names[key] = AddUnique(MixedWith(tint, material));
         }
         else if (tint is { } colour)
         {
             _names[key] = AddUnique(new("colour") { Diffuse = colour });
         }
     }
+
+    private static Material MixedWith(Colour? tint, Material material) =>
+        tint is { } colour ? material with { Diffuse = Multiply(material.Diffuse, colour) } : material;
 
     /// <summary>Adds a material under its name, or that name with a number where another material has it.</summary>
     private string AddUnique(Material material)

@@ -1,4 +1,5 @@
 using System.Collections.Immutable;
+using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Visibility.Levels;
@@ -64,6 +65,9 @@ public sealed class DrawableModel
 
     /// <summary>Maps from the mesh to the model by rows, [<see cref="InstanceCount"/> × 12].</summary>
     public ReadOnlyMemory<float> Instances { get; }
+
+    /// <summary>What maps mix into the colours of instances, a <see cref="Tint"/> for each, [instances × 4]; else empty.</summary>
+    public ReadOnlyMemory<float> InstanceTints { get; init; }
 
     /// <summary>
     /// 1 where the model consists of solids wound outwards and −1 where inwards, so that from outside only one face of their triangles is

@@ -1,5 +1,6 @@
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes;
 
 namespace FractalEngine.Render.Drawables;
 

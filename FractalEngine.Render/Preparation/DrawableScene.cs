@@ -97,7 +97,7 @@ public sealed class DrawableScene
     {
         var models = parts.Models.ToDictionary(static model => model, ModelPreparation.CreatePlaceholder);
         var objects = scene.Objects.SelectMany((placed, index) =>
-            placed.Parts.Select((part, mesh) => (Placed: part, Colour: ColourOf(part, index + mesh))));
+            placed.Parts.Select((part, mesh) => (Placed: part, Colour: ObjectPalette.ColourOf(part, index + mesh))));
         return new(
             scene,
             parts,
@@ -149,13 +149,6 @@ public sealed class DrawableScene
         {
             Textures = textures,
         };
-
-    /// <summary>The colour of an object where its material says none.</summary>
-    /// <param name="placed">The object.</param>
-    /// <param name="index">Index of the object in the scene, from 0, and that of the mesh added.</param>
-    internal static Colour ColourOf(PlacedModel placed, int index) =>
-        // Colours of vertices are shown as they are, unless the scene gives the object one.
-        placed.Declaration.Colour ?? (placed.Model.Mesh.Colours.IsEmpty ? ObjectPalette.ColourOf(index) : Colour.White);
 
     private static DrawableObject CreateObject(PlacedModel placed, Colour colour, DrawableModel model)
     {

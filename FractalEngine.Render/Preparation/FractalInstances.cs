@@ -8,8 +8,9 @@ namespace FractalEngine.Render.Preparation;
 
 /// <summary>The instances of a fractal that a budget allows, with a notice about those that it does not.</summary>
 /// <param name="Maps">Maps from the base mesh's frame to the fractal's, each once.</param>
+/// <param name="Tints">For each what maps mix into its colour; none where no map has a colour.</param>
 /// <param name="Notice">A sentence for the user if the fractal is drawn at a smaller depth than its own; otherwise null.</param>
-internal sealed record FractalInstances(ImmutableArray<AffineMap> Maps, string? Notice)
+internal sealed record FractalInstances(ImmutableArray<AffineMap> Maps, ImmutableArray<Tint> Tints, string? Notice)
 {
     /// <summary>Expands a fractal as deep as the settings allow.</summary>
     /// <param name="name">Name of the file, for the notice.</param>
@@ -20,35 +21,36 @@ internal sealed record FractalInstances(ImmutableArray<AffineMap> Maps, string? 
         var faceCount = fractal.BaseMesh.FaceCount;
         if (faceCount == 0 || FractalSteps.HasAtMostInstances(fractal.Description.Steps, 0))
         {
-            return new([], null);
+            return new([], [], null);
         }
 
         var budget = Math.Clamp(settings.TriangleBudget / faceCount, 1, Math.Max(1, settings.InstanceBudget));
-        if (TryExpandComponentwise(fractal, budget) is { } componentwiseMaps)
+        if (TryExpandWhole(fractal, budget) is var (allMaps, allTints))
         {
-            return new(componentwiseMaps, null);
+            return new(allMaps, allTints, null);
         }
 
         var truncated = fractal.WithMaxInstances(budget);
+        var (maps, tints) = truncated.ExpandTinted(budget);
         return new(
-            FractalGenerator.Expand(truncated, budget),
+            maps, tints,
             ReferenceEquals(truncated, fractal) ? null : FormatNotice(name, fractal, truncated, budget));
     }
 
     /// <summary>
-    /// Expands a whole fractal of componentwise sums; null for others and where there are too many. The sums are far fewer than the chains
-    /// that <see cref="Fractal.WithMaxInstances"/> counts.
+    /// Expands a whole fractal of componentwise sums, or whose ways count; null for others and where there are too many. They are far fewer
+    /// than the chains that <see cref="Fractal.WithMaxInstances"/> counts.
     /// </summary>
-    private static ImmutableArray<AffineMap>? TryExpandComponentwise(Fractal fractal, long budget)
+    private static (ImmutableArray<AffineMap> Maps, ImmutableArray<Tint> Tints)? TryExpandWhole(Fractal fractal, long budget)
     {
-        if (fractal.Description.Composition != Composition.Componentwise)
+        if (fractal.Description.Composition != Composition.Componentwise && !fractal.Description.CountsWays)
         {
             return null;
         }
 
         try
         {
-            return FractalGenerator.Expand(fractal, budget);
+            return fractal.ExpandTinted(budget);
         }
         catch (FractalLimitException)
         {

@@ -37,9 +37,9 @@ internal static class ModelPreparation
         }
 
         var hierarchy = settings.Culling is null ? null : TryBuildHierarchy(name, model, notices);
-        var maps = hierarchy is null && model is FractalModel { Fractal: var fractal }
+        var (maps, tints) = hierarchy is null && model is FractalModel { Fractal: var fractal }
             ? Expand(name, fractal, settings, notices)
-            : [AffineMap.Identity];
+            : ([AffineMap.Identity], []);
         var origin = CentreOrOrigin(model.Bounds);
         var meshOrigin = CentreOrOrigin(mesh.Bounds);
         var batches = FaceBatches.ByMaterial(model, textures, settings.RemoveDegenerateTriangles);
@@ -59,6 +59,7 @@ internal static class ModelPreparation
             MeshOrigin = meshOrigin,
             TextureCoordinates = textureCoordinates,
             Colours = colours,
+            InstanceTints = tints.SelectMany(static tint => tint.ToSingles()).ToArray(),
             Batches = batches.Batches,
             DegenerateTriangleCount = batches.DegenerateTriangleCount,
             HasOpenSky = model is FractalModel && hierarchy?.HasOpenSky() == true,
@@ -115,18 +116,18 @@ internal static class ModelPreparation
         }
     }
 
-    private static ImmutableArray<AffineMap> Expand(
+    private static (ImmutableArray<AffineMap> Maps, ImmutableArray<Tint> Tints) Expand(
         string name, Fractal fractal, RenderSettings settings, ImmutableArray<string>.Builder notices)
     {
         // A fractal without a hierarchy is drawn with no more instances than culling would leave.
         var budget = Math.Min(settings.InstanceBudget, settings.Culling?.InstanceBudget ?? int.MaxValue);
-        var (maps, notice) = FractalInstances.Expand(name, fractal, settings with { InstanceBudget = budget });
+        var (maps, tints, notice) = FractalInstances.Expand(name, fractal, settings with { InstanceBudget = budget });
         if (notice is not null)
         {
             notices.Add(notice);
         }
 
-        return maps;
+        return (maps, tints);
     }
 
     /// <summary>Returns 1 where all instances of a model certainly keep the orientation of its mesh, otherwise 0.</summary>

@@ -1,6 +1,7 @@
 using System.Collections.Concurrent;
 using System.Collections.Immutable;
 using FractalEngine.Core.DeepZoom;
+using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Queries;
@@ -61,7 +62,7 @@ internal sealed record TracedScene
             model => knownSurfaces.GetValueOrDefault(model) ?? new TracedModel(model, settings.CreaseAngle, textures));
         _models = [.. _objects.Select(placed => placed.Model.Parts.Select(part => _surfaces[part]).ToArray())];
         _colours = [.. _objects.Select(static (placed, index) => placed.Parts.Select(
-            (part, mesh) => DrawableScene.ColourOf(part, index + mesh).ToLinearVector()).ToArray())];
+            (part, mesh) => ObjectPalette.ColourOf(part, index + mesh).ToLinearVector()).ToArray())];
         _gradientEnds = [.. _objects.Select((placed, index) =>
             placed.Declaration.Gradient is { } gradient ? gradient.EndColour.ToLinearVector() : _colours[index][0])];
         _tints = [.. _objects.Select(static placed => (placed.Declaration.Colour ?? Colour.White).ToLinearVector())];

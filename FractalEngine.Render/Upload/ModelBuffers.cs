@@ -11,6 +11,9 @@ internal sealed class ModelBuffers : IDisposable
     /// <summary>Location of the first row of an instance's map; the other two follow.</summary>
     public const int InstanceRowsLocation = 2;
 
+    /// <summary>Location of what maps mix into the colour of an instance.</summary>
+    public const int MapTintLocation = 10;
+
     private const int PositionLocation = 0;
     private const int NormalLocation = 1;
     private const int TextureCoordinatesLocation = 6;
@@ -21,6 +24,7 @@ internal sealed class ModelBuffers : IDisposable
     private readonly GlBuffer _instances;
     private readonly GlBuffer? _textureCoordinates;
     private readonly GlBuffer? _colours;
+    private readonly GlBuffer? _mapTints;
     private readonly VertexArray _vertexArray;
     private readonly GlResources _resources;
     private readonly string _name;
@@ -50,6 +54,11 @@ internal sealed class ModelBuffers : IDisposable
             _colours = new(resources, $"colours of {model.Name}", BufferTarget.ArrayBuffer);
         }
 
+        if (!model.InstanceTints.IsEmpty)
+        {
+            _mapTints = new(resources, $"colours of maps of {model.Name}", BufferTarget.ArrayBuffer);
+        }
+
         GlObject.DisposeOnFailure(this, () => Upload(model));
     }
 
@@ -60,7 +69,8 @@ internal sealed class ModelBuffers : IDisposable
     public void Draw(DrawableBatch batch) => _vertexArray.DrawTriangles(batch.FirstIndex, batch.IndexCount, _instanceCount);
 
     /// <inheritdoc/>
-    public void Dispose() => GlObject.DisposeAll(_meshAlone, _vertexArray, _vertices, _indices, _instances, _textureCoordinates, _colours);
+    public void Dispose() => GlObject.DisposeAll(
+        _meshAlone, _vertexArray, _vertices, _indices, _instances, _textureCoordinates, _colours, _mapTints);
 
     /// <summary>The mesh without instances: the map of one is set before each draw. Shared by all objects of the model.</summary>
     public VertexArray MeshAlone
@@ -117,6 +127,12 @@ internal sealed class ModelBuffers : IDisposable
         _instances.Upload(model.Instances.Span, BufferUsageHint.StaticDraw);
         _textureCoordinates?.Upload(model.TextureCoordinates.Span, BufferUsageHint.StaticDraw);
         _colours?.Upload(model.Colours.Span, BufferUsageHint.StaticDraw);
+        _mapTints?.Upload(model.InstanceTints.Span, BufferUsageHint.StaticDraw);
+        if (_mapTints is not null)
+        {
+            _vertexArray.Attribute(_mapTints, MapTintLocation, 4, 4, 0, divisor: 1);
+        }
+
         Attach(_vertexArray, _instances);
     }
 }

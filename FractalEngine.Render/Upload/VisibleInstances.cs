@@ -14,7 +14,6 @@ internal sealed class VisibleInstances : IDisposable
     private const int TintLocation = 5;
     private const int SkyAboveLocation = 8;
     private const int SkyBelowLocation = 9;
-    private const int MapTintLocation = 10;
 
     private readonly GlBuffer? _instances;
     private readonly GlBuffer? _tints;
@@ -55,7 +54,7 @@ internal sealed class VisibleInstances : IDisposable
         if (hasMapTints)
         {
             _mapTints = new(resources, $"colours of maps of {name}", BufferTarget.ArrayBuffer);
-            _vertexArray.Attribute(_mapTints, MapTintLocation, 4, 4, 0, divisor: 1);
+            _vertexArray.Attribute(_mapTints, ModelBuffers.MapTintLocation, 4, 4, 0, divisor: 1);
             _vertexArray.Unbind();
         }
 

@@ -7,7 +7,6 @@ using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Scenes.Cameras;
 using FractalEngine.Core.Scenes.Lights;
 using FractalEngine.Render;
-using FractalEngine.Render.Drawables;
 using FractalEngine.Render.Preparation;
 using FractalEngine.Render.Tracing;
 using FractalEngine.Render.Views;

@@ -29,12 +29,12 @@ internal static class FractalSelection
 
     /// <summary>The box of the sub-fractal that a path leads to, and the map from there; null where there is none.</summary>
     /// <param name="fractal">The fractal.</param>
-    /// <param name="path">The path, from the sub-fractal below so many levels.</param>
-    /// <param name="levelsAbove">Number of levels above that.</param>
-    /// <param name="map">From the frame of that sub-fractal to that of the result.</param>
+    /// <param name="path">The path.</param>
+    /// <param name="firstStep">Number of its steps whose maps are known.</param>
+    /// <param name="map">From the frame of the sub-fractal that these lead to, to that of the result.</param>
     public static (BoundingBox Box, AffineMap Map)? SubFractalAt(
-        Fractal fractal, ImmutableArray<int> path, long levelsAbove, AffineMap map) =>
-        fractal.Follow(path.AsSpan(), levelsAbove) is [.., var last] steps ? (last.Box, MapOf(steps, map)) : null;
+        Fractal fractal, ImmutableArray<int> path, int firstStep, AffineMap map) =>
+        fractal.Follow(path.AsSpan(), firstStep) is [.., var last] steps ? (last.Box, MapOf(steps, map)) : null;
 
     private static AffineMap MapOf(IReadOnlyList<PathStep> steps, AffineMap map) =>
         steps.Aggregate(map, static (product, step) => product * step.Map);

@@ -217,8 +217,7 @@ internal sealed record Selection(
             return viewpoint.SubFractalAt(depth) ?? (BoundingBox.Empty, AffineMap.Identity);
         }
 
-        var (map, firstStep, firstLevel) = viewpoint is null
-            ? (placed.ObjectToWorld, 0, 0) : (viewpoint.FrameToCamera, viewpoint.Depth, viewpoint.LevelsAbove);
-        return FractalSelection.SubFractalAt(fractal, path[firstStep..depth], firstLevel, map) ?? (BoundingBox.Empty, AffineMap.Identity);
+        var (map, firstStep) = viewpoint is null ? (placed.ObjectToWorld, 0) : (viewpoint.FrameToCamera, viewpoint.Depth);
+        return FractalSelection.SubFractalAt(fractal, path[..depth], firstStep, map) ?? (BoundingBox.Empty, AffineMap.Identity);
     }
 }

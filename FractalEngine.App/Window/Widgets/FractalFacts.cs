@@ -1,5 +1,6 @@
 using System.Globalization;
 using System.Numerics;
+using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Render.Ui;
@@ -9,8 +10,12 @@ namespace FractalEngine.App.Window.Widgets;
 /// <summary>What a panel tells about a fractal: its counts, size and dimension.</summary>
 internal sealed class FractalFacts
 {
+    // Takes some tenths of a second, once.
+    private const long MaxCountedPlaces = 50_000;
+
     private FractalModel? _measured;
     private double? _dimension;
+    private InstanceRange? _range;
 
     /// <summary>Adds a line for each: counts are exact up to fifteen digits.</summary>
     public void Build(UserInterface ui, FractalModel model)
@@ -18,10 +23,19 @@ internal sealed class FractalFacts
         if (!ReferenceEquals(model, _measured))
         {
             (_measured, _dimension) = (model, SimilarityDimension.Of(model.Fractal.Description));
+            _range = model.Fractal.Description.HasChance ? model.Fractal.CountRange(MaxCountedPlaces) : null;
         }
 
         ui.Heading(model.Name);
-        ui.Fact("instances", Count(model.DistinctInstanceCount), $"distinct ones, of {Count(model.InstanceCount)} chains of maps");
+        if (_range is { Exact: null } range)
+        {
+            ui.Fact("instances", $"{Count(range.Least)} to {Count(range.Most)}", $"by chance, about {Count(range.Expected)}");
+        }
+        else
+        {
+            ui.Fact("instances", Count(model.DistinctInstanceCount), $"distinct ones, of {Count(model.InstanceCount)} chains of maps");
+        }
+
         ui.Fact("faces", Count(model.DistinctFaceCount));
         var size = model.Bounds.Size;
         ui.Fact("size", size.IsFinite()

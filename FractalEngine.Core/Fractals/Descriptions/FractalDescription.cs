@@ -48,7 +48,7 @@ public sealed record FractalDescription(ImmutableArray<FractalStep> Steps, Compo
     /// <summary>
     /// True where instances are told apart by more than their shape: places decide what stands there, or maps have colours.
     /// </summary>
-    internal bool CountsWays => HasPicks || HasColours;
+    public bool CountsWays => HasPicks || HasColours;
 
     /// <summary>True where something ends by its size alone, so that its levels and instances are not known without its meshes.</summary>
     internal bool HasSizes => Parts.Any(static part => part is RecursivePart { Levels: null, Until: not null });

@@ -8,7 +8,11 @@ namespace FractalEngine.Core.Fractals.Descriptions;
 /// Parts are added in any order of use, equal ones once, and known by their indices. <see cref="Describe"/> keeps those that the whole
 /// is made of.
 /// </remarks>
-public sealed class FractalPartList
+/// <param name="keepsSums">
+/// True where chance decides about something, which numbers terms and maps as they are written: sums of sums stay so, and sets on one
+/// object are one term.
+/// </param>
+public sealed class FractalPartList(bool keepsSums = false)
 {
     // A repetition of what a recursive calls is made of calls, one for each level.
     private const int MaxUnrolledLevels = 10_000;
@@ -38,16 +42,16 @@ public sealed class FractalPartList
 
     /// <summary>Adds several parts at one place.</summary>
     /// <param name="terms">Indices of the parts, at least one.</param>
+    /// <param name="isWhole">Tells by its position whether a term is one thing, such as a name, though it be a set on something.</param>
     /// <returns>Index of the part.</returns>
-    public int AddSum(ImmutableArray<int> terms)
+    public int AddSum(ImmutableArray<int> terms, Func<int, bool>? isWhole = null)
     {
         if (terms is [var only])
         {
             return only;
         }
 
-        var keepsSums = terms.Any(HasChance);
-        ImmutableArray<RecursiveCall> calls = [.. terms.SelectMany(term => CallsOf(term, keepsSums))];
+        ImmutableArray<RecursiveCall> calls = [.. terms.SelectMany((term, index) => CallsOf(term, isWhole?.Invoke(index) == true))];
         return calls switch
         {
             [] => terms[0],
@@ -60,10 +64,18 @@ public sealed class FractalPartList
     /// <summary>Adds a choice between several parts: one of them stands there, by chance.</summary>
     /// <param name="alternatives">Indices of the parts.</param>
     /// <param name="choice">A weight for each.</param>
+    /// <param name="isOfBody">True where it is written in the body of a recursive, whose levels it counts then.</param>
     /// <returns>Index of the part.</returns>
     /// <exception cref="ArgumentException">There are more or fewer weights.</exception>
-    public int AddChoice(ImmutableArray<int> alternatives, Choice choice) => Add(new(
-        new RecursivePart([new(alternatives[0], [.. alternatives.Select(RecursiveCall.ToPart)]) { Choice = choice }], 0, 1), null, null));
+    public int AddChoice(ImmutableArray<int> alternatives, Choice choice, bool isOfBody = false)
+    {
+        HasChoices = true;
+        FractalRecursive one = new(alternatives[0], [.. alternatives.Select(RecursiveCall.ToPart)]) { Choice = choice };
+        return Add(new(new RecursivePart([one], 0, 1), null, null) { CountsLevels = isOfBody && choice.IsByLevel });
+    }
+
+    /// <summary>True where a choice was added.</summary>
+    public bool HasChoices { get; private set; }
 
     /// <summary>Adds a recursive, see <see cref="CreateRecursives"/>.</summary>
     /// <param name="recursives">The recursives of its group.</param>
@@ -96,10 +108,12 @@ public sealed class FractalPartList
     /// What each is with levels, by indices of parts: calls (see <see cref="AddCall"/>), sets on calls, sums of such, and anything that
     /// has no calls.
     /// </param>
+    /// <param name="isWhole">As for a sum, for bodies.</param>
     /// <exception cref="ArgumentException">
     /// A base has calls, or a body has calls within a recursive, or within a repetition without end or of too many levels.
     /// </exception>
-    public ImmutableArray<FractalRecursive> CreateRecursives(ImmutableArray<int> bases, ImmutableArray<int> bodies)
+    public ImmutableArray<FractalRecursive> CreateRecursives(
+        ImmutableArray<int> bases, ImmutableArray<int> bodies, Func<int, bool>? isWhole = null)
     {
         if (bases.Any(HasCalls))
         {
@@ -108,10 +122,13 @@ public sealed class FractalPartList
 
         var recursives = new List<FractalRecursive>(bases.Select(static part => new FractalRecursive(part, [])));
         var named = new Dictionary<int, RecursiveCall>();
+        var unnamedCalls = new Dictionary<FractalRecursive, RecursiveCall>();
         var unnamed = new FractalRecursive(bases[0], []);
         for (var i = 0; i < bodies.Length; i++)
         {
-            recursives[i] = BodyOf(recursives[i], bodies[i]);
+            recursives[i] = isWhole?.Invoke(i) == true && !IsOfBody(bodies[i])
+                ? recursives[i] with { Calls = CallsOf(bodies[i], isWhole: true) }
+                : BodyOf(recursives[i], bodies[i]);
         }
 
         return [.. recursives];
@@ -130,7 +147,7 @@ public sealed class FractalPartList
         ImmutableArray<RecursiveCall> Expand(int part) => _entries[part] switch
         {
             { Call: { } call } => [new(AffineMap.Identity, call)],
-            _ when !IsOfBody(part) && !(HasChance(part) && IsSum(part)) => CallsOf(part, keepsSums: HasChance(part)),
+            _ when !IsOfBody(part) && !(keepsSums && IsSum(part)) => CallsOf(part),
             { Part: SteppedPart { Steps: var steps, Inner: var inner } } => Apply(steps, Expand(inner)),
             { Part: RecursivePart { IsSum: true, Recursives: [var sum] } } => [.. sum.Calls.SelectMany(term =>
                 !IsOfBody(term.Target) ? [term]
@@ -166,8 +183,13 @@ public sealed class FractalPartList
                 return only;
             }
 
-            recursives.Add(recursive);
-            return new(AffineMap.Identity, recursives.Count - 1, LevelsLess: 0);
+            if (!unnamedCalls.TryGetValue(recursive, out var call))
+            {
+                recursives.Add(recursive);
+                unnamedCalls[recursive] = call = new(AffineMap.Identity, recursives.Count - 1, LevelsLess: 0);
+            }
+
+            return call;
         }
 
         static RecursiveCall Under(in AffineMap map, MapColour colour, RecursiveCall target) =>
@@ -188,9 +210,6 @@ public sealed class FractalPartList
     private bool IsOfBody(int part) => HasCalls(part) || _entries[part].CountsLevels;
 
     private bool IsSum(int part) => _entries[part].Part is RecursivePart { IsSum: true };
-
-    /// <summary>Tells whether chance decides about something in a part.</summary>
-    private bool HasChance(int part) => _entries[part].HasChance;
 
     /// <summary>Tells whether a part is repeated without end, or made of such parts.</summary>
     public bool IsInfinite(int part) => _entries[part].IsInfinite;
@@ -272,12 +291,9 @@ public sealed class FractalPartList
     /// <summary>
     /// The calls of a part that stands as a constant: a set on a part is as many calls of that. Without any, calls below it are still seen.
     /// </summary>
-    /// <param name="part">Index of the part.</param>
-    /// <param name="keepsSums">
-    /// True where chance numbers the terms as they are written, so that sums of sums stay so, and sets on one object are one term.
-    /// </param>
-    private ImmutableArray<RecursiveCall> CallsOf(int part, bool keepsSums) => _entries[part] switch
+    private ImmutableArray<RecursiveCall> CallsOf(int part, bool isWhole = false) => _entries[part] switch
     {
+        _ when isWhole && keepsSums => [RecursiveCall.ToPart(part)],
         { Part: SteppedPart { Steps: [TransformationSet { Maps.IsEmpty: false } set, .. var rest], Inner: var inner } }
             when HasCalls(inner) || keepsSums => ApplyTo(set, AddSteps(inner, rest)),
         { Part: SteppedPart { Steps: [TransformationSet { Maps.Length: <= MaxInlined } set], Inner: var inner } } when !HasCalls(inner) =>
@@ -300,15 +316,13 @@ public sealed class FractalPartList
             {
                 HasCalls = entry.Call is not null || references.Any(HasCalls),
                 IsInfinite = entry.Part?.IsInfinite == true || references.Any(IsInfinite),
-                CountsLevels = entry.Part switch
+                CountsLevels = entry.CountsLevels || entry.Part switch
                 {
-                    RecursivePart { IsFlat: true, Recursives: [{ Choice.IsByLevel: true }] } => true,
                     RecursivePart { IsFlat: true } => references.Any(reference => _entries[reference].CountsLevels),
                     SteppedPart { Inner: var inner } stepped =>
                         _entries[inner].CountsLevels && stepped.Steps.All(static step => step is TransformationSet),
                     _ => false,
                 },
-                HasChance = entry.Part is RecursivePart { HasChoice: true } || references.Any(HasChance),
             });
             _known.Add(entry, index);
         }
@@ -324,7 +338,5 @@ public sealed class FractalPartList
 
         // A choice by level counts the levels of the body that it stands in.
         public bool CountsLevels { get; init; }
-
-        public bool HasChance { get; init; }
     }
 }

@@ -31,10 +31,9 @@ internal abstract class LevelPick
 
     /// <summary>Decides by chance, with weights.</summary>
     /// <param name="choice">The weights and the seed.</param>
-    /// <param name="number">The number of the choice among those of its recursives.</param>
     /// <param name="firstLevel">The lowest level of the recursives.</param>
     /// <param name="period">Number of recursives.</param>
-    internal sealed class ByChance(Choice choice, int number, long firstLevel, int period) : LevelPick
+    internal sealed class ByChance(Choice choice, long firstLevel, int period) : LevelPick
     {
         /// <summary>The highest level of the recursives.</summary>
         public long TopLevel { get; set; }
@@ -47,7 +46,7 @@ internal abstract class LevelPick
 
         /// <inheritdoc/>
         public override int Select(in LevelState state) => choice.Select(choice.IsByLevel
-            ? WrittenWay.Of(((TopLevel - firstLevel) / period) - ((state.Level - firstLevel) / period), number).After(0)
+            ? WrittenWay.Of(((TopLevel - firstLevel) / period) - ((state.Level - firstLevel) / period), 0).After(0)
             : state.Way);
 
         /// <inheritdoc/>

@@ -50,6 +50,12 @@ public sealed class LodHierarchy
     /// <summary>The place of the whole fractal.</summary>
     internal LevelState Start { get; private set; }
 
+    /// <summary>The box of what stands there; null where that is the box of the whole node, since nothing depends on places.</summary>
+    internal BoundingBox? TrueBounds => HasPicks ? Source?.Bounds : null;
+
+    /// <summary>What the hierarchy was built of; null for a mesh.</summary>
+    internal Fractal? Source { get; init; }
+
     /// <summary>True where maps mix colours into what they make, so that instances have tints.</summary>
     public bool HasColours { get; internal init; }
 

@@ -29,6 +29,7 @@ internal static class LodHierarchyBuilder
         return new(
             hierarchy.AllLevels.Select(level => BuildNode(level, baseBox, hierarchy.HasPicks, means?[level])), hierarchy.Top.Level, mesh)
         {
+            Source = fractal,
             HasColours = hasColours,
             HasPicks = hierarchy.HasPicks,
             ColourLevels = fractal.LevelCount ?? hierarchy.Top.Level,

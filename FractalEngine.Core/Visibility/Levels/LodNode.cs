@@ -1,4 +1,5 @@
 using System.Runtime.Intrinsics;
+using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Fractals.Levels;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
@@ -80,7 +81,7 @@ internal sealed class LodNode
     }
 
     /// <summary>The mean tint of the instances, which the proxy has.</summary>
-    public Vector128<float> MeanTint { get; init; } = Levels.Tint.None.ToSingle();
+    public Vector128<float> MeanTint { get; init; } = Tint.None.ToSingle();
 
     /// <summary>What the maps of the children mix into colours; none where no map does.</summary>
     public Vector128<float>[] ChildTints { get; }

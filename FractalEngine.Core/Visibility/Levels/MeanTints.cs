@@ -1,3 +1,4 @@
+using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Fractals.Levels;
 
 namespace FractalEngine.Core.Visibility.Levels;

@@ -84,8 +84,7 @@ internal sealed class FractalPartWriter(FractalWriter writer, List<string> names
 
         string[] seeds =
         [
-            .. Enumerable.Range(0, part.Recursives.Length).Where(index => HasCalls(part, index))
-                .Select(index => part.Recursives[index].Choice).OfType<Choice>().Select(FormatSeed).Distinct(),
+            .. part.Recursives.Select(static recursive => recursive.Choice).OfType<Choice>().Select(FormatSeed).Distinct(),
         ];
         if (seeds.Length > 1)
         {
@@ -118,15 +117,6 @@ internal sealed class FractalPartWriter(FractalWriter writer, List<string> names
                 calls, bases.Values.First(), FormatTarget, isWhole, call => part.Recursives[call.Target].Choice is not null);
         _depth--;
         FractalWriter.RequireLength(body.Length);
-        if (choice is not null && !HasCalls(part, recursive))
-        {
-            // Its seed may be another one, and it is part of the body by its name, too.
-            DeclareSeed(FormatSeed(choice));
-            var name = writer.NextObjectName();
-            writer.AppendLine($"{name}. {body}");
-            return name;
-        }
-
         return isWhole || (choice is null && IsSetOnOne(calls)) ? body : $"({body})";
 
         string FormatTarget(RecursiveCall call) => call.IsConstant ? FormatConstant(call)
@@ -134,10 +124,6 @@ internal sealed class FractalPartWriter(FractalWriter writer, List<string> names
             : call.LevelsLess == 0 ? FormatBody(part, call.Target, bases, isWhole: false)
             : throw FractalWriter.Fault(ErrorKind.Input, "a recursive calls another one with more than one level less");
     }
-
-    /// <summary>Tells whether a recursive calls one with fewer levels.</summary>
-    private static bool HasCalls(RecursivePart part, int recursive) => part.Recursives[recursive].Calls.Any(
-        call => call.LevelsLess > 0 || (call.LevelsLess == 0 && HasCalls(part, call.Target)));
 
     private static string FormatSeed(Choice choice) =>
         FormattableString.Invariant($"seed {choice.Seed}{(choice.IsByLevel ? " by level" : "")}");

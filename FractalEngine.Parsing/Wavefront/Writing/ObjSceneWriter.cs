@@ -57,10 +57,10 @@ public sealed class ObjSceneWriter
         }
 
         var writer = new ObjSceneWriter(stream, materials);
-        var objects = scene.Objects.Select(placed => placed.Parts.Select(
-            part => (Placed: part, Instances: ExpandInstances(part.Model, maxFaces))).ToArray()).ToArray();
+        var objects = scene.Objects.Select((placed, index) => placed.Parts.Select(
+            (part, mesh) => (Placed: part, Index: index + mesh, Instances: ExpandInstances(part.Model, maxFaces))).ToArray()).ToArray();
         var faceCount = objects.SelectMany(static parts => parts).Sum(
-            static item => (long)item.Instances.Length * item.Placed.Model.Mesh.FaceCount);
+            static item => (long)item.Instances.Maps.Length * item.Placed.Model.Mesh.FaceCount);
         if (faceCount > maxFaces)
         {
             throw new FractalLimitException(
@@ -72,9 +72,9 @@ public sealed class ObjSceneWriter
         foreach (var parts in objects)
         {
             writer._text.WriteText($"o {ObjectName(parts[0].Placed)}\n");
-            foreach (var (placed, instances) in parts)
+            foreach (var (placed, index, (maps, tints)) in parts)
             {
-                writer.WriteObject(placed, instances);
+                writer.WriteObject(placed, index, maps, tints);
             }
         }
 
@@ -85,16 +85,16 @@ public sealed class ObjSceneWriter
     private static string ObjectName(PlacedModel placed) =>
         placed.Declaration.Name ?? Path.GetFileNameWithoutExtension(placed.Declaration.DisplayName);
 
-    private static ImmutableArray<AffineMap> ExpandInstances(Model model, long maxFaces)
+    private static (ImmutableArray<AffineMap> Maps, ImmutableArray<Tint> Tints) ExpandInstances(Model model, long maxFaces)
     {
         if (model is not FractalModel { Fractal: var fractal })
         {
-            return [AffineMap.Identity];
+            return ([AffineMap.Identity], []);
         }
 
         try
         {
-            return FractalGenerator.ExpandDistinct(fractal, maxFaces / Math.Max(1, fractal.BaseMesh.FaceCount));
+            return FractalGenerator.ExpandTinted(fractal, maxFaces / Math.Max(1, fractal.BaseMesh.FaceCount));
         }
         catch (FractalLimitException exception)
         {
@@ -105,19 +105,20 @@ public sealed class ObjSceneWriter
         }
     }
 
-    private void WriteObject(PlacedModel placed, ImmutableArray<AffineMap> instances)
+    private void WriteObject(PlacedModel placed, int index, ImmutableArray<AffineMap> maps, ImmutableArray<Tint> tints)
     {
         var mesh = placed.Model.Mesh;
         var firstTextureCoordinate = _textureCoordinateCount;
         _text.WriteTextureCoordinates(mesh.TextureCoordinates.AsSpan());
         _textureCoordinateCount += mesh.TextureCoordinates.Length / 2;
-        foreach (var instance in instances)
+        for (var i = 0; i < maps.Length; i++)
         {
-            WriteInstance(placed, placed.ObjectToWorld * instance, firstTextureCoordinate);
+            var tint = tints.IsEmpty ? (Tint?)null : tints[i];
+            WriteInstance(placed, group => NameOf(placed, index, group, tint), placed.ObjectToWorld * maps[i], firstTextureCoordinate);
         }
     }
 
-    private void WriteInstance(PlacedModel placed, AffineMap map, long firstTextureCoordinate)
+    private void WriteInstance(PlacedModel placed, Func<string, string> nameOf, AffineMap map, long firstTextureCoordinate)
     {
         var mesh = placed.Model.Mesh;
         for (var vertex = 0; vertex < mesh.VertexCount; vertex++)
@@ -131,14 +132,14 @@ public sealed class ObjSceneWriter
         // Groups that were made in code may leave faces out.
         if (_materials is null || mesh.Groups.Sum(static group => group.FaceCount) != mesh.FaceCount)
         {
-            ChangeMaterial(placed, "");
+            ChangeMaterial(nameOf(""));
             _text.WriteFaces(mesh, 0, mesh.FaceCount, before, isMirrored);
         }
         else
         {
             foreach (var group in mesh.Groups)
             {
-                ChangeMaterial(placed, group.Material);
+                ChangeMaterial(nameOf(group.Material));
                 _text.WriteFaces(mesh, group.FirstFace, group.FaceCount, before, isMirrored);
             }
         }
@@ -147,9 +148,13 @@ public sealed class ObjSceneWriter
         _normalCount += mesh.Normals.Length / 3;
     }
 
-    private void ChangeMaterial(PlacedModel placed, string group)
+    /// <summary>The name of the material of faces of an instance, by that in its mesh; empty for none.</summary>
+    private string NameOf(PlacedModel placed, int index, string group, Tint? tint) => (tint is { } known
+        ? _materials?.NameOf(placed, index, group, known)
+        : _materials?.NameOf(placed, group)) ?? "";
+
+    private void ChangeMaterial(string name)
     {
-        var name = _materials?.NameOf(placed, group) ?? "";
         if (name != _material)
         {
             _text.WriteText($"usemtl {name}\n");

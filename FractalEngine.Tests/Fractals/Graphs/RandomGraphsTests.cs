@@ -96,7 +96,7 @@ public class RandomGraphsTests
         Assert.Equal(distinct.Count, instances.Length);
         Assert.Throws<FractalLimitException>(() => GraphExpansion.Expand(graph, 0));
         // No two are the same, so that as many of the expansion as of the chains are also the same ones.
-        foreach (var (meshIndex, map) in instances.Take(50))
+        foreach (var (meshIndex, map, _) in instances.Take(50))
         {
             var mesh = graph.BaseMeshes[meshIndex];
             Assert.Contains(distinct, instance => ReferenceEquals(mesh, instance.Mesh)

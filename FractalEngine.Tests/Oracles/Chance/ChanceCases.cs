@@ -1,6 +1,5 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Fractals;
-using FractalEngine.Parsing.Text;
 using FractalEngine.Tests.Oracles.Graphs;
 using FractalEngine.Tests.Oracles.Graphs.Expansion;
 using FractalEngine.Tests.Oracles.Graphs.Models;
@@ -19,19 +18,6 @@ internal sealed class ChanceCases(ChanceOptions options, int points, int rays, G
     protected override ImmutableArray<PlacedMesh>? TryExpand(GraphFile file) => ChanceExpansion.TryExpand(file, options);
 
     /// <inheritdoc/>
-    protected override Fractal? Make(GraphFile file, GraphTexts texts)
-    {
-        try
-        {
-            return base.Make(file, texts);
-        }
-        catch (SourceException exception) when (!options.HasSlowSizes && exception.Message.Contains("exact search needs"))
-        {
-            return null;
-        }
-    }
-
-    /// <inheritdoc/>
     protected override void CheckStructure(GraphFile file, Fractal fractal, TriangleSoup soup, Random random) =>
-        ChanceStructureChecker.Check(fractal, ChanceResolver.TryResolve(file, options)!, soup);
+        ChanceStructureChecker.Check(fractal, ChanceResolver.TryResolve(file)!, soup);
 }

@@ -16,6 +16,8 @@ internal sealed class ChanceCounts
         {
             case ChanceNode.Base:
                 return new(1, 1, 1);
+            case ChanceNode.Whole(var inner):
+                return Count(inner, group, depth);
             case ChanceNode.Mapped(var maps, var inner):
                 return Count(inner, group, depth).Times(maps.Length);
             case ChanceNode.Sum(var terms):

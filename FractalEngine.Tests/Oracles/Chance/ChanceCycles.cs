@@ -40,6 +40,9 @@ internal static class ChanceCycles
                 case ChanceNode.Call(var to):
                     stretches[from, to] = Math.Max(stretches[from, to], stretch);
                     break;
+                case ChanceNode.Whole(var one):
+                    Visit(one, stretch, from);
+                    break;
                 case ChanceNode.Mapped(var maps, var inner):
                     Visit(inner, stretch * maps.Max(static map => map.Stretch), from);
                     break;

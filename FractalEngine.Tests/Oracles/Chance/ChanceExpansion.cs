@@ -11,6 +11,8 @@ internal sealed class ChanceExpansion
     // Sizes that are closer to that of an end, as a part of it, are left to rounding.
     private const double LeftToRounding = 1e-5;
 
+    private const int MaxLevels = 1000;
+
     private readonly List<PlacedMesh> _instances = [];
     private readonly int _maxInstances;
     private readonly int _maxFaces;
@@ -28,7 +30,7 @@ internal sealed class ChanceExpansion
     {
         try
         {
-            return ChanceResolver.TryResolve(file, options) is { } node ? Expand(node, options.MaxInstances, options.MaxFaces) : null;
+            return ChanceResolver.TryResolve(file) is { } node ? Expand(node, options.MaxInstances, options.MaxFaces) : null;
         }
         catch (UnclearModelException)
         {
@@ -69,6 +71,9 @@ internal sealed class ChanceExpansion
         {
             case ChanceNode.Base(var mesh):
                 Add(mesh, place);
+                break;
+            case ChanceNode.Whole(var inner):
+                ExpandMapped(inner, place.To(1), frame);
                 break;
             case ChanceNode.Mapped mapped:
                 ExpandMapped(mapped, place.To(1), frame);
@@ -113,8 +118,8 @@ internal sealed class ChanceExpansion
         var way = choice switch
         {
             { IsByLevel: false } => place.Way,
-            { Number: < 0 } => default(ChanceWay).To(1).To(1),
-            _ => default(ChanceWay).To(frame!.Level + 1).To(choice.Number + 1),
+            { IsInBody: false } => default(ChanceWay).To(1).To(1),
+            _ => default(ChanceWay).To(frame!.Level + 1).To(1),
         };
         return way.Choose(choice.Alternatives.Select(static one => one.Weight), choice.Seed);
     }
@@ -122,6 +127,7 @@ internal sealed class ChanceExpansion
     private void ExpandRecursive(Frame frame, int index, Place place)
     {
         var group = frame.Recursive.Group;
+        ChanceResolver.Require(frame.Level < MaxLevels, "so many levels that the stack is too small");
         if (!GoesOn(frame, index, place))
         {
             Expand(group.Bases[index], place, null);
@@ -129,7 +135,7 @@ internal sealed class ChanceExpansion
         }
 
         var body = group.Bodies[index];
-        var isAlone = !group.IsSets && body is ChanceNode.Base or ChanceNode.Call or ChanceNode.Recursive;
+        var isAlone = !group.IsSets && body is ChanceNode.Base or ChanceNode.Call or ChanceNode.Recursive or ChanceNode.Whole;
         Expand(body, isAlone ? place.To(1).To(1) : place, frame);
     }
 

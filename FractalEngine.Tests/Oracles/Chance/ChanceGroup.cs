@@ -17,11 +17,13 @@ internal sealed record ChanceGroup(
     public bool HasSizes => Bases.Concat(Bodies).Any(static node => node.HasSizes);
 
     private static bool IsSetsOnCall(ChanceNode node) =>
-        node is ChanceNode.Call || (node is ChanceNode.Mapped mapped && IsSetsOnCall(mapped.Inner));
+        node is ChanceNode.Call || (node is ChanceNode.Mapped mapped && IsSetsOnCall(mapped.Inner))
+        || (node is ChanceNode.Whole whole && IsSetsOnCall(whole.Inner));
 
     private static bool HasOnlyCalls(ChanceNode node) => node switch
     {
         ChanceNode.Call => true,
+        ChanceNode.Whole whole => HasOnlyCalls(whole.Inner),
         ChanceNode.Mapped mapped => HasOnlyCalls(mapped.Inner),
         ChanceNode.Sum sum => sum.Terms.All(HasOnlyCalls),
         _ => node.IsPlain,

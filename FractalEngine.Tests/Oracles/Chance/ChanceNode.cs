@@ -18,9 +18,12 @@ internal abstract record ChanceNode(bool IsPlain, bool HasSizes)
     internal sealed record Sum(ImmutableArray<Mapped> Terms)
         : ChanceNode(Terms.All(static term => term.IsPlain), Terms.Any(static term => term.HasSizes));
 
-    /// <summary>One of several objects. The number is that in its recursives; −1 outside of them.</summary>
-    internal sealed record Choice(ImmutableArray<(double Weight, ChanceNode Node)> Alternatives, int Seed, bool IsByLevel, int Number)
+    /// <summary>One of several objects, in a body of the same file or elsewhere.</summary>
+    internal sealed record Choice(ImmutableArray<(double Weight, ChanceNode Node)> Alternatives, int Seed, bool IsByLevel, bool IsInBody)
         : ChanceNode(false, Alternatives.Any(static one => one.Node.HasSizes));
+
+    /// <summary>A set on something as one thing: behind a name, as another file, or within another set.</summary>
+    internal sealed record Whole(Mapped Inner) : ChanceNode(Inner.IsPlain, Inner.HasSizes);
 
     /// <summary>A call of a recursive in the body of one.</summary>
     internal sealed record Call(int Index) : ChanceNode(false, false);

@@ -5,8 +5,7 @@ using FractalEngine.Tests.Oracles.Graphs.Models;
 namespace FractalEngine.Tests.Oracles.Chance;
 
 /// <summary>Finds what the names of a model stand for, and refuses what the oracle has no meaning for.</summary>
-/// <param name="options">What models may have.</param>
-internal sealed class ChanceResolver(ChanceOptions options)
+internal sealed class ChanceResolver
 {
     private readonly Dictionary<string, ChanceNode> _nodes = [];
     private readonly Dictionary<ChanceNode, string> _keys = new(ReferenceEqualityComparer.Instance);
@@ -15,11 +14,11 @@ internal sealed class ChanceResolver(ChanceOptions options)
     private readonly Dictionary<string, GraphFile> _files = [];
 
     /// <summary>Resolves the result of a file; null for one that is left out.</summary>
-    public static ChanceNode? TryResolve(GraphFile file, ChanceOptions options)
+    public static ChanceNode? TryResolve(GraphFile file)
     {
         try
         {
-            return new ChanceResolver(options).Resolve(file.Result, Scope.After(file));
+            return new ChanceResolver().Resolve(file.Result, Scope.After(file));
         }
         catch (UnclearModelException)
         {
@@ -44,7 +43,7 @@ internal sealed class ChanceResolver(ChanceOptions options)
     {
         _files.TryAdd(file.Path, file);
         Require(ReferenceEquals(_files[file.Path], file), "two files of one name");
-        return Resolve(file.Result, Scope.After(file));
+        return AsOne(Resolve(file.Result, Scope.After(file)));
     }
 
     private ChanceNode ResolveName(string name, Scope scope)
@@ -56,7 +55,7 @@ internal sealed class ChanceResolver(ChanceOptions options)
 
         return scope.File.Find(name) switch
         {
-            GraphDeclaration.Alias alias => Resolve(alias.Body, Scope.At(scope.File, alias)),
+            GraphDeclaration.Alias alias => AsOne(Resolve(alias.Body, Scope.At(scope.File, alias))),
             GraphDeclaration.Group => throw new UnclearModelException("an infinite one"),
             _ => Intern("shape " + name, new ChanceNode.Base(OracleMesh.Shape(name))),
         };
@@ -70,7 +69,6 @@ internal sealed class ChanceResolver(ChanceOptions options)
         if (size is not null)
         {
             ChanceCycles.RequireShrinking(group);
-            Require(options.HasSizesByLevel || !Scope.At(scope.File, declared).Seed.IsByLevel, "by level in what ends by its size");
             // The box of what stands there by chance, or of what ends by its size, is not said.
             Require(group.Bases.All(static node => node.IsPlain), "a base by chance of what ends by its size");
         }
@@ -87,7 +85,7 @@ internal sealed class ChanceResolver(ChanceOptions options)
             ImmutableArray<string> calls = [.. declared.Recursives.Select(static recursive => recursive.Base)];
             var outer = Scope.At(file, declared);
             ImmutableArray<ChanceNode> bases = [.. calls.Select(name => ResolveName(name, outer))];
-            var scope = outer with { Calls = calls, Numbers = Number(declared) };
+            var scope = outer with { Calls = calls, IsInBody = true };
             ImmutableArray<ChanceNode> bodies = [.. declared.Recursives.Select(recursive => Resolve(recursive.Body, scope))];
             foreach (var recursive in declared.Recursives)
             {
@@ -103,36 +101,6 @@ internal sealed class ChanceResolver(ChanceOptions options)
         }
 
         return found;
-    }
-
-    /// <summary>Numbers choices: whole bodies first, then others in the order in which they end.</summary>
-    private static Dictionary<ObjectTerm.Choice, int> Number(GraphDeclaration.Group group)
-    {
-        Dictionary<ObjectTerm.Choice, int> numbers = new(ReferenceEqualityComparer.Instance);
-        foreach (var choice in group.Recursives.Select(static recursive => recursive.Body).OfType<ObjectTerm.Choice>())
-        {
-            numbers.TryAdd(choice, numbers.Count);
-        }
-
-        foreach (var recursive in group.Recursives)
-        {
-            Visit(recursive.Body);
-        }
-
-        return numbers;
-
-        void Visit(ObjectTerm term)
-        {
-            foreach (var part in PartsOf(term))
-            {
-                Visit(part);
-            }
-
-            if (term is ObjectTerm.Choice choice)
-            {
-                numbers.TryAdd(choice, numbers.Count);
-            }
-        }
     }
 
     private static IEnumerable<ObjectTerm> PartsOf(ObjectTerm term) => term switch
@@ -164,7 +132,6 @@ internal sealed class ChanceResolver(ChanceOptions options)
     private ChanceNode ResolveSum(ImmutableArray<ObjectTerm> terms, Scope scope)
     {
         List<(List<SetMap> Maps, ChanceNode Inner)> found = [];
-        var (clear, isShort) = (true, true);
         foreach (var term in terms)
         {
             var (maps, inner) = Resolve(term, scope) is var node && node is ChanceNode.Mapped mapped
@@ -172,8 +139,6 @@ internal sealed class ChanceResolver(ChanceOptions options)
                 : ([SetMap.Identity], node);
             if (found.Count > 0 && ReferenceEquals(found[^1].Inner, inner))
             {
-                clear &= !(inner is ChanceNode.Mapped && inner.IsPlain);
-                isShort &= !inner.IsPlain || found[^1].Maps.Count + maps.Length <= 8;
                 found[^1].Maps.AddRange(maps);
             }
             else
@@ -182,54 +147,28 @@ internal sealed class ChanceResolver(ChanceOptions options)
             }
         }
 
-        Require(
-            isShort || options.HasLongPlainSets || found.TrueForAll(static term => term.Inner.IsPlain), "long sets without chance");
-        Require(
-            clear || options.HasPlainSetsOnSets || found.TrueForAll(static term => term.Inner.IsPlain), "sets on sets without chance");
-        Require(
-            options.HasDepthZeroInSums || found.TrueForAll(
-                static term => term.Inner is not ChanceNode.Recursive { Depth: 0, Size: null, IsPlain: false }),
-            "a base by another name in a sum");
-        Require(
-            options.HasSumsOfFilesInSums || found.TrueForAll(static term => term.Inner.IsPlain)
-            || !found.Exists(static term => term.Inner is ChanceNode.Sum) || terms.Any(term => HasChoice(term, scope.File)),
-            "a sum in a sum with a choice of another file");
         ImmutableArray<ChanceNode.Mapped> mappedTerms = [.. found.Select(term => Map([.. term.Maps], term.Inner))];
         return Intern(
             "sum (" + string.Join(" + ", mappedTerms.Select(term => _keys[term])) + ")", new ChanceNode.Sum(mappedTerms));
     }
 
-    // Of the file itself, not of those that it names.
-    private static bool HasChoice(ObjectTerm term, GraphFile file) => term switch
-    {
-        ObjectTerm.Choice => true,
-        ObjectTerm.Named(var name) => file.Find(name) is GraphDeclaration.Alias alias && HasChoice(alias.Body, file),
-        ObjectTerm.AtDepth(var name, _) => HasChoiceIn(name, file),
-        ObjectTerm.Until(var name, _) => HasChoiceIn(name, file),
-        _ => PartsOf(term).Any(part => HasChoice(part, file)),
-    };
-
-    private static bool HasChoiceIn(string name, GraphFile file) =>
-        ((GraphDeclaration.Group)file.Find(name)!).Recursives.Any(
-            recursive => HasChoice(recursive.Body, file) || HasChoice(new ObjectTerm.Named(recursive.Base), file));
-
     private ChanceNode ResolveChoice(ObjectTerm.Choice choice, Scope scope)
     {
-        var number = scope.Numbers.GetValueOrDefault(choice, -1);
         var (seed, isByLevel) = scope.Seed;
         ImmutableArray<(double, ChanceNode)> alternatives =
             [.. choice.Alternatives.Select(one => (one.Weight, Resolve(one.Term, scope)))];
-        Require(
-            options.HasLevelsWithoutCalls || number < 0 || !isByLevel || UsesCall(choice, scope.Calls), "a choice by level without a call");
         Require(choice.Alternatives.Any(static one => one.Weight > 0), "weights that are all 0");
         var key = string.Join(" | ", alternatives.Select(
             one => string.Create(CultureInfo.InvariantCulture, $"{one.Item1:R}: {_keys[one.Item2]}")));
-        var place = isByLevel ? $" by level {number}" : number < 0 ? "" : " in recursives";
-        return Intern($"choice {seed}{place} ({key})", new ChanceNode.Choice(alternatives, seed, isByLevel, number));
+        var place = !isByLevel ? "" : scope.IsInBody ? " by level" : " at level 1";
+        return Intern($"choice {seed}{place} ({key})", new ChanceNode.Choice(alternatives, seed, isByLevel, scope.IsInBody));
     }
 
     private ChanceNode.Mapped Map(ImmutableArray<SetMap> maps, ChanceNode inner) => (ChanceNode.Mapped)Intern(
-        $"[{string.Join(", ", maps.Select(static map => map.ToString()))}] ({_keys[inner]})", new ChanceNode.Mapped(maps, inner));
+        $"[{string.Join(", ", maps.Select(static map => map.ToString()))}] ({_keys[inner]})", new ChanceNode.Mapped(maps, AsOne(inner)));
+
+    private ChanceNode AsOne(ChanceNode node) =>
+        node is ChanceNode.Mapped mapped ? Intern("one " + _keys[node], new ChanceNode.Whole(mapped)) : node;
 
     private static ImmutableArray<SetMap> MapsOf(ImmutableArray<MapProduct> set)
     {
@@ -260,7 +199,7 @@ internal sealed class ChanceResolver(ChanceOptions options)
 
     /// <summary>What names mean in a term, and the seed of its choices.</summary>
     private sealed record Scope(
-        GraphFile File, ImmutableArray<string> Calls, Dictionary<ObjectTerm.Choice, int> Numbers, (int Value, bool IsByLevel) Seed)
+        GraphFile File, ImmutableArray<string> Calls, bool IsInBody, (int Value, bool IsByLevel) Seed)
     {
         public static Scope After(GraphFile file) => Of(file, file.Declarations.Length);
 
@@ -269,7 +208,7 @@ internal sealed class ChanceResolver(ChanceOptions options)
         private static Scope Of(GraphFile file, int count)
         {
             var seed = file.Declarations.Take(count).OfType<GraphDeclaration.Seed>().LastOrDefault() ?? new(0, false);
-            return new(file, [], [], (seed.Value, seed.IsByLevel));
+            return new(file, [], false, (seed.Value, seed.IsByLevel));
         }
     }
 }

@@ -39,23 +39,23 @@ internal static class ChanceStructureChecker
         }
 
         ThrowUnless(range.Exact == soup.Instances.Length, "exact", $"{range.Exact} instances, not {soup.Instances.Length}");
-        var counts = ChanceCounts.Of(node);
-        ThrowUnless(range.Least == counts?.Least, "least", $"{range.Least} instances, not {counts?.Least}");
-        ThrowUnless(range.Most == counts?.Most, "most", $"{range.Most} instances, not {counts?.Most}");
-        var most = counts?.Most ?? soup.Instances.Length;
-        // The sum of the most of each mesh, with alternatives that never stand.
-        ThrowUnless(
-            counts is null ? fractal.InstanceCount == most : fractal.InstanceCount >= most,
-            "chains", $"{fractal.InstanceCount} chains, not {most}");
-        var isExpected = counts is null == range.Expected is null;
-        if (counts is not null && range.Expected is { } expected)
+        if (ChanceCounts.Of(node) is not { } counts)
         {
-            // The sums are rounded on both sides, and then down.
-            var error = 1e-12 * counts.Expected;
-            isExpected = expected >= (BigInteger)Math.Floor(counts.Expected - error) && (double)expected <= counts.Expected + error;
+            // What ends by its size has bounds.
+            ThrowUnless(range.Least <= range.Exact && range.Exact <= range.Most, "bounds of counts", $"{range}");
+            ThrowUnless(fractal.InstanceCount == range.Exact, "chains", $"{fractal.InstanceCount} chains, not {range.Exact}");
+            return;
         }
 
-        ThrowUnless(isExpected, "expected", $"{range.Expected} instances, not {counts?.Expected:R}");
+        ThrowUnless(range.Least == counts.Least, "least", $"{range.Least} instances, not {counts.Least}");
+        ThrowUnless(range.Most == counts.Most, "most", $"{range.Most} instances, not {counts.Most}");
+        // The sum of the most of each mesh, with alternatives that never stand.
+        ThrowUnless(fractal.InstanceCount >= counts.Most, "chains", $"{fractal.InstanceCount} chains, not {counts.Most}");
+        // The sums are rounded on both sides, and then down.
+        var error = 1e-12 * counts.Expected;
+        ThrowUnless(
+            range.Expected >= (BigInteger)Math.Floor(counts.Expected - error) && (double)range.Expected.Value <= counts.Expected + error,
+            "expected", $"{range.Expected} instances, not {counts.Expected:R}");
     }
 
     private static void CheckInstances(Fractal fractal, TriangleSoup soup)

@@ -33,6 +33,7 @@ internal static class PlainParts
 
         return node switch
         {
+            ChanceNode.Whole whole => Visit(whole.Inner, nodes, groups),
             ChanceNode.Mapped mapped => Visit(mapped.Inner, nodes, groups),
             ChanceNode.Sum sum => sum.Terms.Any(term => Visit(term, nodes, groups)),
             ChanceNode.Choice choice => choice.Alternatives.Any(one => Visit(one.Node, nodes, groups)),

@@ -13,7 +13,6 @@ internal sealed class RandomChanceFiles
     private const int MaxFiles = 3;
 
     private readonly Random _random;
-    private readonly ChanceOptions _options;
     private readonly ImmutableArray<OracleMesh> _meshes;
     private readonly RandomProducts _products;
     private readonly List<GraphDeclaration> _declarations = [];
@@ -22,10 +21,9 @@ internal sealed class RandomChanceFiles
     private readonly List<string> _paths;
     private int _names;
 
-    private RandomChanceFiles(Random random, ChanceOptions options, ImmutableArray<OracleMesh> meshes, List<string> paths)
+    private RandomChanceFiles(Random random, ImmutableArray<OracleMesh> meshes, List<string> paths)
     {
         _random = random;
-        _options = options;
         _meshes = meshes;
         _paths = paths;
         _products = new(random, new() { HasEmptySets = false });
@@ -37,9 +35,9 @@ internal sealed class RandomChanceFiles
         while (true)
         {
             var meshes = RandomOracleMeshes.Create(random, random.Next(1, 4), random.Next(3) > 0);
-            var file = new RandomChanceFiles(random, options, meshes, ["main.fdo"]).CreateFile("main.fdo");
+            var file = new RandomChanceFiles(random, meshes, ["main.fdo"]).CreateFile("main.fdo");
             if (ChanceExpansion.TryExpand(file, options) is { Length: > 0 } instances
-                && ChanceResolver.TryResolve(file, options) is { } node && (!node.IsPlain || random.Happens(3)))
+                && ChanceResolver.TryResolve(file) is { } node && (!node.IsPlain || random.Happens(3)))
             {
                 return (file, instances);
             }
@@ -61,7 +59,7 @@ internal sealed class RandomChanceFiles
             if (_random.Happens(35))
             {
                 _declarations.Add(new GraphDeclaration.Seed(
-                    _random.Draw((3, _random.Next(10)), (1, _random.Next(1_000_000_000))), _options.HasLevels && _random.Happens(35)));
+                    _random.Draw((3, _random.Next(10)), (1, _random.Next(1_000_000_000))), _random.Happens(35)));
             }
 
             if (_random.Happens(40) || !TryDeclareGroup())
@@ -100,12 +98,6 @@ internal sealed class RandomChanceFiles
             [.. bases.Select((name, i) => new GraphDeclaration.Recursive(NewName(), name, CreateBody(bases, i, shrinks)))];
         if (!recursives.All(recursive => ChanceResolver.UsesCall(recursive.Body, [.. bases]))
             || (count == 1 && recursives[0].Body is ObjectTerm.Named))
-        {
-            return false;
-        }
-
-        if (!_options.HasChoicesBehindNames && Enumerable.Range(0, count).Any(i =>
-            recursives[i].Body is not ObjectTerm.Choice && recursives[i..].Any(static one => one.Body is ObjectTerm.Choice)))
         {
             return false;
         }
@@ -220,7 +212,7 @@ internal sealed class RandomChanceFiles
         }
 
         var first = group.Recursives.Single(recursive => recursive.Name == name).Base;
-        if (_options.HasSizes && _random.Happens(45) && TryMeasure(first) is { } diagonal && TryMeasure(name) is not null)
+        if (_random.Happens(45) && TryMeasure(first) is { } diagonal && TryMeasure(name) is not null)
         {
             var size = diagonal * Math.Pow(10, _random.Between(-1.7, 0.2));
             return new ObjectTerm.Until(name, double.Parse($"{size:G3}", CultureInfo.CurrentCulture));
@@ -236,7 +228,7 @@ internal sealed class RandomChanceFiles
         ObjectTerm term = isRecursive ? new ObjectTerm.Until(name, 1) : new ObjectTerm.Named(name);
         try
         {
-            var node = ChanceResolver.TryResolve(new("main.fdo", [.. _declarations], term), _options);
+            var node = ChanceResolver.TryResolve(new("main.fdo", [.. _declarations], term));
             return node is null ? null : isRecursive ? 0 : node.IsPlain ? ChanceExpansion.Diagonal(node) : null;
         }
         catch (UnclearModelException)
@@ -249,7 +241,7 @@ internal sealed class RandomChanceFiles
     {
         var path = $"{_random.Draw((2, ""), (1, "sub/"))}part{_paths.Count}.fdo";
         _paths.Add(path);
-        return new(new RandomChanceFiles(_random, _options, _meshes, _paths).CreateFile(path));
+        return new(new RandomChanceFiles(_random, _meshes, _paths).CreateFile(path));
     }
 
     private ObjectTerm CreateSets(int count, ObjectTerm term, bool shrinks = false)

@@ -14,7 +14,16 @@ internal sealed class SetMap(RowMap[] steps, bool isProduct = false)
     /// <summary>The maps that are composed, the outermost first.</summary>
     public ReadOnlySpan<RowMap> Steps => steps;
 
-    public bool IsIdentity => new SetMap(steps).ToString() == Identity.ToString();
+    /// <summary>Whether the map changes nothing, but for rounding.</summary>
+    public bool IsIdentity
+    {
+        get
+        {
+            var map = steps.Aggregate(RowMap.Identity, static (map, step) => map.After(step)).ToAffineMap();
+            return ((ReadOnlySpan<Vector>)[Vector.Zero, Vector.I, Vector.J, Vector.K]).ToArray()
+                .All(v => ((map * v) - v).Length() < 1e-13);
+        }
+    }
 
     /// <summary>The largest factor by which the map lengthens a vector.</summary>
     public double Stretch { get; } = LargestSingularValue(steps.Aggregate(RowMap.Identity, static (map, step) => map.After(step)));

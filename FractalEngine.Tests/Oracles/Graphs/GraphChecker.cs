@@ -145,7 +145,10 @@ internal sealed class GraphChecker
 
     private void CheckBox(BoundingBox box)
     {
-        var margin = 1e-12 * (_soup.Reach + TriangleSoup.Largest(box.Minimum) + TriangleSoup.Largest(box.Maximum)) * Vector.One;
+        // Rounding is that of the bounds of a search, which hold meshes that do not stand there by chance, too.
+        var reach = _fractal.BaseMeshes.Aggregate(_soup.Reach, static (reach, mesh) => Math.Max(
+            reach, Math.Max(TriangleSoup.Largest(mesh.Bounds.Minimum), TriangleSoup.Largest(mesh.Bounds.Maximum))));
+        var margin = 1e-12 * (reach + TriangleSoup.Largest(box.Minimum) + TriangleSoup.Largest(box.Maximum)) * Vector.One;
         var (isPossible, isCertain) = (false, false);
         foreach (ref readonly var triangle in _soup.Triangles)
         {

@@ -28,14 +28,20 @@ internal sealed class HitTriangles
     /// <summary>The meshes of the model, in the order of those of the fractal; null for one that no instance shows.</summary>
     public ImmutableArray<OracleMesh?> Meshes { get; }
 
-    /// <summary>Finds the triangle of a mesh and a face whose corners are closest to those under a map.</summary>
+    /// <summary>
+    /// Finds the triangle of a mesh and a face whose corners are closest to those under a map, relative to their reach: of instances that
+    /// rounding tells apart, the one that rounding explains.
+    /// </summary>
     /// <returns>The index of the triangle, −1 for none, and how far its corners are off.</returns>
     public (int Triangle, double Corners) Find(int meshIndex, int faceIndex, AffineMap map)
     {
         var (a, b, c) = _fractal.BaseMeshes[meshIndex].Face(faceIndex);
         (a, b, c) = (map * a, map * b, map * c);
-        return FindBest(meshIndex, faceIndex, (in OracleTriangle triangle) =>
-            Math.Max((triangle.A - a).Length(), Math.Max((triangle.B - b).Length(), (triangle.C - c).Length())));
+        var (index, _) = FindBest(meshIndex, faceIndex, (in OracleTriangle triangle) => CornersOff(in triangle) / triangle.Reach);
+        return (index, index < 0 ? double.PositiveInfinity : CornersOff(in _soup.Triangles[index]));
+
+        double CornersOff(in OracleTriangle triangle) =>
+            Math.Max((triangle.A - a).Length(), Math.Max((triangle.B - b).Length(), (triangle.C - c).Length()));
     }
 
     /// <summary>Finds the triangle of a mesh and a face that is closest to a point.</summary>

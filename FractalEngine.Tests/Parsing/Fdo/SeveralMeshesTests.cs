@@ -300,7 +300,7 @@ public sealed class SeveralMeshesTests : IDisposable
     {
         var cube = Fractal.Of(Shapes.Cube());
         Assert.Throws<ArgumentException>("body", () => Fractal.Recurse(cube, 1, _ => cube + cube.Apply([Samples.Move(1, 0, 0)])));
-        Assert.Null(cube.Follow([0], levelsAbove: 9));
+        Assert.Null(cube.Follow([0], firstStep: 1));
         var values = ImmutableDictionary<string, double>.Empty.Add("a", double.NaN);
         Assert.Throws<ArgumentException>("values", () => FractalParser.Parse(new("a.fdo", "a = 1\n<$>. box"), values));
     }

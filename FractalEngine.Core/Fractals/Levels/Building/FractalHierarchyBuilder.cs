@@ -35,6 +35,7 @@ internal sealed class FractalHierarchyBuilder(
     private readonly List<bool> _hasPicks = [.. Enumerable.Repeat(false, graph.BaseMeshes.Length)];
     private readonly Dictionary<TransformationSet, MapSet> _sets = new(ReferenceEqualityComparer.Instance);
     private readonly LevelBuilder _levels = new(graph);
+    private readonly Lazy<EndingRounds> _endingRounds = new(() => new(graph));
 
     // A set without maps on any level leaves nothing, however often it is repeated.
     private bool _isEmpty;
@@ -258,7 +259,14 @@ internal sealed class FractalHierarchyBuilder(
             return AddLinear(part.Recursives[0], levelsLess, part.Levels);
         }
 
-        var recursives = RecursiveLevels.Create(part, Built.Top + 1, index => _tops[index], _hasPicks[^1], SizeLimitsOf(part));
+        var limits = SizeLimitsOf(part);
+        if (!limits.IsEmpty
+            && _endingRounds.Value.CountOf(_tops.Count, part, limits, LevelBuilder.MaxSubFractals / (2 * limits.Length)) is { } rounds)
+        {
+            part = (RecursivePart)part.WithMaxDepth(rounds);
+        }
+
+        var recursives = RecursiveLevels.Create(part, Built.Top + 1, index => _tops[index], _hasPicks[^1], limits);
         part = recursives.Part;
         var period = recursives.Period;
         var nextAttempt = 0L;
@@ -270,12 +278,12 @@ internal sealed class FractalHierarchyBuilder(
             {
                 // Recursives that call only each other alternate: they may have faces only as often as a cycle of calls comes round.
                 var maxPeriod = Math.Min(period * Math.Max(1, part.MaxLevelsLess), MaxPeriodInRounds);
-                for (var rounds = 1; rounds <= maxPeriod; rounds++)
+                for (var count = 1; count <= maxPeriod; count++)
                 {
                     // Two periods are compared, and in the last one calls lead down by as many levels as further up.
-                    if (round >= Math.Max(2 * rounds, part.MaxLevelsLess + rounds) && levelCount >= rounds * period
+                    if (round >= Math.Max(2 * count, part.MaxLevelsLess + count) && levelCount >= count * period
                         && _levels.TryRepeatRound(
-                            _levels.CreatePeriodicBound(rounds * period, round, recursives.MaxExpandedRounds, arePhasesAlike: false),
+                            _levels.CreatePeriodicBound(count * period, round, recursives.MaxExpandedRounds, arePhasesAlike: false),
                             recursives.EdgesAt,
                             levelCount))
                     {

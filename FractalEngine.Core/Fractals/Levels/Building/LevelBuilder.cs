@@ -10,8 +10,8 @@ namespace FractalEngine.Core.Fractals.Levels.Building;
 /// </summary>
 internal sealed class LevelBuilder
 {
-    // More mean that the bounds grow or shrink too slowly to converge.
-    private const int MaxSubFractals = 4000;
+    /// <summary>Most levels of a part whose bounds change: more mean that they grow or shrink too slowly to converge.</summary>
+    public const int MaxSubFractals = 4000;
 
     private readonly ChildInstanceBuilder _childBuilder;
     private readonly LevelUnion _union;

@@ -29,8 +29,7 @@ internal sealed class RecursiveLevels(
             IsOfCalls = true,
             Numbers = hasPicks ? [.. recursive.NumberCalls()] : [],
             Pick = index < limits.Length ? new LevelPick.BySize(limits[index])
-                : recursive.Choice is { } choice ? new LevelPick.ByChance(
-                    choice, part.Recursives.Take(index).Count(static one => one.Choice is not null), firstLevel, part.Recursives.Length)
+                : recursive.Choice is { } choice ? new LevelPick.ByChance(choice, firstLevel, part.Recursives.Length)
                 : null,
         })];
 

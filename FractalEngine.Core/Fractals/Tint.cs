@@ -1,9 +1,8 @@
 using System.Runtime.Intrinsics;
-using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Maths;
 
-namespace FractalEngine.Core.Visibility.Levels;
+namespace FractalEngine.Core.Fractals;
 
 /// <summary>What all maps on the way to an instance mix into its colour c, in linear light: it becomes added + kept · c.</summary>
 /// <param name="Added">What is added: red, green, blue.</param>
@@ -38,5 +37,8 @@ public readonly record struct Tint(Vector Added, double Kept)
     public static Tint operator *(double weight, Tint tint) => new(weight * tint.Added, weight * tint.Kept);
 
     /// <summary>The tint as shaders take it: red, green, blue, and what is kept.</summary>
+    public float[] ToSingles() => [(float)Added.X, (float)Added.Y, (float)Added.Z, (float)Kept];
+
+    /// <inheritdoc cref="ToSingles"/>
     internal Vector128<float> ToSingle() => Vector128.Create((float)Added.X, (float)Added.Y, (float)Added.Z, (float)Kept);
 }

@@ -1,10 +1,20 @@
 using FractalEngine.Core.Geometry;
 
-namespace FractalEngine.Render.Drawables;
+namespace FractalEngine.Core.Scenes;
 
 /// <summary>Default colours of objects, of similar lightness and different hue.</summary>
 public static class ObjectPalette
 {
+    /// <summary>The colour of an object where its material says none.</summary>
+    /// <param name="placed">The object.</param>
+    /// <param name="index">Index of the object in the scene, from 0, and that of the mesh added.</param>
+    public static Colour ColourOf(PlacedModel placed, int index)
+    {
+        ArgumentNullException.ThrowIfNull(placed);
+        // Colours of vertices are shown as they are, unless the scene gives the object one.
+        return placed.Declaration.Colour ?? (placed.Model.Mesh.Colours.IsEmpty ? ColourOf(index) : Colour.White);
+    }
+
     /// <summary>Returns the default colour of an object.</summary>
     /// <param name="index">Index of the object in the scene, from 0. The colours repeat after eight.</param>
     public static Colour ColourOf(int index) => (index & 7) switch
