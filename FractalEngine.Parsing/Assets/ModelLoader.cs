@@ -122,8 +122,15 @@ internal sealed class ModelLoader
         var parsed = ReadOrFindFractal(fullPath, displayName);
         Warnings.AddRange(parsed.Warnings);
         var bases = LoadBases(parsed, fullPath);
-        parsed = parsed.KeepsSums || !bases.Exists(static one => one.Fractal.Description.HasChance) ? parsed
-            : FractalParser.ParseKeepingSums(parsed.Source, _options.Values);
+        if (!parsed.KeepsSums && bases.Exists(static one => one.Fractal.Description.HasChance))
+        {
+            // It names the same files, perhaps fewer times.
+            var loaded = parsed.Bases.Zip(bases).DistinctBy(static one => one.First.File)
+                .ToDictionary(static one => one.First.File, static one => one.Second);
+            parsed = FractalParser.ParseKeepingSums(parsed.Source, _options.Values);
+            bases = [.. parsed.Bases.Select(reference => loaded[reference.File])];
+        }
+
         var joined = Join(parsed, bases);
         // Options are those of the whole, and so are bounds.
         var fractal = _openFractals.Count > 0 ? joined : ApplyOptions(parsed, joined);
