@@ -108,9 +108,6 @@ public sealed class FractalAddress
     public ImmutableArray<int> MapIndices =>
         [.. Enumerable.Range(0, Depth).Select(depth => NodePath.NodeAt(depth).ChildMapIndices[Path[depth]])];
 
-    /// <summary>Number of levels of the fractal that lie above the sub-fractal.</summary>
-    public long LevelsAbove => _hierarchy.LevelCount - NodePath.RemainingLevelsAt(Depth);
-
     /// <summary>Finds the box around a sub-fractal on the path, and where it is.</summary>
     /// <param name="depth">Number of child instances that lead to it, from 0 for the whole fractal to <see cref="Depth"/>.</param>
     /// <returns>

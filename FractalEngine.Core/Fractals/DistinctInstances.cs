@@ -19,8 +19,8 @@ public static class DistinctInstances
     // Numbers of deeper fractals have thousands of digits.
     internal const int MaxCountedLevels = 1000;
 
-    // Takes some tenths of a second.
-    private const long MaxCountedPlaces = 50_000;
+    /// <summary>Number of places whose enumeration takes no more than some tenths of a second.</summary>
+    public const long MaxCountedPlaces = 50_000;
 
     // Images that touch overlap by the rounding of their coordinates.
     private const double TouchTolerance = 64 * 2.220446049250313e-16;

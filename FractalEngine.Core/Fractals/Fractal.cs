@@ -142,7 +142,8 @@ public sealed class Fractal : IEquatable<Fractal>
         try
         {
             return InstanceRange.Of(
-                HierarchyBySets, index => (mesh is null ? CountsMesh(index) : index == mesh) ? BigInteger.One : BigInteger.Zero, budget);
+                HierarchyBySets, index => (mesh is null ? CountsMesh(index) : index == mesh) ? BigInteger.One : BigInteger.Zero, budget,
+                hasBounds: mesh is null && Description.HasChance);
         }
         catch (Exception exception) when (exception is FractalLimitException or SingularMatrixException)
         {

@@ -32,10 +32,16 @@ public readonly record struct InstanceRange(BigInteger? Least, BigInteger? Expec
     /// <param name="hierarchy">With a level for each set.</param>
     /// <param name="valueOfBase">What an instance of a base mesh counts.</param>
     /// <param name="maxStates">Number of different places up to which they are enumerated.</param>
-    internal static InstanceRange Of(FractalHierarchy hierarchy, Func<int, BigInteger> valueOfBase, long maxStates)
+    /// <param name="hasBounds">False where an exact number is enough: nothing is by chance, or nobody asks for more.</param>
+    internal static InstanceRange Of(FractalHierarchy hierarchy, Func<int, BigInteger> valueOfBase, long maxStates, bool hasBounds)
     {
         var counter = new Counter(hierarchy, valueOfBase, maxStates, CoarsestUnit);
         var exact = counter.CountAt(hierarchy.Start, 0);
+        if (!hasBounds && exact is not null)
+        {
+            return new(exact, exact, exact, exact);
+        }
+
         var range = counter.RangeAt(hierarchy.Top.Level, default, 0);
         // Finer sizes give closer bounds, as long as there are not too many different ones.
         for (var unit = CoarsestUnit >> 4; hierarchy.DependsOnSizes && counter.RangeCount < maxStates / 8 && unit > 1; unit >>= 4)
@@ -44,8 +50,7 @@ public readonly record struct InstanceRange(BigInteger? Least, BigInteger? Expec
             range = counter.RangeAt(hierarchy.Top.Level, default, 0) ?? range;
         }
 
-        return hierarchy.DependsOnSizes && exact is not null && !hierarchy.DependsOnWays ? new(exact, exact, exact, exact)
-            : new(range?.Least, range?.Expected >> FractionBits, range?.Most, exact);
+        return new(range?.Least, range?.Expected >> FractionBits, range?.Most, exact);
     }
 
     private sealed class Counter(FractalHierarchy hierarchy, Func<int, BigInteger> valueOfBase, long maxStates, long unit)

@@ -37,8 +37,5 @@ public readonly record struct Tint(Vector Added, double Kept)
     public static Tint operator *(double weight, Tint tint) => new(weight * tint.Added, weight * tint.Kept);
 
     /// <summary>The tint as shaders take it: red, green, blue, and what is kept.</summary>
-    public float[] ToSingles() => [(float)Added.X, (float)Added.Y, (float)Added.Z, (float)Kept];
-
-    /// <inheritdoc cref="ToSingles"/>
-    internal Vector128<float> ToSingle() => Vector128.Create((float)Added.X, (float)Added.Y, (float)Added.Z, (float)Kept);
+    public Vector128<float> ToSingle() => Vector128.Create((float)Added.X, (float)Added.Y, (float)Added.Z, (float)Kept);
 }

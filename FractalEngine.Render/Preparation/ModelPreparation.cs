@@ -1,4 +1,6 @@
 using System.Collections.Immutable;
+using System.Runtime.InteropServices;
+using System.Runtime.Intrinsics;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Geometry;
@@ -59,7 +61,7 @@ internal static class ModelPreparation
             MeshOrigin = meshOrigin,
             TextureCoordinates = textureCoordinates,
             Colours = colours,
-            InstanceTints = tints.SelectMany(static tint => tint.ToSingles()).ToArray(),
+            InstanceTints = MemoryMarshal.Cast<Vector128<float>, float>(tints.Select(static tint => tint.ToSingle()).ToArray()).ToArray(),
             Batches = batches.Batches,
             DegenerateTriangleCount = batches.DegenerateTriangleCount,
             HasOpenSky = model is FractalModel && hierarchy?.HasOpenSky() == true,

@@ -90,7 +90,7 @@ public class StructureRecordTests
             roots.Add(address.MaxDrawDistance(collected)).Add(address.WorldPosition(AffineMap.Identity));
         }
 
-        return $"depth {address.Depth}, {address.LevelsAbove} above, {address.StorageBytes} bytes, {places} roots {roots}";
+        return $"depth {address.Depth}, {address.StorageBytes} bytes, {places} roots {roots}";
     });
 
     [Fact]

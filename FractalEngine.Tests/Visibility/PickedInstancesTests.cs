@@ -98,4 +98,22 @@ public sealed class PickedInstancesTests : IDisposable
         var range = wood.CountRange(0)!.Value;
         Assert.True(range.Exact is null && range.Least < range.Expected && range.Expected < range.Most);
     }
+
+    [Fact]
+    public void Counts_OfAChoiceByLevelThatEndsBySize_AreThoseOfAllSeeds()
+    {
+        var tree = FractalFile.Read(_folder.Write("t.fdo", """
+            seed 4 by level
+            s. ((0, 1, 0), (0, 0, 20), (0.7))
+            e. ball
+            z<e>. 1: [s.] e + box | 1: [s., s.^2] e + box
+            <$>. z until 0.1
+            """));
+        var range = tree.CountRange()!.Value;
+        var counts = Enumerable.Range(0, 100).Select(seed => tree.WithSeed(seed).CountRange()!.Value.Exact!.Value).ToArray();
+        Assert.Equal(15, range.Exact);
+        Assert.InRange(counts.Min(), range.Least!.Value, range.Most!.Value);
+        Assert.InRange(counts.Max(), range.Least.Value, range.Most.Value);
+        Assert.True(counts.Distinct().Count() > 5);
+    }
 }

@@ -10,9 +10,6 @@ namespace FractalEngine.App.Window.Widgets;
 /// <summary>What a panel tells about a fractal: its counts, size and dimension.</summary>
 internal sealed class FractalFacts
 {
-    // Takes some tenths of a second, once.
-    private const long MaxCountedPlaces = 50_000;
-
     private FractalModel? _measured;
     private double? _dimension;
     private InstanceRange? _range;
@@ -23,7 +20,7 @@ internal sealed class FractalFacts
         if (!ReferenceEquals(model, _measured))
         {
             (_measured, _dimension) = (model, SimilarityDimension.Of(model.Fractal.Description));
-            _range = model.Fractal.Description.HasChance ? model.Fractal.CountRange(MaxCountedPlaces) : null;
+            _range = model.Fractal.Description.HasChance ? model.Fractal.CountRange(DistinctInstances.MaxCountedPlaces) : null;
         }
 
         ui.Heading(model.Name);
