@@ -39,8 +39,8 @@ internal static class CommandLine
             + "Without a command, FILE or the gallery is opened in a window.");
         foreach (var command in (Command[])[
             ViewCommand.Create(), RenderCommand.Create(), AnimateCommand.Create(), InfoCommand.Create(), CountCommand.Create(),
-            ExportCommand.Create(), CheckCommand.Create(), SaveCommand.Create(), GenerateCommand.Create(), QueryCommand.Create(),
-            SimulateCommand.Create(), LimitsCommand.Create()])
+            ExportCommand.Create(), ApproximateCommand.Create(), CheckCommand.Create(), SaveCommand.Create(), GenerateCommand.Create(),
+            QueryCommand.Create(), SimulateCommand.Create(), LimitsCommand.Create()])
         {
             root.Add(command);
         }

@@ -3,6 +3,7 @@ using FractalEngine.App.Jobs;
 using FractalEngine.App.Options;
 using FractalEngine.App.Shell;
 using FractalEngine.Core;
+using FractalEngine.Core.Approximation;
 using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Generation;
 using FractalEngine.Core.Physics;
@@ -16,7 +17,7 @@ namespace FractalEngine.App.Commands;
 internal static class LimitsCommand
 {
     /// <summary>All limits, those of fractals first.</summary>
-    public static IEnumerable<Limit> All => [.. FractalLimits.All, .. ParsingLimits.All, .. PhysicsLimits.All];
+    public static IEnumerable<Limit> All => [.. FractalLimits.All, .. ApproximationLimits.All, .. ParsingLimits.All, .. PhysicsLimits.All];
 
     public static Command Create()
     {

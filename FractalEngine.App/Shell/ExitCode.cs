@@ -20,6 +20,9 @@ internal static class ExitCode
     /// <summary>There is no display, or no OpenGL on the display.</summary>
     public const int NoGraphics = 4;
 
+    /// <summary>No fractal was found that makes a mesh.</summary>
+    public const int NoFractal = 6;
+
     /// <summary>The program itself has failed (EX_SOFTWARE of sysexits.h).</summary>
     public const int Internal = 70;
 

@@ -77,6 +77,9 @@ public readonly record struct Matrix(Vector V1, Vector V2, Vector V3)
     /// <summary>Adds two matrices entry by entry.</summary>
     public static Matrix operator +(Matrix m1, Matrix m2) => new(m1.V1 + m2.V1, m1.V2 + m2.V2, m1.V3 + m2.V3);
 
+    /// <summary>Returns the entrywise difference of two matrices.</summary>
+    public static Matrix operator -(Matrix m1, Matrix m2) => new(m1.V1 - m2.V1, m1.V2 - m2.V2, m1.V3 - m2.V3);
+
     /// <summary>Exchanges the rows and columns.</summary>
     public Matrix Transpose() => new(new(V1.X, V2.X, V3.X), new(V1.Y, V2.Y, V3.Y), new(V1.Z, V2.Z, V3.Z));
 

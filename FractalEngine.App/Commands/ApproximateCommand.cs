@@ -1,0 +1,113 @@
+using System.CommandLine;
+using FractalEngine.App.Jobs;
+using FractalEngine.App.Options;
+using FractalEngine.App.Shell;
+using FractalEngine.App.Shell.Reports;
+using FractalEngine.Core.Approximation;
+using FractalEngine.Core.Approximation.Grammars;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Parsing.Assets;
+using static System.FormattableString;
+
+namespace FractalEngine.App.Commands;
+
+/// <summary>The command <c>approximate MODEL --output X.fdo</c>, which looks for a fractal that makes a mesh (paper §6.2).</summary>
+internal static class ApproximateCommand
+{
+    // Vertices within this part of the diagonal count as the same.
+    private const double ExactTolerance = 1e-6;
+
+    public static Command Create()
+    {
+        var shared = new SharedOptions();
+        var output = SharedOptions.OutputOption(".fdo", "Fractal to write; its base mesh gets a name that ends in -base.obj.");
+        var seconds = NumberOption.Positive("--seconds", "N", "End the search after that time (default: when it is done).");
+        var report = new ReportOptions();
+        var command = new DocumentedCommand(
+            "approximate", "Look for a fractal that makes the mesh FILE, and write it if it is exact.",
+            "approximate assets/fractals/menger-3.fdo --output out/found.fdo",
+            "approximate out/menger.obj --output out/found.fdo --seconds 20")
+        {
+            output, seconds,
+        };
+        shared.AddTo(command);
+        report.AddTo(command);
+        command.SetAction(result => Run(
+            result.GetRequiredValue(shared.File), shared.LoadOptions(result), result.GetRequiredValue(output),
+            result.GetValue(seconds), report.Begin(result)));
+        return command;
+    }
+
+    private static int Run(string path, LoadOptions options, string output, double? seconds, WrittenReport report)
+    {
+        if (output == StandardInput.Name)
+        {
+            throw new UsageException("a fractal has several files, so --output can't be '-'");
+        }
+
+        var file = report.Measure("load", () => ConsoleLoader.Load(path, options));
+        InputFiles.Protect(output);
+        var mesh = file.Scene.Objects.Flatten(ApproximationLimits.Faces.Value);
+        if (mesh.FaceCount == 0)
+        {
+            throw new UsageException($"{path} has no faces, so there is nothing to approximate");
+        }
+
+        var grammar = report.Measure("search", () => Search(mesh, seconds));
+        if (grammar is null || Verify(mesh, grammar, output, report) is not var (files, distance))
+        {
+            Console.WriteLine(Invariant($"NO FRACTAL: nothing that makes all {mesh.FaceCount} faces was found"));
+            return ExitCode.NoFractal;
+        }
+
+        var text = Describe(mesh, grammar, distance);
+        files.Write([Path.GetFileName(path) + " as a fractal: " + text[0], text[1]]);
+        Console.WriteLine(text[0]);
+        Console.WriteLine(text[1]);
+        report.Written(output, Invariant($"{files.ByteCount} bytes with its meshes"));
+        return ExitCode.Done;
+    }
+
+    private static MeshGrammar? Search(Mesh mesh, double? seconds)
+    {
+        using var interruption = new InterruptSignal();
+        using var limit = CancellationTokenSource.CreateLinkedTokenSource(interruption.Token);
+        if (seconds is { } value)
+        {
+            limit.CancelAfter(TimeSpan.FromSeconds(Math.Min(value, int.MaxValue / 1000)));
+        }
+
+        try
+        {
+            return GrammarSearch.FindExact(mesh, limit.Token);
+        }
+        catch (OperationCanceledException)
+        {
+            interruption.ThrowIfRequested();
+            Console.Error.WriteLine(Invariant($"note: the search ended after {seconds} s, as --seconds says"));
+            return null;
+        }
+    }
+
+    /// <summary>Expands the files as they are read back, and compares the result with the mesh.</summary>
+    private static (ApproximationFiles Files, double Distance)? Verify(Mesh mesh, MeshGrammar grammar, string output, WrittenReport report)
+    {
+        var length = mesh.Bounds.Diagonal;
+        var files = new ApproximationFiles(output, grammar, length);
+        var made = report.Measure("expand", () => files.ReadBack(mesh.FaceCount));
+        return VertexDistance.FindLargest(mesh, made, ExactTolerance * length) is { } distance ? (files, distance / length) : null;
+    }
+
+    private static string[] Describe(Mesh mesh, MeshGrammar grammar, double distance)
+    {
+        var isRecursive = grammar.Tree is not null || grammar.Steps.Any(step => step.Depth > 1);
+        var baseFaces = grammar.Base.FaceCount + (grammar.Leaf?.FaceCount ?? 0);
+        var maps = grammar.Steps.Sum(step => step.Sets.Sum(set => set.Count)) + (grammar.Tree?.Maps.Count ?? 0);
+        return
+        [
+            Invariant($"{(isRecursive ? "EXACT" : "REPEATS")}: {baseFaces} of {mesh.FaceCount} faces are left, with {maps} maps"),
+            Invariant($"vertices of both are within {distance:0.0e+0} of the diagonal"),
+        ];
+    }
+}

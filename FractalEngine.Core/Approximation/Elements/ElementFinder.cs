@@ -1,0 +1,80 @@
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Geometry.Surfaces;
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Approximation.Elements;
+
+/// <summary>Splits a mesh into its elements: faces that are connected by vertices.</summary>
+internal static class ElementFinder
+{
+    /// <summary>Finds the elements, in the order of their first faces.</summary>
+    /// <param name="mesh">The mesh; faces without area are left out.</param>
+    /// <param name="weldPositions">Whether vertices at the same position connect, or only those with the same index.</param>
+    public static List<Element> Find(Mesh mesh, bool weldPositions)
+    {
+        var representatives = VertexWelding.FindRepresentatives(mesh);
+        var parents = weldPositions ? (int[])representatives.Clone() : [.. Enumerable.Range(0, mesh.VertexCount)];
+        var faces = Enumerable.Range(0, mesh.FaceCount).Where(face => HasArea(mesh, face)).ToArray();
+        foreach (var face in faces)
+        {
+            Join(parents, mesh.VertexIndices[3 * face], mesh.VertexIndices[(3 * face) + 1]);
+            Join(parents, mesh.VertexIndices[3 * face], mesh.VertexIndices[(3 * face) + 2]);
+        }
+
+        var byRoot = new Dictionary<int, List<int>>();
+        var order = new List<List<int>>();
+        foreach (var face in faces)
+        {
+            var root = RootOf(parents, mesh.VertexIndices[3 * face]);
+            if (!byRoot.TryGetValue(root, out var list))
+            {
+                byRoot.Add(root, list = []);
+                order.Add(list);
+            }
+
+            list.Add(face);
+        }
+
+        return [.. order.Select(list => Create(mesh, representatives, list)).OfType<Element>()];
+    }
+
+    private static Element? Create(Mesh mesh, int[] representatives, List<int> faces)
+    {
+        var vertices = new Dictionary<int, int>();
+        var points = new List<Vector>();
+        var corners = new int[3 * faces.Count];
+        for (var corner = 0; corner < corners.Length; corner++)
+        {
+            var vertex = representatives[mesh.VertexIndices[(3 * faces[corner / 3]) + (corner % 3)]];
+            if (!vertices.TryGetValue(vertex, out var local))
+            {
+                vertices.Add(vertex, local = points.Count);
+                points.Add(mesh.Vertex(vertex));
+            }
+
+            corners[corner] = local;
+        }
+
+        return ElementShape.Create([.. points]) is { } shape ? new(shape, corners) : null;
+    }
+
+    private static bool HasArea(Mesh mesh, int face)
+    {
+        var corner = mesh.Vertex(mesh.VertexIndices[3 * face]);
+        return Vector.Cross(
+            mesh.Vertex(mesh.VertexIndices[(3 * face) + 1]) - corner, mesh.Vertex(mesh.VertexIndices[(3 * face) + 2]) - corner) != Vector.Zero;
+    }
+
+    private static void Join(int[] parents, int vertex1, int vertex2) => parents[RootOf(parents, vertex2)] = RootOf(parents, vertex1);
+
+    private static int RootOf(int[] parents, int vertex)
+    {
+        while (parents[vertex] != vertex)
+        {
+            parents[vertex] = parents[parents[vertex]];
+            vertex = parents[vertex];
+        }
+
+        return vertex;
+    }
+}

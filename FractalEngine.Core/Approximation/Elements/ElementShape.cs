@@ -1,0 +1,105 @@
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Approximation.Elements;
+
+/// <summary>
+/// The vertices of an element about their mean, with the products that no affine map changes: (p − c)ᵀ Σ⁻¹ (q − c), with Σ the
+/// covariance of the vertices.
+/// </summary>
+/// <remarks>
+/// A flat element has no extent along its normal, so that many maps take it to another one. Of these the one counts that stretches
+/// normals by the square root of the stretch of areas, as a similarity does.
+/// </remarks>
+internal sealed class ElementShape
+{
+    // Below this ratio of variances an element counts as flat.
+    private const double FlatVariance = 1e-14;
+
+    private ElementShape(Vector[] points, Vector centroid, Matrix inverse, Vector normal, double size)
+    {
+        Points = points;
+        Centroid = centroid;
+        Inverse = inverse;
+        Normal = normal;
+        Size = size;
+        Radii = [.. points.Select(point => Product(point - centroid, point - centroid))];
+        Order = [.. Enumerable.Range(0, points.Length)];
+        Array.Sort([.. Radii], Order);
+        var moments = Radii.Select(radius => radius * radius).ToArray();
+        SecondMoment = moments.Average();
+        ThirdMoment = moments.Zip(Radii, (square, radius) => square * radius).Average();
+    }
+
+    /// <summary>The vertices, scene units.</summary>
+    public Vector[] Points { get; }
+
+    /// <summary>The mean of the vertices.</summary>
+    public Vector Centroid { get; }
+
+    /// <summary>The inverse of the vertices' covariance; of a flat element with the normal's variance added.</summary>
+    public Matrix Inverse { get; }
+
+    /// <summary>Of a flat element its normal, as long as the root of its variances in the plane; zero of all others.</summary>
+    public Vector Normal { get; }
+
+    /// <summary>Root of the mean squared distance from the centroid, scene units.</summary>
+    public double Size { get; }
+
+    /// <summary>Squared affine distance of each vertex from the centroid.</summary>
+    public double[] Radii { get; }
+
+    /// <summary>The vertices by rising radius.</summary>
+    public int[] Order { get; }
+
+    /// <summary>Mean of the squared radii.</summary>
+    public double SecondMoment { get; }
+
+    /// <summary>Mean of the cubed radii.</summary>
+    public double ThirdMoment { get; }
+
+    /// <summary>Whether all vertices lie in one plane.</summary>
+    public bool IsFlat => Normal != Vector.Zero;
+
+    /// <summary>The affine product of two differences from the centroid.</summary>
+    public double Product(Vector u, Vector v) => Vector.Dot(u, Inverse * v);
+
+    /// <summary>Makes the shape of an element's vertices, or null where they lie on one line.</summary>
+    public static ElementShape? Create(Vector[] points)
+    {
+        var centroid = Vector.Zero;
+        foreach (var point in points)
+        {
+            centroid += point / points.Length;
+        }
+
+        var covariance = default(Matrix);
+        foreach (var point in points)
+        {
+            covariance += Matrix.Outer(point - centroid, point - centroid) / points.Length;
+        }
+
+        var trace = covariance.V1.X + covariance.V2.Y + covariance.V3.Z;
+        if (!(trace > 0) || !double.IsNormal(trace))
+        {
+            return null;
+        }
+
+        var relative = covariance / trace;
+        var normal = Vector.Zero;
+        if (relative.Determinant() <= FlatVariance)
+        {
+            // The columns of the cofactors are multiples of the normal, as long as the product of the two other variances.
+            var cofactors = relative.Cofactors();
+            var longest = new[] { cofactors.V1, cofactors.V2, cofactors.V3 }.MaxBy(column => column.LengthSquared());
+            if (longest.Length() <= FlatVariance)
+            {
+                return null;
+            }
+
+            normal = Math.Sqrt(trace * Math.Sqrt(longest.Length())) * longest.UnitVector();
+            relative += Matrix.Outer(normal, normal) / trace;
+        }
+
+        return new(points, centroid, relative.Inverse() / trace, normal, Math.Sqrt(trace));
+    }
+}

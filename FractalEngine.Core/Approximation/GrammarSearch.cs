@@ -1,0 +1,114 @@
+using System.Collections.Immutable;
+using FractalEngine.Core.Approximation.Elements;
+using FractalEngine.Core.Approximation.Grammars;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Approximation;
+
+/// <summary>Finds what makes a mesh of many similar elements: sets of maps, their repetition, and the base.</summary>
+public static class GrammarSearch
+{
+    // Vertices of exact data lie where maps put them, within rounding in files with nine digits.
+    private const double ExactTolerance = 1e-7;
+    private const double ExactShapeTolerance = 1e-4;
+
+    /// <summary>Finds a grammar that makes the mesh exactly, or null.</summary>
+    /// <param name="mesh">The mesh; faces without area don't count, and elements that coincide count once.</param>
+    /// <param name="cancellation">Ends the search early.</param>
+    public static MeshGrammar? FindExact(Mesh mesh, CancellationToken cancellation)
+    {
+        foreach (var welded in new[] { false, true })
+        {
+            var elements = ElementFinder.Find(mesh, welded);
+            if (elements.Count > 1 && Find(mesh, elements, cancellation) is { } grammar)
+            {
+                return grammar;
+            }
+        }
+
+        return null;
+    }
+
+    private static MeshGrammar? Find(Mesh mesh, List<Element> elements, CancellationToken cancellation)
+    {
+        var length = mesh.Bounds.Diagonal;
+        var set = new ElementSet(elements, ExactTolerance * length, ExactShapeTolerance, cancellation);
+        var members = Enumerable.Range(0, set.Count).ToArray();
+        if (TreeSearch.Find(set, members, isFull: true, cancellation) is { } full)
+        {
+            return Make(set, [], members, full, length);
+        }
+
+        var factors = new List<Factor>();
+        var reference = FactorSearch.ChooseReference(set, members);
+        var rest = members;
+        TreeGrammar? tree = null;
+        while (tree is null && rest.Length > 1 && FactorSearch.Find(set, rest, reference, cancellation) is { } factor)
+        {
+            factors.Add(factor);
+            rest = factor.Remainder;
+            tree = TreeSearch.Find(set, rest, isFull: true, cancellation);
+        }
+
+        if (tree is null && rest.Length > 2)
+        {
+            tree = TreeSearch.Find(set, rest, isFull: false, cancellation);
+        }
+
+        return factors.Count > 0 || tree is not null ? Make(set, factors, rest, tree, length) : null;
+    }
+
+    private static MeshGrammar Make(ElementSet set, List<Factor> factors, int[] rest, TreeGrammar? tree, double length)
+    {
+        var origin = factors.Count > 0 ? set.Elements[FactorSearch.ChooseReference(set, rest)].Shape.Centroid : Vector.Zero;
+        var centroid = Vector.Zero;
+        foreach (var element in set.Elements)
+        {
+            centroid += element.Shape.Centroid / set.Count;
+        }
+
+        var levels = ChainLevels.Find(MapRows.Merge(factors, length), origin, centroid, length);
+        var bases = tree?.Base ?? [.. rest];
+        return new(
+            levels.Steps, tree is null ? null : TreeOf(tree, levels.ToBase),
+            MeshOf(bases.Select(member => (set.Elements[member], levels.ToBase))),
+            tree is null or { Leaves.Count: 0 } ? null : MeshOf(tree.Leaves.Select(leaf => (
+                set.FirstOf(leaf.Class), levels.ToBase * leaf.Placement * set.FirstOf(leaf.Class).Placement.Inverse()))));
+    }
+
+    private static MapTree TreeOf(TreeGrammar tree, AffineMap toBase)
+    {
+        var back = toBase.Inverse();
+        var count = tree.Maps.Count;
+        return new(
+            tree.Maps.ConvertAll(map => toBase * map * back),
+            [.. Enumerable.Range(0, count + 1).Select(row => Enumerable.Range(0, count).Where(map => tree.Follows[row, map]).ToArray())],
+            tree.Depth);
+    }
+
+    private static Mesh MeshOf(IEnumerable<(Element Element, AffineMap Map)> parts)
+    {
+        var positions = ImmutableArray.CreateBuilder<double>();
+        var corners = ImmutableArray.CreateBuilder<int>();
+        foreach (var (element, map) in parts)
+        {
+            var first = positions.Count / 3;
+            foreach (var point in element.Shape.Points)
+            {
+                var image = map * point;
+                positions.AddRange(image.X, image.Y, image.Z);
+            }
+
+            // A mirror turns faces inside out.
+            var isMirrored = map.Linear.Determinant() < 0;
+            for (var corner = 0; corner < element.Corners.Length; corner++)
+            {
+                var source = isMirrored && corner % 3 > 0 ? corner + (corner % 3 == 1 ? 1 : -1) : corner;
+                corners.Add(first + element.Corners[source]);
+            }
+        }
+
+        return new(positions.ToImmutable(), corners.ToImmutable());
+    }
+}

@@ -1,0 +1,120 @@
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Approximation.Grammars;
+
+/// <summary>Finds runs of a chain's factors that are levels of one recursion, also where two or three factors alternate.</summary>
+internal sealed class ChainLevels
+{
+    private const int MaxPeriod = 3;
+
+    private readonly Vector _origin;
+    private readonly Vector _centroid;
+    private readonly double _length;
+    private readonly List<GrammarStep> _steps = [];
+    private List<Factor> _rest;
+
+    private ChainLevels(List<Factor> factors, Vector origin, Vector centroid, double length)
+    {
+        _rest = factors;
+        _origin = origin;
+        _centroid = centroid;
+        _length = length;
+    }
+
+    /// <summary>The map that takes what the chain was applied to, to what the steps are applied to.</summary>
+    public AffineMap ToBase { get; private set; } = AffineMap.Identity;
+
+    /// <summary>The steps, outermost first.</summary>
+    public IReadOnlyList<GrammarStep> Steps => _steps;
+
+    /// <summary>Finds the steps of a chain.</summary>
+    /// <param name="factors">Its factors, outermost first.</param>
+    /// <param name="origin">The centroid of the element that maps start from.</param>
+    /// <param name="centroid">The mean of all elements, where the base is put if it may be anywhere.</param>
+    /// <param name="length">Size of the whole, scene units.</param>
+    public static ChainLevels Find(List<Factor> factors, Vector origin, Vector centroid, double length)
+    {
+        var levels = new ChainLevels(Ordered(factors, length), origin, centroid, length);
+        while (levels._rest.Count > 0)
+        {
+            levels.TakeStep();
+        }
+
+        return levels;
+    }
+
+    /// <summary>Translations commute: those that move farthest come first, so that levels follow each other.</summary>
+    private static List<Factor> Ordered(List<Factor> factors, double length) => !factors.TrueForAll(IsOfTranslations)
+        ? factors
+        : [.. factors.OrderByDescending(factor => Math.Round(Farthest(factor).Length() / length, 6))
+            .ThenByDescending(factor => Math.Abs(Farthest(factor).X)).ThenByDescending(factor => Math.Abs(Farthest(factor).Y))];
+
+    private static bool IsOfTranslations(Factor factor) =>
+        factor.Maps.TrueForAll(map => (map.Linear - Matrix.Identity).MaxAbsEntry() < 1e-9);
+
+    private static Vector Farthest(Factor factor) => factor.Maps.MaxBy(map => map.Translation.LengthSquared()).Translation;
+
+    private void TakeStep()
+    {
+        var (best, bestPeriod, bestCount) = (AffineMap.Identity, 1, 1);
+        for (var period = 1; period <= MaxPeriod && 2 * period <= _rest.Count; period++)
+        {
+            if (Conjugation.Find(_rest[0].Maps, _rest[period], ToBase * _origin, _length) is { } map
+                && CountBlocks(map, period) is var count && count >= 2 && count * period > bestCount * bestPeriod)
+            {
+                (best, bestPeriod, bestCount) = (map, period, count);
+            }
+        }
+
+        if (_steps.Count == 0 && bestCount > 1)
+        {
+            best = Centre(best, bestPeriod, bestCount);
+        }
+
+        var sets = _rest[..bestPeriod].ConvertAll(factor => factor.Maps);
+        sets[^1] = sets[^1].ConvertAll(map => map * best);
+        _steps.Add(new(sets, bestCount));
+        var back = best.Power(-bestCount);
+        var forth = back.Inverse();
+        _rest = [.. _rest[(bestPeriod * bestCount)..].Select(factor => factor.Conjugate(back, forth))];
+        ToBase = back * ToBase;
+    }
+
+    /// <summary>Moves the base to the centroid of the whole, where the levels allow it: then numbers are often round.</summary>
+    private AffineMap Centre(AffineMap map, int period, int count)
+    {
+        var power = new AffineMap(map.Linear, Vector.Zero).Power(count).Linear;
+        var free = Matrix.Identity - power;
+        if (Math.Abs(free.Determinant()) < 1e-6)
+        {
+            return map;
+        }
+
+        // The pivot p for which n times the map takes the centroid to the origin: p + Lⁿ·(centroid − p) = origin.
+        var pivot = free.Inverse() * (_origin - (power * _centroid));
+        var centred = new AffineMap(map.Linear, pivot - (map.Linear * pivot));
+        return CountBlocks(centred, period) == count ? centred : map;
+    }
+
+    /// <summary>How many blocks follow each other by one map, the first one included.</summary>
+    private int CountBlocks(AffineMap map, int period)
+    {
+        var inverse = map.Inverse();
+        var block = _rest[..period];
+        var count = 1;
+        for (; (count + 1) * period <= _rest.Count; count++)
+        {
+            for (var index = 0; index < period; index++)
+            {
+                if (!Conjugation.Holds(map, block[index].Maps, _rest[(count * period) + index], ToBase * _origin, _length))
+                {
+                    return count;
+                }
+
+                block[index] = block[index].Conjugate(map, inverse);
+            }
+        }
+
+        return count;
+    }
+}

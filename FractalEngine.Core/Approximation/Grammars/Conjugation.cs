@@ -1,0 +1,177 @@
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Approximation.Grammars;
+
+/// <summary>
+/// Looks for the map s with s·H·s⁻¹ = G, for two sets of maps: then both are levels of one recursion. For given pairs of maps the
+/// condition s·h = g·s is linear in s; up to three pairs fix it, and the rest is verified.
+/// </summary>
+internal sealed class Conjugation
+{
+    private const int Unknowns = 13;
+    private const double Tolerance = 1e-7;
+    private const int MaxSolutions = 2000;
+
+    private readonly List<AffineMap> _from;
+    private readonly List<(AffineMap Map, int Index)> _to;
+    private AffineMap? _best;
+    private double _bestOddity = double.PositiveInfinity;
+    private int _solutions;
+
+    private Conjugation(List<AffineMap> from, Factor to, Vector origin, double length)
+    {
+        // Around the origin, in units of the length, all entries are about 1.
+        var toUnits = new AffineMap((1 / length) * Matrix.Identity, -(1 / length) * origin);
+        var back = toUnits.Inverse();
+        _from = from.ConvertAll(map => toUnits * map * back);
+        _to = [.. to.Symmetries.SelectMany(symmetry => to.Maps.Select((map, index) => (toUnits * map * symmetry * back, index)))];
+    }
+
+    /// <summary>Finds the map, or null.</summary>
+    /// <param name="from">H, with the identity first.</param>
+    /// <param name="to">G, as many maps, each of which may stand before a symmetry.</param>
+    /// <param name="origin">A point near all that is mapped.</param>
+    /// <param name="length">The size of all that is mapped, scene units.</param>
+    public static AffineMap? Find(List<AffineMap> from, Factor to, Vector origin, double length)
+    {
+        if (from.Count != to.Maps.Count)
+        {
+            return null;
+        }
+
+        var search = new Conjugation(from, to, origin, length);
+        var frame = search.ChooseFrame();
+        var all = Enumerable.Range(1, from.Count - 1).ToArray();
+        search.Consider(new(search.ScaleOf(all, all) * Matrix.Identity, Vector.Zero));
+        search.Search(frame, new int[frame.Length], 0);
+        return search._best is { } map
+            ? new AffineMap(length * Matrix.Identity, origin) * map * new AffineMap(length * Matrix.Identity, origin).Inverse()
+            : null;
+    }
+
+    /// <summary>Whether a map takes the first set to the second, in any order.</summary>
+    public static bool Holds(AffineMap map, List<AffineMap> from, Factor to, Vector origin, double length) =>
+        from.Count == to.Maps.Count && new Conjugation(from, to, origin, length).IsVerified(
+            new AffineMap(length * Matrix.Identity, origin).Inverse() * map * new AffineMap(length * Matrix.Identity, origin));
+
+    /// <summary>The maps that move the origin in the most different directions.</summary>
+    private int[] ChooseFrame()
+    {
+        var moves = _from.ConvertAll(map => map * Vector.Zero);
+        var all = Enumerable.Range(1, _from.Count - 1).ToList();
+        var first = all.MaxBy(index => moves[index].LengthSquared());
+        var second = all.MaxBy(index => Vector.Cross(moves[index], moves[first]).LengthSquared());
+        var third = all.MaxBy(index => Math.Abs(Vector.Dot(moves[index], Vector.Cross(moves[first], moves[second]))));
+        return [.. new[] { first, second, third }.Distinct()];
+    }
+
+    private void Search(int[] frame, int[] images, int depth)
+    {
+        if (depth == frame.Length)
+        {
+            _solutions++;
+            Consider(Solve(frame, images));
+            return;
+        }
+
+        for (var image = 0; image < _to.Count && _solutions < MaxSolutions && _bestOddity > Tolerance; image++)
+        {
+            if (!images.AsSpan(0, depth).Contains(image) && _to[image].Index > 0 && AreAlike(_from[frame[depth]], _to[image].Map))
+            {
+                images[depth] = image;
+                Search(frame, images, depth + 1);
+            }
+        }
+    }
+
+    private static double Trace(Matrix m) => m.V1.X + m.V2.Y + m.V3.Z;
+
+    private static bool AreAlike(AffineMap map1, AffineMap map2) =>
+        Math.Abs(Trace(map1.Linear) - Trace(map2.Linear)) < 1e-6
+        && Math.Abs(map1.Linear.Determinant() - map2.Linear.Determinant()) < 1e-6
+        && Math.Abs(Trace(map1.Linear * map1.Linear) - Trace(map2.Linear * map2.Linear)) < 1e-6;
+
+    private static double Oddity(AffineMap map)
+    {
+        var volume = map.Linear.Determinant();
+        var scale = Math.Cbrt(volume);
+        return volume <= 0 ? 10 : (map.Linear - (scale * Matrix.Identity)).MaxAbsEntry() / scale;
+    }
+
+    private void Consider(AffineMap? found)
+    {
+        if (found is { } map && Oddity(map) is var oddity && oddity < _bestOddity - Tolerance && IsVerified(map))
+        {
+            _best = map;
+            _bestOddity = oddity;
+        }
+    }
+
+    /// <summary>Uniform scalings need no search, and are right where all maps are translations.</summary>
+    private double ScaleOf(IEnumerable<int> frame, IEnumerable<int> images)
+    {
+        var before = frame.Max(index => (_from[index] * Vector.Zero).Length());
+        var after = images.Max(index => (_to[index].Map * Vector.Zero).Length());
+        return before > 0 && after > 0 ? after / before : 1;
+    }
+
+    private AffineMap? Solve(int[] frame, int[] images)
+    {
+        // Rows of s·h − g·s = 0 in the nine entries of s by columns, its translation, and 1.
+        var conditions = new double[12 * frame.Length, Unknowns];
+        for (var index = 0; index < frame.Length; index++)
+        {
+            AddConditions(conditions, 12 * index, _from[frame[index]], _to[images[index]].Map);
+        }
+
+        return ConjugationSolver.Solve(conditions, ScaleOf(frame, images));
+    }
+
+    private static void AddConditions(double[,] conditions, int first, AffineMap h, AffineMap g)
+    {
+        for (var axis = 0; axis < 3; axis++)
+        {
+            for (var column = 0; column < 4; column++)
+            {
+                var row = first + (4 * axis) + column;
+                var image = column switch { 0 => h.Linear.V1, 1 => h.Linear.V2, 2 => h.Linear.V3, _ => h.Translation };
+                conditions[row, axis] += image.X;
+                conditions[row, 3 + axis] += image.Y;
+                conditions[row, 6 + axis] += image.Z;
+                for (var k = 0; k < 3; k++)
+                {
+                    conditions[row, (3 * column) + k] -= Entry(g.Linear, axis, k);
+                }
+
+                if (column == 3)
+                {
+                    conditions[row, 9 + axis] += 1;
+                    conditions[row, 12] -= g.Translation.Component(axis);
+                }
+            }
+        }
+    }
+
+    private static double Entry(Matrix m, int row, int column) => (column switch { 0 => m.V1, 1 => m.V2, _ => m.V3 }).Component(row);
+
+    private bool IsVerified(AffineMap map)
+    {
+        var taken = new bool[_from.Count];
+        foreach (var h in _from)
+        {
+            var left = map * h;
+            var found = _to.FindIndex(g => !taken[g.Index] && AreNear(left, g.Map * map));
+            if (found < 0)
+            {
+                return false;
+            }
+
+            taken[_to[found].Index] = true;
+        }
+
+        return true;
+    }
+
+    private static bool AreNear(AffineMap map1, AffineMap map2) =>
+        (map1.Linear - map2.Linear).MaxAbsEntry() < Tolerance && (map1.Translation - map2.Translation).MaxAbsComponent() < Tolerance;
+}

@@ -1,0 +1,100 @@
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Approximation.Grammars;
+
+/// <summary>Solves the linear conditions of a conjugation: of all maps that meet them, the one nearest to a uniform scaling.</summary>
+internal static class ConjugationSolver
+{
+    private const int Unknowns = 13;
+    // Of conditions whose entries are about 1.
+    private const double NullTolerance = 1e-8;
+
+    // Maps may move as they like, if only they turn and stretch little: translations count by that much.
+    private const double TranslationWeight = 1e-4;
+
+    /// <summary>Returns the map that all conditions vanish for, or null where only singular ones or none do.</summary>
+    /// <param name="conditions">
+    /// Linear conditions on the map's entries by columns, its translation, and 1, [conditions, 13]; changed by the call.
+    /// </param>
+    /// <param name="scale">The uniform scaling that is preferred where all are possible.</param>
+    public static AffineMap? Solve(double[,] conditions, double scale)
+    {
+        var values = SingularVectors.Find(conditions, out var vectors);
+        var basis = Enumerable.Range(0, Unknowns).Where(index => values[index] <= NullTolerance)
+            .Select(index => Enumerable.Range(0, Unknowns).Select(row => vectors[row, index]).ToArray()).ToArray();
+        var last = basis.Sum(vector => vector[12] * vector[12]);
+        if (last < 1e-9)
+        {
+            return null;
+        }
+
+        // One solution, and the directions in which it may be changed, with translations in units that make them count less.
+        var solution = Weigh(Combine(basis, vector => vector[12] / last), TranslationWeight);
+        var directions = Orthonormalize([.. basis.Select(vector => Weigh(
+            [.. vector.Select((entry, row) => entry - (vector[12] * Combine(basis, other => other[12] / last)[row]))], TranslationWeight))]);
+        var identity = new double[Unknowns];
+        identity[0] = identity[4] = identity[8] = 1;
+        var rest = Remove(directions, identity);
+        var fixedPart = Remove(directions, solution);
+        var best = Dot(rest, rest) > 1e-12 ? Dot(rest, fixedPart) / Dot(rest, rest) : scale;
+        var entries = Weigh(
+            [.. fixedPart.Zip(identity.Zip(rest, (whole, part) => whole - part), (entry, free) => entry + (best * free))], 1 / TranslationWeight);
+        var linear = new Matrix(VectorAt(entries, 0), VectorAt(entries, 3), VectorAt(entries, 6));
+        return Math.Abs(linear.Determinant()) > 1e-12 ? new(linear, VectorAt(entries, 9)) : null;
+    }
+
+    private static double[] Weigh(double[] vector, double weight) =>
+        [.. vector.Select((entry, row) => row is >= 9 and < 12 ? weight * entry : entry)];
+
+    /// <summary>Returns orthogonal unit vectors with the same span.</summary>
+    private static double[][] Orthonormalize(double[][] vectors)
+    {
+        var matrix = new double[Unknowns, vectors.Length];
+        for (var column = 0; column < vectors.Length; column++)
+        {
+            for (var row = 0; row < Unknowns; row++)
+            {
+                matrix[row, column] = vectors[column][row];
+            }
+        }
+
+        var lengths = SingularVectors.Find(matrix, out _);
+        return [.. Enumerable.Range(0, vectors.Length).Where(column => lengths[column] > 1e-10)
+            .Select(column => Enumerable.Range(0, Unknowns).Select(row => matrix[row, column] / lengths[column]).ToArray())];
+    }
+
+    /// <summary>What is left of a vector without its part in the span of orthogonal unit vectors.</summary>
+    private static double[] Remove(double[][] directions, double[] vector)
+    {
+        var rest = (double[])vector.Clone();
+        foreach (var direction in directions)
+        {
+            var share = Dot(direction, vector);
+            for (var row = 0; row < Unknowns; row++)
+            {
+                rest[row] -= share * direction[row];
+            }
+        }
+
+        return rest;
+    }
+
+    private static double[] Combine(double[][] basis, Func<double[], double> shareOf)
+    {
+        var sum = new double[Unknowns];
+        foreach (var vector in basis)
+        {
+            var share = shareOf(vector);
+            for (var row = 0; row < Unknowns; row++)
+            {
+                sum[row] += share * vector[row];
+            }
+        }
+
+        return sum;
+    }
+
+    private static double Dot(double[] vector1, double[] vector2) => vector1.Zip(vector2, (entry1, entry2) => entry1 * entry2).Sum();
+
+    private static Vector VectorAt(double[] values, int start) => new(values[start], values[start + 1], values[start + 2]);
+}

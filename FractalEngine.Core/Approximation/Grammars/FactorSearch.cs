@@ -1,0 +1,250 @@
+using FractalEngine.Core.Approximation.Elements;
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Approximation.Grammars;
+
+/// <summary>
+/// Splits a group of elements X into H·Y: a map that takes as many elements as one in k to elements, and Y these elements; H all maps
+/// that take Y to elements, if their images are all of X and don't overlap.
+/// </summary>
+/// <remarks>Maps are those that take one reference element to another. Cost O(elements · symmetries) look-ups for the survivors of a sample.</remarks>
+internal sealed class FactorSearch
+{
+    private const int NeighbourCount = 12;
+    private const int SampleSize = 192;
+    private const int MaxListed = 256;
+    private const int MaxSymmetries = 48;
+    private const int MaxLookUps = 4_000_000;
+
+    private readonly ElementSet _set;
+    private readonly int[] _members;
+    private readonly bool[] _isMember;
+    private readonly int _reference;
+    private readonly CancellationToken _cancellation;
+
+    private FactorSearch(ElementSet set, int[] members, int reference, CancellationToken cancellation)
+    {
+        _set = set;
+        _members = members;
+        _reference = reference;
+        _cancellation = cancellation;
+        _isMember = new bool[set.Count];
+        foreach (var member in members)
+        {
+            _isMember[member] = true;
+        }
+    }
+
+    /// <summary>Chooses the element that maps are measured from: of the most frequent class the largest, and outermost in one direction.</summary>
+    public static int ChooseReference(ElementSet set, int[] members)
+    {
+        var group = members.GroupBy(member => set.Elements[member].Class).OrderByDescending(group => group.Count()).ThenBy(group => group.Key).First();
+        var largest = group.Max(member => set.Elements[member].Shape.Size);
+        // A direction along which hardly any two elements are level.
+        var direction = new Vector(0.6180339887, 0.5436890127, 0.4655712319);
+        return group.Where(member => set.Elements[member].Shape.Size > 0.9999 * largest)
+            .OrderByDescending(member => Vector.Dot(direction, set.Elements[member].Shape.Centroid)).ThenBy(member => member).First();
+    }
+
+    /// <summary>Finds the factor of fewest maps, or null.</summary>
+    public static Factor? Find(ElementSet set, int[] members, int reference, CancellationToken cancellation) =>
+        new FactorSearch(set, members, reference, cancellation) is var search
+            ? search.Find(search.Candidates(IsTranslation)) ?? search.Find(search.Candidates(static _ => true))
+            : null;
+
+    private static bool IsTranslation(AffineMap map) => Oddity(map) < 1e-5;
+
+    private Factor? Find(List<AffineMap> candidates)
+    {
+        var sample = Spread(_members, SampleSize);
+        var supports = candidates.ConvertAll(map => sample.Count(member => Image(map, member) >= 0));
+        var isFarthest = FindFarthest(candidates, supports);
+        var order = Enumerable.Range(0, candidates.Count).Where(index => supports[index] > 0 && supports[index] < sample.Length)
+            .OrderByDescending(index => supports[index]).ThenBy(index => isFarthest[index] ? 0 : 1).ThenBy(index => Oddity(candidates[index]));
+        var tried = new HashSet<int>();
+        var lookUps = 0L;
+        foreach (var index in order)
+        {
+            _cancellation.ThrowIfCancellationRequested();
+            lookUps += isFarthest[index] ? 0 : _members.Length;
+            if (!isFarthest[index] && lookUps > MaxLookUps)
+            {
+                continue;
+            }
+
+            var remainder = _members.Where(member => Image(candidates[index], member) >= 0).ToArray();
+            if (remainder.Length == 0 || _members.Length % remainder.Length != 0 || remainder.Length == _members.Length
+                || !tried.Add(HashOf(remainder)))
+            {
+                continue;
+            }
+
+            if (Cover(candidates, remainder) is { } maps)
+            {
+                return new(maps, SymmetriesOf(maps, remainder), remainder);
+            }
+        }
+
+        // At last all members as images of one.
+        return _members.Length <= MaxListed && Cover(candidates, [_reference]) is { } all
+            ? new(all, SymmetriesOf(all, [_reference]), [_reference])
+            : null;
+    }
+
+    /// <summary>
+    /// Marks the maps that no other one outdoes in both how far they move the reference and how many elements they take to elements:
+    /// the outermost factor has a map from one end to the other, which takes nothing but the remainder to elements.
+    /// </summary>
+    private bool[] FindFarthest(List<AffineMap> candidates, List<int> supports)
+    {
+        var centre = _set.Elements[_reference].Shape.Centroid;
+        var isFarthest = new bool[candidates.Count];
+        var best = 0;
+        foreach (var index in Enumerable.Range(0, candidates.Count).OrderByDescending(
+            index => ((candidates[index] * centre) - centre).LengthSquared()).ThenByDescending(index => supports[index]))
+        {
+            // Counts of a sample are off by about their root.
+            isFarthest[index] = supports[index] + (1.5 * Math.Sqrt(supports[index])) > best;
+            best = Math.Max(best, supports[index]);
+        }
+
+        return isFarthest;
+    }
+
+    /// <summary>Translations come first, mirrors last.</summary>
+    private static double Oddity(AffineMap map) =>
+        (map.Linear - Matrix.Identity).MaxAbsEntry() + (map.Linear.Determinant() < 0 ? 10 : 0);
+
+    private static int[] Spread(int[] members, int count) => members.Length <= count
+        ? members
+        : [.. Enumerable.Range(0, count).Select(index => members[(int)((long)index * members.Length / count)])];
+
+    private static int HashOf(int[] members)
+    {
+        var hash = new HashCode();
+        foreach (var member in members)
+        {
+            hash.Add(member);
+        }
+
+        return hash.ToHashCode();
+    }
+
+    private int Image(AffineMap map, int element) => _set.Match(map, element) is var image && image >= 0 && _isMember[image] ? image : -1;
+
+    /// <summary>The maps of the reference to other elements that take some of its neighbours to elements too.</summary>
+    private List<AffineMap> Candidates(Func<AffineMap, bool> isWanted)
+    {
+        var centre = _set.Elements[_reference].Shape.Centroid;
+        var neighbours = _members.Where(member => member != _reference)
+            .OrderBy(member => (_set.Elements[member].Shape.Centroid - centre).LengthSquared()).ThenBy(member => member)
+            .Take(NeighbourCount).ToArray();
+        var needed = _members.Length > 2 * NeighbourCount ? 3 : 0;
+        var candidates = new List<AffineMap>();
+        foreach (var member in _members)
+        {
+            if (_set.Elements[member].Class != _set.Elements[_reference].Class || member == _reference)
+            {
+                continue;
+            }
+
+            foreach (var map in _set.MapsBetween(_reference, member))
+            {
+                if (isWanted(map) && (needed == 0 || Hits(map, neighbours, needed)))
+                {
+                    candidates.Add(map);
+                }
+            }
+        }
+
+        return candidates;
+    }
+
+    private bool Hits(AffineMap map, int[] neighbours, int needed)
+    {
+        var hits = 0;
+        for (var index = 0; index < neighbours.Length && hits < needed && hits + neighbours.Length - index >= needed; index++)
+        {
+            hits += Image(map, neighbours[index]) >= 0 ? 1 : 0;
+        }
+
+        return hits >= needed;
+    }
+
+    /// <summary>Returns maps whose images of the remainder are all members, each once, or null.</summary>
+    private List<AffineMap>? Cover(List<AffineMap> candidates, int[] remainder)
+    {
+        var covered = new bool[_set.Count];
+        Mark(covered, remainder);
+        var maps = new List<AffineMap> { AffineMap.Identity };
+        var count = remainder.Length;
+        foreach (var map in candidates.OrderBy(Oddity))
+        {
+            if (count == _members.Length)
+            {
+                break;
+            }
+
+            if (Images(map, remainder, covered) is { } images)
+            {
+                Mark(covered, images);
+                count += images.Length;
+                maps.Add(map);
+            }
+        }
+
+        return count == _members.Length ? maps : null;
+    }
+
+    /// <summary>
+    /// The maps that take the remainder to itself. After each of them a map of the factor is as good as without, so that levels of one
+    /// recursion may differ by them; translations were chosen first, and need none.
+    /// </summary>
+    private List<AffineMap> SymmetriesOf(List<AffineMap> maps, int[] remainder)
+    {
+        var symmetries = new List<AffineMap> { AffineMap.Identity };
+        if (maps.TrueForAll(IsTranslation))
+        {
+            return symmetries;
+        }
+
+        var isRemainder = new bool[_set.Count];
+        Mark(isRemainder, remainder);
+        foreach (var member in remainder.Where(member => _set.Elements[member].Class == _set.Elements[_reference].Class))
+        {
+            foreach (var map in _set.MapsBetween(_reference, member))
+            {
+                if (symmetries.Count < MaxSymmetries && Oddity(map) > 1e-7
+                    && Array.TrueForAll(remainder, element => _set.Match(map, element) is var image && image >= 0 && isRemainder[image]))
+                {
+                    symmetries.Add(map);
+                }
+            }
+        }
+
+        return symmetries;
+    }
+
+    private int[]? Images(AffineMap map, int[] remainder, bool[] covered)
+    {
+        var images = new int[remainder.Length];
+        for (var index = 0; index < images.Length; index++)
+        {
+            images[index] = Image(map, remainder[index]);
+            if (images[index] < 0 || covered[images[index]])
+            {
+                return null;
+            }
+        }
+
+        return images;
+    }
+
+    private static void Mark(bool[] covered, int[] members)
+    {
+        foreach (var member in members)
+        {
+            covered[member] = true;
+        }
+    }
+}

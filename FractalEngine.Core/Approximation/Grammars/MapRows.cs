@@ -1,0 +1,134 @@
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Approximation.Grammars;
+
+/// <summary>Writes sets of maps as rows: powers of one map, times a smaller set.</summary>
+public static class MapRows
+{
+    // Powers of a map that was found from elements differ from others found so by that much at most.
+    private const double RowTolerance = 1e-8;
+
+    /// <summary>Splits off a row of at least three powers, the longest one.</summary>
+    /// <param name="maps">The set.</param>
+    /// <param name="tolerance">Largest difference of maps that count as the same: of entries, and of translations in units of the length.</param>
+    /// <param name="length">Size of what is mapped, scene units.</param>
+    /// <returns>The map, the number of its powers from 0, and the maps that they stand before; or null.</returns>
+    public static (AffineMap Map, int Count, List<AffineMap> Others)? Find(IReadOnlyList<AffineMap> maps, double tolerance, double length)
+    {
+        (AffineMap, int, List<AffineMap>)? best = null;
+        var bestCount = 2;
+        for (var start = 0; start < maps.Count; start++)
+        {
+            var back = maps[start].Inverse();
+            for (var next = 0; next < maps.Count; next++)
+            {
+                var map = maps[next] * back;
+                if (start != next && Split(maps, map, bestCount, tolerance, length) is { } split)
+                {
+                    bestCount = split.Count;
+                    best = (map, split.Count, split.Others);
+                }
+            }
+        }
+
+        return best;
+    }
+
+    /// <summary>Whether two maps do the same to things of a size.</summary>
+    public static bool AreNear(AffineMap map1, AffineMap map2, double tolerance, double length) =>
+        (map1.Linear - map2.Linear).MaxAbsEntry() <= tolerance
+        && (map1.Translation - map2.Translation).MaxAbsComponent() <= tolerance * length;
+
+    /// <summary>Makes one set of successive sets that together are a row of powers.</summary>
+    internal static List<Factor> Merge(List<Factor> factors, double length)
+    {
+        var merged = new List<Factor>();
+        foreach (var factor in factors)
+        {
+            if (merged.Count > 0 && IsRow(merged[^1].Maps, length) && IsRow(factor.Maps, length)
+                && Multiply(merged[^1].Maps, factor, length) is { } product)
+            {
+                merged[^1] = factor with { Maps = product };
+            }
+            else
+            {
+                merged.Add(factor);
+            }
+        }
+
+        return merged;
+    }
+
+    /// <summary>The product of a row and a factor, with such symmetries that it is one row; null where there are none.</summary>
+    private static List<AffineMap>? Multiply(List<AffineMap> row, Factor factor, double length)
+    {
+        if (factor.Maps.Count > 2)
+        {
+            var product = row.SelectMany(outer => factor.Maps.Select(inner => outer * inner)).ToList();
+            return IsRow(product, length) ? product : null;
+        }
+
+        foreach (var symmetry in factor.Symmetries)
+        {
+            var inner = factor.Maps[1] * symmetry;
+            var product = row.SelectMany(outer => new[] { outer, outer * inner }).ToList();
+            if (IsRow(product, length))
+            {
+                return product;
+            }
+        }
+
+        return null;
+    }
+
+    private static bool IsRow(List<AffineMap> maps, double length) =>
+        maps.Count == 2 || Find(maps, RowTolerance, length) is { Others.Count: 1 };
+
+    private static (int Count, List<AffineMap> Others)? Split(
+        IReadOnlyList<AffineMap> maps, AffineMap map, int minCount, double tolerance, double length)
+    {
+        var taken = new bool[maps.Count];
+        var rest = new List<AffineMap>();
+        var back = map.Inverse();
+        var count = 0;
+        for (var start = 0; start < maps.Count; start++)
+        {
+            if (IndexOf(maps, back * maps[start], tolerance, length) >= 0)
+            {
+                continue;
+            }
+
+            rest.Add(maps[start]);
+            var run = 0;
+            var next = start;
+            for (var power = maps[start]; next >= 0 && !taken[next]; next = IndexOf(maps, power, tolerance, length))
+            {
+                taken[next] = true;
+                run++;
+                power = map * power;
+            }
+
+            if (run <= minCount || (count > 0 && run != count))
+            {
+                return null;
+            }
+
+            count = run;
+        }
+
+        return count > 0 && Array.TrueForAll(taken, isTaken => isTaken) ? (count, rest) : null;
+    }
+
+    private static int IndexOf(IReadOnlyList<AffineMap> maps, AffineMap map, double tolerance, double length)
+    {
+        for (var index = 0; index < maps.Count; index++)
+        {
+            if (AreNear(maps[index], map, tolerance, length))
+            {
+                return index;
+            }
+        }
+
+        return -1;
+    }
+}

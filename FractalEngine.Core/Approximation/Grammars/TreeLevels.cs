@@ -1,0 +1,141 @@
+using FractalEngine.Core.Approximation.Elements;
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Approximation.Grammars;
+
+/// <summary>Finds which products of a tree's maps exist, and what stands at each, and says whether that is a grammar.</summary>
+internal sealed class TreeLevels(ElementSet set, bool[] isMember, int[] members, int root, List<AffineMap> maps)
+{
+    private const int MaxLeafAttempts = 64;
+
+    private readonly List<(AffineMap Product, int Last, int Level)> _products = [];
+
+    /// <summary>Returns the grammar, or null where it does not explain all elements and nothing else.</summary>
+    public TreeGrammar? Describe()
+    {
+        var follows = new bool[maps.Count + 1, maps.Count];
+        var depth = Trace(follows);
+        if (!IsRegular(follows, depth))
+        {
+            return null;
+        }
+
+        var remaining = new HashSet<int>(members);
+        var bases = new List<int>();
+        foreach (var member in Roots())
+        {
+            if (_products.TrueForAll(product => set.Match(product.Product, member) is var image && image >= 0 && isMember[image]))
+            {
+                bases.Add(member);
+                remaining.ExceptWith(_products.Select(product => set.Match(product.Product, member)));
+            }
+        }
+
+        var leaves = new List<(int, AffineMap)>();
+        while (remaining.Count > 0)
+        {
+            if (FindLeaf(remaining, follows, depth) is not { } leaf)
+            {
+                return null;
+            }
+
+            leaves.Add(leaf);
+        }
+
+        // Leaves end the last level, which the base then has not.
+        return new(maps, follows, leaves.Count > 0 ? depth + 1 : depth, bases, leaves);
+    }
+
+    /// <summary>Finds all products by rising length, and which maps follow which.</summary>
+    private int Trace(bool[,] follows)
+    {
+        var seen = new HashSet<int> { root };
+        _products.Add((AffineMap.Identity, maps.Count, 0));
+        for (var next = 0; next < _products.Count; next++)
+        {
+            var (product, last, level) = _products[next];
+            for (var map = 0; map < maps.Count; map++)
+            {
+                var image = set.Match(product * maps[map], root);
+                if (image >= 0 && isMember[image])
+                {
+                    follows[last, map] = true;
+                    if (seen.Add(image))
+                    {
+                        _products.Add((product * maps[map], map, level + 1));
+                    }
+                }
+            }
+        }
+
+        return _products[^1].Level;
+    }
+
+    private bool IsRegular(bool[,] follows, int depth)
+    {
+        foreach (var (product, last, level) in _products)
+        {
+            for (var map = 0; map < maps.Count; map++)
+            {
+                var image = set.Match(product * maps[map], root);
+                var exists = image >= 0 && isMember[image];
+                if (level < depth && exists != follows[last, map])
+                {
+                    return false;
+                }
+            }
+        }
+
+        return true;
+    }
+
+    /// <summary>The elements that are no image of another one.</summary>
+    private IEnumerable<int> Roots()
+    {
+        var isImage = new bool[set.Count];
+        foreach (var member in members)
+        {
+            foreach (var map in maps)
+            {
+                if (set.Match(map, member) is var image && image >= 0 && image != member)
+                {
+                    isImage[image] = true;
+                }
+            }
+        }
+
+        return members.Where(member => !isImage[member]);
+    }
+
+    /// <summary>Looks for an element at the root whose images under all products of one map more than the depth remain.</summary>
+    private (int Class, AffineMap Placement)? FindLeaf(HashSet<int> remaining, bool[,] follows, int depth)
+    {
+        var ends = new List<AffineMap>();
+        foreach (var (product, last, _) in _products.Where(product => product.Level == depth))
+        {
+            ends.AddRange(Enumerable.Range(0, maps.Count).Where(map => follows[last, map]).Select(map => product * maps[map]));
+        }
+
+        if (ends.Count == 0)
+        {
+            return null;
+        }
+
+        var back = ends[0].Inverse();
+        var tip = ends[0] * set.Elements[root].Shape.Centroid;
+        foreach (var element in remaining.OrderBy(element => (set.Elements[element].Shape.Centroid - tip).LengthSquared())
+            .ThenBy(element => element).Take(MaxLeafAttempts))
+        {
+            var placement = back * set.Elements[element].Placement;
+            var kind = set.Elements[element].Class;
+            var images = ends.Select(end => set.Find(end * placement, kind)).TakeWhile(image => image >= 0 && remaining.Contains(image)).ToList();
+            if (images.Count == ends.Count)
+            {
+                remaining.ExceptWith(images);
+                return (kind, placement);
+            }
+        }
+
+        return null;
+    }
+}

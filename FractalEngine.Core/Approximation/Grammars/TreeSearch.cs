@@ -1,0 +1,167 @@
+using FractalEngine.Core.Approximation.Elements;
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Approximation.Grammars;
+
+/// <summary>
+/// Looks for a tree: a root, and smaller parts that the products of a few maps make of it. By falling size, each element that no
+/// product of known maps explains is a new map.
+/// </summary>
+/// <remarks>
+/// Where all maps make things smaller, a product is smaller than each of its factors' images of the root, so that factors are found
+/// before their products. Cost O(elements · maps) look-ups.
+/// </remarks>
+internal sealed class TreeSearch
+{
+    private const int MaxMaps = 40;
+    private const int MaxFullMaps = 24;
+    private const int SampleSize = 96;
+
+    private readonly ElementSet _set;
+    private readonly int[] _members;
+    private readonly bool[] _isMember;
+    private readonly CancellationToken _cancellation;
+    private readonly List<AffineMap> _maps = [];
+    private readonly Dictionary<int, AffineMap> _explained = [];
+    private readonly List<int> _explainedOrder = [];
+    private int _root;
+    private int[] _bySize = [];
+
+    private TreeSearch(ElementSet set, int[] members, CancellationToken cancellation)
+    {
+        _set = set;
+        _members = members;
+        _isMember = new bool[set.Count];
+        foreach (var member in members)
+        {
+            _isMember[member] = true;
+        }
+
+        _cancellation = cancellation;
+    }
+
+    /// <summary>Finds a tree that explains all given elements exactly, or null.</summary>
+    /// <param name="set">All elements.</param>
+    /// <param name="members">The elements of the tree.</param>
+    /// <param name="isFull">Whether only trees are wanted in which each map follows each; that is soon seen from the number of parts.</param>
+    /// <param name="cancellation">Ends the search early.</param>
+    public static TreeGrammar? Find(ElementSet set, int[] members, bool isFull, CancellationToken cancellation)
+    {
+        var classes = members.GroupBy(member => set.Elements[member].Class).Where(group => group.Count() > 2)
+            .OrderByDescending(group => group.Count()).ThenBy(group => group.Key).Take(3);
+        foreach (var group in classes)
+        {
+            if (new TreeSearch(set, members, cancellation).Find(group, isFull) is { } grammar && (!isFull || grammar.IsFull))
+            {
+                return grammar;
+            }
+        }
+
+        return null;
+    }
+
+    private TreeGrammar? Find(IEnumerable<int> group, bool isFull)
+    {
+        _bySize = [.. group.OrderByDescending(SizeOf).ThenBy(member => member)];
+        _root = _bySize[0];
+        if (SizeOf(_bySize[^1]) > 0.9999 * SizeOf(_root))
+        {
+            return null;
+        }
+
+        Explain(_root, AffineMap.Identity);
+        foreach (var element in _bySize)
+        {
+            _cancellation.ThrowIfCancellationRequested();
+            // Others as large as the root belong to the base, if they are no images.
+            if (_explained.ContainsKey(element) || SizeOf(element) > 0.9999 * SizeOf(_root))
+            {
+                continue;
+            }
+
+            if (_maps.Count == (isFull ? MaxFullMaps : MaxMaps) || BestMap(element) is not { } map)
+            {
+                return null;
+            }
+
+            Add(map);
+        }
+
+        return _maps.Count > 0 && (!isFull || (_maps.Count > 1 && IsCountOfFull())) ? new TreeLevels(_set, _isMember, _members, _root, _maps).Describe() : null;
+    }
+
+    /// <summary>Whether there are as many parts as a full tree of some depth has: 1 + k + k² + …</summary>
+    private bool IsCountOfFull()
+    {
+        var count = 1L;
+        for (var level = (long)_maps.Count; count < _explained.Count; level *= _maps.Count)
+        {
+            count += level;
+        }
+
+        return count == _explained.Count;
+    }
+
+    private double SizeOf(int element) => _set.Elements[element].Shape.Size;
+
+    /// <summary>Of the maps that take the root to an element, the one that takes most other elements to elements.</summary>
+    private AffineMap? BestMap(int element)
+    {
+        AffineMap? best = null;
+        var bestSupport = -1;
+        var sample = _bySize.AsSpan(0, Math.Min(SampleSize, _bySize.Length)).ToArray();
+        foreach (var map in _set.MapsBetween(_root, element).OrderBy(Oddity))
+        {
+            var support = sample.Count(member => Image(map, member) >= 0);
+            if (support > bestSupport)
+            {
+                best = map;
+                bestSupport = support;
+            }
+        }
+
+        return best;
+    }
+
+    /// <summary>Of maps that explain as much, those come first that turn less, and mirrors last.</summary>
+    private static double Oddity(AffineMap map)
+    {
+        var volume = map.Linear.Determinant();
+        var scale = Math.Cbrt(volume);
+        return volume <= 0 ? 10 : Math.Round((map.Linear - (scale * Matrix.Identity)).MaxAbsEntry() / scale, 9);
+    }
+
+    private int Image(AffineMap map, int element) => _set.Match(map, element) is var image && image >= 0 && _isMember[image] ? image : -1;
+
+    private void Add(AffineMap map)
+    {
+        _maps.Add(map);
+        foreach (var element in _explainedOrder.ToArray())
+        {
+            Extend(_explained[element] * map);
+        }
+    }
+
+    private void Extend(AffineMap product)
+    {
+        var pending = new Stack<AffineMap>([product]);
+        while (pending.TryPop(out var next))
+        {
+            var image = Image(next, _root);
+            if (image >= 0 && !_explained.ContainsKey(image))
+            {
+                Explain(image, next);
+                foreach (var map in _maps)
+                {
+                    pending.Push(next * map);
+                }
+            }
+        }
+    }
+
+    private void Explain(int element, AffineMap product)
+    {
+        _explained.Add(element, product);
+        _explainedOrder.Add(element);
+    }
+}

@@ -1,0 +1,173 @@
+using System.Text;
+using FractalEngine.Core.Approximation.Grammars;
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Parsing.Fdo.Writing;
+
+/// <summary>Writes the grammar of a mesh as a fractal file with named maps, powers and sums.</summary>
+public sealed class GrammarWriter
+{
+    // What rounding of the numbers may change: entries of matrices, and translations in units of the whole's size.
+    private const double RoundingTolerance = 2e-10;
+
+    private const double AngleTolerance = 180 / Math.PI * RoundingTolerance;
+
+    // Maps that differ by so little are powers of one.
+    private const double RowTolerance = 1e-8;
+
+    private readonly StringBuilder _declarations = new();
+    private readonly StringBuilder _objects = new();
+    private readonly List<(AffineMap Map, string Name)> _maps = [];
+    private readonly double _length;
+
+    private GrammarWriter(double length) => _length = length;
+
+    /// <summary>Returns the text of the file.</summary>
+    /// <param name="grammar">What makes the mesh.</param>
+    /// <param name="length">Diagonal of the whole, scene units; numbers are rounded by at most 2e-10 of it.</param>
+    /// <param name="comments">Lines at the beginning, without the sign of a comment.</param>
+    /// <param name="baseFile">The file of the base mesh, relative to the fractal file.</param>
+    /// <param name="leafFile">The file of the mesh at the ends, if the grammar has one.</param>
+    public static string Write(MeshGrammar grammar, double length, IEnumerable<string> comments, string baseFile, string? leafFile)
+    {
+        var writer = new GrammarWriter(length);
+        writer._objects.Append(Invariant($"base. \"{baseFile}\"\n"));
+        if (grammar.Leaf is not null)
+        {
+            writer._objects.Append(Invariant($"leaf. \"{leafFile}\"\n"));
+        }
+
+        var result = grammar.Tree is { } tree ? writer.WriteTree(tree, grammar.Leaf is not null) : "base";
+        for (var index = grammar.Steps.Count - 1; index >= 0; index--)
+        {
+            result = writer.WriteStep(grammar.Steps[index], index + 1, result);
+        }
+
+        var text = new StringBuilder();
+        foreach (var comment in comments)
+        {
+            text.Append("# ").Append(comment).Append('\n');
+        }
+
+        return text.Append(writer._declarations).Append(writer._objects).Append("<$>. ").Append(result).Append('\n').ToString();
+    }
+
+    private static string Invariant(FormattableString text) => FormattableString.Invariant(text);
+
+    private string WriteStep(GrammarStep step, int number, string inner)
+    {
+        var sets = string.Join(' ', step.Sets.Select(set => $"[{SetText(set)}]"));
+        if (step.Depth == 1)
+        {
+            return sets + " " + inner;
+        }
+
+        _objects.Append(Invariant($"inner{number}. {inner}\nlevel{number}<inner{number}>. {sets} inner{number}\n"));
+        return Invariant($"level{number} {step.Depth}");
+    }
+
+    private string WriteTree(MapTree tree, bool hasLeaf)
+    {
+        if (tree.IsFull)
+        {
+            var maps = string.Join(", ", tree.Maps.Select(NameOf));
+            _objects.Append(hasLeaf ? $"tree<leaf>. [{maps}] leaf + base\n" : $"end. base\ntree<end>. [{maps}] end + base\n");
+            return Invariant($"tree {tree.Depth}");
+        }
+
+        // One recursive for all maps that the same maps may follow.
+        var rows = tree.Follows.Select(row => string.Join(' ', row)).ToArray();
+        var states = rows.Distinct().Where(row => row.Length > 0).ToList();
+        var ends = hasLeaf ? "leaf" : "base";
+        var heads = new List<string>();
+        var bodies = new List<string>();
+        for (var state = 0; state < states.Count; state++)
+        {
+            _objects.Append(Invariant($"end{state + 1}. {ends}\n"));
+            heads.Add(Invariant($"tree{state + 1}<end{state + 1}>"));
+            var following = tree.Follows[Array.IndexOf(rows, states[state])];
+            var terms = following.GroupBy(map => states.IndexOf(rows[map])).Select(group =>
+                $"[{string.Join(", ", group.Select(map => NameOf(tree.Maps[map])))}] {(group.Key < 0 ? "base" : Invariant($"end{group.Key + 1}"))}");
+            bodies.Add(string.Join(" + ", terms.Append("base")));
+        }
+
+        _objects.Append($"{string.Join(", ", heads)}. {string.Join(", ", bodies)}\n");
+        return Invariant($"tree{states.IndexOf(rows[^1]) + 1} {tree.Depth}");
+    }
+
+    private string SetText(IReadOnlyList<AffineMap> maps)
+    {
+        if (maps.Count > 2 && MapRows.Find(maps, RowTolerance, _length) is { } row)
+        {
+            var power = Invariant($"{NameOf(row.Map)}^0..{row.Count - 1}");
+            return row.Others is [var only] && IsIdentity(only) ? power : $"{power}] [{SetText(row.Others)}";
+        }
+
+        return string.Join(", ", maps.Select(map => IsIdentity(map) ? "#" : NameOf(map)));
+    }
+
+    private bool IsIdentity(AffineMap map) => MapRows.AreNear(map, AffineMap.Identity, RoundingTolerance, _length);
+
+    private string NameOf(AffineMap map)
+    {
+        foreach (var (known, knownName) in _maps)
+        {
+            if (MapRows.AreNear(known, map, RoundingTolerance, _length))
+            {
+                return knownName + ".";
+            }
+        }
+
+        var name = Invariant($"m{_maps.Count + 1}");
+        _maps.Add((map, name));
+        _declarations.Append(name).Append(MapText(map)).Append('\n');
+        return name + ".";
+    }
+
+    private string MapText(AffineMap map)
+    {
+        var translation = Rounded(map.Translation, RoundingTolerance * _length);
+        if (Decompose(map.Linear) is { } parts)
+        {
+            var scale = parts.Scale == Vector.One ? "#"
+                : parts.Scale.X == parts.Scale.Y && parts.Scale.Y == parts.Scale.Z ? $"({NumberText.Format(parts.Scale.X, 0)})"
+                : VectorText(parts.Scale, 0);
+            return $". ({Optional(translation)}, {Optional(parts.Rotation)}, {scale})";
+        }
+
+        return $".matrix {VectorText(map.Linear.V1, RoundingTolerance)} {VectorText(map.Linear.V2, RoundingTolerance)} "
+            + $"{VectorText(map.Linear.V3, RoundingTolerance)} {VectorText(translation, 0)}";
+    }
+
+    /// <summary>Returns angles and scales with round numbers that make a matrix, or null where it has shear.</summary>
+    private static (Vector Rotation, Vector Scale)? Decompose(Matrix linear)
+    {
+        var scale = new Vector(linear.V1.Length(), linear.V2.Length(), linear.V3.Length());
+        if (linear.Determinant() < 0)
+        {
+            scale = scale with { Z = -scale.Z };
+        }
+
+        var axes = new Matrix(linear.V1 / scale.X, linear.V2 / scale.Y, linear.V3 / scale.Z);
+        var angles = 180 / Math.PI * axes.EulerAngles();
+        var rotation = Rounded(angles, AngleTolerance);
+        // The same rotation with other angles, which are nicer where they are fewer.
+        var other = Rounded(new(Wrapped(angles.X + 180), Wrapped(180 - angles.Y), Wrapped(angles.Z + 180)), AngleTolerance);
+        rotation = CountZeros(other) > CountZeros(rotation) ? other : rotation;
+        scale = Rounded(scale, RoundingTolerance);
+        var made = rotation.LocalAxesFromDegrees() * Matrix.Diagonal(scale);
+        return (made - linear).MaxAbsEntry() <= 4 * RoundingTolerance ? (rotation, scale) : null;
+    }
+
+    private static double Wrapped(double degrees) => degrees - (360 * Math.Round(degrees / 360));
+
+    private static int CountZeros(Vector vector) => (vector.X == 0 ? 1 : 0) + (vector.Y == 0 ? 1 : 0) + (vector.Z == 0 ? 1 : 0);
+
+    private static Vector Rounded(Vector vector, double tolerance) => new(
+        NumberText.Round(vector.X, tolerance), NumberText.Round(vector.Y, tolerance), NumberText.Round(vector.Z, tolerance));
+
+    private static string Optional(Vector vector) => vector == Vector.Zero ? "#" : VectorText(vector, 0);
+
+    private static string VectorText(Vector vector, double tolerance) =>
+        $"({NumberText.Format(vector.X, tolerance)}, {NumberText.Format(vector.Y, tolerance)}, {NumberText.Format(vector.Z, tolerance)})";
+}
