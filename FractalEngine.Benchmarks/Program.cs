@@ -1,4 +1,5 @@
 using BenchmarkDotNet.Running;
+using FractalEngine.Benchmarks.Approximation;
 using FractalEngine.Benchmarks.Colliders;
 using FractalEngine.Benchmarks.Drawing;
 using FractalEngine.Benchmarks.Growth;
@@ -29,6 +30,7 @@ var commands = new Dictionary<string, Func<string[], int>>
     ["physics"] = arguments => PhysicsCommand.Run(arguments),
     ["precision"] = arguments => PrecisionCommand.Run(arguments),
     ["paper"] = arguments => PaperCommand.Run(arguments),
+    ["approximate"] = arguments => ApproximationCommand.Run(arguments),
     ["merge"] = arguments => MergeCommand.Run(arguments),
 };
 

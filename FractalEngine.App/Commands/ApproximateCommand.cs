@@ -95,8 +95,10 @@ internal static class ApproximateCommand
     {
         var length = mesh.Bounds.Diagonal;
         var files = new ApproximationFiles(output, grammar, length);
-        var made = report.Measure("expand", () => files.ReadBack(mesh.FaceCount));
-        return VertexDistance.FindLargest(mesh, made, ExactTolerance * length) is { } distance ? (files, distance / length) : null;
+        var made = report.Measure("expand", () => files.ReadBack(2L * mesh.FaceCount));
+        return made is not null && VertexDistance.FindLargest(mesh, made, ExactTolerance * length) is { } distance
+            ? (files, distance / length)
+            : null;
     }
 
     private static string[] Describe(Mesh mesh, MeshGrammar grammar, double distance)

@@ -1,5 +1,6 @@
 using System.Text;
 using FractalEngine.App.Shell;
+using FractalEngine.Core;
 using FractalEngine.Core.Approximation.Grammars;
 using FractalEngine.Core.Files;
 using FractalEngine.Core.Fractals;
@@ -40,7 +41,8 @@ internal sealed class ApproximationFiles
 
     /// <summary>Writes the files into a folder for a while, and expands what is read back.</summary>
     /// <param name="maxFaces">Largest number of faces.</param>
-    public Mesh ReadBack(long maxFaces)
+    /// <returns>The mesh; null where the language refuses the fractal, such as maps that are flat to rounding.</returns>
+    public Mesh? ReadBack(long maxFaces)
     {
         var folder = Directory.CreateTempSubdirectory("fractalengine");
         try
@@ -54,6 +56,10 @@ internal sealed class ApproximationFiles
 
             File.WriteAllText(At(_output), TextOf([]));
             return FractalFile.Read(At(_output)).Flatten(maxFaces);
+        }
+        catch (FractalEngineException)
+        {
+            return null;
         }
         finally
         {

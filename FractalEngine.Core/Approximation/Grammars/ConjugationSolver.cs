@@ -1,3 +1,4 @@
+using System.Collections.Immutable;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Approximation.Grammars;
@@ -6,6 +7,12 @@ namespace FractalEngine.Core.Approximation.Grammars;
 internal static class ConjugationSolver
 {
     private const int Unknowns = 13;
+    // Maps that flatten are none, though conditions that leave the scale free are met by them.
+    private const double MinVolume = 1e-4;
+
+    // No rotation, and half turns: each rotation is within a right angle of one of them.
+    private static readonly ImmutableArray<double[]> Wishes = [WishOf(new(1, 1, 1)), WishOf(new(-1, -1, 1)), WishOf(new(-1, 1, -1)), WishOf(new(1, -1, -1))];
+
     // Of conditions whose entries are about 1.
     private const double NullTolerance = 1e-8;
 
@@ -32,15 +39,31 @@ internal static class ConjugationSolver
         var solution = Weigh(Combine(basis, vector => vector[12] / last), TranslationWeight);
         var directions = Orthonormalize([.. basis.Select(vector => Weigh(
             [.. vector.Select((entry, row) => entry - (vector[12] * Combine(basis, other => other[12] / last)[row]))], TranslationWeight))]);
-        var identity = new double[Unknowns];
-        identity[0] = identity[4] = identity[8] = 1;
-        var rest = Remove(directions, identity);
         var fixedPart = Remove(directions, solution);
-        var best = Dot(rest, rest) > 1e-12 ? Dot(rest, fixedPart) / Dot(rest, rest) : scale;
-        var entries = Weigh(
-            [.. fixedPart.Zip(identity.Zip(rest, (whole, part) => whole - part), (entry, free) => entry + (best * free))], 1 / TranslationWeight);
-        var linear = new Matrix(VectorAt(entries, 0), VectorAt(entries, 3), VectorAt(entries, 6));
-        return Math.Abs(linear.Determinant()) > 1e-12 ? new(linear, VectorAt(entries, 9)) : null;
+        foreach (var wish in Wishes)
+        {
+            var rest = Remove(directions, wish);
+            // The multiple of the wish that the solutions come nearest to; any where they come as near as they like.
+            var nearest = Dot(rest, rest) > 1e-12 ? Dot(rest, fixedPart) / Dot(rest, rest) : scale;
+            foreach (var multiple in new[] { nearest, scale })
+            {
+                var map = ToMap([.. fixedPart.Zip(wish.Zip(rest, (whole, part) => whole - part), (entry, free) => entry + (multiple * free))]);
+                if (Math.Abs(map.Linear.Determinant()) > MinVolume * scale * scale * scale)
+                {
+                    return map;
+                }
+            }
+        }
+
+        return null;
+    }
+
+    private static double[] WishOf(Vector scale) => [scale.X, 0, 0, 0, scale.Y, 0, 0, 0, scale.Z, 0, 0, 0, 0];
+
+    private static AffineMap ToMap(double[] weighed)
+    {
+        var entries = Weigh(weighed, 1 / TranslationWeight);
+        return new(new(VectorAt(entries, 0), VectorAt(entries, 3), VectorAt(entries, 6)), VectorAt(entries, 9));
     }
 
     private static double[] Weigh(double[] vector, double weight) =>

@@ -85,10 +85,70 @@ internal sealed class FactorSearch
             }
         }
 
+        if (FindCircle(candidates.Where((_, index) => supports[index] == sample.Length)) is { } circle)
+        {
+            return circle;
+        }
+
         // At last all members as images of one.
         return _members.Length <= MaxListed && Cover(candidates, [_reference]) is { } all
             ? new(all, SymmetriesOf(all, [_reference]), [_reference])
             : null;
+    }
+
+    /// <summary>
+    /// Finds the powers of a map that takes all members to members, such as those around a circle, and of each orbit the member that is
+    /// nearest to the reference.
+    /// </summary>
+    private Factor? FindCircle(IEnumerable<AffineMap> candidates)
+    {
+        var best = (Map: AffineMap.Identity, Order: 1);
+        foreach (var map in candidates.Where(map => Array.TrueForAll(_members, member => Image(map, member) >= 0)))
+        {
+            var order = 1;
+            for (var image = Image(map, _reference); image != _reference && order < MaxListed; image = Image(map, image))
+            {
+                order++;
+            }
+
+            if (order > best.Order && _members.Length % order == 0)
+            {
+                best = (map, order);
+            }
+        }
+
+        if (best.Order < 3 || NearestOfOrbits(best.Map, best.Order) is not { } nearest)
+        {
+            return null;
+        }
+
+        var powers = Enumerable.Range(0, best.Order).Select(best.Map.Power).ToList();
+        return new(powers, SymmetriesOf(powers, nearest), nearest);
+    }
+
+    private int[]? NearestOfOrbits(AffineMap map, int order)
+    {
+        var centre = _set.Elements[_reference].Shape.Centroid;
+        var isSeen = new bool[_set.Count];
+        var nearest = new List<int>();
+        foreach (var member in _members.Where(member => !isSeen[member]))
+        {
+            var orbit = new List<int>();
+            for (var image = member; !isSeen[image]; image = Image(map, image))
+            {
+                isSeen[image] = true;
+                orbit.Add(image);
+            }
+
+            if (orbit.Count != order)
+            {
+                return null;
+            }
+
+            nearest.Add(orbit.MinBy(image => ((_set.Elements[image].Shape.Centroid - centre).LengthSquared(), image)));
+        }
+
+        return [.. nearest];
     }
 
     /// <summary>

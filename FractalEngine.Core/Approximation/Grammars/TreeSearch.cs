@@ -15,6 +15,8 @@ internal sealed class TreeSearch
 {
     private const int MaxMaps = 40;
     private const int MaxFullMaps = 24;
+    private const int MaxParents = 48;
+    private const int MaxOutsideParts = 3;
     private const int SampleSize = 96;
 
     private readonly ElementSet _set;
@@ -79,7 +81,7 @@ internal sealed class TreeSearch
                 continue;
             }
 
-            if (_maps.Count == (isFull ? MaxFullMaps : MaxMaps) || BestMap(element) is not { } map)
+            if (_maps.Count == (isFull ? MaxFullMaps : MaxMaps) || (isFull ? BestMap(element) : BestLocalMap(element)) is not { } map)
             {
                 return null;
             }
@@ -107,16 +109,71 @@ internal sealed class TreeSearch
     /// <summary>Of the maps that take the root to an element, the one that takes most other elements to elements.</summary>
     private AffineMap? BestMap(int element)
     {
-        AffineMap? best = null;
-        var bestSupport = -1;
         var sample = _bySize.AsSpan(0, Math.Min(SampleSize, _bySize.Length)).ToArray();
-        foreach (var map in _set.MapsBetween(_root, element).OrderBy(Oddity))
+        var maps = _set.MapsBetween(_root, element).OrderBy(Oddity).ToList();
+        if (_set.Elements[_root].Shape.IsFlat)
         {
-            var support = sample.Count(member => Image(map, member) >= 0);
-            if (support > bestSupport)
+            maps.AddRange(maps.SelectMany(OutOfPlane).ToArray());
+        }
+
+        return maps.MaxBy(map => sample.Count(member => Image(map, member) >= 0));
+    }
+
+    /// <summary>
+    /// Maps that do the same in the root's plane: a flat root does not tell what becomes of its normal. Another part that is not in the
+    /// plane does, once it is known which element it goes to; so each is tried.
+    /// </summary>
+    private IEnumerable<AffineMap> OutOfPlane(AffineMap map)
+    {
+        var root = _set.Elements[_root].Shape;
+        var normal = root.Normal.UnitVector();
+        double HeightOf(int member) => Vector.Dot(normal, _set.Elements[member].Shape.Centroid - root.Centroid);
+        foreach (var part in _bySize.Skip(1).Where(member => Math.Abs(HeightOf(member)) > 0.02 * root.Size).Take(MaxOutsideParts))
+        {
+            var height = HeightOf(part);
+            var centroid = _set.Elements[part].Shape.Centroid;
+            foreach (var image in _bySize.SkipWhile(member => SizeOf(member) > SizeOf(part)))
+            {
+                var column = (map.Linear * normal) + ((_set.Elements[image].Shape.Centroid - (map * centroid)) / height);
+                var linear = map.Linear + Matrix.Outer(column - (map.Linear * normal), normal);
+                var candidate = new AffineMap(linear, (map * root.Centroid) - (linear * root.Centroid));
+                if (_set.Match(candidate, part) == image)
+                {
+                    yield return candidate;
+                }
+            }
+        }
+    }
+
+    /// <summary>
+    /// Of the maps that take a known part to an element, in the part's own frame, the one that does so for most other parts; of equal
+    /// ones that of the largest part. So what grows on one kind of part only is found there.
+    /// </summary>
+    private AffineMap? BestLocalMap(int element)
+    {
+        var symmetries = _set.SymmetriesOf(_set.Elements[_root].Class);
+        var parents = _explainedOrder.OrderByDescending(SizeOf).ThenBy(parent => parent)
+            .Take(Math.Max(4, MaxParents / symmetries.Count)).Select(parent => _explained[parent].Inverse()).ToArray();
+        var places = _bySize.Take(SampleSize).SelectMany(member => _set.MapsBetween(_root, member).Select(place => (member, place))).ToArray();
+        AffineMap? best = null;
+        var bestCount = 0;
+        foreach (var map in parents.SelectMany(back => _set.MapsBetween(_root, element).OrderBy(Oddity).Select(place => back * place)))
+        {
+            var count = 0;
+            var last = -1;
+            foreach (var (member, place) in places)
+            {
+                if (member != last && Image(place * map, _root) >= 0)
+                {
+                    count++;
+                    last = member;
+                }
+            }
+
+            if (count > bestCount)
             {
                 best = map;
-                bestSupport = support;
+                bestCount = count;
             }
         }
 
