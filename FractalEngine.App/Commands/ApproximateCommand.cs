@@ -5,6 +5,7 @@ using FractalEngine.App.Shell;
 using FractalEngine.App.Shell.Reports;
 using FractalEngine.Core.Approximation;
 using FractalEngine.Core.Approximation.Grammars;
+using FractalEngine.Core.Distances;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Assets;
@@ -15,7 +16,7 @@ namespace FractalEngine.App.Commands;
 /// <summary>The command <c>approximate MODEL --output X.fdo</c>, which looks for a fractal that makes a mesh (paper §6.2).</summary>
 internal static class ApproximateCommand
 {
-    // Vertices within this part of the diagonal count as the same.
+    // Vertices and surfaces within this part of the diagonal count as the same.
     private const double ExactTolerance = 1e-6;
 
     public static Command Create()
@@ -55,13 +56,13 @@ internal static class ApproximateCommand
         }
 
         var grammar = report.Measure("search", () => Search(mesh, seconds));
-        if (grammar is null || Verify(mesh, grammar, output, report) is not var (files, distance))
+        if (grammar is null || Verify(mesh, grammar, output, report) is not var (files, vertexDistance, surfaceDistance))
         {
             Console.WriteLine(Invariant($"NO FRACTAL: nothing that makes all {mesh.FaceCount} faces was found"));
             return ExitCode.NoFractal;
         }
 
-        var text = Describe(mesh, grammar, distance);
+        var text = Describe(mesh, grammar, vertexDistance, surfaceDistance);
         files.Write([Path.GetFileName(path) + " as a fractal: " + text[0], text[1]]);
         Console.WriteLine(text[0]);
         Console.WriteLine(text[1]);
@@ -90,18 +91,25 @@ internal static class ApproximateCommand
         }
     }
 
-    /// <summary>Expands the files as they are read back, and compares the result with the mesh.</summary>
-    private static (ApproximationFiles Files, double Distance)? Verify(Mesh mesh, MeshGrammar grammar, string output, WrittenReport report)
+    /// <summary>Expands the files as they are read back, and compares the result with the mesh; null where both differ.</summary>
+    private static (ApproximationFiles Files, double Vertices, double Surfaces)? Verify(
+        Mesh mesh, MeshGrammar grammar, string output, WrittenReport report)
     {
         var length = mesh.Bounds.Diagonal;
         var files = new ApproximationFiles(output, grammar, length);
         var made = report.Measure("expand", () => files.ReadBack(2L * mesh.FaceCount));
-        return made is not null && VertexDistance.FindLargest(mesh, made, ExactTolerance * length) is { } distance
-            ? (files, distance / length)
-            : null;
+        if (made is null || VertexDistance.FindLargest(mesh, made, ExactTolerance * length) is not { } vertices)
+        {
+            return null;
+        }
+
+        // Below half of the tolerance there is nothing to distinguish.
+        var settings = new SurfaceDistanceSettings { Resolution = 0.5 * ExactTolerance };
+        var surfaces = report.Measure("compare", () => SurfaceDistance.Between(mesh, made, settings)).MaxDistance.Upper;
+        return surfaces <= ExactTolerance * length ? (files, vertices / length, surfaces / length) : null;
     }
 
-    private static string[] Describe(Mesh mesh, MeshGrammar grammar, double distance)
+    private static string[] Describe(Mesh mesh, MeshGrammar grammar, double vertexDistance, double surfaceDistance)
     {
         var isRecursive = grammar.Tree is not null || grammar.Steps.Any(step => step.Depth > 1);
         var baseFaces = grammar.Base.FaceCount + (grammar.Leaf?.FaceCount ?? 0);
@@ -109,7 +117,7 @@ internal static class ApproximateCommand
         return
         [
             Invariant($"{(isRecursive ? "EXACT" : "REPEATS")}: {baseFaces} of {mesh.FaceCount} faces are left, with {maps} maps"),
-            Invariant($"vertices of both are within {distance:0.0e+0} of the diagonal"),
+            Invariant($"vertices are within {vertexDistance:0.0e+0} of the diagonal, surfaces within {surfaceDistance:0.0e+0}"),
         ];
     }
 }

@@ -59,10 +59,18 @@ internal sealed class ChainLevels
         var (best, bestPeriod, bestCount) = (AffineMap.Identity, 1, 1);
         for (var period = 1; period <= MaxPeriod && 2 * period <= _rest.Count; period++)
         {
-            if (Conjugation.Find(_rest[0].Maps, _rest[period], ToBase * _origin, _length) is { } map
-                && CountBlocks(map, period) is var count && count >= 2 && count * period > bestCount * bestPeriod)
+            // One map and its image say little; those of further levels are known to be pairs, too.
+            var pairs = Enumerable.Range(1, (_rest.Count / period) - 1).SelectMany(block => Enumerable.Range(0, period).Select(
+                index => (From: _rest[((block - 1) * period) + index], To: _rest[(block * period) + index])))
+                .TakeWhile(pair => pair.From.Maps.Count == 2 && pair.To.Maps.Count == 2)
+                .Select(pair => (pair.From.Maps[1], pair.To.Maps[1])).ToArray();
+            for (var used = pairs.Length; used >= 0 && bestCount * bestPeriod < _rest.Count - period + 1; used = used > 0 ? 0 : -1)
             {
-                (best, bestPeriod, bestCount) = (map, period, count);
+                if (Conjugation.Find(_rest[0].Maps, _rest[period], pairs.Take(used), ToBase * _origin, _length) is { } map
+                    && CountBlocks(map, period) is var count && count >= 2 && count * period > bestCount * bestPeriod)
+                {
+                    (best, bestPeriod, bestCount) = (map, period, count);
+                }
             }
         }
 

@@ -14,15 +14,17 @@ internal sealed class Conjugation
 
     private readonly List<AffineMap> _from;
     private readonly List<(AffineMap Map, int Index)> _to;
+    private readonly List<(AffineMap From, AffineMap To)> _pairs;
     private AffineMap? _best;
     private double _bestOddity = double.PositiveInfinity;
     private int _solutions;
 
-    private Conjugation(List<AffineMap> from, Factor to, Vector origin, double length)
+    private Conjugation(List<AffineMap> from, Factor to, IEnumerable<(AffineMap From, AffineMap To)> pairs, Vector origin, double length)
     {
         // Around the origin, in units of the length, all entries are about 1.
         var toUnits = new AffineMap((1 / length) * Matrix.Identity, -(1 / length) * origin);
         var back = toUnits.Inverse();
+        _pairs = [.. pairs.Select(pair => (toUnits * pair.From * back, toUnits * pair.To * back))];
         _from = from.ConvertAll(map => toUnits * map * back);
         _to = [.. to.Symmetries.SelectMany(symmetry => to.Maps.Select((map, index) => (toUnits * map * symmetry * back, index)))];
     }
@@ -30,16 +32,18 @@ internal sealed class Conjugation
     /// <summary>Finds the map, or null.</summary>
     /// <param name="from">H, with the identity first.</param>
     /// <param name="to">G, as many maps, each of which may stand before a symmetry.</param>
+    /// <param name="pairs">Further maps, each with the one that it becomes.</param>
     /// <param name="origin">A point near all that is mapped.</param>
     /// <param name="length">The size of all that is mapped, scene units.</param>
-    public static AffineMap? Find(List<AffineMap> from, Factor to, Vector origin, double length)
+    public static AffineMap? Find(
+        List<AffineMap> from, Factor to, IEnumerable<(AffineMap From, AffineMap To)> pairs, Vector origin, double length)
     {
         if (from.Count != to.Maps.Count)
         {
             return null;
         }
 
-        var search = new Conjugation(from, to, origin, length);
+        var search = new Conjugation(from, to, pairs, origin, length);
         var frame = search.ChooseFrame();
         var all = Enumerable.Range(1, from.Count - 1).ToArray();
         search.Consider(new(search.ScaleOf(all, all) * Matrix.Identity, Vector.Zero));
@@ -51,7 +55,7 @@ internal sealed class Conjugation
 
     /// <summary>Whether a map takes the first set to the second, in any order.</summary>
     public static bool Holds(AffineMap map, List<AffineMap> from, Factor to, Vector origin, double length) =>
-        from.Count == to.Maps.Count && new Conjugation(from, to, origin, length).IsVerified(
+        from.Count == to.Maps.Count && new Conjugation(from, to, [], origin, length).IsVerified(
             new AffineMap(length * Matrix.Identity, origin).Inverse() * map * new AffineMap(length * Matrix.Identity, origin));
 
     /// <summary>The maps that move the origin in the most different directions.</summary>
@@ -118,10 +122,15 @@ internal sealed class Conjugation
     private AffineMap? Solve(int[] frame, int[] images)
     {
         // Rows of s·h − g·s = 0 in the nine entries of s by columns, its translation, and 1.
-        var conditions = new double[12 * frame.Length, Unknowns];
+        var conditions = new double[12 * (frame.Length + _pairs.Count), Unknowns];
         for (var index = 0; index < frame.Length; index++)
         {
             AddConditions(conditions, 12 * index, _from[frame[index]], _to[images[index]].Map);
+        }
+
+        for (var index = 0; index < _pairs.Count; index++)
+        {
+            AddConditions(conditions, 12 * (frame.Length + index), _pairs[index].From, _pairs[index].To);
         }
 
         return ConjugationSolver.Solve(conditions, ScaleOf(frame, images));

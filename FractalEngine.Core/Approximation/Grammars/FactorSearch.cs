@@ -12,6 +12,7 @@ internal sealed class FactorSearch
 {
     private const int NeighbourCount = 12;
     private const int SampleSize = 192;
+    private const int MaxFlat = 6000;
     private const int MaxListed = 256;
     private const int MaxSymmetries = 48;
     private const int MaxLookUps = 4_000_000;
@@ -195,10 +196,10 @@ internal sealed class FactorSearch
     /// <summary>The maps of the reference to other elements that take some of its neighbours to elements too.</summary>
     private List<AffineMap> Candidates(Func<AffineMap, bool> isWanted)
     {
-        var centre = _set.Elements[_reference].Shape.Centroid;
-        var neighbours = _members.Where(member => member != _reference)
-            .OrderBy(member => (_set.Elements[member].Shape.Centroid - centre).LengthSquared()).ThenBy(member => member)
-            .Take(NeighbourCount).ToArray();
+        var neighbours = NeighboursOf(_reference);
+        var parts = _set.Elements[_reference].Shape.IsFlat && _members.Length <= MaxFlat
+            ? OutOfPlane.PartsOf(_set, _reference, neighbours)
+            : [];
         var needed = _members.Length > 2 * NeighbourCount ? 3 : 0;
         var candidates = new List<AffineMap>();
         foreach (var member in _members)
@@ -208,7 +209,15 @@ internal sealed class FactorSearch
                 continue;
             }
 
-            foreach (var map in _set.MapsBetween(_reference, member))
+            var maps = _set.MapsBetween(_reference, member).ToList();
+            if (parts.Length > 0)
+            {
+                var images = NeighboursOf(member);
+                maps.AddRange(maps.SelectMany(
+                    map => parts.SelectMany(part => OutOfPlane.MapsOf(_set, _reference, map, part, images))).ToArray());
+            }
+
+            foreach (var map in maps)
             {
                 if (isWanted(map) && (needed == 0 || Hits(map, neighbours, needed)))
                 {
@@ -218,6 +227,36 @@ internal sealed class FactorSearch
         }
 
         return candidates;
+    }
+
+    /// <summary>The other members whose centroids are nearest, nearest first.</summary>
+    private int[] NeighboursOf(int element)
+    {
+        var centre = _set.Elements[element].Shape.Centroid;
+        var nearest = new PriorityQueue<int, double>();
+        foreach (var member in _members)
+        {
+            if (member != element)
+            {
+                var order = -(_set.Elements[member].Shape.Centroid - centre).LengthSquared();
+                if (nearest.Count < NeighbourCount)
+                {
+                    nearest.Enqueue(member, order);
+                }
+                else
+                {
+                    nearest.EnqueueDequeue(member, order);
+                }
+            }
+        }
+
+        var neighbours = new int[nearest.Count];
+        for (var rank = neighbours.Length - 1; rank >= 0; rank--)
+        {
+            neighbours[rank] = nearest.Dequeue();
+        }
+
+        return neighbours;
     }
 
     private bool Hits(AffineMap map, int[] neighbours, int needed)

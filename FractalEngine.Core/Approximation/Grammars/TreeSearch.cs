@@ -16,7 +16,6 @@ internal sealed class TreeSearch
     private const int MaxMaps = 40;
     private const int MaxFullMaps = 24;
     private const int MaxParents = 48;
-    private const int MaxOutsideParts = 3;
     private const int SampleSize = 96;
 
     private readonly ElementSet _set;
@@ -113,36 +112,12 @@ internal sealed class TreeSearch
         var maps = _set.MapsBetween(_root, element).OrderBy(Oddity).ToList();
         if (_set.Elements[_root].Shape.IsFlat)
         {
-            maps.AddRange(maps.SelectMany(OutOfPlane).ToArray());
+            var parts = OutOfPlane.PartsOf(_set, _root, _bySize.Skip(1));
+            maps.AddRange(maps.SelectMany(map => parts.SelectMany(part => OutOfPlane.MapsOf(
+                _set, _root, map, part, _bySize.SkipWhile(member => SizeOf(member) > SizeOf(part))))).ToArray());
         }
 
         return maps.MaxBy(map => sample.Count(member => Image(map, member) >= 0));
-    }
-
-    /// <summary>
-    /// Maps that do the same in the root's plane: a flat root does not tell what becomes of its normal. Another part that is not in the
-    /// plane does, once it is known which element it goes to; so each is tried.
-    /// </summary>
-    private IEnumerable<AffineMap> OutOfPlane(AffineMap map)
-    {
-        var root = _set.Elements[_root].Shape;
-        var normal = root.Normal.UnitVector();
-        double HeightOf(int member) => Vector.Dot(normal, _set.Elements[member].Shape.Centroid - root.Centroid);
-        foreach (var part in _bySize.Skip(1).Where(member => Math.Abs(HeightOf(member)) > 0.02 * root.Size).Take(MaxOutsideParts))
-        {
-            var height = HeightOf(part);
-            var centroid = _set.Elements[part].Shape.Centroid;
-            foreach (var image in _bySize.SkipWhile(member => SizeOf(member) > SizeOf(part)))
-            {
-                var column = (map.Linear * normal) + ((_set.Elements[image].Shape.Centroid - (map * centroid)) / height);
-                var linear = map.Linear + Matrix.Outer(column - (map.Linear * normal), normal);
-                var candidate = new AffineMap(linear, (map * root.Centroid) - (linear * root.Centroid));
-                if (_set.Match(candidate, part) == image)
-                {
-                    yield return candidate;
-                }
-            }
-        }
     }
 
     /// <summary>
