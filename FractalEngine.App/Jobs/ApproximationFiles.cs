@@ -2,7 +2,6 @@ using System.Text;
 using FractalEngine.App.Shell;
 using FractalEngine.Core;
 using FractalEngine.Core.Approximation.Grammars;
-using FractalEngine.Core.Files;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Parsing;
@@ -67,7 +66,7 @@ internal sealed class ApproximationFiles
         }
     }
 
-    /// <summary>Writes the files.</summary>
+    /// <summary>Writes the fractal's file, and the meshes that it names.</summary>
     /// <param name="comments">Lines at the beginning of the fractal's file.</param>
     public void Write(IEnumerable<string> comments)
     {
@@ -76,7 +75,8 @@ internal sealed class ApproximationFiles
             OutputFile.Write(_leafPath, stream => stream.Write(_leafText));
         }
 
-        OutputFile.WritePair(_basePath, stream => stream.Write(_baseText), _output, stream => stream.Write(Encoding.UTF8.GetBytes(TextOf(comments))));
+        var text = Encoding.UTF8.GetBytes(TextOf(comments));
+        OutputFile.WritePair(_basePath, stream => stream.Write(_baseText), _output, stream => stream.Write(text));
     }
 
     private string TextOf(IEnumerable<string> comments) =>

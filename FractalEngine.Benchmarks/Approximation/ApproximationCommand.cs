@@ -22,7 +22,8 @@ internal static class ApproximationCommand
         }
 
         var table = options.CreateTable(
-            "approximation.csv", "kind", "faces", "damage", "cases", "found", "wrong", "median_s", "max_s", "median_maps", "median_base_faces");
+            "approximation.csv", "kind", "faces", "damage", "cases", "found", "wrong", "median_s", "max_s",
+            "median_maps", "median_base_faces");
         foreach (var faces in options.IsQuick ? new[] { 3_000 } : [3_000, 30_000, 100_000])
         {
             foreach (var kind in Enum.GetValues<FractalKind>())

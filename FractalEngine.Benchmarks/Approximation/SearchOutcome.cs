@@ -58,10 +58,11 @@ internal sealed record SearchOutcome(bool IsFound, bool IsWrong, double Seconds,
 
         // A base that is most of the model explains little.
         var isSmall = faces <= 4 * input.BaseFaces && maps <= 4 * (input.Generators.Length + 8);
+        var verdict = !grade.IsFound ? "WRONG" : isSmall ? "found" : "LARGE";
+        var steps = string.Join(' ', grammar.Steps.Select(
+            step => $"({string.Join('*', step.Sets.Select(set => set.Count))})^{step.Depth}"));
         return new(grade.IsFound && isSmall, !grade.IsFound, seconds, maps, faces,
-            $"{(grade.IsFound ? isSmall ? "found" : "LARGE" : "WRONG")} {string.Join(' ', grammar.Steps.Select(
-                step => $"({string.Join('*', step.Sets.Select(set => set.Count))})^{step.Depth}"))} tree {grammar.Tree?.Maps.Count}^{grammar.Tree?.Depth}"
-            + $" base {faces} in {input.Description}");
+            $"{verdict} {steps} tree {grammar.Tree?.Maps.Count}^{grammar.Tree?.Depth} base {faces} in {input.Description}");
     }
 
     private static Mesh Expand(MeshGrammar grammar, Mesh mesh)

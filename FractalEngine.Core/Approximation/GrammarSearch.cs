@@ -18,6 +18,7 @@ public static class GrammarSearch
     /// <param name="cancellation">Ends the search early.</param>
     public static MeshGrammar? FindExact(Mesh mesh, CancellationToken cancellation)
     {
+        ArgumentNullException.ThrowIfNull(mesh);
         foreach (var welded in new[] { false, true })
         {
             var elements = ElementFinder.Find(mesh, welded);
@@ -40,7 +41,7 @@ public static class GrammarSearch
             return Make(set, [], members, full, length);
         }
 
-        var factors = new List<Factor>();
+        var factors = new List<MapFactor>();
         var reference = FactorSearch.ChooseReference(set, members);
         var rest = members;
         TreeGrammar? tree = null;
@@ -59,7 +60,7 @@ public static class GrammarSearch
         return factors.Count > 0 || tree is not null ? Make(set, factors, rest, tree, length) : null;
     }
 
-    private static MeshGrammar Make(ElementSet set, List<Factor> factors, int[] rest, TreeGrammar? tree, double length)
+    private static MeshGrammar Make(ElementSet set, List<MapFactor> factors, int[] rest, TreeGrammar? tree, double length)
     {
         var origin = factors.Count > 0 ? set.Elements[FactorSearch.ChooseReference(set, rest)].Shape.Centroid : Vector.Zero;
         var centroid = Vector.Zero;

@@ -27,7 +27,8 @@ public sealed class ConjugationTests
     public void Find_OfTranslationsInAPlane_TakesTheUniformScale()
     {
         List<AffineMap> from = [AffineMap.Identity, AffineMap.Translate(new(1, 0, 0)), AffineMap.Translate(new(0, 1, 0))];
-        var found = Assert.NotNull(Find(from, [AffineMap.Identity, AffineMap.Translate(new(0.5, 0, 0)), AffineMap.Translate(new(0, 0.5, 0))]));
+        List<AffineMap> to = [AffineMap.Identity, AffineMap.Translate(new(0.5, 0, 0)), AffineMap.Translate(new(0, 0.5, 0))];
+        var found = Assert.NotNull(Find(from, to));
         Assert.True((found.Linear - (0.5 * Matrix.Identity)).MaxAbsEntry() < 1e-9, found.ToString());
     }
 

@@ -3,14 +3,13 @@ using FractalEngine.Core.Approximation;
 using FractalEngine.Core.Approximation.Grammars;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
-using FractalEngine.Core.Maths;
 using FractalEngine.Parsing;
 using FractalEngine.Parsing.Fdo.Writing;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Approximation;
 
-/// <summary>Expands fractals, shuffles their meshes, and looks whether the search finds what makes them, as a file that is read back.</summary>
+/// <summary>Expands fractals, shuffles their meshes, and looks whether what is found makes them, as a file that is read back.</summary>
 public sealed class GrammarSearchTests : IDisposable
 {
     private readonly TemporaryFolder _folder = new();
@@ -71,7 +70,7 @@ public sealed class GrammarSearchTests : IDisposable
             """);
         var grammar = RoundTrip(Shuffle(mesh, 5));
         Assert.Equal((2, 4), (grammar.Tree?.Maps.Count, grammar.Tree?.Depth));
-        Assert.Equal(14, grammar.Steps.Aggregate(1, (count, step) => count * step.Sets.Aggregate(1, (product, set) => product * set.Count)));
+        Assert.Equal(14, grammar.Steps.SelectMany(step => step.Sets).Aggregate(1, (product, set) => product * set.Count));
     }
 
     [Fact]
@@ -166,7 +165,8 @@ public sealed class GrammarSearchTests : IDisposable
         {
             var first = random.Next(3);
             var step = random.Next(10) == 0 ? 2 : 1;
-            corners.AddRange(Enumerable.Range(0, 3).Select(corner => numbers[mesh.VertexIndices[(3 * face) + ((first + (step * corner)) % 3)]]));
+            corners.AddRange(Enumerable.Range(0, 3).Select(
+                corner => numbers[mesh.VertexIndices[(3 * face) + ((first + (step * corner)) % 3)]]));
         }
 
         return new(positions.ToImmutable(), corners.ToImmutable());

@@ -94,7 +94,8 @@ internal sealed class ElementAlignment
 
     private IEnumerable<int> Candidates(ElementShape other, double radius)
     {
-        for (var rank = FirstRank(other, radius); rank < other.Order.Length && other.Radii[other.Order[rank]] <= radius + (_tolerance * (1 + radius)); rank++)
+        var largest = radius + (_tolerance * (1 + radius));
+        for (var rank = FirstRank(other, radius); rank < other.Order.Length && other.Radii[other.Order[rank]] <= largest; rank++)
         {
             yield return other.Order[rank];
         }

@@ -60,9 +60,10 @@ internal static class ElementFinder
 
     private static bool HasArea(Mesh mesh, int face)
     {
-        var corner = mesh.Vertex(mesh.VertexIndices[3 * face]);
-        return Vector.Cross(
-            mesh.Vertex(mesh.VertexIndices[(3 * face) + 1]) - corner, mesh.Vertex(mesh.VertexIndices[(3 * face) + 2]) - corner) != Vector.Zero;
+        var a = mesh.Vertex(mesh.VertexIndices[3 * face]);
+        var b = mesh.Vertex(mesh.VertexIndices[(3 * face) + 1]);
+        var c = mesh.Vertex(mesh.VertexIndices[(3 * face) + 2]);
+        return Vector.Cross(b - a, c - a) != Vector.Zero;
     }
 
     private static void Join(int[] parents, int vertex1, int vertex2) => parents[RootOf(parents, vertex2)] = RootOf(parents, vertex1);

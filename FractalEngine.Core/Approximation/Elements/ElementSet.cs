@@ -13,7 +13,7 @@ internal sealed class ElementSet
     private readonly List<Element> _firsts = [];
     private readonly PointGrid _centroids;
 
-    /// <summary>Sorts elements into classes.</summary>
+    /// <summary>Sorts elements into classes of congruent ones.</summary>
     /// <param name="elements">The elements; those that coincide with an earlier one are dropped.</param>
     /// <param name="tolerance">Largest distance of a mapped vertex from the one that it should be, scene units.</param>
     /// <param name="shapeTolerance">The same in affine units of an element, see <see cref="ElementAlignment"/>.</param>
@@ -33,10 +33,10 @@ internal sealed class ElementSet
         _centroids = new([.. Elements.Select(element => element.Shape.Centroid)], tolerance);
     }
 
-    /// <summary>The elements, each once.</summary>
+    /// <summary>The elements, each of them once.</summary>
     public Element[] Elements { get; }
 
-    /// <summary>Number of elements.</summary>
+    /// <summary>Number of elements in the set.</summary>
     public int Count => Elements.Length;
 
     /// <summary>Largest distance of a mapped vertex from the one that it should be, scene units.</summary>

@@ -30,7 +30,7 @@ internal sealed class ElementShape
         ThirdMoment = moments.Zip(Radii, (square, radius) => square * radius).Average();
     }
 
-    /// <summary>The vertices, scene units.</summary>
+    /// <summary>The vertices of the element, scene units.</summary>
     public Vector[] Points { get; }
 
     /// <summary>The mean of the vertices.</summary>

@@ -47,8 +47,11 @@ internal sealed class PointGrid
     /// <summary>The index of an entry's point.</summary>
     public int PointOf(int entry) => _entries[entry].Point;
 
+    /// <summary>The number of a cell; cells with the same number only cost a comparison more.</summary>
     private static long Hash(double x, double y, double z) => unchecked(
-        ((long)Math.Floor(x) * 73856093L * 0x9E3779B97F4A7L) ^ ((long)Math.Floor(y) * 19349663L * 0x51_7CC1B7L) ^ ((long)Math.Floor(z) * 83492791L));
+        ((long)Math.Floor(x) * 73856093L * 0x9E3779B97F4A7L)
+        ^ ((long)Math.Floor(y) * 19349663L * 0x517CC1B7L)
+        ^ ((long)Math.Floor(z) * 83492791L));
 
     private void Insert(int point)
     {
@@ -59,7 +62,9 @@ internal sealed class PointGrid
         for (var corner = 0; corner < 8; corner++)
         {
             var cell = Hash(
-                p.X + ((corner & 1) == 0 ? -Reach : Reach), p.Y + ((corner & 2) == 0 ? -Reach : Reach), p.Z + ((corner & 4) == 0 ? -Reach : Reach));
+                p.X + ((corner & 1) == 0 ? -Reach : Reach),
+                p.Y + ((corner & 2) == 0 ? -Reach : Reach),
+                p.Z + ((corner & 4) == 0 ? -Reach : Reach));
             if (!cells[..count].Contains(cell))
             {
                 cells[count++] = cell;

@@ -11,9 +11,9 @@ internal sealed class ChainLevels
     private readonly Vector _centroid;
     private readonly double _length;
     private readonly List<GrammarStep> _steps = [];
-    private List<Factor> _rest;
+    private List<MapFactor> _rest;
 
-    private ChainLevels(List<Factor> factors, Vector origin, Vector centroid, double length)
+    private ChainLevels(List<MapFactor> factors, Vector origin, Vector centroid, double length)
     {
         _rest = factors;
         _origin = origin;
@@ -32,7 +32,7 @@ internal sealed class ChainLevels
     /// <param name="origin">The centroid of the element that maps start from.</param>
     /// <param name="centroid">The mean of all elements, where the base is put if it may be anywhere.</param>
     /// <param name="length">Size of the whole, scene units.</param>
-    public static ChainLevels Find(List<Factor> factors, Vector origin, Vector centroid, double length)
+    public static ChainLevels Find(List<MapFactor> factors, Vector origin, Vector centroid, double length)
     {
         var levels = new ChainLevels(Ordered(factors, length), origin, centroid, length);
         while (levels._rest.Count > 0)
@@ -44,19 +44,19 @@ internal sealed class ChainLevels
     }
 
     /// <summary>Translations commute: those that move farthest come first, so that levels follow each other.</summary>
-    private static List<Factor> Ordered(List<Factor> factors, double length) => !factors.TrueForAll(IsOfTranslations)
+    private static List<MapFactor> Ordered(List<MapFactor> factors, double length) => !factors.TrueForAll(IsOfTranslations)
         ? factors
         : [.. factors.OrderByDescending(factor => Math.Round(Farthest(factor).Length() / length, 6))
             .ThenByDescending(factor => Math.Abs(Farthest(factor).X)).ThenByDescending(factor => Math.Abs(Farthest(factor).Y))];
 
-    private static bool IsOfTranslations(Factor factor) =>
+    private static bool IsOfTranslations(MapFactor factor) =>
         factor.Maps.TrueForAll(map => (map.Linear - Matrix.Identity).MaxAbsEntry() < 1e-9);
 
-    private static Vector Farthest(Factor factor) => factor.Maps.MaxBy(map => map.Translation.LengthSquared()).Translation;
+    private static Vector Farthest(MapFactor factor) => factor.Maps.MaxBy(map => map.Translation.LengthSquared()).Translation;
 
     private void TakeStep()
     {
-        var (best, bestPeriod, bestCount) = (AffineMap.Identity, 1, 1);
+        var (best, bestPeriod, bestCount, bestOddity) = (AffineMap.Identity, 1, 1, double.PositiveInfinity);
         for (var period = 1; period <= MaxPeriod && 2 * period <= _rest.Count; period++)
         {
             // One map and its image say little; those of further levels are known to be pairs, too.
@@ -64,12 +64,19 @@ internal sealed class ChainLevels
                 index => (From: _rest[((block - 1) * period) + index], To: _rest[(block * period) + index])))
                 .TakeWhile(pair => pair.From.Maps.Count == 2 && pair.To.Maps.Count == 2)
                 .Select(pair => (pair.From.Maps[1], pair.To.Maps[1])).ToArray();
-            for (var used = pairs.Length; used >= 0 && bestCount * bestPeriod < _rest.Count - period + 1; used = used > 0 ? 0 : -1)
+            foreach (var used in new[] { pairs.Length, 0 }.Distinct())
             {
-                if (Conjugation.Find(_rest[0].Maps, _rest[period], pairs.Take(used), ToBase * _origin, _length) is { } map
-                    && CountBlocks(map, period) is var count && count >= 2 && count * period > bestCount * bestPeriod)
+                if (Conjugation.Find(_rest[0].Maps, _rest[period], pairs.Take(used), ToBase * _origin, _length) is not { } map
+                    || CountBlocks(map, period) is var count && (count < 2 || count * period < bestCount * bestPeriod))
                 {
-                    (best, bestPeriod, bestCount) = (map, period, count);
+                    continue;
+                }
+
+                // Of ways that explain as much, the one that turns and stretches least is the one that a person would write.
+                var oddity = Conjugation.Oddity(map);
+                if (count * period > bestCount * bestPeriod || oddity < bestOddity - 1e-6)
+                {
+                    (best, bestPeriod, bestCount, bestOddity) = (map, period, count, oddity);
                 }
             }
         }

@@ -19,7 +19,7 @@ internal sealed class Conjugation
     private double _bestOddity = double.PositiveInfinity;
     private int _solutions;
 
-    private Conjugation(List<AffineMap> from, Factor to, IEnumerable<(AffineMap From, AffineMap To)> pairs, Vector origin, double length)
+    private Conjugation(List<AffineMap> from, MapFactor to, IEnumerable<(AffineMap From, AffineMap To)> pairs, Vector origin, double length)
     {
         // Around the origin, in units of the length, all entries are about 1.
         var toUnits = new AffineMap((1 / length) * Matrix.Identity, -(1 / length) * origin);
@@ -36,7 +36,7 @@ internal sealed class Conjugation
     /// <param name="origin">A point near all that is mapped.</param>
     /// <param name="length">The size of all that is mapped, scene units.</param>
     public static AffineMap? Find(
-        List<AffineMap> from, Factor to, IEnumerable<(AffineMap From, AffineMap To)> pairs, Vector origin, double length)
+        List<AffineMap> from, MapFactor to, IEnumerable<(AffineMap From, AffineMap To)> pairs, Vector origin, double length)
     {
         if (from.Count != to.Maps.Count)
         {
@@ -54,7 +54,7 @@ internal sealed class Conjugation
     }
 
     /// <summary>Whether a map takes the first set to the second, in any order.</summary>
-    public static bool Holds(AffineMap map, List<AffineMap> from, Factor to, Vector origin, double length) =>
+    public static bool Holds(AffineMap map, List<AffineMap> from, MapFactor to, Vector origin, double length) =>
         from.Count == to.Maps.Count && new Conjugation(from, to, [], origin, length).IsVerified(
             new AffineMap(length * Matrix.Identity, origin).Inverse() * map * new AffineMap(length * Matrix.Identity, origin));
 
@@ -95,7 +95,8 @@ internal sealed class Conjugation
         && Math.Abs(map1.Linear.Determinant() - map2.Linear.Determinant()) < 1e-6
         && Math.Abs(Trace(map1.Linear * map1.Linear) - Trace(map2.Linear * map2.Linear)) < 1e-6;
 
-    private static double Oddity(AffineMap map)
+    /// <summary>How far a map is from a uniform scaling; mirrors come last.</summary>
+    public static double Oddity(AffineMap map)
     {
         var volume = map.Linear.Determinant();
         var scale = Math.Cbrt(volume);

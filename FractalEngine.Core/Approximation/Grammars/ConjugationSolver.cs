@@ -11,7 +11,8 @@ internal static class ConjugationSolver
     private const double MinVolume = 1e-4;
 
     // No rotation, and half turns: each rotation is within a right angle of one of them.
-    private static readonly ImmutableArray<double[]> Wishes = [WishOf(new(1, 1, 1)), WishOf(new(-1, -1, 1)), WishOf(new(-1, 1, -1)), WishOf(new(1, -1, -1))];
+    private static readonly ImmutableArray<double[]> Wishes =
+        [WishOf(new(1, 1, 1)), WishOf(new(-1, -1, 1)), WishOf(new(-1, 1, -1)), WishOf(new(1, -1, -1))];
 
     // Of conditions whose entries are about 1.
     private const double NullTolerance = 1e-8;
@@ -36,9 +37,10 @@ internal static class ConjugationSolver
         }
 
         // One solution, and the directions in which it may be changed, with translations in units that make them count less.
-        var solution = Weigh(Combine(basis, vector => vector[12] / last), TranslationWeight);
-        var directions = Orthonormalize([.. basis.Select(vector => Weigh(
-            [.. vector.Select((entry, row) => entry - (vector[12] * Combine(basis, other => other[12] / last)[row]))], TranslationWeight))]);
+        var shortest = Combine(basis, vector => vector[12] / last);
+        var solution = Weigh(shortest, TranslationWeight);
+        var directions = Orthonormalize([.. basis.Select(
+            vector => Weigh([.. vector.Zip(shortest, (entry, part) => entry - (vector[12] * part))], TranslationWeight))]);
         var fixedPart = Remove(directions, solution);
         foreach (var wish in Wishes)
         {
@@ -47,7 +49,8 @@ internal static class ConjugationSolver
             var nearest = Dot(rest, rest) > 1e-12 ? Dot(rest, fixedPart) / Dot(rest, rest) : scale;
             foreach (var multiple in new[] { nearest, scale })
             {
-                var map = ToMap([.. fixedPart.Zip(wish.Zip(rest, (whole, part) => whole - part), (entry, free) => entry + (multiple * free))]);
+                var free = wish.Zip(rest, (whole, part) => multiple * (whole - part));
+                var map = ToMap([.. fixedPart.Zip(free, (entry, change) => entry + change)]);
                 if (Math.Abs(map.Linear.Determinant()) > MinVolume * scale * scale * scale)
                 {
                     return map;

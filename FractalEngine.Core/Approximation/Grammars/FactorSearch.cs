@@ -7,7 +7,10 @@ namespace FractalEngine.Core.Approximation.Grammars;
 /// Splits a group of elements X into H·Y: a map that takes as many elements as one in k to elements, and Y these elements; H all maps
 /// that take Y to elements, if their images are all of X and don't overlap.
 /// </summary>
-/// <remarks>Maps are those that take one reference element to another. Cost O(elements · symmetries) look-ups for the survivors of a sample.</remarks>
+/// <remarks>
+/// Maps are those that take one reference element to another. Cost O(elements · symmetries) look-ups, and O(elements) for each survivor
+/// of a sample.
+/// </remarks>
 internal sealed class FactorSearch
 {
     private const int NeighbourCount = 12;
@@ -36,10 +39,11 @@ internal sealed class FactorSearch
         }
     }
 
-    /// <summary>Chooses the element that maps are measured from: of the most frequent class the largest, and outermost in one direction.</summary>
+    /// <summary>Chooses the element that maps start from: of the most frequent class the largest, and outermost in one direction.</summary>
     public static int ChooseReference(ElementSet set, int[] members)
     {
-        var group = members.GroupBy(member => set.Elements[member].Class).OrderByDescending(group => group.Count()).ThenBy(group => group.Key).First();
+        var group = members.GroupBy(member => set.Elements[member].Class)
+            .OrderByDescending(group => group.Count()).ThenBy(group => group.Key).First();
         var largest = group.Max(member => set.Elements[member].Shape.Size);
         // A direction along which hardly any two elements are level.
         var direction = new Vector(0.6180339887, 0.5436890127, 0.4655712319);
@@ -48,20 +52,21 @@ internal sealed class FactorSearch
     }
 
     /// <summary>Finds the factor of fewest maps, or null.</summary>
-    public static Factor? Find(ElementSet set, int[] members, int reference, CancellationToken cancellation) =>
+    public static MapFactor? Find(ElementSet set, int[] members, int reference, CancellationToken cancellation) =>
         new FactorSearch(set, members, reference, cancellation) is var search
             ? search.Find(search.Candidates(IsTranslation)) ?? search.Find(search.Candidates(static _ => true))
             : null;
 
     private static bool IsTranslation(AffineMap map) => Oddity(map) < 1e-5;
 
-    private Factor? Find(List<AffineMap> candidates)
+    private MapFactor? Find(List<AffineMap> candidates)
     {
         var sample = Spread(_members, SampleSize);
         var supports = candidates.ConvertAll(map => sample.Count(member => Image(map, member) >= 0));
         var isFarthest = FindFarthest(candidates, supports);
         var order = Enumerable.Range(0, candidates.Count).Where(index => supports[index] > 0 && supports[index] < sample.Length)
-            .OrderByDescending(index => supports[index]).ThenBy(index => isFarthest[index] ? 0 : 1).ThenBy(index => Oddity(candidates[index]));
+            .OrderByDescending(index => supports[index]).ThenBy(index => isFarthest[index] ? 0 : 1)
+            .ThenBy(index => Oddity(candidates[index]));
         var tried = new HashSet<int>();
         var lookUps = 0L;
         foreach (var index in order)
@@ -101,7 +106,7 @@ internal sealed class FactorSearch
     /// Finds the powers of a map that takes all members to members, such as those around a circle, and of each orbit the member that is
     /// nearest to the reference.
     /// </summary>
-    private Factor? FindCircle(IEnumerable<AffineMap> candidates)
+    private MapFactor? FindCircle(IEnumerable<AffineMap> candidates)
     {
         var best = (Map: AffineMap.Identity, Order: 1);
         foreach (var map in candidates.Where(map => Array.TrueForAll(_members, member => Image(map, member) >= 0)))

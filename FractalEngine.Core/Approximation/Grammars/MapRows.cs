@@ -10,11 +10,12 @@ public static class MapRows
 
     /// <summary>Splits off a row of at least three powers, the longest one.</summary>
     /// <param name="maps">The set.</param>
-    /// <param name="tolerance">Largest difference of maps that count as the same: of entries, and of translations in units of the length.</param>
+    /// <param name="tolerance">Largest difference of equal maps: of entries, and of translations in units of the length.</param>
     /// <param name="length">Size of what is mapped, scene units.</param>
     /// <returns>The map, the number of its powers from 0, and the maps that they stand before; or null.</returns>
     public static (AffineMap Map, int Count, List<AffineMap> Others)? Find(IReadOnlyList<AffineMap> maps, double tolerance, double length)
     {
+        ArgumentNullException.ThrowIfNull(maps);
         (AffineMap, int, List<AffineMap>)? best = null;
         var bestCount = 2;
         for (var start = 0; start < maps.Count; start++)
@@ -40,9 +41,9 @@ public static class MapRows
         && (map1.Translation - map2.Translation).MaxAbsComponent() <= tolerance * length;
 
     /// <summary>Makes one set of successive sets that together are a row of powers.</summary>
-    internal static List<Factor> Merge(List<Factor> factors, double length)
+    internal static List<MapFactor> Merge(List<MapFactor> factors, double length)
     {
-        var merged = new List<Factor>();
+        var merged = new List<MapFactor>();
         foreach (var factor in factors)
         {
             if (merged.Count > 0 && IsRow(merged[^1].Maps, length) && IsRow(factor.Maps, length)
@@ -60,7 +61,7 @@ public static class MapRows
     }
 
     /// <summary>The product of a row and a factor, with such symmetries that it is one row; null where there are none.</summary>
-    private static List<AffineMap>? Multiply(List<AffineMap> row, Factor factor, double length)
+    private static List<AffineMap>? Multiply(List<AffineMap> row, MapFactor factor, double length)
     {
         if (factor.Maps.Count > 2)
         {

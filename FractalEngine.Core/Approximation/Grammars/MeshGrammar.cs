@@ -1,5 +1,4 @@
 using FractalEngine.Core.Geometry;
-using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Approximation.Grammars;
 

@@ -19,7 +19,7 @@ internal static class OutOfPlane
         return [.. members.Where(member => Math.Abs(HeightOf(set, flat, member)) > MinHeight * shape.Size).Take(MaxParts)];
     }
 
-    /// <summary>Returns the maps that do the same in the plane of an element as a known one, and take another element to one of a list.</summary>
+    /// <summary>Returns maps that equal a known one in the plane of an element, and take another element to one of a list.</summary>
     /// <param name="set">All elements.</param>
     /// <param name="flat">The flat element.</param>
     /// <param name="map">A map that takes it where it goes.</param>

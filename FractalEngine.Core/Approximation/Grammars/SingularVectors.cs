@@ -1,6 +1,6 @@
 namespace FractalEngine.Core.Approximation.Grammars;
 
-/// <summary>Singular values and right singular vectors of small matrices, by one-sided Jacobi rotations (Golub and Van Loan, §8.6).</summary>
+/// <summary>Singular values and vectors of small matrices, by one-sided Jacobi rotations (Golub and Van Loan, §8.6).</summary>
 internal static class SingularVectors
 {
     private const int MaxSweeps = 40;

@@ -128,7 +128,8 @@ internal sealed class TreeLevels(ElementSet set, bool[] isMember, int[] members,
         {
             var placement = back * set.Elements[element].Placement;
             var kind = set.Elements[element].Class;
-            var images = ends.Select(end => set.Find(end * placement, kind)).TakeWhile(image => image >= 0 && remaining.Contains(image)).ToList();
+            var images = ends.Select(end => set.Find(end * placement, kind))
+                .TakeWhile(image => image >= 0 && remaining.Contains(image)).ToList();
             if (images.Count == ends.Count)
             {
                 remaining.ExceptWith(images);

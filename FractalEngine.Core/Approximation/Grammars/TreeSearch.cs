@@ -44,7 +44,7 @@ internal sealed class TreeSearch
     /// <summary>Finds a tree that explains all given elements exactly, or null.</summary>
     /// <param name="set">All elements.</param>
     /// <param name="members">The elements of the tree.</param>
-    /// <param name="isFull">Whether only trees are wanted in which each map follows each; that is soon seen from the number of parts.</param>
+    /// <param name="isFull">Whether only trees are wanted in which each map follows each, which numbers of parts soon tell.</param>
     /// <param name="cancellation">Ends the search early.</param>
     public static TreeGrammar? Find(ElementSet set, int[] members, bool isFull, CancellationToken cancellation)
     {
@@ -52,7 +52,14 @@ internal sealed class TreeSearch
             .OrderByDescending(group => group.Count()).ThenBy(group => group.Key).Take(3);
         foreach (var group in classes)
         {
-            if (new TreeSearch(set, members, cancellation).Find(group, isFull) is { } grammar && (!isFull || grammar.IsFull))
+            var parts = group.ToArray();
+            var grammar = new TreeSearch(set, members, cancellation).Find(parts, isFull, isLocal: false);
+            if (grammar is null && !isFull)
+            {
+                grammar = new TreeSearch(set, members, cancellation).Find(parts, isFull, isLocal: true);
+            }
+
+            if (grammar is not null && (!isFull || grammar.IsFull))
             {
                 return grammar;
             }
@@ -61,7 +68,7 @@ internal sealed class TreeSearch
         return null;
     }
 
-    private TreeGrammar? Find(IEnumerable<int> group, bool isFull)
+    private TreeGrammar? Find(int[] group, bool isFull, bool isLocal)
     {
         _bySize = [.. group.OrderByDescending(SizeOf).ThenBy(member => member)];
         _root = _bySize[0];
@@ -80,15 +87,18 @@ internal sealed class TreeSearch
                 continue;
             }
 
-            if (_maps.Count == (isFull ? MaxFullMaps : MaxMaps) || (isFull ? BestMap(element) : BestLocalMap(element)) is not { } map)
+            var map = isLocal ? BestLocalMap(element) : BestMap(element);
+            if (_maps.Count == (isFull || isLocal ? MaxFullMaps : MaxMaps) || map is null)
             {
                 return null;
             }
 
-            Add(map);
+            Add(map.Value);
         }
 
-        return _maps.Count > 0 && (!isFull || (_maps.Count > 1 && IsCountOfFull())) ? new TreeLevels(_set, _isMember, _members, _root, _maps).Describe() : null;
+        return _maps.Count > 0 && (!isFull || (_maps.Count > 1 && IsCountOfFull()))
+            ? new TreeLevels(_set, _isMember, _members, _root, _maps).Describe()
+            : null;
     }
 
     /// <summary>Whether there are as many parts as a full tree of some depth has: 1 + k + k² + …</summary>
@@ -129,7 +139,8 @@ internal sealed class TreeSearch
         var symmetries = _set.SymmetriesOf(_set.Elements[_root].Class);
         var parents = _explainedOrder.OrderByDescending(SizeOf).ThenBy(parent => parent)
             .Take(Math.Max(4, MaxParents / symmetries.Count)).Select(parent => _explained[parent].Inverse()).ToArray();
-        var places = _bySize.Take(SampleSize).SelectMany(member => _set.MapsBetween(_root, member).Select(place => (member, place))).ToArray();
+        var places = _bySize.Take(SampleSize)
+            .SelectMany(member => _set.MapsBetween(_root, member).Select(place => (member, place))).ToArray();
         AffineMap? best = null;
         var bestCount = 0;
         foreach (var map in parents.SelectMany(back => _set.MapsBetween(_root, element).OrderBy(Oddity).Select(place => back * place)))

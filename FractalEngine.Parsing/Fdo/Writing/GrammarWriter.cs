@@ -30,6 +30,8 @@ public sealed class GrammarWriter
     /// <param name="leafFile">The file of the mesh at the ends, if the grammar has one.</param>
     public static string Write(MeshGrammar grammar, double length, IEnumerable<string> comments, string baseFile, string? leafFile)
     {
+        ArgumentNullException.ThrowIfNull(grammar);
+        ArgumentNullException.ThrowIfNull(comments);
         var writer = new GrammarWriter(length);
         writer._objects.Append(Invariant($"base. \"{baseFile}\"\n"));
         if (grammar.Leaf is not null)
@@ -70,7 +72,7 @@ public sealed class GrammarWriter
     {
         if (tree.IsFull)
         {
-            var maps = string.Join(", ", tree.Maps.Select(NameOf));
+            var maps = Names(tree.Maps);
             _objects.Append(hasLeaf ? $"tree<leaf>. [{maps}] leaf + base\n" : $"end. base\ntree<end>. [{maps}] end + base\n");
             return Invariant($"tree {tree.Depth}");
         }
@@ -87,13 +89,15 @@ public sealed class GrammarWriter
             heads.Add(Invariant($"tree{state + 1}<end{state + 1}>"));
             var following = tree.Follows[Array.IndexOf(rows, states[state])];
             var terms = following.GroupBy(map => states.IndexOf(rows[map])).Select(group =>
-                $"[{string.Join(", ", group.Select(map => NameOf(tree.Maps[map])))}] {(group.Key < 0 ? "base" : Invariant($"end{group.Key + 1}"))}");
+                $"[{Names(group.Select(map => tree.Maps[map]))}] {(group.Key < 0 ? "base" : Invariant($"end{group.Key + 1}"))}");
             bodies.Add(string.Join(" + ", terms.Append("base")));
         }
 
-        _objects.Append($"{string.Join(", ", heads)}. {string.Join(", ", bodies)}\n");
+        _objects.Append(string.Join(", ", heads)).Append(". ").Append(string.Join(", ", bodies)).Append('\n');
         return Invariant($"tree{states.IndexOf(rows[^1]) + 1} {tree.Depth}");
     }
+
+    private string Names(IEnumerable<AffineMap> maps) => string.Join(", ", maps.Select(NameOf));
 
     private string SetText(IReadOnlyList<AffineMap> maps)
     {
