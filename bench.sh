@@ -37,7 +37,7 @@ if [ "${1:-}" = --runs ]; then
 fi
 mkdir -p "$root/$folder"
 
-commands=(front growth loading precision rays trace light frames skips physics window paper stability classes)
+commands=(front growth loading precision rays trace light frames skips physics window paper approximate stability classes)
 [ $# = 0 ] || commands=("$@")
 
 classes='*'

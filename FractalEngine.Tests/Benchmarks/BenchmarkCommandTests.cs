@@ -11,7 +11,7 @@ public sealed class BenchmarkCommandTests : IDisposable
     private static readonly string[] Names =
     [
         "front", "growth", "loading", "frames", "skips", "window", "compare", "rays", "trace", "light", "physics", "precision", "paper",
-        "merge",
+        "approximate", "merge",
     ];
 
     public static TheoryData<string> Commands => [.. Names];
