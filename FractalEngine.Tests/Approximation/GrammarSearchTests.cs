@@ -17,14 +17,15 @@ public sealed class GrammarSearchTests : IDisposable
     public void Dispose() => _folder.Dispose();
 
     [Theory]
-    [InlineData("assets/fractals/menger-3.fdo", "(20)^3", null)]
+    [InlineData("assets/fractals/menger-3.fdo", "(20)^2", null, 2)]
     [InlineData("assets/classics/vicsek.fdo", "(7)^3", null)]
     [InlineData("assets/classics/cantor.fdo", "(2*2*2)^3", null)]
     [InlineData("assets/classics/pythagoras.fdo", "", "2^9")]
     [InlineData("assets/fractals/shell.fdo", "(128)^1", null)]
-    public void FindExact_OfAnAsset_FindsItsLevels(string file, string steps, string? tree)
+    public void FindExact_OfAnAsset_FindsItsLevels(string file, string steps, string? tree, int? depth = null)
     {
-        var mesh = FractalFile.Read(Repository.Full(file)).Flatten(200_000);
+        var fractal = FractalFile.Read(Repository.Full(file));
+        var mesh = (depth is { } levels ? fractal.WithDepth(levels) : fractal).Flatten(200_000);
         var grammar = RoundTrip(Shuffle(mesh, 7));
         Assert.Equal(steps, string.Join(' ', grammar.Steps.Select(
             step => $"({string.Join('*', step.Sets.Select(set => set.Count))})^{step.Depth}")));
