@@ -1,13 +1,15 @@
 using System.CommandLine;
-using FractalEngine.App.Jobs;
 using FractalEngine.App.Options;
 using FractalEngine.App.Shell;
 using FractalEngine.App.Shell.Reports;
+using FractalEngine.Core;
 using FractalEngine.Core.Approximation;
 using FractalEngine.Core.Approximation.Grammars;
 using FractalEngine.Core.Distances;
+using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Parsing;
 using FractalEngine.Parsing.Assets;
 using static System.FormattableString;
 
@@ -56,17 +58,18 @@ internal static class ApproximateCommand
         }
 
         var grammar = report.Measure("search", () => Search(mesh, seconds));
-        if (grammar is null || Verify(mesh, grammar, output, report) is not var (files, vertexDistance, surfaceDistance))
+        if (grammar is null || Verify(mesh, grammar, report) is not var (vertexDistance, surfaceDistance))
         {
             Console.WriteLine(Invariant($"NO FRACTAL: nothing that makes all {mesh.FaceCount} faces was found"));
             return ExitCode.NoFractal;
         }
 
         var text = Describe(mesh, grammar, vertexDistance, surfaceDistance);
-        files.Write([Path.GetFileName(path) + " as a fractal: " + text[0], text[1]]);
+        GrammarFile.Write(
+            output, grammar, mesh.UsedBounds.Diagonal, [$"{DisplayText.Escape(Path.GetFileName(path))} as a fractal: {text[0]}", text[1]]);
         Console.WriteLine(text[0]);
         Console.WriteLine(text[1]);
-        report.Written(output, Invariant($"{files.ByteCount} bytes with its meshes"));
+        report.Written(output, Invariant($"{mesh.FaceCount} faces"));
         return ExitCode.Done;
     }
 
@@ -92,12 +95,10 @@ internal static class ApproximateCommand
     }
 
     /// <summary>Expands the files as they are read back, and compares the result with the mesh; null where both differ.</summary>
-    private static (ApproximationFiles Files, double Vertices, double Surfaces)? Verify(
-        Mesh mesh, MeshGrammar grammar, string output, WrittenReport report)
+    private static (double Vertices, double Surfaces)? Verify(Mesh mesh, MeshGrammar grammar, WrittenReport report)
     {
-        var length = mesh.Bounds.Diagonal;
-        var files = new ApproximationFiles(output, grammar, length);
-        var made = report.Measure("expand", () => files.ReadBack(2L * mesh.FaceCount));
+        var length = mesh.UsedBounds.Diagonal;
+        var made = report.Measure("expand", () => ReadBack(grammar, length, 2L * mesh.FaceCount));
         if (made is null || VertexDistance.FindLargest(mesh, made, ExactTolerance * length) is not { } vertices)
         {
             return null;
@@ -106,7 +107,27 @@ internal static class ApproximateCommand
         // Below half of the tolerance there is nothing to distinguish.
         var settings = new SurfaceDistanceSettings { Resolution = 0.5 * ExactTolerance };
         var surfaces = report.Measure("compare", () => SurfaceDistance.Between(mesh, made, settings)).MaxDistance.Upper;
-        return surfaces <= ExactTolerance * length ? (files, vertices / length, surfaces / length) : null;
+        return surfaces <= ExactTolerance * length ? (vertices / length, surfaces / length) : null;
+    }
+
+    /// <summary>Reads files back that stand in a folder for a while; null where the language refuses them, as nearly flat maps.</summary>
+    private static Mesh? ReadBack(MeshGrammar grammar, double length, long maxFaces)
+    {
+        var folder = Directory.CreateTempSubdirectory("fractalengine");
+        try
+        {
+            var path = Path.Combine(folder.FullName, "found.fdo");
+            GrammarFile.Write(path, grammar, length, []);
+            return FractalFile.Read(path).Flatten(maxFaces);
+        }
+        catch (FractalEngineException)
+        {
+            return null;
+        }
+        finally
+        {
+            folder.Delete(recursive: true);
+        }
     }
 
     private static string[] Describe(Mesh mesh, MeshGrammar grammar, double vertexDistance, double surfaceDistance)

@@ -5,7 +5,6 @@ using FractalEngine.Core.Approximation.Grammars;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Parsing;
-using FractalEngine.Parsing.Fdo.Writing;
 using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.Benchmarks.Approximation;
@@ -70,15 +69,9 @@ internal sealed record SearchOutcome(bool IsFound, bool IsWrong, double Seconds,
         var folder = Directory.CreateTempSubdirectory("fractalengine");
         try
         {
-            string At(string name) => Path.Combine(folder.FullName, name);
-            MeshFile.Write(At("base.obj"), grammar.Base);
-            if (grammar.Leaf is { } leaf)
-            {
-                MeshFile.Write(At("leaf.obj"), leaf);
-            }
-
-            File.WriteAllText(At("found.fdo"), GrammarWriter.Write(grammar, mesh.Bounds.Diagonal, [], "base.obj", "leaf.obj"));
-            return FractalFile.Read(At("found.fdo")).Flatten(4L * mesh.FaceCount);
+            var path = Path.Combine(folder.FullName, "found.fdo");
+            GrammarFile.Write(path, grammar, mesh.UsedBounds.Diagonal, []);
+            return FractalFile.Read(path).Flatten(4L * mesh.FaceCount);
         }
         finally
         {

@@ -33,7 +33,7 @@ public static class GrammarSearch
 
     private static MeshGrammar? Find(Mesh mesh, List<Element> elements, CancellationToken cancellation)
     {
-        var length = mesh.Bounds.Diagonal;
+        var length = mesh.UsedBounds.Diagonal;
         var set = new ElementSet(elements, ExactTolerance * length, ExactShapeTolerance, cancellation);
         var members = Enumerable.Range(0, set.Count).ToArray();
         if (TreeSearch.Find(set, members, isFull: true, cancellation) is { } full)
@@ -74,8 +74,8 @@ public static class GrammarSearch
         return new(
             levels.Steps, tree is null ? null : TreeOf(tree, levels.ToBase),
             MeshOf(bases.Select(member => (set.Elements[member], levels.ToBase))),
-            tree is null or { Leaves.Count: 0 } ? null : MeshOf(tree.Leaves.Select(leaf => (
-                set.FirstOf(leaf.Class), levels.ToBase * leaf.Placement * set.FirstOf(leaf.Class).Placement.Inverse()))));
+            tree is null or { Leaves.Count: 0 } ? null : MeshOf(tree.Leaves.Select(
+                leaf => (set.FirstOf(leaf.Class), levels.ToBase * leaf.Placement))));
     }
 
     private static MapTree TreeOf(TreeGrammar tree, AffineMap toBase)

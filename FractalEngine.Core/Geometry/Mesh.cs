@@ -71,7 +71,7 @@ public sealed record Mesh
     public BoundingBox Bounds { get; }
 
     /// <summary>The box of the vertices that faces use, found when it is first asked for.</summary>
-    internal BoundingBox UsedBounds => (_usedBounds ??= new(ComputeUsedBounds())).Value;
+    public BoundingBox UsedBounds => (_usedBounds ??= new(ComputeUsedBounds())).Value;
 
     /// <summary>Makes the same mesh with colours of its vertices.</summary>
     /// <param name="colours">sRGB, [vertices × 3]. Drawing limits them to the range from 0 to 1.</param>

@@ -87,6 +87,14 @@ public sealed class GrammarSearchTests : IDisposable
     }
 
     [Fact]
+    public void FindExact_BesideAnUnusedVertexFarOff_FindsTheSame()
+    {
+        var mesh = Shuffle(FractalFile.Read(Repository.Full("assets/classics/vicsek.fdo")).Flatten(200_000), 4);
+        var other = new Mesh([.. mesh.Positions, 1e14, 0, 0], mesh.VertexIndices);
+        Assert.Equal(3, Assert.Single(RoundTrip(other).Steps).Depth);
+    }
+
+    [Fact]
     public void FindExact_OfUnrelatedElements_FindsNothing()
     {
         var random = new Random(5);
@@ -128,16 +136,11 @@ public sealed class GrammarSearchTests : IDisposable
     private MeshGrammar RoundTrip(Mesh mesh)
     {
         var grammar = Assert.IsType<MeshGrammar>(GrammarSearch.FindExact(mesh, default));
-        MeshFile.Write(_folder["base.obj"], grammar.Base);
-        if (grammar.Leaf is { } leaf)
-        {
-            MeshFile.Write(_folder["leaf.obj"], leaf);
-        }
-
-        _folder.Write("found.fdo", GrammarWriter.Write(grammar, mesh.Bounds.Diagonal, ["found"], "base.obj", "leaf.obj"));
+        GrammarFile.Write(_folder["found.fdo"], grammar, mesh.UsedBounds.Diagonal, ["found"]);
         var made = FractalFile.Read(_folder["found.fdo"]).Flatten(mesh.FaceCount);
         Assert.Equal(mesh.FaceCount, made.FaceCount);
-        Assert.InRange(Assert.NotNull(VertexDistance.FindLargest(mesh, made, 1e-6 * mesh.Bounds.Diagonal)), 0, 1e-7 * mesh.Bounds.Diagonal);
+        var diagonal = mesh.UsedBounds.Diagonal;
+        Assert.InRange(Assert.NotNull(VertexDistance.FindLargest(mesh, made, 1e-6 * diagonal)), 0, 1e-7 * diagonal);
         return grammar;
     }
 

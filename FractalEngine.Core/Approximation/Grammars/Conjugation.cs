@@ -170,7 +170,7 @@ internal sealed class Conjugation
         foreach (var h in _from)
         {
             var left = map * h;
-            var found = _to.FindIndex(g => !taken[g.Index] && AreNear(left, g.Map * map));
+            var found = _to.FindIndex(g => !taken[g.Index] && MapRows.AreNear(left, g.Map * map, Tolerance, 1));
             if (found < 0)
             {
                 return false;
@@ -181,7 +181,4 @@ internal sealed class Conjugation
 
         return true;
     }
-
-    private static bool AreNear(AffineMap map1, AffineMap map2) =>
-        (map1.Linear - map2.Linear).MaxAbsEntry() < Tolerance && (map1.Translation - map2.Translation).MaxAbsComponent() < Tolerance;
 }

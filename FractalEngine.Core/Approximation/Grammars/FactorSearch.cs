@@ -22,7 +22,7 @@ internal sealed class FactorSearch
 
     private readonly ElementSet _set;
     private readonly int[] _members;
-    private readonly bool[] _isMember;
+    private readonly ElementGroup _group;
     private readonly int _reference;
     private readonly CancellationToken _cancellation;
 
@@ -32,11 +32,7 @@ internal sealed class FactorSearch
         _members = members;
         _reference = reference;
         _cancellation = cancellation;
-        _isMember = new bool[set.Count];
-        foreach (var member in members)
-        {
-            _isMember[member] = true;
-        }
+        _group = new(set, members);
     }
 
     /// <summary>Chooses the element that maps start from: of the most frequent class the largest, and outermost in one direction.</summary>
@@ -62,7 +58,7 @@ internal sealed class FactorSearch
     private MapFactor? Find(List<AffineMap> candidates)
     {
         var sample = Spread(_members, SampleSize);
-        var supports = candidates.ConvertAll(map => sample.Count(member => Image(map, member) >= 0));
+        var supports = candidates.ConvertAll(map => sample.Count(member => _group.Image(map, member) >= 0));
         var isFarthest = FindFarthest(candidates, supports);
         var order = Enumerable.Range(0, candidates.Count).Where(index => supports[index] > 0 && supports[index] < sample.Length)
             .OrderByDescending(index => supports[index]).ThenBy(index => isFarthest[index] ? 0 : 1)
@@ -78,7 +74,7 @@ internal sealed class FactorSearch
                 continue;
             }
 
-            var remainder = _members.Where(member => Image(candidates[index], member) >= 0).ToArray();
+            var remainder = _members.Where(member => _group.Image(candidates[index], member) >= 0).ToArray();
             if (remainder.Length == 0 || _members.Length % remainder.Length != 0 || remainder.Length == _members.Length
                 || !tried.Add(HashOf(remainder)))
             {
@@ -109,10 +105,10 @@ internal sealed class FactorSearch
     private MapFactor? FindCircle(IEnumerable<AffineMap> candidates)
     {
         var best = (Map: AffineMap.Identity, Order: 1);
-        foreach (var map in candidates.Where(map => Array.TrueForAll(_members, member => Image(map, member) >= 0)))
+        foreach (var map in candidates.Where(_group.IsClosedUnder))
         {
             var order = 1;
-            for (var image = Image(map, _reference); image != _reference && order < MaxListed; image = Image(map, image))
+            for (var image = _group.Image(map, _reference); image != _reference && order < MaxListed; image = _group.Image(map, image))
             {
                 order++;
             }
@@ -140,7 +136,7 @@ internal sealed class FactorSearch
         foreach (var member in _members.Where(member => !isSeen[member]))
         {
             var orbit = new List<int>();
-            for (var image = member; !isSeen[image]; image = Image(map, image))
+            for (var image = member; !isSeen[image]; image = _group.Image(map, image))
             {
                 isSeen[image] = true;
                 orbit.Add(image);
@@ -195,8 +191,6 @@ internal sealed class FactorSearch
 
         return hash.ToHashCode();
     }
-
-    private int Image(AffineMap map, int element) => _set.Match(map, element) is var image && image >= 0 && _isMember[image] ? image : -1;
 
     /// <summary>The maps of the reference to other elements that take some of its neighbours to elements too.</summary>
     private List<AffineMap> Candidates(Func<AffineMap, bool> isWanted)
@@ -269,7 +263,7 @@ internal sealed class FactorSearch
         var hits = 0;
         for (var index = 0; index < neighbours.Length && hits < needed && hits + neighbours.Length - index >= needed; index++)
         {
-            hits += Image(map, neighbours[index]) >= 0 ? 1 : 0;
+            hits += _group.Image(map, neighbours[index]) >= 0 ? 1 : 0;
         }
 
         return hits >= needed;
@@ -312,14 +306,12 @@ internal sealed class FactorSearch
             return symmetries;
         }
 
-        var isRemainder = new bool[_set.Count];
-        Mark(isRemainder, remainder);
+        var group = new ElementGroup(_set, remainder);
         foreach (var member in remainder.Where(member => _set.Elements[member].Class == _set.Elements[_reference].Class))
         {
             foreach (var map in _set.MapsBetween(_reference, member))
             {
-                if (symmetries.Count < MaxSymmetries && Oddity(map) > 1e-7
-                    && Array.TrueForAll(remainder, element => _set.Match(map, element) is var image && image >= 0 && isRemainder[image]))
+                if (symmetries.Count < MaxSymmetries && Oddity(map) > 1e-7 && group.IsClosedUnder(map))
                 {
                     symmetries.Add(map);
                 }
@@ -334,7 +326,7 @@ internal sealed class FactorSearch
         var images = new int[remainder.Length];
         for (var index = 0; index < images.Length; index++)
         {
-            images[index] = Image(map, remainder[index]);
+            images[index] = _group.Image(map, remainder[index]);
             if (images[index] < 0 || covered[images[index]])
             {
                 return null;

@@ -18,17 +18,16 @@ public static class MapRows
         ArgumentNullException.ThrowIfNull(maps);
         (AffineMap, int, List<AffineMap>)? best = null;
         var bestCount = 2;
-        for (var start = 0; start < maps.Count; start++)
+        // Each map of the set has a neighbour in its row, so that one of them tells all steps. The identity is at an end.
+        var start = Math.Max(0, IndexOf(maps, AffineMap.Identity, tolerance, length));
+        var back = maps[start].Inverse();
+        for (var next = 0; next < maps.Count; next++)
         {
-            var back = maps[start].Inverse();
-            for (var next = 0; next < maps.Count; next++)
+            var map = maps[next] * back;
+            if (start != next && Split(maps, map, bestCount, tolerance, length) is { } split)
             {
-                var map = maps[next] * back;
-                if (start != next && Split(maps, map, bestCount, tolerance, length) is { } split)
-                {
-                    bestCount = split.Count;
-                    best = (map, split.Count, split.Others);
-                }
+                bestCount = split.Count;
+                best = (map, split.Count, split.Others);
             }
         }
 

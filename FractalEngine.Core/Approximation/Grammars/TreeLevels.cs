@@ -4,10 +4,11 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Approximation.Grammars;
 
 /// <summary>Finds which products of a tree's maps exist, and what stands at each, and says whether that is a grammar.</summary>
-internal sealed class TreeLevels(ElementSet set, bool[] isMember, int[] members, int root, List<AffineMap> maps)
+internal sealed class TreeLevels(ElementGroup group, int root, List<AffineMap> maps)
 {
     private const int MaxLeafAttempts = 64;
 
+    private readonly ElementSet _set = group.Set;
     private readonly List<(AffineMap Product, int Last, int Level)> _products = [];
 
     /// <summary>Returns the grammar, or null where it does not explain all elements and nothing else.</summary>
@@ -20,14 +21,14 @@ internal sealed class TreeLevels(ElementSet set, bool[] isMember, int[] members,
             return null;
         }
 
-        var remaining = new HashSet<int>(members);
+        var remaining = new HashSet<int>(group.Members);
         var bases = new List<int>();
         foreach (var member in Roots())
         {
-            if (_products.TrueForAll(product => set.Match(product.Product, member) is var image && image >= 0 && isMember[image]))
+            if (_products.TrueForAll(product => group.Image(product.Product, member) >= 0))
             {
                 bases.Add(member);
-                remaining.ExceptWith(_products.Select(product => set.Match(product.Product, member)));
+                remaining.ExceptWith(_products.Select(product => _set.Match(product.Product, member)));
             }
         }
 
@@ -56,8 +57,8 @@ internal sealed class TreeLevels(ElementSet set, bool[] isMember, int[] members,
             var (product, last, level) = _products[next];
             for (var map = 0; map < maps.Count; map++)
             {
-                var image = set.Match(product * maps[map], root);
-                if (image >= 0 && isMember[image])
+                var image = group.Image(product * maps[map], root);
+                if (image >= 0)
                 {
                     follows[last, map] = true;
                     if (seen.Add(image))
@@ -77,9 +78,7 @@ internal sealed class TreeLevels(ElementSet set, bool[] isMember, int[] members,
         {
             for (var map = 0; map < maps.Count; map++)
             {
-                var image = set.Match(product * maps[map], root);
-                var exists = image >= 0 && isMember[image];
-                if (level < depth && exists != follows[last, map])
+                if (level < depth && (group.Image(product * maps[map], root) >= 0) != follows[last, map])
                 {
                     return false;
                 }
@@ -92,19 +91,19 @@ internal sealed class TreeLevels(ElementSet set, bool[] isMember, int[] members,
     /// <summary>The elements that are no image of another one.</summary>
     private IEnumerable<int> Roots()
     {
-        var isImage = new bool[set.Count];
-        foreach (var member in members)
+        var isImage = new bool[_set.Count];
+        foreach (var member in group.Members)
         {
             foreach (var map in maps)
             {
-                if (set.Match(map, member) is var image && image >= 0 && image != member)
+                if (_set.Match(map, member) is var image && image >= 0 && image != member)
                 {
                     isImage[image] = true;
                 }
             }
         }
 
-        return members.Where(member => !isImage[member]);
+        return group.Members.Where(member => !isImage[member]);
     }
 
     /// <summary>Looks for an element at the root whose images under all products of one map more than the depth remain.</summary>
@@ -122,13 +121,13 @@ internal sealed class TreeLevels(ElementSet set, bool[] isMember, int[] members,
         }
 
         var back = ends[0].Inverse();
-        var tip = ends[0] * set.Elements[root].Shape.Centroid;
-        foreach (var element in remaining.OrderBy(element => (set.Elements[element].Shape.Centroid - tip).LengthSquared())
+        var tip = ends[0] * _set.Elements[root].Shape.Centroid;
+        foreach (var element in remaining.OrderBy(element => (_set.Elements[element].Shape.Centroid - tip).LengthSquared())
             .ThenBy(element => element).Take(MaxLeafAttempts))
         {
-            var placement = back * set.Elements[element].Placement;
-            var kind = set.Elements[element].Class;
-            var images = ends.Select(end => set.Find(end * placement, kind))
+            var placement = back * _set.Elements[element].Placement;
+            var kind = _set.Elements[element].Class;
+            var images = ends.Select(end => _set.Find(end * placement, kind))
                 .TakeWhile(image => image >= 0 && remaining.Contains(image)).ToList();
             if (images.Count == ends.Count)
             {

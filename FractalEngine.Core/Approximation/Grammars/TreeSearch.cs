@@ -19,8 +19,7 @@ internal sealed class TreeSearch
     private const int SampleSize = 96;
 
     private readonly ElementSet _set;
-    private readonly int[] _members;
-    private readonly bool[] _isMember;
+    private readonly ElementGroup _group;
     private readonly CancellationToken _cancellation;
     private readonly List<AffineMap> _maps = [];
     private readonly Dictionary<int, AffineMap> _explained = [];
@@ -28,16 +27,10 @@ internal sealed class TreeSearch
     private int _root;
     private int[] _bySize = [];
 
-    private TreeSearch(ElementSet set, int[] members, CancellationToken cancellation)
+    private TreeSearch(ElementGroup group, CancellationToken cancellation)
     {
-        _set = set;
-        _members = members;
-        _isMember = new bool[set.Count];
-        foreach (var member in members)
-        {
-            _isMember[member] = true;
-        }
-
+        _set = group.Set;
+        _group = group;
         _cancellation = cancellation;
     }
 
@@ -50,13 +43,13 @@ internal sealed class TreeSearch
     {
         var classes = members.GroupBy(member => set.Elements[member].Class).Where(group => group.Count() > 2)
             .OrderByDescending(group => group.Count()).ThenBy(group => group.Key).Take(3);
-        foreach (var group in classes)
+        var whole = new ElementGroup(set, members);
+        foreach (var parts in classes.Select(group => group.ToArray()))
         {
-            var parts = group.ToArray();
-            var grammar = new TreeSearch(set, members, cancellation).Find(parts, isFull, isLocal: false);
+            var grammar = new TreeSearch(whole, cancellation).Find(parts, isFull, isLocal: false);
             if (grammar is null && !isFull)
             {
-                grammar = new TreeSearch(set, members, cancellation).Find(parts, isFull, isLocal: true);
+                grammar = new TreeSearch(whole, cancellation).Find(parts, isFull, isLocal: true);
             }
 
             if (grammar is not null && (!isFull || grammar.IsFull))
@@ -68,9 +61,9 @@ internal sealed class TreeSearch
         return null;
     }
 
-    private TreeGrammar? Find(int[] group, bool isFull, bool isLocal)
+    private TreeGrammar? Find(int[] parts, bool isFull, bool isLocal)
     {
-        _bySize = [.. group.OrderByDescending(SizeOf).ThenBy(member => member)];
+        _bySize = [.. parts.OrderByDescending(SizeOf).ThenBy(member => member)];
         _root = _bySize[0];
         if (SizeOf(_bySize[^1]) > 0.9999 * SizeOf(_root))
         {
@@ -97,7 +90,7 @@ internal sealed class TreeSearch
         }
 
         return _maps.Count > 0 && (!isFull || (_maps.Count > 1 && IsCountOfFull()))
-            ? new TreeLevels(_set, _isMember, _members, _root, _maps).Describe()
+            ? new TreeLevels(_group, _root, _maps).Describe()
             : null;
     }
 
@@ -127,7 +120,7 @@ internal sealed class TreeSearch
                 _set, _root, map, part, _bySize.SkipWhile(member => SizeOf(member) > SizeOf(part))))).ToArray());
         }
 
-        return maps.MaxBy(map => sample.Count(member => Image(map, member) >= 0));
+        return maps.MaxBy(map => sample.Count(member => _group.Image(map, member) >= 0));
     }
 
     /// <summary>
@@ -149,7 +142,7 @@ internal sealed class TreeSearch
             var last = -1;
             foreach (var (member, place) in places)
             {
-                if (member != last && Image(place * map, _root) >= 0)
+                if (member != last && _group.Image(place * map, _root) >= 0)
                 {
                     count++;
                     last = member;
@@ -167,14 +160,7 @@ internal sealed class TreeSearch
     }
 
     /// <summary>Of maps that explain as much, those come first that turn less, and mirrors last.</summary>
-    private static double Oddity(AffineMap map)
-    {
-        var volume = map.Linear.Determinant();
-        var scale = Math.Cbrt(volume);
-        return volume <= 0 ? 10 : Math.Round((map.Linear - (scale * Matrix.Identity)).MaxAbsEntry() / scale, 9);
-    }
-
-    private int Image(AffineMap map, int element) => _set.Match(map, element) is var image && image >= 0 && _isMember[image] ? image : -1;
+    private static double Oddity(AffineMap map) => Math.Round(Conjugation.Oddity(map), 9);
 
     private void Add(AffineMap map)
     {
@@ -190,7 +176,7 @@ internal sealed class TreeSearch
         var pending = new Stack<AffineMap>([product]);
         while (pending.TryPop(out var next))
         {
-            var image = Image(next, _root);
+            var image = _group.Image(next, _root);
             if (image >= 0 && !_explained.ContainsKey(image))
             {
                 Explain(image, next);

@@ -5,7 +5,7 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Parsing.Fdo.Writing;
 
 /// <summary>Writes the grammar of a mesh as a fractal file with named maps, powers and sums.</summary>
-public sealed class GrammarWriter
+internal sealed class GrammarWriter
 {
     // What rounding of the numbers may change: entries of matrices, and translations in units of the whole's size.
     private const double RoundingTolerance = 2e-10;
@@ -30,8 +30,6 @@ public sealed class GrammarWriter
     /// <param name="leafFile">The file of the mesh at the ends, if the grammar has one.</param>
     public static string Write(MeshGrammar grammar, double length, IEnumerable<string> comments, string baseFile, string? leafFile)
     {
-        ArgumentNullException.ThrowIfNull(grammar);
-        ArgumentNullException.ThrowIfNull(comments);
         var writer = new GrammarWriter(length);
         writer._objects.Append(Invariant($"base. \"{baseFile}\"\n"));
         if (grammar.Leaf is not null)

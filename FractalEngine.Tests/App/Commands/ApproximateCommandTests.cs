@@ -31,6 +31,25 @@ public sealed class ApproximateCommandTests : IDisposable
     }
 
     [Fact]
+    public void Approximate_OfAFileWithTheNameOfTheBase_LeavesItAlone()
+    {
+        Assert.Equal(0, Run("export", Repository.Full("assets/classics/vicsek.fdo"), "--output", "found-base.obj", "--quiet").ExitCode);
+        var before = File.ReadAllText(_folder["found-base.obj"]);
+        Assert.Equal(0, Run("approximate", "found-base.obj", "--output", "found.fdo", "--quiet").ExitCode);
+        Assert.Equal(before, File.ReadAllText(_folder["found-base.obj"]));
+        Assert.Contains("base. \"found-base-2.obj\"", File.ReadAllText(_folder["found.fdo"]), StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void Approximate_BesideAnUnusedVertexFarOff_IsNoLessExact()
+    {
+        _folder.Write("two.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 0 0\nv 6 0 0\nv 5 2 0\nv 1e14 0 0\nf 1 2 3\nf 4 5 6\n");
+        Assert.Equal(0, Run("approximate", "two.obj", "--output", "two.fdo", "--quiet").ExitCode);
+        Run("export", "two.fdo", "--output", "back.obj", "--quiet");
+        Assert.Contains("v 5 2 0", File.ReadAllText(_folder["back.obj"]), StringComparison.Ordinal);
+    }
+
+    [Fact]
     public void Approximate_OfARow_SaysThatItRepeats()
     {
         _folder.Write("row.fdo", "m. ((1, 0.25, 0), (0, 5, 0), #)\n<$>. [m.^0..29] box\n");
