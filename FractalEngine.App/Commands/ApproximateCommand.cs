@@ -1,144 +1,134 @@
 using System.CommandLine;
+using System.Text;
+using FractalEngine.App.Approximation;
 using FractalEngine.App.Options;
 using FractalEngine.App.Shell;
 using FractalEngine.App.Shell.Reports;
 using FractalEngine.Core;
 using FractalEngine.Core.Approximation;
-using FractalEngine.Core.Approximation.Grammars;
-using FractalEngine.Core.Distances;
-using FractalEngine.Core.Fractals;
-using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Images;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing;
+using FractalEngine.Parsing.Approximation;
 using FractalEngine.Parsing.Assets;
 using static System.FormattableString;
 
 namespace FractalEngine.App.Commands;
 
 /// <summary>The command <c>approximate MODEL --output X.fdo</c>, which looks for a fractal that makes a mesh (paper §6.2).</summary>
-internal static class ApproximateCommand
+internal sealed class ApproximateCommand
 {
-    // Vertices and surfaces within this part of the diagonal count as the same.
-    private const double ExactTolerance = 1e-6;
+    private readonly SharedOptions _shared = new();
+    private readonly ReportOptions _told = new();
+
+    private readonly Option<string> _output = SharedOptions.OutputOption(
+        ".fdo", "Fractal to write; its base mesh gets a name that ends in -base.obj.");
+
+    private readonly Option<int?> _maps = NumberOption.Integer("--maps", "K", 1, int.MaxValue, "The most maps that it may have.");
+
+    private readonly Option<long?> _bytes = NumberOption.Integer(
+        "--bytes", "B", 1, long.MaxValue,
+        Invariant($"The most bytes of its files (default: any if it is exact, else {ApproximationSettings.DefaultBytes})."));
+
+    private readonly Option<double?> _seconds = NumberOption.Positive(
+        "--seconds", "N", "End the search after that time, with the best so far (default: when it is done).");
+
+    private readonly Option<string> _report = SharedOptions.FileOption("--report", ".json", "Also write what was measured, as JSON.");
+
+    private readonly Option<string> _image = SharedOptions.FileOption(
+        "--image", ".png", "Also draw the mesh, the fractal and their distance side by side.");
+
+    private readonly Option<bool> _keepsPartial = SharedOptions.Flag(
+        "--keep-partial", "Write the best so far where Ctrl+C ends the search.");
 
     public static Command Create()
     {
-        var shared = new SharedOptions();
-        var output = SharedOptions.OutputOption(".fdo", "Fractal to write; its base mesh gets a name that ends in -base.obj.");
-        var seconds = NumberOption.Positive("--seconds", "N", "End the search after that time (default: when it is done).");
-        var report = new ReportOptions();
+        var options = new ApproximateCommand();
         var command = new DocumentedCommand(
-            "approximate", "Look for a fractal that makes the mesh FILE, and write it if it is exact.",
+            "approximate", "Look for a fractal that makes the mesh FILE, exactly or better than a simplified mesh.",
             "approximate assets/fractals/menger-3.fdo --output out/found.fdo",
-            "approximate out/menger.obj --output out/found.fdo --seconds 20")
-        {
-            output, seconds,
-        };
-        shared.AddTo(command);
-        report.AddTo(command);
-        command.SetAction(result => Run(
-            result.GetRequiredValue(shared.File), shared.LoadOptions(result), result.GetRequiredValue(output),
-            result.GetValue(seconds), report.Begin(result)));
+            "approximate out/menger.obj --output out/found.fdo --seconds 20 --report out/found.json --image out/found.png");
+        options._shared.AddTo(command);
+        SharedOptions.AddAll(
+            command, options._output, options._maps, options._bytes, options._seconds, options._report, options._image,
+            options._keepsPartial);
+        options._told.AddTo(command);
+        command.SetAction(options.Run);
         return command;
     }
 
-    private static int Run(string path, LoadOptions options, string output, double? seconds, WrittenReport report)
+    private int Run(ParseResult result)
     {
+        var (path, output, seconds) = (result.GetRequiredValue(_shared.File), result.GetRequiredValue(_output), result.GetValue(_seconds));
+        var (reportPath, imagePath) = (result.GetValue(_report), result.GetValue(_image));
         if (output == StandardInput.Name)
         {
             throw new UsageException("a fractal has several files, so --output can't be '-'");
         }
 
-        var file = report.Measure("load", () => ConsoleLoader.Load(path, options));
-        InputFiles.Protect(output);
+        var told = _told.Begin(result);
+        var file = told.Measure("load", () => ConsoleLoader.Load(path, _shared.LoadOptions(result)));
+        foreach (var written in new[] { output, reportPath, imagePath }.OfType<string>())
+        {
+            InputFiles.Protect(written);
+        }
+
         var mesh = file.Scene.Objects.Flatten(ApproximationLimits.Faces.Value);
-        if (mesh.FaceCount == 0)
+        if (mesh.FaceCount == 0 || mesh.UsedBounds.Diagonal == 0)
         {
             throw new UsageException($"{path} has no faces, so there is nothing to approximate");
         }
 
-        var grammar = report.Measure("search", () => Search(mesh, seconds));
-        if (grammar is null || Verify(mesh, grammar, report) is not var (vertexDistance, surfaceDistance))
+        var settings = new ApproximationSettings { MaxMaps = result.GetValue(_maps), MaxBytes = result.GetValue(_bytes) };
+        var run = new ApproximationRun(mesh, settings, told);
+        var found = told.Measure("search", () => run.Find(seconds));
+        var isInterrupted = run.End == ApproximationEnd.Interruption;
+        if (run.End == ApproximationEnd.Time)
         {
-            Console.WriteLine(Invariant($"NO FRACTAL: nothing that makes all {mesh.FaceCount} faces was found"));
-            return ExitCode.NoFractal;
-        }
-
-        var text = Describe(mesh, grammar, vertexDistance, surfaceDistance);
-        GrammarFile.Write(
-            output, grammar, mesh.UsedBounds.Diagonal, [$"{DisplayText.Escape(Path.GetFileName(path))} as a fractal: {text[0]}", text[1]]);
-        Console.WriteLine(text[0]);
-        Console.WriteLine(text[1]);
-        report.Written(output, Invariant($"{mesh.FaceCount} faces"));
-        return ExitCode.Done;
-    }
-
-    private static MeshGrammar? Search(Mesh mesh, double? seconds)
-    {
-        using var interruption = new InterruptSignal();
-        using var limit = CancellationTokenSource.CreateLinkedTokenSource(interruption.Token);
-        if (seconds is { } value)
-        {
-            limit.CancelAfter(TimeSpan.FromSeconds(Math.Min(value, int.MaxValue / 1000)));
-        }
-
-        try
-        {
-            return GrammarSearch.FindExact(mesh, limit.Token);
-        }
-        catch (OperationCanceledException)
-        {
-            interruption.ThrowIfRequested();
             Console.Error.WriteLine(Invariant($"note: the search ended after {seconds} s, as --seconds says"));
-            return null;
         }
+
+        if (found is not null && (!isInterrupted || result.GetValue(_keepsPartial)))
+        {
+            var text = new ApproximationText(mesh, found);
+            Write(path, output, found, text, told);
+            WriteReport(reportPath, text.ToJson(run.End), told);
+            if (imagePath is not null)
+            {
+                var image = told.Measure("draw", () => ApproximationImage.Draw(mesh, found));
+                OutputFile.Write(imagePath, stream => PngWriter.Write(image, stream));
+                told.Written(imagePath, Invariant($"{image.Width}×{image.Height} pixels"));
+            }
+        }
+        else if (!isInterrupted)
+        {
+            Console.WriteLine("NO FRACTAL: nothing was found in that time, and nothing is written");
+        }
+
+        return isInterrupted ? throw new OperationCanceledException("interrupted")
+            : found is { Verdict: not ApproximationVerdict.NoFractal } ? ExitCode.Done : ExitCode.NoFractal;
     }
 
-    /// <summary>Expands the files as they are read back, and compares the result with the mesh; null where both differ.</summary>
-    private static (double Vertices, double Surfaces)? Verify(Mesh mesh, MeshGrammar grammar, WrittenReport report)
+    private static void Write(string path, string output, ApproximationResult found, ApproximationText text, WrittenReport told)
     {
-        var length = mesh.UsedBounds.Diagonal;
-        var made = report.Measure("expand", () => ReadBack(grammar, length, 2L * mesh.FaceCount));
-        if (made is null || VertexDistance.FindLargest(mesh, made, ExactTolerance * length) is not { } vertices)
+        var lines = text.Lines().ToArray();
+        GrammarFile.Write(
+            output, found.Grammar, found.Distance.Diagonal,
+            [$"{DisplayText.Escape(Path.GetFileName(path))} as a fractal: {lines[0]}", .. lines[1..]]);
+        foreach (var line in lines)
         {
-            return null;
+            Console.WriteLine(line);
         }
 
-        // Below half of the tolerance there is nothing to distinguish.
-        var settings = new SurfaceDistanceSettings { Resolution = 0.5 * ExactTolerance };
-        var surfaces = report.Measure("compare", () => SurfaceDistance.Between(mesh, made, settings)).MaxDistance.Upper;
-        return surfaces <= ExactTolerance * length ? (vertices / length, surfaces / length) : null;
+        told.Written(output, Invariant($"{found.Made.FaceCount} faces"));
     }
 
-    /// <summary>Reads files back that stand in a folder for a while; null where the language refuses them, as nearly flat maps.</summary>
-    private static Mesh? ReadBack(MeshGrammar grammar, double length, long maxFaces)
+    private static void WriteReport(string? path, string json, WrittenReport told)
     {
-        var folder = Directory.CreateTempSubdirectory("fractalengine");
-        try
+        if (path is not null)
         {
-            var path = Path.Combine(folder.FullName, "found.fdo");
-            GrammarFile.Write(path, grammar, length, []);
-            return FractalFile.Read(path).Flatten(maxFaces);
+            OutputFile.Write(path, stream => stream.Write(Encoding.UTF8.GetBytes(json + "\n")));
+            told.Written(path, "what was measured");
         }
-        catch (FractalEngineException)
-        {
-            return null;
-        }
-        finally
-        {
-            folder.Delete(recursive: true);
-        }
-    }
-
-    private static string[] Describe(Mesh mesh, MeshGrammar grammar, double vertexDistance, double surfaceDistance)
-    {
-        var isRecursive = grammar.Tree is not null || grammar.Steps.Any(step => step.Depth > 1);
-        var baseFaces = grammar.Base.FaceCount + (grammar.Leaf?.FaceCount ?? 0);
-        var maps = grammar.Steps.Sum(step => step.Sets.Sum(set => set.Count)) + (grammar.Tree?.Maps.Count ?? 0);
-        return
-        [
-            Invariant($"{(isRecursive ? "EXACT" : "REPEATS")}: {baseFaces} of {mesh.FaceCount} faces are left, with {maps} maps"),
-            Invariant($"vertices are within {vertexDistance:0.0e+0} of the diagonal, surfaces within {surfaceDistance:0.0e+0}"),
-        ];
     }
 }

@@ -133,11 +133,20 @@ internal sealed class SharedOptions
     /// <param name="extension">The extension that the file name must have, with its dot.</param>
     /// <param name="description">The sentence in the help text.</param>
     /// <param name="isText">Whether <c>-</c> stands for the standard output.</param>
-    public static Option<string> OutputOption(string extension, string description, bool isText = true) => new("--output", "-o")
+    public static Option<string> OutputOption(string extension, string description, bool isText = true)
+    {
+        var option = FileOption("--output", extension, description, isText);
+        option.Aliases.Add("-o");
+        option.Required = true;
+        return option;
+    }
+
+    /// <summary>Creates an option for one more file to write.</summary>
+    /// <inheritdoc cref="OutputOption"/>
+    public static Option<string> FileOption(string name, string extension, string description, bool isText = false) => new(name)
     {
         Description = isText ? $"{description} '-' is the standard output." : description,
         HelpName = $"FILE{extension}",
-        Required = true,
         Validators =
         {
             result =>
@@ -145,7 +154,7 @@ internal sealed class SharedOptions
                 if (result.Tokens is [{ Value: var path }] && !path.EndsWith(extension, StringComparison.OrdinalIgnoreCase)
                     && !(isText && path == StandardInput.Name))
                 {
-                    result.AddError($"--output '{path}' must end in {extension}");
+                    result.AddError($"{name} '{path}' must end in {extension}");
                 }
             },
         },

@@ -29,6 +29,15 @@ internal sealed class WrittenReport(bool isQuiet, bool isVerbose)
         return true;
     });
 
+    /// <summary>Tells on a terminal, or where much is told, what is done at the moment.</summary>
+    public void Progress(string text)
+    {
+        if (isVerbose || !(isQuiet || Console.IsErrorRedirected))
+        {
+            Write($"{text}");
+        }
+    }
+
     /// <summary>Tells what was written: path, contents, size and the time since the command began.</summary>
     /// <param name="path">Path of the output; '-' is the standard output.</param>
     /// <param name="contents">What it holds, such as the number of faces.</param>

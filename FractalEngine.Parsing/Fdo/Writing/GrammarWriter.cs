@@ -145,11 +145,15 @@ internal sealed class GrammarWriter
     private static (Vector Rotation, Vector Scale)? Decompose(Matrix linear)
     {
         var scale = new Vector(linear.V1.Length(), linear.V2.Length(), linear.V3.Length());
-        if (linear.Determinant() < 0)
-        {
-            scale = scale with { Z = -scale.Z };
-        }
+        // A mirror has one scale below 0; which one, decides on the rotation.
+        return linear.Determinant() > 0
+            ? Decompose(linear, scale)
+            : new[] { scale with { Z = -scale.Z }, scale with { X = -scale.X }, scale with { Y = -scale.Y } }
+                .Select(mirrored => Decompose(linear, mirrored)).MaxBy(parts => parts is { } found ? CountZeros(found.Rotation) : -1);
+    }
 
+    private static (Vector Rotation, Vector Scale)? Decompose(Matrix linear, Vector scale)
+    {
         var axes = new Matrix(linear.V1 / scale.X, linear.V2 / scale.Y, linear.V3 / scale.Z);
         var angles = 180 / Math.PI * axes.EulerAngles();
         var rotation = Rounded(angles, AngleTolerance);

@@ -1,3 +1,7 @@
+using System.Globalization;
+using System.Text;
+using System.Text.Json;
+using FractalEngine.Render.Images;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.App.Commands;
@@ -60,20 +64,84 @@ public sealed class ApproximateCommandTests : IDisposable
     }
 
     [Fact]
-    public void Approximate_OfOneElement_FindsNoFractalAndWritesNothing()
+    public void Approximate_OfOneElement_SaysThatTheMeshIsBest()
     {
-        _folder.Write("one.fdo", "<$>. ball\n");
-        var (exitCode, output, error) = Run("approximate", "one.fdo", "--output", "found.fdo");
-        Assert.Equal((6, "NO FRACTAL: nothing that makes all 320 faces was found\n", ""), (exitCode, output, error));
-        Assert.False(File.Exists(_folder["found.fdo"]));
+        _folder.Write("one.obj", "v 0 0 0\nv 3 0 0\nv 0 2 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+        var (exitCode, output, _) = Run("approximate", "one.obj", "--output", "found.fdo", "--report", "found.json");
+        Assert.Equal(6, exitCode);
+        Assert.Matches(
+            @"^NO FRACTAL: nothing is closer than the simplified mesh of 4 faces, \d+ bytes\n"
+            + @"mean distance 0.00000 of the diagonal, largest 0.0000 to 0.0000, normals 0.0° apart\n$", output);
+        Assert.EndsWith("base. \"found-base.obj\"\n<$>. base\n", File.ReadAllText(_folder["found.fdo"]), StringComparison.Ordinal);
+        using var report = JsonDocument.Parse(File.ReadAllText(_folder["found.json"]));
+        Assert.Equal("no fractal", report.RootElement.GetProperty("verdict").GetString());
+        Assert.Equal("search", report.RootElement.GetProperty("endedBy").GetString());
+        Assert.Equal(4, report.RootElement.GetProperty("facesMade").GetInt32());
+    }
+
+    [Fact]
+    public void Approximate_OfAMirroredShape_IsCloserThanASimplifiedMeshOfAsManyBytes()
+    {
+        // Bumps whose heights are nearly the same on both sides.
+        var shape = new StringBuilder();
+        for (var row = 0; row <= 60; row++)
+        {
+            for (var column = -30; column <= 30; column++)
+            {
+                var height = Math.Sin(0.4 * Math.Abs(column)) * Math.Cos(0.3 * row) + (column > 0 ? 1e-3 * Math.Sin(row * column) : 0);
+                shape.Append(CultureInfo.InvariantCulture, $"v {0.1 * column} {0.1 * row} {height}\n");
+            }
+        }
+
+        for (var cell = 0; cell < 3600; cell++)
+        {
+            var first = (cell / 60 * 61) + (cell % 60) + 1;
+            shape.Append(CultureInfo.InvariantCulture, $"f {first} {first + 1} {first + 62} {first + 61}\n");
+        }
+
+        _folder.Write("bumps.obj", shape.ToString());
+        var (exitCode, output, _) = Run("approximate", "bumps.obj", "--output", "found.fdo", "--bytes", "3000", "--report", "found.json");
+        Assert.Equal(0, exitCode);
+        Assert.Matches("^APPROXIMATE: [0-9]+ of 7200 faces are left, with 2 maps, [0-9]+ bytes\n", output);
+        var files = new DirectoryInfo(_folder.Path).GetFiles("found*.*").Where(file => file.Extension != ".json");
+        Assert.InRange(files.Sum(file => file.Length), 2000, 3000 + 400);
+        using var report = JsonDocument.Parse(File.ReadAllText(_folder["found.json"]));
+        var mean = report.RootElement.GetProperty("distance").GetProperty("mean").GetDouble();
+        var simple = report.RootElement.GetProperty("sameBytesMesh").GetProperty("distance").GetProperty("mean").GetDouble();
+        Assert.InRange(mean, 1e-5, 0.8 * simple);
+        Assert.Contains("m1. (#, #, (-1, 1, 1))", File.ReadAllText(_folder["found.fdo"]), StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void Approximate_WithFewerMapsThanItNeeds_IsNotExact()
+    {
+        var classic = Repository.Full("assets/classics/vicsek.fdo");
+        var (_, output, _) = Run("approximate", classic, "--output", "found.fdo", "--maps", "6", "--quiet");
+        Assert.DoesNotContain("EXACT", output, StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void Approximate_WithAnImage_ShowsMeshFractalAndDistance()
+    {
+        var image = Path.Combine(_folder.Path, "found.png");
+        Assert.Equal(0, Run(
+            "approximate", Repository.Full("assets/classics/vicsek.fdo"), "--output", "found.fdo", "--image", "found.png").ExitCode);
+        var drawn = ImageFile.Load(image);
+        Assert.Equal((2160, 720), (drawn.Width, drawn.Height));
+        // The mesh and the fractal are the same; the distance is none, which is blue.
+        var (red, _, blue, _) = drawn[1800, 360];
+        Assert.True(blue > red, $"{red}, {blue}");
+        Assert.Equal(drawn[360, 360], drawn[1080, 360]);
     }
 
     [Fact]
     public void Approximate_AfterItsTime_SaysSo()
     {
-        var (exitCode, _, error) = Run(
+        var (exitCode, output, error) = Run(
             "approximate", Repository.Full("assets/fractals/menger-3.fdo"), "--output", "found.fdo", "--seconds", "0.001");
         Assert.Equal((6, "note: the search ended after 0.001 s, as --seconds says\n"), (exitCode, error));
+        Assert.Equal("NO FRACTAL: nothing was found in that time, and nothing is written\n", output);
+        Assert.False(File.Exists(_folder["found.fdo"]));
     }
 
     [Theory]

@@ -1,0 +1,14 @@
+namespace FractalEngine.App.Approximation;
+
+/// <summary>What ended the search for a fractal.</summary>
+internal enum ApproximationEnd
+{
+    /// <summary>There was nothing left to look for.</summary>
+    Search,
+
+    /// <summary>The time given was over.</summary>
+    Time,
+
+    /// <summary>A signal, such as that of Ctrl+C.</summary>
+    Interruption,
+}

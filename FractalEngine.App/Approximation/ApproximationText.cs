@@ -1,0 +1,96 @@
+using System.Text.Json;
+using FractalEngine.Core.Distances;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Parsing.Approximation;
+using static System.FormattableString;
+
+namespace FractalEngine.App.Approximation;
+
+/// <summary>Says what was found for a mesh, for people and for programs.</summary>
+/// <param name="mesh">The mesh.</param>
+/// <param name="result">What was found, and measured.</param>
+internal sealed class ApproximationText(Mesh mesh, ApproximationResult result)
+{
+    private static readonly JsonSerializerOptions JsonOptions = new() { WriteIndented = true };
+
+    /// <summary>How far the mesh and the fractal are apart, as parts of the diagonal.</summary>
+    public string Distances => Describe(result.Distance);
+
+    /// <summary>What was found, line by line.</summary>
+    public IEnumerable<string> Lines()
+    {
+        var sizes = Invariant($"{result.Grammar.FaceCount} of {mesh.FaceCount} faces are left");
+        yield return result.Verdict switch
+        {
+            ApproximationVerdict.Exact => Invariant($"EXACT: {sizes}, with {result.Grammar.MapCount} maps"),
+            ApproximationVerdict.Repeats => Invariant($"REPEATS: {sizes}, with {result.Grammar.MapCount} maps"),
+            ApproximationVerdict.Approximate =>
+                Invariant($"APPROXIMATE: {sizes}, with {result.Grammar.MapCount} maps, {result.Bytes} bytes"),
+            _ => Invariant(
+                $"NO FRACTAL: nothing is closer than the simplified mesh of {result.Grammar.FaceCount} faces, {result.Bytes} bytes"),
+        };
+        if (result.VertexDistance is { } vertices)
+        {
+            var length = mesh.UsedBounds.Diagonal;
+            yield return Invariant(
+                $"vertices are within {vertices / length:0.0e+0} of the diagonal, surfaces within {result.Distance.RelativeMaxDistance.Upper:0.0e+0}");
+            yield break;
+        }
+
+        yield return Distances;
+        if (result is { Verdict: ApproximationVerdict.Approximate, SameBytes: { } simple })
+        {
+            yield return Invariant($"a simplified mesh of as many bytes ({simple.Mesh.FaceCount} faces): {Describe(simple.Distance)}");
+        }
+    }
+
+    /// <summary>The same for programs: an object in JSON.</summary>
+    /// <param name="end">What ended the search.</param>
+    public string ToJson(ApproximationEnd end) => JsonSerializer.Serialize(
+        new
+        {
+            verdict = result.Verdict switch
+            {
+                ApproximationVerdict.Exact => "exact",
+                ApproximationVerdict.Repeats => "repeats",
+                ApproximationVerdict.Approximate => "approximate",
+                _ => "no fractal",
+            },
+            endedBy = end switch
+            {
+                ApproximationEnd.Search => "search",
+                ApproximationEnd.Time => "time",
+                _ => "interruption",
+            },
+            faces = mesh.FaceCount,
+            facesLeft = result.Grammar.FaceCount,
+            facesMade = result.Made.FaceCount,
+            maps = result.Grammar.MapCount,
+            bytes = result.Bytes,
+            diagonal = result.Distance.Diagonal,
+            maxVertexDistance = result.VertexDistance / result.Distance.Diagonal,
+            distance = ValuesOf(result.Distance),
+            sameBytesMesh = result.SameBytes is { } simple
+                ? new { faces = simple.Mesh.FaceCount, distance = ValuesOf(simple.Distance) }
+                : null,
+        },
+        JsonOptions);
+
+    private static object ValuesOf(SurfaceDistance distance) => new
+    {
+        mean = distance.RelativeMeanDistance,
+        meanError = distance.MeanDistanceError / distance.Diagonal,
+        maxLower = distance.RelativeMaxDistance.Lower,
+        maxUpper = distance.RelativeMaxDistance.Upper,
+        normalDegrees = DegreesOf(distance),
+    };
+
+    private static string Describe(SurfaceDistance distance)
+    {
+        var max = distance.RelativeMaxDistance;
+        return Invariant(
+            $"mean distance {distance.RelativeMeanDistance:0.00000} of the diagonal, largest {max.Lower:0.0000} to {max.Upper:0.0000}, normals {DegreesOf(distance):0.0}° apart");
+    }
+
+    private static double DegreesOf(SurfaceDistance distance) => 180 / Math.PI * distance.MeanNormalAngle;
+}

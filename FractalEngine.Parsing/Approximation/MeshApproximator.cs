@@ -1,0 +1,188 @@
+using FractalEngine.Core;
+using FractalEngine.Core.Approximation;
+using FractalEngine.Core.Approximation.Grammars;
+using FractalEngine.Core.Approximation.Symmetries;
+using FractalEngine.Core.Distances;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+using FractalEngine.Parsing.Wavefront.Writing;
+
+namespace FractalEngine.Parsing.Approximation;
+
+/// <summary>Finds a fractal for a mesh, and measures it on its files as they are read back (paper §6.2).</summary>
+public sealed class MeshApproximator
+{
+    // Vertices and surfaces within this part of the diagonal count as the same.
+    private const double ExactTolerance = 1e-6;
+
+    // Where elements are missing in the mesh, a fractal has more faces than it.
+    private const int MaxGrowth = 16;
+
+    // Simplification moves open edges by so much of the diagonal at most, or they are others than those of a cut.
+    private const double SeamTolerance = 0.002;
+
+    private readonly Mesh _mesh;
+    private readonly ApproximationSettings _settings;
+    private readonly IProgress<ApproximationProgress>? _progress;
+    private readonly CancellationToken _cancellation;
+    private readonly double _length;
+    private ApproximationResult? _best;
+
+    private MeshApproximator(
+        Mesh mesh, ApproximationSettings settings, IProgress<ApproximationProgress>? progress, CancellationToken cancellation)
+    {
+        _mesh = mesh;
+        _settings = settings;
+        _progress = progress;
+        _cancellation = cancellation;
+        _length = mesh.UsedBounds.Diagonal;
+    }
+
+    /// <summary>Looks for what makes a mesh exactly, and then for what is closer to it than a simplified mesh of as many bytes.</summary>
+    /// <param name="mesh">A mesh with at least one face.</param>
+    /// <param name="settings">What the fractal may cost; null for anything.</param>
+    /// <param name="progress">Receives what is done, and the best result so far, on the calling thread; null for nothing.</param>
+    /// <param name="cancellation">Ends the search; what was found by then has been reported.</param>
+    /// <exception cref="ArgumentException">The mesh has no faces.</exception>
+    /// <exception cref="OperationCanceledException">The search was cancelled.</exception>
+    /// <remarks>The same mesh gives the same result, on any number of threads.</remarks>
+    public static ApproximationResult Find(
+        Mesh mesh, ApproximationSettings? settings = null, IProgress<ApproximationProgress>? progress = null,
+        CancellationToken cancellation = default)
+    {
+        ArgumentNullException.ThrowIfNull(mesh);
+        if (mesh.FaceCount == 0)
+        {
+            throw new ArgumentException("expected a mesh with at least one face", nameof(mesh));
+        }
+
+        return new MeshApproximator(mesh, settings ?? new(), progress, cancellation).Find();
+    }
+
+    private ApproximationResult Find()
+    {
+        Report("what makes all faces exactly");
+        if (GrammarSearch.FindExact(_mesh, _cancellation) is { } exact && JudgeExact(exact) is { } result)
+        {
+            return result;
+        }
+
+        var bytes = _settings.MaxBytes ?? ApproximationSettings.DefaultBytes;
+        if (8L * _mesh.FaceCount > bytes || ObjBytes(_mesh) > bytes)
+        {
+            Report("a plane that mirrors the shape");
+            var plane = MirrorSearch.Find(_mesh, _cancellation);
+            foreach (var side in new[] { plane, plane with { Normal = -plane.Normal, Offset = -plane.Offset } })
+            {
+                Report("the half whose mirror image is closest");
+                Consider(FindMirrored(side, bytes));
+            }
+        }
+
+        return _best is { Verdict: ApproximationVerdict.Approximate } ? _best : Simplify(bytes);
+    }
+
+    private void Report(string stage) => _progress?.Report(new(stage, _best));
+
+    private void Consider(ApproximationResult? result)
+    {
+        if (result is not null && (_best is null || result.Distance.MeanDistance < _best.Distance.MeanDistance))
+        {
+            _best = result;
+        }
+    }
+
+    /// <summary>Measures what may be exact; null where it is not, or is larger than wanted.</summary>
+    private ApproximationResult? JudgeExact(MeshGrammar grammar)
+    {
+        if (Write(grammar, 2L * _mesh.FaceCount) is not { } written
+            || VertexDistance.FindLargest(_mesh, written.Mesh, ExactTolerance * _length) is not { } vertices)
+        {
+            return null;
+        }
+
+        // Below half of the tolerance there is nothing to distinguish.
+        var settings = new SurfaceDistanceSettings { Resolution = 0.5 * ExactTolerance };
+        var distance = SurfaceDistance.Between(_mesh, written.Mesh, settings, _cancellation);
+        var isRecursive = grammar.Tree is not null || grammar.Steps.Any(step => step.Depth > 1);
+        return distance.MaxDistance.Upper > ExactTolerance * _length
+            ? null
+            : new(
+                isRecursive ? ApproximationVerdict.Exact : ApproximationVerdict.Repeats, grammar, written.Mesh, written.Bytes, distance,
+                vertices, null);
+    }
+
+    /// <summary>Compares a fractal with the simplified mesh of as many bytes; null where it is larger than wanted.</summary>
+    private ApproximationResult? Judge(MeshGrammar grammar)
+    {
+        if (Write(grammar, MaxGrowth * (long)_mesh.FaceCount) is not { } written)
+        {
+            return null;
+        }
+
+        var distance = SurfaceDistance.Between(_mesh, written.Mesh, cancellation: _cancellation);
+        var simple = new SameBytesMesh(_mesh, simple => simple, _cancellation).Find(written.Bytes, ObjBytes);
+        var simpleDistance = simple is null ? null : SurfaceDistance.Between(_mesh, simple, cancellation: _cancellation);
+        var isBetter = simpleDistance is null
+            || distance.MeanDistance + distance.MeanDistanceError < simpleDistance.MeanDistance - simpleDistance.MeanDistanceError;
+        return new(
+            isBetter ? ApproximationVerdict.Approximate : ApproximationVerdict.NoFractal, grammar, written.Mesh, written.Bytes, distance,
+            null, simple is null ? null : (simple, simpleDistance!));
+    }
+
+    /// <summary>Half of the shape, simplified, and its mirror image.</summary>
+    private ApproximationResult? FindMirrored(MirrorPlane plane, long bytes)
+    {
+        var half = plane.HalfOf(_mesh);
+        return half.FaceCount > 0
+            && new SameBytesMesh(half, simple => plane.WithClosedSeam(simple, SeamTolerance * _length), _cancellation)
+                .Find(bytes, mesh => BytesOf(Mirrored(mesh))) is { } found
+            ? Judge(Mirrored(found))
+            : null;
+
+        MeshGrammar Mirrored(Mesh mesh) => new([new([[AffineMap.Identity, plane.Reflection]], 1)], null, mesh, null);
+    }
+
+    /// <summary>The simplified mesh, where no fractal is better.</summary>
+    private ApproximationResult Simplify(long bytes)
+    {
+        Report("the simplified mesh");
+        var simple = new SameBytesMesh(_mesh, simple => simple, _cancellation).Find(bytes, mesh => BytesOf(Alone(mesh)))
+            ?? throw new FractalEngineException(ErrorKind.Limit, FormattableString.Invariant(
+                $"no mesh with a face has only {bytes} bytes, so there is nothing to write"));
+        var written = WrittenGrammar.Create(Alone(simple), _length, long.MaxValue);
+        var distance = SurfaceDistance.Between(_mesh, written.Mesh, cancellation: _cancellation);
+        return new(ApproximationVerdict.NoFractal, Alone(simple), written.Mesh, written.Bytes, distance, null, (simple, distance));
+
+        static MeshGrammar Alone(Mesh mesh) => new([], null, mesh, null);
+    }
+
+    private long BytesOf(MeshGrammar grammar) => WrittenGrammar.Create(grammar, _length, long.MaxValue).Bytes;
+
+    /// <summary>Writes and reads a grammar; null where the language refuses it, or it has more maps, bytes or faces than wanted.</summary>
+    private WrittenGrammar? Write(MeshGrammar grammar, long maxFaces)
+    {
+        _cancellation.ThrowIfCancellationRequested();
+        if (grammar.MapCount > (_settings.MaxMaps ?? int.MaxValue))
+        {
+            return null;
+        }
+
+        try
+        {
+            var written = WrittenGrammar.Create(grammar, _length, maxFaces);
+            return written.Bytes <= (_settings.MaxBytes ?? long.MaxValue) && written.Mesh.FaceCount > 0 ? written : null;
+        }
+        catch (FractalEngineException)
+        {
+            return null;
+        }
+    }
+
+    private static long ObjBytes(Mesh mesh)
+    {
+        using var stream = new MemoryStream();
+        ObjMeshWriter.Write(mesh, stream);
+        return stream.Length;
+    }
+}
