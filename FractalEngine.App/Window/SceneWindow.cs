@@ -34,6 +34,7 @@ internal sealed class SceneWindow : IDisposable
     private readonly WindowTracing _tracing;
     private readonly ViewArea _area;
     private readonly DocumentLoader _loader;
+    private readonly FractalSearch _search;
     private readonly PanelLayout _panels;
     private readonly WindowActions _actions;
     private readonly WindowInterface _interface;
@@ -61,9 +62,10 @@ internal sealed class SceneWindow : IDisposable
         _tracing = new(options, _window.Wake);
         var saver = new DocumentSaver(_loader, prompts, Report);
         var files = new FileCommands(_loader, saver, prompts, recent, Report, () => _isClosing = true);
+        _search = new(_loader, files, prompts, Report, _window.Wake);
         _panels = new(_window, options.SettingsPath, Report, ui => _interface!.Build(ui));
         _actions = new(
-            _window, _windowRenderer, _overlay, _tracing, _panels, _loader, files, saver, options.Settings, () => _clock.Elapsed,
+            _window, _windowRenderer, _overlay, _tracing, _panels, _loader, files, saver, _search, options.Settings, () => _clock.Elapsed,
             () => _redraw |= Redraw.Scene);
         _interface = new(_actions);
         _events = new(_window, _frameRenderer, _actions, prompts);
@@ -172,8 +174,9 @@ internal sealed class SceneWindow : IDisposable
     {
         var previousDocument = Document;
         // Messages ask for frames meanwhile.
-        var redraw = _loader.Poll();
+        var redraw = _search.Poll() | _loader.Poll();
         _redraw |= redraw;
+        _overlay.SearchStatus = _search.Status;
         if (Document != previousDocument)
         {
             _windowRenderer.Reset();

@@ -24,6 +24,11 @@ internal static class ActionTable
             Keys = [KeyChord.Control(Key.N)], Run = OverlayOf(static a => a.Files.NewFractal(() => a.Panels.Open("fractal"))),
         },
         new("open", "File", "Open…", "open a file") { Keys = [KeyChord.Control(Key.O)], Run = OverlayOf(static a => a.Files.AskForFile()) },
+        new("approximate", "File", "Approximate…", "look for a fractal that makes what is shown, and open it beside that; again to end")
+        {
+            Run = OverlayOf(static a => a.Search.Toggle(() => a.Panels.Open("fractal"))), IsAvailable = HasDocument,
+            IsOn = static a => a.Search.Status is not null,
+        },
         new("save", "File", "Save", "save the changed numbers into their files, and the view into the scene's file")
         {
             Keys = [KeyChord.Control(Key.S)], Run = OverlayOf(static a => a.Saver.Save()), IsAvailable = HasDocument,

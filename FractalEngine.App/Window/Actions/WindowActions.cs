@@ -21,12 +21,14 @@ namespace FractalEngine.App.Window.Actions;
 /// <param name="loader">Loads files, and owns the document.</param>
 /// <param name="files">Opens files, and asks before changes are lost.</param>
 /// <param name="saver">Edits and saves files.</param>
+/// <param name="search">Looks for fractals.</param>
 /// <param name="settings">The initial render settings.</param>
 /// <param name="clock">Tells the present time.</param>
 /// <param name="requestDraw">Lets the window draw a new frame.</param>
 internal sealed class WindowActions(
     RenderWindow window, WindowRenderer renderer, WindowOverlay overlay, WindowTracing tracing, PanelLayout panels,
-    DocumentLoader loader, FileCommands files, DocumentSaver saver, RenderSettings settings, Func<TimeSpan> clock, Action requestDraw)
+    DocumentLoader loader, FileCommands files, DocumentSaver saver, FractalSearch search, RenderSettings settings, Func<TimeSpan> clock,
+    Action requestDraw)
 {
     private readonly Queue<WindowAction> _chosen = [];
 
@@ -40,6 +42,9 @@ internal sealed class WindowActions(
 
     /// <summary>Edits and saves the files of the document, and asks where others have changed them.</summary>
     public DocumentSaver Saver => saver;
+
+    /// <summary>Looks for a fractal that makes what is shown.</summary>
+    public FractalSearch Search => search;
 
     public PanelLayout Panels => panels;
 
