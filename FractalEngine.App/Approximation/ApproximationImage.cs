@@ -22,7 +22,7 @@ internal static class ApproximationImage
     // From no distance to the largest: dark blue, cyan, yellow, red.
     private static readonly Vector[] Ramp = [new(0.1, 0.15, 0.5), new(0.2, 0.75, 0.8), new(0.95, 0.9, 0.25), new(0.85, 0.1, 0.1)];
 
-    /// <summary>Draws the image.</summary>
+    /// <summary>Draws three squares beside each other.</summary>
     /// <param name="mesh">The mesh.</param>
     /// <param name="result">What was found for it.</param>
     /// <exception cref="GraphicsUnavailableException">There is no display, or no OpenGL 3.3.</exception>
@@ -31,7 +31,8 @@ internal static class ApproximationImage
         var text = new ApproximationText(mesh, result);
         var lines = text.Lines().ToArray();
         var (coloured, largest) = ColourByDistance(mesh, result.Made);
-        var scenes = new[] { mesh, result.Made, coloured }.Select(shown => LoadedScene.Of(new() { Objects = [new SceneObject(shown)] })).ToArray();
+        var scenes = new[] { mesh, result.Made, coloured }
+            .Select(shown => LoadedScene.Of(new() { Objects = [new SceneObject(shown)] })).ToArray();
         var view = View.Of(scenes[0], 1);
         using var context = new OffscreenContext();
         using var renderer = new FrameRenderer(context);
@@ -56,7 +57,8 @@ internal static class ApproximationImage
         var distances = new double[mesh.VertexCount];
         foreach (var vertex in mesh.VertexIndices)
         {
-            distances[vertex] = collider.TryFindClosest(mesh.Vertex(vertex), double.PositiveInfinity, context, out var closest) ? closest.Distance : 0;
+            var isFound = collider.TryFindClosest(mesh.Vertex(vertex), double.PositiveInfinity, context, out var closest);
+            distances[vertex] = isFound ? closest.Distance : 0;
         }
 
         var largest = distances.Max();

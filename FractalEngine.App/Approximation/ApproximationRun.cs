@@ -1,4 +1,3 @@
-using System.Globalization;
 using FractalEngine.App.Shell;
 using FractalEngine.App.Shell.Reports;
 using FractalEngine.Core.Geometry;
@@ -21,7 +20,7 @@ internal sealed class ApproximationRun(Mesh mesh, ApproximationSettings settings
     /// <summary>What ended the search.</summary>
     public ApproximationEnd End { get; private set; }
 
-    /// <summary>Runs the search.</summary>
+    /// <summary>Runs the search, and waits for its end.</summary>
     /// <param name="seconds">The most time that it may take; null for any.</param>
     /// <returns>What was found, or the best of it when the search was ended; null for nothing.</returns>
     public ApproximationResult? Find(double? seconds)
@@ -54,7 +53,7 @@ internal sealed class ApproximationRun(Mesh mesh, ApproximationSettings settings
     {
         _best = value.Best;
         var best = value.Best is { } result
-            ? string.Create(CultureInfo.InvariantCulture, $"; best so far: {result.Bytes} bytes, {new ApproximationText(mesh, result).Distances}")
+            ? FormattableString.Invariant($"; best so far: {result.Bytes} bytes, {new ApproximationText(mesh, result).Distances}")
             : "";
         report.Progress($"looking for {value.Stage}{best}");
     }

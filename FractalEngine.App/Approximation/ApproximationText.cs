@@ -31,9 +31,8 @@ internal sealed class ApproximationText(Mesh mesh, ApproximationResult result)
         };
         if (result.VertexDistance is { } vertices)
         {
-            var length = mesh.UsedBounds.Diagonal;
-            yield return Invariant(
-                $"vertices are within {vertices / length:0.0e+0} of the diagonal, surfaces within {result.Distance.RelativeMaxDistance.Upper:0.0e+0}");
+            var (relative, max) = (vertices / result.Distance.Diagonal, result.Distance.RelativeMaxDistance.Upper);
+            yield return Invariant($"vertices are within {relative:0.0e+0} of the diagonal, surfaces within {max:0.0e+0}");
             yield break;
         }
 
@@ -88,8 +87,10 @@ internal sealed class ApproximationText(Mesh mesh, ApproximationResult result)
     private static string Describe(SurfaceDistance distance)
     {
         var max = distance.RelativeMaxDistance;
+        var (mean, degrees) = (distance.RelativeMeanDistance, DegreesOf(distance));
         return Invariant(
-            $"mean distance {distance.RelativeMeanDistance:0.00000} of the diagonal, largest {max.Lower:0.0000} to {max.Upper:0.0000}, normals {DegreesOf(distance):0.0}° apart");
+            $"mean distance {mean:0.00000} of the diagonal, largest {max.Lower:0.0000} to {max.Upper:0.0000}, ")
+            + Invariant($"normals {degrees:0.0}° apart");
     }
 
     private static double DegreesOf(SurfaceDistance distance) => 180 / Math.PI * distance.MeanNormalAngle;

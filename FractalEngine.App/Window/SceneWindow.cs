@@ -34,7 +34,7 @@ internal sealed class SceneWindow : IDisposable
     private readonly WindowTracing _tracing;
     private readonly ViewArea _area;
     private readonly DocumentLoader _loader;
-    private readonly FractalSearch _search;
+    private readonly WindowApproximation _search;
     private readonly PanelLayout _panels;
     private readonly WindowActions _actions;
     private readonly WindowInterface _interface;

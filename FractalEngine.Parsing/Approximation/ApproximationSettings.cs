@@ -9,6 +9,8 @@ public sealed record ApproximationSettings
     /// <summary>The most maps of the fractal; null for any number.</summary>
     public int? MaxMaps { get; init; }
 
-    /// <summary>The most bytes of the fractal file and its meshes; null for any number, and <see cref="DefaultBytes"/> where it only approximates.</summary>
+    /// <summary>
+    /// The most bytes of the fractal file and its meshes; null for any number, and <see cref="DefaultBytes"/> where it only approximates.
+    /// </summary>
     public long? MaxBytes { get; init; }
 }

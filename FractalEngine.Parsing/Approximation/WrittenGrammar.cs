@@ -14,7 +14,9 @@ public sealed record WrittenGrammar(Mesh Mesh, long Bytes)
     /// <param name="grammar">What makes a mesh.</param>
     /// <param name="length">Diagonal of the mesh, scene units, see <see cref="GrammarFile.Write"/>.</param>
     /// <param name="maxFaces">Maximum number of faces.</param>
-    /// <exception cref="FractalEngineException">The language can't express it, as with nearly flat maps, or it has too many faces.</exception>
+    /// <exception cref="FractalEngineException">
+    /// The language can't express it, as with nearly flat maps, or it has too many faces.
+    /// </exception>
     public static WrittenGrammar Create(MeshGrammar grammar, double length, long maxFaces)
     {
         var folder = Directory.CreateTempSubdirectory("fractalengine");

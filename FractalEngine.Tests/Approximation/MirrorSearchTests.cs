@@ -66,6 +66,7 @@ public sealed class MirrorSearchTests
     {
         var images = Enumerable.Range(0, mesh.VertexCount).Select(vertex => plane.Reflection * mesh.Vertex(vertex))
             .SelectMany(image => new[] { image.X, image.Y, image.Z });
-        return new([.. mesh.Positions, .. images], [.. mesh.VertexIndices, .. mesh.VertexIndices.Select(vertex => vertex + mesh.VertexCount)]);
+        var corners = mesh.VertexIndices.Select(vertex => vertex + mesh.VertexCount);
+        return new([.. mesh.Positions, .. images], [.. mesh.VertexIndices, .. corners]);
     }
 }

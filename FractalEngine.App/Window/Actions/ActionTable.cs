@@ -24,7 +24,7 @@ internal static class ActionTable
             Keys = [KeyChord.Control(Key.N)], Run = OverlayOf(static a => a.Files.NewFractal(() => a.Panels.Open("fractal"))),
         },
         new("open", "File", "Open…", "open a file") { Keys = [KeyChord.Control(Key.O)], Run = OverlayOf(static a => a.Files.AskForFile()) },
-        new("approximate", "File", "Approximate…", "look for a fractal that makes what is shown, and open it beside that; again to end")
+        new("approximate", "File", "Approximate…", "look for a fractal that makes what is shown, and open it beside that, or end that")
         {
             Run = OverlayOf(static a => a.Search.Toggle(() => a.Panels.Open("fractal"))), IsAvailable = HasDocument,
             IsOn = static a => a.Search.Status is not null,

@@ -27,8 +27,8 @@ namespace FractalEngine.App.Window.Actions;
 /// <param name="requestDraw">Lets the window draw a new frame.</param>
 internal sealed class WindowActions(
     RenderWindow window, WindowRenderer renderer, WindowOverlay overlay, WindowTracing tracing, PanelLayout panels,
-    DocumentLoader loader, FileCommands files, DocumentSaver saver, FractalSearch search, RenderSettings settings, Func<TimeSpan> clock,
-    Action requestDraw)
+    DocumentLoader loader, FileCommands files, DocumentSaver saver, WindowApproximation search, RenderSettings settings,
+    Func<TimeSpan> clock, Action requestDraw)
 {
     private readonly Queue<WindowAction> _chosen = [];
 
@@ -44,7 +44,7 @@ internal sealed class WindowActions(
     public DocumentSaver Saver => saver;
 
     /// <summary>Looks for a fractal that makes what is shown.</summary>
-    public FractalSearch Search => search;
+    public WindowApproximation Search => search;
 
     public PanelLayout Panels => panels;
 

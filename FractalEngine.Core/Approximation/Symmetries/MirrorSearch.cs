@@ -7,8 +7,8 @@ namespace FractalEngine.Core.Approximation.Symmetries;
 
 /// <summary>Looks for the plane about which a surface comes closest to its own mirror image.</summary>
 /// <remarks>
-/// Planes of many directions through the centroid are compared by a few points of the surface; the best ones are moved by closest points
-/// (P. Besl, N. McKay, "A method for registration of 3-D shapes", 1992) until they stand still.
+/// Planes of many directions through the centroid are compared by a few points of the surface; the best ones are moved by closest
+/// points (P. Besl, N. McKay, "A method for registration of 3-D shapes", 1992) until they stand still.
 /// </remarks>
 public static class MirrorSearch
 {
@@ -80,7 +80,9 @@ public static class MirrorSearch
     }
 
     /// <summary>The plane that mirrors points onto what is closest to their images now, by least squares.</summary>
-    /// <remarks>|q − p + 2·n·(n·p)|² is |q − p|² + 4·(n·p)·(n·q), so n is the eigenvector of the smallest eigenvalue of Σ p·qᵀ + q·pᵀ.</remarks>
+    /// <remarks>
+    /// |q − p + 2·n·(n·p)|² is |q − p|² + 4·(n·p)·(n·q), so n is the eigenvector of the smallest eigenvalue of Σ p·qᵀ + q·pᵀ.
+    /// </remarks>
     private static (Vector Normal, double Offset) FitPlane(TargetSurface target, MirrorPlane plane, Vector[] samples)
     {
         var reflection = plane.Reflection;
@@ -134,7 +136,9 @@ public static class MirrorSearch
         }
     }
 
-    /// <summary>Points of the surface at even steps of its area; where in a face is a sequence of low discrepancy (M. Roberts, 2018).</summary>
+    /// <summary>
+    /// Points of the surface at even steps of its area; where in a face is a sequence of low discrepancy (M. Roberts, 2018).
+    /// </summary>
     private static Vector[] SampleEvenly(Mesh mesh, int count)
     {
         var points = new Vector[count];

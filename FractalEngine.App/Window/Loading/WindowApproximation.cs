@@ -22,7 +22,7 @@ namespace FractalEngine.App.Window.Loading;
 /// <param name="prompts">Asks for a name.</param>
 /// <param name="report">Shows a message.</param>
 /// <param name="wake">Lets the window look at the search, from any thread.</param>
-internal sealed class FractalSearch(
+internal sealed class WindowApproximation(
     DocumentLoader loader, FileCommands files, PromptHost prompts, Action<string> report, Action wake) : IProgress<ApproximationProgress>
 {
     // The fractal stands beside the model, with a part of its width between them.
@@ -113,7 +113,8 @@ internal sealed class FractalSearch(
             var name = Path.GetRelativePath(Path.GetDirectoryName(file.Path)!, path).Replace(Path.DirectorySeparatorChar, '/');
             var place = new Vector((1 + Gap) * mesh.UsedBounds.Size.X, 0, 0);
             var found = new SceneObject(name, Transformation.At(place));
-            NewSceneFile.Write(file, scene with { Camera = null, Objects = scene.Objects.Add(found) }, scenePath, loader.AllowsOutsideFiles);
+            var both = scene with { Camera = null, Objects = scene.Objects.Add(found) };
+            NewSceneFile.Write(file, both, scenePath, loader.AllowsOutsideFiles);
             report(string.Join('\n', lines));
             files.Open(PathText.Shorten(scenePath));
             opened();
