@@ -132,12 +132,9 @@ internal static class ApproximateCommand
 
     private static string[] Describe(Mesh mesh, MeshGrammar grammar, double vertexDistance, double surfaceDistance)
     {
-        var isRecursive = grammar.Tree is not null || grammar.Steps.Any(step => step.Depth > 1);
-        var baseFaces = grammar.Base.FaceCount + (grammar.Leaf?.FaceCount ?? 0);
-        var maps = grammar.Steps.Sum(step => step.Sets.Sum(set => set.Count)) + (grammar.Tree?.Maps.Count ?? 0);
         return
         [
-            Invariant($"{(isRecursive ? "EXACT" : "REPEATS")}: {baseFaces} of {mesh.FaceCount} faces are left, with {maps} maps"),
+            Invariant($"{(grammar.IsRecursive ? "EXACT" : "REPEATS")}: {grammar.FaceCount} of {mesh.FaceCount} faces are left, with {grammar.MapCount} maps"),
             Invariant($"vertices are within {vertexDistance:0.0e+0} of the diagonal, surfaces within {surfaceDistance:0.0e+0}"),
         ];
     }
