@@ -9,8 +9,8 @@ namespace FractalEngine.Core.Approximation.Repetition;
 /// <param name="Savings">How many faces need not be stored, less what the runs cost.</param>
 internal sealed record FaceOrbits(AffineMap Map, List<(int Length, List<int> Starts)> Runs, List<int> Rest, int Savings)
 {
-    /// <summary>What a run costs in a file, in faces.</summary>
-    public const int RunCost = 4;
+    // Less is not worth another look at all faces.
+    private const double MinShare = 0.02;
 
     // How far powers may lead away, in tolerances.
     private const double MaxDrift = 4;
@@ -19,8 +19,9 @@ internal sealed record FaceOrbits(AffineMap Map, List<(int Length, List<int> Sta
     /// <param name="faces">The faces.</param>
     /// <param name="map">A map near to the one that is meant.</param>
     /// <param name="keepsSize">Whether it is a map that keeps sizes.</param>
+    /// <param name="runCost">What a run costs in a file, in faces.</param>
     /// <returns>Null where nothing is saved, or where the map turns most faces.</returns>
-    public static FaceOrbits? Find(FaceSet faces, AffineMap map, bool keepsSize)
+    public static FaceOrbits? Find(FaceSet faces, AffineMap map, bool keepsSize, int runCost)
     {
         var images = MapPoints(faces, map);
         var pairs = new List<(Vector, Vector)>();
@@ -53,7 +54,7 @@ internal sealed record FaceOrbits(AffineMap Map, List<(int Length, List<int> Sta
         }
 
         // A rotation takes the outside of a solid to its outside.
-        return turned > 0 && map.Linear.Determinant() > 0 ? null : Choose(map, FindChains(faces, map, next));
+        return turned > 0 && map.Linear.Determinant() > 0 ? null : Choose(map, FindChains(faces, map, next), runCost);
     }
 
     private static int[] MapPoints(FaceSet faces, AffineMap map) => [.. faces.Points.Select(point => faces.PointAt(map * point))];
@@ -124,7 +125,7 @@ internal sealed record FaceOrbits(AffineMap Map, List<(int Length, List<int> Sta
     }
 
     /// <summary>Chooses lengths of runs, one after the other while one more saves something, and cuts the chains into these.</summary>
-    private static FaceOrbits? Choose(AffineMap map, List<List<int>> chains)
+    private static FaceOrbits? Choose(AffineMap map, List<List<int>> chains, int runCost)
     {
         var counts = chains.GroupBy(chain => chain.Count).ToDictionary(group => group.Key, group => group.Count());
         var cuts = counts.Keys.ToDictionary(length => length, _ => 1);
@@ -133,19 +134,19 @@ internal sealed record FaceOrbits(AffineMap Map, List<(int Length, List<int> Sta
         while (lengths.Length > 0)
         {
             var best = lengths.MaxBy(Gain);
-            if (Gain(best) <= RunCost)
+            if (Gain(best) <= runCost)
             {
                 break;
             }
 
-            savings += Gain(best) - RunCost;
+            savings += Gain(best) - runCost;
             foreach (var length in lengths.Where(length => Left(length, best) < Left(length, cuts[length])))
             {
                 cuts[length] = best;
             }
         }
 
-        if (savings <= 0)
+        if (savings <= MinShare * chains.Sum(chain => chain.Count))
         {
             return null;
         }

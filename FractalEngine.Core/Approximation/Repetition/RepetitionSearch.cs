@@ -5,13 +5,32 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Approximation.Repetition;
 
 /// <summary>Finds what repeats in a mesh, connected or not: patches of faces that powers of maps multiply, and a residue.</summary>
-public static class RepetitionSearch
+public sealed class RepetitionSearch
 {
     // Maps that are looked at in full, those that save most of a sample.
     private const int MaxMaps = 12;
 
     // A grammar with more of the faces than this explains too little.
     private const double MaxShare = 0.75;
+
+    // What a map and a mesh more cost in a file, in faces; more where a grammar would have too many meshes.
+    private const int MinRunCost = 4;
+    private const int MaxMeshes = 100;
+
+    // How often all faces are looked at, at most; what is left then stays as it is.
+    private const int MaxPasses = 40;
+
+    private readonly CancellationToken _cancellation;
+    private readonly int _runCost;
+    private long _workLeft;
+    private int _meshCount;
+
+    private RepetitionSearch(FaceSet faces, int runCost, CancellationToken cancellation)
+    {
+        _workLeft = (long)MaxPasses * faces.Count;
+        _runCost = runCost;
+        _cancellation = cancellation;
+    }
 
     /// <summary>Finds powers of maps that make the mesh of fewer faces, or null.</summary>
     /// <param name="mesh">The mesh; faces without area don't count, and faces with the same corners count once.</param>
@@ -26,42 +45,54 @@ public static class RepetitionSearch
         }
 
         var faces = FaceSet.Create(mesh, mesh.UsedBounds.Diagonal / FaceSet.TolerancesOfLength);
-        var grammar = Describe(faces, cancellation);
+        MeshGrammar? grammar = null;
+        for (var runCost = MinRunCost; grammar is null; runCost *= 4)
+        {
+            grammar = new RepetitionSearch(faces, runCost, cancellation).Describe(faces);
+        }
+
         return grammar.FaceCount <= MaxShare * faces.Count ? grammar : null;
     }
 
-    private static MeshGrammar Describe(FaceSet faces, CancellationToken cancellation)
+    /// <summary>Splits faces into patches that repeat and a residue; null where that makes too many meshes.</summary>
+    private MeshGrammar? Describe(FaceSet faces)
     {
         var parts = new List<MeshGrammar>();
-        while (faces.Count > FaceOrbits.RunCost && FindOrbits(faces, cancellation) is { } orbits)
+        while (faces.Count > _runCost && FindOrbits(faces) is { } orbits)
         {
-            parts.AddRange(orbits.Runs.Select(
-                run => Repeat(orbits.Map, run.Length, Describe(faces.Take(run.Starts), cancellation))));
+            foreach (var (length, starts) in orbits.Runs)
+            {
+                if (Describe(faces.Take(starts)) is not { } part)
+                {
+                    return null;
+                }
+
+                parts.Add(Repeat(orbits.Map, length, part));
+            }
+
             faces = faces.Take(orbits.Rest);
         }
 
-        return new([], null, faces.ToMesh(), null) { Parts = parts };
+        _meshCount += faces.Count > 0 ? 1 : 0;
+        return _meshCount <= MaxMeshes ? new([], null, faces.ToMesh(), null) { Parts = parts } : null;
     }
 
-    private static FaceOrbits? FindOrbits(FaceSet faces, CancellationToken cancellation)
+    private FaceOrbits? FindOrbits(FaceSet faces)
     {
-        foreach (var keepsSize in new[] { true, false })
+        FaceOrbits? best = null;
+        for (var round = 0; round < 2 && best is null && _workLeft > 0; round++)
         {
-            FaceOrbits? best = null;
-            foreach (var map in MapCandidates.Find(faces, keepsSize, cancellation).Take(MaxMaps))
+            var keepsSize = round == 0;
+            _workLeft -= faces.Count;
+            foreach (var map in MapCandidates.Find(faces, keepsSize, _cancellation).Take(MaxMaps))
             {
-                cancellation.ThrowIfCancellationRequested();
-                var orbits = FaceOrbits.Find(faces, map, keepsSize);
+                _cancellation.ThrowIfCancellationRequested();
+                var orbits = FaceOrbits.Find(faces, map, keepsSize, _runCost);
                 best = orbits?.Savings > (best?.Savings ?? 0) ? orbits : best;
-            }
-
-            if (best is not null)
-            {
-                return best;
             }
         }
 
-        return null;
+        return best;
     }
 
     private static MeshGrammar Repeat(AffineMap map, int count, MeshGrammar inner)
