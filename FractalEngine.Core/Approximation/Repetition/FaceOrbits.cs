@@ -44,23 +44,24 @@ internal sealed record FaceOrbits(AffineMap Map, List<(int Length, List<int> Sta
         var turned = 0;
         for (var face = 0; face < next.Length; face++)
         {
-            var (a, b, c) = (images[faces.Corners[3 * face]], images[faces.Corners[(3 * face) + 1]], images[faces.Corners[(3 * face) + 2]]);
-            next[face] = faces.FaceOf(a, b, c);
+            var (a, b) = (images[faces.Corners[3 * face]], images[faces.Corners[(3 * face) + 1]]);
+            next[face] = faces.FaceOf(a, b, images[faces.Corners[(3 * face) + 2]]);
             if (next[face] >= 0)
             {
-                var corner = Enumerable.Range(3 * next[face], 3).First(corner => faces.Corners[corner] == a);
+                var corner = 3 * next[face];
+                corner += faces.Corners[corner] == a ? 0 : faces.Corners[corner + 1] == a ? 1 : 2;
                 turned += faces.Corners[FaceSet.After(corner)] == b ? -1 : 1;
             }
         }
 
         // A rotation takes the outside of a solid to its outside.
-        return turned > 0 && map.Linear.Determinant() > 0 ? null : Choose(map, FindChains(faces, map, next), runCost);
+        return turned > 0 && map.Linear.Determinant() > 0 ? null : Choose(map, FindChains(faces, map, images, next), runCost);
     }
 
     private static int[] MapPoints(FaceSet faces, AffineMap map) => [.. faces.Points.Select(point => faces.PointAt(map * point))];
 
     /// <summary>Splits all faces into chains, each from one without predecessor; circles start near one place.</summary>
-    private static List<List<int>> FindChains(FaceSet faces, AffineMap map, int[] next)
+    private static List<List<int>> FindChains(FaceSet faces, AffineMap map, int[] images, int[] next)
     {
         var isReached = new bool[next.Length];
         foreach (var face in next.Where(face => face >= 0))
@@ -72,55 +73,65 @@ internal sealed record FaceOrbits(AffineMap Map, List<(int Length, List<int> Sta
         var isTaken = new bool[next.Length];
         var chains = new List<List<int>>();
         Vector? place = null;
-        foreach (var face in Enumerable.Range(0, next.Length).OrderBy(face => isReached[face]))
+        foreach (var face in Enumerable.Range(0, next.Length).Where(face => !isReached[face]))
         {
-            if (isTaken[face])
-            {
-                continue;
-            }
+            AddChain(face);
+        }
 
-            var start = face;
-            if (isReached[face])
+        for (var face = 0; face < next.Length; face++)
+        {
+            // Circles, and what is left of chains that drift away.
+            while (!isTaken[face])
             {
                 place ??= faces.Centroid(face);
+                var start = face;
                 for (var other = next[face]; other >= 0 && other != face && !isTaken[other]; other = next[other])
                 {
-                    start = (faces.Centroid(other) - place.Value).LengthSquared() < (faces.Centroid(start) - place.Value).LengthSquared()
-                        ? other : start;
+                    start = DistanceSquared(other) < DistanceSquared(start) ? other : start;
                 }
-            }
 
-            var chain = new List<int>();
-            for (var other = start; other >= 0 && !isTaken[other] && IsImage(start, other, chain.Count); other = next[other])
-            {
-                isTaken[other] = true;
-                chain.Add(other);
-            }
-
-            chains.Add(chain);
-            if (!isTaken[face])
-            {
-                // A circle that drifts away from itself before it closes.
-                isTaken[face] = true;
-                chains.Add([face]);
+                AddChain(start);
             }
         }
 
         return chains;
 
-        bool IsImage(int start, int face, int power)
+        double DistanceSquared(int face) => (faces.Centroid(face) - place.Value).LengthSquared();
+
+        void AddChain(int start)
         {
-            while (powers.Count <= power)
+            var points = faces.Corners.AsSpan(3 * start, 3).ToArray();
+            var chain = new List<int>();
+            for (var face = start; face >= 0 && !isTaken[face] && IsImage(start, points, chain.Count); face = next[face])
+            {
+                isTaken[face] = true;
+                chain.Add(face);
+                for (var side = 0; side < 3; side++)
+                {
+                    points[side] = images[points[side]];
+                }
+            }
+
+            chains.Add(chain);
+        }
+
+        bool IsImage(int start, int[] points, int power)
+        {
+            if (powers.Count == power)
             {
                 powers.Add(map * powers[^1]);
             }
 
-            return Enumerable.Range(3 * start, 3).All(corner =>
+            for (var side = 0; side < 3; side++)
             {
-                var image = powers[power] * faces.Points[faces.Corners[corner]];
-                return Enumerable.Range(3 * face, 3).Any(
-                    other => (faces.Points[faces.Corners[other]] - image).Length() <= MaxDrift * faces.Tolerance);
-            });
+                var error = (powers[power] * faces.Points[faces.Corners[(3 * start) + side]]) - faces.Points[points[side]];
+                if (error.LengthSquared() > MaxDrift * MaxDrift * faces.Tolerance * faces.Tolerance)
+                {
+                    return false;
+                }
+            }
+
+            return true;
         }
     }
 

@@ -14,46 +14,47 @@ internal sealed class FaceSet
     public const double TolerancesOfLength = 1e7;
 
     private readonly Dictionary<(int, int, int), int> _faces = [];
-    private readonly Dictionary<int, int> _compact = [];
-    private readonly List<Vector> _points = [];
-    private readonly List<int> _corners = [];
     private readonly PointGrid _grid;
 
     /// <summary>Takes some faces of a list.</summary>
     /// <param name="points">Positions, scene units.</param>
     /// <param name="corners">Indices of positions, [faces × 3].</param>
     /// <param name="tolerance">Largest distance of a mapped point from the one that it should be, scene units.</param>
-    public FaceSet(IReadOnlyList<Vector> points, IEnumerable<int> corners, double tolerance)
+    public FaceSet(Vector[] points, IEnumerable<int> corners, double tolerance)
     {
         Tolerance = tolerance;
+        var used = new List<Vector>();
+        var numbers = new int[points.Length];
+        var kept = new List<int>();
         foreach (var face in corners.Chunk(3))
         {
             var (a, b, c) = (points[face[0]], points[face[1]], points[face[2]]);
-            if (Vector.Cross(b - a, c - a) != Vector.Zero && _faces.TryAdd(Sorted(face[0], face[1], face[2]), 0))
+            if (Vector.Cross(b - a, c - a) == Vector.Zero || !_faces.TryAdd(Sorted(face[0], face[1], face[2]), kept.Count / 3))
             {
-                _corners.AddRange(face);
+                continue;
+            }
+
+            foreach (var point in face)
+            {
+                if (numbers[point] == 0)
+                {
+                    used.Add(points[point]);
+                    numbers[point] = used.Count;
+                }
+
+                kept.Add(numbers[point] - 1);
             }
         }
 
+        Points = [.. used];
+        Corners = [.. kept];
         _faces.Clear();
-        for (var corner = 0; corner < _corners.Count; corner++)
-        {
-            ref var index = ref CollectionsMarshal.GetValueRefOrAddDefault(_compact, _corners[corner], out var exists);
-            if (!exists)
-            {
-                index = _points.Count;
-                _points.Add(points[_corners[corner]]);
-            }
-
-            _corners[corner] = index;
-        }
-
         for (var face = 0; face < Count; face++)
         {
-            _faces.Add(Sorted(_corners[3 * face], _corners[(3 * face) + 1], _corners[(3 * face) + 2]), face);
+            _faces.Add(Sorted(Corners[3 * face], Corners[(3 * face) + 1], Corners[(3 * face) + 2]), face);
         }
 
-        _grid = new(_points, tolerance);
+        _grid = new(Points, tolerance);
         Twins = FindTwins();
     }
 
@@ -61,13 +62,13 @@ internal sealed class FaceSet
     public double Tolerance { get; }
 
     /// <summary>Number of faces in the set.</summary>
-    public int Count => _corners.Count / 3;
+    public int Count => Corners.Length / 3;
 
     /// <summary>The positions of the faces' corners, scene units.</summary>
-    public IReadOnlyList<Vector> Points => _points;
+    public Vector[] Points { get; }
 
     /// <summary>Indices of points, [faces × 3].</summary>
-    public IReadOnlyList<int> Corners => _corners;
+    public int[] Corners { get; }
 
     /// <summary>For each corner the next one, in a circle, whose edge to the corner after it is the same; [faces × 3].</summary>
     public int[] Twins { get; }
@@ -92,14 +93,14 @@ internal sealed class FaceSet
 
     /// <summary>Makes a set of some of the faces.</summary>
     public FaceSet Take(IEnumerable<int> faces) =>
-        new(_points, faces.SelectMany(face => Enumerable.Range(3 * face, 3)).Select(corner => _corners[corner]), Tolerance);
+        new(Points, faces.SelectMany(face => Enumerable.Range(3 * face, 3)).Select(corner => Corners[corner]), Tolerance);
 
     /// <summary>Makes a mesh of all faces.</summary>
-    public Mesh ToMesh() => new([.. _points.SelectMany(point => new[] { point.X, point.Y, point.Z })], [.. _corners]);
+    public Mesh ToMesh() => new([.. Points.SelectMany(point => new[] { point.X, point.Y, point.Z })], [.. Corners]);
 
     /// <summary>The mean of a face's corners.</summary>
     public Vector Centroid(int face) =>
-        (_points[_corners[3 * face]] + _points[_corners[(3 * face) + 1]] + _points[_corners[(3 * face) + 2]]) / 3;
+        (Points[Corners[3 * face]] + Points[Corners[(3 * face) + 1]] + Points[Corners[(3 * face) + 2]]) / 3;
 
     /// <summary>Returns the corner after another one around its face.</summary>
     public static int After(int corner) => corner % 3 == 2 ? corner - 2 : corner + 1;
@@ -113,9 +114,9 @@ internal sealed class FaceSet
     /// <summary>Returns the face that a map takes a face to, or −1.</summary>
     public int Image(AffineMap map, int face)
     {
-        var a = PointAt(map * _points[_corners[3 * face]]);
-        var b = a < 0 ? -1 : PointAt(map * _points[_corners[(3 * face) + 1]]);
-        return b < 0 ? -1 : FaceOf(a, b, PointAt(map * _points[_corners[(3 * face) + 2]]));
+        var a = PointAt(map * Points[Corners[3 * face]]);
+        var b = a < 0 ? -1 : PointAt(map * Points[Corners[(3 * face) + 1]]);
+        return b < 0 ? -1 : FaceOf(a, b, PointAt(map * Points[Corners[(3 * face) + 2]]));
     }
 
     private static (int, int, int) Sorted(int a, int b, int c)
@@ -126,11 +127,11 @@ internal sealed class FaceSet
 
     private int[] FindTwins()
     {
-        var twins = new int[_corners.Count];
+        var twins = new int[Corners.Length];
         var firsts = new Dictionary<(int, int), int>();
         for (var corner = 0; corner < twins.Length; corner++)
         {
-            var (a, b) = (_corners[corner], _corners[After(corner)]);
+            var (a, b) = (Corners[corner], Corners[After(corner)]);
             ref var first = ref CollectionsMarshal.GetValueRefOrAddDefault(firsts, (Math.Min(a, b), Math.Max(a, b)), out var exists);
             first = exists ? first : corner;
             twins[corner] = corner == first ? corner : twins[first];

@@ -13,7 +13,7 @@ internal sealed class MapCandidates
     private const int MaxTranslations = 4096;
     private const int MaxTurns = 128;
     private const int MaxPerReference = 24;
-    private const int MaxRun = 32;
+    private const int MaxRun = 16;
 
     // Of the faces around a reference; at the end of a repetition fewer are met.
     private const double MinLocalShare = 0.3;
@@ -22,7 +22,7 @@ internal sealed class MapCandidates
     private readonly FaceSet _faces;
     private readonly bool _keepsSize;
     private readonly double _length;
-    private readonly List<(AffineMap Map, double Savings)> _maps = [];
+    private readonly List<(AffineMap Map, double Share)> _maps = [];
 
     private MapCandidates(FaceSet faces, bool keepsSize)
     {
@@ -35,7 +35,8 @@ internal sealed class MapCandidates
     /// <param name="faces">The faces.</param>
     /// <param name="keepsSize">Whether images have the size of what they are images of.</param>
     /// <param name="cancellation">Ends the search early.</param>
-    public static IEnumerable<AffineMap> Find(FaceSet faces, bool keepsSize, CancellationToken cancellation)
+    /// <returns>Maps, and which part of all faces each seems to save.</returns>
+    public static IEnumerable<(AffineMap Map, double Share)> Find(FaceSet faces, bool keepsSize, CancellationToken cancellation)
     {
         var candidates = new MapCandidates(faces, keepsSize);
         foreach (var rounds in new[] { 1, 3 })
@@ -59,7 +60,7 @@ internal sealed class MapCandidates
             }
         }
 
-        return candidates._maps.OrderByDescending(candidate => candidate.Savings).Select(candidate => candidate.Map);
+        return candidates._maps.OrderByDescending(candidate => candidate.Share);
     }
 
     private void AddFrom(int reference, int[] members)
@@ -89,20 +90,32 @@ internal sealed class MapCandidates
             }
         }
 
-        var savings = 0.0;
+        var share = 0.0;
+        var back = map.Inverse();
         for (var sample = 0; sample < SampleCount; sample++)
         {
             var start = (int)((sample + 0.5) / SampleCount * _faces.Count);
             var run = 1;
-            for (var face = _faces.Image(map, start); face >= 0 && face != start && run < MaxRun; face = _faces.Image(map, face))
+            foreach (var way in new[] { map, back })
             {
-                run++;
+                var face = _faces.Image(way, start);
+                for (var left = MaxRun; face >= 0 && face != start && left > 0; left--)
+                {
+                    face = _faces.Image(way, face);
+                    run++;
+                }
+
+                // A circle is complete.
+                if (face == start)
+                {
+                    break;
+                }
             }
 
-            savings += 1 - (1.0 / run);
+            share += (1 - (1.0 / run)) / SampleCount;
         }
 
-        _maps.Add((map, savings));
+        _maps.Add((map, share));
     }
 
     private bool IsLocal(AffineMap map, List<int> local)
@@ -171,9 +184,9 @@ internal sealed class MapCandidates
     /// <summary>Points from the surroundings of a face to all of the set, the nearest first.</summary>
     private Vector[] FindTrail(List<int> local, Vector origin)
     {
-        var stride = Math.Max(1, _faces.Points.Count / (2 * SampleCount));
+        var stride = Math.Max(1, _faces.Points.Length / (2 * SampleCount));
         var trail = local.SelectMany(face => Enumerable.Range(3 * face, 3)).Select(corner => _faces.Corners[corner])
-            .Concat(Enumerable.Range(0, _faces.Points.Count / stride).Select(index => index * stride))
+            .Concat(Enumerable.Range(0, _faces.Points.Length / stride).Select(index => index * stride))
             .Distinct().Select(point => _faces.Points[point]).ToArray();
         Array.Sort([.. trail.Select(point => (point - origin).LengthSquared())], trail);
         return trail;

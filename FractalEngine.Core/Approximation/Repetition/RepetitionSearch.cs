@@ -10,15 +10,20 @@ public sealed class RepetitionSearch
     // Maps that are looked at in full, those that save most of a sample.
     private const int MaxMaps = 12;
 
+    // Maps that seem to save less than that part of the best are not looked at.
+    private const double MinEstimate = 0.6;
+
     // A grammar with more of the faces than this explains too little.
     private const double MaxShare = 0.75;
 
     // What a map and a mesh more cost in a file, in faces; more where a grammar would have too many meshes.
     private const int MinRunCost = 4;
+    private const int MaxRuns = 5000;
     private const int MaxMeshes = 100;
 
-    // How often all faces are looked at, at most; what is left then stays as it is.
-    private const int MaxPasses = 40;
+    // Faces that are looked at, with repetitions; what is left then stays as it is. A million takes some five seconds.
+    private const int MaxWork = 1_000_000;
+    private const int MinPasses = 3;
 
     private readonly CancellationToken _cancellation;
     private readonly int _runCost;
@@ -27,7 +32,7 @@ public sealed class RepetitionSearch
 
     private RepetitionSearch(FaceSet faces, int runCost, CancellationToken cancellation)
     {
-        _workLeft = (long)MaxPasses * faces.Count;
+        _workLeft = MaxWork + ((long)MinPasses * faces.Count);
         _runCost = runCost;
         _cancellation = cancellation;
     }
@@ -46,7 +51,7 @@ public sealed class RepetitionSearch
 
         var faces = FaceSet.Create(mesh, mesh.UsedBounds.Diagonal / FaceSet.TolerancesOfLength);
         MeshGrammar? grammar = null;
-        for (var runCost = MinRunCost; grammar is null; runCost *= 4)
+        for (var runCost = Math.Max(MinRunCost, faces.Count / MaxRuns); grammar is null; runCost *= 8)
         {
             grammar = new RepetitionSearch(faces, runCost, cancellation).Describe(faces);
         }
@@ -84,9 +89,14 @@ public sealed class RepetitionSearch
         {
             var keepsSize = round == 0;
             _workLeft -= faces.Count;
-            foreach (var map in MapCandidates.Find(faces, keepsSize, _cancellation).Take(MaxMaps))
+            foreach (var (map, share) in MapCandidates.Find(faces, keepsSize, _cancellation).Take(MaxMaps))
             {
                 _cancellation.ThrowIfCancellationRequested();
+                if (share * faces.Count < MinEstimate * (best?.Savings ?? 0))
+                {
+                    break;
+                }
+
                 var orbits = FaceOrbits.Find(faces, map, keepsSize, _runCost);
                 best = orbits?.Savings > (best?.Savings ?? 0) ? orbits : best;
             }
