@@ -13,7 +13,7 @@ internal sealed record FaceOrbits(AffineMap Map, List<(int Length, List<int> Sta
     private const double MinShare = 0.02;
 
     // How far powers may lead away, in tolerances.
-    private const double MaxDrift = 4;
+    private const double MaxDrift = 2;
 
     /// <summary>Finds the runs that save most.</summary>
     /// <param name="faces">The faces.</param>

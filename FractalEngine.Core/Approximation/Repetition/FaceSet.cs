@@ -10,8 +10,8 @@ namespace FractalEngine.Core.Approximation.Repetition;
 /// <remarks>Points within the tolerance are one; faces without area are left out, and of faces with the same points one stays.</remarks>
 internal sealed class FaceSet
 {
-    /// <summary>Size of a whole mesh, in tolerances.</summary>
-    public const double TolerancesOfLength = 1e7;
+    /// <summary>Size of a whole mesh, in tolerances: files with six decimals of some tens of units are met, too.</summary>
+    public const double TolerancesOfLength = 3e6;
 
     private readonly Dictionary<(int, int, int), int> _faces = [];
     private readonly PointGrid _grid;
