@@ -3,7 +3,7 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Approximation.Repetition;
 
 /// <summary>Numbers of faces that no similarity changes: equal ones look alike with their surroundings.</summary>
-/// <remarks>Weisfeiler–Lehman refinement over faces that share edges, with lengths of edges and of what stands across them.</remarks>
+/// <remarks>Weisfeiler–Lehman refinement over faces that share edges, with lengths of edges and distances of neighbours.</remarks>
 internal static class FaceLabels
 {
     // Lengths are compared by their logarithm, in steps of a thousandth. A length at the end of a step costs a candidate at most.
@@ -18,16 +18,18 @@ internal static class FaceLabels
     {
         var labels = new ulong[faces.Count];
         var units = new double[faces.Count];
-        var edges = new ulong[3 * faces.Count];
-        for (var face = 0; face < labels.Length; face++)
+        var edges = new ulong[faces.Corners.Length];
+        var centroids = Enumerable.Range(0, faces.Count).Select(faces.Centroid).ToArray();
+        Array.Fill(units, isRelative ? 0 : 1);
+        for (var corner = 0; isRelative && corner < edges.Length; corner++)
         {
-            var lengths = Enumerable.Range(3 * face, 3).Select(corner => Length(corner, FaceSet.After(corner))).ToArray();
-            units[face] = isRelative ? lengths.Max() : 1;
-            for (var side = 0; side < 3; side++)
-            {
-                edges[(3 * face) + side] = Step(lengths[side] / units[face]);
-                labels[face] += HashMixing.Mix(edges[(3 * face) + side]);
-            }
+            units[faces.FaceAt[corner]] = Math.Max(units[faces.FaceAt[corner]], LengthAt(corner));
+        }
+
+        for (var corner = 0; corner < edges.Length; corner++)
+        {
+            edges[corner] = Step(LengthAt(corner) / units[faces.FaceAt[corner]]);
+            labels[faces.FaceAt[corner]] += HashMixing.Mix(edges[corner]);
         }
 
         for (var round = 0; round < rounds; round++)
@@ -35,11 +37,12 @@ internal static class FaceLabels
             var next = new ulong[labels.Length];
             for (var corner = 0; corner < edges.Length; corner++)
             {
+                var face = faces.FaceAt[corner];
                 for (var twin = faces.Twins[corner]; twin != corner; twin = faces.Twins[twin])
                 {
-                    var across = Length(FaceSet.After(FaceSet.After(corner)), FaceSet.After(FaceSet.After(twin)));
-                    next[corner / 3] += HashMixing.Mix(
-                        labels[twin / 3] + (edges[corner] * HashMixing.GoldenGamma) + HashMixing.Mix(Step(across / units[corner / 3])));
+                    var across = (centroids[faces.FaceAt[twin]] - centroids[face]).Length() / units[face];
+                    next[face] += HashMixing.Mix(
+                        labels[faces.FaceAt[twin]] + (edges[corner] * HashMixing.GoldenGamma) + HashMixing.Mix(Step(across)));
                 }
             }
 
@@ -48,7 +51,7 @@ internal static class FaceLabels
 
         return labels;
 
-        double Length(int corner1, int corner2) => (faces.Points[faces.Corners[corner1]] - faces.Points[faces.Corners[corner2]]).Length();
+        double LengthAt(int corner) => (faces.PointOf(corner) - faces.PointOf(faces.After(corner))).Length();
     }
 
     private static ulong Step(double length) => length > 0 ? (ulong)(long)Math.Floor((StepsPerFactor * Math.Log(length)) + StepOffset) : 0;

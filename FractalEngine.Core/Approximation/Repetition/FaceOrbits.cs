@@ -44,13 +44,12 @@ internal sealed record FaceOrbits(AffineMap Map, List<(int Length, List<int> Sta
         var turned = 0;
         for (var face = 0; face < next.Length; face++)
         {
-            var (a, b) = (images[faces.Corners[3 * face]], images[faces.Corners[(3 * face) + 1]]);
-            next[face] = faces.FaceOf(a, b, images[faces.Corners[(3 * face) + 2]]);
+            next[face] = faces.ImageOf(face, point => images[point]);
             if (next[face] >= 0)
             {
-                var corner = 3 * next[face];
-                corner += faces.Corners[corner] == a ? 0 : faces.Corners[corner + 1] == a ? 1 : 2;
-                turned += faces.Corners[FaceSet.After(corner)] == b ? -1 : 1;
+                var start = faces.Starts[face];
+                var corner = Array.IndexOf(faces.Corners, images[faces.Corners[start]], faces.Starts[next[face]]);
+                turned += faces.Corners[faces.After(corner)] == images[faces.Corners[faces.After(start)]] ? -1 : 1;
             }
         }
 
@@ -100,13 +99,13 @@ internal sealed record FaceOrbits(AffineMap Map, List<(int Length, List<int> Sta
 
         void AddChain(int start)
         {
-            var points = faces.Corners.AsSpan(3 * start, 3).ToArray();
+            var points = faces.Corners[faces.Starts[start]..faces.Starts[start + 1]];
             var chain = new List<int>();
             for (var face = start; face >= 0 && !isTaken[face] && IsImage(start, points, chain.Count); face = next[face])
             {
                 isTaken[face] = true;
                 chain.Add(face);
-                for (var side = 0; side < 3; side++)
+                for (var side = 0; side < points.Length; side++)
                 {
                     points[side] = images[points[side]];
                 }
@@ -122,9 +121,9 @@ internal sealed record FaceOrbits(AffineMap Map, List<(int Length, List<int> Sta
                 powers.Add(map * powers[^1]);
             }
 
-            for (var side = 0; side < 3; side++)
+            for (var side = 0; side < points.Length; side++)
             {
-                var error = (powers[power] * faces.Points[faces.Corners[(3 * start) + side]]) - faces.Points[points[side]];
+                var error = (powers[power] * faces.PointOf(faces.Starts[start] + side)) - faces.Points[points[side]];
                 if (error.LengthSquared() > MaxDrift * MaxDrift * faces.Tolerance * faces.Tolerance)
                 {
                     return false;

@@ -1,4 +1,3 @@
-using System.Collections.Immutable;
 using System.Runtime.InteropServices;
 using FractalEngine.Core.Approximation.Elements;
 using FractalEngine.Core.Geometry;
@@ -6,74 +5,78 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Approximation.Repetition;
 
-/// <summary>Faces as sets of three points, and the question that the search asks: which face does a map take a face to?</summary>
-/// <remarks>Points within the tolerance are one; faces without area are left out, and of faces with the same points one stays.</remarks>
+/// <summary>Faces as sets of points, and the question that the search asks: which face does a map take a face to?</summary>
+/// <remarks>Faces are triangles, or convex polygons of several; of faces with the same points one stays.</remarks>
 internal sealed class FaceSet
 {
     /// <summary>Size of a whole mesh, in tolerances: files with six decimals of some tens of units are met, too.</summary>
     public const double TolerancesOfLength = 3e6;
 
-    private readonly Dictionary<(int, int, int), int> _faces = [];
+    private readonly Dictionary<ulong, int> _faces = [];
+    private readonly List<(int[] Outline, int[] Triangles)> _outlines = [];
     private readonly PointGrid _grid;
 
-    /// <summary>Takes some faces of a list.</summary>
+    /// <summary>Takes faces, and of the points those that they use.</summary>
     /// <param name="points">Positions, scene units.</param>
-    /// <param name="corners">Indices of positions, [faces × 3].</param>
+    /// <param name="faces">Indices of positions: corners around each face, and those of its triangles, [triangles × 3].</param>
     /// <param name="tolerance">Largest distance of a mapped point from the one that it should be, scene units.</param>
-    public FaceSet(Vector[] points, IEnumerable<int> corners, double tolerance)
+    public FaceSet(Vector[] points, IEnumerable<(int[] Outline, int[] Triangles)> faces, double tolerance)
     {
         Tolerance = tolerance;
         var used = new List<Vector>();
         var numbers = new int[points.Length];
-        var kept = new List<int>();
-        foreach (var face in corners.Chunk(3))
+        var corners = new List<int>();
+        var starts = new List<int> { 0 };
+        foreach (var (outline, triangles) in faces)
         {
-            var (a, b, c) = (points[face[0]], points[face[1]], points[face[2]]);
-            if (Vector.Cross(b - a, c - a) == Vector.Zero || !_faces.TryAdd(Sorted(face[0], face[1], face[2]), kept.Count / 3))
+            foreach (var point in outline.Where(point => numbers[point] == 0))
             {
-                continue;
+                used.Add(points[point]);
+                numbers[point] = used.Count;
             }
 
-            foreach (var point in face)
+            var own = Array.ConvertAll(outline, point => numbers[point] - 1);
+            if (_faces.TryAdd(KeyOf(own), Count))
             {
-                if (numbers[point] == 0)
-                {
-                    used.Add(points[point]);
-                    numbers[point] = used.Count;
-                }
-
-                kept.Add(numbers[point] - 1);
+                _outlines.Add((own, outline == triangles ? own : Array.ConvertAll(triangles, point => numbers[point] - 1)));
+                corners.AddRange(own);
+                starts.Add(corners.Count);
             }
         }
 
         Points = [.. used];
-        Corners = [.. kept];
-        _faces.Clear();
-        for (var face = 0; face < Count; face++)
-        {
-            _faces.Add(Sorted(Corners[3 * face], Corners[(3 * face) + 1], Corners[(3 * face) + 2]), face);
-        }
-
-        _grid = new(Points, tolerance);
+        Corners = [.. corners];
+        Starts = [.. starts];
+        FaceAt = [.. Enumerable.Range(0, Count).SelectMany(face => Enumerable.Repeat(face, Starts[face + 1] - Starts[face]))];
         Twins = FindTwins();
+        _grid = new(Points, tolerance);
     }
 
     /// <summary>Largest distance of a mapped point from the one that it should be, scene units.</summary>
     public double Tolerance { get; }
 
     /// <summary>Number of faces in the set.</summary>
-    public int Count => Corners.Length / 3;
+    public int Count => _outlines.Count;
+
+    /// <summary>Number of triangles in all faces.</summary>
+    public int TriangleCount => _outlines.Sum(face => face.Triangles.Length / 3);
 
     /// <summary>The positions of the faces' corners, scene units.</summary>
     public Vector[] Points { get; }
 
-    /// <summary>Indices of points, [faces × 3].</summary>
+    /// <summary>Indices of points, face after face, around each.</summary>
     public int[] Corners { get; }
 
-    /// <summary>For each corner the next one, in a circle, whose edge to the corner after it is the same; [faces × 3].</summary>
+    /// <summary>The first corner of each face, and at last the number of all corners.</summary>
+    public int[] Starts { get; }
+
+    /// <summary>The face of each corner.</summary>
+    public int[] FaceAt { get; }
+
+    /// <summary>For each corner the next one, in a circle, whose edge to the corner after it is the same.</summary>
     public int[] Twins { get; }
 
-    /// <summary>Makes the faces of a mesh a set, with points that are welded.</summary>
+    /// <summary>Makes the faces of a mesh a set, with points that are welded; faces without area are left out.</summary>
     public static FaceSet Create(Mesh mesh, double tolerance)
     {
         var points = Enumerable.Range(0, mesh.VertexCount).Select(mesh.Vertex).ToArray();
@@ -88,42 +91,67 @@ internal sealed class FaceSet
             }
         }
 
-        return new(points, mesh.VertexIndices.Select(vertex => firsts[vertex]), tolerance);
+        var triangles = mesh.VertexIndices.Select(vertex => firsts[vertex]).Chunk(3)
+            .Where(face => Vector.Cross(points[face[1]] - points[face[0]], points[face[2]] - points[face[0]]) != Vector.Zero);
+        return new(points, triangles.Select(face => (face, face)), tolerance);
     }
 
     /// <summary>Makes a set of some of the faces.</summary>
-    public FaceSet Take(IEnumerable<int> faces) =>
-        new(Points, faces.SelectMany(face => Enumerable.Range(3 * face, 3)).Select(corner => Corners[corner]), Tolerance);
+    public FaceSet Take(IEnumerable<int> faces) => new(Points, faces.Select(face => _outlines[face]), Tolerance);
 
     /// <summary>Makes a mesh of all faces.</summary>
-    public Mesh ToMesh() => new([.. Points.SelectMany(point => new[] { point.X, point.Y, point.Z })], [.. Corners]);
+    public Mesh ToMesh() => new(
+        [.. Points.SelectMany(point => new[] { point.X, point.Y, point.Z })], [.. _outlines.SelectMany(face => face.Triangles)]);
 
     /// <summary>The mean of a face's corners.</summary>
-    public Vector Centroid(int face) =>
-        (Points[Corners[3 * face]] + Points[Corners[(3 * face) + 1]] + Points[Corners[(3 * face) + 2]]) / 3;
+    public Vector Centroid(int face)
+    {
+        var sum = Vector.Zero;
+        for (var corner = Starts[face]; corner < Starts[face + 1]; corner++)
+        {
+            sum += Points[Corners[corner]];
+        }
 
-    /// <summary>Returns the corner after another one around its face.</summary>
-    public static int After(int corner) => corner % 3 == 2 ? corner - 2 : corner + 1;
+        return sum / (Starts[face + 1] - Starts[face]);
+    }
+
+    /// <summary>Returns the corner so many after another one around its face.</summary>
+    public int After(int corner, int count = 1)
+    {
+        var (start, end) = (Starts[FaceAt[corner]], Starts[FaceAt[corner] + 1]);
+        return corner + count < end ? corner + count : corner + count - end + start;
+    }
+
+    /// <summary>The point of a corner.</summary>
+    public Vector PointOf(int corner) => Points[Corners[corner]];
 
     /// <summary>Returns the point at a position, or −1.</summary>
     public int PointAt(Vector position) => _grid.First(position) is var entry && entry >= 0 ? _grid.PointOf(entry) : -1;
 
-    /// <summary>Returns the face of three points, or −1; points below 0 are none.</summary>
-    public int FaceOf(int a, int b, int c) => Math.Min(a, Math.Min(b, c)) >= 0 && _faces.TryGetValue(Sorted(a, b, c), out var face) ? face : -1;
+    /// <summary>Returns the face with the points that the points of another one are taken to, or −1; points below 0 are none.</summary>
+    public int ImageOf(int face, Func<int, int> imageOfPoint)
+    {
+        var key = 0UL;
+        for (var corner = Starts[face]; corner < Starts[face + 1]; corner++)
+        {
+            var image = imageOfPoint(Corners[corner]);
+            if (image < 0)
+            {
+                return -1;
+            }
+
+            key += KeyOf(image);
+        }
+
+        return _faces.GetValueOrDefault(key, -1);
+    }
 
     /// <summary>Returns the face that a map takes a face to, or −1.</summary>
-    public int Image(AffineMap map, int face)
-    {
-        var a = PointAt(map * Points[Corners[3 * face]]);
-        var b = a < 0 ? -1 : PointAt(map * Points[Corners[(3 * face) + 1]]);
-        return b < 0 ? -1 : FaceOf(a, b, PointAt(map * Points[Corners[(3 * face) + 2]]));
-    }
+    public int Image(AffineMap map, int face) => ImageOf(face, point => PointAt(map * Points[point]));
 
-    private static (int, int, int) Sorted(int a, int b, int c)
-    {
-        var (least, greatest) = (Math.Min(a, Math.Min(b, c)), Math.Max(a, Math.Max(b, c)));
-        return (least, a ^ b ^ c ^ least ^ greatest, greatest);
-    }
+    private static ulong KeyOf(int point) => HashMixing.Mix((ulong)point + HashMixing.GoldenGamma);
+
+    private static ulong KeyOf(int[] points) => points.Aggregate(0UL, (sum, point) => sum + KeyOf(point));
 
     private int[] FindTwins()
     {

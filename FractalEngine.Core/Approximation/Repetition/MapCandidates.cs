@@ -136,29 +136,32 @@ internal sealed class MapCandidates
     /// <summary>The similarities that take one face to another, with each order of corners that has the same shape.</summary>
     private IEnumerable<AffineMap> MapsBetween(int from, int to)
     {
-        var (a, b, c) = CornersOf(from, 0, 1);
-        for (var order = 0; order < 6; order++)
+        var corners = _faces.Starts[from + 1] - _faces.Starts[from];
+        var (a, b, c) = PointsFrom(_faces.Starts[from], 1);
+        for (var corner = _faces.Starts[to]; corner < _faces.Starts[to + 1]; corner++)
         {
-            var (a2, b2, c2) = CornersOf(to, order % 3, order < 3 ? 1 : 2);
-            var scale = _keepsSize ? 1 : (b2 - a2).Length() / (b - a).Length();
-            if (AreNear(a, b, a2, b2, scale) && AreNear(b, c, b2, c2, scale) && AreNear(c, a, c2, a2, scale))
+            foreach (var step in new[] { 1, corners - 1 })
             {
-                foreach (var map in SimilarityFit.OfTriangles(a, b, c, a2, b2, c2, _keepsSize))
+                var (a2, b2, c2) = PointsFrom(corner, step);
+                var scale = _keepsSize ? 1 : (b2 - a2).Length() / (b - a).Length();
+                if (AreNear(a, b, a2, b2, scale) && AreNear(b, c, b2, c2, scale) && AreNear(c, a, c2, a2, scale))
                 {
-                    yield return map;
+                    foreach (var map in SimilarityFit.OfTriangles(a, b, c, a2, b2, c2, _keepsSize))
+                    {
+                        yield return map;
+                    }
                 }
             }
         }
 
+        (Vector A, Vector B, Vector C) PointsFrom(int corner, int step)
+        {
+            var next = _faces.After(corner, step);
+            return (_faces.PointOf(corner), _faces.PointOf(next), _faces.PointOf(_faces.After(next, step)));
+        }
+
         static bool AreNear(Vector p, Vector q, Vector p2, Vector q2, double scale) =>
             Math.Abs((scale * (q - p).Length()) - (q2 - p2).Length()) <= LengthTolerance * (q2 - p2).Length();
-    }
-
-    private (Vector A, Vector B, Vector C) CornersOf(int face, int first, int step)
-    {
-        var corner = 3 * face;
-        return (_faces.Points[_faces.Corners[corner + first]], _faces.Points[_faces.Corners[corner + ((first + step) % 3)]],
-            _faces.Points[_faces.Corners[corner + ((first + (2 * step)) % 3)]]);
     }
 
     private List<int> FindLocalFaces(int reference)
@@ -166,13 +169,13 @@ internal sealed class MapCandidates
         var local = new List<int> { reference };
         for (var index = 0; index < local.Count; index++)
         {
-            for (var corner = 3 * local[index]; corner < (3 * local[index]) + 3; corner++)
+            for (var corner = _faces.Starts[local[index]]; corner < _faces.Starts[local[index] + 1]; corner++)
             {
                 for (var twin = _faces.Twins[corner]; twin != corner && local.Count < LocalFaces; twin = _faces.Twins[twin])
                 {
-                    if (!local.Contains(twin / 3))
+                    if (!local.Contains(_faces.FaceAt[twin]))
                     {
-                        local.Add(twin / 3);
+                        local.Add(_faces.FaceAt[twin]);
                     }
                 }
             }
@@ -185,7 +188,7 @@ internal sealed class MapCandidates
     private Vector[] FindTrail(List<int> local, Vector origin)
     {
         var stride = Math.Max(1, _faces.Points.Length / (2 * SampleCount));
-        var trail = local.SelectMany(face => Enumerable.Range(3 * face, 3)).Select(corner => _faces.Corners[corner])
+        var trail = local.SelectMany(face => _faces.Corners[_faces.Starts[face].._faces.Starts[face + 1]])
             .Concat(Enumerable.Range(0, _faces.Points.Length / stride).Select(index => index * stride))
             .Distinct().Select(point => _faces.Points[point]).ToArray();
         Array.Sort([.. trail.Select(point => (point - origin).LengthSquared())], trail);

@@ -16,6 +16,9 @@ public sealed class RepetitionSearch
     // A grammar with more of the faces than this explains too little.
     private const double MaxShare = 0.75;
 
+    // With more of the faces than this another search may find more.
+    private const double GoodShare = 0.05;
+
     // What a map and a mesh more cost in a file, in faces; more where a grammar would have too many meshes.
     private const int MinRunCost = 4;
     private const int MaxRuns = 5000;
@@ -49,14 +52,27 @@ public sealed class RepetitionSearch
             return null;
         }
 
-        var faces = FaceSet.Create(mesh, mesh.UsedBounds.Diagonal / FaceSet.TolerancesOfLength);
+        var triangles = FaceSet.Create(mesh, mesh.UsedBounds.Diagonal / FaceSet.TolerancesOfLength);
+        var grammar = Find(triangles, cancellation);
+        // Perhaps what repeats is split into triangles in several ways.
+        if (grammar.FaceCount > GoodShare * triangles.Count && FlatFaces.Merge(triangles) is { } polygons
+            && Find(polygons, cancellation) is var other && other.FaceCount < grammar.FaceCount)
+        {
+            grammar = other;
+        }
+
+        return grammar.FaceCount <= MaxShare * triangles.Count ? grammar : null;
+    }
+
+    private static MeshGrammar Find(FaceSet faces, CancellationToken cancellation)
+    {
         MeshGrammar? grammar = null;
         for (var runCost = Math.Max(MinRunCost, faces.Count / MaxRuns); grammar is null; runCost *= 8)
         {
             grammar = new RepetitionSearch(faces, runCost, cancellation).Describe(faces);
         }
 
-        return grammar.FaceCount <= MaxShare * faces.Count ? grammar : null;
+        return grammar;
     }
 
     /// <summary>Splits faces into patches that repeat and a residue; null where that makes too many meshes.</summary>
