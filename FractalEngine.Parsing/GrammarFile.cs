@@ -8,7 +8,7 @@ using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.Parsing;
 
-/// <summary>Writes what makes a mesh as a fractal file, with its base mesh beside it; <see cref="FractalFile"/> reads it.</summary>
+/// <summary>Writes what makes a mesh as a fractal file, with its base meshes beside it; <see cref="FractalFile"/> reads it.</summary>
 public static class GrammarFile
 {
     /// <summary>Creates or replaces the file of a grammar.</summary>
@@ -26,13 +26,9 @@ public static class GrammarFile
         ArgumentNullException.ThrowIfNull(comments);
         var fullPath = Path.GetFullPath(path);
         using var companions = new NewFiles();
-        var text = GrammarWriter.Write(
-            grammar, length, comments, NameOf(FractalFile.BaseMeshPath(fullPath), grammar.Base),
-            grammar.Leaf is { } leaf ? NameOf($"{Path.ChangeExtension(fullPath, null)}-leaf.obj", leaf) : null);
+        var text = GrammarWriter.Write(grammar, length, comments, (name, mesh) => FileReference.Create(fullPath, MeshFile.WriteNew(
+            $"{Path.ChangeExtension(fullPath, null)}-{name}.obj", mesh, ImmutableDictionary<string, Material>.Empty, companions)));
         AtomicFile.Write(path, stream => stream.Write(Encoding.UTF8.GetBytes(text)));
         companions.Keep();
-
-        string NameOf(string meshPath, Mesh mesh) =>
-            FileReference.Create(fullPath, MeshFile.WriteNew(meshPath, mesh, ImmutableDictionary<string, Material>.Empty, companions));
     }
 }

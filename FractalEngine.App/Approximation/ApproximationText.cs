@@ -19,13 +19,13 @@ internal sealed class ApproximationText(Mesh mesh, ApproximationResult result)
     /// <summary>What was found, line by line.</summary>
     public IEnumerable<string> Lines()
     {
-        var sizes = Invariant($"{result.Grammar.FaceCount} of {mesh.FaceCount} faces are left");
+        var maps = result.Grammar.MapCount;
+        var sizes = Invariant($"{result.Grammar.FaceCount} of {mesh.FaceCount} faces are left, with {maps} {(maps == 1 ? "map" : "maps")}");
         yield return result.Verdict switch
         {
-            ApproximationVerdict.Exact => Invariant($"EXACT: {sizes}, with {result.Grammar.MapCount} maps"),
-            ApproximationVerdict.Repeats => Invariant($"REPEATS: {sizes}, with {result.Grammar.MapCount} maps"),
-            ApproximationVerdict.Approximate =>
-                Invariant($"APPROXIMATE: {sizes}, with {result.Grammar.MapCount} maps, {result.Bytes} bytes"),
+            ApproximationVerdict.Exact => $"EXACT: {sizes}",
+            ApproximationVerdict.Repeats => $"REPEATS: {sizes}",
+            ApproximationVerdict.Approximate => Invariant($"APPROXIMATE: {sizes}, {result.Bytes} bytes"),
             _ => Invariant(
                 $"NO FRACTAL: nothing is closer than the simplified mesh of {result.Grammar.FaceCount} faces, {result.Bytes} bytes"),
         };

@@ -42,8 +42,7 @@ internal sealed record SearchOutcome(bool IsFound, bool IsWrong, double Seconds,
             return new(false, false, seconds, 0, 0, $"nothing in {input.Description}");
         }
 
-        var maps = grammar.Steps.Sum(step => step.Sets.Sum(set => set.Count)) + (grammar.Tree?.Maps.Count ?? 0);
-        var faces = grammar.Base.FaceCount + (grammar.Leaf?.FaceCount ?? 0);
+        var (maps, faces) = (grammar.MapCount, grammar.FaceCount);
         var diagonal = input.Clean.Bounds.Diagonal;
         Grade grade;
         try

@@ -1,6 +1,7 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Approximation.Elements;
 using FractalEngine.Core.Approximation.Grammars;
+using FractalEngine.Core.Approximation.Repetition;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
@@ -13,6 +14,9 @@ public static class GrammarSearch
     private const double ExactTolerance = 1e-7;
     private const double ExactShapeTolerance = 1e-4;
 
+    // Where more faces are left, patches of faces may repeat that are no elements.
+    private const double MaxShare = 0.05;
+
     /// <summary>Finds a grammar that makes the mesh exactly, or null.</summary>
     /// <param name="mesh">The mesh; faces without area don't count, and elements that coincide count once.</param>
     /// <param name="cancellation">Ends the search early.</param>
@@ -24,11 +28,12 @@ public static class GrammarSearch
             var elements = ElementFinder.Find(mesh, welded);
             if (elements.Count > 1 && Find(mesh, elements, cancellation) is { } grammar)
             {
-                return grammar;
+                return grammar.FaceCount <= MaxShare * mesh.FaceCount
+                    || RepetitionSearch.Find(mesh, cancellation) is not { } smaller || smaller.FaceCount >= grammar.FaceCount ? grammar : smaller;
             }
         }
 
-        return null;
+        return RepetitionSearch.Find(mesh, cancellation);
     }
 
     private static MeshGrammar? Find(Mesh mesh, List<Element> elements, CancellationToken cancellation)

@@ -104,11 +104,10 @@ public sealed class MeshApproximator
         // Below half of the tolerance there is nothing to distinguish.
         var settings = new SurfaceDistanceSettings { Resolution = 0.5 * ExactTolerance };
         var distance = SurfaceDistance.Between(_mesh, written.Mesh, settings, _cancellation);
-        var isRecursive = grammar.Tree is not null || grammar.Steps.Any(step => step.Depth > 1);
         return distance.MaxDistance.Upper > ExactTolerance * _length
             ? null
             : new(
-                isRecursive ? ApproximationVerdict.Exact : ApproximationVerdict.Repeats, grammar, written.Mesh, written.Bytes, distance,
+                grammar.IsRecursive ? ApproximationVerdict.Exact : ApproximationVerdict.Repeats, grammar, written.Mesh, written.Bytes, distance,
                 vertices, null);
     }
 

@@ -123,7 +123,7 @@ public sealed class GrammarSearchTests : IDisposable
         Assert.Equal(TextOf(mesh), TextOf(mesh));
 
         static string TextOf(Mesh mesh) =>
-            GrammarWriter.Write(GrammarSearch.FindExact(mesh, default)!, mesh.Bounds.Diagonal, [], "base.obj", null);
+            GrammarWriter.Write(GrammarSearch.FindExact(mesh, default)!, mesh.Bounds.Diagonal, [], (name, _) => name + ".obj");
     }
 
     private Mesh Expand(string text)

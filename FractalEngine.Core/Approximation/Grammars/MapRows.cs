@@ -16,6 +16,13 @@ public static class MapRows
     public static (AffineMap Map, int Count, List<AffineMap> Others)? Find(IReadOnlyList<AffineMap> maps, double tolerance, double length)
     {
         ArgumentNullException.ThrowIfNull(maps);
+        // Most rows are in order already.
+        if (maps.Count > 2 && AreNear(maps[0], AffineMap.Identity, tolerance, length)
+            && Enumerable.Range(1, maps.Count - 1).All(next => AreNear(maps[next], maps[1] * maps[next - 1], tolerance, length)))
+        {
+            return (maps[1], maps.Count, [maps[0]]);
+        }
+
         (AffineMap, int, List<AffineMap>)? best = null;
         var bestCount = 2;
         // Each map of the set has a neighbour in its row, so that one of them tells all steps. The identity is at an end.
@@ -38,6 +45,15 @@ public static class MapRows
     public static bool AreNear(AffineMap map1, AffineMap map2, double tolerance, double length) =>
         (map1.Linear - map2.Linear).MaxAbsEntry() <= tolerance
         && (map1.Translation - map2.Translation).MaxAbsComponent() <= tolerance * length;
+
+    /// <summary>Counts the maps that a file needs for a set: one for the powers of a map, and none for the identity.</summary>
+    internal static int CountMaps(IReadOnlyList<AffineMap> maps)
+    {
+        var length = 1 + maps.Max(map => map.Translation.MaxAbsComponent());
+        return maps.Count > 2 && Find(maps, RowTolerance, length) is { } row
+            ? 1 + CountMaps(row.Others)
+            : maps.Count(map => !AreNear(map, AffineMap.Identity, RowTolerance, length));
+    }
 
     /// <summary>Makes one set of successive sets that together are a row of powers.</summary>
     internal static List<MapFactor> Merge(List<MapFactor> factors, double length)

@@ -1,5 +1,7 @@
 using System.Text;
+using FractalEngine.Core.Approximation;
 using FractalEngine.Core.Approximation.Grammars;
+using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Parsing.Fdo.Writing;
@@ -15,34 +17,31 @@ internal sealed class GrammarWriter
     // Maps that differ by so little are powers of one.
     private const double RowTolerance = 1e-8;
 
+    // Where the whole is smaller, so much rounding would show.
+    private const double MinLengthOfShapes = 0.01;
+
     private readonly StringBuilder _declarations = new();
     private readonly StringBuilder _objects = new();
     private readonly List<(AffineMap Map, string Name)> _maps = [];
     private readonly double _length;
+    private readonly Func<string, Mesh, string> _fileOf;
+    private int _partCount;
 
-    private GrammarWriter(double length) => _length = length;
+    private GrammarWriter(double length, Func<string, Mesh, string> fileOf)
+    {
+        _length = length;
+        _fileOf = fileOf;
+    }
 
     /// <summary>Returns the text of the file.</summary>
     /// <param name="grammar">What makes the mesh.</param>
     /// <param name="length">Diagonal of the whole, scene units; numbers are rounded by at most 2e-10 of it.</param>
     /// <param name="comments">Lines at the beginning, without the sign of a comment.</param>
-    /// <param name="baseFile">The file of the base mesh, relative to the fractal file.</param>
-    /// <param name="leafFile">The file of the mesh at the ends, if the grammar has one.</param>
-    public static string Write(MeshGrammar grammar, double length, IEnumerable<string> comments, string baseFile, string? leafFile)
+    /// <param name="fileOf">Gives the file of a mesh, relative to the fractal file, by the mesh's name in the text.</param>
+    public static string Write(MeshGrammar grammar, double length, IEnumerable<string> comments, Func<string, Mesh, string> fileOf)
     {
-        var writer = new GrammarWriter(length);
-        writer._objects.Append(Invariant($"base. \"{baseFile}\"\n"));
-        if (grammar.Leaf is not null)
-        {
-            writer._objects.Append(Invariant($"leaf. \"{leafFile}\"\n"));
-        }
-
-        var result = grammar.Tree is { } tree ? writer.WriteTree(tree, grammar.Leaf is not null) : "base";
-        for (var index = grammar.Steps.Count - 1; index >= 0; index--)
-        {
-            result = writer.WriteStep(grammar.Steps[index], index + 1, result);
-        }
-
+        var writer = new GrammarWriter(length, fileOf);
+        var result = writer.WriteGrammar(grammar, "");
         var text = new StringBuilder();
         foreach (var comment in comments)
         {
@@ -54,7 +53,46 @@ internal sealed class GrammarWriter
 
     private static string Invariant(FormattableString text) => FormattableString.Invariant(text);
 
-    private string WriteStep(GrammarStep step, int number, string inner)
+    /// <summary>Writes what a grammar is made of, and returns the term for it.</summary>
+    /// <param name="grammar">The whole or a part.</param>
+    /// <param name="suffix">End of the names that are declared for it: none of the whole, else the part's number.</param>
+    private string WriteGrammar(MeshGrammar grammar, string suffix)
+    {
+        var leaf = grammar.Leaf is { } mesh ? WriteMesh("leaf" + suffix, mesh) : null;
+        var terms = new List<string>();
+        if (grammar.Base.FaceCount > 0 || grammar.Parts.Count == 0)
+        {
+            var name = WriteMesh(suffix.Length == 0 ? "base" : Invariant($"part{_partCount}"), grammar.Base);
+            terms.Add(grammar.Tree is { } tree ? WriteTree(tree, name, leaf, suffix) : name);
+        }
+
+        terms.AddRange(grammar.Parts.Select(part => WriteGrammar(part, Invariant($"_{++_partCount}"))));
+        var result = string.Join(" + ", terms);
+        if (terms.Count > 1 && grammar.Steps.Count > 0)
+        {
+            _objects.Append(Invariant($"sum{suffix}. {result}\n"));
+            result = "sum" + suffix;
+        }
+
+        for (var index = grammar.Steps.Count - 1; index >= 0; index--)
+        {
+            result = WriteStep(grammar.Steps[index], Invariant($"{index + 1}{suffix}"), result);
+        }
+
+        return result;
+    }
+
+    private string WriteMesh(string name, Mesh mesh)
+    {
+        // The maps of a shape are rounded in its own units.
+        var text = _length >= MinLengthOfShapes && BaseShapeSearch.Find(mesh) is var (shape, map)
+            ? (IsIdentity(map) ? "" : $"[{NameOf(map)}] ") + shape
+            : $"\"{_fileOf(name, mesh)}\"";
+        _objects.Append(Invariant($"{name}. {text}\n"));
+        return name;
+    }
+
+    private string WriteStep(GrammarStep step, string number, string inner)
     {
         var sets = string.Join(' ', step.Sets.Select(set => $"[{SetText(set)}]"));
         if (step.Depth == 1)
@@ -66,33 +104,33 @@ internal sealed class GrammarWriter
         return Invariant($"level{number} {step.Depth}");
     }
 
-    private string WriteTree(MapTree tree, bool hasLeaf)
+    private string WriteTree(MapTree tree, string baseName, string? leaf, string suffix)
     {
         if (tree.IsFull)
         {
             var maps = Names(tree.Maps);
-            _objects.Append(hasLeaf ? $"tree<leaf>. [{maps}] leaf + base\n" : $"end. base\ntree<end>. [{maps}] end + base\n");
-            return Invariant($"tree {tree.Depth}");
+            var end = leaf ?? "end" + suffix;
+            _objects.Append(leaf is null ? $"{end}. {baseName}\n" : "").Append($"tree{suffix}<{end}>. [{maps}] {end} + {baseName}\n");
+            return Invariant($"tree{suffix} {tree.Depth}");
         }
 
         // One recursive for all maps that the same maps may follow.
         var rows = tree.Follows.Select(row => string.Join(' ', row)).ToArray();
         var states = rows.Distinct().Where(row => row.Length > 0).ToList();
-        var ends = hasLeaf ? "leaf" : "base";
         var heads = new List<string>();
         var bodies = new List<string>();
         for (var state = 0; state < states.Count; state++)
         {
-            _objects.Append(Invariant($"end{state + 1}. {ends}\n"));
-            heads.Add(Invariant($"tree{state + 1}<end{state + 1}>"));
+            _objects.Append(Invariant($"end{state + 1}{suffix}. {leaf ?? baseName}\n"));
+            heads.Add(Invariant($"tree{state + 1}{suffix}<end{state + 1}{suffix}>"));
             var following = tree.Follows[Array.IndexOf(rows, states[state])];
             var terms = following.GroupBy(map => states.IndexOf(rows[map])).Select(group =>
-                $"[{Names(group.Select(map => tree.Maps[map]))}] {(group.Key < 0 ? "base" : Invariant($"end{group.Key + 1}"))}");
-            bodies.Add(string.Join(" + ", terms.Append("base")));
+                $"[{Names(group.Select(map => tree.Maps[map]))}] {(group.Key < 0 ? baseName : Invariant($"end{group.Key + 1}{suffix}"))}");
+            bodies.Add(string.Join(" + ", terms.Append(baseName)));
         }
 
         _objects.Append(string.Join(", ", heads)).Append(". ").Append(string.Join(", ", bodies)).Append('\n');
-        return Invariant($"tree{states.IndexOf(rows[^1]) + 1} {tree.Depth}");
+        return Invariant($"tree{states.IndexOf(rows[^1]) + 1}{suffix} {tree.Depth}");
     }
 
     private string Names(IEnumerable<AffineMap> maps) => string.Join(", ", maps.Select(NameOf));

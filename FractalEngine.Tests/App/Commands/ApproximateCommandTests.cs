@@ -25,7 +25,7 @@ public sealed class ApproximateCommandTests : IDisposable
             @"^EXACT: 12 of 4116 faces are left, with 7 maps\n"
             + @"vertices are within \d\.\de-\d+ of the diagonal, surfaces within \d\.\de-\d+\n$", output);
         Assert.StartsWith("wrote out/found.fdo: ", error, StringComparison.Ordinal);
-        Assert.Equal(["found-base.obj", "found.fdo"], Directory.GetFiles(_folder["out"]).Select(Path.GetFileName).Order());
+        Assert.Equal(["found.fdo"], Directory.GetFiles(_folder["out"]).Select(Path.GetFileName));
         var text = File.ReadAllLines(_folder["out/found.fdo"]);
         Assert.Equal("# flat.obj as a fractal: EXACT: 12 of 4116 faces are left, with 7 maps", text[0]);
         Assert.Equal("m1. ((1/3, 0, 0), #, (1/3))", text[2]);
@@ -59,7 +59,7 @@ public sealed class ApproximateCommandTests : IDisposable
         _folder.Write("row.fdo", "m. ((1, 0.25, 0), (0, 5, 0), #)\n<$>. [m.^0..29] box\n");
         var (exitCode, output, _) = Run("approximate", "row.fdo", "--output", "found.fdo", "--quiet");
         Assert.Equal(0, exitCode);
-        Assert.StartsWith("REPEATS: 12 of 360 faces are left, with 30 maps\n", output, StringComparison.Ordinal);
+        Assert.StartsWith("REPEATS: 12 of 360 faces are left, with 1 map\n", output, StringComparison.Ordinal);
         Assert.Contains("^0..29]", File.ReadAllText(_folder["found.fdo"]), StringComparison.Ordinal);
     }
 
@@ -102,7 +102,7 @@ public sealed class ApproximateCommandTests : IDisposable
         _folder.Write("bumps.obj", shape.ToString());
         var (exitCode, output, _) = Run("approximate", "bumps.obj", "--output", "found.fdo", "--bytes", "3000", "--report", "found.json");
         Assert.Equal(0, exitCode);
-        Assert.Matches("^APPROXIMATE: [0-9]+ of 7200 faces are left, with 2 maps, [0-9]+ bytes\n", output);
+        Assert.Matches("^APPROXIMATE: [0-9]+ of 7200 faces are left, with 1 map, [0-9]+ bytes\n", output);
         var files = new DirectoryInfo(_folder.Path).GetFiles("found*.*").Where(file => file.Extension != ".json");
         Assert.InRange(files.Sum(file => file.Length), 2000, 3000 + 400);
         using var report = JsonDocument.Parse(File.ReadAllText(_folder["found.json"]));

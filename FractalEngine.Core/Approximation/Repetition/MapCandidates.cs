@@ -1,0 +1,220 @@
+using FractalEngine.Core.Approximation.Grammars;
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Approximation.Repetition;
+
+/// <summary>Finds maps that may take many faces of a set to faces, and again: of some faces to those that look alike.</summary>
+internal sealed class MapCandidates
+{
+    // Faces that candidates start from, for each of the two radii that faces are compared in.
+    private const int References = 8;
+    private const int LocalFaces = 24;
+    private const int SampleCount = 64;
+    private const int MaxTranslations = 4096;
+    private const int MaxTurns = 128;
+    private const int MaxPerReference = 24;
+    private const int MaxRun = 16;
+
+    // Of the faces around a reference; at the end of a repetition fewer are met.
+    private const double MinLocalShare = 0.3;
+    private const double LengthTolerance = 1e-3;
+
+    private readonly FaceSet _faces;
+    private readonly bool _keepsSize;
+    private readonly double _length;
+    private readonly List<(AffineMap Map, double Share)> _maps = [];
+
+    private MapCandidates(FaceSet faces, bool keepsSize)
+    {
+        _faces = faces;
+        _keepsSize = keepsSize;
+        _length = FaceSet.TolerancesOfLength * faces.Tolerance;
+    }
+
+    /// <summary>Finds maps, those first that seem to save most faces.</summary>
+    /// <param name="faces">The faces.</param>
+    /// <param name="keepsSize">Whether images have the size of what they are images of.</param>
+    /// <param name="cancellation">Ends the search early.</param>
+    /// <returns>Maps, and which part of all faces each seems to save.</returns>
+    public static IEnumerable<(AffineMap Map, double Share)> Find(FaceSet faces, bool keepsSize, CancellationToken cancellation)
+    {
+        var candidates = new MapCandidates(faces, keepsSize);
+        foreach (var rounds in new[] { 1, 3 })
+        {
+            var labels = FaceLabels.Compute(faces, rounds, !keepsSize);
+            var classes = Enumerable.Range(0, faces.Count).GroupBy(face => labels[face]).Where(group => group.Skip(1).Any())
+                .Select(group => group.ToArray()).OrderByDescending(members => members.Length).ToList();
+            var total = classes.Sum(members => members.Length);
+            var passed = 0;
+            foreach (var members in classes)
+            {
+                // As many references of a class as of its share of all faces.
+                var (first, last) = (passed * References / total, (passed + members.Length) * References / total);
+                for (var number = first; number < Math.Max(last, Math.Min(first + 1, passed < total / 2 ? 0 : last)); number++)
+                {
+                    cancellation.ThrowIfCancellationRequested();
+                    candidates.AddFrom(members[(int)((number - first + 0.5) / (last - first) * members.Length)], members);
+                }
+
+                passed += members.Length;
+            }
+        }
+
+        return candidates._maps.OrderByDescending(candidate => candidate.Share);
+    }
+
+    private void AddFrom(int reference, int[] members)
+    {
+        var origin = _faces.Centroid(reference);
+        var others = members.Where(face => face != reference).ToArray();
+        Array.Sort([.. others.Select(face => (_faces.Centroid(face) - origin).LengthSquared())], others);
+        var local = FindLocalFaces(reference);
+        var trail = FindTrail(local, origin);
+        var translations = others.Take(MaxTranslations).Select(face => AffineMap.Translate(_faces.Centroid(face) - origin));
+        foreach (var maps in new[] { translations, others.Take(MaxTurns).SelectMany(face => MapsBetween(reference, face)) })
+        {
+            foreach (var map in maps.Where(map => IsLocal(map, local)).Take(MaxPerReference))
+            {
+                Add(Refine(map, trail));
+            }
+        }
+    }
+
+    private void Add(AffineMap map)
+    {
+        foreach (var (known, _) in _maps)
+        {
+            if (MapRows.AreNear(known, map, 1e-6, _length) || MapRows.AreNear(known * map, AffineMap.Identity, 1e-6, _length))
+            {
+                return;
+            }
+        }
+
+        var share = 0.0;
+        var back = map.Inverse();
+        for (var sample = 0; sample < SampleCount; sample++)
+        {
+            var start = (int)((sample + 0.5) / SampleCount * _faces.Count);
+            var run = 1;
+            foreach (var way in new[] { map, back })
+            {
+                var face = _faces.Image(way, start);
+                for (var left = MaxRun; face >= 0 && face != start && left > 0; left--)
+                {
+                    face = _faces.Image(way, face);
+                    run++;
+                }
+
+                // A circle is complete.
+                if (face == start)
+                {
+                    break;
+                }
+            }
+
+            share += (1 - (1.0 / run)) / SampleCount;
+        }
+
+        _maps.Add((map, share));
+    }
+
+    private bool IsLocal(AffineMap map, List<int> local)
+    {
+        var misses = 0;
+        var maxMisses = (1 - MinLocalShare) * local.Count;
+        foreach (var face in local)
+        {
+            if (_faces.Image(map, face) < 0 && (face == local[0] || ++misses > maxMisses))
+            {
+                return false;
+            }
+        }
+
+        return true;
+    }
+
+    /// <summary>The similarities that take one face to another, with each order of corners that has the same shape.</summary>
+    private IEnumerable<AffineMap> MapsBetween(int from, int to)
+    {
+        var corners = _faces.Starts[from + 1] - _faces.Starts[from];
+        var (a, b, c) = PointsFrom(_faces.Starts[from], 1);
+        for (var corner = _faces.Starts[to]; corner < _faces.Starts[to + 1]; corner++)
+        {
+            foreach (var step in new[] { 1, corners - 1 })
+            {
+                var (a2, b2, c2) = PointsFrom(corner, step);
+                var scale = _keepsSize ? 1 : (b2 - a2).Length() / (b - a).Length();
+                if (AreNear(a, b, a2, b2, scale) && AreNear(b, c, b2, c2, scale) && AreNear(c, a, c2, a2, scale))
+                {
+                    foreach (var map in SimilarityFit.OfTriangles(a, b, c, a2, b2, c2, _keepsSize))
+                    {
+                        yield return map;
+                    }
+                }
+            }
+        }
+
+        (Vector A, Vector B, Vector C) PointsFrom(int corner, int step)
+        {
+            var next = _faces.After(corner, step);
+            return (_faces.PointOf(corner), _faces.PointOf(next), _faces.PointOf(_faces.After(next, step)));
+        }
+
+        static bool AreNear(Vector p, Vector q, Vector p2, Vector q2, double scale) =>
+            Math.Abs((scale * (q - p).Length()) - (q2 - p2).Length()) <= LengthTolerance * (q2 - p2).Length();
+    }
+
+    private List<int> FindLocalFaces(int reference)
+    {
+        var local = new List<int> { reference };
+        for (var index = 0; index < local.Count; index++)
+        {
+            for (var corner = _faces.Starts[local[index]]; corner < _faces.Starts[local[index] + 1]; corner++)
+            {
+                for (var twin = _faces.Twins[corner]; twin != corner && local.Count < LocalFaces; twin = _faces.Twins[twin])
+                {
+                    if (!local.Contains(_faces.FaceAt[twin]))
+                    {
+                        local.Add(_faces.FaceAt[twin]);
+                    }
+                }
+            }
+        }
+
+        return local;
+    }
+
+    /// <summary>Points from the surroundings of a face to all of the set, the nearest first.</summary>
+    private Vector[] FindTrail(List<int> local, Vector origin)
+    {
+        var stride = Math.Max(1, _faces.Points.Length / (2 * SampleCount));
+        var trail = local.SelectMany(face => _faces.Corners[_faces.Starts[face].._faces.Starts[face + 1]])
+            .Concat(Enumerable.Range(0, _faces.Points.Length / stride).Select(index => index * stride))
+            .Distinct().Select(point => _faces.Points[point]).ToArray();
+        Array.Sort([.. trail.Select(point => (point - origin).LengthSquared())], trail);
+        return trail;
+    }
+
+    /// <summary>Fits a map to ever more points, so that it is right far off, too.</summary>
+    private AffineMap Refine(AffineMap map, Vector[] trail)
+    {
+        var pairs = new List<(Vector, Vector)>();
+        for (var count = Math.Min(8, trail.Length); ; count = Math.Min(2 * count, trail.Length))
+        {
+            pairs.Clear();
+            foreach (var point in trail.AsSpan(0, count))
+            {
+                if (_faces.PointAt(map * point) is var image && image >= 0)
+                {
+                    pairs.Add((point, _faces.Points[image]));
+                }
+            }
+
+            map = pairs.Count > 0 ? SimilarityFit.Refine(map, pairs, _keepsSize) : map;
+            if (count == trail.Length)
+            {
+                return map;
+            }
+        }
+    }
+}
