@@ -11,12 +11,20 @@ internal static class ApproximationCommand
           How often does the search find what made a mesh, and in what time? The meshes are expanded fractals that it was not written
           for, see Approximation/Unseen. Writes to docs/benchmarks unless stated: approximation.csv. With 'models', what is found for
           the fractals of the assets, and how close it comes to irregular shapes: approximation-models.csv.
+        approximate samples FOLDER
+          Writes models that repeat, or are damaged or irregular, as OBJ files to try it on.
         """;
 
     /// <summary>Runs the command and returns the exit code.</summary>
     /// <param name="args">The words after the command's name.</param>
     public static int Run(ReadOnlySpan<string> args)
     {
+        if (args is ["samples", var folder])
+        {
+            SampleModels.Write(folder);
+            return 0;
+        }
+
         var isOfModels = args is ["models", ..];
         if (TableOptions.TryParse(isOfModels ? "approximate models" : "approximate", Usage, isOfModels ? args[1..] : args) is not { } options)
         {
