@@ -4,7 +4,11 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Approximation.Grammars;
 
 /// <summary>Finds which products of a tree's maps exist, and what stands at each, and says whether that is a grammar.</summary>
-internal sealed class TreeLevels(ElementGroup group, int root, List<AffineMap> maps)
+/// <param name="group">The elements that are to be explained.</param>
+/// <param name="root">The element that products are applied to.</param>
+/// <param name="maps">The maps of the products.</param>
+/// <param name="known">Which map follows which, as in <see cref="TreeGrammar.Follows"/>; null where that is to be found out.</param>
+internal sealed class TreeLevels(ElementGroup group, int root, List<AffineMap> maps, bool[,]? known = null)
 {
     private const int MaxLeafAttempts = 64;
 
@@ -14,7 +18,7 @@ internal sealed class TreeLevels(ElementGroup group, int root, List<AffineMap> m
     /// <summary>Returns the grammar, or null where it does not explain all elements and nothing else.</summary>
     public TreeGrammar? Describe()
     {
-        var follows = new bool[maps.Count + 1, maps.Count];
+        var follows = known ?? new bool[maps.Count + 1, maps.Count];
         var depth = Trace(follows);
         if (!IsRegular(follows, depth))
         {
@@ -57,6 +61,11 @@ internal sealed class TreeLevels(ElementGroup group, int root, List<AffineMap> m
             var (product, last, level) = _products[next];
             for (var map = 0; map < maps.Count; map++)
             {
+                if (known is not null && !known[last, map])
+                {
+                    continue;
+                }
+
                 var image = group.Image(product * maps[map], root);
                 if (image >= 0)
                 {
@@ -78,7 +87,8 @@ internal sealed class TreeLevels(ElementGroup group, int root, List<AffineMap> m
         {
             for (var map = 0; map < maps.Count; map++)
             {
-                if (level < depth && (group.Image(product * maps[map], root) >= 0) != follows[last, map])
+                if (level < depth && (known is null || known[last, map])
+                    && (group.Image(product * maps[map], root) >= 0) != follows[last, map])
                 {
                     return false;
                 }
