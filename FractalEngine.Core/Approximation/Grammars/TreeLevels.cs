@@ -47,6 +47,13 @@ internal sealed class TreeLevels(ElementGroup group, int root, List<AffineMap> m
             leaves.Add(leaf);
         }
 
+        // Maps that none follows lead to the base, on the last level, too.
+        if (leaves.Count > 0 && Enumerable.Range(0, maps.Count).Any(map => IsEnd(follows, map) && _products.Exists(
+            product => product.Level == depth && follows[product.Last, map])))
+        {
+            return null;
+        }
+
         // Leaves end the last level, which the base then has not.
         return new(maps, follows, leaves.Count > 0 ? depth + 1 : depth, bases, leaves);
     }
@@ -54,7 +61,7 @@ internal sealed class TreeLevels(ElementGroup group, int root, List<AffineMap> m
     /// <summary>Finds all products by rising length, and which maps follow which.</summary>
     private int Trace(bool[,] follows)
     {
-        var seen = new HashSet<int> { root };
+        var seen = new Dictionary<(int, int), List<AffineMap>>();
         _products.Add((AffineMap.Identity, maps.Count, 0));
         for (var next = 0; next < _products.Count; next++)
         {
@@ -70,7 +77,7 @@ internal sealed class TreeLevels(ElementGroup group, int root, List<AffineMap> m
                 if (image >= 0)
                 {
                     follows[last, map] = true;
-                    if (seen.Add(image))
+                    if (IsNew(seen, image, map, product * maps[map]))
                     {
                         _products.Add((product * maps[map], map, level + 1));
                     }
@@ -79,6 +86,33 @@ internal sealed class TreeLevels(ElementGroup group, int root, List<AffineMap> m
         }
 
         return _products[^1].Level;
+    }
+
+    private bool IsEnd(bool[,] follows, int map) => !Enumerable.Range(0, maps.Count).Any(next => follows[map, next]);
+
+    /// <summary>
+    /// Whether a product leads to a part in another frame, or by another last map, than those before: then other parts may follow. Where
+    /// many coincide, only those count that lead to parts that none did before.
+    /// </summary>
+    private bool IsNew(Dictionary<(int Image, int Last), List<AffineMap>> seen, int image, int last, AffineMap product)
+    {
+        var isMany = _products.Count > 2 * group.Members.Length;
+        if (isMany)
+        {
+            last = -1;
+        }
+
+        seen.TryAdd((image, -1), []);
+        seen.TryAdd((image, last), []);
+        var frames = seen[(image, last)];
+        if (isMany ? seen[(image, -1)].Count > 0 : frames.Exists(frame => MapRows.AreNear(frame, product, 1e-6, _set.Tolerance * 1e7)))
+        {
+            return false;
+        }
+
+        seen[(image, -1)].Add(product);
+        frames.Add(product);
+        return true;
     }
 
     private bool IsRegular(bool[,] follows, int depth)

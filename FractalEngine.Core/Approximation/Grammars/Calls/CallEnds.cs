@@ -12,8 +12,9 @@ internal sealed class CallEnds
 
     private readonly CallScene _scene;
     private CallExpansion _expansion;
-    private readonly CallRule[] _rules;
+    private CallRule[] _rules;
     private readonly bool[] _isLeft;
+    private readonly bool[] _isCovered;
     private readonly List<(int Class, AffineMap Placement)> _leaves = [];
 
     private CallEnds(CallScene scene, CallExpansion expansion, CallRule[] rules)
@@ -22,6 +23,7 @@ internal sealed class CallEnds
         _expansion = expansion;
         _rules = [.. rules];
         _isLeft = scene.FindOthers(expansion);
+        _isCovered = new bool[_isLeft.Length];
     }
 
     /// <summary>Returns calls that make the same parts, and the same leaves at all ends, as far as there are such.</summary>
@@ -35,18 +37,58 @@ internal sealed class CallEnds
     {
         var reference = Enumerable.Range(0, _rules.Length).OrderBy(rule => _rules[rule].Called)
             .FirstOrDefault(rule => EndsOf(rule).Count > 0, -1);
-        if (reference < 0)
+        if (reference >= 0)
         {
-            return _rules;
+            FindLeaves(EndsOf(reference));
+        }
+        else
+        {
+            GuessLeaves();
         }
 
-        FindLeaves(EndsOf(reference));
-        for (var rule = 0; rule < _rules.Length; rule++)
+        if (_leaves.Count > 0)
         {
-            Resolve(rule);
+            for (var rule = 0; rule < _rules.Length; rule++)
+            {
+                Resolve(rule);
+            }
+
+            foreach (var rule in Enumerable.Range(0, _rules.Length).Where(IsOpen).ToArray())
+            {
+                AddCalls(rule);
+            }
         }
 
         return _rules;
+    }
+
+    /// <summary>Of two levels only the first one has parts: one of these is called by the whole, as others of these are.</summary>
+    private void GuessLeaves()
+    {
+        for (var rule = 0; rule < _rules.Length && _leaves.Count == 0; rule++)
+        {
+            var known = _rules[rule];
+            foreach (var symmetry in _scene.Symmetries.TakeWhile(_ => _leaves.Count == 0))
+            {
+                _rules[rule] = known with { Map = known.Map * symmetry, Called = 0 };
+                FindLeaves([.. _rules.Where(other => other.Caller == 0).Select(other => _rules[rule].Map * other.Map)]);
+            }
+
+            _rules[rule] = _leaves.Count == 0 ? known : _rules[rule];
+        }
+    }
+
+    private bool IsOpen(int rule) => !Array.Exists(_rules, other => other.Caller == _rules[rule].Called);
+
+    private void Cover(IEnumerable<AffineMap> ends)
+    {
+        foreach (var end in ends)
+        {
+            foreach (var (kind, placement) in _leaves)
+            {
+                _isCovered[_scene.Group.Set.Find(end * placement, kind)] = true;
+            }
+        }
     }
 
     /// <summary>The frames that a call would lead to beyond the last level.</summary>
@@ -58,12 +100,11 @@ internal sealed class CallEnds
     {
         var elements = _scene.Group.Set.Elements;
         var (back, tip) = (ends[0].Inverse(), ends[0] * elements[_scene.Root].Shape.Centroid);
-        var isCovered = new bool[_isLeft.Length];
         foreach (var element in Enumerable.Range(0, _isLeft.Length).Where(element => _isLeft[element])
             .OrderBy(element => (elements[element].Shape.Centroid - tip).LengthSquared()).ThenBy(element => element).Take(MaxLeaves))
         {
             var leaf = (elements[element].Class, back * elements[element].Placement);
-            if (isCovered[element] || !ends.TrueForAll(end => HasLeaf(end, leaf)))
+            if (_isCovered[element] || !ends.TrueForAll(end => HasLeaf(end, leaf)))
             {
                 continue;
             }
@@ -78,10 +119,7 @@ internal sealed class CallEnds
                 continue;
             }
 
-            foreach (var end in Enumerable.Range(0, _rules.Length).SelectMany(EndsOf))
-            {
-                isCovered[_scene.Group.Set.Find(end * leaf.Item2, leaf.Class)] = true;
-            }
+            Cover(Enumerable.Range(0, _rules.Length).SelectMany(EndsOf));
         }
     }
 
@@ -134,23 +172,54 @@ internal sealed class CallEnds
     /// <summary>Finds which recursive a call calls whose parts are all on the last level.</summary>
     private void Resolve(int rule)
     {
-        if (Array.Exists(_rules, other => other.Caller == _rules[rule].Called))
-        {
-            return;
-        }
-
         var parts = _expansion.Parts.FindAll(part => part.Rule == rule);
-        foreach (var called in _rules.Select(other => other.Caller).Distinct().Order())
+        foreach (var called in _rules.Select(other => other.Caller).Distinct().Order().Where(_ => IsOpen(rule)).ToArray())
         {
+            var calls = Array.FindAll(_rules, other => other.Caller == called);
             foreach (var symmetry in _scene.Symmetries)
             {
-                if (parts.TrueForAll(part => Array.TrueForAll(
-                    _rules, other => other.Caller != called || HasLeaves(part.Frame * symmetry * other.Map))))
+                var ends = parts.SelectMany(part => calls.Select(call => part.Frame * symmetry * call.Map)).ToList();
+                if (ends.TrueForAll(HasLeaves))
                 {
+                    Cover(ends);
                     _rules[rule] = new(_rules[rule].Caller, _rules[rule].Map * symmetry, called);
-                    return;
+                    break;
                 }
             }
         }
     }
+
+    /// <summary>Finds the calls of a recursive that lead to leaves alone.</summary>
+    private void AddCalls(int rule)
+    {
+        var parts = _expansion.Parts.FindAll(part => part.Rule == rule);
+        if (parts.Count == 0 || parts.Exists(part => part.Level < _expansion.Depth))
+        {
+            return;
+        }
+
+        var set = _scene.Group.Set;
+        var others = _expansion.Parts.FindAll(part => part.Rule >= 0 && IsOpen(part.Rule));
+        var (back, (kind, placement)) = (parts[0].Frame.Inverse(), _leaves[0]);
+        var called = _rules[rule].Called;
+        foreach (var element in Enumerable.Range(0, _isLeft.Length).Where(
+            element => _isLeft[element] && set.Elements[element].Class == kind && others.MinBy(part => Nearness(part, element)).Rule == rule))
+        {
+            foreach (var symmetry in set.SymmetriesOf(kind).TakeWhile(_ => !_isCovered[element]))
+            {
+                var map = back * set.Elements[element].Placement * symmetry * placement.Inverse();
+                var ends = parts.ConvertAll(part => part.Frame * map);
+                if (ends.TrueForAll(HasLeaves))
+                {
+                    // Which recursive is called makes no difference, where leaves end all levels.
+                    Cover(ends);
+                    _rules = [.. _rules, new(called, map, called)];
+                }
+            }
+        }
+    }
+
+    private double Nearness(CallPart part, int element) =>
+        (_scene.Group.Set.Elements[part.Element].Shape.Centroid - _scene.Group.Set.Elements[element].Shape.Centroid).Length()
+        / _scene.SizeOf(part.Element);
 }
