@@ -11,7 +11,6 @@ public static class GrammarSearch
 {
     // Vertices of exact data lie where maps put them, within rounding in files with nine digits.
     private const double ExactTolerance = 1e-7;
-    private const double ExactShapeTolerance = 1e-4;
 
     /// <summary>Finds a grammar that makes the mesh exactly, or null.</summary>
     /// <param name="mesh">The mesh; faces without area don't count, and elements that coincide count once.</param>
@@ -34,7 +33,7 @@ public static class GrammarSearch
     private static MeshGrammar? Find(Mesh mesh, List<Element> elements, CancellationToken cancellation)
     {
         var length = mesh.UsedBounds.Diagonal;
-        var set = new ElementSet(elements, ExactTolerance * length, ExactShapeTolerance, cancellation);
+        var set = new ElementSet(elements, ExactTolerance * length, ElementSet.ExactShapeTolerance, cancellation);
         var members = Enumerable.Range(0, set.Count).ToArray();
         if (TreeSearch.Find(set, members, isFull: true, cancellation) is { } full)
         {
@@ -50,6 +49,14 @@ public static class GrammarSearch
             factors.Add(factor);
             rest = factor.Remainder;
             tree = TreeSearch.Find(set, rest, isFull: true, cancellation);
+        }
+
+        for (var index = 0; tree is null && index < factors.Count; index++)
+        {
+            if (ClusterTree.Find(set, factors[index], cancellation) is var (clusters, found))
+            {
+                return Make(clusters, factors[..index], [.. Enumerable.Range(0, clusters.Count)], found, length);
+            }
         }
 
         if (tree is null && rest.Length > 2)

@@ -19,6 +19,8 @@ internal sealed class FactorSearch
     private const int MaxListed = 256;
     private const int MaxSymmetries = 48;
     private const int MaxLookUps = 4_000_000;
+    private const int MinOverlapping = 8;
+    private const int MaxOverlapping = 64;
 
     private readonly ElementSet _set;
     private readonly int[] _members;
@@ -92,10 +94,33 @@ internal sealed class FactorSearch
             return circle;
         }
 
+        if (_members.Length > MinOverlapping && FindOverlapping(order.Where(index => isFarthest[index]).Select(index => candidates[index]), candidates)
+            is { } overlapping)
+        {
+            return overlapping;
+        }
+
         // At last all members as images of one.
         return _members.Length <= MaxListed && Cover(candidates, [_reference]) is { } all
             ? new(all, SymmetriesOf(all, [_reference]), [_reference])
             : null;
+    }
+
+    /// <summary>Finds a factor of which some images coincide, where sets of a fractal touch or overlap.</summary>
+    private MapFactor? FindOverlapping(IEnumerable<AffineMap> firsts, List<AffineMap> candidates)
+    {
+        foreach (var first in firsts.Take(MaxOverlapping))
+        {
+            _cancellation.ThrowIfCancellationRequested();
+            var remainder = _members.Where(member => _group.Image(first, member) >= 0).ToArray();
+            if (2 * remainder.Length <= _members.Length + (_members.Length / 4) && remainder.Length > 1
+                && Cover(candidates, remainder, remainder.Length / 4) is { } maps)
+            {
+                return new(maps, SymmetriesOf(maps, remainder), remainder);
+            }
+        }
+
+        return null;
     }
 
     /// <summary>
@@ -269,25 +294,31 @@ internal sealed class FactorSearch
         return hits >= needed;
     }
 
-    /// <summary>Returns maps whose images of the remainder are all members, each once, or null.</summary>
-    private List<AffineMap>? Cover(List<AffineMap> candidates, int[] remainder)
+    /// <summary>Returns maps whose images of the remainder are all members, or null.</summary>
+    /// <param name="candidates">Maps of the reference.</param>
+    /// <param name="remainder">The elements that they are applied to.</param>
+    /// <param name="maxOverlap">How many images of a map may be those of others.</param>
+    private List<AffineMap>? Cover(List<AffineMap> candidates, int[] remainder, int maxOverlap = 0)
     {
         var covered = new bool[_set.Count];
         Mark(covered, remainder);
         var maps = new List<AffineMap> { AffineMap.Identity };
         var count = remainder.Length;
-        foreach (var map in candidates.OrderBy(Oddity))
+        foreach (var overlap in new[] { 0, maxOverlap }.Distinct())
         {
-            if (count == _members.Length)
+            foreach (var map in candidates.OrderBy(Oddity))
             {
-                break;
-            }
+                if (count == _members.Length)
+                {
+                    return maps;
+                }
 
-            if (Images(map, remainder, covered) is { } images)
-            {
-                Mark(covered, images);
-                count += images.Length;
-                maps.Add(map);
+                if (Images(map, remainder, covered, overlap) is { } images)
+                {
+                    count += images.Count(image => !covered[image]);
+                    Mark(covered, images);
+                    maps.Add(map);
+                }
             }
         }
 
@@ -321,13 +352,13 @@ internal sealed class FactorSearch
         return symmetries;
     }
 
-    private int[]? Images(AffineMap map, int[] remainder, bool[] covered)
+    private int[]? Images(AffineMap map, int[] remainder, bool[] covered, int maxOverlap)
     {
         var images = new int[remainder.Length];
         for (var index = 0; index < images.Length; index++)
         {
             images[index] = _group.Image(map, remainder[index]);
-            if (images[index] < 0 || covered[images[index]])
+            if (images[index] < 0 || (covered[images[index]] && maxOverlap-- == 0))
             {
                 return null;
             }
