@@ -1,4 +1,5 @@
 using FractalEngine.Core.Approximation.Elements;
+using FractalEngine.Core.Approximation.Grammars.Calls;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Approximation.Grammars;
@@ -156,6 +157,7 @@ internal sealed class FactorSearch
     private int[]? NearestOfOrbits(AffineMap map, int order)
     {
         var centre = _set.Elements[_reference].Shape.Centroid;
+        var first = FirstOfFigures([.. Enumerable.Range(0, order).Select(map.Power)]);
         var isSeen = new bool[_set.Count];
         var nearest = new List<int>();
         foreach (var member in _members.Where(member => !isSeen[member]))
@@ -172,10 +174,21 @@ internal sealed class FactorSearch
                 return null;
             }
 
-            nearest.Add(orbit.MinBy(image => ((_set.Elements[image].Shape.Centroid - centre).LengthSquared(), image)));
+            nearest.Add(orbit.MinBy(
+                image => (first.Contains(image) ? 0 : 1, (_set.Elements[image].Shape.Centroid - centre).LengthSquared(), image)));
         }
 
         return [.. nearest];
+    }
+
+    /// <summary>The parts of one of several equal trees, also where they reach into each other; none where there are no trees.</summary>
+    private HashSet<int> FirstOfFigures(AffineMap[] powers)
+    {
+        var elements = _set.Elements;
+        var parts = _members.Where(member => elements[member].Class == elements[_reference].Class).ToArray();
+        var largest = parts.Count(part => elements[part].Shape.Size > 0.9999 * elements[_reference].Shape.Size);
+        return largest == powers.Length && largest < parts.Length
+            ? [.. CallSearch.FindFirst(_group, parts, powers, _cancellation) ?? []] : [];
     }
 
     /// <summary>

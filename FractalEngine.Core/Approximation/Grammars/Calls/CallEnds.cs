@@ -153,7 +153,7 @@ internal sealed class CallEnds
                     turned[calls[index]] = turned[calls[index]] with { Map = turned[calls[index]].Map * symmetries[index]!.Value };
                 }
 
-                if (CallExpansion.Create(_scene, turned) is { } expansion && expansion.Parts.Count == _expansion.Parts.Count)
+                if (CallExpansion.Create(_scene, turned, isWhole: true) is { } expansion && expansion.Parts.Count == _expansion.Parts.Count)
                 {
                     turned.CopyTo(_rules, 0);
                     _expansion = expansion;

@@ -19,15 +19,22 @@ internal sealed class CallExpansion
     /// <summary>
     /// Follows all calls as far as there are elements; null where a part lacks one of its calls though others have more levels.
     /// </summary>
-    public static CallExpansion? Create(CallScene scene, IReadOnlyList<CallRule> rules)
+    /// <param name="scene">Where parts are looked for.</param>
+    /// <param name="rules">The calls.</param>
+    /// <param name="isWhole">Whether small parts are followed as well.</param>
+    public static CallExpansion? Create(CallScene scene, IReadOnlyList<CallRule> rules, bool isWhole = false)
     {
         var expansion = new CallExpansion(scene);
-        expansion.Add(new(scene.Root, AffineMap.Identity, -1, 0, 0));
+        foreach (var root in scene.Roots)
+        {
+            expansion.Add(new(scene.Image(root), root, -1, 0, 0));
+        }
+
         var lastLevel = int.MaxValue;
         for (var next = 0; next < expansion.Parts.Count; next++)
         {
             var part = expansion.Parts[next];
-            if (!scene.IsLarge(part.Element))
+            if (!isWhole && !scene.IsLarge(part.Element))
             {
                 continue;
             }

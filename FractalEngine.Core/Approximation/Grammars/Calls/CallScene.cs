@@ -14,9 +14,11 @@ internal sealed class CallScene
 
     /// <param name="group">All elements that are to be explained.</param>
     /// <param name="parts">Those of one class.</param>
-    public CallScene(ElementGroup group, IEnumerable<int> parts)
+    /// <param name="roots">Maps that take the largest part to each one that nothing calls.</param>
+    public CallScene(ElementGroup group, IEnumerable<int> parts, IReadOnlyList<AffineMap> roots)
     {
         Group = group;
+        Roots = roots;
         BySize = [.. parts.OrderByDescending(SizeOf).ThenBy(part => part)];
         _smallest = SizeOf(BySize[Math.Min(BySize.Length, MaxExamined) - 1]);
         _companions = FindCompanions();
@@ -31,6 +33,9 @@ internal sealed class CallScene
 
     /// <summary>The largest part of all.</summary>
     public int Root => BySize[0];
+
+    /// <summary>Maps that take the root to each part that nothing calls, the identity first.</summary>
+    public IReadOnlyList<AffineMap> Roots { get; }
 
     /// <summary>The maps that take the root, and what stands beside it, to itself, the identity first.</summary>
     public AffineMap[] Symmetries { get; }

@@ -35,23 +35,45 @@ internal sealed class CallSearch
     /// <param name="cancellation">Ends the search early.</param>
     public static TreeGrammar? Find(ElementGroup group, int[] parts, CancellationToken cancellation)
     {
-        var search = new CallSearch(new(group, parts), cancellation);
-        for (var discrepancies = 0; discrepancies <= MaxDiscrepancies && !search.IsExhausted; discrepancies++)
+        var search = new CallSearch(new(group, parts, [AffineMap.Identity]), cancellation);
+        return search.Find(search.Describe);
+    }
+
+    /// <summary>Finds recursives that explain all parts as several equal figures, and returns the parts of the first one, or null.</summary>
+    /// <param name="group">All elements.</param>
+    /// <param name="parts">Those of one class, which stand at each call.</param>
+    /// <param name="roots">Maps that take the largest part to that of each figure, the identity first.</param>
+    /// <param name="cancellation">Ends the search early.</param>
+    public static int[]? FindFirst(ElementGroup group, int[] parts, IReadOnlyList<AffineMap> roots, CancellationToken cancellation)
+    {
+        var search = new CallSearch(new(group, parts, roots), cancellation);
+        return search.Find(rules => search.Expand(rules, isWhole: true) is { } all && all.Parts.Count == parts.Length
+            && new CallSearch(new(group, parts, [AffineMap.Identity]), cancellation).Expand(rules, isWhole: true) is { } first
+                ? first.Parts.ConvertAll(part => part.Element).ToArray() : null);
+    }
+
+    private T? Find<T>(Func<CallRule[], T?> describe)
+        where T : class
+    {
+        for (var discrepancies = 0; discrepancies <= MaxDiscrepancies && !IsExhausted; discrepancies++)
         {
-            if (search.Explain([], discrepancies) is { } grammar)
+            if (Explain([], discrepancies, describe) is { } found)
             {
-                return grammar;
+                return found;
             }
         }
 
         return null;
     }
 
+    private CallExpansion? Expand(CallRule[] rules, bool isWhole = false) => CallExpansion.Create(_scene, rules, isWhole);
+
     /// <summary>Completes some calls; of the choices for each, so many in all may be others than the first one.</summary>
-    private TreeGrammar? Explain(CallRule[] rules, int discrepancies)
+    private T? Explain<T>(CallRule[] rules, int discrepancies, Func<CallRule[], T?> describe)
+        where T : class
     {
         _cancellation.ThrowIfCancellationRequested();
-        if (CallExpansion.Create(_scene, rules) is not { } expansion)
+        if (Expand(rules) is not { } expansion)
         {
             return null;
         }
@@ -59,8 +81,7 @@ internal sealed class CallSearch
         var index = Array.FindIndex(_scene.BySize, part => !expansion.IsExplained[part]);
         if (index < 0 || !_scene.IsLarge(_scene.BySize[index]))
         {
-        if (Environment.GetEnvironmentVariable("DBG") is not null && _cnt++ < 40) Console.WriteLine($"  DONE {discrepancies} rules {string.Join(' ', rules.Select(r => $"{r.Caller}>{r.Called}"))} explained {expansion.Parts.Count}/{_scene.BySize.Length} depth {expansion.Depth} lookups {_scene.LookUps} others {_scene.FindOthers(expansion).Count(o=>o)}");
-            return rules.Length > 0 && discrepancies == 0 ? Describe(CallEnds.Align(_scene, expansion, rules)) : null;
+            return rules.Length > 0 && discrepancies == 0 ? describe(rules) : null;
         }
 
         if (Environment.GetEnvironmentVariable("DBG") is not null && _cnt++ < 40) Console.WriteLine($"  {discrepancies} rules {string.Join(' ', rules.Select(r => $"{r.Caller}>{r.Called}"))} explained {expansion.Parts.Count}/{_scene.BySize.Length} depth {expansion.Depth} lookups {_scene.LookUps} sym {_scene.Symmetries.Length}");
@@ -72,9 +93,9 @@ internal sealed class CallSearch
         var choices = Choices(rules, expansion, _scene.BySize[index]);
         for (var choice = 0; choice < choices.Count && choice <= discrepancies; choice++)
         {
-            if (Explain(choices[choice], discrepancies - choice) is { } grammar)
+            if (Explain(choices[choice], discrepancies - choice, describe) is { } found)
             {
-                return grammar;
+                return found;
             }
         }
 
@@ -104,7 +125,7 @@ internal sealed class CallSearch
 
             foreach (var extended in Extend(rules, expansion, call))
             {
-                if (CallExpansion.Create(_scene, extended) is { } found && found.IsExplained[next])
+                if (Expand(extended) is { } found && found.IsExplained[next])
                 {
                     choices.Add((extended, found.Parts.Count, found.Depth));
                 }
@@ -190,8 +211,14 @@ internal sealed class CallSearch
         return null;
     }
 
-    private TreeGrammar? Describe(CallRule[] rules)
+    private TreeGrammar? Describe(CallRule[] found)
     {
+        if (Expand(found, isWhole: true) is not { } expansion)
+        {
+            return null;
+        }
+
+        var rules = CallEnds.Align(_scene, expansion, found);
         var follows = new bool[rules.Length + 1, rules.Length];
         for (var last = 0; last <= rules.Length; last++)
         {
