@@ -18,7 +18,7 @@ internal sealed class CallSearch
     private const int MaxChoices = 4;
     private const int MaxLookUps = 1_000_000;
 
-    private readonly CallScene _scene; int _cnt;
+    private readonly CallScene _scene;
     private readonly CancellationToken _cancellation;
 
     private CallSearch(CallScene scene, CancellationToken cancellation)
@@ -84,7 +84,6 @@ internal sealed class CallSearch
             return rules.Length > 0 && discrepancies == 0 ? describe(rules) : null;
         }
 
-        if (Environment.GetEnvironmentVariable("DBG") is not null && _cnt++ < 40) Console.WriteLine($"  {discrepancies} rules {string.Join(' ', rules.Select(r => $"{r.Caller}>{r.Called}"))} explained {expansion.Parts.Count}/{_scene.BySize.Length} depth {expansion.Depth} lookups {_scene.LookUps} sym {_scene.Symmetries.Length}");
         if (rules.Length == MaxRules || (rules.Length > 5 && expansion.Parts.Count < 2 * rules.Length))
         {
             return null;
