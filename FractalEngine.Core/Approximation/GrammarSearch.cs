@@ -1,6 +1,8 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Approximation.Elements;
 using FractalEngine.Core.Approximation.Grammars;
+using FractalEngine.Core.Approximation.Grammars.Factors;
+using FractalEngine.Core.Approximation.Grammars.Trees;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
@@ -41,7 +43,7 @@ public static class GrammarSearch
         }
 
         var factors = new List<MapFactor>();
-        var reference = FactorSearch.ChooseReference(set, members);
+        var reference = FactorCandidates.ChooseReference(set, members);
         var rest = members;
         TreeGrammar? tree = null;
         while (tree is null && rest.Length > 1 && FactorSearch.Find(set, rest, reference, cancellation) is { } factor)
@@ -69,7 +71,7 @@ public static class GrammarSearch
 
     private static MeshGrammar Make(ElementSet set, List<MapFactor> factors, int[] rest, TreeGrammar? tree, double length)
     {
-        var origin = factors.Count > 0 ? set.Elements[FactorSearch.ChooseReference(set, rest)].Shape.Centroid : Vector.Zero;
+        var origin = factors.Count > 0 ? set.Elements[FactorCandidates.ChooseReference(set, rest)].Shape.Centroid : Vector.Zero;
         var centroid = Vector.Zero;
         foreach (var element in set.Elements)
         {

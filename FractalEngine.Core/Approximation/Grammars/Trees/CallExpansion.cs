@@ -1,6 +1,6 @@
 using FractalEngine.Core.Maths;
 
-namespace FractalEngine.Core.Approximation.Grammars.Calls;
+namespace FractalEngine.Core.Approximation.Grammars.Trees;
 
 /// <summary>All parts that some calls of recursives explain, by rising level.</summary>
 internal sealed class CallExpansion

@@ -1,7 +1,7 @@
 using FractalEngine.Core.Approximation.Elements;
 using FractalEngine.Core.Maths;
 
-namespace FractalEngine.Core.Approximation.Grammars.Calls;
+namespace FractalEngine.Core.Approximation.Grammars.Trees;
 
 /// <summary>
 /// Looks for recursives that call each other. By falling size, each part that known calls do not explain is called by the recursive of a

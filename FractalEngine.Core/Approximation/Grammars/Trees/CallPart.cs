@@ -1,6 +1,6 @@
 using FractalEngine.Core.Maths;
 
-namespace FractalEngine.Core.Approximation.Grammars.Calls;
+namespace FractalEngine.Core.Approximation.Grammars.Trees;
 
 /// <summary>A part that calls of recursives explain.</summary>
 /// <param name="Element">The element of the part.</param>

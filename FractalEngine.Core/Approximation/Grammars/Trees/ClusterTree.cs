@@ -1,7 +1,7 @@
 using FractalEngine.Core.Approximation.Elements;
 using FractalEngine.Core.Maths;
 
-namespace FractalEngine.Core.Approximation.Grammars;
+namespace FractalEngine.Core.Approximation.Grammars.Trees;
 
 /// <summary>
 /// Looks for a tree in the maps of a factor: what they are applied to becomes one element, however many elements it has, such as the

@@ -1,7 +1,7 @@
 using FractalEngine.Core.Approximation.Elements;
 using FractalEngine.Core.Maths;
 
-namespace FractalEngine.Core.Approximation.Grammars;
+namespace FractalEngine.Core.Approximation.Grammars.Trees;
 
 /// <summary>Finds which products of a tree's maps exist, and what stands at each, and says whether that is a grammar.</summary>
 /// <param name="group">The elements that are to be explained.</param>

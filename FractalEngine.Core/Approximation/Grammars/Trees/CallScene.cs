@@ -1,7 +1,7 @@
 using FractalEngine.Core.Approximation.Elements;
 using FractalEngine.Core.Maths;
 
-namespace FractalEngine.Core.Approximation.Grammars.Calls;
+namespace FractalEngine.Core.Approximation.Grammars.Trees;
 
 /// <summary>The parts among which calls of recursives are looked for: one class of elements, and what always stands beside them.</summary>
 internal sealed class CallScene

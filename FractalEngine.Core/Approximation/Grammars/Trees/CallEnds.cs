@@ -1,6 +1,6 @@
 using FractalEngine.Core.Maths;
 
-namespace FractalEngine.Core.Approximation.Grammars.Calls;
+namespace FractalEngine.Core.Approximation.Grammars.Trees;
 
 /// <summary>
 /// Turns the frames of recursives so that what stands at the ends of the last level is the same for all of them, and finds which recursives

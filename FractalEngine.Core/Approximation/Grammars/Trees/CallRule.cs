@@ -1,6 +1,6 @@
 using FractalEngine.Core.Maths;
 
-namespace FractalEngine.Core.Approximation.Grammars.Calls;
+namespace FractalEngine.Core.Approximation.Grammars.Trees;
 
 /// <summary>One call of a recursive by another one.</summary>
 /// <param name="Caller">The index of the recursive that calls; 0 is that of the whole.</param>

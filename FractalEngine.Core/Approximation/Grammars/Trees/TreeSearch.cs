@@ -1,8 +1,7 @@
 using FractalEngine.Core.Approximation.Elements;
-using FractalEngine.Core.Approximation.Grammars.Calls;
 using FractalEngine.Core.Maths;
 
-namespace FractalEngine.Core.Approximation.Grammars;
+namespace FractalEngine.Core.Approximation.Grammars.Trees;
 
 /// <summary>
 /// Looks for a tree: a root, and smaller parts that the products of a few maps make of it. By falling size, each element that no
