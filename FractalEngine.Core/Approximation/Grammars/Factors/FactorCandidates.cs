@@ -24,8 +24,8 @@ internal sealed class FactorCandidates
         var group = members.GroupBy(member => set.Elements[member].Class)
             .OrderByDescending(group => group.Count()).ThenBy(group => group.Key).First();
         var largest = group.Max(member => set.Elements[member].Shape.Size);
-        // A direction along which hardly any two elements are level.
-        var direction = new Vector(0.6180339887, 0.5436890127, 0.4655712319);
+        // Upwards, as models stand, but turned so that hardly any two elements are level.
+        var direction = new Vector(0.1618033989, 0.9436890127, 0.2655712319);
         return group.Where(member => set.Elements[member].Shape.Size > 0.9999 * largest)
             .OrderByDescending(member => Vector.Dot(direction, set.Elements[member].Shape.Centroid)).ThenBy(member => member).First();
     }
