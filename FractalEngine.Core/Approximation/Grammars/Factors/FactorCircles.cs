@@ -43,7 +43,8 @@ internal sealed class FactorCircles
                 order++;
             }
 
-            if (order > best.Order && _group.Members.Length % order == 0)
+            if ((order > best.Order || (order == best.Order && FactorCandidates.Oddity(map) < FactorCandidates.Oddity(best.Map)))
+                && _group.Members.Length % order == 0)
             {
                 best = (map, order);
             }

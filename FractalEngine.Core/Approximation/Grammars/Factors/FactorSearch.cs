@@ -22,13 +22,15 @@ internal sealed class FactorSearch
     private readonly ElementGroup _group;
     private readonly int _reference;
     private readonly List<AffineMap> _candidates;
+    private readonly List<AffineMap> _all;
     private readonly CancellationToken _cancellation;
 
-    private FactorSearch(ElementGroup group, int reference, List<AffineMap> candidates, CancellationToken cancellation)
+    private FactorSearch(ElementGroup group, int reference, List<AffineMap> candidates, List<AffineMap> all, CancellationToken cancellation)
     {
         _group = group;
         _reference = reference;
         _candidates = candidates;
+        _all = all;
         _cancellation = cancellation;
     }
 
@@ -37,8 +39,10 @@ internal sealed class FactorSearch
     {
         var group = new ElementGroup(set, members);
         var all = FactorCandidates.List(group, reference);
-        var searches = new[] { all.FindAll(FactorCandidates.IsTranslation), all }
-            .Select(candidates => new FactorSearch(group, reference, candidates, cancellation)).ToArray();
+        var translations = all.FindAll(FactorCandidates.IsTranslation);
+        // Where cells are translated and turned, translations are enough to find the first cell.
+        var searches = new[] { (translations, translations), (translations, all), (all, all) }
+            .Select(lists => new FactorSearch(group, reference, lists.Item1, lists.Item2, cancellation)).ToArray();
         return searches.Select(search => search.Find()).FirstOrDefault(factor => factor is not null)
             ?? searches.Select(search => search.FindOverlapping() ?? search.FindListed()).FirstOrDefault(factor => factor is not null);
     }
@@ -64,7 +68,7 @@ internal sealed class FactorSearch
                 continue;
             }
 
-            if (FactorCover.Find(_group, _candidates, remainder, 0) is { } maps)
+            if (FactorCover.Find(_group, _all, remainder, 0) is { } maps)
             {
                 return Make(maps, remainder);
             }
@@ -84,7 +88,7 @@ internal sealed class FactorSearch
             _cancellation.ThrowIfCancellationRequested();
             var remainder = RemainderOf(_candidates[first]);
             if (2 * remainder.Length <= _group.Members.Length + (_group.Members.Length / 4) && remainder.Length > 1
-                && FactorCover.Find(_group, _candidates, remainder, remainder.Length / 4) is { } maps)
+                && FactorCover.Find(_group, _all, remainder, remainder.Length / 4) is { } maps)
             {
                 return Make(maps, remainder);
             }
@@ -95,7 +99,7 @@ internal sealed class FactorSearch
 
     /// <summary>Makes all members images of one, if they are few.</summary>
     private MapFactor? FindListed() =>
-        _group.Members.Length <= MaxListed && FactorCover.Find(_group, _candidates, [_reference], 0) is { } all ? Make(all, [_reference]) : null;
+        _group.Members.Length <= MaxListed && FactorCover.Find(_group, _all, [_reference], 0) is { } all ? Make(all, [_reference]) : null;
 
     private MapFactor Make(List<AffineMap> maps, int[] remainder) =>
         new(maps, FactorSymmetries.Find(_group.Set, _reference, maps, remainder), remainder);
