@@ -16,7 +16,8 @@ internal sealed class FactorSearch
     private const int SampleSize = 192;
     private const int MaxListed = 256;
     private const int MaxLookUps = 4_000_000;
-    private const int MinOverlapping = 8;
+    // Fewer elements are rather one level.
+    private const int MinOverlapping = 40;
     private const int MaxOverlapping = 64;
 
     private readonly ElementGroup _group;
@@ -51,6 +52,7 @@ internal sealed class FactorSearch
     {
         var order = Ordered(out var supports, out var isFarthest);
         var tried = new HashSet<int>();
+        var least = _group.Members.Length < MinOverlapping ? 1 : 2;
         var lookUps = 0L;
         foreach (var index in order)
         {
@@ -62,7 +64,7 @@ internal sealed class FactorSearch
             }
 
             var remainder = RemainderOf(_candidates[index]);
-            if (remainder.Length == 0 || _group.Members.Length % remainder.Length != 0 || remainder.Length == _group.Members.Length
+            if (remainder.Length < least || _group.Members.Length % remainder.Length != 0 || remainder.Length == _group.Members.Length
                 || !tried.Add(HashOf(remainder)))
             {
                 continue;
@@ -83,7 +85,7 @@ internal sealed class FactorSearch
     private MapFactor? FindOverlapping()
     {
         var order = Ordered(out _, out var isFarthest);
-        foreach (var first in order.Where(index => isFarthest[index]).Take(_group.Members.Length > MinOverlapping ? MaxOverlapping : 0))
+        foreach (var first in order.Where(index => isFarthest[index]).Take(_group.Members.Length < MinOverlapping ? 0 : MaxOverlapping))
         {
             _cancellation.ThrowIfCancellationRequested();
             var remainder = RemainderOf(_candidates[first]);
@@ -97,9 +99,14 @@ internal sealed class FactorSearch
         return null;
     }
 
-    /// <summary>Makes all members images of one, if they are few.</summary>
-    private MapFactor? FindListed() =>
-        _group.Members.Length <= MaxListed && FactorCover.Find(_group, _all, [_reference], 0) is { } all ? Make(all, [_reference]) : null;
+    /// <summary>Makes all members images of one, if they are few, or if one of the maps takes only one to another.</summary>
+    private MapFactor? FindListed()
+    {
+        var order = Ordered(out _, out var isFarthest);
+        return (_group.Members.Length <= MaxListed
+                || Array.Exists(order, index => isFarthest[index] && RemainderOf(_candidates[index]).Length == 1))
+            && FactorCover.Find(_group, _all, [_reference], 0) is { } all ? Make(all, [_reference]) : null;
+    }
 
     private MapFactor Make(List<AffineMap> maps, int[] remainder) =>
         new(maps, FactorSymmetries.Find(_group.Set, _reference, maps, remainder), remainder);

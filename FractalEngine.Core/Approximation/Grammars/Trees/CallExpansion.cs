@@ -1,5 +1,3 @@
-using FractalEngine.Core.Maths;
-
 namespace FractalEngine.Core.Approximation.Grammars.Trees;
 
 /// <summary>All parts that some calls of recursives explain, by rising level.</summary>
