@@ -1,6 +1,8 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Approximation.Elements;
 using FractalEngine.Core.Approximation.Grammars;
+using FractalEngine.Core.Approximation.Grammars.Factors;
+using FractalEngine.Core.Approximation.Grammars.Trees;
 using FractalEngine.Core.Approximation.Repetition;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
@@ -12,7 +14,6 @@ public static class GrammarSearch
 {
     // Vertices of exact data lie where maps put them, within rounding in files with nine digits.
     private const double ExactTolerance = 1e-7;
-    private const double ExactShapeTolerance = 1e-4;
 
     // Where more faces are left, patches of faces may repeat that are no elements.
     private const double MaxShare = 0.05;
@@ -39,7 +40,7 @@ public static class GrammarSearch
     private static MeshGrammar? Find(Mesh mesh, List<Element> elements, CancellationToken cancellation)
     {
         var length = mesh.UsedBounds.Diagonal;
-        var set = new ElementSet(elements, ExactTolerance * length, ExactShapeTolerance, cancellation);
+        var set = new ElementSet(elements, ExactTolerance * length, ElementSet.ExactShapeTolerance, cancellation);
         var members = Enumerable.Range(0, set.Count).ToArray();
         if (TreeSearch.Find(set, members, isFull: true, cancellation) is { } full)
         {
@@ -47,7 +48,7 @@ public static class GrammarSearch
         }
 
         var factors = new List<MapFactor>();
-        var reference = FactorSearch.ChooseReference(set, members);
+        var reference = FactorCandidates.ChooseReference(set, members);
         var rest = members;
         TreeGrammar? tree = null;
         while (tree is null && rest.Length > 1 && FactorSearch.Find(set, rest, reference, cancellation) is { } factor)
@@ -55,6 +56,14 @@ public static class GrammarSearch
             factors.Add(factor);
             rest = factor.Remainder;
             tree = TreeSearch.Find(set, rest, isFull: true, cancellation);
+        }
+
+        for (var index = 0; tree is null && index < factors.Count; index++)
+        {
+            if (ClusterTree.Find(set, factors[index], cancellation) is var (clusters, found))
+            {
+                return Make(clusters, factors[..index], [.. Enumerable.Range(0, clusters.Count)], found, length);
+            }
         }
 
         if (tree is null && rest.Length > 2)
@@ -67,7 +76,7 @@ public static class GrammarSearch
 
     private static MeshGrammar Make(ElementSet set, List<MapFactor> factors, int[] rest, TreeGrammar? tree, double length)
     {
-        var origin = factors.Count > 0 ? set.Elements[FactorSearch.ChooseReference(set, rest)].Shape.Centroid : Vector.Zero;
+        var origin = factors.Count > 0 ? set.Elements[FactorCandidates.ChooseReference(set, rest)].Shape.Centroid : Vector.Zero;
         var centroid = Vector.Zero;
         foreach (var element in set.Elements)
         {

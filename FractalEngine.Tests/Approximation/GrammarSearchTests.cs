@@ -22,6 +22,8 @@ public sealed class GrammarSearchTests : IDisposable
     [InlineData("assets/classics/cantor.fdo", "(2*2*2)^3", null)]
     [InlineData("assets/classics/pythagoras.fdo", "", "2^9")]
     [InlineData("assets/fractals/shell.fdo", "(128)^1", null)]
+    [InlineData("assets/fractals/snowflake.fdo", "(6)^1", "6^2", 2)]
+    [InlineData("assets/classics/arch.fdo", "", "7^2")]
     public void FindExact_OfAnAsset_FindsItsLevels(string file, string steps, string? tree, int? depth = null)
     {
         var fractal = FractalFile.Read(Repository.Full(file));
@@ -59,6 +61,59 @@ public sealed class GrammarSearchTests : IDisposable
             """);
         var grammar = RoundTrip(Shuffle(mesh, 11));
         Assert.Equal((2, false), (grammar.Tree?.Maps.Count, grammar.Tree?.IsFull));
+    }
+
+    [Theory]
+    [InlineData("z<a>, w<b>. [m.] a + [n.] b + box, [k.] a + box", 5, 3)]
+    [InlineData("z<a>, w<b>, v<c>. [m.] a + [n.] b + box, [k.] c + box, [m., n.] a + box", 6, 5)]
+    [InlineData("z<a>, w<b>. [m., q.] a + [n.] b + box, [k., n.] b + box", 3, 5)]
+    [InlineData("z<a>, w<b>. [m., q.] a + [n.] b + box, [k., n.] b + box", 2, 4)]
+    public void FindExact_OfSymmetricPartsWithOthersAtTheirEnds_FindsWhichMapsFollow(string recursives, int depth, int maps)
+    {
+        var mesh = Expand($"""
+            m. ((0, 1, 0), (0, 25, 40), (0.7))
+            n. ((0.4, 0.8, 0.1), (10, 0, -35), (0.6))
+            k. ((0, 1, 0), (0, 90, 90), (0.8))
+            q. ((-0.6, 0.3, 0), (0, 0, 75), (0.5, 0.4, 0.5))
+            tip. [((0.1, 0.3, 0), (0, 10, 20), (0.3))] cone
+            a. tip
+            b. tip
+            c. tip
+            {recursives}
+            <$>. z {depth}
+            """);
+        var grammar = RoundTrip(Shuffle(mesh, depth));
+        Assert.Empty(grammar.Steps);
+        Assert.Equal((maps, depth), (grammar.Tree?.Maps.Count, grammar.Tree?.Depth));
+        Assert.Equal(12, grammar.Base.FaceCount);
+        Assert.NotNull(grammar.Leaf);
+    }
+
+    [Fact]
+    public void FindExact_OfFlatPartsInAnyPlane_FindsWhichMapsFollow()
+    {
+        var mesh = Expand("""
+            m. ((0, 1, 0), (20, 25, 40), (0.7))
+            n. ((0.4, 0.8, 0.1), (50, 0, -35), (0.6))
+            a. plate
+            b. plate
+            z<a>, w<b>. [m.] a + [n.] b + plate, [m.] a + plate
+            <$>. [(#, (33, 44, 55), #)] z 6
+            """);
+        Assert.Equal(2, RoundTrip(Shuffle(mesh, 2)).Tree?.Maps.Count);
+    }
+
+    [Fact]
+    public void FindExact_OfCellsOfWhichSomeCoincide_FindsItsLevels()
+    {
+        // 1 + 1/2 = 0 + 3/2, and 20 + 1/2 = 3 + 35/2: of 49 cones in a row 47 differ.
+        var mesh = Expand("""
+            at.x. ((x, 0, 0), #, (1/2))
+            z<cone>. [at.(0), at.(1), at.(3), at.(8), at.(20), at.(35), at.(100)] cone
+            <$>. z 2
+            """);
+        var step = Assert.Single(RoundTrip(Shuffle(mesh, 4)).Steps);
+        Assert.Equal((7, 2), (step.Sets[0].Count, step.Depth));
     }
 
     [Fact]

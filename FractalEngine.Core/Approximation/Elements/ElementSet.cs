@@ -8,6 +8,9 @@ namespace FractalEngine.Core.Approximation.Elements;
 /// </summary>
 internal sealed class ElementSet
 {
+    /// <summary>The shape tolerance for exact data.</summary>
+    public const double ExactShapeTolerance = 1e-4;
+
     private readonly List<ElementAlignment> _classes = [];
     private readonly List<List<AffineMap>> _symmetries = [];
     private readonly List<Element> _firsts = [];

@@ -88,15 +88,16 @@ internal sealed class ElementShape
         var normal = Vector.Zero;
         if (relative.Determinant() <= FlatVariance)
         {
-            // The columns of the cofactors are multiples of the normal, as long as the product of the two other variances.
+            // The columns of the cofactors are multiples of the normal; their trace is the product of the two other variances.
             var cofactors = relative.Cofactors();
             var longest = new[] { cofactors.V1, cofactors.V2, cofactors.V3 }.MaxBy(column => column.LengthSquared());
-            if (longest.Length() <= FlatVariance)
+            var area = cofactors.V1.X + cofactors.V2.Y + cofactors.V3.Z;
+            if (area <= FlatVariance)
             {
                 return null;
             }
 
-            normal = Math.Sqrt(trace * Math.Sqrt(longest.Length())) * longest.UnitVector();
+            normal = Math.Sqrt(trace * Math.Sqrt(area)) * longest.UnitVector();
             relative += Matrix.Outer(normal, normal) / trace;
         }
 

@@ -58,7 +58,7 @@ internal sealed class Conjugation
         from.Count == to.Maps.Count && new Conjugation(from, to, [], origin, length).IsVerified(
             new AffineMap(length * Matrix.Identity, origin).Inverse() * map * new AffineMap(length * Matrix.Identity, origin));
 
-    /// <summary>The maps that move the origin in the most different directions.</summary>
+    /// <summary>The maps that move the origin in the most different directions, one that turns among them, which fixes a place.</summary>
     private int[] ChooseFrame()
     {
         var moves = _from.ConvertAll(map => map * Vector.Zero);
@@ -66,7 +66,14 @@ internal sealed class Conjugation
         var first = all.MaxBy(index => moves[index].LengthSquared());
         var second = all.MaxBy(index => Vector.Cross(moves[index], moves[first]).LengthSquared());
         var third = all.MaxBy(index => Math.Abs(Vector.Dot(moves[index], Vector.Cross(moves[first], moves[second]))));
+        if (!new[] { first, second, third }.Any(Turns))
+        {
+            third = all.Find(Turns) is var turning && turning > 0 ? turning : third;
+        }
+
         return [.. new[] { first, second, third }.Distinct()];
+
+        bool Turns(int index) => (_from[index].Linear - Matrix.Identity).MaxAbsEntry() > 1e-6;
     }
 
     private void Search(int[] frame, int[] images, int depth)

@@ -1,7 +1,6 @@
-using FractalEngine.Core.Approximation.Elements;
 using FractalEngine.Core.Maths;
 
-namespace FractalEngine.Core.Approximation.Grammars;
+namespace FractalEngine.Core.Approximation.Elements;
 
 /// <summary>
 /// Maps of flat elements. Where one goes does not tell what becomes of its normal; another element that is not in its plane does, once it

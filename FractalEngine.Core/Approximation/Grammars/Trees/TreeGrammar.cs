@@ -1,6 +1,6 @@
 using FractalEngine.Core.Maths;
 
-namespace FractalEngine.Core.Approximation.Grammars;
+namespace FractalEngine.Core.Approximation.Grammars.Trees;
 
 /// <summary>
 /// What a tree is made of: all products of up to <see cref="Depth"/> maps, each with the base elements, and with leaves at those of

@@ -1,10 +1,14 @@
 using FractalEngine.Core.Approximation.Elements;
 using FractalEngine.Core.Maths;
 
-namespace FractalEngine.Core.Approximation.Grammars;
+namespace FractalEngine.Core.Approximation.Grammars.Trees;
 
 /// <summary>Finds which products of a tree's maps exist, and what stands at each, and says whether that is a grammar.</summary>
-internal sealed class TreeLevels(ElementGroup group, int root, List<AffineMap> maps)
+/// <param name="group">The elements that are to be explained.</param>
+/// <param name="root">The element that products are applied to.</param>
+/// <param name="maps">The maps of the products.</param>
+/// <param name="known">Which map follows which, as in <see cref="TreeGrammar.Follows"/>; null where that is to be found out.</param>
+internal sealed class TreeLevels(ElementGroup group, int root, List<AffineMap> maps, bool[,]? known = null)
 {
     private const int MaxLeafAttempts = 64;
 
@@ -14,7 +18,7 @@ internal sealed class TreeLevels(ElementGroup group, int root, List<AffineMap> m
     /// <summary>Returns the grammar, or null where it does not explain all elements and nothing else.</summary>
     public TreeGrammar? Describe()
     {
-        var follows = new bool[maps.Count + 1, maps.Count];
+        var follows = known ?? new bool[maps.Count + 1, maps.Count];
         var depth = Trace(follows);
         if (!IsRegular(follows, depth))
         {
@@ -43,6 +47,13 @@ internal sealed class TreeLevels(ElementGroup group, int root, List<AffineMap> m
             leaves.Add(leaf);
         }
 
+        // Maps that none follows lead to the base, on the last level, too.
+        if (leaves.Count > 0 && Enumerable.Range(0, maps.Count).Any(map => IsEnd(follows, map) && _products.Exists(
+            product => product.Level == depth && follows[product.Last, map])))
+        {
+            return null;
+        }
+
         // Leaves end the last level, which the base then has not.
         return new(maps, follows, leaves.Count > 0 ? depth + 1 : depth, bases, leaves);
     }
@@ -50,18 +61,23 @@ internal sealed class TreeLevels(ElementGroup group, int root, List<AffineMap> m
     /// <summary>Finds all products by rising length, and which maps follow which.</summary>
     private int Trace(bool[,] follows)
     {
-        var seen = new HashSet<int> { root };
+        var seen = new Dictionary<(int, int), List<AffineMap>>();
         _products.Add((AffineMap.Identity, maps.Count, 0));
         for (var next = 0; next < _products.Count; next++)
         {
             var (product, last, level) = _products[next];
             for (var map = 0; map < maps.Count; map++)
             {
+                if (known is not null && !known[last, map])
+                {
+                    continue;
+                }
+
                 var image = group.Image(product * maps[map], root);
                 if (image >= 0)
                 {
                     follows[last, map] = true;
-                    if (seen.Add(image))
+                    if (IsNew(seen, image, map, product * maps[map]))
                     {
                         _products.Add((product * maps[map], map, level + 1));
                     }
@@ -72,13 +88,41 @@ internal sealed class TreeLevels(ElementGroup group, int root, List<AffineMap> m
         return _products[^1].Level;
     }
 
+    private bool IsEnd(bool[,] follows, int map) => !Enumerable.Range(0, maps.Count).Any(next => follows[map, next]);
+
+    /// <summary>
+    /// Whether a product leads to a part in another frame, or by another last map, than those before: then other parts may follow. Where
+    /// many coincide, only those count that lead to parts that none did before.
+    /// </summary>
+    private bool IsNew(Dictionary<(int Image, int Last), List<AffineMap>> seen, int image, int last, AffineMap product)
+    {
+        var isMany = _products.Count > 2 * group.Members.Length;
+        if (isMany)
+        {
+            last = -1;
+        }
+
+        seen.TryAdd((image, -1), []);
+        seen.TryAdd((image, last), []);
+        var frames = seen[(image, last)];
+        if (isMany ? seen[(image, -1)].Count > 0 : frames.Exists(frame => MapRows.AreNear(frame, product, 1e-6, _set.Tolerance * 1e7)))
+        {
+            return false;
+        }
+
+        seen[(image, -1)].Add(product);
+        frames.Add(product);
+        return true;
+    }
+
     private bool IsRegular(bool[,] follows, int depth)
     {
         foreach (var (product, last, level) in _products)
         {
             for (var map = 0; map < maps.Count; map++)
             {
-                if (level < depth && (group.Image(product * maps[map], root) >= 0) != follows[last, map])
+                if (level < depth && (known is null || known[last, map])
+                    && (group.Image(product * maps[map], root) >= 0) != follows[last, map])
                 {
                     return false;
                 }

@@ -1,7 +1,7 @@
 using FractalEngine.Core.Approximation.Elements;
 using FractalEngine.Core.Maths;
 
-namespace FractalEngine.Core.Approximation.Grammars;
+namespace FractalEngine.Core.Approximation.Grammars.Trees;
 
 /// <summary>
 /// Looks for a tree: a root, and smaller parts that the products of a few maps make of it. By falling size, each element that no
@@ -13,9 +13,9 @@ namespace FractalEngine.Core.Approximation.Grammars;
 /// </remarks>
 internal sealed class TreeSearch
 {
+    private const int MaxClasses = 3;
     private const int MaxMaps = 40;
     private const int MaxFullMaps = 24;
-    private const int MaxParents = 48;
     private const int SampleSize = 96;
 
     private readonly ElementSet _set;
@@ -41,27 +41,24 @@ internal sealed class TreeSearch
     /// <param name="cancellation">Ends the search early.</param>
     public static TreeGrammar? Find(ElementSet set, int[] members, bool isFull, CancellationToken cancellation)
     {
-        var classes = members.GroupBy(member => set.Elements[member].Class).Where(group => group.Count() > 2)
-            .OrderByDescending(group => group.Count()).ThenBy(group => group.Key).Take(3);
         var whole = new ElementGroup(set, members);
-        foreach (var parts in classes.Select(group => group.ToArray()))
+        var classes = members.GroupBy(member => set.Elements[member].Class).Where(group => group.Count() > 2)
+            .OrderByDescending(group => group.Count()).ThenBy(group => group.Key).Select(group => group.ToArray()).ToArray();
+        foreach (var parts in classes.Take(MaxClasses))
         {
-            var grammar = new TreeSearch(whole, cancellation).Find(parts, isFull, isLocal: false);
-            if (grammar is null && !isFull)
-            {
-                grammar = new TreeSearch(whole, cancellation).Find(parts, isFull, isLocal: true);
-            }
-
+            var grammar = new TreeSearch(whole, cancellation).Find(parts, isFull);
             if (grammar is not null && (!isFull || grammar.IsFull))
             {
                 return grammar;
             }
         }
 
-        return null;
+        // What stands at all calls is larger than what stands at the ends.
+        return isFull ? null : classes.OrderByDescending(parts => parts.Max(part => set.Elements[part].Shape.Size)).Take(MaxClasses)
+            .Select(parts => CallSearch.Find(whole, parts, cancellation)).FirstOrDefault(grammar => grammar is not null);
     }
 
-    private TreeGrammar? Find(int[] parts, bool isFull, bool isLocal)
+    private TreeGrammar? Find(int[] parts, bool isFull)
     {
         _bySize = [.. parts.OrderByDescending(SizeOf).ThenBy(member => member)];
         _root = _bySize[0];
@@ -80,8 +77,8 @@ internal sealed class TreeSearch
                 continue;
             }
 
-            var map = isLocal ? BestLocalMap(element) : BestMap(element);
-            if (_maps.Count == (isFull || isLocal ? MaxFullMaps : MaxMaps) || map is null)
+            var map = BestMap(element);
+            if (_maps.Count == (isFull ? MaxFullMaps : MaxMaps) || map is null)
             {
                 return null;
             }
@@ -121,42 +118,6 @@ internal sealed class TreeSearch
         }
 
         return maps.MaxBy(map => sample.Count(member => _group.Image(map, member) >= 0));
-    }
-
-    /// <summary>
-    /// Of the maps that take a known part to an element, in the part's own frame, the one that does so for most other parts; of equal
-    /// ones that of the largest part. So what grows on one kind of part only is found there.
-    /// </summary>
-    private AffineMap? BestLocalMap(int element)
-    {
-        var symmetries = _set.SymmetriesOf(_set.Elements[_root].Class);
-        var parents = _explainedOrder.OrderByDescending(SizeOf).ThenBy(parent => parent)
-            .Take(Math.Max(4, MaxParents / symmetries.Count)).Select(parent => _explained[parent].Inverse()).ToArray();
-        var places = _bySize.Take(SampleSize)
-            .SelectMany(member => _set.MapsBetween(_root, member).Select(place => (member, place))).ToArray();
-        AffineMap? best = null;
-        var bestCount = 0;
-        foreach (var map in parents.SelectMany(back => _set.MapsBetween(_root, element).OrderBy(Oddity).Select(place => back * place)))
-        {
-            var count = 0;
-            var last = -1;
-            foreach (var (member, place) in places)
-            {
-                if (member != last && _group.Image(place * map, _root) >= 0)
-                {
-                    count++;
-                    last = member;
-                }
-            }
-
-            if (count > bestCount)
-            {
-                best = map;
-                bestCount = count;
-            }
-        }
-
-        return best;
     }
 
     /// <summary>Of maps that explain as much, those come first that turn less, and mirrors last.</summary>
