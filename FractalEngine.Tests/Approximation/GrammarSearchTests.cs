@@ -112,7 +112,7 @@ public sealed class GrammarSearchTests : IDisposable
             z<cone>. [at.(0), at.(1), at.(3), at.(8), at.(20), at.(35), at.(100)] cone
             <$>. z 2
             """);
-        var step = Assert.Single(RoundTrip(Shuffle(mesh, 4)).Steps);
+        var step = Assert.Single(RoundTrip(Shuffle(mesh, 4), isRepeating: true).Steps);
         Assert.Equal((7, 2), (step.Sets[0].Count, step.Depth));
     }
 
@@ -188,12 +188,12 @@ public sealed class GrammarSearchTests : IDisposable
     }
 
     /// <summary>Searches, writes, reads back, and requires the same vertices and as many faces.</summary>
-    private MeshGrammar RoundTrip(Mesh mesh)
+    private MeshGrammar RoundTrip(Mesh mesh, bool isRepeating = false)
     {
         var grammar = Assert.IsType<MeshGrammar>(GrammarSearch.FindExact(mesh, default));
         GrammarFile.Write(_folder["found.fdo"], grammar, mesh.UsedBounds.Diagonal, ["found"]);
-        var made = FractalFile.Read(_folder["found.fdo"]).Flatten(mesh.FaceCount);
-        Assert.Equal(mesh.FaceCount, made.FaceCount);
+        var made = FractalFile.Read(_folder["found.fdo"]).Flatten((isRepeating ? 2L : 1L) * mesh.FaceCount);
+        Assert.InRange(made.FaceCount, mesh.FaceCount, (isRepeating ? 1.1 : 1) * mesh.FaceCount);
         var diagonal = mesh.UsedBounds.Diagonal;
         Assert.InRange(Assert.NotNull(VertexDistance.FindLargest(mesh, made, 1e-6 * diagonal)), 0, 1e-7 * diagonal);
         return grammar;

@@ -85,7 +85,7 @@ internal sealed class FactorCircles
         return [.. nearest];
     }
 
-    /// <summary>The parts of the reference's one of several equal trees, also where they reach into each other; none where there are no trees.</summary>
+    /// <summary>The parts of one of several equal trees, that of the reference, also where they reach into each other.</summary>
     private HashSet<int> FirstOfFigures(AffineMap[] powers)
     {
         var elements = _group.Set.Elements;

@@ -77,7 +77,8 @@ internal sealed class FactorSearch
         }
 
         var sampled = Math.Min(SampleSize, _group.Members.Length);
-        return FactorCircles.Find(_group, _reference, _candidates.Where((_, index) => supports[index] == sampled), _cancellation) is var (powers, rest)
+        var closed = _candidates.Where((_, index) => supports[index] == sampled);
+        return FactorCircles.Find(_group, _reference, closed, _cancellation) is var (powers, rest)
             ? Make(powers, rest) : null;
     }
 

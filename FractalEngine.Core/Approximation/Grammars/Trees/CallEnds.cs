@@ -93,7 +93,8 @@ internal sealed class CallEnds
 
     /// <summary>The frames that a call would lead to beyond the last level.</summary>
     private List<AffineMap> EndsOf(int rule) => [.. _expansion.Parts
-        .Where(part => part.Level == _expansion.Depth && part.Recursive == _rules[rule].Caller).Select(part => part.Frame * _rules[rule].Map)];
+        .Where(part => part.Level == _expansion.Depth && part.Recursive == _rules[rule].Caller)
+        .Select(part => part.Frame * _rules[rule].Map)];
 
     /// <summary>Finds what stands at the ends of a call and, with turned frames, of all others.</summary>
     private void FindLeaves(List<AffineMap> ends)
@@ -140,11 +141,13 @@ internal sealed class CallEnds
         }
 
         // The frame of the whole stays as it is.
-        foreach (var turn in _scene.Symmetries.Take(called == 0 ? 1 : int.MaxValue).Where(turn => ends[first].TrueForAll(end => HasLeaves(end * turn))))
+        foreach (var turn in _scene.Symmetries.Take(called == 0 ? 1 : int.MaxValue).Where(
+            turn => ends[first].TrueForAll(end => HasLeaves(end * turn))))
         {
             var back = turn.Inverse();
             var turned = Array.ConvertAll(_rules, rule => rule.Caller == called ? rule with { Map = back * rule.Map } : rule);
-            var symmetries = calls.Select((rule, index) => _scene.Symmetries.Select(symmetry => (AffineMap?)symmetry).FirstOrDefault(symmetry =>
+            var symmetries = calls.Select((rule, index) => _scene.Symmetries.Select(symmetry => (AffineMap?)symmetry).FirstOrDefault(
+                symmetry =>
                 ends[index].TrueForAll(end => HasLeaves(end * symmetry!.Value)) && KeepsCalls(turned, rule, symmetry!.Value))).ToArray();
             if (Array.TrueForAll(symmetries, symmetry => symmetry is not null))
             {
@@ -203,7 +206,8 @@ internal sealed class CallEnds
         var (back, (kind, placement)) = (parts[0].Frame.Inverse(), _leaves[0]);
         var called = _rules[rule].Called;
         foreach (var element in Enumerable.Range(0, _isLeft.Length).Where(
-            element => _isLeft[element] && set.Elements[element].Class == kind && others.MinBy(part => Nearness(part, element)).Rule == rule))
+            element => _isLeft[element] && set.Elements[element].Class == kind
+                && others.MinBy(part => Nearness(part, element)).Rule == rule))
         {
             foreach (var symmetry in set.SymmetriesOf(kind).TakeWhile(_ => !_isCovered[element]))
             {

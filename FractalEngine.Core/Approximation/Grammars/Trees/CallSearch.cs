@@ -39,7 +39,7 @@ internal sealed class CallSearch
         return search.Find(search.Describe);
     }
 
-    /// <summary>Finds recursives that explain all parts as several equal figures, and returns the parts of the first one, or null.</summary>
+    /// <summary>Finds recursives that make several equal figures of all parts, and returns the parts of the first one, or null.</summary>
     /// <param name="group">All elements.</param>
     /// <param name="parts">Those of one class, which stand at each call.</param>
     /// <param name="roots">Maps that take the largest part to that of each figure, the identity first.</param>
@@ -144,7 +144,8 @@ internal sealed class CallSearch
         var turned = (CallRule[])[.. rules, call];
         for (var index = 0; index < rules.Length; index++)
         {
-            if (rules[index].Called == call.Caller && FirstOf(expansion, index) is { } part && !_scene.HasCalls(turned, call.Caller, part.Frame))
+            if (rules[index].Called == call.Caller && FirstOf(expansion, index) is { } part
+                && !_scene.HasCalls(turned, call.Caller, part.Frame))
             {
                 if (Symmetry(turned, call.Caller, part.Frame) is not { } symmetry)
                 {
