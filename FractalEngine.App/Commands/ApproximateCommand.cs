@@ -24,7 +24,7 @@ internal static class ApproximateCommand
     public static Command Create()
     {
         var shared = new SharedOptions();
-        var output = SharedOptions.OutputOption(".fdo", "Fractal to write; its base mesh gets a name that ends in -base.obj.");
+        var output = SharedOptions.OutputOption(".fdo", "Fractal to write; its meshes get names that end in -base.obj, -part1.obj and so on.");
         var seconds = NumberOption.Positive("--seconds", "N", "End the search after that time (default: when it is done).");
         var report = new ReportOptions();
         var command = new DocumentedCommand(
@@ -134,7 +134,8 @@ internal static class ApproximateCommand
     {
         return
         [
-            Invariant($"{(grammar.IsRecursive ? "EXACT" : "REPEATS")}: {grammar.FaceCount} of {mesh.FaceCount} faces are left, with {grammar.MapCount} maps"),
+            (grammar.IsRecursive ? "EXACT: " : "REPEATS: ")
+                + Invariant($"{grammar.FaceCount} of {mesh.FaceCount} faces are left, with {grammar.MapCount} maps"),
             Invariant($"vertices are within {vertexDistance:0.0e+0} of the diagonal, surfaces within {surfaceDistance:0.0e+0}"),
         ];
     }

@@ -17,7 +17,8 @@ namespace FractalEngine.Benchmarks.Approximation;
 /// <param name="BaseFaces">Faces of the base meshes.</param>
 /// <param name="ModelFaces">Faces of the mesh that was searched.</param>
 /// <param name="Description">What the input is, and what was found.</param>
-internal sealed record SearchOutcome(bool IsFound, bool IsWrong, double Seconds, int MapCount, int BaseFaces, int ModelFaces, string Description)
+internal sealed record SearchOutcome(
+    bool IsFound, bool IsWrong, double Seconds, int MapCount, int BaseFaces, int ModelFaces, string Description)
 {
     // Largest difference of vertices, as a part of the diagonal, that the search allows itself.
     private const double ExactTolerance = 1e-6;
@@ -52,7 +53,8 @@ internal sealed record SearchOutcome(bool IsFound, bool IsWrong, double Seconds,
         }
         catch (SourceException exception)
         {
-            return new(false, true, seconds, maps, faces, input.Mesh.FaceCount, $"UNREADABLE {exception.Diagnostic.Message} in {input.Description}");
+            return new(false, true, seconds, maps, faces, input.Mesh.FaceCount,
+                $"UNREADABLE {exception.Diagnostic.Message} in {input.Description}");
         }
 
         // A base that is most of the model explains little.
