@@ -8,7 +8,7 @@ using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Approximation;
 
-/// <summary>Grammars with parts are written as files with several base meshes; what these make is compared with a plain expansion.</summary>
+/// <summary>Grammars with parts are written as files with several meshes; what these make is compared with a plain expansion.</summary>
 public sealed class RepetitionGrammarTests : IDisposable
 {
     private static readonly AffineMap Turn = new(Matrix.Yaw(0.7), new(0, 0.3, 0));
