@@ -24,7 +24,7 @@ internal static class ApproximateCommand
     public static Command Create()
     {
         var shared = new SharedOptions();
-        var output = SharedOptions.OutputOption(".fdo", "Fractal to write; its meshes get names that end in -base.obj, -part1.obj and so on.");
+        var output = SharedOptions.OutputOption(".fdo", "Fractal to write; its meshes get names that end in -base.obj or -part1.obj.");
         var seconds = NumberOption.Positive("--seconds", "N", "End the search after that time (default: when it is done).");
         var report = new ReportOptions();
         var command = new DocumentedCommand(
