@@ -76,11 +76,11 @@ public sealed class RepetitionGrammarTests : IDisposable
         Assert.Equal(faces, expected.Length);
         GrammarFile.Write(_folder["parts.fdo"], grammar, 10, ["parts"]);
         var made = FractalFile.Read(_folder["parts.fdo"]).Flatten(faces);
-        // Instances that coincide stand once in what is made.
+        // Of instances of one set that coincide one stays.
         var grid = new PointGrid(expected, 1e-5);
         var distinct = expected.Select(sum => grid.PointOf(grid.First(sum))).Distinct().Count();
-        Assert.Equal(distinct, made.FaceCount);
-        var found = Enumerable.Range(0, distinct).Select(made.Face).Select(face => grid.First(face.A + face.B + face.C)).ToArray();
+        Assert.InRange(made.FaceCount, distinct, faces);
+        var found = Enumerable.Range(0, made.FaceCount).Select(made.Face).Select(face => grid.First(face.A + face.B + face.C)).ToArray();
         Assert.DoesNotContain(-1, found);
         Assert.Equal(distinct, found.Select(grid.PointOf).Distinct().Count());
     }
