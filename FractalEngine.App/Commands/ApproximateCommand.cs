@@ -22,7 +22,7 @@ internal sealed class ApproximateCommand
     private readonly ReportOptions _told = new();
 
     private readonly Option<string> _output = SharedOptions.OutputOption(
-        ".fdo", "Fractal to write; its base mesh gets a name that ends in -base.obj.");
+        ".fdo", "Fractal to write; its meshes get names that end in -base.obj or -part1.obj.");
 
     private readonly Option<int?> _maps = NumberOption.Integer("--maps", "K", 1, int.MaxValue, "The most maps that it may have.");
 

@@ -8,9 +8,10 @@ internal static class ApproximationCommand
 {
     private const string Usage = """
         approximate [models] [--quick] [--output FOLDER]
-          How often does the search find what made a mesh, and in what time? The meshes are expanded fractals that it was not written
-          for, see Approximation/Unseen. Writes to docs/benchmarks unless stated: approximation.csv. With 'models', what is found for
-          the fractals of the assets, and how close it comes to irregular shapes: approximation-models.csv.
+          How often does the search find what made a mesh, how many faces are left, and in what time? The meshes are expanded fractals
+          and models that repeat, which it was not written for, see Approximation/Unseen. Writes to docs/benchmarks unless stated:
+          approximation.csv. With 'models', what is found for the fractals of the assets, and how close it comes to irregular
+          shapes: approximation-models.csv.
         approximate samples FOLDER
           Writes models that repeat, or are damaged or irregular, as OBJ files to try it on.
         """;
@@ -39,12 +40,24 @@ internal static class ApproximationCommand
 
         var table = options.CreateTable(
             "approximation.csv", "kind", "faces", "damage", "cases", "found", "wrong", "median_s", "max_s",
-            "median_maps", "median_base_faces");
+            "median_maps", "median_base_faces", "median_ratio");
         foreach (var faces in options.IsQuick ? new[] { 3_000 } : [3_000, 30_000, 100_000])
         {
             foreach (var kind in Enum.GetValues<FractalKind>())
             {
-                AddRow(table, kind, faces, options.IsQuick ? 10 : 20);
+                var inputs = Enumerable.Range(0, options.IsQuick ? 10 : 20).Select(seed => UnseenFractals.Create(kind, seed, faces));
+                AddRow(table, kind.ToString(), faces, Damage.None, inputs);
+            }
+        }
+
+        var flipped = new Damage(DamageKind.FlippedEdges, 0.5);
+        foreach (var (repeats, damage) in options.IsQuick ? new[] { (30, Damage.None) }
+            : [(30, Damage.None), (30, flipped), (100, Damage.None), (1000, Damage.None)])
+        {
+            foreach (var kind in Enum.GetValues<RepeatKind>())
+            {
+                var inputs = Enumerable.Range(0, options.IsQuick ? 3 : 10).Select(seed => RepeatingModels.Create(kind, seed, repeats));
+                AddRow(table, FormattableString.Invariant($"{kind} x {repeats}"), null, damage, inputs);
             }
         }
 
@@ -52,21 +65,21 @@ internal static class ApproximationCommand
         return 0;
     }
 
-    private static void AddRow(CsvTable table, FractalKind kind, int faces, int count)
+    private static void AddRow(CsvTable table, string kind, int? faces, Damage damage, IEnumerable<UnseenInput> inputs)
     {
         var outcomes = new List<SearchOutcome>();
-        for (var seed = 0; seed < count; seed++)
+        foreach (var input in inputs)
         {
-            var input = Damage.None.Apply(UnseenFractals.Create(kind, seed, faces), seed);
-            outcomes.Add(SearchOutcome.Measure(input));
-            Console.WriteLine($"{kind} {seed}: {outcomes[^1]}");
+            outcomes.Add(SearchOutcome.Measure(damage.Apply(input, input.Seed)));
+            Console.WriteLine($"{kind} {input.Seed}: {outcomes[^1]}");
         }
 
         var found = outcomes.Where(outcome => outcome.IsFound).ToList();
         table.Add(
-            kind, faces, "none", outcomes.Count, found.Count, outcomes.Count(outcome => outcome.IsWrong),
-            Median(outcomes, outcome => outcome.Seconds), Math.Round(outcomes.Max(outcome => outcome.Seconds), 3),
-            Median(found, outcome => outcome.MapCount), Median(found, outcome => outcome.BaseFaces));
+            kind, faces ?? Median(outcomes, outcome => outcome.ModelFaces), damage.Name, outcomes.Count, found.Count,
+            outcomes.Count(outcome => outcome.IsWrong), Median(outcomes, outcome => outcome.Seconds),
+            Math.Round(outcomes.Max(outcome => outcome.Seconds), 3), Median(found, outcome => outcome.MapCount),
+            Median(found, outcome => outcome.BaseFaces), Median(found, outcome => (double)outcome.ModelFaces / outcome.BaseFaces));
     }
 
     private static double? Median(List<SearchOutcome> outcomes, Func<SearchOutcome, double> valueOf) => outcomes.Count == 0

@@ -15,8 +15,10 @@ namespace FractalEngine.Benchmarks.Approximation;
 /// <param name="Seconds">Time of the search alone.</param>
 /// <param name="MapCount">Maps of all sets.</param>
 /// <param name="BaseFaces">Faces of the base meshes.</param>
+/// <param name="ModelFaces">Faces of the mesh that was searched.</param>
 /// <param name="Description">What the input is, and what was found.</param>
-internal sealed record SearchOutcome(bool IsFound, bool IsWrong, double Seconds, int MapCount, int BaseFaces, string Description)
+internal sealed record SearchOutcome(
+    bool IsFound, bool IsWrong, double Seconds, int MapCount, int BaseFaces, int ModelFaces, string Description)
 {
     // Largest difference of vertices, as a part of the diagonal, that the search allows itself.
     private const double ExactTolerance = 1e-6;
@@ -39,7 +41,7 @@ internal sealed record SearchOutcome(bool IsFound, bool IsWrong, double Seconds,
         var seconds = watch.Elapsed.TotalSeconds;
         if (grammar is null)
         {
-            return new(false, false, seconds, 0, 0, $"nothing in {input.Description}");
+            return new(false, false, seconds, 0, 0, input.Mesh.FaceCount, $"nothing in {input.Description}");
         }
 
         var (maps, faces) = (grammar.MapCount, grammar.FaceCount);
@@ -51,7 +53,8 @@ internal sealed record SearchOutcome(bool IsFound, bool IsWrong, double Seconds,
         }
         catch (SourceException exception)
         {
-            return new(false, true, seconds, maps, faces, $"UNREADABLE {exception.Diagnostic.Message} in {input.Description}");
+            return new(false, true, seconds, maps, faces, input.Mesh.FaceCount,
+                $"UNREADABLE {exception.Diagnostic.Message} in {input.Description}");
         }
 
         // A base that is most of the model explains little.
@@ -59,7 +62,7 @@ internal sealed record SearchOutcome(bool IsFound, bool IsWrong, double Seconds,
         var verdict = !grade.IsFound ? "WRONG" : isSmall ? "found" : "LARGE";
         var steps = string.Join(' ', grammar.Steps.Select(
             step => $"({string.Join('*', step.Sets.Select(set => set.Count))})^{step.Depth}"));
-        return new(grade.IsFound && isSmall, !grade.IsFound, seconds, maps, faces,
+        return new(grade.IsFound && isSmall, !grade.IsFound, seconds, maps, faces, input.Mesh.FaceCount,
             $"{verdict} {steps} tree {grammar.Tree?.Maps.Count}^{grammar.Tree?.Depth} base {faces} in {input.Description}");
     }
 

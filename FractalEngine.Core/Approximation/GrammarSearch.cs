@@ -9,7 +9,9 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Approximation;
 
-/// <summary>Finds what makes a mesh of many similar elements: sets of maps, their repetition, and the base.</summary>
+/// <summary>
+/// Finds what makes a mesh: of many similar elements sets of maps, their repetition and the base, of any other one patches that repeat.
+/// </summary>
 public static class GrammarSearch
 {
     // Vertices of exact data lie where maps put them, within rounding in files with nine digits.
@@ -24,17 +26,20 @@ public static class GrammarSearch
     public static MeshGrammar? FindExact(Mesh mesh, CancellationToken cancellation)
     {
         ArgumentNullException.ThrowIfNull(mesh);
-        foreach (var welded in new[] { false, true })
+        MeshGrammar? grammar = null;
+        for (var round = 0; round < 2 && grammar is null; round++)
         {
-            var elements = ElementFinder.Find(mesh, welded);
-            if (elements.Count > 1 && Find(mesh, elements, cancellation) is { } grammar)
-            {
-                return grammar.FaceCount <= MaxShare * mesh.FaceCount
-                    || RepetitionSearch.Find(mesh, cancellation) is not { } smaller || smaller.FaceCount >= grammar.FaceCount ? grammar : smaller;
-            }
+            var elements = ElementFinder.Find(mesh, weldPositions: round == 1);
+            grammar = elements.Count > 1 ? Find(mesh, elements, cancellation) : null;
         }
 
-        return RepetitionSearch.Find(mesh, cancellation);
+        if (grammar?.FaceCount <= MaxShare * mesh.FaceCount)
+        {
+            return grammar;
+        }
+
+        var repetition = RepetitionSearch.Find(mesh, cancellation);
+        return grammar is null || repetition?.FaceCount < grammar.FaceCount ? repetition : grammar;
     }
 
     private static MeshGrammar? Find(Mesh mesh, List<Element> elements, CancellationToken cancellation)

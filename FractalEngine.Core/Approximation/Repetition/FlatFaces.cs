@@ -50,15 +50,17 @@ internal static class FlatFaces
             var (face, other) = (faces.FaceAt[corner], faces.FaceAt[twin]);
             if (!isChanged[face] && !isChanged[other] && CircleSum(faces, corner) < -CircleTolerance)
             {
-                var (b, c, d) = (faces.Corners[faces.After(corner)], faces.Corners[faces.After(corner, 2)], faces.Corners[faces.After(twin, 2)]);
+                var (c, d) = (faces.Corners[faces.After(corner, 2)], faces.Corners[faces.After(twin, 2)]);
                 new[] { faces.Corners[corner], d, c }.CopyTo(corners, 3 * face);
-                new[] { d, b, c }.CopyTo(corners, 3 * other);
+                new[] { d, faces.Corners[faces.After(corner)], c }.CopyTo(corners, 3 * other);
                 isChanged[face] = true;
                 isChanged[other] = true;
             }
         }
 
-        return Array.IndexOf(isChanged, true) < 0 ? null : new(faces.Points, corners.Chunk(3).Select(face => (face, face)), faces.Tolerance);
+        return Array.IndexOf(isChanged, true) < 0
+            ? null
+            : new(faces.Points, corners.Chunk(3).Select(face => (face, face)), faces.Tolerance);
     }
 
     /// <summary>

@@ -47,7 +47,7 @@ public sealed class RepetitionSearch
     public static MeshGrammar? Find(Mesh mesh, CancellationToken cancellation)
     {
         ArgumentNullException.ThrowIfNull(mesh);
-        if (mesh.FaceCount == 0)
+        if (mesh.FaceCount == 0 || mesh.UsedBounds.Diagonal == 0)
         {
             return null;
         }
@@ -61,7 +61,7 @@ public sealed class RepetitionSearch
             grammar = other;
         }
 
-        return grammar.FaceCount <= MaxShare * triangles.Count ? grammar : null;
+        return grammar.FaceCount > 0 && grammar.FaceCount <= MaxShare * triangles.Count ? grammar : null;
     }
 
     private static MeshGrammar Find(FaceSet faces, CancellationToken cancellation)

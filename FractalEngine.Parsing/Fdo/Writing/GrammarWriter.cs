@@ -110,7 +110,8 @@ internal sealed class GrammarWriter
         {
             var maps = Names(tree.Maps);
             var end = leaf ?? "end" + suffix;
-            _objects.Append(leaf is null ? $"{end}. {baseName}\n" : "").Append($"tree{suffix}<{end}>. [{maps}] {end} + {baseName}\n");
+            var endText = leaf is null ? Invariant($"{end}. {baseName}\n") : "";
+            _objects.Append(endText + Invariant($"tree{suffix}<{end}>. [{maps}] {end} + {baseName}\n"));
             return Invariant($"tree{suffix} {tree.Depth}");
         }
 
