@@ -6,12 +6,12 @@ namespace FractalEngine.Core.Approximation.Damaged;
 internal sealed class BaseSearch(DamagedModel model, PlacementIndex set, int seed, CancellationToken cancellation)
 {
     private const int MaxStarts = 60;
-    private const int MaxWords = 100;
+    private const int MaxWords = 80;
     private const int SampleSize = 24;
     private const int MaxJudged = 10;
 
     // How many elements of one description a base has at most.
-    private const int MaxBases = 24;
+    private const int MaxBases = 8;
 
     private readonly bool[] _isExplained = new bool[set.Count];
 

@@ -19,6 +19,9 @@ public static class DamagedSearch
     // What noise may be where elements are tetrahedra or triangles, in diagonals.
     private const double GuessedNoise = 3e-5;
 
+    // Where so much is explained by so little, there is nothing left to look for.
+    private const double ClearPart = 0.9;
+
     // Exact elements are explained to a larger part.
     private const double SmallPart = 0.1;
 
@@ -57,13 +60,18 @@ public static class DamagedSearch
 
         var relations = new RelationSearch(model, set, [.. model.Elements.Select(_ => 1.0)], cancellation).Find(settings.Effort);
         var best = (Description: (Description?)null, Worth: 0.0);
-        foreach (var hypothesis in new[] { new TreeHypotheses(model, strict, relations, cancellation).Find() })
+        var products = new ProductHypotheses(model, isExact ? ExactRelative : NoisyRelative, settings.Effort, cancellation);
+        // The products first: they take less time.
+        IEnumerable<Func<IEnumerable<Description>>> ways =
+        [
+            () => products.Find(set, relations, isRow: false),
+            () => products.Find(set, relations, isRow: true),
+            () => new TreeHypotheses(model, strict, relations, cancellation).Find() is { } tree ? [tree] : [],
+        ];
+        foreach (var hypothesis in ways.TakeWhile(_ => best.Worth < ClearPart * Explanation.Worth(set.Count, set.Count, 0)).SelectMany(way => way()))
         {
-            if (hypothesis is not null)
-            {
-                var completed = new BaseSearch(model, strict, settings.Seed, cancellation).Complete(hypothesis);
-                best = completed.Worth > best.Worth ? completed : best;
-            }
+            var completed = new BaseSearch(model, strict, settings.Seed, cancellation).Complete(hypothesis);
+            best = completed.Worth > best.Worth ? completed : best;
         }
 
         return best.Description is { } description

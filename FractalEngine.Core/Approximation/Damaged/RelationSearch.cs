@@ -9,8 +9,8 @@ namespace FractalEngine.Core.Approximation.Damaged;
 /// </remarks>
 internal sealed class RelationSearch(DamagedModel model, PlacementIndex set, IReadOnlyList<double> weights, CancellationToken cancellation)
 {
-    private const int MaxVotes = 1_500_000;
-    private const int MaxVoted = 400;
+    private const int MaxVotes = 400_000;
+    private const int MaxVoted = 240;
     private const int MaxGrown = 60_000;
     private const int NeighbourCount = 12;
     private const int MinHits = 3;
@@ -52,12 +52,13 @@ internal sealed class RelationSearch(DamagedModel model, PlacementIndex set, IRe
         var symmetries = model.Templates[set[members[0]].Class].Symmetries;
         var order = members.OrderByDescending(member => weights[member]).ToArray();
         var perReference = Math.Max(1, symmetries.Count * order.Length);
-        var references = Math.Clamp((int)(effort * MaxVotes / perReference), 8, order.Length);
+        var references = Math.Min(order.Length, Math.Max(8, (int)(effort * MaxVotes / perReference)));
         var votes = new Dictionary<long, (double Count, AffineMap Map)>();
         for (var from = 0; from < references; from++)
         {
             cancellation.ThrowIfCancellationRequested();
             var start = set[order[from]].Placement;
+            var back = start.Inverse();
             for (var to = 0; to < order.Length; to++)
             {
                 // Each pair once.
@@ -68,7 +69,7 @@ internal sealed class RelationSearch(DamagedModel model, PlacementIndex set, IRe
 
                 foreach (var symmetry in symmetries)
                 {
-                    var map = new AffineMap(set[order[to]].Placement.Linear * symmetry.Map, set[order[to]].Placement.Translation) * start.Inverse();
+                    var map = new AffineMap(set[order[to]].Placement.Linear * symmetry.Map, set[order[to]].Placement.Translation) * back;
                     map = Directed(map);
                     var key = KeyOf(map);
                     votes.TryGetValue(key, out var known);
@@ -111,7 +112,7 @@ internal sealed class RelationSearch(DamagedModel model, PlacementIndex set, IRe
         var maps = new List<AffineMap>();
         var symmetries = model.Templates[set[members[0]].Class].Symmetries;
         var references = members.OrderByDescending(member => PlacedElement.SizeOf(set[member].Placement)).ToArray();
-        var count = Math.Clamp((int)(effort * MaxGrown / (symmetries.Count * members.Length)), 1, 3);
+        var count = Math.Min(3, Math.Max(1, (int)(effort * MaxGrown / (symmetries.Count * members.Length))));
         foreach (var reference in references.Take(count))
         {
             var centre = set[reference].Placement.Translation;

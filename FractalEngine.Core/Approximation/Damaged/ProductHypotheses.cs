@@ -1,0 +1,205 @@
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Approximation.Damaged;
+
+/// <summary>
+/// Looks for products of sets among damaged elements, from the outermost set inwards: maps that take most elements to elements make a set;
+/// all elements are then folded by its inverse maps, so that what is missing in one part is filled from others, and what few maps agree on
+/// counts less.
+/// </summary>
+internal sealed class ProductHypotheses(DamagedModel model, double relativeTolerance, double effort, CancellationToken cancellation)
+{
+    private const int MaxLevels = 8;
+    private const int MaxSet = 64;
+    private const int MaxMaps = 24;
+    private const int MaxCandidates = 60;
+
+    // A set has no map whose support, with each map of it, is less than that part of what the others have on average.
+    private const double LeastSupport = 0.62;
+
+    // Supports of a row fall with the number of steps, and are missing here and there.
+    private const double LeastRepeated = 0.3;
+
+    // Folded elements are dropped that are so unlikely, and beyond so many for each element.
+    private const double LeastWeight = 0.04;
+    private const int MaxFolded = 3;
+
+    /// <summary>Returns products of sets of rising length that explain the elements, without bases.</summary>
+    /// <param name="set">The elements.</param>
+    /// <param name="relations">The maps between them.</param>
+    /// <param name="isRow">Whether the outermost set may be the powers of one map.</param>
+    public IEnumerable<Description> Find(PlacementIndex set, List<Relation> relations, bool isRow)
+    {
+        var weights = Enumerable.Repeat(1.0, set.Count).ToList();
+        var sets = new List<List<AffineMap>>();
+        while (sets.Count < MaxLevels && set.Count > 1)
+        {
+            cancellation.ThrowIfCancellationRequested();
+            var isLast = relations.Count == 0;
+            var maps = isLast ? FindAll(set, weights) : isRow && FindRow(relations) is { } row ? row : FindSet(relations);
+            if (maps.Count < 2)
+            {
+                break;
+            }
+
+            sets.Add(maps);
+            if (isLast)
+            {
+                break;
+            }
+
+            (set, weights) = Fold(set, weights, maps);
+            relations = new RelationSearch(model, set, weights, cancellation).Find(effort);
+        }
+
+        return sets.Count == 0 ? [] : sets.Count == 1 ? [new(sets, 0, [])] : [new(sets, 0, []), new(sets[..^1], 0, [])];
+    }
+
+    /// <summary>The maps of one element to all others that are there for sure, if these are few.</summary>
+    private List<AffineMap> FindAll(PlacementIndex set, List<double> weights)
+    {
+        var members = Enumerable.Range(0, set.Count).Where(member => weights[member] >= 1).GroupBy(member => set[member].Class)
+            .OrderByDescending(group => group.Count()).ThenBy(group => group.Key).FirstOrDefault()?.ToArray() ?? [];
+        if (members.Length is < 2 or > MaxSet)
+        {
+            return [];
+        }
+
+        var search = new RelationSearch(model, set, weights, cancellation);
+        var back = set[members[0]].Placement.Inverse();
+        return [AffineMap.Identity, .. members.Skip(1).Select(member => model.Templates[set[member].Class].Symmetries.Select(symmetry =>
+            (set[member].Placement with { Linear = set[member].Placement.Linear * symmetry.Map }) * back).MaxBy(search.SupportOf))];
+    }
+
+    /// <summary>The powers of the best relation, as far as there are any; null where even the second one hardly is.</summary>
+    private List<AffineMap>? FindRow(List<Relation> relations)
+    {
+        var index = IndexOf(relations);
+        var step = relations[0];
+        var powers = new List<AffineMap> { AffineMap.Identity, step.Map };
+        var last = 1;
+        for (var power = step.Map * step.Map; powers.Count < MaxSet && !IsNear(power, AffineMap.Identity); power = step.Map * power)
+        {
+            powers.Add(power);
+            last = SupportOf(index, relations, power) > 0 ? powers.Count - 1 : last;
+            if (last == 1 && powers.Count > 3)
+            {
+                break;
+            }
+        }
+
+        return last > 1 && SupportOf(index, relations, powers[2]) > LeastRepeated * step.Support ? powers[..(last + 1)] : null;
+    }
+
+    /// <summary>Adds to the best relation those that most agree with it and each other.</summary>
+    private List<AffineMap> FindSet(List<Relation> relations)
+    {
+        var index = IndexOf(relations);
+        var maps = new List<AffineMap> { AffineMap.Identity, relations[0].Map };
+        var (sum, pairs) = (relations[0].Support, 1);
+        var pool = relations.Take(MaxCandidates).SelectMany(relation => new[] { relation.Map, relation.Map.Inverse() }).ToArray();
+        while (maps.Count < MaxMaps)
+        {
+            cancellation.ThrowIfCancellationRequested();
+            var best = (Map: AffineMap.Identity, Support: 0.0);
+            foreach (var map in pool.Concat(pool.Select(map => map * maps[^1])))
+            {
+                if (!maps.Exists(known => IsNear(known, map)))
+                {
+                    var support = maps.Sum(known => SupportOf(index, relations, map * known.Inverse()));
+                    best = support > best.Support ? (map, support) : best;
+                }
+            }
+
+            if (best.Support < LeastSupport * maps.Count * sum / pairs)
+            {
+                break;
+            }
+
+            maps.Add(best.Map);
+            (sum, pairs) = (sum + best.Support, pairs + maps.Count - 1);
+        }
+
+        return maps;
+    }
+
+    /// <summary>An index of relations and their inverses: maps are looked up as what they do to a frame as large as the model.</summary>
+    private PlacementIndex IndexOf(List<Relation> relations)
+    {
+        var index = new PlacementIndex([new ElementTemplate()], 0.002, 0);
+        foreach (var relation in relations)
+        {
+            index.Add(0, relation.Map * Frame);
+            index.Add(0, relation.Map.Inverse() * Frame);
+        }
+
+        return index;
+    }
+
+    private AffineMap Frame => new((0.5 * model.Diagonal) * Matrix.Identity, model.Centre);
+
+    private double SupportOf(PlacementIndex index, List<Relation> relations, AffineMap map) =>
+        index.Find(0, map * Frame) is var found && found >= 0 ? relations[found / 2].Support : 0;
+
+    private bool IsNear(AffineMap map1, AffineMap map2)
+    {
+        var difference = (map1 * Frame).Linear - (map2 * Frame).Linear;
+        return difference.MaxAbsEntry() < 1e-3 * model.Diagonal
+            && ((map1 * model.Centre) - (map2 * model.Centre)).MaxAbsComponent() < 1e-3 * model.Diagonal;
+    }
+
+    /// <summary>
+    /// Folds elements by the inverses of maps. What several elements are folded to is there; of the others each may be there by one map.
+    /// </summary>
+    private (PlacementIndex Set, List<double> Weights) Fold(PlacementIndex set, List<double> weights, List<AffineMap> maps)
+    {
+        var all = model.CreateIndex(relativeTolerance);
+        var sources = new List<List<int>>();
+        foreach (var back in maps.Select(map => map.Inverse()))
+        {
+            for (var member = 0; member < set.Count; member++)
+            {
+                var placement = back * set[member].Placement;
+                var found = all.Find(set[member].Class, placement);
+                if (found < 0)
+                {
+                    found = all.Add(set[member].Class, placement);
+                    sources.Add([]);
+                }
+
+                sources[found].Add(member);
+            }
+        }
+
+        var isUsed = new bool[set.Count];
+        var folded = model.CreateIndex(relativeTolerance);
+        var foldedWeights = new List<double>();
+        var single = new List<int>();
+        foreach (var candidate in Enumerable.Range(0, all.Count)
+            .OrderByDescending(candidate => sources[candidate].Sum(member => weights[member])).ThenBy(candidate => candidate))
+        {
+            var sum = sources[candidate].Where(member => !isUsed[member]).Sum(member => weights[member]);
+            if (sum > 1.2)
+            {
+                folded.Add(all[candidate].Class, all[candidate].Placement);
+                foldedWeights.Add(1);
+                sources[candidate].ForEach(member => isUsed[member] = true);
+            }
+            else
+            {
+                single.Add(candidate);
+            }
+        }
+
+        foreach (var candidate in single.OrderByDescending(Weight).TakeWhile(candidate => Weight(candidate) > LeastWeight)
+            .Take(Math.Max(0, (MaxFolded * set.Count) - folded.Count)).ToArray())
+        {
+            folded.Add(all[candidate].Class, all[candidate].Placement);
+            foldedWeights.Add(Weight(candidate));
+        }
+
+        return (folded, foldedWeights);
+
+        double Weight(int candidate) => sources[candidate].Where(member => !isUsed[member]).Sum(member => weights[member]) / maps.Count;
+    }
+}
