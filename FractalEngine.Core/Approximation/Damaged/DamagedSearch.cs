@@ -64,8 +64,9 @@ public static class DamagedSearch
         // The products first: they take less time.
         IEnumerable<Func<IEnumerable<Description>>> ways =
         [
-            () => products.Find(set, relations, isRow: false),
-            () => products.Find(set, relations, isRow: true),
+            () => products.Find(set, relations, isRow: false, isFarFirst: true),
+            () => products.Find(set, relations, isRow: false, isFarFirst: false),
+            () => products.Find(set, relations, isRow: true, isFarFirst: false),
             () => new TreeHypotheses(model, strict, relations, cancellation).Find() is { } tree ? [tree] : [],
         ];
         foreach (var hypothesis in ways.TakeWhile(_ => best.Worth < ClearPart * Explanation.Worth(set.Count, set.Count, 0)).SelectMany(way => way()))

@@ -20,21 +20,26 @@ internal sealed class ProductHypotheses(DamagedModel model, double relativeToler
     // Supports of a row fall with the number of steps, and are missing here and there.
     private const double LeastRepeated = 0.3;
 
+    private const double TranslationTolerance = 1e-3;
+
     // Folded elements are dropped that are so unlikely, and beyond so many for each element.
-    private const double LeastWeight = 0.04;
-    private const int MaxFolded = 3;
+    private const double LeastWeight = 0.1;
+    private const int MaxFolded = 2;
 
     /// <summary>Returns products of sets of rising length that explain the elements, without bases.</summary>
     /// <param name="set">The elements.</param>
     /// <param name="relations">The maps between them.</param>
-    /// <param name="isRow">Whether the outermost set may be the powers of one map.</param>
-    public IEnumerable<Description> Find(PlacementIndex set, List<Relation> relations, bool isRow)
+    /// <param name="isRow">Whether sets may be the powers of one map.</param>
+    /// <param name="isFarFirst">Whether maps count more that move farther: of equal maps those of inner sets have as much support.</param>
+    public IEnumerable<Description> Find(PlacementIndex set, List<Relation> relations, bool isRow, bool isFarFirst)
     {
         var weights = Enumerable.Repeat(1.0, set.Count).ToList();
         var sets = new List<List<AffineMap>>();
-        while (sets.Count < MaxLevels && set.Count > 1)
+        while (sets.Count < MaxLevels)
         {
             cancellation.ThrowIfCancellationRequested();
+            relations = isFarFirst ? [.. relations.Where(relation => IsTranslation(relation.Map)).Select(relation => relation with { Support = relation.Support * MoveOf(relation.Map) })
+                .OrderByDescending(relation => relation.Support)] : relations;
             var isLast = relations.Count == 0;
             var maps = isLast ? FindAll(set, weights) : isRow && FindRow(relations) is { } row ? row : FindSet(relations);
             if (maps.Count < 2)
@@ -49,11 +54,20 @@ internal sealed class ProductHypotheses(DamagedModel model, double relativeToler
             }
 
             (set, weights) = Fold(set, weights, maps);
+            if (set.Count < 2)
+            {
+                break;
+            }
+
             relations = new RelationSearch(model, set, weights, cancellation).Find(effort);
         }
 
         return sets.Count == 0 ? [] : sets.Count == 1 ? [new(sets, 0, [])] : [new(sets, 0, []), new(sets[..^1], 0, [])];
     }
+
+    private static bool IsTranslation(AffineMap map) => (map.Linear - Matrix.Identity).MaxAbsEntry() < TranslationTolerance;
+
+    private double MoveOf(AffineMap map) => ((map * model.Centre) - model.Centre).Length() / model.Diagonal;
 
     /// <summary>The maps of one element to all others that are there for sure, if these are few.</summary>
     private List<AffineMap> FindAll(PlacementIndex set, List<double> weights)
@@ -95,8 +109,16 @@ internal sealed class ProductHypotheses(DamagedModel model, double relativeToler
     private List<AffineMap> FindSet(List<Relation> relations)
     {
         var index = IndexOf(relations);
-        var maps = new List<AffineMap> { AffineMap.Identity, relations[0].Map };
-        var (sum, pairs) = (relations[0].Support, 1);
+        // What can be applied twice is a step of a row, or turns all onto itself.
+        var first = relations.Find(relation => SupportOf(index, relations, relation.Map * relation.Map) < LeastRepeated * relation.Support
+            && !IsNear(relation.Map * relation.Map, AffineMap.Identity));
+        if (first.Support == 0)
+        {
+            return [];
+        }
+
+        var maps = new List<AffineMap> { AffineMap.Identity, first.Map };
+        var (sum, pairs) = (first.Support, 1);
         var pool = relations.Take(MaxCandidates).SelectMany(relation => new[] { relation.Map, relation.Map.Inverse() }).ToArray();
         while (maps.Count < MaxMaps)
         {
