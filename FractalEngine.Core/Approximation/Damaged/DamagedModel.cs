@@ -102,11 +102,14 @@ internal sealed class DamagedModel
             }
         }
 
-        if (ElementShape.Create(element.Shape.Points, Noise) is { } shape)
+        // Where more than two faces meet at edges, faces don't even correspond to themselves.
+        if (ElementShape.Create(element.Shape.Points, Noise) is { } shape
+            && new ElementTemplate(element, topology, shape, 4 * Noise) is var template
+            && template.Place(Templates.Count, element, topology) is { } own)
         {
             classes.Add(Templates.Count);
-            Templates.Add(new(element, topology, shape, 4 * Noise));
-            Elements.Add(Templates[^1].Place(classes[^1], element, topology)!.Value.Element);
+            Templates.Add(template);
+            Elements.Add(own.Element);
         }
     }
 }

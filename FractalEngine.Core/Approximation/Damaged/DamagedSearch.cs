@@ -34,6 +34,11 @@ public static class DamagedSearch
     {
         ArgumentNullException.ThrowIfNull(mesh);
         ArgumentNullException.ThrowIfNull(settings);
+        if (settings.Noise is null && FindRemeshed(mesh, cancellation) is { } remeshed)
+        {
+            return remeshed;
+        }
+
         var diagonal = mesh.UsedBounds.Diagonal;
         var least = LeastNoise * diagonal;
         if ((settings.Noise ?? DamagedModel.EstimateNoise(mesh, cancellation)) is { } noise)
@@ -44,6 +49,15 @@ public static class DamagedSearch
         // Elements of few vertices don't tell whether they are noisy.
         var exact = Find(mesh, least, settings, cancellation);
         return exact.Part > SmallPart ? exact.Grammar : Find(mesh, GuessedNoise * diagonal, settings, cancellation).Grammar ?? exact.Grammar;
+    }
+
+    /// <summary>Looks for exact grammars of the surface without what splits and welds have added to it.</summary>
+    private static MeshGrammar? FindRemeshed(Mesh mesh, CancellationToken cancellation)
+    {
+        var parts = Remeshing.Unweld(mesh);
+        var canonical = Remeshing.RemoveFlatVertices(parts);
+        return (parts.VertexCount != mesh.VertexCount ? GrammarSearch.FindExact(parts, cancellation) : null)
+            ?? (canonical.FaceCount != mesh.FaceCount ? GrammarSearch.FindExact(canonical, cancellation) : null);
     }
 
     private static (MeshGrammar? Grammar, double Part) Find(

@@ -111,7 +111,8 @@ internal sealed class RelationSearch(DamagedModel model, PlacementIndex set, IRe
     {
         var maps = new List<AffineMap>();
         var symmetries = model.Templates[set[members[0]].Class].Symmetries;
-        var references = members.OrderByDescending(member => PlacedElement.SizeOf(set[member].Placement)).ToArray();
+        // Maps of thin elements are uncertain across them.
+        var references = members.OrderByDescending(member => ThicknessOf(set[member].Placement)).ToArray();
         var count = Math.Min(3, Math.Max(1, (int)(effort * MaxGrown / (symmetries.Count * members.Length))));
         foreach (var reference in references.Take(count))
         {
@@ -135,6 +136,9 @@ internal sealed class RelationSearch(DamagedModel model, PlacementIndex set, IRe
 
         return maps;
     }
+
+    private static double ThicknessOf(AffineMap placement) =>
+        Math.Abs(placement.Linear.Determinant()) / (PlacedElement.SizeOf(placement) * PlacedElement.SizeOf(placement));
 
     private AffineMap? Extend(AffineMap map, int[] order)
     {
