@@ -6,10 +6,12 @@ namespace FractalEngine.Benchmarks.Approximation;
 /// <summary>Runs the command <c>approximate</c>, whose arguments are options.</summary>
 internal static class ApproximationCommand
 {
+    private const int DamagedFaces = 3_000;
+
     private const string Usage = """
         approximate [--quick] [--output FOLDER]
           How often does the search find what made a mesh, and in what time? The meshes are expanded fractals that it was not written
-          for, see Approximation/Unseen. Writes to docs/benchmarks unless stated: approximation.csv.
+          for, see Approximation/Unseen, whole ones and damaged ones. Writes to docs/benchmarks unless stated: approximation.csv.
         """;
 
     /// <summary>Runs the command and returns the exit code.</summary>
@@ -28,7 +30,15 @@ internal static class ApproximationCommand
         {
             foreach (var kind in Enum.GetValues<FractalKind>())
             {
-                AddRow(table, kind, faces, options.IsQuick ? 10 : 20);
+                AddRow(table, kind, faces, Damage.None, options.IsQuick ? 10 : 20);
+            }
+        }
+
+        foreach (var damage in Damage.All.Where(damage => damage != Damage.None))
+        {
+            foreach (var kind in Enum.GetValues<FractalKind>())
+            {
+                AddRow(table, kind, DamagedFaces, damage, options.IsQuick ? 2 : 10);
             }
         }
 
@@ -36,19 +46,27 @@ internal static class ApproximationCommand
         return 0;
     }
 
-    private static void AddRow(CsvTable table, FractalKind kind, int faces, int count)
+    private static void AddRow(CsvTable table, FractalKind kind, int faces, Damage damage, int count)
     {
         var outcomes = new List<SearchOutcome>();
         for (var seed = 0; seed < count; seed++)
         {
-            var input = Damage.None.Apply(UnseenFractals.Create(kind, seed, faces), seed);
-            outcomes.Add(SearchOutcome.Measure(input));
-            Console.WriteLine($"{kind} {seed}: {outcomes[^1]}");
+            var input = UnseenFractals.Create(kind, seed, faces);
+            if (damage.IsMeaningful(input))
+            {
+                outcomes.Add(SearchOutcome.Measure(damage.Apply(input, seed), damage));
+                Console.WriteLine($"{kind} {seed} {damage.Name}: {outcomes[^1]}");
+            }
+        }
+
+        if (outcomes.Count == 0)
+        {
+            return;
         }
 
         var found = outcomes.Where(outcome => outcome.IsFound).ToList();
         table.Add(
-            kind, faces, "none", outcomes.Count, found.Count, outcomes.Count(outcome => outcome.IsWrong),
+            kind, faces, damage.Name, outcomes.Count, found.Count, outcomes.Count(outcome => outcome.IsWrong),
             Median(outcomes, outcome => outcome.Seconds), Math.Round(outcomes.Max(outcome => outcome.Seconds), 3),
             Median(found, outcome => outcome.MapCount), Median(found, outcome => outcome.BaseFaces));
     }

@@ -1,6 +1,7 @@
 using System.Diagnostics;
 using FractalEngine.Benchmarks.Approximation.Unseen;
 using FractalEngine.Core.Approximation;
+using FractalEngine.Core.Approximation.Damaged;
 using FractalEngine.Core.Approximation.Grammars;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
@@ -23,7 +24,9 @@ internal sealed record SearchOutcome(bool IsFound, bool IsWrong, double Seconds,
     private static readonly TimeSpan Limit = TimeSpan.FromSeconds(60);
 
     /// <summary>Searches, writes, reads back, expands and compares.</summary>
-    public static SearchOutcome Measure(UnseenInput input)
+    /// <param name="input">A model, damaged.</param>
+    /// <param name="damage">What was done to it: whole ones are looked for exactly, others as damaged ones.</param>
+    public static SearchOutcome Measure(UnseenInput input, Damage damage)
     {
         using var limit = new CancellationTokenSource(Limit);
         var watch = Stopwatch.StartNew();
@@ -31,6 +34,7 @@ internal sealed record SearchOutcome(bool IsFound, bool IsWrong, double Seconds,
         try
         {
             grammar = GrammarSearch.FindExact(input.Mesh, limit.Token);
+            grammar ??= damage == Damage.None ? null : DamagedSearch.Find(input.Mesh, new(), limit.Token);
         }
         catch (OperationCanceledException)
         {
@@ -48,7 +52,10 @@ internal sealed record SearchOutcome(bool IsFound, bool IsWrong, double Seconds,
         Grade grade;
         try
         {
-            grade = Grader.Compare(Expand(grammar, input.Mesh), input, ExactTolerance * diagonal);
+            var expansion = Expand(grammar, input);
+            grade = damage.Kind is DamageKind.SplitEdges or DamageKind.Decimated
+                ? Grader.CompareSurfaces(expansion, input, damage.Tolerance(input))
+                : Grader.Compare(expansion, input, damage == Damage.None ? ExactTolerance * diagonal : damage.Tolerance(input));
         }
         catch (SourceException exception)
         {
@@ -64,14 +71,14 @@ internal sealed record SearchOutcome(bool IsFound, bool IsWrong, double Seconds,
             $"{verdict} {steps} tree {grammar.Tree?.Maps.Count}^{grammar.Tree?.Depth} base {faces} in {input.Description}");
     }
 
-    private static Mesh Expand(MeshGrammar grammar, Mesh mesh)
+    private static Mesh Expand(MeshGrammar grammar, UnseenInput input)
     {
         var folder = Directory.CreateTempSubdirectory("fractalengine");
         try
         {
             var path = Path.Combine(folder.FullName, "found.fdo");
-            GrammarFile.Write(path, grammar, mesh.UsedBounds.Diagonal, []);
-            return FractalFile.Read(path).Flatten(4L * mesh.FaceCount);
+            GrammarFile.Write(path, grammar, input.Mesh.UsedBounds.Diagonal, []);
+            return FractalFile.Read(path).Flatten(4L * Math.Max(input.Mesh.FaceCount, input.Clean.FaceCount));
         }
         finally
         {

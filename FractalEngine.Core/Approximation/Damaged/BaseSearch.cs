@@ -1,3 +1,4 @@
+using FractalEngine.Core.Approximation.Damaged.Placements;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Approximation.Damaged;

@@ -1,3 +1,4 @@
+using FractalEngine.Core.Approximation.Damaged.Placements;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Approximation.Damaged;
@@ -22,6 +23,9 @@ internal sealed class ProductHypotheses(DamagedModel model, double relativeToler
 
     private const double TranslationTolerance = 1e-3;
 
+    // Maps that differ by so little, in entries and over the whole model, are one.
+    private const double NearTolerance = 3e-3;
+
     // Folded elements are dropped that are so unlikely, and beyond so many for each element.
     private const double LeastWeight = 0.1;
     private const int MaxFolded = 2;
@@ -40,8 +44,9 @@ internal sealed class ProductHypotheses(DamagedModel model, double relativeToler
             cancellation.ThrowIfCancellationRequested();
             relations = isFarFirst ? [.. relations.Where(relation => IsTranslation(relation.Map)).Select(relation => relation with { Support = relation.Support * MoveOf(relation.Map) })
                 .OrderByDescending(relation => relation.Support)] : relations;
+            var search = new RelationSearch(model, set, weights, cancellation);
             var isLast = relations.Count == 0;
-            var maps = isLast ? FindAll(set, weights) : isRow && FindRow(relations) is { } row ? row : FindSet(relations);
+            var maps = isLast ? FindAll(search, set, weights) : isRow && FindRow(search, relations) is { } row ? row : FindSet(search, relations, isFarFirst ? MoveOf : _ => 1);
             if (maps.Count < 2)
             {
                 break;
@@ -70,7 +75,7 @@ internal sealed class ProductHypotheses(DamagedModel model, double relativeToler
     private double MoveOf(AffineMap map) => ((map * model.Centre) - model.Centre).Length() / model.Diagonal;
 
     /// <summary>The maps of one element to all others that are there for sure, if these are few.</summary>
-    private List<AffineMap> FindAll(PlacementIndex set, List<double> weights)
+    private List<AffineMap> FindAll(RelationSearch search, PlacementIndex set, List<double> weights)
     {
         var members = Enumerable.Range(0, set.Count).Where(member => weights[member] >= 1).GroupBy(member => set[member].Class)
             .OrderByDescending(group => group.Count()).ThenBy(group => group.Key).FirstOrDefault()?.ToArray() ?? [];
@@ -79,96 +84,73 @@ internal sealed class ProductHypotheses(DamagedModel model, double relativeToler
             return [];
         }
 
-        var search = new RelationSearch(model, set, weights, cancellation);
         var back = set[members[0]].Placement.Inverse();
         return [AffineMap.Identity, .. members.Skip(1).Select(member => model.Templates[set[member].Class].Symmetries.Select(symmetry =>
             (set[member].Placement with { Linear = set[member].Placement.Linear * symmetry.Map }) * back).MaxBy(search.SupportOf))];
     }
 
     /// <summary>The powers of the best relation, as far as there are any; null where even the second one hardly is.</summary>
-    private List<AffineMap>? FindRow(List<Relation> relations)
+    private List<AffineMap>? FindRow(RelationSearch search, List<Relation> relations)
     {
-        var index = IndexOf(relations);
-        var step = relations[0];
-        var powers = new List<AffineMap> { AffineMap.Identity, step.Map };
+        var step = relations[0].Map;
+        var powers = new List<AffineMap> { AffineMap.Identity, step };
         var last = 1;
-        for (var power = step.Map * step.Map; powers.Count < MaxSet && !IsNear(power, AffineMap.Identity); power = step.Map * power)
+        for (var power = step * step; powers.Count < MaxSet && !IsNear(power, AffineMap.Identity); power = step * power)
         {
             powers.Add(power);
-            last = SupportOf(index, relations, power) > 0 ? powers.Count - 1 : last;
+            last = search.SupportOf(power) > 0 ? powers.Count - 1 : last;
             if (last == 1 && powers.Count > 3)
             {
                 break;
             }
         }
 
-        return last > 1 && SupportOf(index, relations, powers[2]) > LeastRepeated * step.Support ? powers[..(last + 1)] : null;
+        return last > 1 && search.SupportOf(powers[2]) > LeastRepeated * search.SupportOf(step) ? powers[..(last + 1)] : null;
     }
 
     /// <summary>Adds to the best relation those that most agree with it and each other.</summary>
-    private List<AffineMap> FindSet(List<Relation> relations)
+    private List<AffineMap> FindSet(RelationSearch search, List<Relation> relations, Func<AffineMap, double> weightOf)
     {
-        var index = IndexOf(relations);
         // What can be applied twice is a step of a row, or turns all onto itself.
-        var first = relations.Find(relation => SupportOf(index, relations, relation.Map * relation.Map) < LeastRepeated * relation.Support
+        var first = relations.Find(relation => search.SupportOf(relation.Map * relation.Map) < LeastRepeated * search.SupportOf(relation.Map)
             && !IsNear(relation.Map * relation.Map, AffineMap.Identity));
         if (first.Support == 0)
         {
             return [];
         }
 
-        var maps = new List<AffineMap> { AffineMap.Identity, first.Map };
-        var (sum, pairs) = (first.Support, 1);
+        List<AffineMap> maps = [AffineMap.Identity];
         var pool = relations.Take(MaxCandidates).SelectMany(relation => new[] { relation.Map, relation.Map.Inverse() }).ToArray();
-        while (maps.Count < MaxMaps)
+        var supports = new double[pool.Length];
+        var (next, sum, pairs) = (first.Map, first.Support, 1);
+        Count(AffineMap.Identity);
+        while (true)
         {
-            cancellation.ThrowIfCancellationRequested();
-            var best = (Map: AffineMap.Identity, Support: 0.0);
-            foreach (var map in pool.Concat(pool.Select(map => map * maps[^1])))
+            maps.Add(next);
+            Count(next);
+            var best = Array.IndexOf(supports, supports.Max());
+            if (maps.Count == MaxMaps || supports[best] < LeastSupport * maps.Count * sum / pairs)
             {
-                if (!maps.Exists(known => IsNear(known, map)))
-                {
-                    var support = maps.Sum(known => SupportOf(index, relations, map * known.Inverse()));
-                    best = support > best.Support ? (map, support) : best;
-                }
+                return maps;
             }
 
-            if (best.Support < LeastSupport * maps.Count * sum / pairs)
-            {
-                break;
-            }
-
-            maps.Add(best.Map);
-            (sum, pairs) = (sum + best.Support, pairs + maps.Count - 1);
+            (next, sum, pairs) = (pool[best], sum + supports[best], pairs + maps.Count);
         }
 
-        return maps;
-    }
-
-    /// <summary>An index of relations and their inverses: maps are looked up as what they do to a frame as large as the model.</summary>
-    private PlacementIndex IndexOf(List<Relation> relations)
-    {
-        var index = new PlacementIndex([new ElementTemplate()], 0.002, 0);
-        foreach (var relation in relations)
+        // Adds how well each map of the pool agrees with a map that is known; where both do the same they are one.
+        void Count(AffineMap known)
         {
-            index.Add(0, relation.Map * Frame);
-            index.Add(0, relation.Map.Inverse() * Frame);
+            var back = known.Inverse();
+            for (var index = 0; index < pool.Length; index++)
+            {
+                supports[index] = search.IsSame(pool[index], known) ? double.NegativeInfinity
+                    : supports[index] + (search.SupportOf(pool[index] * back) * weightOf(pool[index] * back));
+            }
         }
-
-        return index;
     }
 
-    private AffineMap Frame => new((0.5 * model.Diagonal) * Matrix.Identity, model.Centre);
-
-    private double SupportOf(PlacementIndex index, List<Relation> relations, AffineMap map) =>
-        index.Find(0, map * Frame) is var found && found >= 0 ? relations[found / 2].Support : 0;
-
-    private bool IsNear(AffineMap map1, AffineMap map2)
-    {
-        var difference = (map1 * Frame).Linear - (map2 * Frame).Linear;
-        return difference.MaxAbsEntry() < 1e-3 * model.Diagonal
-            && ((map1 * model.Centre) - (map2 * model.Centre)).MaxAbsComponent() < 1e-3 * model.Diagonal;
-    }
+    private bool IsNear(AffineMap map1, AffineMap map2) => (map1.Linear - map2.Linear).MaxAbsEntry() < NearTolerance
+        && ((map1 * model.Centre) - (map2 * model.Centre)).MaxAbsComponent() < NearTolerance * model.Diagonal;
 
     /// <summary>
     /// Folds elements by the inverses of maps. What several elements are folded to is there; of the others each may be there by one map.

@@ -1,4 +1,5 @@
 using System.Collections.Immutable;
+using FractalEngine.Core.Approximation.Damaged.Placements;
 using FractalEngine.Core.Approximation.Grammars;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;

@@ -1,3 +1,4 @@
+using FractalEngine.Core.Approximation.Damaged.Placements;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Approximation.Damaged;
@@ -45,6 +46,24 @@ internal sealed class RelationSearch(DamagedModel model, PlacementIndex set, IRe
         }
 
         return sum;
+    }
+
+    /// <summary>Whether two maps take most elements that both take to elements to the same ones.</summary>
+    public bool IsSame(AffineMap map1, AffineMap map2)
+    {
+        var (same, both) = (0, 0);
+        for (var member = 0; member < set.Count; member++)
+        {
+            var (elementClass, placement) = set[member];
+            if (set.Find(elementClass, map1 * placement) is var image && image >= 0
+                && set.Find(elementClass, map2 * placement) is var other && other >= 0)
+            {
+                both++;
+                same += image == other ? 1 : 0;
+            }
+        }
+
+        return 2 * same > both;
     }
 
     private List<AffineMap> Vote(int[] members, double effort)

@@ -1,4 +1,4 @@
-namespace FractalEngine.Core.Approximation.Damaged;
+namespace FractalEngine.Core.Approximation.Damaged.Placements;
 
 /// <summary>Which faces of an element share edges: what noise and affine maps leave as it is.</summary>
 internal sealed class ElementTopology

@@ -1,6 +1,6 @@
 using FractalEngine.Core.Maths;
 
-namespace FractalEngine.Core.Approximation.Damaged;
+namespace FractalEngine.Core.Approximation.Damaged.Placements;
 
 /// <summary>The affine map that takes some placements nearest to others, by least squares over the vertices of their elements.</summary>
 /// <remarks>

@@ -2,7 +2,7 @@ using FractalEngine.Core.Approximation.Elements;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
-namespace FractalEngine.Core.Approximation.Damaged;
+namespace FractalEngine.Core.Approximation.Damaged.Placements;
 
 /// <summary>The elements of a damaged mesh, in classes of those that are images of one template within the noise.</summary>
 internal sealed class DamagedModel

@@ -1,7 +1,7 @@
 using FractalEngine.Core.Approximation.Elements;
 using FractalEngine.Core.Maths;
 
-namespace FractalEngine.Core.Approximation.Damaged;
+namespace FractalEngine.Core.Approximation.Damaged.Placements;
 
 /// <summary>
 /// What the elements of a class are images of: vertices with the mean 0 and the covariance 1, so that symmetries are orthogonal. A flat
@@ -12,14 +12,6 @@ internal sealed class ElementTemplate
     private readonly ElementTopology _topology;
     private readonly Vector[] _vertices;
 
-    /// <summary>Makes a template without vertices, whose only symmetry is the identity.</summary>
-    public ElementTemplate()
-    {
-        (_topology, _vertices, Corners) = (new([], 0), [], []);
-        Symmetries.Add((Matrix.Identity, []));
-    }
-
-    /// <summary>Makes the template of an element.</summary>
     /// <param name="element">The element to make the template of.</param>
     /// <param name="topology">Its faces.</param>
     /// <param name="shape">Its vertices, flat within the noise or not.</param>

@@ -1,6 +1,6 @@
 using FractalEngine.Core.Maths;
 
-namespace FractalEngine.Core.Approximation.Damaged;
+namespace FractalEngine.Core.Approximation.Damaged.Placements;
 
 /// <summary>Finds which placed element is nearest to a placement, among those of a class, of about the same size and place.</summary>
 /// <remarks>Grids of all sizes, hashed: a look-up reads at most 8 cells of two grids. Placements are equal up to symmetries.</remarks>
