@@ -74,26 +74,18 @@ public static class DamagedSearch
         }
 
         var relations = new RelationSearch(model, set, [.. model.Elements.Select(_ => 1.0)], cancellation).Find(settings.Effort);
-#if DMG
-        Console.WriteLine($"noise {noise:G3} elements {model.Elements.Count} classes {model.Templates.Count} sym {string.Join(',', model.Templates.Select(t => t.Symmetries.Count))} relations {relations.Count}: {string.Join(' ', relations.Take(12).Select(r => r.Support))}");
-        var all1 = Enumerable.Repeat(1.0, set.Count).ToList();
-        foreach (var (a, b) in new[] { (0, 1), (0, 2), (1, 2) })
-        {
-            if (Harness.True.Count <= b) { continue; }
-            var d = Harness.True[a] * Harness.True[b].Inverse();
-            Console.WriteLine($"true support {new RelationSearch(model, set, all1, default).SupportOf(d)} back {new RelationSearch(model, set, all1, default).SupportOf(d.Inverse())} found {relations.FindIndex(r => (r.Map.Linear - d.Linear).MaxAbsEntry() < 0.05 * d.Linear.MaxAbsEntry())} {relations.FindIndex(r => (r.Map.Linear - d.Inverse().Linear).MaxAbsEntry() < 0.05 * d.Inverse().Linear.MaxAbsEntry())}");
-        }
-#endif
         var best = (Description: (Description?)null, Worth: 0.0);
         var products = new ProductHypotheses(model, isExact ? ExactRelative : NoisyRelative, settings.Effort, cancellation);
-        // The products first: they take less time.
-        IEnumerable<Func<IEnumerable<Description>>> ways =
+        Func<IEnumerable<Description>> trees =
+            () => new TreeHypotheses(model, strict, relations, cancellation).Find() is { } tree ? [tree] : [];
+        IEnumerable<Func<IEnumerable<Description>>> sets =
         [
+            () => products.Find(set, relations, isRow: true, isFarFirst: false),
             () => products.Find(set, relations, isRow: false, isFarFirst: true),
             () => products.Find(set, relations, isRow: false, isFarFirst: false),
-            () => products.Find(set, relations, isRow: true, isFarFirst: false),
-            () => new TreeHypotheses(model, strict, relations, cancellation).Find() is { } tree ? [tree] : [],
         ];
+        // A tree's maps are known best where they are exact; of noisy ones those of a product are.
+        var ways = isExact ? sets.Prepend(trees) : sets.Append(trees);
         foreach (var hypothesis in ways.TakeWhile(_ => best.Worth < ClearPart * Explanation.Worth(set.Count, set.Count, 0)).SelectMany(way => way()))
         {
             var completed = new BaseSearch(model, strict, settings.Seed, cancellation).Complete(hypothesis);

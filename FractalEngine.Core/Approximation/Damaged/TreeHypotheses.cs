@@ -71,7 +71,7 @@ internal sealed class TreeHypotheses(DamagedModel model, PlacementIndex set, Lis
         foreach (var root in largest.Concat(largest.SelectMany(placement => inverses.Select(map => map * placement))))
         {
             // Of a root many images are there.
-            if (known.Find(_class, root) < 0 && best.Count(map => set.Find(_class, map * root) >= 0) > 0)
+            if (known.Find(_class, root) < 0 && Array.Exists(best, map => set.Find(_class, map * root) >= 0))
             {
                 known.Add(_class, root);
                 roots.Add((root, Pairs(root, best)[0].Score));
