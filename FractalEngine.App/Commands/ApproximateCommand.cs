@@ -30,6 +30,15 @@ internal sealed class ApproximateCommand
         "--bytes", "B", 1, long.MaxValue,
         Invariant($"The most bytes of its files (default: any if it is exact, else {ApproximationSettings.DefaultBytes})."));
 
+    private readonly Option<double?> _tolerance = NumberOption.Positive(
+        "--tolerance", "T", "How far vertices may be from where maps put them, as a part of the diagonal (default: estimated).");
+
+    private readonly Option<double?> _effort = NumberOption.Positive(
+        "--effort", "E", "Budget of hypotheses for a damaged mesh (default: 1).");
+
+    private readonly Option<int?> _seed = NumberOption.Integer(
+        "--seed", "S", 0, int.MaxValue, "Which samples hypotheses are tested on (default: 0).");
+
     private readonly Option<double?> _seconds = NumberOption.Positive(
         "--seconds", "N", "End the search after that time, with the best so far (default: when it is done).");
 
@@ -50,8 +59,8 @@ internal sealed class ApproximateCommand
             "approximate out/menger.obj --output out/found.fdo --seconds 20 --report out/found.json --image out/found.png");
         options._shared.AddTo(command);
         SharedOptions.AddAll(
-            command, options._output, options._maps, options._bytes, options._seconds, options._report, options._image,
-            options._keepsPartial);
+            command, options._output, options._maps, options._bytes, options._tolerance, options._effort, options._seed, options._seconds,
+            options._report, options._image, options._keepsPartial);
         options._told.AddTo(command);
         command.SetAction(options.Run);
         return command;
@@ -79,7 +88,14 @@ internal sealed class ApproximateCommand
             throw new UsageException($"{path} has no faces, so there is nothing to approximate");
         }
 
-        var settings = new ApproximationSettings { MaxMaps = result.GetValue(_maps), MaxBytes = result.GetValue(_bytes) };
+        var settings = new ApproximationSettings
+        {
+            MaxMaps = result.GetValue(_maps),
+            MaxBytes = result.GetValue(_bytes),
+            Tolerance = result.GetValue(_tolerance),
+            Effort = result.GetValue(_effort) ?? 1,
+            Seed = result.GetValue(_seed) ?? 0,
+        };
         var run = new ApproximationRun(mesh, settings, told);
         var found = told.Measure("search", () => run.Find(seconds));
         var isInterrupted = run.End == ApproximationEnd.Interruption;

@@ -6,10 +6,12 @@ namespace FractalEngine.Benchmarks.Approximation;
 /// <summary>Runs the command <c>approximate</c>, whose arguments are options.</summary>
 internal static class ApproximationCommand
 {
+    private const int DamagedFaces = 3_000;
+
     private const string Usage = """
         approximate [models] [--quick] [--output FOLDER]
           How often does the search find what made a mesh, how many faces are left, and in what time? The meshes are expanded fractals
-          and models that repeat, which it was not written for, see Approximation/Unseen. Writes to docs/benchmarks unless stated:
+          and models that repeat, which it was not written for, see Approximation/Unseen, some of them damaged. Writes to docs/benchmarks unless stated:
           approximation.csv. With 'models', what is found for the fractals of the assets, and how close it comes to irregular
           shapes: approximation-models.csv.
         approximate samples FOLDER
@@ -61,6 +63,15 @@ internal static class ApproximationCommand
             }
         }
 
+        foreach (var damaged in Damage.All.Where(damage => damage != Damage.None))
+        {
+            foreach (var kind in Enum.GetValues<FractalKind>())
+            {
+                var inputs = Enumerable.Range(0, options.IsQuick ? 2 : 10).Select(seed => UnseenFractals.Create(kind, seed, DamagedFaces));
+                AddRow(table, kind.ToString(), DamagedFaces, damaged, inputs.Where(damaged.IsMeaningful));
+            }
+        }
+
         table.Save();
         return 0;
     }
@@ -70,8 +81,13 @@ internal static class ApproximationCommand
         var outcomes = new List<SearchOutcome>();
         foreach (var input in inputs)
         {
-            outcomes.Add(SearchOutcome.Measure(damage.Apply(input, input.Seed)));
-            Console.WriteLine($"{kind} {input.Seed}: {outcomes[^1]}");
+            outcomes.Add(SearchOutcome.Measure(damage.Apply(input, input.Seed), damage));
+            Console.WriteLine($"{kind} {input.Seed} {damage.Name}: {outcomes[^1]}");
+        }
+
+        if (outcomes.Count == 0)
+        {
+            return;
         }
 
         var found = outcomes.Where(outcome => outcome.IsFound).ToList();

@@ -1,18 +1,13 @@
 using System.Diagnostics;
 using FractalEngine.Benchmarks.Approximation.Unseen;
-using FractalEngine.Core.Approximation;
-using FractalEngine.Core.Approximation.Grammars;
-using FractalEngine.Core.Fractals;
-using FractalEngine.Core.Geometry;
-using FractalEngine.Parsing;
-using FractalEngine.Parsing.Text;
+using FractalEngine.Parsing.Approximation;
 
 namespace FractalEngine.Benchmarks.Approximation;
 
 /// <summary>What the search found in one mesh, measured on the files as they are read back.</summary>
 /// <param name="IsFound">Whether it makes the undamaged model, and saves at least half of what the model repeats.</param>
 /// <param name="IsWrong">Whether something was found that makes another model.</param>
-/// <param name="Seconds">Time of the search alone.</param>
+/// <param name="Seconds">Time of the search, with reading back and comparing.</param>
 /// <param name="MapCount">Maps of all sets.</param>
 /// <param name="BaseFaces">Faces of the base meshes.</param>
 /// <param name="ModelFaces">Faces of the mesh that was searched.</param>
@@ -20,42 +15,38 @@ namespace FractalEngine.Benchmarks.Approximation;
 internal sealed record SearchOutcome(
     bool IsFound, bool IsWrong, double Seconds, int MapCount, int BaseFaces, int ModelFaces, string Description)
 {
-    // Largest difference of vertices, as a part of the diagonal, that the search allows itself.
+    // Largest difference of vertices, as a part of the diagonal, of what is called exact.
     private const double ExactTolerance = 1e-6;
     private static readonly TimeSpan Limit = TimeSpan.FromSeconds(60);
 
-    /// <summary>Searches, writes, reads back, expands and compares.</summary>
-    public static SearchOutcome Measure(UnseenInput input)
+    /// <summary>Searches, and compares what is read back with the undamaged model.</summary>
+    /// <param name="input">A model, damaged.</param>
+    /// <param name="damage">What was done to it.</param>
+    public static SearchOutcome Measure(UnseenInput input, Damage damage)
     {
         using var limit = new CancellationTokenSource(Limit);
         var watch = Stopwatch.StartNew();
-        MeshGrammar? grammar = null;
+        ApproximationResult? result = null;
         try
         {
-            grammar = GrammarSearch.FindExact(input.Mesh, limit.Token);
+            result = MeshApproximator.Find(input.Mesh, null, null, limit.Token);
         }
         catch (OperationCanceledException)
         {
         }
 
         var seconds = watch.Elapsed.TotalSeconds;
-        if (grammar is null)
+        if (result is null or { Verdict: ApproximationVerdict.NoFractal })
         {
             return new(false, false, seconds, 0, 0, input.Mesh.FaceCount, $"nothing in {input.Description}");
         }
 
+        var grammar = result.Grammar;
         var (maps, faces) = (grammar.MapCount, grammar.FaceCount);
-        var diagonal = input.Clean.Bounds.Diagonal;
-        Grade grade;
-        try
-        {
-            grade = Grader.Compare(Expand(grammar, input.Mesh), input, ExactTolerance * diagonal);
-        }
-        catch (SourceException exception)
-        {
-            return new(false, true, seconds, maps, faces, input.Mesh.FaceCount,
-                $"UNREADABLE {exception.Diagnostic.Message} in {input.Description}");
-        }
+        var grade = damage.Kind is DamageKind.SplitEdges or DamageKind.Decimated
+            ? Grader.CompareSurfaces(result.Made, input, damage.Tolerance(input))
+            : Grader.Compare(
+                result.Made, input, damage == Damage.None ? ExactTolerance * input.Clean.Bounds.Diagonal : damage.Tolerance(input));
 
         // A base that is most of the model explains little.
         var isSmall = faces <= 4 * input.BaseFaces && maps <= 4 * (input.Generators.Length + 8);
@@ -63,22 +54,7 @@ internal sealed record SearchOutcome(
         var steps = string.Join(' ', grammar.Steps.Select(
             step => $"({string.Join('*', step.Sets.Select(set => set.Count))})^{step.Depth}"));
         return new(grade.IsFound && isSmall, !grade.IsFound, seconds, maps, faces, input.Mesh.FaceCount,
-            $"{verdict} {steps} tree {grammar.Tree?.Maps.Count}^{grammar.Tree?.Depth} base {faces} in {input.Description}");
-    }
-
-    private static Mesh Expand(MeshGrammar grammar, Mesh mesh)
-    {
-        var folder = Directory.CreateTempSubdirectory("fractalengine");
-        try
-        {
-            var path = Path.Combine(folder.FullName, "found.fdo");
-            GrammarFile.Write(path, grammar, mesh.UsedBounds.Diagonal, []);
-            return FractalFile.Read(path).Flatten(4L * mesh.FaceCount);
-        }
-        finally
-        {
-            folder.Delete(recursive: true);
-        }
+            $"{verdict} {result.Verdict} {steps} tree {grammar.Tree?.Maps.Count}^{grammar.Tree?.Depth} base {faces} in {input.Description}");
     }
 
     /// <summary>One line for the log of the measurement.</summary>

@@ -1,5 +1,6 @@
 using FractalEngine.Core;
 using FractalEngine.Core.Approximation;
+using FractalEngine.Core.Approximation.Damaged;
 using FractalEngine.Core.Approximation.Grammars;
 using FractalEngine.Core.Approximation.Symmetries;
 using FractalEngine.Core.Distances;
@@ -14,6 +15,12 @@ public sealed class MeshApproximator
 {
     // Vertices and surfaces within this part of the diagonal count as the same.
     private const double ExactTolerance = 1e-6;
+
+    // Where more faces than this are left, it may be a damaged fractal of which a part repeats.
+    private const double ClearShare = 0.1;
+
+    // What only approximates must take so much less than what is exact.
+    private const double ClearlyLess = 0.25;
 
     // Where elements are missing in the mesh, a fractal has more faces than it.
     private const int MaxGrowth = 16;
@@ -38,7 +45,7 @@ public sealed class MeshApproximator
         _length = mesh.UsedBounds.Diagonal;
     }
 
-    /// <summary>Looks for what makes a mesh exactly, and then for what is closer to it than a simplified mesh of as many bytes.</summary>
+    /// <summary>Looks for what makes a mesh exactly or was damaged, and then for what is closer to it than a simplified mesh of as many bytes.</summary>
     /// <param name="mesh">A mesh with at least one face.</param>
     /// <param name="settings">What the fractal may cost; null for anything.</param>
     /// <param name="progress">Receives what is done, and the best result so far, on the calling thread; null for nothing.</param>
@@ -62,9 +69,25 @@ public sealed class MeshApproximator
     private ApproximationResult Find()
     {
         Report("what makes all faces exactly");
-        if (GrammarSearch.FindExact(_mesh, _cancellation) is { } exact && JudgeExact(exact) is { } result)
+        var exact = GrammarSearch.FindExact(_mesh, _cancellation) is { } grammar ? JudgeExact(grammar) : null;
+        if (exact is not null && exact.Grammar.FaceCount <= ClearShare * _mesh.FaceCount)
         {
-            return result;
+            return exact;
+        }
+
+        _best = exact;
+        Report("what makes most faces, if some are moved, missing or foreign");
+        var settings = new DamagedSearchSettings(_settings.Tolerance * _length, _settings.Seed, _settings.Effort);
+        if (DamagedSearch.Find(_mesh, settings, _cancellation) is { } damaged
+            && Judge(damaged) is { Verdict: ApproximationVerdict.Approximate } approximate
+            && (exact is null || approximate.Bytes < ClearlyLess * exact.Bytes))
+        {
+            return approximate;
+        }
+
+        if (exact is not null)
+        {
+            return exact;
         }
 
         var bytes = _settings.MaxBytes ?? ApproximationSettings.DefaultBytes;

@@ -64,7 +64,9 @@ internal sealed class ElementShape
     public double Product(Vector u, Vector v) => Vector.Dot(u, Inverse * v);
 
     /// <summary>Makes the shape of an element's vertices, or null where they lie on one line.</summary>
-    public static ElementShape? Create(Vector[] points)
+    /// <param name="points">The vertices.</param>
+    /// <param name="noise">How far vertices may be from a plane that they lie in, scene units.</param>
+    public static ElementShape? Create(Vector[] points, double noise = 0)
     {
         var centroid = Vector.Zero;
         foreach (var point in points)
@@ -86,7 +88,8 @@ internal sealed class ElementShape
 
         var relative = covariance / trace;
         var normal = Vector.Zero;
-        if (relative.Determinant() <= FlatVariance)
+        var cofactorNorm = relative.Cofactors().MaxAbsEntry();
+        if (relative.Determinant() <= Math.Max(FlatVariance, noise * noise / trace * cofactorNorm))
         {
             // The columns of the cofactors are multiples of the normal; their trace is the product of the two other variances.
             var cofactors = relative.Cofactors();

@@ -1,0 +1,115 @@
+using FractalEngine.Core.Approximation.Elements;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Approximation.Damaged.Placements;
+
+/// <summary>The elements of a damaged mesh, in classes of those that are images of one template within the noise.</summary>
+internal sealed class DamagedModel
+{
+    // Radii of noise are about so many times the root of its mean square, with some room.
+    private const double RadiusPerDeviation = 1.4;
+
+    // Within this part of their size elements of unknown noise count as images of a template.
+    private const double MaxNoiseOfSize = 0.1;
+
+    private DamagedModel(Mesh mesh, double noise)
+    {
+        Noise = noise;
+        Diagonal = mesh.UsedBounds.Diagonal;
+        Centre = mesh.UsedBounds.Centre;
+    }
+
+    /// <summary>How far vertices may be from where they belong, scene units.</summary>
+    public double Noise { get; }
+
+    /// <summary>The diagonal of the mesh, scene units.</summary>
+    public double Diagonal { get; }
+
+    /// <summary>The centre of the mesh.</summary>
+    public Vector Centre { get; }
+
+    /// <summary>The templates of all classes.</summary>
+    public List<ElementTemplate> Templates { get; } = [];
+
+    /// <summary>The elements, larger ones first.</summary>
+    public List<PlacedElement> Elements { get; } = [];
+
+    /// <summary>Sorts the elements of a mesh into classes.</summary>
+    /// <param name="mesh">The mesh.</param>
+    /// <param name="noise">How far vertices may be from where they belong, scene units; above 0.</param>
+    /// <param name="cancellation">Ends the work early.</param>
+    public static DamagedModel Create(Mesh mesh, double noise, CancellationToken cancellation)
+    {
+        var model = new DamagedModel(mesh, noise);
+        foreach (var group in Groups(mesh))
+        {
+            var classes = new List<int>();
+            foreach (var (element, topology) in group)
+            {
+                cancellation.ThrowIfCancellationRequested();
+                model.Sort(element, topology, classes);
+            }
+        }
+
+        model.Elements.Sort((first, second) =>
+            PlacedElement.SizeOf(second.Placement).CompareTo(PlacedElement.SizeOf(first.Placement)) is var order && order != 0 ? order
+            : first.Placement.Translation.X.CompareTo(second.Placement.Translation.X));
+        return model;
+    }
+
+    /// <summary>
+    /// Estimates the noise from how far elements are from images of the largest ones that are connected alike; null where any would be.
+    /// </summary>
+    public static double? EstimateNoise(Mesh mesh, CancellationToken cancellation)
+    {
+        var deviations = new List<double>();
+        foreach (var group in Groups(mesh).Where(group => group.Count > 2))
+        {
+            var (first, topology) = group[0];
+            var template = new ElementTemplate(first, topology, first.Shape, 0);
+            foreach (var (element, other) in group.Skip(1).Where(_ => template.FreeNumbers > 0))
+            {
+                cancellation.ThrowIfCancellationRequested();
+                if (template.Place(0, element, other) is { } placed && placed.Error < MaxNoiseOfSize * element.Shape.Size)
+                {
+                    deviations.Add(placed.Error * Math.Sqrt(3.0 * element.Shape.Points.Length / template.FreeNumbers));
+                }
+            }
+        }
+
+        return deviations.Count == 0 ? null : RadiusPerDeviation * deviations.Order().ElementAt(deviations.Count / 2);
+    }
+
+    /// <summary>Makes an index of placements with tolerances.</summary>
+    /// <param name="relative">Largest distance in units of the placement's size.</param>
+    public PlacementIndex CreateIndex(double relative) => new(Templates, relative, 3 * Noise);
+
+    /// <summary>Elements that are connected alike, with the largest one first.</summary>
+    private static IEnumerable<List<(Element Element, ElementTopology Topology)>> Groups(Mesh mesh) =>
+        ElementFinder.Find(mesh, weldPositions: false)
+            .Select(element => (Element: element, Topology: new ElementTopology(element.Corners, element.Shape.Points.Length)))
+            .GroupBy(pair => pair.Topology.Key).Select(group => group.OrderByDescending(pair => pair.Element.Shape.Size).ToList());
+
+    private void Sort(Element element, ElementTopology topology, List<int> classes)
+    {
+        foreach (var known in classes)
+        {
+            if (Templates[known].Place(known, element, topology) is { } placed && placed.Error <= 2 * Noise)
+            {
+                Elements.Add(placed.Element);
+                return;
+            }
+        }
+
+        // Where more than two faces meet at edges, faces don't even correspond to themselves.
+        if (ElementShape.Create(element.Shape.Points, Noise) is { } shape
+            && new ElementTemplate(element, topology, shape, 4 * Noise) is var template
+            && template.Place(Templates.Count, element, topology) is { } own)
+        {
+            classes.Add(Templates.Count);
+            Templates.Add(template);
+            Elements.Add(own.Element);
+        }
+    }
+}

@@ -1,0 +1,209 @@
+using FractalEngine.Core.Approximation.Damaged.Placements;
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Approximation.Damaged;
+
+/// <summary>
+/// Looks for products of sets among damaged elements, from the outermost set inwards: maps that take most elements to elements make a set;
+/// all elements are then folded by its inverse maps, so that what is missing in one part is filled from others, and what few maps agree on
+/// counts less.
+/// </summary>
+internal sealed class ProductHypotheses(DamagedModel model, double relativeTolerance, double effort, CancellationToken cancellation)
+{
+    private const int MaxLevels = 8;
+    private const int MaxSet = 64;
+    private const int MaxMaps = 24;
+    private const int MaxCandidates = 60;
+
+    // A set has no map whose support, with each map of it, is less than that part of what the others have on average.
+    private const double LeastSupport = 0.62;
+
+    // Supports of a row fall with the number of steps, and are missing here and there.
+    private const double LeastRepeated = 0.3;
+
+    private const double TranslationTolerance = 1e-3;
+
+    // Maps that differ by so little, in entries and over the whole model, are one.
+    private const double NearTolerance = 3e-3;
+
+    // Folded elements are dropped that are so unlikely, and beyond so many for each element.
+    private const double LeastWeight = 0.1;
+    private const int MaxFolded = 2;
+
+    /// <summary>Returns products of sets of rising length that explain the elements, without bases.</summary>
+    /// <param name="set">The elements.</param>
+    /// <param name="relations">The maps between them.</param>
+    /// <param name="isRow">Whether sets may be the powers of one map.</param>
+    /// <param name="isFarFirst">Whether maps count more that move farther: of equal maps those of inner sets have as much support.</param>
+    public IEnumerable<Description> Find(PlacementIndex set, List<Relation> relations, bool isRow, bool isFarFirst)
+    {
+        var weights = Enumerable.Repeat(1.0, set.Count).ToList();
+        var sets = new List<List<AffineMap>>();
+        while (sets.Count < MaxLevels)
+        {
+            cancellation.ThrowIfCancellationRequested();
+            relations = isFarFirst ? [.. relations.Where(relation => IsTranslation(relation.Map)).Select(relation => relation with { Support = relation.Support * MoveOf(relation.Map) })
+                .OrderByDescending(relation => relation.Support)] : relations;
+            var search = new RelationSearch(model, set, weights, cancellation);
+            var isLast = relations.Count == 0;
+            var maps = isLast ? FindAll(search, set, weights) : isRow && FindRow(search, relations) is { } row ? row : FindSet(search, relations, isFarFirst ? MoveOf : _ => 1);
+            if (maps.Count < 2)
+            {
+                break;
+            }
+
+            sets.Add(maps);
+            if (isLast)
+            {
+                break;
+            }
+
+            (set, weights) = Fold(set, weights, maps);
+            if (set.Count < 2)
+            {
+                break;
+            }
+
+            relations = new RelationSearch(model, set, weights, cancellation).Find(effort);
+        }
+
+        return sets.Count == 0 ? [] : sets.Count == 1 ? [new(sets, 0, [])] : [new(sets, 0, []), new(sets[..^1], 0, [])];
+    }
+
+    private static bool IsTranslation(AffineMap map) => (map.Linear - Matrix.Identity).MaxAbsEntry() < TranslationTolerance;
+
+    private double MoveOf(AffineMap map) => ((map * model.Centre) - model.Centre).Length() / model.Diagonal;
+
+    /// <summary>The maps of one element to all others that are there for sure, if these are few.</summary>
+    private List<AffineMap> FindAll(RelationSearch search, PlacementIndex set, List<double> weights)
+    {
+        var members = Enumerable.Range(0, set.Count).Where(member => weights[member] >= 1).GroupBy(member => set[member].Class)
+            .OrderByDescending(group => group.Count()).ThenBy(group => group.Key).FirstOrDefault()?.ToArray() ?? [];
+        if (members.Length is < 2 or > MaxSet)
+        {
+            return [];
+        }
+
+        var back = set[members[0]].Placement.Inverse();
+        return [AffineMap.Identity, .. members.Skip(1).Select(member => model.Templates[set[member].Class].Symmetries.Select(symmetry =>
+            (set[member].Placement with { Linear = set[member].Placement.Linear * symmetry.Map }) * back).MaxBy(search.SupportOf))];
+    }
+
+    /// <summary>The powers of the best relation, as far as there are any; null where even the second one hardly is.</summary>
+    private List<AffineMap>? FindRow(RelationSearch search, List<Relation> relations)
+    {
+        var step = relations[0].Map;
+        var powers = new List<AffineMap> { AffineMap.Identity, step };
+        var last = 1;
+        for (var power = step * step; powers.Count < MaxSet && !IsNear(power, AffineMap.Identity); power = step * power)
+        {
+            powers.Add(power);
+            last = search.SupportOf(power) > 0 ? powers.Count - 1 : last;
+            if (last == 1 && powers.Count > 3)
+            {
+                break;
+            }
+        }
+
+        return last > 1 && search.SupportOf(powers[2]) > LeastRepeated * search.SupportOf(step) ? powers[..(last + 1)] : null;
+    }
+
+    /// <summary>Adds to the best relation those that most agree with it and each other.</summary>
+    private List<AffineMap> FindSet(RelationSearch search, List<Relation> relations, Func<AffineMap, double> weightOf)
+    {
+        // What can be applied twice is a step of a row, or turns all onto itself.
+        var first = relations.Find(relation => search.SupportOf(relation.Map * relation.Map) < LeastRepeated * search.SupportOf(relation.Map)
+            && !IsNear(relation.Map * relation.Map, AffineMap.Identity));
+        if (first.Support == 0)
+        {
+            return [];
+        }
+
+        List<AffineMap> maps = [AffineMap.Identity];
+        var pool = relations.Take(MaxCandidates).SelectMany(relation => new[] { relation.Map, relation.Map.Inverse() }).ToArray();
+        var supports = new double[pool.Length];
+        var (next, sum, pairs) = (first.Map, first.Support, 1);
+        Count(AffineMap.Identity);
+        while (true)
+        {
+            maps.Add(next);
+            Count(next);
+            var best = Array.IndexOf(supports, supports.Max());
+            if (maps.Count == MaxMaps || supports[best] < LeastSupport * maps.Count * sum / pairs)
+            {
+                return maps;
+            }
+
+            (next, sum, pairs) = (pool[best], sum + supports[best], pairs + maps.Count);
+        }
+
+        // Adds how well each map of the pool agrees with a map that is known; where both do the same they are one.
+        void Count(AffineMap known)
+        {
+            var back = known.Inverse();
+            for (var index = 0; index < pool.Length; index++)
+            {
+                supports[index] = search.IsSame(pool[index], known) ? double.NegativeInfinity
+                    : supports[index] + (search.SupportOf(pool[index] * back) * weightOf(pool[index] * back));
+            }
+        }
+    }
+
+    private bool IsNear(AffineMap map1, AffineMap map2) => (map1.Linear - map2.Linear).MaxAbsEntry() < NearTolerance
+        && ((map1 * model.Centre) - (map2 * model.Centre)).MaxAbsComponent() < NearTolerance * model.Diagonal;
+
+    /// <summary>
+    /// Folds elements by the inverses of maps. What several elements are folded to is there; of the others each may be there by one map.
+    /// </summary>
+    private (PlacementIndex Set, List<double> Weights) Fold(PlacementIndex set, List<double> weights, List<AffineMap> maps)
+    {
+        var all = model.CreateIndex(relativeTolerance);
+        var sources = new List<List<int>>();
+        foreach (var back in maps.Select(map => map.Inverse()))
+        {
+            for (var member = 0; member < set.Count; member++)
+            {
+                var placement = back * set[member].Placement;
+                var found = all.Find(set[member].Class, placement);
+                if (found < 0)
+                {
+                    found = all.Add(set[member].Class, placement);
+                    sources.Add([]);
+                }
+
+                sources[found].Add(member);
+            }
+        }
+
+        var isUsed = new bool[set.Count];
+        var folded = model.CreateIndex(relativeTolerance);
+        var foldedWeights = new List<double>();
+        var single = new List<int>();
+        foreach (var candidate in Enumerable.Range(0, all.Count)
+            .OrderByDescending(candidate => sources[candidate].Sum(member => weights[member])).ThenBy(candidate => candidate))
+        {
+            var sum = sources[candidate].Where(member => !isUsed[member]).Sum(member => weights[member]);
+            if (sum > 1.2)
+            {
+                folded.Add(all[candidate].Class, all[candidate].Placement);
+                foldedWeights.Add(1);
+                sources[candidate].ForEach(member => isUsed[member] = true);
+            }
+            else
+            {
+                single.Add(candidate);
+            }
+        }
+
+        foreach (var candidate in single.OrderByDescending(Weight).TakeWhile(candidate => Weight(candidate) > LeastWeight)
+            .Take(Math.Max(0, (MaxFolded * set.Count) - folded.Count)).ToArray())
+        {
+            folded.Add(all[candidate].Class, all[candidate].Placement);
+            foldedWeights.Add(Weight(candidate));
+        }
+
+        return (folded, foldedWeights);
+
+        double Weight(int candidate) => sources[candidate].Where(member => !isUsed[member]).Sum(member => weights[member]) / maps.Count;
+    }
+}

@@ -1,0 +1,192 @@
+using FractalEngine.Core.Approximation.Damaged.Placements;
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Approximation.Damaged;
+
+/// <summary>Finds the maps that take most elements to elements.</summary>
+/// <remarks>
+/// Where vertices are exact, all maps between pairs vote, and equal ones are counted by hashing. Where they are noisy, maps start at the
+/// largest elements, and grow: they are fitted to the neighbours that they take to elements, then to twice as many, and so on.
+/// </remarks>
+internal sealed class RelationSearch(DamagedModel model, PlacementIndex set, IReadOnlyList<double> weights, CancellationToken cancellation)
+{
+    private const int MaxVotes = 400_000;
+    private const int MaxVoted = 240;
+    private const int MaxGrown = 60_000;
+    private const int NeighbourCount = 12;
+    private const int MinHits = 3;
+
+    // Maps of exact vertices agree within that part of the diagonal, over the whole model.
+    private const double VoteCell = 1e-4;
+    private const double MaxVotingNoise = 1e-6;
+
+    // Hardly any two elements are level in this direction.
+    private static readonly Vector OddVector = new(0.6180339887, 0.5436890127, 0.4655712319);
+
+    /// <summary>Returns relations with a support of at least two elements, the best first.</summary>
+    /// <param name="effort">Budget, 1 unless stated.</param>
+    public List<Relation> Find(double effort)
+    {
+        var byClass = Enumerable.Range(0, set.Count).GroupBy(member => set[member].Class)
+            .OrderByDescending(group => group.Count()).ThenBy(group => group.Key).First().ToArray();
+        var maps = model.Noise <= MaxVotingNoise * model.Diagonal ? Vote(byClass, effort) : Grow(byClass, effort);
+        return [.. maps.Select(map => new Relation(map, SupportOf(map))).Where(relation => relation.Support > 0)
+            .OrderByDescending(relation => relation.Support)];
+    }
+
+    /// <summary>Computes how many elements a map takes to others.</summary>
+    public double SupportOf(AffineMap map)
+    {
+        cancellation.ThrowIfCancellationRequested();
+        var sum = 0.0;
+        for (var member = 0; member < set.Count; member++)
+        {
+            var image = set.Find(set[member].Class, map * set[member].Placement);
+            sum += image >= 0 && image != member ? weights[member] * weights[image] : 0;
+        }
+
+        return sum;
+    }
+
+    /// <summary>Whether two maps take most elements that both take to elements to the same ones.</summary>
+    public bool IsSame(AffineMap map1, AffineMap map2)
+    {
+        var (same, both) = (0, 0);
+        for (var member = 0; member < set.Count; member++)
+        {
+            var (elementClass, placement) = set[member];
+            if (set.Find(elementClass, map1 * placement) is var image && image >= 0
+                && set.Find(elementClass, map2 * placement) is var other && other >= 0)
+            {
+                both++;
+                same += image == other ? 1 : 0;
+            }
+        }
+
+        return 2 * same > both;
+    }
+
+    private List<AffineMap> Vote(int[] members, double effort)
+    {
+        var symmetries = model.Templates[set[members[0]].Class].Symmetries;
+        var order = members.OrderByDescending(member => weights[member]).ToArray();
+        var perReference = Math.Max(1, symmetries.Count * order.Length);
+        var references = Math.Min(order.Length, Math.Max(8, (int)(effort * MaxVotes / perReference)));
+        var votes = new Dictionary<long, (double Count, AffineMap Map)>();
+        for (var from = 0; from < references; from++)
+        {
+            cancellation.ThrowIfCancellationRequested();
+            var start = set[order[from]].Placement;
+            var back = start.Inverse();
+            for (var to = 0; to < order.Length; to++)
+            {
+                // Each pair once.
+                if (to == from || (to < from && to < references))
+                {
+                    continue;
+                }
+
+                foreach (var symmetry in symmetries)
+                {
+                    var map = new AffineMap(set[order[to]].Placement.Linear * symmetry.Map, set[order[to]].Placement.Translation) * back;
+                    map = Directed(map);
+                    var key = KeyOf(map);
+                    votes.TryGetValue(key, out var known);
+                    votes[key] = (known.Count + (weights[order[from]] * weights[order[to]]), known.Count > 0 ? known.Map : map);
+                }
+            }
+        }
+
+        var least = 1.2 * weights.Max() * weights.Max();
+        return [.. votes.Values.Where(vote => vote.Count > least).OrderByDescending(vote => vote.Count).Take(MaxVoted).Select(vote => vote.Map)];
+    }
+
+    /// <summary>Of a map and its inverse the one that makes smaller; of others the one that moves in the direction of an odd vector.</summary>
+    private AffineMap Directed(AffineMap map)
+    {
+        var volume = Math.Abs(map.Linear.Determinant());
+        var move = (map * model.Centre) - model.Centre;
+        return volume > 1.0001 || (volume > 0.9999 && Vector.Dot(move, OddVector) < 0) ? map.Inverse() : map;
+    }
+
+    private long KeyOf(AffineMap map)
+    {
+        var key = 17L;
+        for (var index = 0; index < 4; index++)
+        {
+            var axis = index switch { 0 => Vector.Zero, 1 => Vector.I, 2 => Vector.J, _ => Vector.K };
+            var image = ((map * (model.Centre + (0.5 * model.Diagonal * axis))) - model.Centre) / (VoteCell * model.Diagonal);
+            // A third of a cell aside, so that round numbers are not on the side of a cell.
+            foreach (var coordinate in new[] { image.X, image.Y, image.Z })
+            {
+                key = unchecked((key * 0x2545F4914F6CDD1DL) ^ (long)Math.Floor(coordinate + 0.3141)) ^ (key >>> 29);
+            }
+        }
+
+        return key;
+    }
+
+    private List<AffineMap> Grow(int[] members, double effort)
+    {
+        var maps = new List<AffineMap>();
+        var symmetries = model.Templates[set[members[0]].Class].Symmetries;
+        // Maps of thin elements are uncertain across them.
+        var references = members.OrderByDescending(member => ThicknessOf(set[member].Placement)).ToArray();
+        var count = Math.Min(3, Math.Max(1, (int)(effort * MaxGrown / (symmetries.Count * members.Length))));
+        foreach (var reference in references.Take(count))
+        {
+            var centre = set[reference].Placement.Translation;
+            var order = Enumerable.Range(0, set.Count).Where(member => member != reference)
+                .OrderBy(member => (set[member].Placement.Translation - centre).LengthSquared()).ToArray();
+            var back = set[reference].Placement.Inverse();
+            foreach (var member in members.Where(member => member != reference))
+            {
+                cancellation.ThrowIfCancellationRequested();
+                foreach (var symmetry in symmetries)
+                {
+                    var map = new AffineMap(set[member].Placement.Linear * symmetry.Map, set[member].Placement.Translation) * back;
+                    if (Extend(map, order) is { } grown)
+                    {
+                        maps.Add(grown);
+                    }
+                }
+            }
+        }
+
+        return maps;
+    }
+
+    private static double ThicknessOf(AffineMap placement) =>
+        Math.Abs(placement.Linear.Determinant()) / (PlacedElement.SizeOf(placement) * PlacedElement.SizeOf(placement));
+
+    private AffineMap? Extend(AffineMap map, int[] order)
+    {
+        var needed = Math.Min(MinHits, order.Length / 3);
+        for (var count = Math.Min(NeighbourCount, order.Length); ; count = Math.Min(2 * count, order.Length))
+        {
+            var fit = new MapFit(model.Centre);
+            for (var rank = 0; rank < count; rank++)
+            {
+                var (elementClass, placement) = set[order[rank]];
+                var image = set.Find(elementClass, map * placement, out var symmetry, out _);
+                if (image >= 0)
+                {
+                    var template = model.Templates[elementClass];
+                    var to = set[image].Placement;
+                    fit.Add(placement, to with { Linear = to.Linear * template.Symmetries[symmetry].Map }, template.IsFlat, 1);
+                }
+            }
+
+            if (fit.Count < needed)
+            {
+                return null;
+            }
+
+            map = fit.Solve(map);
+            if (count == order.Length)
+            {
+                return map;
+            }
+        }
+    }
+}
