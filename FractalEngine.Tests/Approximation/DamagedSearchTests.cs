@@ -90,7 +90,7 @@ public sealed class DamagedSearchTests : IDisposable
         Assert.Equal(TextOf(mesh), TextOf(mesh));
 
         static string TextOf(Mesh mesh) =>
-            GrammarWriter.Write(DamagedSearch.Find(mesh, new(), default)!, mesh.Bounds.Diagonal, [], "base.obj", null);
+            GrammarWriter.Write(DamagedSearch.Find(mesh, new(), default)!, mesh.Bounds.Diagonal, [], (name, _) => $"{name}.obj");
     }
 
     private Mesh Expand(MeshGrammar grammar, Mesh mesh)

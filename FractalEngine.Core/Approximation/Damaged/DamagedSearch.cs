@@ -74,11 +74,11 @@ public static class DamagedSearch
         }
 
         var relations = new RelationSearch(model, set, [.. model.Elements.Select(_ => 1.0)], cancellation).Find(settings.Effort);
-        var best = (Description: (Description?)null, Worth: 0.0);
+        var best = (Grammar: (DamagedGrammar?)null, Worth: 0.0);
         var products = new ProductHypotheses(model, isExact ? ExactRelative : NoisyRelative, settings.Effort, cancellation);
-        Func<IEnumerable<Description>> trees =
+        Func<IEnumerable<DamagedGrammar>> trees =
             () => new TreeHypotheses(model, strict, relations, cancellation).Find() is { } tree ? [tree] : [];
-        IEnumerable<Func<IEnumerable<Description>>> sets =
+        IEnumerable<Func<IEnumerable<DamagedGrammar>>> sets =
         [
             () => products.Find(set, relations, isRow: true, isFarFirst: false),
             () => products.Find(set, relations, isRow: false, isFarFirst: true),
@@ -92,7 +92,7 @@ public static class DamagedSearch
             best = completed.Worth > best.Worth ? completed : best;
         }
 
-        return best.Description is { } description
+        return best.Grammar is { } description
             ? (new Refinement(model, cancellation).Refine(description), best.Worth / Explanation.Worth(set.Count, set.Count, 0)) : (null, 0);
     }
 

@@ -35,7 +35,7 @@ internal sealed class ProductHypotheses(DamagedModel model, double relativeToler
     /// <param name="relations">The maps between them.</param>
     /// <param name="isRow">Whether sets may be the powers of one map.</param>
     /// <param name="isFarFirst">Whether maps count more that move farther: of equal maps those of inner sets have as much support.</param>
-    public IEnumerable<Description> Find(PlacementIndex set, List<Relation> relations, bool isRow, bool isFarFirst)
+    public IEnumerable<DamagedGrammar> Find(PlacementIndex set, List<Relation> relations, bool isRow, bool isFarFirst)
     {
         var weights = Enumerable.Repeat(1.0, set.Count).ToList();
         var sets = new List<List<AffineMap>>();

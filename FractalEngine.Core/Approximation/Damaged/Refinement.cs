@@ -15,7 +15,7 @@ internal sealed class Refinement(DamagedModel model, CancellationToken cancellat
     private const double FirstRelative = 0.3;
 
     /// <summary>Returns the grammar.</summary>
-    public MeshGrammar Refine(Description description)
+    public MeshGrammar Refine(DamagedGrammar description)
     {
         var relative = FirstRelative;
         for (var round = 0; round < Rounds; round++)
@@ -42,7 +42,7 @@ internal sealed class Refinement(DamagedModel model, CancellationToken cancellat
     }
 
     /// <summary>For each base and each word the element there, and its symmetry; null where none is.</summary>
-    private (PlacedElement Element, int Symmetry)?[,] FindElements(Description description, double relative)
+    private (PlacedElement Element, int Symmetry)?[,] FindElements(DamagedGrammar description, double relative)
     {
         var index = model.CreateIndex(relative);
         foreach (var element in model.Elements)
@@ -70,7 +70,7 @@ internal sealed class Refinement(DamagedModel model, CancellationToken cancellat
         Linear = found.Element.Placement.Linear * model.Templates[found.Element.Class].Symmetries[found.Symmetry].Map,
     };
 
-    private Description FitMaps(Description description, (PlacedElement Element, int Symmetry)?[,] found)
+    private DamagedGrammar FitMaps(DamagedGrammar description, (PlacedElement Element, int Symmetry)?[,] found)
     {
         var words = description.Words();
         var wordOf = Enumerable.Range(0, words.Count).ToDictionary(word => string.Join(',', words[word].Letters));
@@ -123,7 +123,7 @@ internal sealed class Refinement(DamagedModel model, CancellationToken cancellat
         }
     }
 
-    private Description FitBases(Description description, (PlacedElement Element, int Symmetry)?[,] found)
+    private DamagedGrammar FitBases(DamagedGrammar description, (PlacedElement Element, int Symmetry)?[,] found)
     {
         var words = description.Words();
         var bases = new List<(int, AffineMap)>();
@@ -154,7 +154,7 @@ internal sealed class Refinement(DamagedModel model, CancellationToken cancellat
 
     /// <summary>The base mesh, with the vertices whose images are nearest to those of all its elements.</summary>
     private Mesh MeshOf(
-        Description description, List<(AffineMap Map, int[] Letters)> words, (PlacedElement Element, int Symmetry)?[,] found)
+        DamagedGrammar description, List<(AffineMap Map, int[] Letters)> words, (PlacedElement Element, int Symmetry)?[,] found)
     {
         var positions = ImmutableArray.CreateBuilder<double>();
         var corners = ImmutableArray.CreateBuilder<int>();

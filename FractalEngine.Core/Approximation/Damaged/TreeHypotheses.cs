@@ -31,7 +31,7 @@ internal sealed class TreeHypotheses(DamagedModel model, PlacementIndex set, Lis
     private int _class;
 
     /// <summary>Returns the best tree, or null if none explains more than it costs.</summary>
-    public Description? Find()
+    public DamagedGrammar? Find()
     {
         _class = Enumerable.Range(0, set.Count).GroupBy(member => set[member].Class)
             .OrderByDescending(group => group.Count()).ThenBy(group => group.Key).First().Key;
