@@ -68,7 +68,7 @@ public sealed class DamagedSearchTests : IDisposable
         var fin = new Mesh([0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, -1, -1], [0, 1, 2, 0, 1, 3, 0, 1, 4]);
         Assert.Null(DamagedSearch.Find(Mesh.Empty, new(), default));
         Assert.Null(DamagedSearch.Find(new([0, 0, 0, 1, 1, 1, 2, 2, 2], [0, 1, 2, 0, 0, 1]), new(), default));
-        Assert.Null(DamagedSearch.Find(fin, new(), default));
+        Assert.Null(DamagedSearch.Find(fin, new(Noise: 0), default));
     }
 
     [Fact]
