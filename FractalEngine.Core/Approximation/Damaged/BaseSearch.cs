@@ -20,7 +20,7 @@ internal sealed class BaseSearch(DamagedModel model, PlacementIndex set, int see
     public int ExplainedCount => _isExplained.Count(isExplained => isExplained);
 
     /// <summary>Returns the description with its bases, those it has and others, and what it is worth.</summary>
-    public (DamagedGrammar Grammar, double Worth) Complete(DamagedGrammar description)
+    public (Hypothesis Hypothesis, double Worth) Complete(Hypothesis description)
     {
         var words = description.Words().ConvertAll(word => word.Map);
         var bases = new List<(int Class, AffineMap Placement)>();

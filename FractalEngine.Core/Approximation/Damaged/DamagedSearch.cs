@@ -49,7 +49,8 @@ public static class DamagedSearch
 
         // Elements of few vertices don't tell whether they are noisy.
         var exact = Find(mesh, least, settings, cancellation);
-        return exact.Part > SmallPart ? exact.Grammar : Find(mesh, GuessedNoise * diagonal, settings, cancellation).Grammar ?? exact.Grammar;
+        return exact.Part > SmallPart ? exact.Grammar
+            : Find(mesh, GuessedNoise * diagonal, settings, cancellation).Grammar ?? exact.Grammar;
     }
 
     /// <summary>Looks for exact grammars of the surface without what splits and welds have added to it.</summary>
@@ -74,11 +75,11 @@ public static class DamagedSearch
         }
 
         var relations = new RelationSearch(model, set, [.. model.Elements.Select(_ => 1.0)], cancellation).Find(settings.Effort);
-        var best = (Grammar: (DamagedGrammar?)null, Worth: 0.0);
+        var best = (Hypothesis: (Hypothesis?)null, Worth: 0.0);
         var products = new ProductHypotheses(model, isExact ? ExactRelative : NoisyRelative, settings.Effort, cancellation);
-        Func<IEnumerable<DamagedGrammar>> trees =
+        Func<IEnumerable<Hypothesis>> trees =
             () => new TreeHypotheses(model, strict, relations, cancellation).Find() is { } tree ? [tree] : [];
-        IEnumerable<Func<IEnumerable<DamagedGrammar>>> sets =
+        IEnumerable<Func<IEnumerable<Hypothesis>>> sets =
         [
             () => products.Find(set, relations, isRow: true, isFarFirst: false),
             () => products.Find(set, relations, isRow: false, isFarFirst: true),
@@ -86,14 +87,15 @@ public static class DamagedSearch
         ];
         // A tree's maps are known best where they are exact; of noisy ones those of a product are.
         var ways = isExact ? sets.Prepend(trees) : sets.Append(trees);
-        foreach (var hypothesis in ways.TakeWhile(_ => best.Worth < ClearPart * Explanation.Worth(set.Count, set.Count, 0)).SelectMany(way => way()))
+        var whole = Explanation.Worth(set.Count, set.Count, 0);
+        foreach (var hypothesis in ways.TakeWhile(_ => best.Worth < ClearPart * whole).SelectMany(way => way()))
         {
             var completed = new BaseSearch(model, strict, settings.Seed, cancellation).Complete(hypothesis);
             best = completed.Worth > best.Worth ? completed : best;
         }
 
-        return best.Grammar is { } description
-            ? (new Refinement(model, cancellation).Refine(description), best.Worth / Explanation.Worth(set.Count, set.Count, 0)) : (null, 0);
+        return best.Hypothesis is { } description
+            ? (new Refinement(model, cancellation).Refine(description), best.Worth / whole) : (null, 0);
     }
 
     private static PlacementIndex CreateSet(DamagedModel model, double relative)

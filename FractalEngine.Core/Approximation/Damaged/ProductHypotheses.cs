@@ -35,18 +35,21 @@ internal sealed class ProductHypotheses(DamagedModel model, double relativeToler
     /// <param name="relations">The maps between them.</param>
     /// <param name="isRow">Whether sets may be the powers of one map.</param>
     /// <param name="isFarFirst">Whether maps count more that move farther: of equal maps those of inner sets have as much support.</param>
-    public IEnumerable<DamagedGrammar> Find(PlacementIndex set, List<Relation> relations, bool isRow, bool isFarFirst)
+    public IEnumerable<Hypothesis> Find(PlacementIndex set, List<Relation> relations, bool isRow, bool isFarFirst)
     {
         var weights = Enumerable.Repeat(1.0, set.Count).ToList();
         var sets = new List<List<AffineMap>>();
         while (sets.Count < MaxLevels)
         {
             cancellation.ThrowIfCancellationRequested();
-            relations = isFarFirst ? [.. relations.Where(relation => IsTranslation(relation.Map)).Select(relation => relation with { Support = relation.Support * MoveOf(relation.Map) })
+            relations = isFarFirst ? [.. relations.Where(relation => IsTranslation(relation.Map))
+                .Select(relation => relation with { Support = relation.Support * MoveOf(relation.Map) })
                 .OrderByDescending(relation => relation.Support)] : relations;
             var search = new RelationSearch(model, set, weights, cancellation);
             var isLast = relations.Count == 0;
-            var maps = isLast ? FindAll(search, set, weights) : isRow && FindRow(search, relations) is { } row ? row : FindSet(search, relations, isFarFirst ? MoveOf : _ => 1);
+            var maps = isLast ? FindAll(search, set, weights)
+                : isRow && FindRow(search, relations) is { } row ? row
+                : FindSet(search, relations, isFarFirst ? MoveOf : static _ => 1);
             if (maps.Count < 2)
             {
                 break;
@@ -112,7 +115,8 @@ internal sealed class ProductHypotheses(DamagedModel model, double relativeToler
     private List<AffineMap> FindSet(RelationSearch search, List<Relation> relations, Func<AffineMap, double> weightOf)
     {
         // What can be applied twice is a step of a row, or turns all onto itself.
-        var first = relations.Find(relation => search.SupportOf(relation.Map * relation.Map) < LeastRepeated * search.SupportOf(relation.Map)
+        var first = relations.Find(relation =>
+            search.SupportOf(relation.Map * relation.Map) < LeastRepeated * search.SupportOf(relation.Map)
             && !IsNear(relation.Map * relation.Map, AffineMap.Identity));
         if (first.Support == 0)
         {

@@ -15,7 +15,7 @@ internal sealed class Refinement(DamagedModel model, CancellationToken cancellat
     private const double FirstRelative = 0.3;
 
     /// <summary>Returns the grammar.</summary>
-    public MeshGrammar Refine(DamagedGrammar description)
+    public MeshGrammar Refine(Hypothesis description)
     {
         var relative = FirstRelative;
         for (var round = 0; round < Rounds; round++)
@@ -33,16 +33,15 @@ internal sealed class Refinement(DamagedModel model, CancellationToken cancellat
         if (description.Depth > 0)
         {
             var maps = description.Sets[0];
-            return new(
-                [], new(maps, [.. Enumerable.Range(0, maps.Count + 1).Select(_ => Enumerable.Range(0, maps.Count).ToArray())], description.Depth),
-                mesh, null);
+            var all = Enumerable.Range(0, maps.Count).ToArray();
+            return new([], new(maps, [.. Enumerable.Repeat(all, maps.Count + 1)], description.Depth), mesh, null);
         }
 
         return new([.. description.Sets.Select(set => new GrammarStep([set], 1))], null, mesh, null);
     }
 
     /// <summary>For each base and each word the element there, and its symmetry; null where none is.</summary>
-    private (PlacedElement Element, int Symmetry)?[,] FindElements(DamagedGrammar description, double relative)
+    private (PlacedElement Element, int Symmetry)?[,] FindElements(Hypothesis description, double relative)
     {
         var index = model.CreateIndex(relative);
         foreach (var element in model.Elements)
@@ -70,7 +69,7 @@ internal sealed class Refinement(DamagedModel model, CancellationToken cancellat
         Linear = found.Element.Placement.Linear * model.Templates[found.Element.Class].Symmetries[found.Symmetry].Map,
     };
 
-    private DamagedGrammar FitMaps(DamagedGrammar description, (PlacedElement Element, int Symmetry)?[,] found)
+    private Hypothesis FitMaps(Hypothesis description, (PlacedElement Element, int Symmetry)?[,] found)
     {
         var words = description.Words();
         var wordOf = Enumerable.Range(0, words.Count).ToDictionary(word => string.Join(',', words[word].Letters));
@@ -117,13 +116,14 @@ internal sealed class Refinement(DamagedModel model, CancellationToken cancellat
             {
                 if (found[part, from] is { } start && found[part, to] is { } end)
                 {
-                    fits[set][letter].Add(back * PlacementOf(start), back * PlacementOf(end), model.Templates[start.Element.Class].IsFlat, weight);
+                    fits[set][letter].Add(
+                        back * PlacementOf(start), back * PlacementOf(end), model.Templates[start.Element.Class].IsFlat, weight);
                 }
             }
         }
     }
 
-    private DamagedGrammar FitBases(DamagedGrammar description, (PlacedElement Element, int Symmetry)?[,] found)
+    private Hypothesis FitBases(Hypothesis description, (PlacedElement Element, int Symmetry)?[,] found)
     {
         var words = description.Words();
         var bases = new List<(int, AffineMap)>();
@@ -154,7 +154,7 @@ internal sealed class Refinement(DamagedModel model, CancellationToken cancellat
 
     /// <summary>The base mesh, with the vertices whose images are nearest to those of all its elements.</summary>
     private Mesh MeshOf(
-        DamagedGrammar description, List<(AffineMap Map, int[] Letters)> words, (PlacedElement Element, int Symmetry)?[,] found)
+        Hypothesis description, List<(AffineMap Map, int[] Letters)> words, (PlacedElement Element, int Symmetry)?[,] found)
     {
         var positions = ImmutableArray.CreateBuilder<double>();
         var corners = ImmutableArray.CreateBuilder<int>();

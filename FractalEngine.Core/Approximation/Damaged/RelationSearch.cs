@@ -98,10 +98,11 @@ internal sealed class RelationSearch(DamagedModel model, PlacementIndex set, IRe
         }
 
         var least = 1.2 * weights.Max() * weights.Max();
-        return [.. votes.Values.Where(vote => vote.Count > least).OrderByDescending(vote => vote.Count).Take(MaxVoted).Select(vote => vote.Map)];
+        return [.. votes.Values.Where(vote => vote.Count > least).OrderByDescending(vote => vote.Count).Take(MaxVoted)
+            .Select(vote => vote.Map)];
     }
 
-    /// <summary>Of a map and its inverse the one that makes smaller; of others the one that moves in the direction of an odd vector.</summary>
+    /// <summary>Of a map and its inverse the one that makes smaller, or else moves in the direction of an odd vector.</summary>
     private AffineMap Directed(AffineMap map)
     {
         var volume = Math.Abs(map.Linear.Determinant());

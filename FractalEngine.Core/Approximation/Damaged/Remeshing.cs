@@ -10,7 +10,7 @@ internal static class Remeshing
     // Sine of the angle within which faces lie in one plane, and edges on one line.
     private const double MaxSine = 1e-6;
 
-    /// <summary>Gives each group of faces that is connected across edges vertices of its own; more than two faces at an edge don't connect.</summary>
+    /// <summary>Gives each group of faces vertices of its own; only edges with two faces connect.</summary>
     public static Mesh Unweld(Mesh mesh)
     {
         var facesAt = new Dictionary<(int, int), List<int>>();
@@ -51,7 +51,7 @@ internal static class Remeshing
         return new(positions.ToImmutable(), corners.MoveToImmutable());
     }
 
-    /// <summary>Removes vertices within flat regions and straight edges by collapsing edges there, which leaves the surface as it is.</summary>
+    /// <summary>Removes vertices within flat regions and straight edges, which leaves the surface as it is.</summary>
     public static Mesh RemoveFlatVertices(Mesh mesh)
     {
         var corners = mesh.VertexIndices.ToArray();

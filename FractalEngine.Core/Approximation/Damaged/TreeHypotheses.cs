@@ -31,20 +31,21 @@ internal sealed class TreeHypotheses(DamagedModel model, PlacementIndex set, Lis
     private int _class;
 
     /// <summary>Returns the best tree, or null if none explains more than it costs.</summary>
-    public DamagedGrammar? Find()
+    public Hypothesis? Find()
     {
         _class = Enumerable.Range(0, set.Count).GroupBy(member => set[member].Class)
             .OrderByDescending(group => group.Count()).ThenBy(group => group.Key).First().Key;
         var members = Enumerable.Range(0, set.Count).Where(member => set[member].Class == _class)
             .OrderByDescending(member => PlacedElement.SizeOf(set[member].Placement)).ToArray();
-        var candidates = relations.Where(relation => IsContraction(relation.Map)).Select(relation => relation.Map).Take(MaxCandidates).ToArray();
+        var candidates = relations.Select(relation => relation.Map).Where(IsContraction).Take(MaxCandidates).ToArray();
         _leastPart = Parts[1];
         var roots = candidates.Length < 2 ? [] : Roots(members, candidates);
         var best = (Worth: 0.0, Depth: 0, Root: AffineMap.Identity, Maps: new List<AffineMap>());
         foreach (var part in Parts)
         {
             _leastPart = part;
-            foreach (var (first, start, _) in roots.SelectMany(root => Pairs(root, [.. candidates, .. Direct(root, members.Take(MaxDirect))]))
+            foreach (var (first, start, _) in roots
+                .SelectMany(root => Pairs(root, [.. candidates, .. Direct(root, members.Take(MaxDirect))]))
                 .OrderByDescending(pair => pair.Score).Take(BeamWidth))
             {
                 var (root, grown) = Extend(first, start, candidates, members);

@@ -96,7 +96,8 @@ internal sealed class ElementTopology
                 var (next, image) = neighbours.Count == 2
                     ? (neighbours[0] ^ neighbours[1] ^ face, images[0] ^ images[1] ^ faces[face])
                     : (face, faces[face]);
-                if (faces[next] >= 0 ? faces[next] != image : !Assign(OppositeOf(next, a, b), other.OppositeOf(image, vertices[a], vertices[b])))
+                if (faces[next] >= 0 ? faces[next] != image
+                    : !Assign(OppositeOf(next, a, b), other.OppositeOf(image, vertices[a], vertices[b])))
                 {
                     return null;
                 }

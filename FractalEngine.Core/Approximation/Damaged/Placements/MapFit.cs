@@ -31,7 +31,8 @@ internal sealed class MapFit(Vector centre)
         var normal = isFlat ? NormalWeight : 1;
         _products += weight * (Matrix.Outer(z, x) + Matrix.Outer(to.Linear.V1, from.Linear.V1) + Matrix.Outer(to.Linear.V2, from.Linear.V2)
             + (normal * Matrix.Outer(to.Linear.V3, from.Linear.V3)));
-        _squares += weight * (Matrix.Outer(x, x) + Matrix.Outer(from.Linear.V1, from.Linear.V1) + Matrix.Outer(from.Linear.V2, from.Linear.V2)
+        _squares += weight * (Matrix.Outer(x, x) + Matrix.Outer(from.Linear.V1, from.Linear.V1)
+            + Matrix.Outer(from.Linear.V2, from.Linear.V2)
             + (normal * Matrix.Outer(from.Linear.V3, from.Linear.V3)));
         (_from, _to, _weight) = (_from + (weight * x), _to + (weight * z), _weight + weight);
         Count++;
@@ -48,7 +49,8 @@ internal sealed class MapFit(Vector centre)
         var (x, z) = (_from / _weight, _to / _weight);
         var squares = _squares - (_weight * Matrix.Outer(x, x));
         var little = 1e-12 * (squares.V1.X + squares.V2.Y + squares.V3.Z);
-        var linear = (_products - (_weight * Matrix.Outer(z, x)) + (little * before.Linear)) * (squares + (little * Matrix.Identity)).Inverse();
+        var linear = (_products - (_weight * Matrix.Outer(z, x)) + (little * before.Linear))
+            * (squares + (little * Matrix.Identity)).Inverse();
         return new(linear, centre + z - (linear * (centre + x)));
     }
 }

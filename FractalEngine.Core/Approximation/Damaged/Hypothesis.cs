@@ -8,7 +8,7 @@ namespace FractalEngine.Core.Approximation.Damaged;
 /// </param>
 /// <param name="Depth">Of a tree the largest number of maps in a product; 0 for a product of sets.</param>
 /// <param name="Bases">Class and placement of the base elements; possibly none yet.</param>
-internal sealed record DamagedGrammar(
+internal sealed record Hypothesis(
     List<List<AffineMap>> Sets, int Depth, List<(int Class, AffineMap Placement)> Bases)
 {
     /// <summary>Number of maps, identities not counted.</summary>
