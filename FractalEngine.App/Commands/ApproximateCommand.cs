@@ -10,7 +10,6 @@ using FractalEngine.Core.Images;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing;
 using FractalEngine.Parsing.Approximation;
-using FractalEngine.Parsing.Assets;
 using static System.FormattableString;
 
 namespace FractalEngine.App.Commands;

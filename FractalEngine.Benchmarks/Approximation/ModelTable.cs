@@ -1,7 +1,6 @@
 using System.Diagnostics;
 using FractalEngine.Benchmarks.Approximation.Unseen;
 using FractalEngine.Benchmarks.Measuring;
-using FractalEngine.Core;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Geometry;
@@ -18,7 +17,7 @@ internal static class ModelTable
     private const int OrganicFaces = 20_000;
     private static readonly TimeSpan Limit = TimeSpan.FromSeconds(60);
 
-    /// <summary>Writes approximation-models.csv.</summary>
+    /// <summary>Writes the table approximation-models.csv of all models.</summary>
     /// <param name="options">Folder of the table; quick ones have three irregular shapes of each kind, and small assets.</param>
     public static void Write(TableOptions options)
     {
@@ -90,5 +89,5 @@ internal static class ModelTable
     private static long BytesOf(string path) => File.ReadLines(path).Where(line => !line.StartsWith('#'))
         .Select(line => line.Split("//")[0].TrimEnd().Length).Where(length => length > 0).Sum(length => length + 1L);
 
-    private static object? Rounded(double? number) => number is { } value ? Math.Round(value, 6) : null;
+    private static double? Rounded(double? number) => number is { } value ? Math.Round(value, 6) : null;
 }

@@ -1,5 +1,4 @@
 using FractalEngine.Benchmarks.Approximation.Unseen;
-using FractalEngine.Core.Geometry;
 using FractalEngine.Parsing;
 
 namespace FractalEngine.Benchmarks.Approximation;

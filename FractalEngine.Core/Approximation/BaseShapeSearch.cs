@@ -21,7 +21,8 @@ public static class BaseShapeSearch
         foreach (var name in BaseShapes.Names)
         {
             if (BaseShapes.TryFind(name, out var shape) && shape.FaceCount == mesh.FaceCount
-                && ElementFinder.Find(shape, weldPositions: true) is [var from] && ElementFinder.Find(mesh, weldPositions: true) is [var to])
+                && ElementFinder.Find(shape, weldPositions: true) is [var from]
+                && ElementFinder.Find(mesh, weldPositions: true) is [var to])
             {
                 var faces = FacesOf(to.Corners, corner => corner);
                 var maps = new ElementAlignment(from.Shape, Tolerance).FindMaps(to.Shape).Where(map =>

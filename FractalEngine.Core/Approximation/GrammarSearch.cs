@@ -20,6 +20,8 @@ public static class GrammarSearch
     // Where more faces are left, patches of faces may repeat that are no elements.
     private const double MaxShare = 0.05;
 
+    private const double RecursionShare = 0.25;
+
     /// <summary>Finds a grammar that makes the mesh exactly, or null.</summary>
     /// <param name="mesh">The mesh; faces without area don't count, and elements that coincide count once.</param>
     /// <param name="cancellation">Ends the search early.</param>
@@ -39,7 +41,10 @@ public static class GrammarSearch
         }
 
         var repetition = RepetitionSearch.Find(mesh, cancellation);
-        return grammar is null || repetition?.FaceCount < grammar.FaceCount ? repetition : grammar;
+        // A recursion says more than rows with some faces less.
+        return grammar is null || repetition?.FaceCount < (grammar.IsRecursive ? RecursionShare : 1) * grammar.FaceCount
+            ? repetition
+            : grammar;
     }
 
     private static MeshGrammar? Find(Mesh mesh, List<Element> elements, CancellationToken cancellation)

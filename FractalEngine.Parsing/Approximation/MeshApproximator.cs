@@ -45,7 +45,9 @@ public sealed class MeshApproximator
         _length = mesh.UsedBounds.Diagonal;
     }
 
-    /// <summary>Looks for what makes a mesh exactly or was damaged, and then for what is closer to it than a simplified mesh of as many bytes.</summary>
+    /// <summary>
+    /// Looks for what makes a mesh exactly or was damaged, and then for what is closer to it than a simplified mesh of as many bytes.
+    /// </summary>
     /// <param name="mesh">A mesh with at least one face.</param>
     /// <param name="settings">What the fractal may cost; null for anything.</param>
     /// <param name="progress">Receives what is done, and the best result so far, on the calling thread; null for nothing.</param>
@@ -130,8 +132,8 @@ public sealed class MeshApproximator
         return distance.MaxDistance.Upper > ExactTolerance * _length
             ? null
             : new(
-                grammar.IsRecursive ? ApproximationVerdict.Exact : ApproximationVerdict.Repeats, grammar, written.Mesh, written.Bytes, distance,
-                vertices, null);
+                grammar.IsRecursive ? ApproximationVerdict.Exact : ApproximationVerdict.Repeats, grammar, written.Mesh, written.Bytes,
+                distance, vertices, null);
     }
 
     /// <summary>Compares a fractal with the simplified mesh of as many bytes; null where it is larger than wanted.</summary>

@@ -1,6 +1,5 @@
 using FractalEngine.Core.Approximation.Symmetries;
 using FractalEngine.Core.Geometry;
-using FractalEngine.Core.Geometry.Surfaces;
 using FractalEngine.Core.Maths;
 using FractalEngine.Tests.Support;
 

@@ -14,7 +14,7 @@ internal sealed class Refinement(DamagedModel model, CancellationToken cancellat
     // Tolerance of the first round in units of elements' sizes; each round halves it.
     private const double FirstRelative = 0.3;
 
-    /// <summary>Returns the grammar.</summary>
+    /// <summary>Returns the grammar with fitted numbers.</summary>
     public MeshGrammar Refine(Hypothesis description)
     {
         var relative = FirstRelative;

@@ -8,12 +8,17 @@ internal static class SimilarityFit
     // A turn of a whole model by less is a rounding error.
     private const double SnapTolerance = 1e-7;
 
-    /// <summary>Returns the similarity without and the one with a mirror that take a triangle to another of its shape.</summary>
+    /// <summary>
+    /// Returns the similarity without and the one with a mirror that take a triangle to another of its shape; none where one has no area.
+    /// </summary>
     public static IEnumerable<AffineMap> OfTriangles(Vector a, Vector b, Vector c, Vector a2, Vector b2, Vector c2, bool keepsSize)
     {
         var scale = keepsSize ? 1 : (b2 - a2).Length() / (b - a).Length();
-        var from = FrameOf(a, b, c);
-        var to = FrameOf(a2, b2, c2);
+        if (FrameOf(a, b, c) is not { } from || FrameOf(a2, b2, c2) is not { } to)
+        {
+            yield break;
+        }
+
         foreach (var sign in new[] { 1, -1 })
         {
             var linear = scale * (to with { V3 = sign * to.V3 } * from.Transpose());
@@ -67,10 +72,15 @@ internal static class SimilarityFit
         static Vector Round(Vector column) => new(Math.Round(column.X), Math.Round(column.Y), Math.Round(column.Z));
     }
 
-    private static Matrix FrameOf(Vector a, Vector b, Vector c)
+    private static Matrix? FrameOf(Vector a, Vector b, Vector c)
     {
-        var along = (b - a).UnitVector();
-        var normal = Vector.Cross(b - a, c - a).UnitVector();
+        var across = Vector.Cross(b - a, c - a);
+        if (across == Vector.Zero)
+        {
+            return null;
+        }
+
+        var (along, normal) = ((b - a).UnitVector(), across.UnitVector());
         return new(along, Vector.Cross(normal, along), normal);
     }
 }
