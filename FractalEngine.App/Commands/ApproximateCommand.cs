@@ -35,9 +35,6 @@ internal sealed class ApproximateCommand
     private readonly Option<double?> _effort = NumberOption.Positive(
         "--effort", "E", "Budget of hypotheses for a damaged mesh (default: 1).");
 
-    private readonly Option<int?> _seed = NumberOption.Integer(
-        "--seed", "S", 0, int.MaxValue, "Which samples hypotheses are tested on (default: 0).");
-
     private readonly Option<double?> _seconds = NumberOption.Positive(
         "--seconds", "N", "End the search after that time, with the best so far (default: when it is done).");
 
@@ -58,7 +55,7 @@ internal sealed class ApproximateCommand
             "approximate out/menger.obj --output out/found.fdo --seconds 20 --report out/found.json --image out/found.png");
         options._shared.AddTo(command);
         SharedOptions.AddAll(
-            command, options._output, options._maps, options._bytes, options._tolerance, options._effort, options._seed, options._seconds,
+            command, options._output, options._maps, options._bytes, options._tolerance, options._effort, options._seconds,
             options._report, options._image, options._keepsPartial);
         options._told.AddTo(command);
         command.SetAction(options.Run);
@@ -93,7 +90,6 @@ internal sealed class ApproximateCommand
             MaxBytes = result.GetValue(_bytes),
             Tolerance = result.GetValue(_tolerance),
             Effort = result.GetValue(_effort) ?? 1,
-            Seed = result.GetValue(_seed) ?? 0,
         };
         var run = new ApproximationRun(mesh, settings, told);
         var found = told.Measure("search", () => run.Find(seconds));

@@ -12,8 +12,8 @@ internal static class ApproximationCommand
         approximate [models] [--quick] [--output FOLDER]
           How often does the search find what made a mesh, how many faces are left, and in what time? The meshes are expanded fractals
           and models that repeat, which it was not written for, see Approximation/Unseen, some of them damaged. Writes to
-          docs/benchmarks unless stated: approximation.csv. With 'models', what is found for the fractals of the assets, and how close it comes to irregular
-          shapes: approximation-models.csv.
+          docs/benchmarks unless stated: approximation.csv. With 'models', what is found for the fractals of the assets, and how
+          close it comes to irregular shapes: approximation-models.csv.
         approximate samples FOLDER
           Writes models that repeat, or are damaged or irregular, as OBJ files to try it on.
         """;

@@ -54,7 +54,8 @@ internal sealed record SearchOutcome(
         var steps = string.Join(' ', grammar.Steps.Select(
             step => $"({string.Join('*', step.Sets.Select(set => set.Count))})^{step.Depth}"));
         return new(grade.IsFound && isSmall, !grade.IsFound, seconds, maps, faces, input.Mesh.FaceCount,
-            $"{verdict} {result.Verdict} {steps} tree {grammar.Tree?.Maps.Count}^{grammar.Tree?.Depth}, {faces} left in {input.Description}");
+            $"{verdict} {result.Verdict} {steps} tree {grammar.Tree?.Maps.Count}^{grammar.Tree?.Depth}, {faces} faces, "
+            + $"in {input.Description}");
     }
 
     /// <summary>One line for the log of the measurement.</summary>
