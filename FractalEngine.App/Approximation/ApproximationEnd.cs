@@ -6,7 +6,7 @@ internal enum ApproximationEnd
     /// <summary>There was nothing left to look for.</summary>
     Search,
 
-    /// <summary>The time given was over.</summary>
+    /// <summary>The time that <c>--seconds</c> gives was over.</summary>
     Time,
 
     /// <summary>A signal, such as that of Ctrl+C.</summary>

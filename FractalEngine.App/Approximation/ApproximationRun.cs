@@ -17,7 +17,7 @@ internal sealed class ApproximationRun(Mesh mesh, ApproximationSettings settings
 
     private volatile ApproximationResult? _best;
 
-    /// <summary>What ended the search.</summary>
+    /// <summary>What ended the search, once it has ended.</summary>
     public ApproximationEnd End { get; private set; }
 
     /// <summary>Runs the search, and waits for its end.</summary>

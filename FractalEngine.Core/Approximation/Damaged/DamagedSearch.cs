@@ -10,7 +10,7 @@ namespace FractalEngine.Core.Approximation.Damaged;
 public static class DamagedSearch
 {
     // Files with seven digits have about so much noise, in diagonals.
-    private const double LeastNoise = 1e-7;
+    private const double MinNoise = 1e-7;
 
     // Elements are recognized where they are off by less, in units of their size.
     private const double ExactRelative = 1e-3;
@@ -41,7 +41,7 @@ public static class DamagedSearch
         }
 
         var diagonal = mesh.UsedBounds.Diagonal;
-        var least = LeastNoise * diagonal;
+        var least = MinNoise * diagonal;
         if ((settings.Noise ?? DamagedModel.EstimateNoise(mesh, cancellation)) is { } noise)
         {
             return Find(mesh, Math.Max(noise, least), settings, cancellation).Grammar;
@@ -66,7 +66,7 @@ public static class DamagedSearch
         Mesh mesh, double noise, DamagedSearchSettings settings, CancellationToken cancellation)
     {
         var model = DamagedModel.Create(mesh, noise, cancellation);
-        var isExact = noise <= 10 * LeastNoise * model.Diagonal;
+        var isExact = noise <= 10 * MinNoise * model.Diagonal;
         var set = CreateSet(model, isExact ? ExactRelative : GrowingRelative);
         var strict = CreateSet(model, isExact ? ExactRelative : NoisyRelative);
         if (set.Count < 3)

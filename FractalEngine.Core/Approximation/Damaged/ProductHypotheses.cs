@@ -16,10 +16,10 @@ internal sealed class ProductHypotheses(DamagedModel model, double relativeToler
     private const int MaxCandidates = 60;
 
     // A set has no map whose support, with each map of it, is less than that part of what the others have on average.
-    private const double LeastSupport = 0.62;
+    private const double MinSupport = 0.62;
 
     // Supports of a row fall with the number of steps, and are missing here and there.
-    private const double LeastRepeated = 0.3;
+    private const double MinRepeated = 0.3;
 
     private const double TranslationTolerance = 1e-3;
 
@@ -27,7 +27,7 @@ internal sealed class ProductHypotheses(DamagedModel model, double relativeToler
     private const double NearTolerance = 3e-3;
 
     // Folded elements are dropped that are so unlikely, and beyond so many for each element.
-    private const double LeastWeight = 0.1;
+    private const double MinWeight = 0.1;
     private const int MaxFolded = 2;
 
     /// <summary>Returns products of sets of rising length that explain the elements, without bases.</summary>
@@ -108,7 +108,7 @@ internal sealed class ProductHypotheses(DamagedModel model, double relativeToler
             }
         }
 
-        return last > 1 && search.SupportOf(powers[2]) > LeastRepeated * search.SupportOf(step) ? powers[..(last + 1)] : null;
+        return last > 1 && search.SupportOf(powers[2]) > MinRepeated * search.SupportOf(step) ? powers[..(last + 1)] : null;
     }
 
     /// <summary>Adds to the best relation those that most agree with it and each other.</summary>
@@ -116,7 +116,7 @@ internal sealed class ProductHypotheses(DamagedModel model, double relativeToler
     {
         // What can be applied twice is a step of a row, or turns all onto itself.
         var first = relations.Find(relation =>
-            search.SupportOf(relation.Map * relation.Map) < LeastRepeated * search.SupportOf(relation.Map)
+            search.SupportOf(relation.Map * relation.Map) < MinRepeated * search.SupportOf(relation.Map)
             && !IsNear(relation.Map * relation.Map, AffineMap.Identity));
         if (first.Support == 0)
         {
@@ -133,7 +133,7 @@ internal sealed class ProductHypotheses(DamagedModel model, double relativeToler
             maps.Add(next);
             Count(next);
             var best = Array.IndexOf(supports, supports.Max());
-            if (maps.Count == MaxMaps || supports[best] < LeastSupport * maps.Count * sum / pairs)
+            if (maps.Count == MaxMaps || supports[best] < MinSupport * maps.Count * sum / pairs)
             {
                 return maps;
             }
@@ -199,7 +199,7 @@ internal sealed class ProductHypotheses(DamagedModel model, double relativeToler
             }
         }
 
-        foreach (var candidate in single.OrderByDescending(Weight).TakeWhile(candidate => Weight(candidate) > LeastWeight)
+        foreach (var candidate in single.OrderByDescending(Weight).TakeWhile(candidate => Weight(candidate) > MinWeight)
             .Take(Math.Max(0, (MaxFolded * set.Count) - folded.Count)).ToArray())
         {
             folded.Add(all[candidate].Class, all[candidate].Placement);

@@ -1,6 +1,7 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics.Islands;
 
 namespace FractalEngine.Core.Approximation.Damaged;
 
@@ -26,10 +27,12 @@ internal static class Remeshing
             faces.Add(corner / 3);
         }
 
-        var parents = Enumerable.Range(0, mesh.FaceCount).ToArray();
+        var joined = new DisjointSets();
+        joined.Reserve(mesh.FaceCount);
+        joined.Reset(mesh.FaceCount);
         foreach (var faces in facesAt.Values.Where(faces => faces.Count == 2))
         {
-            parents[RootOf(parents, faces[0])] = RootOf(parents, faces[1]);
+            joined.Join(faces[0], faces[1]);
         }
 
         var vertices = new Dictionary<(int Vertex, int Part), int>();
@@ -37,7 +40,7 @@ internal static class Remeshing
         var corners = ImmutableArray.CreateBuilder<int>(mesh.VertexIndices.Length);
         for (var corner = 0; corner < mesh.VertexIndices.Length; corner++)
         {
-            var key = (mesh.VertexIndices[corner], RootOf(parents, corner / 3));
+            var key = (mesh.VertexIndices[corner], joined.RootOf(corner / 3));
             if (!vertices.TryGetValue(key, out var vertex))
             {
                 vertices.Add(key, vertex = vertices.Count);
@@ -134,15 +137,4 @@ internal static class Remeshing
 
     private static Vector NormalOf(Mesh mesh, int[] face) =>
         Vector.Cross(mesh.Vertex(face[1]) - mesh.Vertex(face[0]), mesh.Vertex(face[2]) - mesh.Vertex(face[0]));
-
-    private static int RootOf(int[] parents, int face)
-    {
-        while (parents[face] != face)
-        {
-            parents[face] = parents[parents[face]];
-            face = parents[face];
-        }
-
-        return face;
-    }
 }

@@ -1,6 +1,7 @@
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Geometry.Surfaces;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics.Islands;
 
 namespace FractalEngine.Core.Approximation.Elements;
 
@@ -13,19 +14,26 @@ internal static class ElementFinder
     public static List<Element> Find(Mesh mesh, bool weldPositions)
     {
         var representatives = VertexWelding.FindRepresentatives(mesh);
-        var parents = weldPositions ? (int[])representatives.Clone() : [.. Enumerable.Range(0, mesh.VertexCount)];
+        var connected = new DisjointSets();
+        connected.Reserve(mesh.VertexCount);
+        connected.Reset(mesh.VertexCount);
+        for (var vertex = 0; weldPositions && vertex < representatives.Length; vertex++)
+        {
+            connected.Join(vertex, representatives[vertex]);
+        }
+
         var faces = Enumerable.Range(0, mesh.FaceCount).Where(face => HasArea(mesh, face)).ToArray();
         foreach (var face in faces)
         {
-            Join(parents, mesh.VertexIndices[3 * face], mesh.VertexIndices[(3 * face) + 1]);
-            Join(parents, mesh.VertexIndices[3 * face], mesh.VertexIndices[(3 * face) + 2]);
+            connected.Join(mesh.VertexIndices[3 * face], mesh.VertexIndices[(3 * face) + 1]);
+            connected.Join(mesh.VertexIndices[3 * face], mesh.VertexIndices[(3 * face) + 2]);
         }
 
         var byRoot = new Dictionary<int, List<int>>();
         var order = new List<List<int>>();
         foreach (var face in faces)
         {
-            var root = RootOf(parents, mesh.VertexIndices[3 * face]);
+            var root = connected.RootOf(mesh.VertexIndices[3 * face]);
             if (!byRoot.TryGetValue(root, out var list))
             {
                 byRoot.Add(root, list = []);
@@ -64,18 +72,5 @@ internal static class ElementFinder
         var b = mesh.Vertex(mesh.VertexIndices[(3 * face) + 1]);
         var c = mesh.Vertex(mesh.VertexIndices[(3 * face) + 2]);
         return Vector.Cross(b - a, c - a) != Vector.Zero;
-    }
-
-    private static void Join(int[] parents, int vertex1, int vertex2) => parents[RootOf(parents, vertex2)] = RootOf(parents, vertex1);
-
-    private static int RootOf(int[] parents, int vertex)
-    {
-        while (parents[vertex] != vertex)
-        {
-            parents[vertex] = parents[parents[vertex]];
-            vertex = parents[vertex];
-        }
-
-        return vertex;
     }
 }

@@ -70,7 +70,7 @@ internal sealed class FaceSet
     /// <summary>The first corner of each face, and at last the number of all corners.</summary>
     public int[] Starts { get; }
 
-    /// <summary>The face of each corner.</summary>
+    /// <summary>For each corner the index of its face.</summary>
     public int[] FaceAt { get; }
 
     /// <summary>For each corner the next one, in a circle, whose edge to the corner after it is the same.</summary>
@@ -122,7 +122,7 @@ internal sealed class FaceSet
         return corner + count < end ? corner + count : corner + count - end + start;
     }
 
-    /// <summary>The point of a corner.</summary>
+    /// <summary>The position of a corner, scene units.</summary>
     public Vector PointOf(int corner) => Points[Corners[corner]];
 
     /// <summary>Returns the point at a position, or −1.</summary>

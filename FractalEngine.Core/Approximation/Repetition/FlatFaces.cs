@@ -1,4 +1,5 @@
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics.Islands;
 
 namespace FractalEngine.Core.Approximation.Repetition;
 
@@ -22,21 +23,21 @@ internal static class FlatFaces
             faces = flipped;
         }
 
-        var parents = Enumerable.Range(0, faces.Count).ToArray();
+        var joined = new DisjointSets();
+        joined.Reserve(faces.Count);
+        joined.Reset(faces.Count);
         for (var corner = 0; corner < faces.Corners.Length; corner++)
         {
             if (CircleSum(faces, corner) is { } sum && Math.Abs(sum) <= CircleTolerance)
             {
-                parents[RootOf(faces.FaceAt[corner])] = RootOf(faces.FaceAt[faces.Twins[corner]]);
+                joined.Join(faces.FaceAt[corner], faces.FaceAt[faces.Twins[corner]]);
             }
         }
 
-        var groups = Enumerable.Range(0, faces.Count).GroupBy(RootOf).ToList();
+        var groups = Enumerable.Range(0, faces.Count).GroupBy(joined.RootOf).ToList();
         return faces == triangles && groups.Count == faces.Count
             ? null
             : new(faces.Points, groups.SelectMany(group => Join(faces, [.. group])), faces.Tolerance);
-
-        int RootOf(int face) => parents[face] == face ? face : parents[face] = RootOf(parents[face]);
     }
 
     /// <summary>Flips edges of triangles that have no other flip beside them; null where there are none to flip.</summary>

@@ -26,7 +26,7 @@ internal sealed class DamagedModel
     /// <summary>The diagonal of the mesh, scene units.</summary>
     public double Diagonal { get; }
 
-    /// <summary>The centre of the mesh.</summary>
+    /// <summary>The centre of the mesh's box, scene units.</summary>
     public Vector Centre { get; }
 
     /// <summary>The templates of all classes.</summary>

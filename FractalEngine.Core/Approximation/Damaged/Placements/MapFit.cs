@@ -17,7 +17,7 @@ internal sealed class MapFit(Vector centre)
     private Vector _to;
     private double _weight;
 
-    /// <summary>Number of pairs so far.</summary>
+    /// <summary>Number of pairs of placements that were added.</summary>
     public int Count { get; private set; }
 
     /// <summary>Adds a pair of placements.</summary>

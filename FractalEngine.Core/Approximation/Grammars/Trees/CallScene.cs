@@ -31,7 +31,7 @@ internal sealed class CallScene
     /// <summary>The parts by falling size.</summary>
     public int[] BySize { get; }
 
-    /// <summary>The largest part of all.</summary>
+    /// <summary>The index of the largest element among the parts.</summary>
     public int Root => BySize[0];
 
     /// <summary>Maps that take the root to each part that nothing calls, the identity first.</summary>
