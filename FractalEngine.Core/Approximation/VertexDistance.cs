@@ -19,9 +19,20 @@ public static class VertexDistance
         ArgumentNullException.ThrowIfNull(mesh2);
         ArgumentOutOfRangeException.ThrowIfNegativeOrZero(within);
         var (points1, points2) = (PointsOf(mesh1), PointsOf(mesh2));
-        return FindLargest(points1, points2, within) is { } there && FindLargest(points2, points1, within) is { } back
-            ? Math.Max(there, back)
-            : null;
+        var largest = SquaresOf(points1, points2, within).Concat(SquaresOf(points2, points1, within)).Append(0).Max();
+        return double.IsFinite(largest) ? Math.Sqrt(largest) : null;
+    }
+
+    /// <summary>Counts the vertices of a mesh that have a vertex of another one so near. Cost O(vertices).</summary>
+    /// <param name="mesh">The mesh; only vertices of its faces count.</param>
+    /// <param name="other">The other mesh.</param>
+    /// <param name="within">Largest distance, scene units, above 0.</param>
+    public static int CountWithin(Mesh mesh, Mesh other, double within)
+    {
+        ArgumentNullException.ThrowIfNull(mesh);
+        ArgumentNullException.ThrowIfNull(other);
+        ArgumentOutOfRangeException.ThrowIfNegativeOrZero(within);
+        return SquaresOf(PointsOf(mesh), PointsOf(other), within).Count(double.IsFinite);
     }
 
     private static Vector[] PointsOf(Mesh mesh)
@@ -35,10 +46,10 @@ public static class VertexDistance
         return [.. points];
     }
 
-    private static double? FindLargest(Vector[] from, Vector[] to, double within)
+    /// <summary>The squared distance of each point from the nearest other one, infinite where none is so near.</summary>
+    private static IEnumerable<double> SquaresOf(Vector[] from, Vector[] to, double within)
     {
         var grid = new PointGrid(to, within);
-        var largest = 0.0;
         foreach (var point in from)
         {
             var nearest = double.PositiveInfinity;
@@ -47,14 +58,7 @@ public static class VertexDistance
                 nearest = Math.Min(nearest, (to[grid.PointOf(entry)] - point).LengthSquared());
             }
 
-            if (double.IsPositiveInfinity(nearest))
-            {
-                return null;
-            }
-
-            largest = Math.Max(largest, nearest);
+            yield return nearest;
         }
-
-        return Math.Sqrt(largest);
     }
 }

@@ -16,14 +16,14 @@ public sealed class MeshApproximator
     // Vertices and surfaces within this part of the diagonal count as the same.
     private const double ExactTolerance = 1e-6;
 
-    // Where more faces than this are left, it may be a damaged fractal of which a part repeats.
-    private const double ClearShare = 0.1;
-
     // What only approximates must take so much less than what is exact.
-    private const double ClearlyLess = 0.25;
+    private const double ClearlyLess = 0.75;
 
     // Where elements are missing in the mesh, a fractal has more faces than it.
     private const int MaxGrowth = 16;
+
+    // A fractal that has so many times as many of the mesh's vertices as the simplified mesh has in all is closer to it.
+    private const int MinGain = 4;
 
     // Simplification moves open edges by so much of the diagonal at most, or they are others than those of a cut.
     private const double SeamTolerance = 0.002;
@@ -72,7 +72,8 @@ public sealed class MeshApproximator
     {
         Report("what makes all faces exactly");
         var exact = GrammarSearch.FindExact(_mesh, _cancellation) is { } grammar ? JudgeExact(grammar) : null;
-        if (exact is not null && exact.Grammar.FaceCount <= ClearShare * _mesh.FaceCount)
+        // Otherwise it may be a damaged fractal, of which it lists what is left.
+        if (exact?.Grammar.ExplainsMost(_mesh.FaceCount) == true)
         {
             return exact;
         }
@@ -147,7 +148,9 @@ public sealed class MeshApproximator
         var distance = SurfaceDistance.Between(_mesh, written.Mesh, cancellation: _cancellation);
         var simple = new SameBytesMesh(_mesh, simple => simple, _cancellation).Find(written.Bytes, ObjBytes);
         var simpleDistance = simple is null ? null : SurfaceDistance.Between(_mesh, simple, cancellation: _cancellation);
-        var isBetter = simpleDistance is null
+        // Where elements are missing or foreign, distances don't tell what is explained.
+        var matching = VertexDistance.CountWithin(_mesh, written.Mesh, ExactTolerance * _length);
+        var isBetter = simpleDistance is null || matching > MinGain * simple!.VertexCount
             || distance.MeanDistance + distance.MeanDistanceError < simpleDistance.MeanDistance - simpleDistance.MeanDistanceError;
         return new(
             isBetter ? ApproximationVerdict.Approximate : ApproximationVerdict.NoFractal, grammar, written.Mesh, written.Bytes, distance,

@@ -12,32 +12,16 @@ internal sealed class BaseSearch(DamagedModel model, PlacementIndex set, int see
     private const int MaxJudged = 10;
 
     // How many elements of one description a base has at most.
-    private const int MaxBases = 8;
+    private const int MaxBases = 6;
 
     private readonly bool[] _isExplained = new bool[set.Count];
 
-    /// <summary>Number of elements that are explained so far.</summary>
-    public int ExplainedCount => _isExplained.Count(isExplained => isExplained);
-
-    /// <summary>Returns the description with its bases, those it has and others, and what it is worth.</summary>
-    public (Hypothesis Hypothesis, double Worth) Complete(Hypothesis description)
+    /// <summary>Returns the description with its bases, and what it explains.</summary>
+    public (Hypothesis Hypothesis, Explanation Explanation) Complete(Hypothesis description)
     {
         var words = description.Words().ConvertAll(word => word.Map);
         var bases = new List<(int Class, AffineMap Placement)>();
-        var predicted = 0;
-        foreach (var known in description.Bases)
-        {
-            Accept(known);
-        }
-
         while (bases.Count < MaxBases && FindNext(words) is { } found)
-        {
-            Accept(found);
-        }
-
-        return (description with { Bases = bases }, Explanation.Worth(ExplainedCount, predicted, description.MapCount + bases.Count));
-
-        void Accept((int Class, AffineMap Placement) found)
         {
             foreach (var image in ImagesOf(found, words))
             {
@@ -45,8 +29,11 @@ internal sealed class BaseSearch(DamagedModel model, PlacementIndex set, int see
             }
 
             bases.Add(found);
-            predicted += words.Count;
         }
+
+        return (
+            description with { Bases = bases },
+            new(_isExplained.Count(isExplained => isExplained), bases.Count * words.Count, description.Maps.Count + bases.Count));
     }
 
     private HashSet<int> ImagesOf((int Class, AffineMap Placement) part, List<AffineMap> words)
@@ -84,7 +71,7 @@ internal sealed class BaseSearch(DamagedModel model, PlacementIndex set, int see
         }
 
         var best = candidates.OrderByDescending(candidate => candidate.Hits).Take(MaxJudged)
-            .Select(candidate => (candidate.Base, Worth: Explanation.Worth(ImagesOf(candidate.Base, words).Count, words.Count, 1)))
+            .Select(candidate => (candidate.Base, new Explanation(ImagesOf(candidate.Base, words).Count, words.Count, 1).Worth))
             .OrderByDescending(candidate => candidate.Worth).FirstOrDefault();
         return best.Worth > 0 ? best.Base : null;
     }

@@ -20,9 +20,6 @@ public static class DamagedSearch
     // What noise may be where elements are tetrahedra or triangles, in diagonals.
     private const double GuessedNoise = 3e-5;
 
-    // Where so much is explained by so little, there is nothing left to look for.
-    private const double ClearPart = 0.9;
-
     // Exact elements are explained to a larger part.
     private const double SmallPart = 0.1;
 
@@ -35,7 +32,8 @@ public static class DamagedSearch
     {
         ArgumentNullException.ThrowIfNull(mesh);
         ArgumentNullException.ThrowIfNull(settings);
-        if (settings.Noise is null && FindRemeshed(mesh, cancellation) is { } remeshed)
+        var remeshed = settings.Noise is null ? FindRemeshed(mesh, cancellation) : null;
+        if (remeshed?.ExplainsMost(mesh.FaceCount) == true)
         {
             return remeshed;
         }
@@ -44,13 +42,13 @@ public static class DamagedSearch
         var least = MinNoise * diagonal;
         if ((settings.Noise ?? DamagedModel.EstimateNoise(mesh, cancellation)) is { } noise)
         {
-            return Find(mesh, Math.Max(noise, least), settings, cancellation).Grammar;
+            return Find(mesh, Math.Max(noise, least), settings, cancellation).Grammar ?? remeshed;
         }
 
         // Elements of few vertices don't tell whether they are noisy.
         var exact = Find(mesh, least, settings, cancellation);
         return exact.Part > SmallPart ? exact.Grammar
-            : Find(mesh, GuessedNoise * diagonal, settings, cancellation).Grammar ?? exact.Grammar;
+            : Find(mesh, GuessedNoise * diagonal, settings, cancellation).Grammar ?? exact.Grammar ?? remeshed;
     }
 
     /// <summary>Looks for exact grammars of the surface without what splits and welds have added to it.</summary>
@@ -67,45 +65,16 @@ public static class DamagedSearch
     {
         var model = DamagedModel.Create(mesh, noise, cancellation);
         var isExact = noise <= 10 * MinNoise * model.Diagonal;
-        var set = CreateSet(model, isExact ? ExactRelative : GrowingRelative);
-        var strict = CreateSet(model, isExact ? ExactRelative : NoisyRelative);
+        var set = model.CreateFullIndex(isExact ? ExactRelative : GrowingRelative);
         if (set.Count < 3)
         {
             return (null, 0);
         }
 
-        var relations = new RelationSearch(model, set, [.. model.Elements.Select(_ => 1.0)], cancellation).Find(settings.Effort);
-        var best = (Hypothesis: (Hypothesis?)null, Worth: 0.0);
-        var products = new ProductHypotheses(model, isExact ? ExactRelative : NoisyRelative, settings.Effort, cancellation);
-        Func<IEnumerable<Hypothesis>> trees =
-            () => new TreeHypotheses(model, strict, relations, cancellation).Find() is { } tree ? [tree] : [];
-        IEnumerable<Func<IEnumerable<Hypothesis>>> sets =
-        [
-            () => products.Find(set, relations, isRow: true, isFarFirst: false),
-            () => products.Find(set, relations, isRow: false, isFarFirst: true),
-            () => products.Find(set, relations, isRow: false, isFarFirst: false),
-        ];
-        // A tree's maps are known best where they are exact; of noisy ones those of a product are.
-        var ways = isExact ? sets.Prepend(trees) : sets.Append(trees);
-        var whole = Explanation.Worth(set.Count, set.Count, 0);
-        foreach (var hypothesis in ways.TakeWhile(_ => best.Worth < ClearPart * whole).SelectMany(way => way()))
-        {
-            var completed = new BaseSearch(model, strict, settings.Seed, cancellation).Complete(hypothesis);
-            best = completed.Worth > best.Worth ? completed : best;
-        }
-
-        return best.Hypothesis is { } description
-            ? (new Refinement(model, cancellation).Refine(description), best.Worth / whole) : (null, 0);
-    }
-
-    private static PlacementIndex CreateSet(DamagedModel model, double relative)
-    {
-        var set = model.CreateIndex(relative);
-        foreach (var element in model.Elements)
-        {
-            set.Add(element.Class, element.Placement);
-        }
-
-        return set;
+        var search = new HypothesisSearch(model, isExact ? ExactRelative : NoisyRelative, settings, cancellation);
+        search.Run(set);
+        return search.Best is { } best
+            ? (new Refinement(model, isExact ? 10 * ExactRelative : GrowingRelative, cancellation).Refine(best), search.ExplainedPart)
+            : (null, 0);
     }
 }

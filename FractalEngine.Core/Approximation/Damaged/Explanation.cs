@@ -1,22 +1,33 @@
 namespace FractalEngine.Core.Approximation.Damaged;
 
-/// <summary>
-/// What a description of the elements is worth: the length of the message that it saves, in nats. An element costs as much as a map; where
-/// elements are predicted, it costs to say which of them are missing.
-/// </summary>
-internal static class Explanation
+/// <summary>What a hypothesis explains, and what for.</summary>
+/// <param name="Explained">How many elements it explains.</param>
+/// <param name="Predicted">How many elements it predicts, present or not.</param>
+/// <param name="Maps">How many maps and placements it consists of.</param>
+internal readonly record struct Explanation(int Explained, int Predicted, int Maps)
 {
     // Twelve numbers of three digits or so: what a placement costs that nothing explains.
     private const double PlacementCost = 30;
 
-    /// <summary>Computes the worth of a description.</summary>
-    /// <param name="explained">How many elements it explains.</param>
-    /// <param name="predicted">How many elements it predicts, present or not.</param>
-    /// <param name="maps">How many maps and placements it consists of.</param>
-    public static double Worth(double explained, double predicted, int maps)
+    // Where so much is there of what so few maps predict, there is nothing better to look for.
+    private const double ClearPart = 0.45;
+    private const double ClearMaps = 0.1;
+
+    /// <summary>
+    /// The length of the message that it saves, in nats: an element costs as much as a map; where elements are predicted, it costs to say
+    /// which of them are missing.
+    /// </summary>
+    public double Worth
     {
-        var part = predicted > 0 ? Math.Min(1, explained / predicted) : 1;
-        var missing = part is > 0 and < 1 ? -(part * Math.Log(part)) - ((1 - part) * Math.Log(1 - part)) : 0;
-        return (PlacementCost * (explained - maps)) - (predicted * missing);
+        get
+        {
+            var part = Predicted > 0 ? Math.Min(1, (double)Explained / Predicted) : 1;
+            var missing = part is > 0 and < 1 ? -(part * Math.Log(part)) - ((1 - part) * Math.Log(1 - part)) : 0;
+            return (PlacementCost * (Explained - Maps)) - (Predicted * missing);
+        }
     }
+
+    /// <summary>Whether it explains most of so many elements by few maps that predict few others.</summary>
+    public bool IsClear(int elements) =>
+        Explained >= ClearPart * elements && Explained >= ClearPart * Predicted && Maps <= ClearMaps * Explained;
 }

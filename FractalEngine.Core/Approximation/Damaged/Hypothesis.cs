@@ -2,44 +2,48 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Approximation.Damaged;
 
-/// <summary>Sets of maps whose products are applied to some base elements.</summary>
-/// <param name="Sets">
-/// Of a product of sets those, outermost first, each with the identity first. Of a tree only one, without the identity.
-/// </param>
-/// <param name="Depth">Of a tree the largest number of maps in a product; 0 for a product of sets.</param>
+/// <summary>Sets of maps, and a tree within the last one, whose products are applied to some base elements.</summary>
+/// <param name="Sets">The sets, outermost first, each with the identity first; possibly none.</param>
+/// <param name="Tree">The maps of the tree, without the identity; possibly none.</param>
+/// <param name="Depth">The largest number of the tree's maps in a product.</param>
 /// <param name="Bases">Class and placement of the base elements; possibly none yet.</param>
 internal sealed record Hypothesis(
-    List<List<AffineMap>> Sets, int Depth, List<(int Class, AffineMap Placement)> Bases)
+    List<List<AffineMap>> Sets, List<AffineMap> Tree, int Depth, List<(int Class, AffineMap Placement)> Bases)
 {
-    /// <summary>Number of maps, identities not counted.</summary>
-    public int MapCount => Sets.Sum(set => set.Count) - (Depth > 0 ? 0 : Sets.Count);
+    /// <summary>All maps but identities: those of sets, and then those of the tree.</summary>
+    public List<AffineMap> Maps => [.. Sets.SelectMany(set => set.Skip(1)), .. Tree];
 
-    /// <summary>Returns all products, each with the sets' maps that it is made of.</summary>
+    /// <summary>Returns the hypothesis with other maps, in the same order.</summary>
+    public Hypothesis WithMaps(List<AffineMap> maps)
+    {
+        var first = 0;
+        return this with { Sets = Sets.ConvertAll(set => (List<AffineMap>)[set[0], .. Next(set.Count - 1)]), Tree = Next(Tree.Count) };
+
+        List<AffineMap> Next(int count) => maps[first..(first += count)];
+    }
+
+    /// <summary>Returns all products, each with the indices of the maps that it is made of, outermost first.</summary>
     public List<(AffineMap Map, int[] Letters)> Words()
     {
-        var words = new List<(AffineMap, int[])> { (AffineMap.Identity, []) };
-        if (Depth == 0)
+        var maps = Maps;
+        var words = new List<(AffineMap Map, int[] Letters)> { (AffineMap.Identity, []) };
+        var first = 0;
+        foreach (var set in Sets)
         {
-            foreach (var set in Sets)
-            {
-                words = [.. words.SelectMany(word => set.Select((map, letter) => (word.Item1 * map, (int[])[.. word.Item2, letter])))];
-            }
-
-            return words;
+            words = [.. words.SelectMany(word => Append(word, first, set.Count - 1).Prepend(word))];
+            first += set.Count - 1;
         }
 
-        var first = 0;
-        for (var level = 0; level < Depth; level++)
+        var level = words;
+        for (var depth = 0; depth < Depth; depth++)
         {
-            var end = words.Count;
-            for (; first < end; first++)
-            {
-                // Letters are added in front, so that those behind are a word of the level before.
-                var (map, letters) = words[first];
-                words.AddRange(Sets[0].Select((outer, letter) => (outer * map, (int[])[letter, .. letters])));
-            }
+            level = [.. level.SelectMany(word => Append(word, first, Tree.Count))];
+            words = [.. words, .. level];
         }
 
         return words;
+
+        IEnumerable<(AffineMap Map, int[] Letters)> Append((AffineMap Map, int[] Letters) word, int start, int count) =>
+            Enumerable.Range(start, count).Select(letter => (word.Map * maps[letter], (int[])[.. word.Letters, letter]));
     }
 }

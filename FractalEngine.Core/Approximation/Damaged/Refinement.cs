@@ -7,17 +7,17 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Approximation.Damaged;
 
 /// <summary>Fits maps and base vertices to all elements that a description explains, and makes a grammar of it.</summary>
-internal sealed class Refinement(DamagedModel model, CancellationToken cancellation)
+/// <param name="model">The elements.</param>
+/// <param name="firstRelative">Tolerance of the first round in units of elements' sizes; each round halves it.</param>
+/// <param name="cancellation">Ends the work early.</param>
+internal sealed class Refinement(DamagedModel model, double firstRelative, CancellationToken cancellation)
 {
     private const int Rounds = 4;
-
-    // Tolerance of the first round in units of elements' sizes; each round halves it.
-    private const double FirstRelative = 0.3;
 
     /// <summary>Returns the grammar with fitted numbers.</summary>
     public MeshGrammar Refine(Hypothesis description)
     {
-        var relative = FirstRelative;
+        var relative = firstRelative;
         for (var round = 0; round < Rounds; round++)
         {
             cancellation.ThrowIfCancellationRequested();
@@ -27,28 +27,16 @@ internal sealed class Refinement(DamagedModel model, CancellationToken cancellat
             relative /= 2;
         }
 
-        var words = description.Words();
-        var meshes = FindElements(description, relative);
-        var mesh = MeshOf(description, words, meshes);
-        if (description.Depth > 0)
-        {
-            var maps = description.Sets[0];
-            var all = Enumerable.Range(0, maps.Count).ToArray();
-            return new([], new(maps, [.. Enumerable.Repeat(all, maps.Count + 1)], description.Depth), mesh, null);
-        }
-
-        return new([.. description.Sets.Select(set => new GrammarStep([set], 1))], null, mesh, null);
+        var all = Enumerable.Range(0, description.Tree.Count).ToArray();
+        var tree = all.Length == 0 ? null : new MapTree(description.Tree, [.. Enumerable.Repeat(all, all.Length + 1)], description.Depth);
+        return new(
+            [.. description.Sets.Select(set => new GrammarStep([set], 1))], tree, MeshOf(description, FindElements(description, relative)), null);
     }
 
     /// <summary>For each base and each word the element there, and its symmetry; null where none is.</summary>
     private (PlacedElement Element, int Symmetry)?[,] FindElements(Hypothesis description, double relative)
     {
-        var index = model.CreateIndex(relative);
-        foreach (var element in model.Elements)
-        {
-            index.Add(element.Class, element.Placement);
-        }
-
+        var index = model.CreateFullIndex(relative);
         var words = description.Words();
         var found = new (PlacedElement, int)?[description.Bases.Count, words.Count];
         for (var part = 0; part < description.Bases.Count; part++)
@@ -69,45 +57,31 @@ internal sealed class Refinement(DamagedModel model, CancellationToken cancellat
         Linear = found.Element.Placement.Linear * model.Templates[found.Element.Class].Symmetries[found.Symmetry].Map,
     };
 
+    /// <summary>Fits each map to the elements of words with it, and without it.</summary>
     private Hypothesis FitMaps(Hypothesis description, (PlacedElement Element, int Symmetry)?[,] found)
     {
         var words = description.Words();
+        var maps = description.Maps;
+        var fits = maps.ConvertAll(_ => new MapFit(model.Centre));
         var wordOf = Enumerable.Range(0, words.Count).ToDictionary(word => string.Join(',', words[word].Letters));
-        var fits = description.Sets.ConvertAll(set => set.ConvertAll(_ => new MapFit(model.Centre)));
-        for (var word = 0; word < words.Count; word++)
+        for (var to = 0; to < words.Count; to++)
         {
-            var letters = words[word].Letters;
-            if (description.Depth > 0)
-            {
-                if (letters.Length > 0)
-                {
-                    Add(0, letters[0], AffineMap.Identity, wordOf[string.Join(',', letters[1..])], word);
-                }
-
-                continue;
-            }
-
+            var letters = words[to].Letters;
             var before = AffineMap.Identity;
-            for (var set = 0; set < letters.Length; set++)
+            for (var place = 0; place < letters.Length; place++)
             {
-                var letter = letters[set];
-                if (letter > 0)
+                if (wordOf.TryGetValue(string.Join(',', letters.Where((_, other) => other != place)), out var from))
                 {
-                    int[] start = [.. letters[..set], 0, .. letters[(set + 1)..]];
-                    Add(set, letter, before, wordOf[string.Join(',', start)], word);
+                    Add(fits[letters[place]], before, from, to);
                 }
 
-                before *= description.Sets[set][letter];
+                before *= maps[letters[place]];
             }
         }
 
-        return description with
-        {
-            Sets = [.. description.Sets.Select((set, index) => set.Select(
-                (map, letter) => fits[index][letter].Solve(map)).ToList())],
-        };
+        return description.WithMaps([.. maps.Zip(fits, (map, fit) => fit.Solve(map))]);
 
-        void Add(int set, int letter, AffineMap before, int from, int to)
+        void Add(MapFit fit, AffineMap before, int from, int to)
         {
             var back = before.Inverse();
             // Noise counts less where the maps before made things smaller.
@@ -116,76 +90,69 @@ internal sealed class Refinement(DamagedModel model, CancellationToken cancellat
             {
                 if (found[part, from] is { } start && found[part, to] is { } end)
                 {
-                    fits[set][letter].Add(
-                        back * PlacementOf(start), back * PlacementOf(end), model.Templates[start.Element.Class].IsFlat, weight);
+                    fit.Add(back * PlacementOf(start), back * PlacementOf(end), model.Templates[start.Element.Class].IsFlat, weight);
                 }
             }
         }
     }
 
-    private Hypothesis FitBases(Hypothesis description, (PlacedElement Element, int Symmetry)?[,] found)
+    /// <summary>Puts each base where its images are nearest to all its elements.</summary>
+    private Hypothesis FitBases(Hypothesis description, (PlacedElement Element, int Symmetry)?[,] found) => description with
+    {
+        Bases = [.. description.Bases.Select((known, part) => (known.Class, PlacementFrom(PointsOf(
+            description, found, part, element => CornersOf(PlacementOf(element)), CornersOf(known.Placement)))))],
+    };
+
+    private static Vector[] CornersOf(AffineMap placement) =>
+        [placement.Translation, placement * Vector.I, placement * Vector.J, placement * Vector.K];
+
+    private static AffineMap PlacementFrom(Vector[] corners) =>
+        new(new(corners[1] - corners[0], corners[2] - corners[0], corners[3] - corners[0]), corners[0]);
+
+    /// <summary>The points whose images by all words are nearest to points of the elements there.</summary>
+    private static Vector[] PointsOf(
+        Hypothesis description, (PlacedElement Element, int Symmetry)?[,] found, int part,
+        Func<(PlacedElement Element, int Symmetry), Vector[]> pointsOf, Vector[] known)
     {
         var words = description.Words();
-        var bases = new List<(int, AffineMap)>();
-        for (var part = 0; part < description.Bases.Count; part++)
+        var squares = default(Matrix);
+        var sums = new Vector[known.Length];
+        for (var word = 0; word < words.Count; word++)
         {
-            var squares = default(Matrix);
-            var (centroid, linear) = (Vector.Zero, default(Matrix));
-            for (var word = 0; word < words.Count; word++)
+            if (found[part, word] is { } element)
             {
-                if (found[part, word] is { } element)
+                var transposed = words[word].Map.Linear.Transpose();
+                squares += transposed * words[word].Map.Linear;
+                var points = pointsOf(element);
+                for (var point = 0; point < sums.Length; point++)
                 {
-                    var map = words[word].Map;
-                    var transposed = map.Linear.Transpose();
-                    var placement = PlacementOf(element);
-                    squares += transposed * map.Linear;
-                    centroid += transposed * (placement.Translation - map.Translation);
-                    linear += transposed * placement.Linear;
+                    sums[point] += transposed * (points[point] - words[word].Map.Translation);
                 }
             }
-
-            var inverse = squares.Determinant() > 0 ? squares.Inverse() : Matrix.Identity;
-            bases.Add(squares.Determinant() > 0
-                ? (description.Bases[part].Class, new(inverse * linear, inverse * centroid)) : description.Bases[part]);
         }
 
-        return description with { Bases = bases };
+        return squares.Determinant() > 0 && squares.Inverse() is var inverse ? Array.ConvertAll(sums, sum => inverse * sum) : known;
     }
 
     /// <summary>The base mesh, with the vertices whose images are nearest to those of all its elements.</summary>
-    private Mesh MeshOf(
-        Hypothesis description, List<(AffineMap Map, int[] Letters)> words, (PlacedElement Element, int Symmetry)?[,] found)
+    private Mesh MeshOf(Hypothesis description, (PlacedElement Element, int Symmetry)?[,] found)
     {
         var positions = ImmutableArray.CreateBuilder<double>();
         var corners = ImmutableArray.CreateBuilder<int>();
         for (var part = 0; part < description.Bases.Count; part++)
         {
             var template = model.Templates[description.Bases[part].Class];
-            var squares = default(Matrix);
-            var sums = new Vector[template.VertexCount];
-            for (var word = 0; word < words.Count; word++)
-            {
-                if (found[part, word] is { } element)
-                {
-                    var transposed = words[word].Map.Linear.Transpose();
-                    squares += transposed * words[word].Map.Linear;
-                    for (var vertex = 0; vertex < sums.Length; vertex++)
-                    {
-                        var point = element.Element.Points[template.Symmetries[element.Symmetry].Order[vertex]];
-                        sums[vertex] += transposed * (point - words[word].Map.Translation);
-                    }
-                }
-            }
-
+            var known = template.Vertices.Select(vertex => description.Bases[part].Placement * vertex).ToArray();
             corners.AddRange(template.Corners.Select(corner => corner + (positions.Count / 3)));
-            var inverse = squares.Determinant() > 0 ? squares.Inverse() : Matrix.Identity;
-            foreach (var sum in sums)
+            foreach (var point in PointsOf(description, found, part, VerticesOf, known))
             {
-                var point = inverse * sum;
                 positions.AddRange(point.X, point.Y, point.Z);
             }
         }
 
         return new(positions.ToImmutable(), corners.ToImmutable());
+
+        Vector[] VerticesOf((PlacedElement Element, int Symmetry) element) => Array.ConvertAll(
+            model.Templates[element.Element.Class].Symmetries[element.Symmetry].Order, vertex => element.Element.Points[vertex]);
     }
 }

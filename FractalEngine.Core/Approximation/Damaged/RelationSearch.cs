@@ -1,3 +1,4 @@
+using System.Runtime.InteropServices;
 using FractalEngine.Core.Approximation.Damaged.Placements;
 using FractalEngine.Core.Maths;
 
@@ -10,7 +11,7 @@ namespace FractalEngine.Core.Approximation.Damaged;
 /// </remarks>
 internal sealed class RelationSearch(DamagedModel model, PlacementIndex set, IReadOnlyList<double> weights, CancellationToken cancellation)
 {
-    private const int MaxVotes = 400_000;
+    private const int MaxVotes = 600_000;
     private const int MaxVoted = 240;
     private const int MaxGrown = 60_000;
     private const int NeighbourCount = 12;
@@ -28,7 +29,12 @@ internal sealed class RelationSearch(DamagedModel model, PlacementIndex set, IRe
     public List<Relation> Find(double effort)
     {
         var byClass = Enumerable.Range(0, set.Count).GroupBy(member => set[member].Class)
-            .OrderByDescending(group => group.Count()).ThenBy(group => group.Key).First().ToArray();
+            .OrderByDescending(group => group.Count()).ThenBy(group => group.Key).FirstOrDefault()?.ToArray() ?? [];
+        if (byClass.Length < 2)
+        {
+            return [];
+        }
+
         var maps = model.Noise <= MaxVotingNoise * model.Diagonal ? Vote(byClass, effort) : Grow(byClass, effort);
         return [.. maps.Select(map => new Relation(map, SupportOf(map))).Where(relation => relation.Support > 0)
             .OrderByDescending(relation => relation.Support)];
@@ -46,6 +52,14 @@ internal sealed class RelationSearch(DamagedModel model, PlacementIndex set, IRe
         }
 
         return sum;
+    }
+
+    /// <summary>Returns the first maps of relations, of those that do the same only one.</summary>
+    public List<AffineMap> Distinct(IEnumerable<Relation> relations, int count)
+    {
+        var maps = new List<AffineMap>();
+        maps.AddRange(relations.Select(relation => relation.Map).Where(map => !maps.Exists(known => IsSame(known, map))).Take(count));
+        return maps;
     }
 
     /// <summary>Whether two maps take most elements that both take to elements to the same ones.</summary>
@@ -69,37 +83,33 @@ internal sealed class RelationSearch(DamagedModel model, PlacementIndex set, IRe
     private List<AffineMap> Vote(int[] members, double effort)
     {
         var symmetries = model.Templates[set[members[0]].Class].Symmetries;
-        var order = members.OrderByDescending(member => weights[member]).ToArray();
-        var perReference = Math.Max(1, symmetries.Count * order.Length);
-        var references = Math.Min(order.Length, Math.Max(8, (int)(effort * MaxVotes / perReference)));
-        var votes = new Dictionary<long, (double Count, AffineMap Map)>();
+        // The largest ones may all be foreign.
+        var random = new Random(0);
+        var order = members.OrderBy(_ => random.Next()).OrderByDescending(member => weights[member]).ToArray();
+        var references = Math.Min(order.Length, Math.Max(8, (int)(effort * MaxVotes / (symmetries.Count * order.Length))));
+        var votes = new Dictionary<long, (double Count, int From, int To, int Symmetry)>();
         for (var from = 0; from < references; from++)
         {
             cancellation.ThrowIfCancellationRequested();
-            var start = set[order[from]].Placement;
-            var back = start.Inverse();
+            var back = set[order[from]].Placement.Inverse();
             for (var to = 0; to < order.Length; to++)
             {
                 // Each pair once.
-                if (to == from || (to < from && to < references))
+                for (var symmetry = 0; symmetry < symmetries.Count && (to > from || to >= references); symmetry++)
                 {
-                    continue;
-                }
-
-                foreach (var symmetry in symmetries)
-                {
-                    var map = new AffineMap(set[order[to]].Placement.Linear * symmetry.Map, set[order[to]].Placement.Translation) * back;
-                    map = Directed(map);
-                    var key = KeyOf(map);
-                    votes.TryGetValue(key, out var known);
-                    votes[key] = (known.Count + (weights[order[from]] * weights[order[to]]), known.Count > 0 ? known.Map : map);
+                    ref var vote = ref CollectionsMarshal.GetValueRefOrAddDefault(votes, KeyOf(MapOf(back, to, symmetry)), out _);
+                    vote = (vote.Count + (weights[order[from]] * weights[order[to]]), from, to, symmetry);
                 }
             }
         }
 
         var least = 1.2 * weights.Max() * weights.Max();
-        return [.. votes.Values.Where(vote => vote.Count > least).OrderByDescending(vote => vote.Count).Take(MaxVoted)
-            .Select(vote => vote.Map)];
+        return [.. votes.Values.Where(vote => vote.Count > least).OrderByDescending(vote => vote.Count)
+            .ThenBy(vote => vote.From).ThenBy(vote => vote.To).ThenBy(vote => vote.Symmetry).Take(MaxVoted)
+            .Select(vote => MapOf(set[order[vote.From]].Placement.Inverse(), vote.To, vote.Symmetry))];
+
+        AffineMap MapOf(AffineMap back, int to, int symmetry) => Directed(
+            new AffineMap(set[order[to]].Placement.Linear * symmetries[symmetry].Map, set[order[to]].Placement.Translation) * back);
     }
 
     /// <summary>Of a map and its inverse the one that makes smaller, or else moves in the direction of an odd vector.</summary>

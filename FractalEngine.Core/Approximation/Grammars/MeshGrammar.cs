@@ -9,6 +9,11 @@ namespace FractalEngine.Core.Approximation.Grammars;
 /// <param name="Leaf">The mesh at the ends of the tree's last level; null for none.</param>
 public sealed record MeshGrammar(IReadOnlyList<GrammarStep> Steps, MapTree? Tree, Mesh Base, Mesh? Leaf)
 {
+    private const double ClearShare = 0.1;
+
+    // Maps for each image of the base.
+    private const double ClearMaps = 0.5;
+
     /// <summary>What else the steps are applied to, beside the tree or the base; possibly none.</summary>
     public IReadOnlyList<MeshGrammar> Parts { get; init; } = [];
 
@@ -20,4 +25,9 @@ public sealed record MeshGrammar(IReadOnlyList<GrammarStep> Steps, MapTree? Tree
 
     /// <summary>Whether a tree or a step with several levels is in it, so that it is more than rows and sets.</summary>
     public bool IsRecursive => Tree is not null || Steps.Any(step => step.Depth > 1) || Parts.Any(part => part.IsRecursive);
+
+    /// <summary>Whether so few faces and maps are left that they are more than a list of what a mesh consists of.</summary>
+    /// <param name="faceCount">Number of faces of the mesh.</param>
+    public bool ExplainsMost(int faceCount) =>
+        FaceCount <= ClearShare * faceCount && FaceCount * (MapCount + 1L) <= ClearMaps * faceCount;
 }

@@ -85,6 +85,15 @@ internal sealed class DamagedModel
     /// <param name="relative">Largest distance in units of the placement's size.</param>
     public PlacementIndex CreateIndex(double relative) => new(Templates, relative, 3 * Noise);
 
+    /// <summary>Makes an index of all elements, in their order.</summary>
+    /// <inheritdoc cref="CreateIndex"/>
+    public PlacementIndex CreateFullIndex(double relative)
+    {
+        var index = CreateIndex(relative);
+        Elements.ForEach(element => index.Add(element.Class, element.Placement));
+        return index;
+    }
+
     /// <summary>Elements that are connected alike, with the largest one first.</summary>
     private static IEnumerable<List<(Element Element, ElementTopology Topology)>> Groups(Mesh mesh) =>
         ElementFinder.Find(mesh, weldPositions: false)

@@ -42,8 +42,8 @@ internal sealed class ElementTemplate
     /// <summary>Indices of vertices, [faces × 3].</summary>
     public int[] Corners { get; }
 
-    /// <summary>Number of vertices of the template.</summary>
-    public int VertexCount => _vertices.Length;
+    /// <summary>The vertices, [vertices].</summary>
+    public IReadOnlyList<Vector> Vertices => _vertices;
 
     /// <summary>Whether all vertices lie in the plane z = 0.</summary>
     public bool IsFlat { get; }

@@ -9,6 +9,9 @@ internal sealed class PlacementIndex(IReadOnlyList<ElementTemplate> templates, d
     // Cells are as large as elements; a look-up must not reach beyond the next one.
     private const double MaxReach = 0.45;
 
+    // So many cells away, their numbers are no integers.
+    private const double MaxCell = 1e15;
+
     private readonly Dictionary<(int Class, int Level, long X, long Y, long Z), List<int>> _cells = [];
     private readonly List<(int Class, AffineMap Placement)> _placements = [];
 
@@ -46,7 +49,8 @@ internal sealed class PlacementIndex(IReadOnlyList<ElementTemplate> templates, d
     {
         (symmetry, error) = (-1, 1);
         var size = PlacedElement.SizeOf(placement);
-        if (!double.IsNormal(size))
+        // Places without number have no cell.
+        if (!double.IsNormal(size) || !(placement.Translation.MaxAbsComponent() < MaxCell * size))
         {
             return -1;
         }

@@ -4,23 +4,35 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Approximation.Damaged;
 
 /// <summary>
-/// Looks for products of sets among damaged elements, from the outermost set inwards: maps that take most elements to elements make a set;
+/// Looks for sets and trees among damaged elements, from the outermost set inwards: maps that take most elements to elements make a set;
 /// all elements are then folded by its inverse maps, so that what is missing in one part is filled from others, and what few maps agree on
-/// counts less.
+/// counts less. What is left at each level may be a tree.
 /// </summary>
-internal sealed class ProductHypotheses(DamagedModel model, double relativeTolerance, double effort, CancellationToken cancellation)
+/// <param name="model">The elements in their classes.</param>
+/// <param name="relative">Tolerance of what belongs to a hypothesis, in units of elements' sizes.</param>
+/// <param name="settings">Seed and effort.</param>
+/// <param name="cancellation">Ends the search early.</param>
+internal sealed class HypothesisSearch(
+    DamagedModel model, double relative, DamagedSearchSettings settings, CancellationToken cancellation)
 {
     private const int MaxLevels = 8;
+    private const int MaxTreeDepth = 10;
+    private const int MaxStartMaps = 6;
+    private const int MaxTreeMaps = 12;
     private const int MaxSet = 64;
     private const int MaxMaps = 24;
     private const int MaxCandidates = 60;
 
+    // Products of maps with more images than elements, by this factor, explain nothing.
+    private const double MaxPredicted = 8;
+
     // A set has no map whose support, with each map of it, is less than that part of what the others have on average.
-    private const double MinSupport = 0.62;
+    private const double MinSupport = 0.55;
 
     // Supports of a row fall with the number of steps, and are missing here and there.
     private const double MinRepeated = 0.3;
 
+    private const double MaxContraction = 0.99;
     private const double TranslationTolerance = 1e-3;
 
     // Maps that differ by so little, in entries and over the whole model, are one.
@@ -30,48 +42,125 @@ internal sealed class ProductHypotheses(DamagedModel model, double relativeToler
     private const double MinWeight = 0.1;
     private const int MaxFolded = 2;
 
-    /// <summary>Returns products of sets of rising length that explain the elements, without bases.</summary>
+    private readonly PlacementIndex _all = model.CreateFullIndex(relative);
+    private Explanation _best;
+
+    /// <summary>The hypothesis that explains most for what it costs, with its bases; null for none.</summary>
+    public Hypothesis? Best { get; private set; }
+
+    /// <summary>What part of the elements the best hypothesis explains.</summary>
+    public double ExplainedPart => (double)_best.Explained / _all.Count;
+
+    private bool IsClear => _best.IsClear(_all.Count);
+
+    /// <summary>Tries all ways until one explains most elements.</summary>
+    /// <param name="set">The elements, with the tolerance that maps between them are found by.</param>
+    public void Run(PlacementIndex set)
+    {
+        var weights = Enumerable.Repeat(1.0, set.Count).ToList();
+        var relations = new RelationSearch(model, set, weights, cancellation).Find(settings.Effort);
+        foreach (var (isRow, isFarFirst) in new[] { (true, false), (false, true), (false, false) })
+        {
+            if (!IsClear)
+            {
+                Run(set, weights, relations, isRow, isFarFirst);
+            }
+        }
+    }
+
+    /// <summary>Tries products of sets, and trees at each level.</summary>
     /// <param name="set">The elements.</param>
+    /// <param name="weights">What they count.</param>
     /// <param name="relations">The maps between them.</param>
     /// <param name="isRow">Whether sets may be the powers of one map.</param>
     /// <param name="isFarFirst">Whether maps count more that move farther: of equal maps those of inner sets have as much support.</param>
-    public IEnumerable<Hypothesis> Find(PlacementIndex set, List<Relation> relations, bool isRow, bool isFarFirst)
+    private void Run(PlacementIndex set, List<double> weights, List<Relation> relations, bool isRow, bool isFarFirst)
     {
-        var weights = Enumerable.Repeat(1.0, set.Count).ToList();
         var sets = new List<List<AffineMap>>();
-        while (sets.Count < MaxLevels)
+        var isWithinRows = true;
+        while (sets.Count < MaxLevels && set.Count > 1)
         {
-            cancellation.ThrowIfCancellationRequested();
+            var search = new RelationSearch(model, set, weights, cancellation);
             relations = isFarFirst ? [.. relations.Where(relation => IsTranslation(relation.Map))
                 .Select(relation => relation with { Support = relation.Support * MoveOf(relation.Map) })
                 .OrderByDescending(relation => relation.Support)] : relations;
-            var search = new RelationSearch(model, set, weights, cancellation);
             var isLast = relations.Count == 0;
+            var row = isRow && !isLast ? FindRow(search, relations) : null;
             var maps = isLast ? FindAll(search, set, weights)
-                : isRow && FindRow(search, relations) is { } row ? row
-                : FindSet(search, relations, isFarFirst ? MoveOf : static _ => 1);
-            if (maps.Count < 2)
+                : row ?? FindSet(search, relations, isFarFirst ? MoveOf : static _ => 1);
+            // Within sets that are no rows, what looks like a tree is a part of the product.
+            if (!isFarFirst && isWithinRows)
+            {
+                isWithinRows = row is not null;
+                ConsiderTrees(sets, maps, search.Distinct(relations.Where(relation => IsContraction(relation.Map)), MaxTreeMaps));
+            }
+
+            if (maps.Count < 2 || (IsClear && Best?.Tree.Count > 0))
             {
                 break;
             }
 
             sets.Add(maps);
+            Consider(new([.. sets], [], 0, []));
             if (isLast)
             {
                 break;
             }
 
             (set, weights) = Fold(set, weights, maps);
-            if (set.Count < 2)
-            {
-                break;
-            }
+            relations = new RelationSearch(model, set, weights, cancellation).Find(settings.Effort);
+        }
+    }
 
-            relations = new RelationSearch(model, set, weights, cancellation).Find(effort);
+    /// <summary>Tries trees of the maps of a set that make smaller, and of the most supported ones that do.</summary>
+    private void ConsiderTrees(List<List<AffineMap>> sets, List<AffineMap> set, List<AffineMap> supported)
+    {
+        var ofSet = set.Select(origin => set.Select(map => map * origin.Inverse()).Where(IsContraction).ToList()).MaxBy(maps => maps.Count);
+        var ofSupported = Enumerable.Range(2, MaxStartMaps).TakeWhile(count => count <= supported.Count).Select(count => supported.Take(count).ToList());
+        foreach (var maps in ofSupported.Prepend(ofSet ?? []).TakeWhile(_ => !IsClear).Where(maps => maps.Count > 1))
+        {
+            var (before, worth) = (double.NegativeInfinity, 0.0);
+            for (var depth = 2; depth <= MaxTreeDepth && worth >= before; depth++)
+            {
+                if (sets.Aggregate(Math.Pow(maps.Count, depth), (count, other) => count * other.Count) > MaxPredicted * _all.Count)
+                {
+                    break;
+                }
+
+                (before, worth) = (worth, Consider(new([.. sets], maps, depth, [])));
+            }
         }
 
-        return sets.Count == 0 ? [] : sets.Count == 1 ? [new(sets, 0, [])] : [new(sets, 0, []), new(sets[..^1], 0, [])];
+        Improve(supported);
     }
+
+    /// <summary>Leaves out or adds maps of the best tree as long as that explains more.</summary>
+    private void Improve(List<AffineMap> supported)
+    {
+        for (var worth = 0.0; _best.Worth > worth && Best is { Tree.Count: > 1 } best;)
+        {
+            worth = _best.Worth;
+            foreach (var tree in best.Tree.Select(map => best.Tree.Where(other => other != map).ToList())
+                .Concat(supported.Except(best.Tree).Select(map => (List<AffineMap>)[.. best.Tree, map])))
+            {
+                Consider(best with { Tree = tree, Bases = [] });
+            }
+        }
+    }
+
+    private double Consider(Hypothesis hypothesis)
+    {
+        var (completed, explanation) = new BaseSearch(model, _all, settings.Seed, cancellation).Complete(hypothesis);
+        // Of equal ones the last, which has most sets.
+        if (explanation.Worth >= _best.Worth && explanation.Worth > 0)
+        {
+            (Best, _best) = (completed, explanation);
+        }
+
+        return explanation.Worth;
+    }
+
+    private static bool IsContraction(AffineMap map) => Math.Abs(map.Linear.Determinant()) < MaxContraction;
 
     private static bool IsTranslation(AffineMap map) => (map.Linear - Matrix.Identity).MaxAbsEntry() < TranslationTolerance;
 
@@ -95,7 +184,8 @@ internal sealed class ProductHypotheses(DamagedModel model, double relativeToler
     /// <summary>The powers of the best relation, as far as there are any; null where even the second one hardly is.</summary>
     private List<AffineMap>? FindRow(RelationSearch search, List<Relation> relations)
     {
-        var step = relations[0].Map;
+        // A map that turns all onto itself by two steps counts each pair twice.
+        var step = relations.Select(relation => relation.Map).FirstOrDefault(map => !IsNear(map * map, AffineMap.Identity), relations[0].Map);
         var powers = new List<AffineMap> { AffineMap.Identity, step };
         var last = 1;
         for (var power = step * step; powers.Count < MaxSet && !IsNear(power, AffineMap.Identity); power = step * power)
@@ -161,7 +251,7 @@ internal sealed class ProductHypotheses(DamagedModel model, double relativeToler
     /// </summary>
     private (PlacementIndex Set, List<double> Weights) Fold(PlacementIndex set, List<double> weights, List<AffineMap> maps)
     {
-        var all = model.CreateIndex(relativeTolerance);
+        var all = model.CreateIndex(relative);
         var sources = new List<List<int>>();
         foreach (var back in maps.Select(map => map.Inverse()))
         {
@@ -180,7 +270,7 @@ internal sealed class ProductHypotheses(DamagedModel model, double relativeToler
         }
 
         var isUsed = new bool[set.Count];
-        var folded = model.CreateIndex(relativeTolerance);
+        var folded = model.CreateIndex(relative);
         var foldedWeights = new List<double>();
         var single = new List<int>();
         foreach (var candidate in Enumerable.Range(0, all.Count)
