@@ -93,13 +93,13 @@ public static class GrammarSearch
             centroid += element.Shape.Centroid / set.Count;
         }
 
-        var levels = ChainLevels.Find(MapRows.Merge(factors, length), origin, centroid, length);
+        var (steps, toBase) = ChainLevels.Find(MapRows.Merge(factors, length), origin, centroid, length);
         var bases = tree?.Base ?? [.. rest];
         return new(
-            levels.Steps, tree is null ? null : TreeOf(tree, levels.ToBase),
-            MeshOf(bases.Select(member => (set.Elements[member], levels.ToBase))),
+            steps, tree is null ? null : TreeOf(tree, toBase),
+            MeshOf(bases.Select(member => (set.Elements[member], toBase))),
             tree is null or { Leaves.Count: 0 } ? null : MeshOf(tree.Leaves.Select(
-                leaf => (set.FirstOf(leaf.Class), levels.ToBase * leaf.Placement))));
+                leaf => (set.FirstOf(leaf.Class), toBase * leaf.Placement))));
     }
 
     private static MapTree TreeOf(TreeGrammar tree, AffineMap toBase)
