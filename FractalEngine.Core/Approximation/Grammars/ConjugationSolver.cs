@@ -18,7 +18,7 @@ internal static class ConjugationSolver
     private const double NullTolerance = 1e-8;
 
     // Maps may move as they like, if only they turn and stretch little: the unit of translations among the unknowns.
-    private const double TranslationUnit = 100;
+    private const double TranslationUnit = 10_000;
 
     /// <summary>Returns the map, or null where only singular ones are found; where there is none, one that nearly does.</summary>
     /// <param name="pairs">Maps h, each with its g.</param>
