@@ -1,4 +1,3 @@
-using System.Collections.Immutable;
 using FractalEngine.Core.Approximation.Elements;
 using FractalEngine.Core.Approximation.Grammars;
 using FractalEngine.Core.Approximation.Grammars.Factors;
@@ -114,26 +113,7 @@ public static class GrammarSearch
 
     private static Mesh MeshOf(IEnumerable<(Element Element, AffineMap Map)> parts)
     {
-        var positions = ImmutableArray.CreateBuilder<double>();
-        var corners = ImmutableArray.CreateBuilder<int>();
-        foreach (var (element, map) in parts)
-        {
-            var first = positions.Count / 3;
-            foreach (var point in element.Shape.Points)
-            {
-                var image = map * point;
-                positions.AddRange(image.X, image.Y, image.Z);
-            }
-
-            // A mirror turns faces inside out.
-            var isMirrored = map.Linear.Determinant() < 0;
-            for (var corner = 0; corner < element.Corners.Length; corner++)
-            {
-                var source = isMirrored && corner % 3 > 0 ? corner + (corner % 3 == 1 ? 1 : -1) : corner;
-                corners.Add(first + element.Corners[source]);
-            }
-        }
-
-        return new(positions.ToImmutable(), corners.ToImmutable());
+        var (points, corners) = Element.Join(parts);
+        return new([.. points.SelectMany(point => new[] { point.X, point.Y, point.Z })], [.. corners]);
     }
 }
