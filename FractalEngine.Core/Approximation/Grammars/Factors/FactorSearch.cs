@@ -24,16 +24,14 @@ internal sealed class FactorSearch
 
     private readonly ElementGroup _group;
     private readonly int _reference;
-    private readonly List<AffineMap> _all;
     private readonly CancellationToken _cancellation;
     private readonly Candidate[] _order;
     private readonly AffineMap[] _closed;
 
-    private FactorSearch(ElementGroup group, int reference, List<AffineMap> maps, List<AffineMap> all, CancellationToken cancellation)
+    private FactorSearch(ElementGroup group, int reference, List<AffineMap> maps, CancellationToken cancellation)
     {
         _group = group;
         _reference = reference;
-        _all = all;
         _cancellation = cancellation;
         var sample = Spread(group.Members, SampleSize);
         var candidates = MarkFarthest(maps.ConvertAll(map => (map, sample.Count(member => group.Image(map, member) >= 0))));
@@ -47,18 +45,21 @@ internal sealed class FactorSearch
     {
         var group = new ElementGroup(set, members);
         var all = new FactorCandidates(group, reference).List();
+        var translations = all.FindAll(FactorCandidates.IsTranslation);
+        var search = new FactorSearch(group, reference, translations, cancellation);
         // Where cells are translated and turned, translations are enough to find the first cell.
-        var translating = new FactorSearch(group, reference, all.FindAll(FactorCandidates.IsTranslation), all, cancellation);
-        if (translating.Find() is { } factor)
+        if ((search.Find(translations) ?? search.Find(all)) is { } factor)
         {
             return factor;
         }
 
-        var turning = new FactorSearch(group, reference, all, all, cancellation);
-        return turning.Find() ?? translating.FindOverlapping() ?? turning.FindOverlapping() ?? turning.FindListed();
+        var turning = new FactorSearch(group, reference, all, cancellation);
+        return turning.Find(all) ?? search.FindOverlapping(translations) ?? search.FindOverlapping(all) ?? turning.FindOverlapping(all)
+            ?? turning.FindListed(all);
     }
 
-    private MapFactor? Find()
+    /// <summary>Finds a factor among some maps, of which one of the search takes the remainder to elements.</summary>
+    private MapFactor? Find(List<AffineMap> maps)
     {
         var tried = new HashSet<int>();
         var least = _group.Members.Length < MinOverlapping ? 1 : 2;
@@ -74,9 +75,9 @@ internal sealed class FactorSearch
 
             var remainder = RemainderOf(candidate);
             if (remainder.Length >= least && _group.Members.Length % remainder.Length == 0 && remainder.Length < _group.Members.Length
-                && tried.Add(HashOf(remainder)) && FactorCover.Find(_group, _all, remainder, 0) is { } maps)
+                && tried.Add(HashOf(remainder)) && FactorCover.Find(_group, maps, remainder, 0) is { } cover)
             {
-                return Make(maps, remainder);
+                return Make(cover, remainder);
             }
         }
 
@@ -84,7 +85,7 @@ internal sealed class FactorSearch
     }
 
     /// <summary>Finds a factor of which some images coincide, where sets of a fractal touch or overlap.</summary>
-    private MapFactor? FindOverlapping()
+    private MapFactor? FindOverlapping(List<AffineMap> maps)
     {
         var count = _group.Members.Length;
         foreach (var candidate in _order.Where(candidate => candidate.IsFarthest).Take(count < MinOverlapping ? 0 : MaxOverlapping))
@@ -92,9 +93,9 @@ internal sealed class FactorSearch
             _cancellation.ThrowIfCancellationRequested();
             var remainder = RemainderOf(candidate);
             if (2 * remainder.Length <= count + (count / 4) && remainder.Length > 1
-                && FactorCover.Find(_group, _all, remainder, remainder.Length / 4) is { } maps)
+                && FactorCover.Find(_group, maps, remainder, remainder.Length / 4) is { } cover)
             {
-                return Make(maps, remainder);
+                return Make(cover, remainder);
             }
         }
 
@@ -102,8 +103,8 @@ internal sealed class FactorSearch
     }
 
     /// <summary>Makes all members images of one, if they are few.</summary>
-    private MapFactor? FindListed() =>
-        _group.Members.Length <= MaxListed && FactorCover.Find(_group, _all, [_reference], 0) is { } all ? Make(all, [_reference]) : null;
+    private MapFactor? FindListed(List<AffineMap> maps) =>
+        _group.Members.Length <= MaxListed && FactorCover.Find(_group, maps, [_reference], 0) is { } all ? Make(all, [_reference]) : null;
 
     /// <summary>
     /// Adds the maps that take the remainder to itself. After each of them a map of the factor is as good as without, so that levels of
