@@ -1,4 +1,3 @@
-using System.Collections.Immutable;
 using FractalEngine.Core.Approximation.Elements;
 using FractalEngine.Core.Approximation.Grammars;
 using FractalEngine.Core.Approximation.Grammars.Factors;
@@ -93,13 +92,13 @@ public static class GrammarSearch
             centroid += element.Shape.Centroid / set.Count;
         }
 
-        var levels = ChainLevels.Find(MapRows.Merge(factors, length), origin, centroid, length);
+        var (steps, toBase) = ChainLevels.Find(MapRows.Merge(factors, length), origin, centroid, length);
         var bases = tree?.Base ?? [.. rest];
         return new(
-            levels.Steps, tree is null ? null : TreeOf(tree, levels.ToBase),
-            MeshOf(bases.Select(member => (set.Elements[member], levels.ToBase))),
+            steps, tree is null ? null : TreeOf(tree, toBase),
+            MeshOf(bases.Select(member => (set.Elements[member], toBase))),
             tree is null or { Leaves.Count: 0 } ? null : MeshOf(tree.Leaves.Select(
-                leaf => (set.FirstOf(leaf.Class), levels.ToBase * leaf.Placement))));
+                leaf => (set.FirstOf(leaf.Class), toBase * leaf.Placement))));
     }
 
     private static MapTree TreeOf(TreeGrammar tree, AffineMap toBase)
@@ -114,26 +113,7 @@ public static class GrammarSearch
 
     private static Mesh MeshOf(IEnumerable<(Element Element, AffineMap Map)> parts)
     {
-        var positions = ImmutableArray.CreateBuilder<double>();
-        var corners = ImmutableArray.CreateBuilder<int>();
-        foreach (var (element, map) in parts)
-        {
-            var first = positions.Count / 3;
-            foreach (var point in element.Shape.Points)
-            {
-                var image = map * point;
-                positions.AddRange(image.X, image.Y, image.Z);
-            }
-
-            // A mirror turns faces inside out.
-            var isMirrored = map.Linear.Determinant() < 0;
-            for (var corner = 0; corner < element.Corners.Length; corner++)
-            {
-                var source = isMirrored && corner % 3 > 0 ? corner + (corner % 3 == 1 ? 1 : -1) : corner;
-                corners.Add(first + element.Corners[source]);
-            }
-        }
-
-        return new(positions.ToImmutable(), corners.ToImmutable());
+        var (points, corners) = Element.Join(parts);
+        return new([.. points.SelectMany(point => new[] { point.X, point.Y, point.Z })], [.. corners]);
     }
 }

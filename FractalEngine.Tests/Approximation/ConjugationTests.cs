@@ -48,9 +48,9 @@ public sealed class ConjugationTests
         var to = From.ConvertAll(inner => map * inner * map.Inverse());
         to[1] *= mirror;
         Assert.Null(Find(From, to));
-        Assert.NotNull(Conjugation.Find(From, new(to, [AffineMap.Identity, mirror], []), [], Vector.Zero, 1));
+        Assert.NotNull(Conjugation.Find(From, new(to, [AffineMap.Identity, mirror], []), []));
     }
 
     private static AffineMap? Find(List<AffineMap> from, List<AffineMap> to) =>
-        Conjugation.Find(from, new(to, [AffineMap.Identity], []), [], Vector.Zero, 1);
+        Conjugation.Find(from, new(to, [AffineMap.Identity], []), []);
 }

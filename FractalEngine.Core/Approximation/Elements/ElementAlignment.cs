@@ -47,25 +47,9 @@ internal sealed class ElementAlignment
         return maps;
     }
 
-    private bool IsAlike(ElementShape other)
-    {
-        if (other.Points.Length != _shape.Points.Length || other.IsFlat != _shape.IsFlat
-            || Math.Abs(other.SecondMoment - _shape.SecondMoment) > 4 * _tolerance * _shape.SecondMoment
-            || Math.Abs(other.ThirdMoment - _shape.ThirdMoment) > 6 * _tolerance * _shape.ThirdMoment)
-        {
-            return false;
-        }
-
-        for (var rank = 0; rank < _shape.Order.Length; rank++)
-        {
-            if (!IsNear(other.Radii[other.Order[rank]], _shape.Radii[_shape.Order[rank]]))
-            {
-                return false;
-            }
-        }
-
-        return true;
-    }
+    private bool IsAlike(ElementShape other) =>
+        other.Points.Length == _shape.Points.Length && other.IsFlat == _shape.IsFlat
+        && !other.SortedRadii.Where((radius, rank) => !IsNear(radius, _shape.SortedRadii[rank])).Any();
 
     private bool IsNear(double product, double expected) => Math.Abs(product - expected) <= _tolerance * (1 + Math.Abs(expected));
 
@@ -94,30 +78,12 @@ internal sealed class ElementAlignment
 
     private IEnumerable<int> Candidates(ElementShape other, double radius)
     {
-        var largest = radius + (_tolerance * (1 + radius));
-        for (var rank = FirstRank(other, radius); rank < other.Order.Length && other.Radii[other.Order[rank]] <= largest; rank++)
+        var reach = _tolerance * (1 + radius);
+        var found = Array.BinarySearch(other.SortedRadii, radius - reach);
+        for (var rank = Math.Max(found, ~found); rank < other.Order.Length && other.SortedRadii[rank] <= radius + reach; rank++)
         {
             yield return other.Order[rank];
         }
-    }
-
-    private int FirstRank(ElementShape other, double radius)
-    {
-        var low = 0;
-        for (var high = other.Order.Length; low < high;)
-        {
-            var middle = (low + high) / 2;
-            if (other.Radii[other.Order[middle]] < radius - (_tolerance * (1 + radius)))
-            {
-                low = middle + 1;
-            }
-            else
-            {
-                high = middle;
-            }
-        }
-
-        return low;
     }
 
     private bool FitsFrame(ElementShape other, int[] chosen, int depth, int vertex)
@@ -208,29 +174,7 @@ internal sealed class ElementAlignment
         return (shape.Product(u, u) * shape.Product(v, v)) - (shape.Product(u, v) * shape.Product(u, v));
     }
 
-    private static int Rarest(ElementShape shape, double tolerance)
-    {
-        var best = shape.Order[^1];
-        var bestCount = int.MaxValue;
-        for (var start = 0; start < shape.Order.Length;)
-        {
-            var radius = shape.Radii[shape.Order[start]];
-            var end = start;
-            while (end < shape.Order.Length && shape.Radii[shape.Order[end]] <= radius + (tolerance * (1 + radius)))
-            {
-                end++;
-            }
-
-            // Vertices near the centroid fix no direction.
-            if (radius > 0.5 && end - start <= bestCount)
-            {
-                best = shape.Order[start];
-                bestCount = end - start;
-            }
-
-            start = end;
-        }
-
-        return best;
-    }
+    /// <summary>A vertex that few others are as far from the centroid as; those near to it fix no direction.</summary>
+    private static int Rarest(ElementShape shape, double tolerance) => shape.Order.Where(vertex => shape.Radii[vertex] > 0.5)
+        .GroupBy(vertex => Math.Round(Math.Log(shape.Radii[vertex]) / (4 * tolerance))).MinBy(group => group.Count())!.First();
 }

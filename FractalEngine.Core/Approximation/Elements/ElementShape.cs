@@ -24,10 +24,8 @@ internal sealed class ElementShape
         Size = size;
         Radii = [.. points.Select(point => Product(point - centroid, point - centroid))];
         Order = [.. Enumerable.Range(0, points.Length)];
-        Array.Sort([.. Radii], Order);
-        var moments = Radii.Select(radius => radius * radius).ToArray();
-        SecondMoment = moments.Average();
-        ThirdMoment = moments.Zip(Radii, (square, radius) => square * radius).Average();
+        SortedRadii = [.. Radii];
+        Array.Sort(SortedRadii, Order);
     }
 
     /// <summary>The vertices of the element, scene units.</summary>
@@ -51,11 +49,8 @@ internal sealed class ElementShape
     /// <summary>The vertices by rising radius.</summary>
     public int[] Order { get; }
 
-    /// <summary>Mean of the squared radii.</summary>
-    public double SecondMoment { get; }
-
-    /// <summary>Mean of the cubed radii.</summary>
-    public double ThirdMoment { get; }
+    /// <summary>The radii in this order.</summary>
+    public double[] SortedRadii { get; }
 
     /// <summary>Whether all vertices lie in one plane.</summary>
     public bool IsFlat => Normal != Vector.Zero;

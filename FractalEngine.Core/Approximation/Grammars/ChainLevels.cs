@@ -7,46 +7,44 @@ internal sealed class ChainLevels
 {
     private const int MaxPeriod = 3;
 
-    private readonly Vector _origin;
     private readonly Vector _centroid;
-    private readonly double _length;
     private readonly List<GrammarStep> _steps = [];
+    private AffineMap _toBase = AffineMap.Identity;
     private List<MapFactor> _rest;
 
-    private ChainLevels(List<MapFactor> factors, Vector origin, Vector centroid, double length)
+    private ChainLevels(List<MapFactor> factors, Vector centroid)
     {
         _rest = factors;
-        _origin = origin;
         _centroid = centroid;
-        _length = length;
     }
 
-    /// <summary>The map that takes what the chain was applied to, to what the steps are applied to.</summary>
-    public AffineMap ToBase { get; private set; } = AffineMap.Identity;
-
-    /// <summary>The steps, outermost first.</summary>
-    public IReadOnlyList<GrammarStep> Steps => _steps;
-
-    /// <summary>Finds the steps of a chain.</summary>
+    /// <summary>
+    /// Finds the steps of a chain, outermost first, and the map that takes what the chain was applied to, to what the steps are applied to.
+    /// </summary>
     /// <param name="factors">Its factors, outermost first.</param>
     /// <param name="origin">The centroid of the element that maps start from.</param>
     /// <param name="centroid">The mean of all elements, where the base is put if it may be anywhere.</param>
     /// <param name="length">Size of the whole, scene units.</param>
-    public static ChainLevels Find(List<MapFactor> factors, Vector origin, Vector centroid, double length)
+    public static (IReadOnlyList<GrammarStep> Steps, AffineMap ToBase) Find(
+        List<MapFactor> factors, Vector origin, Vector centroid, double length)
     {
-        var levels = new ChainLevels(Ordered(factors, length), origin, centroid, length);
+        // Around the origin, in units of the length, all entries are about 1.
+        var toUnits = new AffineMap((1 / length) * Matrix.Identity, -(1 / length) * origin);
+        var back = toUnits.Inverse();
+        var levels = new ChainLevels(Ordered(factors.ConvertAll(factor => factor.Conjugate(toUnits, back))), toUnits * centroid);
         while (levels._rest.Count > 0)
         {
             levels.TakeStep();
         }
 
-        return levels;
+        IReadOnlyList<AffineMap> ToScene(IReadOnlyList<AffineMap> set) => [.. set.Select(map => back * map * toUnits)];
+        return ([.. levels._steps.Select(step => step with { Sets = [.. step.Sets.Select(ToScene)] })], back * levels._toBase * toUnits);
     }
 
     /// <summary>Translations commute: those that move farthest come first, so that levels follow each other.</summary>
-    private static List<MapFactor> Ordered(List<MapFactor> factors, double length) => !factors.TrueForAll(IsOfTranslations)
+    private static List<MapFactor> Ordered(List<MapFactor> factors) => !factors.TrueForAll(IsOfTranslations)
         ? factors
-        : [.. factors.OrderByDescending(factor => Math.Round(Farthest(factor).Length() / length, 6))
+        : [.. factors.OrderByDescending(factor => Math.Round(Farthest(factor).Length(), 6))
             .ThenByDescending(factor => Math.Abs(Farthest(factor).X)).ThenByDescending(factor => Math.Abs(Farthest(factor).Y))];
 
     private static bool IsOfTranslations(MapFactor factor) =>
@@ -66,7 +64,7 @@ internal sealed class ChainLevels
                 .Select(pair => (pair.From.Maps[1], pair.To.Maps[1])).ToArray();
             foreach (var used in new[] { pairs.Length, 0 }.Distinct())
             {
-                if (Conjugation.Find(_rest[0].Maps, _rest[period], pairs.Take(used), ToBase * _origin, _length) is not { } map
+                if (Conjugation.Find(_rest[0].Maps, _rest[period], pairs.Take(used)) is not { } map
                     || CountBlocks(map, period) is var count && (count < 2 || count * period < bestCount * bestPeriod))
                 {
                     continue;
@@ -92,7 +90,7 @@ internal sealed class ChainLevels
         var back = best.Power(-bestCount);
         var forth = back.Inverse();
         _rest = [.. _rest[(bestPeriod * bestCount)..].Select(factor => factor.Conjugate(back, forth))];
-        ToBase = back * ToBase;
+        _toBase = back * _toBase;
     }
 
     /// <summary>Moves the base to the centroid of the whole, where the levels allow it: then numbers are often round.</summary>
@@ -106,7 +104,7 @@ internal sealed class ChainLevels
         }
 
         // The pivot p for which n times the map takes the centroid to the origin: p + Lⁿ·(centroid − p) = origin.
-        var pivot = free.Inverse() * (_origin - (power * _centroid));
+        var pivot = -(free.Inverse() * (power * _centroid));
         var centred = new AffineMap(map.Linear, pivot - (map.Linear * pivot));
         return CountBlocks(centred, period) == count ? centred : map;
     }
@@ -121,7 +119,7 @@ internal sealed class ChainLevels
         {
             for (var index = 0; index < period; index++)
             {
-                if (!Conjugation.Holds(map, block[index].Maps, _rest[(count * period) + index], ToBase * _origin, _length))
+                if (!Conjugation.Holds(map, block[index].Maps, _rest[(count * period) + index]))
                 {
                     return count;
                 }

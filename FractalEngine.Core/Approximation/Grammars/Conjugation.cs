@@ -6,62 +6,62 @@ namespace FractalEngine.Core.Approximation.Grammars;
 /// Looks for the map s with s·H·s⁻¹ = G, for two sets of maps: then both are levels of one recursion. For given pairs of maps the
 /// condition s·h = g·s is linear in s; up to three pairs fix it, and the rest is verified.
 /// </summary>
+/// <remarks>The size of all that is mapped is about 1, around the origin, so that tolerances need no units.</remarks>
 internal sealed class Conjugation
 {
-    private const int Unknowns = 13;
     private const double Tolerance = 1e-7;
     private const int MaxSolutions = 2000;
 
     private readonly List<AffineMap> _from;
     private readonly List<(AffineMap Map, int Index)> _to;
-    private readonly List<(AffineMap From, AffineMap To)> _pairs;
+    private readonly (AffineMap From, AffineMap To)[] _pairs;
     private AffineMap? _best;
     private double _bestOddity = double.PositiveInfinity;
     private int _solutions;
 
-    private Conjugation(List<AffineMap> from, MapFactor to, IEnumerable<(AffineMap From, AffineMap To)> pairs, Vector origin, double length)
+    private Conjugation(List<AffineMap> from, MapFactor to, IEnumerable<(AffineMap From, AffineMap To)> pairs)
     {
-        // Around the origin, in units of the length, all entries are about 1.
-        var toUnits = new AffineMap((1 / length) * Matrix.Identity, -(1 / length) * origin);
-        var back = toUnits.Inverse();
-        _pairs = [.. pairs.Select(pair => (toUnits * pair.From * back, toUnits * pair.To * back))];
-        _from = from.ConvertAll(map => toUnits * map * back);
-        _to = [.. to.Symmetries.SelectMany(symmetry => to.Maps.Select((map, index) => (toUnits * map * symmetry * back, index)))];
+        _from = from;
+        _to = [.. to.Symmetries.SelectMany(symmetry => to.Maps.Select((map, index) => (map * symmetry, index)))];
+        _pairs = [.. pairs];
     }
 
     /// <summary>Finds the map, or null.</summary>
     /// <param name="from">H, with the identity first.</param>
     /// <param name="to">G, as many maps, each of which may stand before a symmetry.</param>
     /// <param name="pairs">Further maps, each with the one that it becomes.</param>
-    /// <param name="origin">A point near all that is mapped.</param>
-    /// <param name="length">The size of all that is mapped, scene units.</param>
-    public static AffineMap? Find(
-        List<AffineMap> from, MapFactor to, IEnumerable<(AffineMap From, AffineMap To)> pairs, Vector origin, double length)
+    public static AffineMap? Find(List<AffineMap> from, MapFactor to, IEnumerable<(AffineMap From, AffineMap To)> pairs)
     {
         if (from.Count != to.Maps.Count)
         {
             return null;
         }
 
-        var search = new Conjugation(from, to, pairs, origin, length);
+        var search = new Conjugation(from, to, pairs);
         var frame = search.ChooseFrame();
         var all = Enumerable.Range(1, from.Count - 1).ToArray();
+        // Uniform scalings need no search, and are right where all maps are translations.
         search.Consider(new(search.ScaleOf(all, all) * Matrix.Identity, Vector.Zero));
         search.Search(frame, new int[frame.Length], 0);
-        return search._best is { } map
-            ? new AffineMap(length * Matrix.Identity, origin) * map * new AffineMap(length * Matrix.Identity, origin).Inverse()
-            : null;
+        return search._best;
     }
 
     /// <summary>Whether a map takes the first set to the second, in any order.</summary>
-    public static bool Holds(AffineMap map, List<AffineMap> from, MapFactor to, Vector origin, double length) =>
-        from.Count == to.Maps.Count && new Conjugation(from, to, [], origin, length).IsVerified(
-            new AffineMap(length * Matrix.Identity, origin).Inverse() * map * new AffineMap(length * Matrix.Identity, origin));
+    public static bool Holds(AffineMap map, List<AffineMap> from, MapFactor to) =>
+        from.Count == to.Maps.Count && new Conjugation(from, to, []).IsVerified(map);
+
+    /// <summary>How far a map is from a uniform scaling; mirrors come last.</summary>
+    public static double Oddity(AffineMap map)
+    {
+        var volume = map.Linear.Determinant();
+        var scale = Math.Cbrt(volume);
+        return volume <= 0 ? 10 : (map.Linear - (scale * Matrix.Identity)).MaxAbsEntry() / scale;
+    }
 
     /// <summary>The maps that move the origin in the most different directions, one that turns among them, which fixes a place.</summary>
     private int[] ChooseFrame()
     {
-        var moves = _from.ConvertAll(map => map * Vector.Zero);
+        var moves = _from.ConvertAll(map => map.Translation);
         var all = Enumerable.Range(1, _from.Count - 1).ToList();
         var first = all.MaxBy(index => moves[index].LengthSquared());
         var second = all.MaxBy(index => Vector.Cross(moves[index], moves[first]).LengthSquared());
@@ -81,7 +81,8 @@ internal sealed class Conjugation
         if (depth == frame.Length)
         {
             _solutions++;
-            Consider(Solve(frame, images));
+            var pairs = frame.Zip(images, (from, to) => (_from[from], _to[to].Map));
+            Consider(ConjugationSolver.Solve([.. pairs, .. _pairs], ScaleOf(frame, images)));
             return;
         }
 
@@ -102,14 +103,6 @@ internal sealed class Conjugation
         && Math.Abs(map1.Linear.Determinant() - map2.Linear.Determinant()) < 1e-6
         && Math.Abs(Trace(map1.Linear * map1.Linear) - Trace(map2.Linear * map2.Linear)) < 1e-6;
 
-    /// <summary>How far a map is from a uniform scaling; mirrors come last.</summary>
-    public static double Oddity(AffineMap map)
-    {
-        var volume = map.Linear.Determinant();
-        var scale = Math.Cbrt(volume);
-        return volume <= 0 ? 10 : (map.Linear - (scale * Matrix.Identity)).MaxAbsEntry() / scale;
-    }
-
     private void Consider(AffineMap? found)
     {
         if (found is { } map && Oddity(map) is var oddity && oddity < _bestOddity - Tolerance && IsVerified(map))
@@ -119,57 +112,12 @@ internal sealed class Conjugation
         }
     }
 
-    /// <summary>Uniform scalings need no search, and are right where all maps are translations.</summary>
     private double ScaleOf(IEnumerable<int> frame, IEnumerable<int> images)
     {
-        var before = frame.Max(index => (_from[index] * Vector.Zero).Length());
-        var after = images.Max(index => (_to[index].Map * Vector.Zero).Length());
+        var before = frame.Max(index => _from[index].Translation.Length());
+        var after = images.Max(index => _to[index].Map.Translation.Length());
         return before > 0 && after > 0 ? after / before : 1;
     }
-
-    private AffineMap? Solve(int[] frame, int[] images)
-    {
-        // Rows of s·h − g·s = 0 in the nine entries of s by columns, its translation, and 1.
-        var conditions = new double[12 * (frame.Length + _pairs.Count), Unknowns];
-        for (var index = 0; index < frame.Length; index++)
-        {
-            AddConditions(conditions, 12 * index, _from[frame[index]], _to[images[index]].Map);
-        }
-
-        for (var index = 0; index < _pairs.Count; index++)
-        {
-            AddConditions(conditions, 12 * (frame.Length + index), _pairs[index].From, _pairs[index].To);
-        }
-
-        return ConjugationSolver.Solve(conditions, ScaleOf(frame, images));
-    }
-
-    private static void AddConditions(double[,] conditions, int first, AffineMap h, AffineMap g)
-    {
-        for (var axis = 0; axis < 3; axis++)
-        {
-            for (var column = 0; column < 4; column++)
-            {
-                var row = first + (4 * axis) + column;
-                var image = column switch { 0 => h.Linear.V1, 1 => h.Linear.V2, 2 => h.Linear.V3, _ => h.Translation };
-                conditions[row, axis] += image.X;
-                conditions[row, 3 + axis] += image.Y;
-                conditions[row, 6 + axis] += image.Z;
-                for (var k = 0; k < 3; k++)
-                {
-                    conditions[row, (3 * column) + k] -= Entry(g.Linear, axis, k);
-                }
-
-                if (column == 3)
-                {
-                    conditions[row, 9 + axis] += 1;
-                    conditions[row, 12] -= g.Translation.Component(axis);
-                }
-            }
-        }
-    }
-
-    private static double Entry(Matrix m, int row, int column) => (column switch { 0 => m.V1, 1 => m.V2, _ => m.V3 }).Component(row);
 
     private bool IsVerified(AffineMap map)
     {

@@ -1,3 +1,4 @@
+using System.Runtime.InteropServices;
 using FractalEngine.Core.Approximation.Elements;
 using FractalEngine.Core.Maths;
 
@@ -14,6 +15,7 @@ namespace FractalEngine.Core.Approximation.Grammars.Factors;
 internal sealed class FactorSearch
 {
     private const int SampleSize = 192;
+    private const int MaxSymmetries = 48;
     private const int MaxListed = 256;
     private const int MaxLookUps = 4_000_000;
     // Fewer elements are rather one level.
@@ -22,127 +24,122 @@ internal sealed class FactorSearch
 
     private readonly ElementGroup _group;
     private readonly int _reference;
-    private readonly List<AffineMap> _candidates;
-    private readonly List<AffineMap> _all;
     private readonly CancellationToken _cancellation;
+    private readonly Candidate[] _order;
+    private readonly AffineMap[] _closed;
 
-    private FactorSearch(ElementGroup group, int reference, List<AffineMap> candidates, List<AffineMap> all, CancellationToken cancellation)
+    private FactorSearch(ElementGroup group, int reference, List<AffineMap> maps, CancellationToken cancellation)
     {
         _group = group;
         _reference = reference;
-        _candidates = candidates;
-        _all = all;
         _cancellation = cancellation;
+        var sample = Spread(group.Members, SampleSize);
+        var candidates = MarkFarthest(maps.ConvertAll(map => (map, sample.Count(member => group.Image(map, member) >= 0))));
+        _order = [.. candidates.Where(candidate => candidate.Support > 0 && candidate.Support < sample.Length)
+            .OrderByDescending(candidate => candidate.Support).ThenBy(candidate => FactorCandidates.Oddity(candidate.Map))];
+        _closed = [.. candidates.Where(candidate => candidate.Support == sample.Length).Select(candidate => candidate.Map)];
     }
 
     /// <summary>Finds the factor of fewest maps, or null.</summary>
     public static MapFactor? Find(ElementSet set, int[] members, int reference, CancellationToken cancellation)
     {
         var group = new ElementGroup(set, members);
-        var all = FactorCandidates.List(group, reference);
+        var all = new FactorCandidates(group, reference).List();
         var translations = all.FindAll(FactorCandidates.IsTranslation);
+        var search = new FactorSearch(group, reference, translations, cancellation);
         // Where cells are translated and turned, translations are enough to find the first cell.
-        var searches = new[] { (translations, translations), (translations, all), (all, all) }
-            .Select(lists => new FactorSearch(group, reference, lists.Item1, lists.Item2, cancellation)).ToArray();
-        return searches.Select(search => search.Find()).FirstOrDefault(factor => factor is not null)
-            ?? searches.Select(search => search.FindOverlapping() ?? search.FindListed()).FirstOrDefault(factor => factor is not null);
+        if ((search.Find(translations) ?? search.Find(all)) is { } factor)
+        {
+            return factor;
+        }
+
+        var turning = new FactorSearch(group, reference, all, cancellation);
+        return turning.Find(all) ?? search.FindOverlapping(translations) ?? search.FindOverlapping(all) ?? turning.FindOverlapping(all)
+            ?? turning.FindListed(all);
     }
 
-    private MapFactor? Find()
+    /// <summary>Finds a factor among some maps, of which one of the search takes the remainder to elements.</summary>
+    private MapFactor? Find(List<AffineMap> maps)
     {
-        var order = Ordered(out var supports, out var isFarthest);
         var tried = new HashSet<int>();
         var least = _group.Members.Length < MinOverlapping ? 1 : 2;
         var lookUps = 0L;
-        foreach (var index in order)
+        foreach (var candidate in _order)
         {
             _cancellation.ThrowIfCancellationRequested();
-            lookUps += isFarthest[index] ? 0 : _group.Members.Length;
-            if (!isFarthest[index] && lookUps > MaxLookUps)
+            lookUps += candidate.IsFarthest ? 0 : _group.Members.Length;
+            if (!candidate.IsFarthest && lookUps > MaxLookUps)
             {
                 continue;
             }
 
-            var remainder = RemainderOf(_candidates[index]);
-            if (remainder.Length < least || _group.Members.Length % remainder.Length != 0 || remainder.Length == _group.Members.Length
-                || !tried.Add(HashOf(remainder)))
+            var remainder = RemainderOf(candidate);
+            if (remainder.Length >= least && _group.Members.Length % remainder.Length == 0 && remainder.Length < _group.Members.Length
+                && tried.Add(HashOf(remainder)) && FactorCover.Find(_group, maps, remainder, 0) is { } cover)
             {
-                continue;
-            }
-
-            if (FactorCover.Find(_group, _all, remainder, 0) is { } maps)
-            {
-                return Make(maps, remainder);
+                return Make(cover, remainder);
             }
         }
 
-        var sampled = Math.Min(SampleSize, _group.Members.Length);
-        var closed = _candidates.Where((_, index) => supports[index] == sampled);
-        return FactorCircles.Find(_group, _reference, closed, _cancellation) is var (powers, rest)
-            ? Make(powers, rest) : null;
+        return new FactorCircles(_group, _reference, _cancellation).Find(_closed) is var (powers, rest) ? Make(powers, rest) : null;
     }
 
     /// <summary>Finds a factor of which some images coincide, where sets of a fractal touch or overlap.</summary>
-    private MapFactor? FindOverlapping()
+    private MapFactor? FindOverlapping(List<AffineMap> maps)
     {
-        var order = Ordered(out _, out var isFarthest);
-        foreach (var first in order.Where(index => isFarthest[index]).Take(_group.Members.Length < MinOverlapping ? 0 : MaxOverlapping))
+        var count = _group.Members.Length;
+        foreach (var candidate in _order.Where(candidate => candidate.IsFarthest).Take(count < MinOverlapping ? 0 : MaxOverlapping))
         {
             _cancellation.ThrowIfCancellationRequested();
-            var remainder = RemainderOf(_candidates[first]);
-            if (2 * remainder.Length <= _group.Members.Length + (_group.Members.Length / 4) && remainder.Length > 1
-                && FactorCover.Find(_group, _all, remainder, remainder.Length / 4) is { } maps)
+            var remainder = RemainderOf(candidate);
+            if (2 * remainder.Length <= count + (count / 4) && remainder.Length > 1
+                && FactorCover.Find(_group, maps, remainder, remainder.Length / 4) is { } cover)
             {
-                return Make(maps, remainder);
+                return Make(cover, remainder);
             }
         }
 
         return null;
     }
 
-    /// <summary>Makes all members images of one, if they are few, or if one of the maps takes only one to another.</summary>
-    private MapFactor? FindListed()
+    /// <summary>Makes all members images of one, if they are few.</summary>
+    private MapFactor? FindListed(List<AffineMap> maps) =>
+        _group.Members.Length <= MaxListed && FactorCover.Find(_group, maps, [_reference], 0) is { } all ? Make(all, [_reference]) : null;
+
+    /// <summary>
+    /// Adds the maps that take the remainder to itself. After each of them a map of the factor is as good as without, so that levels of
+    /// one recursion may differ by them; translations were chosen first, and need none.
+    /// </summary>
+    private MapFactor Make(List<AffineMap> maps, int[] remainder)
     {
-        var order = Ordered(out _, out var isFarthest);
-        return (_group.Members.Length <= MaxListed
-                || Array.Exists(order, index => isFarthest[index] && RemainderOf(_candidates[index]).Length == 1))
-            && FactorCover.Find(_group, _all, [_reference], 0) is { } all ? Make(all, [_reference]) : null;
+        var set = _group.Set;
+        var group = new ElementGroup(set, remainder);
+        var symmetries = remainder.Where(member => set.Elements[member].Class == set.Elements[_reference].Class)
+            .SelectMany(member => set.MapsBetween(_reference, member))
+            .Where(map => FactorCandidates.Oddity(map) > 1e-7 && group.IsClosedUnder(map)).Take(MaxSymmetries - 1);
+        return new(maps, [AffineMap.Identity, .. maps.TrueForAll(FactorCandidates.IsTranslation) ? [] : symmetries], remainder);
     }
 
-    private MapFactor Make(List<AffineMap> maps, int[] remainder) =>
-        new(maps, FactorSymmetries.Find(_group.Set, _reference, maps, remainder), remainder);
-
-    private int[] RemainderOf(AffineMap map) => [.. _group.Members.Where(member => _group.Image(map, member) >= 0)];
-
-    /// <summary>Orders the candidates by how many elements of a sample they take to elements, without those that do so for all.</summary>
-    private int[] Ordered(out List<int> supports, out bool[] isFarthest)
-    {
-        var sample = Spread(_group.Members, SampleSize);
-        var counts = supports = _candidates.ConvertAll(map => sample.Count(member => _group.Image(map, member) >= 0));
-        var farthest = isFarthest = FindFarthest(supports);
-        return [.. Enumerable.Range(0, counts.Count).Where(index => counts[index] > 0 && counts[index] < sample.Length)
-            .OrderByDescending(index => counts[index]).ThenBy(index => farthest[index] ? 0 : 1)
-            .ThenBy(index => FactorCandidates.Oddity(_candidates[index]))];
-    }
+    private int[] RemainderOf(Candidate candidate) => [.. _group.Members.Where(member => _group.Image(candidate.Map, member) >= 0)];
 
     /// <summary>
     /// Marks the maps that no other one outdoes in both how far they move the reference and how many elements they take to elements:
     /// the outermost factor has a map from one end to the other, which takes nothing but the remainder to elements.
     /// </summary>
-    private bool[] FindFarthest(List<int> supports)
+    private List<Candidate> MarkFarthest(List<(AffineMap Map, int Support)> maps)
     {
         var centre = _group.Set.Elements[_reference].Shape.Centroid;
-        var isFarthest = new bool[_candidates.Count];
+        var candidates = new List<Candidate>();
         var best = 0;
-        foreach (var index in Enumerable.Range(0, _candidates.Count).OrderByDescending(
-            index => ((_candidates[index] * centre) - centre).LengthSquared()).ThenByDescending(index => supports[index]))
+        foreach (var (map, support) in maps.OrderByDescending(pair => ((pair.Map * centre) - centre).LengthSquared())
+            .ThenByDescending(pair => pair.Support))
         {
             // Counts of a sample are off by about their root.
-            isFarthest[index] = supports[index] + (1.5 * Math.Sqrt(supports[index])) > best;
-            best = Math.Max(best, supports[index]);
+            candidates.Add(new(map, support, support + (1.5 * Math.Sqrt(support)) > best));
+            best = Math.Max(best, support);
         }
 
-        return isFarthest;
+        return candidates;
     }
 
     private static int[] Spread(int[] members, int count) => members.Length <= count
@@ -152,11 +149,10 @@ internal sealed class FactorSearch
     private static int HashOf(int[] members)
     {
         var hash = new HashCode();
-        foreach (var member in members)
-        {
-            hash.Add(member);
-        }
-
+        hash.AddBytes(MemoryMarshal.AsBytes<int>(members));
         return hash.ToHashCode();
     }
+
+    /// <summary>A map that may be one of the factor's, and how many elements of a sample it takes to elements.</summary>
+    private readonly record struct Candidate(AffineMap Map, int Support, bool IsFarthest);
 }

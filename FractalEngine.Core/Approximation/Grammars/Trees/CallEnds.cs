@@ -22,8 +22,12 @@ internal sealed class CallEnds
         _scene = scene;
         _expansion = expansion;
         _rules = [.. rules];
-        _isLeft = scene.FindOthers(expansion);
-        _isCovered = new bool[_isLeft.Length];
+        _isCovered = new bool[expansion.IsExplained.Length];
+        _isLeft = new bool[_isCovered.Length];
+        foreach (var member in scene.Group.Members)
+        {
+            _isLeft[member] = !expansion.IsExplained[member];
+        }
     }
 
     /// <summary>Returns calls that make the same parts, and the same leaves at all ends, as far as there are such.</summary>

@@ -3,13 +3,11 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Approximation.Grammars.Trees;
 
-/// <summary>The parts among which calls of recursives are looked for: one class of elements, and what always stands beside them.</summary>
+/// <summary>The parts among which calls of recursives are looked for: elements of one class.</summary>
 internal sealed class CallScene
 {
     private const int MaxExamined = 6000;
-    private const int MaxCompanions = 24;
 
-    private readonly int[] _companions;
     private readonly double _smallest;
 
     /// <param name="group">All elements that are to be explained.</param>
@@ -21,7 +19,6 @@ internal sealed class CallScene
         Roots = roots;
         BySize = [.. parts.OrderByDescending(SizeOf).ThenBy(part => part)];
         _smallest = SizeOf(BySize[Math.Min(BySize.Length, MaxExamined) - 1]);
-        _companions = FindCompanions();
         Symmetries = [.. FramesOf(Root).OrderBy(map => (map.Linear - Matrix.Identity).MaxAbsEntry())];
     }
 
@@ -37,7 +34,7 @@ internal sealed class CallScene
     /// <summary>Maps that take the root to each part that nothing calls, the identity first.</summary>
     public IReadOnlyList<AffineMap> Roots { get; }
 
-    /// <summary>The maps that take the root, and what stands beside it, to itself, the identity first.</summary>
+    /// <summary>The maps that take the root to itself, the identity first.</summary>
     public AffineMap[] Symmetries { get; }
 
     /// <summary>The root mean square of an element's extent.</summary>
@@ -56,47 +53,10 @@ internal sealed class CallScene
         return Group.Image(frame, Root);
     }
 
-    /// <summary>The maps that take the root to a part, and what stands beside the root to what stands beside the part.</summary>
-    public IEnumerable<AffineMap> FramesOf(int part) => Group.Set.MapsBetween(Root, part).Where(
-        map => Array.TrueForAll(_companions, companion => Group.Image(map, companion) >= 0));
+    /// <summary>The maps that take the root to a part.</summary>
+    public IEnumerable<AffineMap> FramesOf(int part) => Group.Set.MapsBetween(Root, part);
 
     /// <summary>Whether all calls of a recursive lead to parts, if it were called in a frame.</summary>
     public bool HasCalls(CallRule[] rules, int caller, AffineMap frame) =>
         Array.TrueForAll(rules, rule => rule.Caller != caller || Image(frame * rule.Map) >= 0);
-
-    /// <summary>Marks the elements that are neither parts nor stand beside one.</summary>
-    public bool[] FindOthers(CallExpansion expansion)
-    {
-        var isOther = new bool[Group.Set.Count];
-        foreach (var member in Group.Members)
-        {
-            isOther[member] = !expansion.IsExplained[member];
-        }
-
-        foreach (var part in expansion.Parts)
-        {
-            foreach (var companion in _companions)
-            {
-                if (Group.Image(part.Frame, companion) is var image && image >= 0)
-                {
-                    isOther[image] = false;
-                }
-            }
-        }
-
-        return isOther;
-    }
-
-    /// <summary>Elements of other classes near the root, of which each part has an equal one.</summary>
-    private int[] FindCompanions()
-    {
-        var elements = Group.Set.Elements;
-        var (kind, centre) = (elements[Root].Class, elements[Root].Shape.Centroid);
-        var frequent = Group.Members.GroupBy(member => elements[member].Class)
-            .Where(members => members.Key != kind && members.Count() >= BySize.Length).Select(members => members.Key).ToHashSet();
-        return [.. Group.Members.Where(member => frequent.Contains(elements[member].Class))
-            .OrderBy(member => (elements[member].Shape.Centroid - centre).LengthSquared()).ThenBy(member => member).Take(MaxCompanions)
-            .Where(member => Array.TrueForAll(
-                BySize, part => Group.Set.MapsBetween(Root, part).Any(map => Group.Image(map, member) >= 0)))];
-    }
 }

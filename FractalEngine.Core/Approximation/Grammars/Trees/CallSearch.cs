@@ -11,23 +11,16 @@ namespace FractalEngine.Core.Approximation.Grammars.Trees;
 /// The parts of a recursive must all have its calls, but on the last level: a wrong call is soon refuted. Symmetries of a part leave its
 /// frame open, so that a call is tried with each of them.
 /// </remarks>
-internal sealed class CallSearch
+/// <param name="scene">Where parts are looked for.</param>
+/// <param name="cancellation">Ends the search early.</param>
+internal sealed class CallSearch(CallScene scene, CancellationToken cancellation)
 {
     private const int MaxRules = 24;
     private const int MaxDiscrepancies = 3;
     private const int MaxChoices = 4;
     private const int MaxLookUps = 1_000_000;
 
-    private readonly CallScene _scene;
-    private readonly CancellationToken _cancellation;
-
-    private CallSearch(CallScene scene, CancellationToken cancellation)
-    {
-        _scene = scene;
-        _cancellation = cancellation;
-    }
-
-    private bool IsExhausted => _scene.LookUps > MaxLookUps;
+    private bool IsExhausted => scene.LookUps > MaxLookUps;
 
     /// <summary>Finds recursives that explain all elements of a group exactly, or null.</summary>
     /// <param name="group">The elements.</param>
@@ -66,20 +59,20 @@ internal sealed class CallSearch
         return null;
     }
 
-    private CallExpansion? Expand(CallRule[] rules, bool isWhole = false) => CallExpansion.Create(_scene, rules, isWhole);
+    private CallExpansion? Expand(CallRule[] rules, bool isWhole = false) => CallExpansion.Create(scene, rules, isWhole);
 
     /// <summary>Completes some calls; of the choices for each, so many in all may be others than the first one.</summary>
     private T? Explain<T>(CallRule[] rules, int discrepancies, Func<CallRule[], T?> describe)
         where T : class
     {
-        _cancellation.ThrowIfCancellationRequested();
+        cancellation.ThrowIfCancellationRequested();
         if (Expand(rules) is not { } expansion)
         {
             return null;
         }
 
-        var index = Array.FindIndex(_scene.BySize, part => !expansion.IsExplained[part]);
-        if (index < 0 || !_scene.IsLarge(_scene.BySize[index]))
+        var index = Array.FindIndex(scene.BySize, part => !expansion.IsExplained[part]);
+        if (index < 0 || !scene.IsLarge(scene.BySize[index]))
         {
             return rules.Length > 0 && discrepancies == 0 ? describe(rules) : null;
         }
@@ -89,7 +82,7 @@ internal sealed class CallSearch
             return null;
         }
 
-        var choices = Choices(rules, expansion, _scene.BySize[index]);
+        var choices = Choices(rules, expansion, scene.BySize[index]);
         for (var choice = 0; choice < choices.Count && choice <= discrepancies; choice++)
         {
             if (Explain(choices[choice], discrepancies - choice, describe) is { } found)
@@ -105,18 +98,18 @@ internal sealed class CallSearch
     private List<CallRule[]> Choices(CallRule[] rules, CallExpansion expansion, int next)
     {
         var choices = new List<(CallRule[] Rules, int Count, int Depth)>();
-        var place = _scene.FramesOf(next).FirstOrDefault(AffineMap.Identity);
+        var place = scene.FramesOf(next).FirstOrDefault(AffineMap.Identity);
         var seen = new HashSet<(int, int)>();
         foreach (var parent in expansion.Parts)
         {
-            if (IsExhausted || _scene.SizeOf(parent.Element) < 1.0001 * _scene.SizeOf(next))
+            if (IsExhausted || scene.SizeOf(parent.Element) < 1.0001 * scene.SizeOf(next))
             {
                 continue;
             }
 
             var call = new CallRule(parent.Recursive, parent.Frame.Inverse() * place, NextRecursive(rules));
             var first = expansion.Parts.First(part => part.Recursive == parent.Recursive);
-            var image = _scene.Image(first.Frame * call.Map);
+            var image = scene.Image(first.Frame * call.Map);
             if (image < 0 || expansion.IsExplained[image] || !seen.Add((parent.Recursive, image)))
             {
                 continue;
@@ -145,7 +138,7 @@ internal sealed class CallSearch
         for (var index = 0; index < rules.Length; index++)
         {
             if (rules[index].Called == call.Caller && FirstOf(expansion, index) is { } part
-                && !_scene.HasCalls(turned, call.Caller, part.Frame))
+                && !scene.HasCalls(turned, call.Caller, part.Frame))
             {
                 if (Symmetry(turned, call.Caller, part.Frame) is not { } symmetry)
                 {
@@ -159,7 +152,7 @@ internal sealed class CallSearch
         var first = expansion.Parts.First(part => part.Recursive == call.Caller);
         foreach (var called in turned.Select(rule => rule.Caller).Distinct().Order())
         {
-            foreach (var symmetry in _scene.Symmetries.Where(symmetry => _scene.HasCalls(turned, called, first.Frame * call.Map * symmetry))
+            foreach (var symmetry in scene.Symmetries.Where(symmetry => scene.HasCalls(turned, called, first.Frame * call.Map * symmetry))
                 .Take(MaxChoices))
             {
                 var closed = (CallRule[])turned.Clone();
@@ -200,9 +193,9 @@ internal sealed class CallSearch
 
     private AffineMap? Symmetry(CallRule[] rules, int called, AffineMap frame)
     {
-        foreach (var symmetry in _scene.Symmetries)
+        foreach (var symmetry in scene.Symmetries)
         {
-            if (_scene.HasCalls(rules, called, frame * symmetry))
+            if (scene.HasCalls(rules, called, frame * symmetry))
             {
                 return symmetry;
             }
@@ -218,7 +211,7 @@ internal sealed class CallSearch
             return null;
         }
 
-        var rules = CallEnds.Align(_scene, expansion, found);
+        var rules = CallEnds.Align(scene, expansion, found);
         var follows = new bool[rules.Length + 1, rules.Length];
         for (var last = 0; last <= rules.Length; last++)
         {
@@ -228,6 +221,6 @@ internal sealed class CallSearch
             }
         }
 
-        return new TreeLevels(_scene.Group, _scene.Root, [.. rules.Select(rule => rule.Map)], follows).Describe();
+        return new TreeLevels(scene.Group, scene.Root, [.. rules.Select(rule => rule.Map)], follows).Describe();
     }
 }

@@ -37,14 +37,7 @@ internal static class ClusterTree
 
     private static Element? Join(Element[] members, AffineMap map)
     {
-        var points = new List<Vector>();
-        var corners = new List<int>();
-        foreach (var member in members)
-        {
-            corners.AddRange(member.Corners.Select(corner => points.Count + corner));
-            points.AddRange(member.Shape.Points.Select(point => map * point));
-        }
-
-        return ElementShape.Create([.. points]) is { } shape ? new(shape, [.. corners]) : null;
+        var (points, corners) = Element.Join(members.Select(member => (member, map)));
+        return ElementShape.Create(points) is { } shape ? new(shape, corners) : null;
     }
 }

@@ -58,10 +58,12 @@ internal sealed class TreeLevels(ElementGroup group, int root, List<AffineMap> m
         return new(maps, follows, leaves.Count > 0 ? depth + 1 : depth, bases, leaves);
     }
 
-    /// <summary>Finds all products by rising length, and which maps follow which.</summary>
+    /// <summary>
+    /// Finds all products by rising length, and which maps follow which; those that lead to a part by the same last map count once.
+    /// </summary>
     private int Trace(bool[,] follows)
     {
-        var seen = new Dictionary<(int, int), List<AffineMap>>();
+        var seen = new HashSet<(int, int)>();
         _products.Add((AffineMap.Identity, maps.Count, 0));
         for (var next = 0; next < _products.Count; next++)
         {
@@ -77,7 +79,7 @@ internal sealed class TreeLevels(ElementGroup group, int root, List<AffineMap> m
                 if (image >= 0)
                 {
                     follows[last, map] = true;
-                    if (IsNew(seen, image, map, product * maps[map]))
+                    if (seen.Add((image, map)))
                     {
                         _products.Add((product * maps[map], map, level + 1));
                     }
@@ -89,31 +91,6 @@ internal sealed class TreeLevels(ElementGroup group, int root, List<AffineMap> m
     }
 
     private bool IsEnd(bool[,] follows, int map) => !Enumerable.Range(0, maps.Count).Any(next => follows[map, next]);
-
-    /// <summary>
-    /// Whether a product leads to a part in another frame, or by another last map, than those before: then other parts may follow. Where
-    /// many coincide, only those count that lead to parts that none did before.
-    /// </summary>
-    private bool IsNew(Dictionary<(int Image, int Last), List<AffineMap>> seen, int image, int last, AffineMap product)
-    {
-        var isMany = _products.Count > 2 * group.Members.Length;
-        if (isMany)
-        {
-            last = -1;
-        }
-
-        seen.TryAdd((image, -1), []);
-        seen.TryAdd((image, last), []);
-        var frames = seen[(image, last)];
-        if (isMany ? seen[(image, -1)].Count > 0 : frames.Exists(frame => MapRows.AreNear(frame, product, 1e-6, _set.Tolerance * 1e7)))
-        {
-            return false;
-        }
-
-        seen[(image, -1)].Add(product);
-        frames.Add(product);
-        return true;
-    }
 
     private bool IsRegular(bool[,] follows, int depth)
     {

@@ -11,28 +11,21 @@ namespace FractalEngine.Core.Approximation.Grammars.Trees;
 /// Where all maps make things smaller, a product is smaller than each of its factors' images of the root, so that factors are found
 /// before their products. Cost O(elements · maps) look-ups.
 /// </remarks>
-internal sealed class TreeSearch
+/// <param name="group">The elements that are to be explained.</param>
+/// <param name="cancellation">Ends the search early.</param>
+internal sealed class TreeSearch(ElementGroup group, CancellationToken cancellation)
 {
     private const int MaxClasses = 3;
     private const int MaxMaps = 40;
     private const int MaxFullMaps = 24;
     private const int SampleSize = 96;
 
-    private readonly ElementSet _set;
-    private readonly ElementGroup _group;
-    private readonly CancellationToken _cancellation;
+    private readonly ElementSet _set = group.Set;
     private readonly List<AffineMap> _maps = [];
-    private readonly Dictionary<int, AffineMap> _explained = [];
-    private readonly List<int> _explainedOrder = [];
+    private readonly List<AffineMap> _products = [];
+    private readonly HashSet<int> _explained = [];
     private int _root;
     private int[] _bySize = [];
-
-    private TreeSearch(ElementGroup group, CancellationToken cancellation)
-    {
-        _set = group.Set;
-        _group = group;
-        _cancellation = cancellation;
-    }
 
     /// <summary>Finds a tree that explains all given elements exactly, or null.</summary>
     /// <param name="set">All elements.</param>
@@ -42,8 +35,8 @@ internal sealed class TreeSearch
     public static TreeGrammar? Find(ElementSet set, int[] members, bool isFull, CancellationToken cancellation)
     {
         var whole = new ElementGroup(set, members);
-        var classes = members.GroupBy(member => set.Elements[member].Class).Where(group => group.Count() > 2)
-            .OrderByDescending(group => group.Count()).ThenBy(group => group.Key).Select(group => group.ToArray()).ToArray();
+        var classes = members.GroupBy(member => set.Elements[member].Class).Where(parts => parts.Count() > 2)
+            .OrderByDescending(parts => parts.Count()).ThenBy(parts => parts.Key).Select(parts => parts.ToArray()).ToArray();
         foreach (var parts in classes.Take(MaxClasses))
         {
             var grammar = new TreeSearch(whole, cancellation).Find(parts, isFull);
@@ -67,12 +60,12 @@ internal sealed class TreeSearch
             return null;
         }
 
-        Explain(_root, AffineMap.Identity);
+        Explain(AffineMap.Identity);
         foreach (var element in _bySize)
         {
-            _cancellation.ThrowIfCancellationRequested();
+            cancellation.ThrowIfCancellationRequested();
             // Others as large as the root belong to the base, if they are no images.
-            if (_explained.ContainsKey(element) || SizeOf(element) > 0.9999 * SizeOf(_root))
+            if (_explained.Contains(element) || SizeOf(element) > 0.9999 * SizeOf(_root))
             {
                 continue;
             }
@@ -87,7 +80,7 @@ internal sealed class TreeSearch
         }
 
         return _maps.Count > 0 && (!isFull || (_maps.Count > 1 && IsCountOfFull()))
-            ? new TreeLevels(_group, _root, _maps).Describe()
+            ? new TreeLevels(group, _root, _maps).Describe()
             : null;
     }
 
@@ -117,41 +110,32 @@ internal sealed class TreeSearch
                 _set, _root, map, part, _bySize.SkipWhile(member => SizeOf(member) > SizeOf(part))))).ToArray());
         }
 
-        return maps.MaxBy(map => sample.Count(member => _group.Image(map, member) >= 0));
+        return maps.MaxBy(map => sample.Count(member => group.Image(map, member) >= 0));
     }
 
     /// <summary>Of maps that explain as much, those come first that turn less, and mirrors last.</summary>
     private static double Oddity(AffineMap map) => Math.Round(Conjugation.Oddity(map), 9);
 
+    /// <summary>Adds a map, and all products with it.</summary>
     private void Add(AffineMap map)
     {
         _maps.Add(map);
-        foreach (var element in _explainedOrder.ToArray())
+        var known = _products.Count;
+        for (var index = 0; index < _products.Count; index++)
         {
-            Extend(_explained[element] * map);
-        }
-    }
-
-    private void Extend(AffineMap product)
-    {
-        var pending = new Stack<AffineMap>([product]);
-        while (pending.TryPop(out var next))
-        {
-            var image = _group.Image(next, _root);
-            if (image >= 0 && !_explained.ContainsKey(image))
+            // What was there before has the products with all other maps.
+            foreach (var next in index < known ? [map] : _maps)
             {
-                Explain(image, next);
-                foreach (var map in _maps)
-                {
-                    pending.Push(next * map);
-                }
+                Explain(_products[index] * next);
             }
         }
     }
 
-    private void Explain(int element, AffineMap product)
+    private void Explain(AffineMap product)
     {
-        _explained.Add(element, product);
-        _explainedOrder.Add(element);
+        if (group.Image(product, _root) is var image && image >= 0 && _explained.Add(image))
+        {
+            _products.Add(product);
+        }
     }
 }
