@@ -33,7 +33,6 @@ internal sealed class HypothesisSearch(
     private const double MinRepeated = 0.3;
 
     private const double MaxContraction = 0.99;
-    private const double TranslationTolerance = 1e-3;
 
     // Maps that differ by so little, in entries and over the whole model, are one.
     private const double NearTolerance = 3e-3;
@@ -59,39 +58,30 @@ internal sealed class HypothesisSearch(
     {
         var weights = Enumerable.Repeat(1.0, set.Count).ToList();
         var relations = new RelationSearch(model, set, weights, cancellation).Find(settings.Effort);
-        foreach (var (isRow, isFarFirst) in new[] { (true, false), (false, true), (false, false) })
+        if (Run(set, weights, relations, isRow: true) && !IsClear)
         {
-            if (!IsClear)
-            {
-                Run(set, weights, relations, isRow, isFarFirst);
-            }
+            Run(set, weights, relations, isRow: false);
         }
     }
 
-    /// <summary>Tries products of sets, and trees at each level.</summary>
+    /// <summary>Tries products of sets, and a tree within those that are rows; returns whether any set was a row.</summary>
     /// <param name="set">The elements.</param>
     /// <param name="weights">What they count.</param>
     /// <param name="relations">The maps between them.</param>
     /// <param name="isRow">Whether sets may be the powers of one map.</param>
-    /// <param name="isFarFirst">Whether maps count more that move farther: of equal maps those of inner sets have as much support.</param>
-    private void Run(PlacementIndex set, List<double> weights, List<Relation> relations, bool isRow, bool isFarFirst)
+    private bool Run(PlacementIndex set, List<double> weights, List<Relation> relations, bool isRow)
     {
         var sets = new List<List<AffineMap>>();
-        var isWithinRows = true;
+        var (hasRow, isWithinRows) = (false, true);
         while (sets.Count < MaxLevels && set.Count > 1)
         {
             var search = new RelationSearch(model, set, weights, cancellation);
-            relations = isFarFirst ? [.. relations.Where(relation => IsTranslation(relation.Map))
-                .Select(relation => relation with { Support = relation.Support * MoveOf(relation.Map) })
-                .OrderByDescending(relation => relation.Support)] : relations;
             var isLast = relations.Count == 0;
             var row = isRow && !isLast ? FindRow(search, relations) : null;
-            var maps = isLast ? FindAll(search, set, weights)
-                : row ?? FindSet(search, relations, isFarFirst ? MoveOf : static _ => 1);
-            // Within sets that are no rows, what looks like a tree is a part of the product.
-            if (!isFarFirst && isWithinRows)
+            var maps = isLast ? FindAll(search, set, weights) : row ?? FindSet(search, relations);
+            hasRow |= row is not null;
+            if (isWithinRows)
             {
-                isWithinRows = row is not null;
                 ConsiderTrees(sets, maps, search.Distinct(relations.Where(relation => IsContraction(relation.Map)), MaxTreeMaps));
             }
 
@@ -100,6 +90,8 @@ internal sealed class HypothesisSearch(
                 break;
             }
 
+            // Within sets that are no rows, what looks like a tree is a part of the product.
+            isWithinRows &= row is not null;
             sets.Add(maps);
             Consider(new([.. sets], [], 0, []));
             if (isLast)
@@ -110,6 +102,8 @@ internal sealed class HypothesisSearch(
             (set, weights) = Fold(set, weights, maps);
             relations = new RelationSearch(model, set, weights, cancellation).Find(settings.Effort);
         }
+
+        return hasRow;
     }
 
     /// <summary>Tries trees of the maps of a set that make smaller, and of the most supported ones that do.</summary>
@@ -162,10 +156,6 @@ internal sealed class HypothesisSearch(
 
     private static bool IsContraction(AffineMap map) => Math.Abs(map.Linear.Determinant()) < MaxContraction;
 
-    private static bool IsTranslation(AffineMap map) => (map.Linear - Matrix.Identity).MaxAbsEntry() < TranslationTolerance;
-
-    private double MoveOf(AffineMap map) => ((map * model.Centre) - model.Centre).Length() / model.Diagonal;
-
     /// <summary>The maps of one element to all others that are there for sure, if these are few.</summary>
     private List<AffineMap> FindAll(RelationSearch search, PlacementIndex set, List<double> weights)
     {
@@ -188,7 +178,7 @@ internal sealed class HypothesisSearch(
         var step = relations.Select(relation => relation.Map).FirstOrDefault(map => !IsNear(map * map, AffineMap.Identity), relations[0].Map);
         var powers = new List<AffineMap> { AffineMap.Identity, step };
         var last = 1;
-        for (var power = step * step; powers.Count < MaxSet && !IsNear(power, AffineMap.Identity); power = step * power)
+        for (var power = step * step; powers.Count < MaxSet && RelationSearch.CanInvert(power) && !IsNear(power, AffineMap.Identity); power = step * power)
         {
             powers.Add(power);
             last = search.SupportOf(power) > 0 ? powers.Count - 1 : last;
@@ -202,7 +192,7 @@ internal sealed class HypothesisSearch(
     }
 
     /// <summary>Adds to the best relation those that most agree with it and each other.</summary>
-    private List<AffineMap> FindSet(RelationSearch search, List<Relation> relations, Func<AffineMap, double> weightOf)
+    private List<AffineMap> FindSet(RelationSearch search, List<Relation> relations)
     {
         // What can be applied twice is a step of a row, or turns all onto itself.
         var first = relations.Find(relation =>
@@ -238,7 +228,7 @@ internal sealed class HypothesisSearch(
             for (var index = 0; index < pool.Length; index++)
             {
                 supports[index] = search.IsSame(pool[index], known) ? double.NegativeInfinity
-                    : supports[index] + (search.SupportOf(pool[index] * back) * weightOf(pool[index] * back));
+                    : supports[index] + search.SupportOf(pool[index] * back);
             }
         }
     }

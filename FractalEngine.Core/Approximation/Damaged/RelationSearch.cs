@@ -19,6 +19,7 @@ internal sealed class RelationSearch(DamagedModel model, PlacementIndex set, IRe
 
     // Maps of exact vertices agree within that part of the diagonal, over the whole model.
     private const double VoteCell = 1e-4;
+    private const double MinVolume = 1e-9;
     private const double MaxVotingNoise = 1e-6;
 
     // Hardly any two elements are level in this direction.
@@ -36,9 +37,12 @@ internal sealed class RelationSearch(DamagedModel model, PlacementIndex set, IRe
         }
 
         var maps = model.Noise <= MaxVotingNoise * model.Diagonal ? Vote(byClass, effort) : Grow(byClass, effort);
-        return [.. maps.Select(map => new Relation(map, SupportOf(map))).Where(relation => relation.Support > 0)
+        return [.. maps.Where(CanInvert).Select(map => new Relation(map, SupportOf(map))).Where(relation => relation.Support > 0)
             .OrderByDescending(relation => relation.Support)];
     }
+
+    /// <summary>Whether a map and its inverse are known well enough to use both.</summary>
+    public static bool CanInvert(AffineMap map) => Math.Abs(map.Linear.Determinant()) is > MinVolume and < 1 / MinVolume;
 
     /// <summary>Computes how many elements a map takes to others.</summary>
     public double SupportOf(AffineMap map)
