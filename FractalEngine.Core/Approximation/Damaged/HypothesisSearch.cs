@@ -128,16 +128,20 @@ internal sealed class HypothesisSearch(
         Improve(supported);
     }
 
-    /// <summary>Leaves out or adds maps of the best tree as long as that explains more.</summary>
+    /// <summary>Leaves out or adds maps or a level of the best tree as long as that explains more.</summary>
     private void Improve(List<AffineMap> supported)
     {
         for (var worth = 0.0; _best.Worth > worth && Best is { Tree.Count: > 1 } best;)
         {
             worth = _best.Worth;
-            foreach (var tree in best.Tree.Select(map => best.Tree.Where(other => other != map).ToList())
-                .Concat(supported.Except(best.Tree).Select(map => (List<AffineMap>)[.. best.Tree, map])))
+            IEnumerable<List<AffineMap>> trees =
+            [
+                .. best.Tree.Select(map => best.Tree.Where(other => other != map).ToList()),
+                .. supported.Except(best.Tree).Select(map => (List<AffineMap>)[.. best.Tree, map]),
+            ];
+            foreach (var changed in trees.Select(tree => best with { Tree = tree }).Append(best with { Depth = best.Depth + 1 }))
             {
-                Consider(best with { Tree = tree, Bases = [] });
+                Consider(changed);
             }
         }
     }
