@@ -6,6 +6,7 @@ namespace FractalEngine.Benchmarks.Approximation;
 /// <summary>Runs the command <c>approximate</c>, whose arguments are options.</summary>
 internal static class ApproximationCommand
 {
+    private const string WeightsFile = "FractalEngine.Core/Approximation/Damaged/generators.txt";
     private const int DamagedFaces = 3_000;
 
     private const string Usage = """
@@ -14,6 +15,12 @@ internal static class ApproximationCommand
           and models that repeat, which it was not written for, see Approximation/Unseen, some of them damaged. Writes to
           docs/benchmarks unless stated: approximation.csv. With 'models', what is found for the fractals of the assets, and how
           close it comes to irregular shapes: approximation-models.csv.
+        approximate train [FILE] [--quick]
+          Trains the network that ranks the maps of damaged trees, from its seeds, in minutes: the same machine writes the same bytes.
+          Writes to FractalEngine.Core/Approximation/Damaged/generators.txt unless stated.
+        approximate ranking [--quick] [--output FOLDER]
+          How often are all maps of a damaged tree among the first, ranked by votes, a score, neighbours, the network or nothing?
+          Writes approximation-ranking.csv.
         approximate samples FOLDER
           Writes models that repeat, or are damaged or irregular, as OBJ files to try it on.
         """;
@@ -28,18 +35,38 @@ internal static class ApproximationCommand
             return 0;
         }
 
-        var isOfModels = args is ["models", ..];
-        var command = isOfModels ? "approximate models" : "approximate";
-        if (TableOptions.TryParse(command, Usage, isOfModels ? args[1..] : args) is not { } options)
+        if (args is ["train", .. var rest])
+        {
+            var isQuick = rest.Contains("--quick");
+            var files = rest.ToArray().Where(word => word != "--quick").ToArray();
+            RankingTable.Train(files.Length > 0 ? files[0] : WeightsFile, isQuick ? 30 : 150);
+            return 0;
+        }
+
+        var table = args is ["models" or "ranking", ..] ? args[0] : "";
+        if (TableOptions.TryParse($"approximate {table}".Trim(), Usage, table.Length > 0 ? args[1..] : args) is not { } options)
         {
             return 2;
         }
 
-        if (isOfModels)
+        if (table == "ranking")
+        {
+            RankingTable.Write(options);
+        }
+        else if (table == "models")
         {
             ModelTable.Write(options);
-            return 0;
         }
+        else
+        {
+            WriteRates(options);
+        }
+
+        return 0;
+    }
+
+    private static void WriteRates(TableOptions options)
+    {
 
         var table = options.CreateTable(
             "approximation.csv", "kind", "faces", "damage", "cases", "found", "wrong", "median_s", "max_s",
@@ -74,7 +101,6 @@ internal static class ApproximationCommand
         }
 
         table.Save();
-        return 0;
     }
 
     private static void AddRow(CsvTable table, string kind, int? faces, Damage damage, IEnumerable<UnseenInput> inputs)

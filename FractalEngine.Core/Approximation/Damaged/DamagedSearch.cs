@@ -9,14 +9,6 @@ namespace FractalEngine.Core.Approximation.Damaged;
 /// </summary>
 public static class DamagedSearch
 {
-    // Files with seven digits have about so much noise, in diagonals.
-    private const double MinNoise = 1e-7;
-
-    // Elements are recognized where they are off by less, in units of their size.
-    private const double ExactRelative = 1e-3;
-    private const double NoisyRelative = 0.12;
-    private const double GrowingRelative = 0.3;
-
     // What noise may be where elements are tetrahedra or triangles, in diagonals.
     private const double GuessedNoise = 3e-5;
 
@@ -39,14 +31,13 @@ public static class DamagedSearch
         }
 
         var diagonal = mesh.UsedBounds.Diagonal;
-        var least = MinNoise * diagonal;
         if ((settings.Noise ?? DamagedModel.EstimateNoise(mesh, cancellation)) is { } noise)
         {
-            return Find(mesh, Math.Max(noise, least), settings, cancellation).Grammar ?? remeshed;
+            return Find(mesh, noise, settings, cancellation).Grammar ?? remeshed;
         }
 
         // Elements of few vertices don't tell whether they are noisy.
-        var exact = Find(mesh, least, settings, cancellation);
+        var exact = Find(mesh, 0, settings, cancellation);
         return exact.Part > SmallPart ? exact.Grammar
             : Find(mesh, GuessedNoise * diagonal, settings, cancellation).Grammar ?? exact.Grammar ?? remeshed;
     }
@@ -64,17 +55,8 @@ public static class DamagedSearch
         Mesh mesh, double noise, DamagedSearchSettings settings, CancellationToken cancellation)
     {
         var model = DamagedModel.Create(mesh, noise, cancellation);
-        var isExact = noise <= 10 * MinNoise * model.Diagonal;
-        var set = model.CreateFullIndex(isExact ? ExactRelative : GrowingRelative);
-        if (set.Count < 3)
-        {
-            return (null, 0);
-        }
-
-        var search = new HypothesisSearch(model, isExact ? ExactRelative : NoisyRelative, settings, cancellation);
-        search.Run(set);
-        return search.Best is { } best
-            ? (new Refinement(model, isExact ? 10 * ExactRelative : GrowingRelative, cancellation).Refine(best), search.ExplainedPart)
-            : (null, 0);
+        var search = new HypothesisSearch(model, settings, cancellation);
+        search.Run();
+        return search.Best is { } best ? (new Refinement(model, cancellation).Refine(best), search.ExplainedPart) : (null, 0);
     }
 }

@@ -9,11 +9,9 @@ namespace FractalEngine.Core.Approximation.Damaged;
 /// counts less. What is left at each level may be a tree.
 /// </summary>
 /// <param name="model">The elements in their classes.</param>
-/// <param name="relative">Tolerance of what belongs to a hypothesis, in units of elements' sizes.</param>
 /// <param name="settings">Seed and effort.</param>
 /// <param name="cancellation">Ends the search early.</param>
-internal sealed class HypothesisSearch(
-    DamagedModel model, double relative, DamagedSearchSettings settings, CancellationToken cancellation)
+internal sealed class HypothesisSearch(DamagedModel model, DamagedSearchSettings settings, CancellationToken cancellation)
 {
     private const int MaxLevels = 8;
     private const int MaxTreeDepth = 10;
@@ -41,7 +39,7 @@ internal sealed class HypothesisSearch(
     private const double MinWeight = 0.1;
     private const int MaxFolded = 2;
 
-    private readonly PlacementIndex _all = model.CreateFullIndex(relative);
+    private readonly PlacementIndex _all = model.CreateFullIndex(model.Tolerance);
     private Explanation _best;
 
     /// <summary>The hypothesis that explains most for what it costs, with its bases; null for none.</summary>
@@ -52,37 +50,44 @@ internal sealed class HypothesisSearch(
 
     private bool IsClear => _best.IsClear(_all.Count);
 
-    /// <summary>Tries all ways until one explains most elements.</summary>
-    /// <param name="set">The elements, with the tolerance that maps between them are found by.</param>
-    public void Run(PlacementIndex set)
+    /// <summary>Finds the maps between all elements that may be those of a tree, the most supported first.</summary>
+    public List<Relation> FindMapsOfTrees()
     {
-        var weights = Enumerable.Repeat(1.0, set.Count).ToList();
-        var relations = new RelationSearch(model, set, weights, cancellation).Find(settings.Effort);
-        if (Run(set, weights, relations, isRow: true) && !IsClear)
+        var search = SearchOfAll();
+        return MapsOfTrees(search, search.Find(settings.Effort));
+    }
+
+    /// <summary>Tries all ways until one explains most elements.</summary>
+    public void Run()
+    {
+        var search = SearchOfAll();
+        var relations = search.Find(settings.Effort);
+        if (Run(search, relations, isRow: true) && !IsClear)
         {
-            Run(set, weights, relations, isRow: false);
+            Run(search, relations, isRow: false);
         }
     }
 
+    private RelationSearch SearchOfAll() =>
+        new(model, model.CreateFullIndex(model.IsExact ? model.Tolerance : model.FirstTolerance), model.Elements.ConvertAll(_ => 1.0), cancellation);
+
     /// <summary>Tries products of sets, and a tree within those that are rows; returns whether any set was a row.</summary>
-    /// <param name="set">The elements.</param>
-    /// <param name="weights">What they count.</param>
+    /// <param name="search">The elements.</param>
     /// <param name="relations">The maps between them.</param>
     /// <param name="isRow">Whether sets may be the powers of one map.</param>
-    private bool Run(PlacementIndex set, List<double> weights, List<Relation> relations, bool isRow)
+    private bool Run(RelationSearch search, List<Relation> relations, bool isRow)
     {
         var sets = new List<List<AffineMap>>();
         var (hasRow, isWithinRows) = (false, true);
-        while (sets.Count < MaxLevels && set.Count > 1)
+        while (sets.Count < MaxLevels && search.Set.Count > 1)
         {
-            var search = new RelationSearch(model, set, weights, cancellation);
             var isLast = relations.Count == 0;
             var row = isRow && !isLast ? FindRow(search, relations) : null;
-            var maps = isLast ? FindAll(search, set, weights) : row ?? FindSet(search, relations);
+            var maps = isLast ? FindAll(search) : row ?? FindSet(search, relations);
             hasRow |= row is not null;
             if (isWithinRows)
             {
-                ConsiderTrees(sets, maps, search.Distinct(relations.Where(relation => IsContraction(relation.Map)), MaxTreeMaps));
+                ConsiderTrees(sets, maps, [.. GeneratorRanking.Rank(MapsOfTrees(search, relations), model).Take(MaxTreeMaps)]);
             }
 
             if (maps.Count < 2 || (IsClear && Best?.Tree.Count > 0))
@@ -99,8 +104,8 @@ internal sealed class HypothesisSearch(
                 break;
             }
 
-            (set, weights) = Fold(set, weights, maps);
-            relations = new RelationSearch(model, set, weights, cancellation).Find(settings.Effort);
+            search = Fold(search, maps);
+            relations = search.Find(settings.Effort);
         }
 
         return hasRow;
@@ -158,11 +163,15 @@ internal sealed class HypothesisSearch(
         return explanation.Worth;
     }
 
+    private static List<Relation> MapsOfTrees(RelationSearch search, List<Relation> relations) =>
+        search.Distinct(relations.Where(relation => IsContraction(relation.Map)), GeneratorRanking.MaxMaps);
+
     private static bool IsContraction(AffineMap map) => Math.Abs(map.Linear.Determinant()) < MaxContraction;
 
     /// <summary>The maps of one element to all others that are there for sure, if these are few.</summary>
-    private List<AffineMap> FindAll(RelationSearch search, PlacementIndex set, List<double> weights)
+    private List<AffineMap> FindAll(RelationSearch search)
     {
+        var (set, weights) = (search.Set, search.Weights);
         var members = Enumerable.Range(0, set.Count).Where(member => weights[member] >= 1).GroupBy(member => set[member].Class)
             .OrderByDescending(group => group.Count()).ThenBy(group => group.Key).FirstOrDefault()?.ToArray() ?? [];
         if (members.Length is < 2 or > MaxSet)
@@ -243,9 +252,10 @@ internal sealed class HypothesisSearch(
     /// <summary>
     /// Folds elements by the inverses of maps. What several elements are folded to is there; of the others each may be there by one map.
     /// </summary>
-    private (PlacementIndex Set, List<double> Weights) Fold(PlacementIndex set, List<double> weights, List<AffineMap> maps)
+    private RelationSearch Fold(RelationSearch search, List<AffineMap> maps)
     {
-        var all = model.CreateIndex(relative);
+        var (set, weights) = (search.Set, search.Weights);
+        var all = model.CreateIndex(model.Tolerance);
         var sources = new List<List<int>>();
         foreach (var back in maps.Select(map => map.Inverse()))
         {
@@ -264,7 +274,7 @@ internal sealed class HypothesisSearch(
         }
 
         var isUsed = new bool[set.Count];
-        var folded = model.CreateIndex(relative);
+        var folded = model.CreateIndex(model.Tolerance);
         var foldedWeights = new List<double>();
         var single = new List<int>();
         foreach (var candidate in Enumerable.Range(0, all.Count)
@@ -290,7 +300,7 @@ internal sealed class HypothesisSearch(
             foldedWeights.Add(Weight(candidate));
         }
 
-        return (folded, foldedWeights);
+        return new(model, folded, foldedWeights, cancellation);
 
         double Weight(int candidate) => sources[candidate].Where(member => !isUsed[member]).Sum(member => weights[member]) / maps.Count;
     }

@@ -7,17 +7,15 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Approximation.Damaged;
 
 /// <summary>Fits maps and base vertices to all elements that a description explains, and makes a grammar of it.</summary>
-/// <param name="model">The elements.</param>
-/// <param name="firstRelative">Tolerance of the first round in units of elements' sizes; each round halves it.</param>
-/// <param name="cancellation">Ends the work early.</param>
-internal sealed class Refinement(DamagedModel model, double firstRelative, CancellationToken cancellation)
+internal sealed class Refinement(DamagedModel model, CancellationToken cancellation)
 {
     private const int Rounds = 4;
 
     /// <summary>Returns the grammar with fitted numbers.</summary>
     public MeshGrammar Refine(Hypothesis description)
     {
-        var relative = firstRelative;
+        // Each round halves it.
+        var relative = model.FirstTolerance;
         for (var round = 0; round < Rounds; round++)
         {
             cancellation.ThrowIfCancellationRequested();

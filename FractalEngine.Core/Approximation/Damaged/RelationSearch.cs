@@ -25,6 +25,12 @@ internal sealed class RelationSearch(DamagedModel model, PlacementIndex set, IRe
     // Hardly any two elements are level in this direction.
     private static readonly Vector OddVector = new(0.6180339887, 0.5436890127, 0.4655712319);
 
+    /// <summary>The elements.</summary>
+    public PlacementIndex Set => set;
+
+    /// <summary>What each element counts.</summary>
+    public IReadOnlyList<double> Weights => weights;
+
     /// <summary>Returns relations with a support of at least two elements, the best first.</summary>
     /// <param name="effort">Budget, 1 unless stated.</param>
     public List<Relation> Find(double effort)
@@ -58,12 +64,12 @@ internal sealed class RelationSearch(DamagedModel model, PlacementIndex set, IRe
         return sum;
     }
 
-    /// <summary>Returns the first maps of relations, of those that do the same only one.</summary>
-    public List<AffineMap> Distinct(IEnumerable<Relation> relations, int count)
+    /// <summary>Returns the first relations, of those that do the same only one.</summary>
+    public List<Relation> Distinct(IEnumerable<Relation> relations, int count)
     {
-        var maps = new List<AffineMap>();
-        maps.AddRange(relations.Select(relation => relation.Map).Where(map => !maps.Exists(known => IsSame(known, map))).Take(count));
-        return maps;
+        var distinct = new List<Relation>();
+        distinct.AddRange(relations.Where(relation => !distinct.Exists(known => IsSame(known.Map, relation.Map))).Take(count));
+        return distinct;
     }
 
     /// <summary>Whether two maps take most elements that both take to elements to the same ones.</summary>

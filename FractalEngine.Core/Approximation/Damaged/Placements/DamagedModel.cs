@@ -13,15 +13,28 @@ internal sealed class DamagedModel
     // Within this part of their size elements of unknown noise count as images of a template.
     private const double MaxNoiseOfSize = 0.1;
 
+    // Files with seven digits have about so much noise, in diagonals.
+    private const double MinNoise = 1e-7;
+
     private DamagedModel(Mesh mesh, double noise)
     {
-        Noise = noise;
         Diagonal = mesh.UsedBounds.Diagonal;
+        Noise = Math.Max(noise, MinNoise * Diagonal);
+        IsExact = Noise <= 10 * MinNoise * Diagonal;
         Centre = mesh.UsedBounds.Centre;
     }
 
     /// <summary>How far vertices may be from where they belong, scene units.</summary>
     public double Noise { get; }
+
+    /// <summary>Whether there is no more noise than the digits of files explain.</summary>
+    public bool IsExact { get; }
+
+    /// <summary>How far an element that belongs to a hypothesis may be off, in units of its size.</summary>
+    public double Tolerance => IsExact ? 1e-3 : 0.12;
+
+    /// <summary>How far it may be off while maps are not fitted yet, in units of its size.</summary>
+    public double FirstTolerance => IsExact ? 1e-2 : 0.3;
 
     /// <summary>The diagonal of the mesh, scene units.</summary>
     public double Diagonal { get; }
@@ -37,7 +50,7 @@ internal sealed class DamagedModel
 
     /// <summary>Sorts the elements of a mesh into classes.</summary>
     /// <param name="mesh">The mesh.</param>
-    /// <param name="noise">How far vertices may be from where they belong, scene units; above 0.</param>
+    /// <param name="noise">How far vertices may be from where they belong, scene units.</param>
     /// <param name="cancellation">Ends the work early.</param>
     public static DamagedModel Create(Mesh mesh, double noise, CancellationToken cancellation)
     {
