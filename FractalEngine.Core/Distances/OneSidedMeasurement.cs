@@ -56,12 +56,12 @@ internal sealed class OneSidedMeasurement(Mesh mesh, TargetSurface target, Surfa
         return sums;
     }
 
-    /// <summary>Bounds the distance of a face by that of the face closest to one of its corners.</summary>
+    /// <summary>Bounds the distance of a face by the best of the faces closest to its corners.</summary>
     private (SurfacePiece Piece, double UpperBound) BoundFace(int face)
     {
         var (a, b, c) = mesh.Face(face);
         var piece = new SurfacePiece([a, b, c]);
-        return (piece, piece.UpperBound(target, Corner(3 * face).Face));
+        return (piece, Enumerable.Range(3 * face, 3).Min(index => piece.UpperBound(target, Corner(index).Face)));
     }
 
     private SurfacePoint Corner(int index) => _vertices[mesh.VertexIndices[index]];

@@ -13,8 +13,8 @@ internal static class CollapseRules
     /// <param name="star2">Star of the other end.</param>
     /// <remarks>
     /// This is the link condition of T. Dey, H. Edelsbrunner, S. Guha and D. Nekhayev ("Topology preserving edge contraction", 1999): the
-    /// ends have no neighbours in common but those across the faces of the edge, and others beside them; within a surface, they are not both
-    /// at the border. An edge of more than two faces has no topology that is worth keeping.
+    /// ends have no neighbours in common but those across the faces of the edge, and others beside them; within a surface, they are not
+    /// both at the border. An edge of more than two faces has no topology that is worth keeping.
     /// </remarks>
     public static bool KeepsTopology(VertexStar star1, VertexStar star2)
     {

@@ -6,7 +6,7 @@ internal sealed class VertexStar(VertexStars stars)
 {
     private readonly int[] _faceCounts = new int[stars.VertexCount];
 
-    /// <summary>The vertex.</summary>
+    /// <summary>The vertex that was loaded last.</summary>
     public int Vertex { get; private set; }
 
     /// <summary>Its corners of all faces that are left.</summary>

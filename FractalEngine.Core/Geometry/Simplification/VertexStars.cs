@@ -12,7 +12,8 @@ internal sealed class VertexStars
     private readonly HashSet<(int, int)> _others = [];
 
     /// <summary>
-    /// Collects the corners of faces. Those without three different vertices are removed, and of those with the same three all but the first.
+    /// Collects the corners of faces. Those without three different vertices are removed, and of those with the same three all but the
+    /// first.
     /// </summary>
     /// <param name="vertices">Vertex of each corner, [faces × 3]; kept and changed.</param>
     /// <param name="vertexCount">Number of vertices.</param>
