@@ -1,4 +1,5 @@
 using System.Text.Json;
+using System.Text.Json.Serialization;
 using FractalEngine.Core.Distances;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Parsing.Approximation;
@@ -11,7 +12,11 @@ namespace FractalEngine.App.Approximation;
 /// <param name="result">What was found, and measured.</param>
 internal sealed class ApproximationText(Mesh mesh, ApproximationResult result)
 {
-    private static readonly JsonSerializerOptions JsonOptions = new() { WriteIndented = true };
+    private static readonly JsonSerializerOptions JsonOptions = new()
+    {
+        WriteIndented = true,
+        Converters = { new JsonStringEnumConverter(JsonNamingPolicy.CamelCase) },
+    };
 
     /// <summary>How far the mesh and the fractal are apart, as parts of the diagonal.</summary>
     public string Distances => Describe(result.Distance);
@@ -48,19 +53,8 @@ internal sealed class ApproximationText(Mesh mesh, ApproximationResult result)
     public string ToJson(ApproximationEnd end) => JsonSerializer.Serialize(
         new
         {
-            verdict = result.Verdict switch
-            {
-                ApproximationVerdict.Exact => "exact",
-                ApproximationVerdict.Repeats => "repeats",
-                ApproximationVerdict.Approximate => "approximate",
-                _ => "no fractal",
-            },
-            endedBy = end switch
-            {
-                ApproximationEnd.Search => "search",
-                ApproximationEnd.Time => "time",
-                _ => "interruption",
-            },
+            verdict = result.Verdict,
+            endedBy = end,
             faces = mesh.FaceCount,
             facesLeft = result.Grammar.FaceCount,
             facesMade = result.Made.FaceCount,

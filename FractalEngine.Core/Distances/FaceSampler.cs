@@ -16,8 +16,7 @@ internal sealed class FaceSampler(Mesh mesh, TargetSurface target, int samples)
     /// <param name="a">Its first corner.</param>
     /// <param name="b">Its second corner.</param>
     /// <param name="c">Its third corner.</param>
-    /// <param name="upperBound">An upper bound of the distance of all its points.</param>
-    public SampleSums Sample(SurfacePoint a, SurfacePoint b, SurfacePoint c, out double upperBound)
+    public SampleSums Sample(SurfacePoint a, SurfacePoint b, SurfacePoint c)
     {
         var (ab, ac) = (b.Position - a.Position, c.Position - a.Position);
         var normal = TriangleKernel.UnitNormal(a.Position, b.Position, c.Position);
@@ -26,8 +25,6 @@ internal sealed class FaceSampler(Mesh mesh, TargetSurface target, int samples)
         var divisions = Math.Max(1, (int)Math.Sqrt(samples * (_area > 0 ? weight / _area : 0)));
         var sums = new SampleSums(a, weight, 0, 0, 0);
         weight /= (double)divisions * divisions;
-        var piece = new SurfacePiece([a.Position, b.Position, c.Position]);
-        var bound = piece.UpperBound(target, a.Face);
         var hint = a.Face;
         var row = MeasureRow(0);
         for (var v = 0; v < divisions; v++)
@@ -45,7 +42,6 @@ internal sealed class FaceSampler(Mesh mesh, TargetSurface target, int samples)
             row = nextRow;
         }
 
-        upperBound = bound;
         return sums;
 
         double[] MeasureRow(int v)
@@ -63,12 +59,7 @@ internal sealed class FaceSampler(Mesh mesh, TargetSurface target, int samples)
         {
             var point = target.Measure(a.Position + (u / divisions * ab) + (v / divisions * ac), hint);
             sums += new SampleSums(point, 0, 0, 0, 0);
-            if (point.Face != hint)
-            {
-                hint = point.Face;
-                bound = Math.Min(bound, piece.UpperBound(target, hint));
-            }
-
+            hint = point.Face;
             return point;
         }
 

@@ -1,5 +1,3 @@
-using FractalEngine.Core.Geometry;
-
 namespace FractalEngine.Core.Distances;
 
 /// <summary>
@@ -10,19 +8,17 @@ namespace FractalEngine.Core.Distances;
 /// Pieces are divided in rounds of a fixed size. A round begins with one limit and ends in the order of the pieces, so the result doesn't
 /// depend on threads.
 /// </remarks>
-/// <param name="mesh">The surface.</param>
 /// <param name="target">The surface that distances are measured to.</param>
 /// <param name="loop">The threads.</param>
 /// <param name="farthest">The farthest point that is known.</param>
 /// <param name="tolerance">Difference of the bounds at which to end, as a part of the distance.</param>
 /// <param name="resolution">Difference of the bounds at which to end in any case, scene units.</param>
 internal sealed class MaxDistanceSearch(
-    Mesh mesh, TargetSurface target, BlockLoop loop, SurfacePoint farthest, double tolerance, double resolution)
+    TargetSurface target, BlockLoop loop, SurfacePoint farthest, double tolerance, double resolution)
 {
     private const int PiecesPerRound = 256;
 
-    // Whole faces are made pieces when it is their turn.
-    private readonly PriorityQueue<(int Face, SurfacePiece? Piece), double> _queue = new();
+    private readonly PriorityQueue<SurfacePiece, double> _queue = new();
     private double _closedBound;
 
     /// <summary>The farthest point so far: its distance is a lower bound.</summary>
@@ -36,14 +32,11 @@ internal sealed class MaxDistanceSearch(
     private double Limit => Farthest.Distance + Math.Max(tolerance * Farthest.Distance, resolution);
 
     /// <summary>Divides pieces until the bounds are close.</summary>
-    /// <param name="upperBounds">An upper bound of each face.</param>
+    /// <param name="faces">All faces, and an upper bound of each.</param>
     /// <param name="maxDivisions">Maximum number of pieces that are divided.</param>
-    public void Run(ReadOnlySpan<double> upperBounds, int maxDivisions)
+    public void Run(IEnumerable<(SurfacePiece Piece, double UpperBound)> faces, int maxDivisions)
     {
-        for (var face = 0; face < upperBounds.Length; face++)
-        {
-            Add(face, null, upperBounds[face]);
-        }
+        Add(faces);
 
         List<(SurfacePiece Piece, double UpperBound)> round = [];
         for (var left = maxDivisions; left > 0 && _queue.Count > 0; left -= round.Count)
@@ -53,10 +46,7 @@ internal sealed class MaxDistanceSearch(
             foreach (var (centre, parts) in loop.For(round.Count, (i, _) => Divide(round[i].Piece, round[i].UpperBound, limit)))
             {
                 Farthest = SurfacePoint.Farther(Farthest, centre);
-                foreach (var (part, upperBound) in parts)
-                {
-                    Add(-1, part, upperBound);
-                }
+                Add(parts);
             }
         }
     }
@@ -65,7 +55,7 @@ internal sealed class MaxDistanceSearch(
     private void TakeRound(List<(SurfacePiece Piece, double UpperBound)> round, int maxCount)
     {
         round.Clear();
-        while (round.Count < maxCount && _queue.TryDequeue(out var entry, out var priority))
+        while (round.Count < maxCount && _queue.TryDequeue(out var piece, out var priority))
         {
             if (!IsOpen(-priority))
             {
@@ -74,21 +64,18 @@ internal sealed class MaxDistanceSearch(
                 return;
             }
 
-            round.Add((entry.Piece ?? FaceOf(entry.Face), -priority));
+            round.Add((piece, -priority));
         }
     }
 
-    private SurfacePiece FaceOf(int face)
+    private void Add(IEnumerable<(SurfacePiece Piece, double UpperBound)> pieces)
     {
-        var (a, b, c) = mesh.Face(face);
-        return new([a, b, c]);
-    }
-
-    private void Add(int face, SurfacePiece? piece, double upperBound)
-    {
-        if (IsOpen(upperBound))
+        foreach (var (piece, upperBound) in pieces)
         {
-            _queue.Enqueue((face, piece), -upperBound);
+            if (IsOpen(upperBound))
+            {
+                _queue.Enqueue(piece, -upperBound);
+            }
         }
     }
 

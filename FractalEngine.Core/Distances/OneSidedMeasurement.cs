@@ -9,9 +9,7 @@ namespace FractalEngine.Core.Distances;
 /// <param name="loop">The threads.</param>
 internal sealed class OneSidedMeasurement(Mesh mesh, TargetSurface target, SurfaceDistanceSettings settings, BlockLoop loop)
 {
-    // What is closest to the vertices. Their positions are those of the mesh.
-    private readonly double[] _distances = new double[mesh.VertexCount];
-    private readonly int[] _faces = new int[mesh.VertexCount];
+    private readonly SurfacePoint[] _vertices = new SurfacePoint[mesh.VertexCount];
 
     /// <summary>Measures all of the surface.</summary>
     /// <param name="resolution">Difference of the bounds at which the search ends in any case, scene units.</param>
@@ -19,12 +17,11 @@ internal sealed class OneSidedMeasurement(Mesh mesh, TargetSurface target, Surfa
     public OneSidedDistance Run(double resolution, double rounding)
     {
         loop.For(mesh.VertexCount, MeasureVertices);
-        var upperBounds = new double[mesh.FaceCount];
         var sampler = new FaceSampler(mesh, target, settings.Samples);
-        var sums = loop.For(mesh.FaceCount, (start, end) => SampleFaces(sampler, start, end, upperBounds))
+        var sums = loop.For(mesh.FaceCount, (start, end) => SampleFaces(sampler, start, end))
             .Aggregate((sums1, sums2) => sums1 + sums2);
-        var search = new MaxDistanceSearch(mesh, target, loop, sums.Farthest, settings.Tolerance, resolution);
-        search.Run(upperBounds, settings.MaxDivisions);
+        var search = new MaxDistanceSearch(target, loop, sums.Farthest, settings.Tolerance, resolution);
+        search.Run(Enumerable.Range(0, mesh.FaceCount).Select(BoundFace), settings.MaxDivisions);
         var farthest = search.Farthest;
         var bounds = new DistanceInterval(Math.Max(0, farthest.Distance - rounding), search.UpperBound + rounding);
         return new(
@@ -41,27 +38,31 @@ internal sealed class OneSidedMeasurement(Mesh mesh, TargetSurface target, Surfa
         var hint = 0;
         for (var vertex = start; vertex < end; vertex++)
         {
-            (_, _distances[vertex], hint) = target.Measure(mesh.Vertex(vertex), hint);
-            _faces[vertex] = hint;
+            _vertices[vertex] = target.Measure(mesh.Vertex(vertex), hint);
+            hint = _vertices[vertex].Face;
         }
 
         return end;
     }
 
-    private SampleSums SampleFaces(FaceSampler sampler, int start, int end, double[] upperBounds)
+    private SampleSums SampleFaces(FaceSampler sampler, int start, int end)
     {
         var sums = new SampleSums(Corner(3 * start), 0, 0, 0, 0);
         for (var face = start; face < end; face++)
         {
-            sums += sampler.Sample(Corner(3 * face), Corner((3 * face) + 1), Corner((3 * face) + 2), out upperBounds[face]);
+            sums += sampler.Sample(Corner(3 * face), Corner((3 * face) + 1), Corner((3 * face) + 2));
         }
 
         return sums;
     }
 
-    private SurfacePoint Corner(int index)
+    /// <summary>Bounds the distance of a face by the best of the faces closest to its corners.</summary>
+    private (SurfacePiece Piece, double UpperBound) BoundFace(int face)
     {
-        var vertex = mesh.VertexIndices[index];
-        return new(mesh.Vertex(vertex), _distances[vertex], _faces[vertex]);
+        var (a, b, c) = mesh.Face(face);
+        var piece = new SurfacePiece([a, b, c]);
+        return (piece, Enumerable.Range(3 * face, 3).Min(index => piece.UpperBound(target, Corner(index).Face)));
     }
+
+    private SurfacePoint Corner(int index) => _vertices[mesh.VertexIndices[index]];
 }

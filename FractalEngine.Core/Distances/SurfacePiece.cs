@@ -13,19 +13,7 @@ internal readonly record struct SurfacePiece(Vector[] Corners)
     private const double MinOverlap = 0.05;
 
     /// <summary>The mean of the corners, which is a point of the piece.</summary>
-    public Vector Centre
-    {
-        get
-        {
-            var sum = Vector.Zero;
-            foreach (var corner in Corners)
-            {
-                sum += corner;
-            }
-
-            return sum / Corners.Length;
-        }
-    }
+    public Vector Centre => Vector.Mean(Corners);
 
     /// <summary>Computes an upper bound of the distance of all points by one face of the other surface.</summary>
     public double UpperBound(TargetSurface target, int face)
@@ -80,6 +68,30 @@ internal readonly record struct SurfacePiece(Vector[] Corners)
         return parts;
     }
 
+    /// <summary>Splits the piece along a plane.</summary>
+    /// <param name="heights">Of each corner above the plane.</param>
+    /// <returns>What is above the plane, and what is not.</returns>
+    public (SurfacePiece Front, SurfacePiece Back) Split(double[] heights)
+    {
+        List<Vector> front = [];
+        List<Vector> back = [];
+        for (var i = 0; i < heights.Length; i++)
+        {
+            var next = (i + 1) % heights.Length;
+            (heights[i] > 0 ? front : back).Add(Corners[i]);
+            if (heights[i] > 0 != heights[next] > 0)
+            {
+                // Always from below, so that an edge of two faces is cut at one position.
+                var (from, to) = heights[i] > 0 ? (next, i) : (i, next);
+                var crossing = Corners[from] + (heights[from] / (heights[from] - heights[to]) * (Corners[to] - Corners[from]));
+                front.Add(crossing);
+                back.Add(crossing);
+            }
+        }
+
+        return (new([.. front]), new([.. back]));
+    }
+
     /// <summary>Cuts off what is in front of a plane.</summary>
     /// <param name="origin">A point of the plane.</param>
     /// <param name="normal">Of any length. Zero cuts nothing.</param>
@@ -89,37 +101,16 @@ internal readonly record struct SurfacePiece(Vector[] Corners)
     private SurfacePiece CutOff(Vector origin, Vector normal, double minOverlap, List<SurfacePiece> parts)
     {
         var length = normal.Length();
-        Span<double> heights = stackalloc double[Corners.Length];
-        var (min, max) = (0.0, 0.0);
-        for (var i = 0; i < heights.Length; i++)
-        {
-            heights[i] = Vector.Dot(Corners[i] - origin, normal) / length;
-            min = Math.Min(min, heights[i]);
-            max = Math.Max(max, heights[i]);
-        }
-
+        double[] heights = [.. Corners.Select(corner => Vector.Dot(corner - origin, normal) / length)];
         // False for NaN.
-        if (!(max > minOverlap && -min > minOverlap))
+        if (!(heights.Max() > minOverlap && -heights.Min() > minOverlap))
         {
             return this;
         }
 
-        List<Vector> front = [];
-        List<Vector> back = [];
-        for (var i = 0; i < heights.Length; i++)
-        {
-            var next = (i + 1) % heights.Length;
-            (heights[i] > 0 ? front : back).Add(Corners[i]);
-            if (heights[i] > 0 != heights[next] > 0)
-            {
-                var crossing = Corners[i] + (heights[i] / (heights[i] - heights[next]) * (Corners[next] - Corners[i]));
-                front.Add(crossing);
-                back.Add(crossing);
-            }
-        }
-
-        parts.Add(new([.. front]));
-        return new([.. back]);
+        var (front, back) = Split(heights);
+        parts.Add(front);
+        return back;
     }
 
     private (Vector Start, Vector End) LongestEdge()

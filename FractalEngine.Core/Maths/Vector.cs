@@ -87,6 +87,10 @@ public readonly record struct Vector(double X, double Y, double Z)
     /// <summary>Returns the component along an axis, from 0 to 2.</summary>
     internal double Component(int axis) => axis switch { 0 => X, 1 => Y, _ => Z };
 
+    /// <summary>Computes the mean of positions; there must be one.</summary>
+    internal static Vector Mean(IReadOnlyCollection<Vector> positions) =>
+        positions.Aggregate(Zero, static (sum, position) => sum + position) / positions.Count;
+
     /// <summary>Computes the largest absolute value of the components.</summary>
     public double MaxAbsComponent() => Math.Max(Math.Abs(X), Math.Max(Math.Abs(Y), Math.Abs(Z)));
 

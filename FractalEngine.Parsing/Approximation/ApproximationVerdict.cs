@@ -1,3 +1,5 @@
+using System.Text.Json.Serialization;
+
 namespace FractalEngine.Parsing.Approximation;
 
 /// <summary>What was measured on a fractal that was written for a mesh, and read back.</summary>
@@ -13,5 +15,6 @@ public enum ApproximationVerdict
     Approximate,
 
     /// <summary>No fractal was found that is; what is left is the simplified mesh.</summary>
+    [JsonStringEnumMemberName("no fractal")]
     NoFractal,
 }

@@ -101,7 +101,10 @@ public sealed class MeshApproximator
             foreach (var side in new[] { plane, plane with { Normal = -plane.Normal, Offset = -plane.Offset } })
             {
                 Report("the half whose mirror image is closest");
-                Consider(FindMirrored(side, bytes));
+                if (FindMirrored(side, bytes) is { } found && !(found.Distance.MeanDistance >= _best?.Distance.MeanDistance))
+                {
+                    _best = found;
+                }
             }
         }
 
@@ -109,14 +112,6 @@ public sealed class MeshApproximator
     }
 
     private void Report(string stage) => _progress?.Report(new(stage, _best));
-
-    private void Consider(ApproximationResult? result)
-    {
-        if (result is not null && (_best is null || result.Distance.MeanDistance < _best.Distance.MeanDistance))
-        {
-            _best = result;
-        }
-    }
 
     /// <summary>Measures what may be exact; null where it is not, or is larger than wanted.</summary>
     private ApproximationResult? JudgeExact(MeshGrammar grammar)

@@ -19,7 +19,6 @@ internal static class FaceLabels
         var labels = new ulong[faces.Count];
         var units = new double[faces.Count];
         var edges = new ulong[faces.Corners.Length];
-        var centroids = Enumerable.Range(0, faces.Count).Select(faces.Centroid).ToArray();
         Array.Fill(units, isRelative ? 0 : 1);
         for (var corner = 0; isRelative && corner < edges.Length; corner++)
         {
@@ -40,7 +39,7 @@ internal static class FaceLabels
                 var face = faces.FaceAt[corner];
                 for (var twin = faces.Twins[corner]; twin != corner; twin = faces.Twins[twin])
                 {
-                    var across = (centroids[faces.FaceAt[twin]] - centroids[face]).Length() / units[face];
+                    var across = (faces.Centroids[faces.FaceAt[twin]] - faces.Centroids[face]).Length() / units[face];
                     next[face] += HashMixing.Mix(
                         labels[faces.FaceAt[twin]] + (edges[corner] * HashMixing.GoldenGamma) + HashMixing.Mix(Step(across)));
                 }

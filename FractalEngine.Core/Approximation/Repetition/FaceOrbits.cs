@@ -23,23 +23,8 @@ internal sealed record FaceOrbits(AffineMap Map, List<(int Length, List<int> Sta
     /// <returns>Null where nothing is saved, or where the map turns most faces.</returns>
     public static FaceOrbits? Find(FaceSet faces, AffineMap map, bool keepsSize, int runCost)
     {
-        var images = MapPoints(faces, map);
-        var pairs = new List<(Vector, Vector)>();
-        for (var point = 0; point < images.Length; point++)
-        {
-            if (images[point] >= 0)
-            {
-                pairs.Add((faces.Points[point], faces.Points[images[point]]));
-            }
-        }
-
-        if (pairs.Count == 0)
-        {
-            return null;
-        }
-
-        map = SimilarityFit.Refine(map, pairs, keepsSize);
-        images = MapPoints(faces, map);
+        map = SimilarityFit.Refine(map, faces.Points, faces, keepsSize);
+        int[] images = [.. faces.Points.Select(point => faces.PointAt(map * point))];
         var next = new int[faces.Count];
         var turned = 0;
         for (var face = 0; face < next.Length; face++)
@@ -57,8 +42,6 @@ internal sealed record FaceOrbits(AffineMap Map, List<(int Length, List<int> Sta
         return turned > 0 && map.Linear.Determinant() > 0 ? null : Choose(map, FindChains(faces, map, images, next), runCost);
     }
 
-    private static int[] MapPoints(FaceSet faces, AffineMap map) => [.. faces.Points.Select(point => faces.PointAt(map * point))];
-
     /// <summary>Splits all faces into chains, each from one without predecessor; circles start near one place.</summary>
     private static List<List<int>> FindChains(FaceSet faces, AffineMap map, int[] images, int[] next)
     {
@@ -71,31 +54,19 @@ internal sealed record FaceOrbits(AffineMap Map, List<(int Length, List<int> Sta
         var powers = new List<AffineMap> { AffineMap.Identity };
         var isTaken = new bool[next.Length];
         var chains = new List<List<int>>();
-        Vector? place = null;
         foreach (var face in Enumerable.Range(0, next.Length).Where(face => !isReached[face]))
         {
             AddChain(face);
         }
 
-        for (var face = 0; face < next.Length; face++)
+        // What is left are circles, and chains that drift away.
+        foreach (var face in Enumerable.Range(0, next.Length).Where(face => !isTaken[face])
+            .OrderBy(face => (faces.Centroids[face] - faces.Centroids[0]).LengthSquared()))
         {
-            // Circles, and what is left of chains that drift away.
-            while (!isTaken[face])
-            {
-                place ??= faces.Centroid(face);
-                var start = face;
-                for (var other = next[face]; other >= 0 && other != face && !isTaken[other]; other = next[other])
-                {
-                    start = DistanceSquared(other) < DistanceSquared(start) ? other : start;
-                }
-
-                AddChain(start);
-            }
+            AddChain(face);
         }
 
         return chains;
-
-        double DistanceSquared(int face) => (faces.Centroid(face) - place.Value).LengthSquared();
 
         void AddChain(int start)
         {
@@ -111,7 +82,10 @@ internal sealed record FaceOrbits(AffineMap Map, List<(int Length, List<int> Sta
                 }
             }
 
-            chains.Add(chain);
+            if (chain.Count > 0)
+            {
+                chains.Add(chain);
+            }
         }
 
         bool IsImage(int start, int[] points, int power)

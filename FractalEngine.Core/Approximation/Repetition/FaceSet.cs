@@ -48,6 +48,7 @@ internal sealed class FaceSet
         Corners = [.. corners];
         Starts = [.. starts];
         FaceAt = [.. Enumerable.Range(0, Count).SelectMany(face => Enumerable.Repeat(face, Starts[face + 1] - Starts[face]))];
+        Centroids = [.. _outlines.Select(face => Vector.Mean(Array.ConvertAll(face.Outline, point => Points[point])))];
         Twins = FindTwins();
         _grid = new(Points, tolerance);
     }
@@ -76,21 +77,15 @@ internal sealed class FaceSet
     /// <summary>For each corner the next one, in a circle, whose edge to the corner after it is the same.</summary>
     public int[] Twins { get; }
 
+    /// <summary>The mean of each face's corners.</summary>
+    public Vector[] Centroids { get; }
+
     /// <summary>Makes the faces of a mesh a set, with points that are welded; faces without area are left out.</summary>
     public static FaceSet Create(Mesh mesh, double tolerance)
     {
         var points = Enumerable.Range(0, mesh.VertexCount).Select(mesh.Vertex).ToArray();
         var grid = new PointGrid(points, tolerance);
-        var firsts = new int[points.Length];
-        for (var point = 0; point < firsts.Length; point++)
-        {
-            firsts[point] = point;
-            for (var entry = grid.First(points[point]); entry >= 0; entry = grid.Next(entry, points[point]))
-            {
-                firsts[point] = Math.Min(firsts[point], firsts[Math.Min(point, grid.PointOf(entry))]);
-            }
-        }
-
+        var firsts = Array.ConvertAll(points, point => grid.PointOf(grid.First(point)));
         var triangles = mesh.VertexIndices.Select(vertex => firsts[vertex]).Chunk(3)
             .Where(face => Vector.Cross(points[face[1]] - points[face[0]], points[face[2]] - points[face[0]]) != Vector.Zero);
         return new(points, triangles.Select(face => (face, face)), tolerance);
@@ -102,18 +97,6 @@ internal sealed class FaceSet
     /// <summary>Makes a mesh of all faces.</summary>
     public Mesh ToMesh() => new(
         [.. Points.SelectMany(point => new[] { point.X, point.Y, point.Z })], [.. _outlines.SelectMany(face => face.Triangles)]);
-
-    /// <summary>The mean of a face's corners.</summary>
-    public Vector Centroid(int face)
-    {
-        var sum = Vector.Zero;
-        for (var corner = Starts[face]; corner < Starts[face + 1]; corner++)
-        {
-            sum += Points[Corners[corner]];
-        }
-
-        return sum / (Starts[face + 1] - Starts[face]);
-    }
 
     /// <summary>Returns the corner so many after another one around its face.</summary>
     public int After(int corner, int count = 1)

@@ -94,7 +94,7 @@ internal static class FlatFaces
             return triangles.Chunk(3).Select(face => (face, face));
         }
 
-        var centre = outline.Aggregate(Vector.Zero, (sum, point) => sum + (faces.Points[point] / outline.Length));
+        var centre = Vector.Mean(Array.ConvertAll(outline, point => faces.Points[point]));
         var (right, other) = (faces.Points[triangles[0]] - centre, faces.Points[triangles[1]] - faces.Points[triangles[0]]);
         var up = Vector.Cross(Vector.Cross(other, faces.Points[triangles[2]] - faces.Points[triangles[0]]), right);
         up = right.Length() / up.Length() * up;

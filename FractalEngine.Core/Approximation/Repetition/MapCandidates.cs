@@ -42,18 +42,18 @@ internal sealed class MapCandidates
         foreach (var rounds in new[] { 1, 3 })
         {
             var labels = FaceLabels.Compute(faces, rounds, !keepsSize);
-            var classes = Enumerable.Range(0, faces.Count).GroupBy(face => labels[face]).Where(group => group.Skip(1).Any())
-                .Select(group => group.ToArray()).OrderByDescending(members => members.Length).ToList();
+            var classes = Enumerable.Range(0, faces.Count).GroupBy(face => labels[face], (_, members) => members.ToArray())
+                .Where(members => members.Length > 1).OrderByDescending(members => members.Length).ToList();
             var total = classes.Sum(members => members.Length);
             var passed = 0;
             foreach (var members in classes)
             {
                 // As many references of a class as of its share of all faces.
-                var (first, last) = (passed * References / total, (passed + members.Length) * References / total);
-                for (var number = first; number < Math.Max(last, Math.Min(first + 1, passed < total / 2 ? 0 : last)); number++)
+                cancellation.ThrowIfCancellationRequested();
+                var count = ((passed + members.Length) * References / total) - (passed * References / total);
+                for (var number = 0; number < count; number++)
                 {
-                    cancellation.ThrowIfCancellationRequested();
-                    candidates.AddFrom(members[(int)((number - first + 0.5) / (last - first) * members.Length)], members);
+                    candidates.AddFrom(members[(int)((number + 0.5) / count * members.Length)], members);
                 }
 
                 passed += members.Length;
@@ -65,12 +65,12 @@ internal sealed class MapCandidates
 
     private void AddFrom(int reference, int[] members)
     {
-        var origin = _faces.Centroid(reference);
+        var origin = _faces.Centroids[reference];
         var others = members.Where(face => face != reference).ToArray();
-        Array.Sort([.. others.Select(face => (_faces.Centroid(face) - origin).LengthSquared())], others);
+        Array.Sort([.. others.Select(face => (_faces.Centroids[face] - origin).LengthSquared())], others);
         var local = FindLocalFaces(reference);
         var trail = FindTrail(local, origin);
-        var translations = others.Take(MaxTranslations).Select(face => AffineMap.Translate(_faces.Centroid(face) - origin));
+        var translations = others.Take(MaxTranslations).Select(face => AffineMap.Translate(_faces.Centroids[face] - origin));
         foreach (var maps in new[] { translations, others.Take(MaxTurns).SelectMany(face => MapsBetween(reference, face)) })
         {
             foreach (var map in maps.Where(map => IsLocal(map, local)).Take(MaxPerReference))
@@ -82,12 +82,10 @@ internal sealed class MapCandidates
 
     private void Add(AffineMap map)
     {
-        foreach (var (known, _) in _maps)
+        if (_maps.Exists(known => MapRows.AreNear(known.Map, map, 1e-6, _length)
+            || MapRows.AreNear(known.Map * map, AffineMap.Identity, 1e-6, _length)))
         {
-            if (MapRows.AreNear(known, map, 1e-6, _length) || MapRows.AreNear(known * map, AffineMap.Identity, 1e-6, _length))
-            {
-                return;
-            }
+            return;
         }
 
         var share = 0.0;
@@ -118,20 +116,8 @@ internal sealed class MapCandidates
         _maps.Add((map, share));
     }
 
-    private bool IsLocal(AffineMap map, List<int> local)
-    {
-        var misses = 0;
-        var maxMisses = (1 - MinLocalShare) * local.Count;
-        foreach (var face in local)
-        {
-            if (_faces.Image(map, face) < 0 && (face == local[0] || ++misses > maxMisses))
-            {
-                return false;
-            }
-        }
-
-        return true;
-    }
+    private bool IsLocal(AffineMap map, List<int> local) => _faces.Image(map, local[0]) >= 0
+        && !local.Where(face => _faces.Image(map, face) < 0).Skip((int)((1 - MinLocalShare) * local.Count)).Any();
 
     /// <summary>The similarities that take one face to another, with each order of corners that has the same shape.</summary>
     private IEnumerable<AffineMap> MapsBetween(int from, int to)
@@ -146,7 +132,7 @@ internal sealed class MapCandidates
                 var scale = _keepsSize ? 1 : (b2 - a2).Length() / (b - a).Length();
                 if (AreNear(a, b, a2, b2, scale) && AreNear(b, c, b2, c2, scale) && AreNear(c, a, c2, a2, scale))
                 {
-                    foreach (var map in SimilarityFit.OfTriangles(a, b, c, a2, b2, c2, _keepsSize))
+                    foreach (var map in SimilarityFit.OfTriangles(a, b, c, a2, b2, c2, scale))
                     {
                         yield return map;
                     }
@@ -198,23 +184,11 @@ internal sealed class MapCandidates
     /// <summary>Fits a map to ever more points, so that it is right far off, too.</summary>
     private AffineMap Refine(AffineMap map, Vector[] trail)
     {
-        var pairs = new List<(Vector, Vector)>();
-        for (var count = Math.Min(8, trail.Length); ; count = Math.Min(2 * count, trail.Length))
+        for (var count = 8; count < 2 * trail.Length; count *= 2)
         {
-            pairs.Clear();
-            foreach (var point in trail.AsSpan(0, count))
-            {
-                if (_faces.PointAt(map * point) is var image && image >= 0)
-                {
-                    pairs.Add((point, _faces.Points[image]));
-                }
-            }
-
-            map = pairs.Count > 0 ? SimilarityFit.Refine(map, pairs, _keepsSize) : map;
-            if (count == trail.Length)
-            {
-                return map;
-            }
+            map = SimilarityFit.Refine(map, new(trail, 0, Math.Min(count, trail.Length)), _faces, _keepsSize);
         }
+
+        return map;
     }
 }

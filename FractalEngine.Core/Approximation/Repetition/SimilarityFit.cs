@@ -8,43 +8,47 @@ internal static class SimilarityFit
     // A turn of a whole model by less is a rounding error.
     private const double SnapTolerance = 1e-7;
 
-    /// <summary>
-    /// Returns the similarity without and the one with a mirror that take a triangle to another of its shape; none where one has no area.
-    /// </summary>
-    public static IEnumerable<AffineMap> OfTriangles(Vector a, Vector b, Vector c, Vector a2, Vector b2, Vector c2, bool keepsSize)
+    /// <summary>Returns the similarity without and the one with a mirror that take a triangle with area to another of its shape.</summary>
+    public static IEnumerable<AffineMap> OfTriangles(Vector a, Vector b, Vector c, Vector a2, Vector b2, Vector c2, double scale)
     {
-        var scale = keepsSize ? 1 : (b2 - a2).Length() / (b - a).Length();
-        if (FrameOf(a, b, c) is not { } from || FrameOf(a2, b2, c2) is not { } to)
-        {
-            yield break;
-        }
-
+        var back = FrameOf(a, b, c).Transpose();
+        var to = FrameOf(a2, b2, c2);
         foreach (var sign in new[] { 1, -1 })
         {
-            var linear = scale * (to with { V3 = sign * to.V3 } * from.Transpose());
+            var linear = scale * (to with { V2 = sign * to.V2 } * back);
             yield return new(linear, a2 - (linear * a));
         }
     }
 
-    /// <summary>Corrects a similarity by a small turn, scale and shift, so that it takes points nearest to others.</summary>
-    /// <param name="map">A similarity that takes each point near to its image.</param>
-    /// <param name="pairs">Points and their images.</param>
+    /// <summary>Corrects a similarity by a small turn, scale and shift, so that it takes points nearest to those of a set.</summary>
+    /// <param name="map">A similarity that takes some of the points near to those of the set.</param>
+    /// <param name="points">What is mapped; points that are taken to none of the set do not count.</param>
+    /// <param name="faces">The set.</param>
     /// <param name="keepsSize">Whether the scale stays as it is.</param>
-    public static AffineMap Refine(AffineMap map, List<(Vector Point, Vector Image)> pairs, bool keepsSize)
+    public static AffineMap Refine(AffineMap map, ArraySegment<Vector> points, FaceSet faces, bool keepsSize)
     {
-        var point = Vector.Zero;
-        var image = Vector.Zero;
-        foreach (var pair in pairs)
+        List<Vector> from = [];
+        List<Vector> to = [];
+        foreach (var position in points)
         {
-            point += pair.Point / pairs.Count;
-            image += pair.Image / pairs.Count;
+            if (faces.PointAt(map * position) is var index && index >= 0)
+            {
+                from.Add(position);
+                to.Add(faces.Points[index]);
+            }
         }
 
-        var (inertia, torque, spread, growth) = (default(Matrix), Vector.Zero, 0.0, 0.0);
-        foreach (var pair in pairs)
+        if (from.Count == 0)
         {
-            var arm = map.Linear * (pair.Point - point);
-            var error = pair.Image - image - arm;
+            return map;
+        }
+
+        var (point, image) = (Vector.Mean(from), Vector.Mean(to));
+        var (inertia, torque, spread, growth) = (default(Matrix), Vector.Zero, 0.0, 0.0);
+        for (var pair = 0; pair < from.Count; pair++)
+        {
+            var arm = map.Linear * (from[pair] - point);
+            var error = to[pair] - image - arm;
             inertia += (arm.LengthSquared() * Matrix.Identity) - Matrix.Outer(arm, arm);
             torque += Vector.Cross(arm, error);
             spread += arm.LengthSquared();
@@ -72,15 +76,6 @@ internal static class SimilarityFit
         static Vector Round(Vector column) => new(Math.Round(column.X), Math.Round(column.Y), Math.Round(column.Z));
     }
 
-    private static Matrix? FrameOf(Vector a, Vector b, Vector c)
-    {
-        var across = Vector.Cross(b - a, c - a);
-        if (across == Vector.Zero)
-        {
-            return null;
-        }
-
-        var (along, normal) = ((b - a).UnitVector(), across.UnitVector());
-        return new(along, Vector.Cross(normal, along), normal);
-    }
+    /// <summary>Axes of a triangle, the last one along its first edge, and the second one perpendicular to it.</summary>
+    private static Matrix FrameOf(Vector a, Vector b, Vector c) => new Matrix(c - a, Vector.Zero, b - a).Orthonormalized();
 }

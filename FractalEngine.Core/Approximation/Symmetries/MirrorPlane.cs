@@ -1,3 +1,4 @@
+using FractalEngine.Core.Distances;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
@@ -22,83 +23,39 @@ public sealed record MirrorPlane(Vector Normal, double Offset, double MeanDistan
     {
         ArgumentNullException.ThrowIfNull(mesh);
         var tolerance = PlaneTolerance * mesh.UsedBounds.Diagonal;
-        List<double> positions = [];
-        List<int> corners = [];
-        Dictionary<(int, int), int> vertices = [];
+        var closed = WithClosedSeam(mesh, tolerance);
+        List<Vector> corners = [];
         for (var face = 0; face < mesh.FaceCount; face++)
         {
-            List<int> polygon = [];
-            for (var corner = 0; corner < 3; corner++)
+            var (a, b, c) = closed.Face(face);
+            var (front, _) = new SurfacePiece([a, b, c]).Split([HeightOf(a), HeightOf(b), HeightOf(c)]);
+            // A corner in the plane ends two edges.
+            var outline = front.Corners.Distinct().ToArray();
+            for (var corner = 2; corner < outline.Length; corner++)
             {
-                var (from, to) = (mesh.VertexIndices[(3 * face) + corner], mesh.VertexIndices[(3 * face) + ((corner + 1) % 3)]);
-                var (heightFrom, heightTo) = (HeightOf(from), HeightOf(to));
-                if (heightFrom >= 0)
-                {
-                    polygon.Add(VertexAt(from, from, 0));
-                }
-
-                if (heightFrom * heightTo < 0)
-                {
-                    polygon.Add(from < to ? VertexAt(from, to, heightFrom / (heightFrom - heightTo))
-                        : VertexAt(to, from, heightTo / (heightTo - heightFrom)));
-                }
-            }
-
-            var isInPlane = Enumerable.Range(0, 3).All(corner => HeightOf(mesh.VertexIndices[(3 * face) + corner]) <= 0);
-            for (var corner = 2; corner < polygon.Count && !isInPlane; corner++)
-            {
-                corners.AddRange([polygon[0], polygon[corner - 1], polygon[corner]]);
+                corners.AddRange([outline[0], outline[corner - 1], outline[corner]]);
             }
         }
 
-        return new([.. positions], [.. corners]);
+        var positions = corners.Distinct().ToArray();
+        var vertices = positions.Index().ToDictionary(entry => entry.Item, entry => entry.Index);
+        return new([.. positions.SelectMany(CoordinatesOf)], [.. corners.Select(corner => vertices[corner])]);
 
-        double HeightOf(int vertex) =>
-            Vector.Dot(Normal, mesh.Vertex(vertex)) - Offset is var height && Math.Abs(height) <= tolerance ? 0 : height;
-
-        int VertexAt(int from, int to, double part)
-        {
-            if (!vertices.TryGetValue((from, to), out var index))
-            {
-                vertices.Add((from, to), index = positions.Count / 3);
-                var position = mesh.Vertex(from) + (part * (mesh.Vertex(to) - mesh.Vertex(from)));
-                if (from != to || HeightOf(from) == 0)
-                {
-                    position -= (Vector.Dot(Normal, position) - Offset) * Normal;
-                }
-
-                positions.AddRange([position.X, position.Y, position.Z]);
-            }
-
-            return index;
-        }
+        double HeightOf(Vector position) => Math.Abs(DistanceOf(position)) <= tolerance ? 0 : DistanceOf(position);
     }
 
-    /// <summary>Puts the open edges of a simplified half back into the plane, so that it meets its mirror image.</summary>
+    /// <summary>Puts vertices near the plane into it, so that a simplified half meets its mirror image.</summary>
     /// <param name="half">Result of <see cref="HalfOf"/>, simplified.</param>
     /// <param name="tolerance">Largest distance from the plane of vertices that are moved, scene units.</param>
     public Mesh WithClosedSeam(Mesh half, double tolerance)
     {
         ArgumentNullException.ThrowIfNull(half);
-        var uses = new Dictionary<(int, int), int>();
-        for (var corner = 0; corner < half.VertexIndices.Length; corner++)
-        {
-            var (from, to) = (half.VertexIndices[corner], half.VertexIndices[corner % 3 == 2 ? corner - 2 : corner + 1]);
-            var edge = (Math.Min(from, to), Math.Max(from, to));
-            uses[edge] = uses.GetValueOrDefault(edge) + 1;
-        }
-
-        var positions = half.Positions.ToBuilder();
-        foreach (var vertex in uses.Where(use => use.Value == 1).SelectMany(use => new[] { use.Key.Item1, use.Key.Item2 }))
-        {
-            var height = Vector.Dot(Normal, half.Vertex(vertex)) - Offset;
-            if (Math.Abs(height) <= tolerance)
-            {
-                var (x, y, z) = half.Vertex(vertex) - (height * Normal);
-                (positions[3 * vertex], positions[(3 * vertex) + 1], positions[(3 * vertex) + 2]) = (x, y, z);
-            }
-        }
-
-        return new(positions.MoveToImmutable(), half.VertexIndices);
+        var positions = Enumerable.Range(0, half.VertexCount).Select(half.Vertex)
+            .Select(position => Math.Abs(DistanceOf(position)) <= tolerance ? position - (DistanceOf(position) * Normal) : position);
+        return new([.. positions.SelectMany(CoordinatesOf)], half.VertexIndices);
     }
+
+    private double DistanceOf(Vector position) => Vector.Dot(Normal, position) - Offset;
+
+    private static double[] CoordinatesOf(Vector position) => [position.X, position.Y, position.Z];
 }

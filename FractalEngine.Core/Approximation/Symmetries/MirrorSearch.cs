@@ -1,4 +1,3 @@
-using FractalEngine.Core.Approximation.Grammars;
 using FractalEngine.Core.Distances;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
@@ -18,6 +17,10 @@ public static class MirrorSearch
     private const int RefinedPlanes = 6;
     private const int MaxSteps = 200;
 
+    // Steps of the inverse iteration; it begins anew with each closest points, where the last one ended.
+    private const int PowerSteps = 40;
+    private const double MaxShift = 1.01;
+
     // A larger share of the mean distance is no noise of the samples.
     private const double Indifference = 0.02;
 
@@ -30,7 +33,7 @@ public static class MirrorSearch
         ArgumentNullException.ThrowIfNull(mesh);
         var target = new TargetSurface(mesh);
         var (coarse, fine) = (SampleEvenly(mesh, CoarseSamples), SampleEvenly(mesh, FineSamples));
-        var centroid = fine.Aggregate(Vector.Zero, (sum, point) => sum + (point / FineSamples));
+        var centroid = Vector.Mean(fine);
         return SpreadDirections().Select(normal => Measured(normal, Vector.Dot(normal, centroid), coarse))
             .OrderBy(plane => plane.MeanDistance).Take(RefinedPlanes).ToArray()
             .Select(Refine).MinBy(plane => plane.MeanDistance) is var best && Simplified(best!) is { } simple ? simple : best!;
@@ -92,7 +95,7 @@ public static class MirrorSearch
             images[index] = target.ClosestPoint(target.Measure(reflection * samples[index], 0));
         }
 
-        var (mean, imageMean) = (MeanOf(samples), MeanOf(images));
+        var (mean, imageMean) = (Vector.Mean(samples), Vector.Mean(images));
         var products = default(Matrix);
         var size = 0.0;
         for (var index = 0; index < samples.Length; index++)
@@ -102,22 +105,16 @@ public static class MirrorSearch
             size += 2 * p.Length() * q.Length();
         }
 
-        // With a multiple of the identity added all eigenvalues are positive, so that they are the singular values.
-        products += size * Matrix.Identity;
-        var values = SingularVectors.Find(
-            new[,]
-            {
-                { products.V1.X, products.V2.X, products.V3.X },
-                { products.V1.Y, products.V2.Y, products.V3.Y },
-                { products.V1.Z, products.V2.Z, products.V3.Z },
-            },
-            out var vectors);
-        var least = Array.IndexOf(values, values.Min());
-        var normal = new Vector(vectors[0, least], vectors[1, least], vectors[2, least]).UnitVector();
+        // With a multiple of the identity added, all eigenvalues are positive, and the inverse stretches what is looked for most.
+        var inverse = (products + (MaxShift * size * Matrix.Identity)).Inverse();
+        var normal = plane.Normal;
+        for (var step = 0; step < PowerSteps; step++)
+        {
+            normal = (inverse * normal).UnitVector();
+        }
+
         return (normal, 0.5 * Vector.Dot(normal, mean + imageMean));
     }
-
-    private static Vector MeanOf(Vector[] points) => points.Aggregate(Vector.Zero, (sum, point) => sum + (point / points.Length));
 
     /// <summary>Directions that are spread evenly over a half sphere, by the golden ratio; the axes first.</summary>
     private static IEnumerable<Vector> SpreadDirections()

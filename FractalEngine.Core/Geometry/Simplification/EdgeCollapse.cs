@@ -36,7 +36,7 @@ internal readonly record struct EdgeCollapse(Vector Offset, double Cost, double 
         }
 
         var scale = sum.Weight * lengthSquared;
-        var (error, error1, error2) = (sum.ErrorAt(offset), sum.ErrorAt(Vector.Zero), sum.ErrorAt(edge));
+        var (error, error1, error2) = (sum.ErrorAt(offset), sum.Constant, sum.ErrorAt(edge));
         if (Math.Min(error1, error2) <= error + (Tolerance * scale))
         {
             (offset, error) = error1 <= error2 ? (Vector.Zero, error1) : (edge, error2);

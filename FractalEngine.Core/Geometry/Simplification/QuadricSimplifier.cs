@@ -1,5 +1,5 @@
 using FractalEngine.Core.Geometry.Surfaces;
-using FractalEngine.Core.Maths;
+using FractalEngine.Core.Geometry.Triangles;
 
 namespace FractalEngine.Core.Geometry.Simplification;
 
@@ -34,66 +34,16 @@ public static class QuadricSimplifier
         ArgumentNullException.ThrowIfNull(mesh);
         ArgumentOutOfRangeException.ThrowIfNegative(maxFaces);
         // A power of two changes no digit of a coordinate.
-        var size = mesh.VertexCount > 0 ? mesh.Bounds.MaxAbsCoordinate() : 0;
-        var exponent = size > 0 ? Math.ILogB(size) : 0;
-        var positions = new Vector[mesh.VertexCount];
-        for (var vertex = 0; vertex < positions.Length; vertex++)
-        {
-            positions[vertex] = Scale(mesh.Vertex(vertex), -exponent);
-        }
-
-        var stars = new VertexStars(FindDistinctFaces(mesh), positions.Length);
-        new EdgeCollapser(positions, stars).Run(maxFaces, cancellation);
-        return Build(positions, exponent, [.. stars.VertexIndices]);
-    }
-
-    /// <summary>Makes a mesh of those vertices that faces use.</summary>
-    private static Mesh Build(Vector[] positions, int exponent, int[] vertexIndices)
-    {
-        var newVertices = new int[positions.Length];
-        foreach (var vertex in vertexIndices)
-        {
-            newVertices[vertex] = 1;
-        }
-
-        List<double> coordinates = [];
-        for (var vertex = 0; vertex < newVertices.Length; vertex++)
-        {
-            if (newVertices[vertex] > 0)
-            {
-                newVertices[vertex] = coordinates.Count / 3;
-                var (x, y, z) = Scale(positions[vertex], exponent);
-                coordinates.AddRange([x, y, z]);
-            }
-        }
-
-        return new([.. coordinates], [.. vertexIndices.Select(vertex => newVertices[vertex])]);
-    }
-
-    private static int[] FindDistinctFaces(Mesh mesh)
-    {
+        var scale = QueryScale.Of(QueryScale.Magnitude(mesh));
+        var positions = Enumerable.Range(0, mesh.VertexCount).Select(vertex => scale * mesh.Vertex(vertex)).ToArray();
         var representatives = VertexWelding.FindRepresentatives(mesh);
-        var faces = new HashSet<(int, int, int)>(mesh.FaceCount);
-        List<int> vertices = new(mesh.VertexIndices.Length);
-        for (var i = 0; i < mesh.VertexIndices.Length; i += 3)
-        {
-            var a = representatives[mesh.VertexIndices[i]];
-            var b = representatives[mesh.VertexIndices[i + 1]];
-            var c = representatives[mesh.VertexIndices[i + 2]];
-            var (min, max) = (Math.Min(a, Math.Min(b, c)), Math.Max(a, Math.Max(b, c)));
-            var middle = a ^ b ^ c ^ min ^ max;
-            if (a != b && b != c && c != a && faces.Add((min, middle, max)))
-            {
-                vertices.AddRange([a, b, c]);
-            }
-        }
-
-        return [.. vertices];
+        var stars = new VertexStars([.. mesh.VertexIndices.Select(vertex => representatives[vertex])], positions.Length);
+        new EdgeCollapser(positions, stars).Run(maxFaces, cancellation);
+        int[] corners = [.. stars.VertexIndices];
+        int[] used = [.. corners.Distinct().Order()];
+        return new(
+            [.. used.Select(vertex => positions[vertex]).SelectMany(position => new[] { position.X, position.Y, position.Z }
+                .Select(coordinate => Math.Clamp(coordinate / scale, -double.MaxValue, double.MaxValue)))],
+            [.. corners.Select(vertex => Array.BinarySearch(used, vertex))]);
     }
-
-    /// <summary>Multiplies by a power of two. What is beyond the range of a double afterwards becomes its largest number.</summary>
-    private static Vector Scale(Vector v, int exponent) => new(Scale(v.X, exponent), Scale(v.Y, exponent), Scale(v.Z, exponent));
-
-    private static double Scale(double coordinate, int exponent) =>
-        Math.Clamp(Math.ScaleB(coordinate, exponent), -double.MaxValue, double.MaxValue);
 }

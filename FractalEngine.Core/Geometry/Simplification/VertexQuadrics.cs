@@ -22,12 +22,10 @@ internal sealed class VertexQuadrics
 
     private readonly Vector[] _positions;
     private readonly VertexStars _stars;
-    private readonly EdgeFaceCounts _edgeFaces;
+    private readonly VertexStar _star;
     private readonly Quadric[] _memories;
     private readonly Quadric[] _sums;
-    private readonly int[] _starSizes;
     private readonly int[] _changes;
-    private readonly List<int> _star = [];
 
     /// <summary>Computes the quadrics of all vertices. Cost O(faces).</summary>
     /// <param name="positions">[vertices]; changes of it are followed by <see cref="Update"/> or <see cref="NoteChange"/>.</param>
@@ -36,10 +34,9 @@ internal sealed class VertexQuadrics
     {
         _positions = positions;
         _stars = stars;
-        _edgeFaces = new(stars);
+        _star = new(stars);
         _memories = new Quadric[positions.Length];
         _sums = new Quadric[positions.Length];
-        _starSizes = new int[positions.Length];
         _changes = new int[positions.Length];
         for (var vertex = 0; vertex < positions.Length; vertex++)
         {
@@ -68,7 +65,7 @@ internal sealed class VertexQuadrics
     public void NoteChange(int vertex)
     {
         _changes[vertex]++;
-        if (FacesPerChange * _changes[vertex] >= _starSizes[vertex])
+        if (FacesPerChange * _changes[vertex] >= _stars.CountOf(vertex))
         {
             Update(vertex);
         }
@@ -78,12 +75,10 @@ internal sealed class VertexQuadrics
     /// <remarks>An edge of one face is held by the plane through it that is perpendicular to this face.</remarks>
     private Quadric SumPlanes(int vertex)
     {
-        _stars.Collect(vertex, _star);
-        _starSizes[vertex] = _star.Count;
+        _star.Load(vertex);
         _changes[vertex] = 0;
-        _edgeFaces.Count(_star);
         var sum = default(Quadric);
-        foreach (var corner in _star)
+        foreach (var corner in _star.Corners)
         {
             var (next, previous) = _stars.OthersOf(corner);
             var (edge1, edge2) = (_positions[next] - _positions[vertex], _positions[previous] - _positions[vertex]);
@@ -93,19 +88,18 @@ internal sealed class VertexQuadrics
             {
                 var unitNormal = normal / length;
                 sum += Quadric.Plane(unitNormal, 0.5 * length);
-                if (_edgeFaces[next] == 1)
+                if (_star[next] == 1)
                 {
                     sum += BorderPlane(unitNormal, edge1);
                 }
 
-                if (_edgeFaces[previous] == 1)
+                if (_star[previous] == 1)
                 {
                     sum += BorderPlane(unitNormal, edge2);
                 }
             }
         }
 
-        _edgeFaces.Clear(_star);
         return sum;
     }
 

@@ -1,38 +1,44 @@
 namespace FractalEngine.Core.Geometry.Simplification;
 
-/// <summary>The faces around each vertex (its star), as a linked list of corners, while vertices are merged and faces vanish.</summary>
+/// <summary>The faces around each vertex (its star), while vertices are merged and faces vanish.</summary>
 internal sealed class VertexStars
 {
     // Vertex of the corners of a face that was removed.
     private const int Removed = -1;
 
     private readonly int[] _vertices;
-    private readonly int[] _nextCorners;
-    private readonly int[] _firstCorners;
+    private readonly List<int>[] _stars;
+    private readonly Predicate<int> _isRemoved;
     private readonly HashSet<(int, int)> _others = [];
 
-    /// <summary>Links the corners of faces.</summary>
-    /// <param name="vertices">Vertex of each corner, [faces × 3]; kept and changed. The three of a face differ.</param>
+    /// <summary>
+    /// Collects the corners of faces. Those without three different vertices are removed, and of those with the same three all but the
+    /// first.
+    /// </summary>
+    /// <param name="vertices">Vertex of each corner, [faces × 3]; kept and changed.</param>
     /// <param name="vertexCount">Number of vertices.</param>
     public VertexStars(int[] vertices, int vertexCount)
     {
         _vertices = vertices;
-        _nextCorners = new int[vertices.Length];
-        _firstCorners = new int[vertexCount];
-        Array.Fill(_firstCorners, -1);
-        for (var corner = vertices.Length - 1; corner >= 0; corner--)
+        _stars = [.. Enumerable.Range(0, vertexCount).Select(static _ => new List<int>())];
+        _isRemoved = corner => _vertices[corner] == Removed;
+        FaceCount = vertices.Length / 3;
+        for (var corner = 0; corner < vertices.Length; corner++)
         {
-            Link(corner, vertices[corner]);
+            _stars[vertices[corner]].Add(corner);
         }
 
-        FaceCount = vertices.Length / 3;
+        for (var vertex = 0; vertex < vertexCount; vertex++)
+        {
+            RemoveRepeated(vertex);
+        }
     }
 
     /// <summary>Number of faces that are left.</summary>
     public int FaceCount { get; private set; }
 
     /// <summary>Number of vertices, merged ones included.</summary>
-    public int VertexCount => _firstCorners.Length;
+    public int VertexCount => _stars.Length;
 
     /// <summary>Vertices of the faces that are left, three a face.</summary>
     public IEnumerable<int> VertexIndices => _vertices.Where(static vertex => vertex != Removed);
@@ -45,64 +51,45 @@ internal sealed class VertexStars
         _ => (_vertices[corner - 2], _vertices[corner - 1]),
     };
 
-    /// <summary>Fills a list with a vertex's corners of all faces that are left.</summary>
-    public void Collect(int vertex, List<int> star)
-    {
-        star.Clear();
-        var corner = _firstCorners[vertex];
-        while (corner >= 0)
-        {
-            if (_vertices[corner] == vertex)
-            {
-                star.Add(corner);
-            }
+    /// <summary>Number of faces around a vertex, at most: some of them may have been removed.</summary>
+    public int CountOf(int vertex) => _stars[vertex].Count;
 
-            corner = _nextCorners[corner];
-        }
+    /// <summary>Returns a vertex's corners of all faces that are left.</summary>
+    public List<int> CornersOf(int vertex)
+    {
+        _stars[vertex].RemoveAll(_isRemoved);
+        return _stars[vertex];
     }
 
     /// <summary>
     /// Merges two vertices. Faces with both of them vanish, and so do all but one of those that have the same three vertices afterwards.
     /// </summary>
     /// <param name="kept">The vertex that stays.</param>
-    /// <param name="keptStar">Its star.</param>
     /// <param name="merged">The vertex that has no faces afterwards.</param>
-    /// <param name="mergedStar">Its star.</param>
-    public void Merge(int kept, List<int> keptStar, int merged, List<int> mergedStar)
+    public void Merge(int kept, int merged)
     {
-        _firstCorners[kept] = -1;
-        _firstCorners[merged] = -1;
-        _others.Clear();
-        for (var i = keptStar.Count + mergedStar.Count - 1; i >= 0; i--)
+        foreach (var corner in CornersOf(merged))
         {
-            var corner = i < keptStar.Count ? keptStar[i] : mergedStar[i - keptStar.Count];
-            if (_vertices[corner] == Removed)
-            {
-                continue;
-            }
-
-            var (next, previous) = OthersOf(corner);
-            if (next == kept || next == merged || previous == kept || previous == merged
-                || !_others.Add((Math.Min(next, previous), Math.Max(next, previous))))
-            {
-                Remove(corner / 3);
-                continue;
-            }
-
             _vertices[corner] = kept;
-            Link(corner, kept);
+            _stars[kept].Add(corner);
         }
+
+        _stars[merged].Clear();
+        RemoveRepeated(kept);
     }
 
-    private void Link(int corner, int vertex)
+    private void RemoveRepeated(int vertex)
     {
-        _nextCorners[corner] = _firstCorners[vertex];
-        _firstCorners[vertex] = corner;
-    }
-
-    private void Remove(int face)
-    {
-        _vertices.AsSpan(3 * face, 3).Fill(Removed);
-        FaceCount--;
+        _others.Clear();
+        foreach (var corner in CornersOf(vertex))
+        {
+            var (next, previous) = OthersOf(corner);
+            if (_vertices[corner] == vertex && (next == vertex || previous == vertex || next == previous
+                || !_others.Add((Math.Min(next, previous), Math.Max(next, previous)))))
+            {
+                _vertices.AsSpan(corner - (corner % 3), 3).Fill(Removed);
+                FaceCount--;
+            }
+        }
     }
 }
