@@ -44,6 +44,7 @@ internal sealed class ApproximationText(Mesh mesh, ApproximationResult result)
         yield return Distances;
         if (result is { Verdict: ApproximationVerdict.Approximate, SameBytes: { } simple })
         {
+            yield return Invariant($"{result.MatchingVertices} of {mesh.VertexCount} vertices are its own");
             yield return Invariant($"a simplified mesh of as many bytes ({simple.Mesh.FaceCount} faces): {Describe(simple.Distance)}");
         }
     }
@@ -61,6 +62,7 @@ internal sealed class ApproximationText(Mesh mesh, ApproximationResult result)
             maps = result.Grammar.MapCount,
             bytes = result.Bytes,
             diagonal = result.Distance.Diagonal,
+            matchingVertices = result.MatchingVertices,
             maxVertexDistance = result.VertexDistance / result.Distance.Diagonal,
             distance = ValuesOf(result.Distance),
             sameBytesMesh = result.SameBytes is { } simple

@@ -22,6 +22,9 @@ public sealed class MeshApproximator
     // Where elements are missing in the mesh, a fractal has more faces than it.
     private const int MaxGrowth = 16;
 
+    // A vertex with its faces in a file: what each costs that an approximate fractal does not make.
+    private const long VertexBytes = 60;
+
     // A fractal that has so many times as many of the mesh's vertices as the simplified mesh has in all is closer to it.
     private const int MinGain = 4;
 
@@ -83,7 +86,8 @@ public sealed class MeshApproximator
         var settings = new DamagedSearchSettings(_settings.Tolerance * _length, _settings.Seed, _settings.Effort);
         if (DamagedSearch.Find(_mesh, settings, _cancellation) is { } damaged
             && Judge(damaged) is { Verdict: ApproximationVerdict.Approximate } approximate
-            && (exact is null || approximate.Bytes < ClearlyLess * exact.Bytes))
+            && (exact is null || approximate.Bytes + (VertexBytes * (exact.MatchingVertices - approximate.MatchingVertices))
+                < ClearlyLess * exact.Bytes))
         {
             return approximate;
         }
@@ -129,7 +133,7 @@ public sealed class MeshApproximator
             ? null
             : new(
                 grammar.IsRecursive ? ApproximationVerdict.Exact : ApproximationVerdict.Repeats, grammar, written.Mesh, written.Bytes,
-                distance, vertices, null);
+                distance, vertices, MatchingIn(written.Mesh), null);
     }
 
     /// <summary>Compares a fractal with the simplified mesh of as many bytes; null where it is larger than wanted.</summary>
@@ -144,13 +148,15 @@ public sealed class MeshApproximator
         var simple = new SameBytesMesh(_mesh, simple => simple, _cancellation).Find(written.Bytes, ObjBytes);
         var simpleDistance = simple is null ? null : SurfaceDistance.Between(_mesh, simple, cancellation: _cancellation);
         // Where elements are missing or foreign, distances don't tell what is explained.
-        var matching = VertexDistance.CountWithin(_mesh, written.Mesh, ExactTolerance * _length);
+        var matching = MatchingIn(written.Mesh);
         var isBetter = simpleDistance is null || matching > MinGain * simple!.VertexCount
             || distance.MeanDistance + distance.MeanDistanceError < simpleDistance.MeanDistance - simpleDistance.MeanDistanceError;
         return new(
             isBetter ? ApproximationVerdict.Approximate : ApproximationVerdict.NoFractal, grammar, written.Mesh, written.Bytes, distance,
-            null, simple is null ? null : (simple, simpleDistance!));
+            null, matching, simple is null ? null : (simple, simpleDistance!));
     }
+
+    private int MatchingIn(Mesh made) => VertexDistance.CountWithin(_mesh, made, ExactTolerance * _length);
 
     /// <summary>Half of the shape, simplified, and its mirror image.</summary>
     private ApproximationResult? FindMirrored(MirrorPlane plane, long bytes)
@@ -174,7 +180,8 @@ public sealed class MeshApproximator
                 $"no mesh with a face has only {bytes} bytes, so there is nothing to write"));
         var written = WrittenGrammar.Create(Alone(simple), _length, long.MaxValue);
         var distance = SurfaceDistance.Between(_mesh, written.Mesh, cancellation: _cancellation);
-        return new(ApproximationVerdict.NoFractal, Alone(simple), written.Mesh, written.Bytes, distance, null, (simple, distance));
+        return new(ApproximationVerdict.NoFractal, Alone(simple), written.Mesh, written.Bytes, distance, null, MatchingIn(written.Mesh),
+            (simple, distance));
 
         static MeshGrammar Alone(Mesh mesh) => new([], null, mesh, null);
     }

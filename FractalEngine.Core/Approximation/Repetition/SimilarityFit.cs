@@ -7,10 +7,18 @@ internal static class SimilarityFit
 {
     // A turn of a whole model by less is a rounding error.
     private const double SnapTolerance = 1e-7;
+    private const double MinSine = 1e-9;
 
-    /// <summary>Returns the similarity without and the one with a mirror that take a triangle with area to another of its shape.</summary>
+    /// <summary>
+    /// Returns the similarity without and the one with a mirror that take a triangle to another of its shape; none where one has no area.
+    /// </summary>
     public static IEnumerable<AffineMap> OfTriangles(Vector a, Vector b, Vector c, Vector a2, Vector b2, Vector c2, double scale)
     {
+        if (!HasArea(a, b, c) || !HasArea(a2, b2, c2))
+        {
+            yield break;
+        }
+
         var back = FrameOf(a, b, c).Transpose();
         var to = FrameOf(a2, b2, c2);
         foreach (var sign in new[] { 1, -1 })
@@ -75,6 +83,9 @@ internal static class SimilarityFit
 
         static Vector Round(Vector column) => new(Math.Round(column.X), Math.Round(column.Y), Math.Round(column.Z));
     }
+
+    private static bool HasArea(Vector a, Vector b, Vector c) =>
+        Vector.Cross(b - a, c - a).Length() > MinSine * (b - a).Length() * (c - a).Length();
 
     /// <summary>Axes of a triangle, the last one along its first edge, and the second one perpendicular to it.</summary>
     private static Matrix FrameOf(Vector a, Vector b, Vector c) => new Matrix(c - a, Vector.Zero, b - a).Orthonormalized();
