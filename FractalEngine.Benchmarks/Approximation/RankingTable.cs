@@ -106,7 +106,8 @@ internal static class RankingTable
                     for (var unit = 0; unit < Units; unit++)
                     {
                         gradients[Units][unit] += error * units[unit];
-                        var inner = error * network.Output[unit] * (1 - (units[unit] * units[unit]));
+                        // The slope of x/(1 + |x|) is (1 − |u|)² where it is u.
+                        var inner = error * network.Output[unit] * (1 - Math.Abs(units[unit])) * (1 - Math.Abs(units[unit]));
                         for (var input = 0; input < inputs; input++)
                         {
                             gradients[unit][input] += inner * features[input];

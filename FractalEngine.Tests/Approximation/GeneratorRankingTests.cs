@@ -47,8 +47,9 @@ public sealed class GeneratorRankingTests
         var network = new Perceptron([[0.5, -1, 0.25], [2, 0, -0.125]], [3, -2, 0.75]);
         var units = new double[2];
         var output = network.Evaluate([0.3, 0.7], units);
-        var (first, second) = (Math.Tanh((0.5 * 0.3) - 0.7 + 0.25), Math.Tanh((2 * 0.3) - 0.125));
-        Assert.Equal([first, second], units);
+        var (first, second) = (-0.3 / 1.3, 0.475 / 1.475);
+        Assert.Equal(first, units[0], 15);
+        Assert.Equal(second, units[1], 15);
         Assert.Equal((3 * first) - (2 * second) + 0.75, output, 15);
     }
 

@@ -2,7 +2,7 @@ using System.Globalization;
 
 namespace FractalEngine.Core.Approximation.Damaged;
 
-/// <summary>A network with one hidden layer: Σ vⱼ·tanh(Σ wⱼᵢ·xᵢ + bⱼ) + c.</summary>
+/// <summary>A network with one hidden layer: Σ vⱼ·s(Σ wⱼᵢ·xᵢ + bⱼ) + c, where s(x) = x/(1 + |x|) has the same bits on all machines.</summary>
 /// <param name="Hidden">Weights of the hidden layer, the bias of each unit last, [units, inputs + 1].</param>
 /// <param name="Output">Weights of the output, its bias last, [units + 1].</param>
 internal sealed record Perceptron(double[][] Hidden, double[] Output)
@@ -33,7 +33,7 @@ internal sealed record Perceptron(double[][] Hidden, double[] Output)
                 sum += Hidden[unit][input] * inputs[input];
             }
 
-            units[unit] = Math.Tanh(sum);
+            units[unit] = sum / (1 + Math.Abs(sum));
             output += Output[unit] * units[unit];
         }
 

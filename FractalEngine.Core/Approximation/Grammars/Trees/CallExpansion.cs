@@ -25,7 +25,13 @@ internal sealed class CallExpansion
         var expansion = new CallExpansion(scene);
         foreach (var root in scene.Roots)
         {
-            expansion.Add(new(scene.Image(root), root, -1, 0, 0));
+            // With noise, maps of thin parts take not even the root where they were found.
+            if (scene.Image(root) is var image && image < 0)
+            {
+                return null;
+            }
+
+            expansion.Add(new(image, root, -1, 0, 0));
         }
 
         var lastLevel = int.MaxValue;
