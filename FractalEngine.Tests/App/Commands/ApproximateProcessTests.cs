@@ -18,7 +18,7 @@ public sealed class ApproximateProcessTests : IDisposable
     public void Approximate_Interrupted_LeavesTheBestOnlyIfAsked(bool keepsPartial)
     {
         Signals.Require("INT");
-        MeshFile.Write(_folder["terrain.obj"], OrganicModels.Create(OrganicKind.Terrain, 1, 2_000).Mesh);
+        MeshFile.Write(_folder["terrain.obj"], OrganicModels.Create(OrganicKind.Terrain, 1, 1_000).Mesh);
         string[] arguments = ["approximate", "terrain.obj", "--output", "found.fdo", "--report", "found.json", "--verbose"];
         using var process = AppProcess.Start(_folder.Path, [], keepsPartial ? [.. arguments, "--keep-partial"] : arguments);
         try
@@ -45,14 +45,14 @@ public sealed class ApproximateProcessTests : IDisposable
         if (keepsPartial)
         {
             Assert.Contains("\"endedBy\": \"interruption\"", File.ReadAllText(_folder["found.json"]), StringComparison.Ordinal);
-            Assert.InRange(FractalFile.Read(_folder["found.fdo"]).Flatten(2_000).FaceCount, 2, 1_000);
+            Assert.InRange(FractalFile.Read(_folder["found.fdo"]).Flatten(1_000).FaceCount, 2, 999);
         }
     }
 
     [Fact]
     public void Approximate_OnAnyNumberOfThreads_WritesTheSameFiles()
     {
-        var input = UnseenFractals.Create(FractalKind.Leaves, 1, 1_500);
+        var input = UnseenFractals.Create(FractalKind.Leaves, 1, 600);
         MeshFile.Write(_folder["mesh.obj"], new Damage(DamageKind.Noise, 0.01).Apply(input, 1).Mesh);
         var (one, four) = (FilesOf("1"), FilesOf("4"));
         Assert.Contains("APPROXIMATE", one[0], StringComparison.Ordinal);
