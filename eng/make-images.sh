@@ -67,6 +67,25 @@ light() {
     montage "${tiles[@]}" -tile 4x3 -geometry 400x225+2+2 -background white "$images/light.png"
 }
 
+# approximated NAME MODEL: mesh, fractal and distance side by side, at half the size. Code 6 says that there is no fractal.
+approximated() {
+    run approximate "$2" --output "$work/$1.fdo" --image "$work/$1.png" >/dev/null || [ $? = 6 ]
+    convert "$work/$1.png" -scale 50% "$images/approximate-$1.png"
+}
+
+# approximated_asset NAME FOLDER [OPTION ...]: the same for an expanded fractal of the assets.
+approximated_asset() {
+    run export "assets/$2/$1.fdo" --no-materials --output "$work/models/$1.obj" "${@:3}"
+    approximated "$1" "$work/models/$1.obj"
+}
+
+# approximated_sample NAME: the same for a model of the benchmarks.
+approximated_sample() {
+    [ -d "$work/samples" ] \
+        || dotnet run -c "$configuration" --project FractalEngine.Benchmarks -- approximate samples "$work/samples" >/dev/null
+    approximated "$1" "$work/samples/$1.obj"
+}
+
 make_image() {
     case "$1" in
         angles) draw "$1" assets/examples/angles.sdo 720x200 ;;
@@ -90,6 +109,12 @@ make_image() {
         classic-pythagoras) classic pythagoras '(6.14, 4.04, -9.83) look-at (0, 1.28, 0) 25' ;;
         traced-*) draw "$1" "assets/scenes/${1#traced-}.sdo" 640x360 --trace 64 ;;
         playground | light) "$1" ;;
+        approximate-tree) approximated_asset tree fractals --depth 5 ;;
+        approximate-romanesco) approximated_asset romanesco fractals --depth 2 ;;
+        approximate-snowflake) approximated_asset snowflake fractals --depth 3 ;;
+        approximate-menger-3) approximated_asset menger-3 fractals ;;
+        approximate-arch) approximated_asset arch classics ;;
+        approximate-*) approximated_sample "${1#approximate-}" ;;
         zoom)
             run animate assets/examples/zoom.sdo --zoom 1 --output "$work/zoom.apng" --frames 36 --fps 24 --resolution 320x180
             mv "$work/zoom.apng" "$images/zoom.png"
@@ -115,6 +140,9 @@ all=(
     classic-bush classic-context-tree classic-arch classic-synth-tree classic-dragon
     classic-koch classic-jerusalem classic-vicsek classic-cantor classic-pythagoras
     tree-01 tree-02 tree-03 tree-04 tree-05 tree-06 tree-07 tree-08 tree-09 tree-10
+    approximate-tree approximate-romanesco approximate-snowflake approximate-menger-3 approximate-arch
+    approximate-spiral-stairs approximate-temple approximate-ruined-tree approximate-strange-tree approximate-creature
+    approximate-terrain approximate-decimated-tree approximate-small-ruin
     traced-gallery traced-menger traced-playground light zoom stair window-fractal window-keys window-selection
 )
 [ $# != 0 ] || set -- "${all[@]}"

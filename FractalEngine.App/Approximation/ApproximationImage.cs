@@ -19,6 +19,9 @@ internal static class ApproximationImage
 {
     private const int TileSize = 720;
 
+    // Less than what counts as exact is no distance, but rounding.
+    private const double SmallestShown = 1e-6;
+
     // From no distance to the largest: dark blue, cyan, yellow, red.
     private static readonly Vector[] Ramp = [new(0.1, 0.15, 0.5), new(0.2, 0.75, 0.8), new(0.95, 0.9, 0.25), new(0.85, 0.1, 0.1)];
 
@@ -61,11 +64,11 @@ internal static class ApproximationImage
             distances[vertex] = isFound ? closest.Distance : 0;
         }
 
-        var largest = distances.Max();
+        var largest = Math.Max(distances.Max(), SmallestShown * mesh.UsedBounds.Diagonal);
         var colours = ImmutableArray.CreateBuilder<double>(3 * distances.Length);
         foreach (var distance in distances)
         {
-            var place = largest > 0 ? (Ramp.Length - 1) * distance / largest : 0;
+            var place = (Ramp.Length - 1) * distance / largest;
             var from = Math.Min((int)place, Ramp.Length - 2);
             var (red, green, blue) = Ramp[from] + ((place - from) * (Ramp[from + 1] - Ramp[from]));
             colours.AddRange(red, green, blue);

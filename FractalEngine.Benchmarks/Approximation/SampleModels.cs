@@ -8,6 +8,7 @@ internal static class SampleModels
 {
     private const int Repeats = 30;
     private const int TreeFaces = 30_000;
+    private const int SmallFaces = 3_000;
     private const int OrganicFaces = 20_000;
 
     private static readonly (string Name, Func<UnseenInput> Create)[] All =
@@ -19,6 +20,9 @@ internal static class SampleModels
         ("gear", () => RepeatingModels.Create(RepeatKind.Gear, 1, Repeats)),
         ("broken-tree", () => Damaged(new(DamageKind.Missing, 0.5))),
         ("strange-tree", () => Damaged(new(DamageKind.MissingAndStrangers, 0.3, 0.3))),
+        ("ruined-tree", () => Damaged(new(DamageKind.Missing, 0.8))),
+        ("small-ruin", () => Damaged(new(DamageKind.Missing, 0.8), SmallFaces)),
+        ("decimated-tree", () => Damaged(new(DamageKind.Decimated, 0.5))),
         ("creature", () => OrganicModels.Create(OrganicKind.Creature, 1, OrganicFaces)),
         ("terrain", () => OrganicModels.Create(OrganicKind.Terrain, 1, OrganicFaces)),
         ("bust", () => OrganicModels.Create(OrganicKind.Bust, 1, OrganicFaces)),
@@ -36,6 +40,6 @@ internal static class SampleModels
         }
     }
 
-    private static UnseenInput Damaged(Damage damage) =>
-        damage.Apply(UnseenFractals.Create(FractalKind.TreeWithIdentity, 1, TreeFaces), 1);
+    private static UnseenInput Damaged(Damage damage, int faces = TreeFaces) =>
+        damage.Apply(UnseenFractals.Create(FractalKind.TreeWithIdentity, 1, faces), 1);
 }

@@ -16,6 +16,9 @@ public sealed class MeshApproximator
     // Vertices and surfaces within this part of the diagonal count as the same.
     private const double ExactTolerance = 1e-6;
 
+    // What leaves more of the faces is a list of what the mesh consists of.
+    private const double MaxShareLeft = 0.75;
+
     // What only approximates must take so much less than what is exact.
     private const double ClearlyLess = 0.75;
 
@@ -117,10 +120,11 @@ public sealed class MeshApproximator
 
     private void Report(string stage) => _progress?.Report(new(stage, _best));
 
-    /// <summary>Measures what may be exact; null where it is not, or is larger than wanted.</summary>
+    /// <summary>Measures what may be exact; null where it is not, leaves most faces, or is larger than wanted.</summary>
     private ApproximationResult? JudgeExact(MeshGrammar grammar)
     {
-        if (Write(grammar, 2L * _mesh.FaceCount) is not { } written
+        if (grammar.FaceCount > MaxShareLeft * _mesh.FaceCount
+            || Write(grammar, 2L * _mesh.FaceCount) is not { } written
             || VertexDistance.FindLargest(_mesh, written.Mesh, ExactTolerance * _length) is not { } vertices)
         {
             return null;

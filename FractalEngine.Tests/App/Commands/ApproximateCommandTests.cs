@@ -1,6 +1,8 @@
 using System.Globalization;
 using System.Text;
 using System.Text.Json;
+using FractalEngine.Core.Fractals;
+using FractalEngine.Parsing;
 using FractalEngine.Render.Images;
 using FractalEngine.Tests.Support;
 
@@ -116,8 +118,8 @@ public sealed class ApproximateCommandTests : IDisposable
     [Fact]
     public void Approximate_WithFewerMapsThanItNeeds_IsNotExact()
     {
-        var classic = Repository.Full("assets/classics/vicsek.fdo");
-        var (_, output, _) = Run("approximate", classic, "--output", "found.fdo", "--maps", "6", "--quiet");
+        Run("export", Repository.Full("assets/classics/vicsek.fdo"), "--depth", "2", "--output", "flat.obj", "--quiet");
+        var (_, output, _) = Run("approximate", "flat.obj", "--output", "found.fdo", "--maps", "6", "--quiet");
         Assert.DoesNotContain("EXACT", output, StringComparison.Ordinal);
     }
 
@@ -148,16 +150,53 @@ public sealed class ApproximateCommandTests : IDisposable
     [Theory]
     [InlineData(2, "error: a fractal has several files, so --output can't be '-'\n", "one.fdo", "--output", "-")]
     [InlineData(2, "error: empty.obj has no faces, so there is nothing to approximate\n", "empty.obj", "--output", "x.fdo")]
-    [InlineData(3, null, "million.fdo", "--output", "x.fdo")]
-    public void Approximate_OfWhatCannotBe_SaysWhy(int code, string? message, params string[] arguments)
+    [InlineData(
+        1, "nan.obj:2:5: error: unexpected 'nan', expected a number\n  v 1 nan 0\n      ^\n", "nan.obj", "--output", "x.fdo")]
+    [InlineData(3, "error: the fractal has 1,000,000 instances, more than the limit of 250,000\n", "million.fdo", "--output", "x.fdo")]
+    [InlineData(
+        3, "error: soup.obj has more faces than the limit of 39\n", "soup.obj", "--output", "x.fdo", "--limit", "approximated-faces=39")]
+    public void Approximate_OfWhatCannotBe_SaysWhy(int code, string message, params string[] arguments)
     {
+        WriteSoup("soup.obj", step: 3);
+        _folder.Write("nan.obj", "v 0 0 0\nv 1 nan 0\nv 0 1 0\nf 1 2 3\n");
         _folder.Write("one.fdo", "<$>. ball\n");
         _folder.Write("empty.obj", "v 0 0 0\n");
         _folder.Write("million.fdo", "m. ((1, 0, 0), #, #)\n<$>. [m.^0..999] [((0, 1, 0), #, #)^0..999] box\n");
         var (exitCode, output, error) = Run(["approximate", .. arguments]);
         Assert.Equal((code, ""), (exitCode, output));
-        Assert.EndsWith(message ?? error, error, StringComparison.Ordinal);
+        Assert.EndsWith(message, error, StringComparison.Ordinal);
         Assert.False(File.Exists(_folder["x.fdo"]));
+    }
+
+    [Theory]
+    [InlineData(3)]
+    [InlineData(1)]
+    public void Approximate_OfSeparateOrIntersectingTriangles_WritesThemAsTheyAre(int step)
+    {
+        WriteSoup("soup.obj", step);
+        var (exitCode, output, _) = Run("approximate", "soup.obj", "--output", "found.fdo", "--quiet");
+        Assert.Equal(6, exitCode);
+        Assert.StartsWith("NO FRACTAL: nothing is closer than the simplified mesh of 40 faces, ", output, StringComparison.Ordinal);
+        Assert.Equal(40, FractalFile.Read(_folder["found.fdo"]).Flatten(40).FaceCount);
+    }
+
+    /// <summary>Writes forty triangles at random, which intersect each other; with a step of 1 each shares an edge with the next.</summary>
+    private void WriteSoup(string name, int step)
+    {
+        var random = new Random(8);
+        var text = new StringBuilder();
+        for (var vertex = 0; vertex < (40 * step) + 2; vertex++)
+        {
+            text.Append(CultureInfo.InvariantCulture, $"v {random.Next(999)} {random.Next(999)} {random.Next(999)}\n");
+        }
+
+        for (var face = 0; face < 40; face++)
+        {
+            var first = (step * face) + 1;
+            text.Append(CultureInfo.InvariantCulture, $"f {first} {first + 1} {first + 2}\n");
+        }
+
+        _folder.Write(name, text.ToString());
     }
 
     private AppResult Run(params string[] arguments) => AppInProcess.Run(_folder.Path, arguments);
