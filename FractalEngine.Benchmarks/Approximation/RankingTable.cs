@@ -52,7 +52,8 @@ internal static class RankingTable
         {
             foreach (var (name, scoreOf) in methods)
             {
-                table.Add(damage.Name, name, cases.Count, Percent(cases, scoreOf, one => one.GeneratorCount), Percent(cases, scoreOf, _ => 16));
+                table.Add(
+                    damage.Name, name, cases.Count, Percent(cases, scoreOf, one => one.GeneratorCount), Percent(cases, scoreOf, _ => 16));
             }
         }
 

@@ -21,7 +21,8 @@ public sealed class GeneratorRankingTests
         {
             foreach (var (features, isGenerator) in one.Features.Zip(one.IsGenerator))
             {
-                var others = one.Features.Zip(one.IsGenerator).Where(other => isGenerator && !other.Second).Select(other => other.First).ToList();
+                var others = one.Features.Zip(one.IsGenerator).Where(other => isGenerator && !other.Second)
+                    .Select(other => other.First).ToList();
                 above += others.Count(other => GeneratorRanking.ScoreOf(other) < GeneratorRanking.ScoreOf(features));
                 below += others.Count(other => GeneratorRanking.ScoreOf(other) >= GeneratorRanking.ScoreOf(features));
                 levelByVotes += others.Count(other => other[0] >= features[0]);

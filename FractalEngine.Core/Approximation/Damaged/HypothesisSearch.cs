@@ -68,8 +68,9 @@ internal sealed class HypothesisSearch(DamagedModel model, DamagedSearchSettings
         }
     }
 
-    private RelationSearch SearchOfAll() =>
-        new(model, model.CreateFullIndex(model.IsExact ? model.Tolerance : model.FirstTolerance), model.Elements.ConvertAll(_ => 1.0), cancellation);
+    private RelationSearch SearchOfAll() => new(
+        model, model.CreateFullIndex(model.IsExact ? model.Tolerance : model.FirstTolerance), model.Elements.ConvertAll(_ => 1.0),
+        cancellation);
 
     /// <summary>Tries products of sets, and a tree within those that are rows; returns whether any set was a row.</summary>
     /// <param name="search">The elements.</param>
@@ -115,7 +116,8 @@ internal sealed class HypothesisSearch(DamagedModel model, DamagedSearchSettings
     private void ConsiderTrees(List<List<AffineMap>> sets, List<AffineMap> set, List<AffineMap> supported)
     {
         var ofSet = set.Select(origin => set.Select(map => map * origin.Inverse()).Where(IsContraction).ToList()).MaxBy(maps => maps.Count);
-        var ofSupported = Enumerable.Range(2, MaxStartMaps).TakeWhile(count => count <= supported.Count).Select(count => supported.Take(count).ToList());
+        var ofSupported = Enumerable.Range(2, MaxStartMaps).TakeWhile(count => count <= supported.Count)
+            .Select(count => supported.Take(count).ToList());
         foreach (var maps in ofSupported.Prepend(ofSet ?? []).TakeWhile(_ => !IsClear).Where(maps => maps.Count > 1))
         {
             var (before, worth) = (double.NegativeInfinity, 0.0);
@@ -188,10 +190,13 @@ internal sealed class HypothesisSearch(DamagedModel model, DamagedSearchSettings
     private List<AffineMap>? FindRow(RelationSearch search, List<Relation> relations)
     {
         // A map that turns all onto itself by two steps counts each pair twice.
-        var step = relations.Select(relation => relation.Map).FirstOrDefault(map => !IsNear(map * map, AffineMap.Identity), relations[0].Map);
+        var step = relations.Select(relation => relation.Map)
+            .FirstOrDefault(map => !IsNear(map * map, AffineMap.Identity), relations[0].Map);
         var powers = new List<AffineMap> { AffineMap.Identity, step };
         var last = 1;
-        for (var power = step * step; powers.Count < MaxSet && RelationSearch.CanInvert(power) && !IsNear(power, AffineMap.Identity); power = step * power)
+        for (var power = step * step;
+            powers.Count < MaxSet && RelationSearch.CanInvert(power) && !IsNear(power, AffineMap.Identity);
+            power = step * power)
         {
             powers.Add(power);
             last = search.SupportOf(power) > 0 ? powers.Count - 1 : last;

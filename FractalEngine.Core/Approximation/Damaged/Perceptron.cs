@@ -2,7 +2,9 @@ using System.Globalization;
 
 namespace FractalEngine.Core.Approximation.Damaged;
 
-/// <summary>A network with one hidden layer: Σ vⱼ·s(Σ wⱼᵢ·xᵢ + bⱼ) + c, where s(x) = x/(1 + |x|) has the same bits on all machines.</summary>
+/// <summary>
+/// A network with one hidden layer: Σ vⱼ·s(Σ wⱼᵢ·xᵢ + bⱼ) + c, where s(x) = x/(1 + |x|) has the same bits on all machines.
+/// </summary>
 /// <param name="Hidden">Weights of the hidden layer, the bias of each unit last, [units, inputs + 1].</param>
 /// <param name="Output">Weights of the output, its bias last, [units + 1].</param>
 internal sealed record Perceptron(double[][] Hidden, double[] Output)
@@ -16,8 +18,8 @@ internal sealed record Perceptron(double[][] Hidden, double[] Output)
     }
 
     /// <summary>Returns the weights as text, from which the same bits are read.</summary>
-    public string Write() => string.Concat(
-        Hidden.Append(Output).Select(row => string.Join(' ', row.Select(weight => weight.ToString("R", CultureInfo.InvariantCulture))) + "\n"));
+    public string Write() => string.Concat(Hidden.Append(Output).Select(
+        row => string.Join(' ', row.Select(weight => weight.ToString("R", CultureInfo.InvariantCulture))) + "\n"));
 
     /// <summary>Computes what the hidden units give, and the output.</summary>
     /// <param name="inputs">The inputs.</param>

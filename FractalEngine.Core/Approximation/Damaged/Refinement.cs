@@ -27,8 +27,8 @@ internal sealed class Refinement(DamagedModel model, CancellationToken cancellat
 
         var all = Enumerable.Range(0, description.Tree.Count).ToArray();
         var tree = all.Length == 0 ? null : new MapTree(description.Tree, [.. Enumerable.Repeat(all, all.Length + 1)], description.Depth);
-        return new(
-            [.. description.Sets.Select(set => new GrammarStep([set], 1))], tree, MeshOf(description, FindElements(description, relative)), null);
+        var mesh = MeshOf(description, FindElements(description, relative));
+        return new([.. description.Sets.Select(set => new GrammarStep([set], 1))], tree, mesh, null);
     }
 
     /// <summary>For each base and each word the element there, and its symmetry; null where none is.</summary>

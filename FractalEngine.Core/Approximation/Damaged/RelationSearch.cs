@@ -25,7 +25,7 @@ internal sealed class RelationSearch(DamagedModel model, PlacementIndex set, IRe
     // Hardly any two elements are level in this direction.
     private static readonly Vector OddVector = new(0.6180339887, 0.5436890127, 0.4655712319);
 
-    /// <summary>The elements.</summary>
+    /// <summary>The elements that maps are looked for between.</summary>
     public PlacementIndex Set => set;
 
     /// <summary>What each element counts.</summary>
