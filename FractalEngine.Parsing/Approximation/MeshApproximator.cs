@@ -31,6 +31,9 @@ public sealed class MeshApproximator
     // A fractal that has so many times as many of the mesh's vertices as the simplified mesh has in all is closer to it.
     private const int MinGain = 4;
 
+    // Unless it reaches so far beyond the mesh, or the mesh beyond it, in diagonals.
+    private const double MaxReach = 0.5;
+
     // Simplification moves open edges by so much of the diagonal at most, or they are others than those of a cut.
     private const double SeamTolerance = 0.002;
 
@@ -153,7 +156,8 @@ public sealed class MeshApproximator
         var simpleDistance = simple is null ? null : SurfaceDistance.Between(_mesh, simple, cancellation: _cancellation);
         // Where elements are missing or foreign, distances don't tell what is explained.
         var matching = MatchingIn(written.Mesh);
-        var isBetter = simpleDistance is null || matching > MinGain * simple!.VertexCount
+        var isBetter = simpleDistance is null
+            || (matching > MinGain * simple!.VertexCount && distance.RelativeMaxDistance.Upper < MaxReach)
             || distance.MeanDistance + distance.MeanDistanceError < simpleDistance.MeanDistance - simpleDistance.MeanDistanceError;
         return new(
             isBetter ? ApproximationVerdict.Approximate : ApproximationVerdict.NoFractal, grammar, written.Mesh, written.Bytes, distance,

@@ -9,7 +9,7 @@ namespace FractalEngine.Tests.Approximation;
 public sealed class MirrorSearchTests
 {
     [Fact]
-    public void Find_OfMirroredClouds_FindsThePlaneThatMadeThem() => Seeded.Run(5, random =>
+    public void Find_OfMirroredClouds_FindsThePlaneThatMadeThem() => Seeded.Run(2, random =>
     {
         var normal = new Vector(random.NextDouble() - 0.5, random.NextDouble() - 0.5, random.NextDouble() - 0.5).UnitVector();
         var made = new MirrorPlane(normal, random.NextDouble(), 0);

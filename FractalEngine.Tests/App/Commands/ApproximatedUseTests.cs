@@ -61,7 +61,8 @@ public sealed class ApproximatedUseTests : IDisposable
         string[] RestOn(string file)
         {
             _folder.Write("cube.obj", SampleFiles.Cube);
-            _folder.Write("ball.sdo", $"o \"{file}\" #\np \"cube.obj\" ((0.02, 0.8, 0.01), #, (0.1, 0.1, 0.1)) 0.2 friction 0.8 rolling 0.8\n");
+            const string Ball = "p \"cube.obj\" ((0.02, 0.8, 0.01), #, (0.1, 0.1, 0.1)) 0.2 friction 0.8 rolling 0.8";
+            _folder.Write("ball.sdo", $"o \"{file}\" #\n{Ball}\n");
             Assert.Equal(0, Run("simulate", "ball.sdo", "--seconds", "4", "--output", "ball.csv").ExitCode);
             return File.ReadLines(_folder["ball.csv"]).Last().Split(',');
         }

@@ -42,7 +42,7 @@ internal sealed class ElementTemplate
     /// <summary>Indices of vertices, [faces × 3].</summary>
     public int[] Corners { get; }
 
-    /// <summary>The vertices, [vertices].</summary>
+    /// <summary>The vertices of the template, [vertices].</summary>
     public IReadOnlyList<Vector> Vertices => _vertices;
 
     /// <summary>Whether all vertices lie in the plane z = 0.</summary>
