@@ -42,9 +42,9 @@ internal sealed class ApproximationText(Mesh mesh, ApproximationResult result)
         }
 
         yield return Distances;
-        if (result is { Verdict: ApproximationVerdict.Approximate, SameBytes: { } simple })
+        if (result is { Verdict: ApproximationVerdict.Approximate, SameBytes: { } simple, MatchingVertices: { } own })
         {
-            yield return Invariant($"{result.MatchingVertices} of {mesh.VertexCount} vertices are its own");
+            yield return Invariant($"{own.Near} of {own.All} vertices are its own");
             yield return Invariant($"a simplified mesh of as many bytes ({simple.Mesh.FaceCount} faces): {Describe(simple.Distance)}");
         }
     }
@@ -62,7 +62,7 @@ internal sealed class ApproximationText(Mesh mesh, ApproximationResult result)
             maps = result.Grammar.MapCount,
             bytes = result.Bytes,
             diagonal = result.Distance.Diagonal,
-            matchingVertices = result.MatchingVertices,
+            matchingVertices = result.MatchingVertices?.Near,
             maxVertexDistance = result.VertexDistance / result.Distance.Diagonal,
             distance = ValuesOf(result.Distance),
             sameBytesMesh = result.SameBytes is { } simple

@@ -15,7 +15,7 @@ internal static class ApproximationCommand
           and models that repeat, which it was not written for, see Approximation/Unseen, some of them damaged. Writes to
           docs/benchmarks unless stated: approximation.csv. With 'models', what is found for the fractals of the assets, and how
           close it comes to irregular shapes: approximation-models.csv.
-        approximate train [FILE] [--quick]
+        approximate train [--output FILE]
           Trains the network that ranks the maps of damaged trees, from its seeds, in minutes: the same machine writes the same bytes.
           Writes to FractalEngine.Core/Approximation/Damaged/generators.txt unless stated.
         approximate ranking [--quick] [--output FOLDER]
@@ -37,9 +37,13 @@ internal static class ApproximationCommand
 
         if (args is ["train", .. var rest])
         {
-            var isQuick = rest.Contains("--quick");
-            var files = rest.ToArray().Where(word => word != "--quick").ToArray();
-            RankingTable.Train(files.Length > 0 ? files[0] : WeightsFile, isQuick ? 30 : 150);
+            var path = WeightsFile;
+            if (!new CommandLineParser(Usage).Option("--output", file => path = file).TryParse(rest))
+            {
+                return 2;
+            }
+
+            RankingTable.Train(path);
             return 0;
         }
 

@@ -11,23 +11,23 @@ namespace FractalEngine.Benchmarks.Approximation;
 internal static class RankingTable
 {
     private const int FirstTrainingSeed = 10_000;
+    private const int TrainingSeeds = 150;
     private const int FirstTestSeed = 20_000;
     private const int Units = 12;
     private const int Epochs = 300;
     private const double StepSize = 0.01;
     private const int NeighbourCount = 15;
 
-    // Half of all weights hold back large ones, so that few cases are enough.
+    // Weights are drawn towards 0, so that few cases are enough.
     private const double Decay = 1e-4;
 
     private static readonly FractalKind[] Kinds = [FractalKind.TreeWithIdentity, FractalKind.SkewedTree];
 
     /// <summary>Trains the network from its seeds, and writes its weights.</summary>
     /// <param name="path">The file to write.</param>
-    /// <param name="seeds">How many fractals of each kind; each counts once for each damage.</param>
-    public static void Train(string path, int seeds)
+    public static void Train(string path)
     {
-        var cases = CasesOf(FirstTrainingSeed, seeds).SelectMany(pair => pair.Cases).ToList();
+        var cases = CasesOf(FirstTrainingSeed, TrainingSeeds).SelectMany(pair => pair.Cases).ToList();
         Console.WriteLine(FormattableString.Invariant($"{cases.Count} cases, {cases.Sum(one => one.Features.Length)} maps"));
         File.WriteAllText(path, Fit(cases).Write());
     }
@@ -69,8 +69,8 @@ internal static class RankingTable
 
     private static IEnumerable<(Damage Damage, List<RankingCase> Cases)> CasesOf(int firstSeed, int seeds)
     {
-        foreach (var damage in Damage.All.Where(damage => damage.Kind is DamageKind.None or DamageKind.Noise or DamageKind.Missing
-            or DamageKind.MissingAndStrangers && damage.Amount != 0.001))
+        foreach (var damage in Damage.All.Where(damage => damage is { Kind: DamageKind.None or DamageKind.Missing or DamageKind.MissingAndStrangers }
+            or { Kind: DamageKind.Noise, Amount: 0.01 }))
         {
             yield return (damage, [.. Kinds.SelectMany(kind => Enumerable.Range(firstSeed, seeds)
                 .Select(seed => RankingCase.Create(kind, seed, 1_000 + (seed % 4 * 500), damage)).OfType<RankingCase>())]);

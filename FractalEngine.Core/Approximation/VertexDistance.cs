@@ -23,16 +23,17 @@ public static class VertexDistance
         return double.IsFinite(largest) ? Math.Sqrt(largest) : null;
     }
 
-    /// <summary>Counts the vertices of a mesh that have a vertex of another one so near. Cost O(vertices).</summary>
-    /// <param name="mesh">The mesh; only vertices of its faces count.</param>
+    /// <summary>Counts the vertices of a mesh that have a vertex of another one so near, and all. Cost O(vertices).</summary>
+    /// <param name="mesh">The mesh; only vertices of its faces count, and those at one place once.</param>
     /// <param name="other">The other mesh.</param>
     /// <param name="within">Largest distance, scene units, above 0.</param>
-    public static int CountWithin(Mesh mesh, Mesh other, double within)
+    public static (int Near, int All) CountWithin(Mesh mesh, Mesh other, double within)
     {
         ArgumentNullException.ThrowIfNull(mesh);
         ArgumentNullException.ThrowIfNull(other);
         ArgumentOutOfRangeException.ThrowIfNegativeOrZero(within);
-        return SquaresOf(PointsOf(mesh), PointsOf(other), within).Count(double.IsFinite);
+        var points = PointsOf(mesh);
+        return (SquaresOf(points, PointsOf(other), within).Count(double.IsFinite), points.Length);
     }
 
     private static Vector[] PointsOf(Mesh mesh)

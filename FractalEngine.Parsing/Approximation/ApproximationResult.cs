@@ -13,7 +13,9 @@ namespace FractalEngine.Parsing.Approximation;
 /// <param name="VertexDistance">
 /// The largest distance of a vertex of either from the nearest of the other, scene units; null where it only approximates.
 /// </param>
-/// <param name="MatchingVertices">How many vertices of the mesh lie on vertices of it, within 1e-6 of the diagonal.</param>
+/// <param name="MatchingVertices">
+/// How many vertices of the mesh it has within 1e-6 of the diagonal, of how many at different places; null where it is exact or no fractal.
+/// </param>
 /// <param name="SameBytes">The simplified mesh of as many bytes, and how far it is from the mesh; null where the fractal is exact.</param>
 public sealed record ApproximationResult(
     ApproximationVerdict Verdict,
@@ -22,5 +24,5 @@ public sealed record ApproximationResult(
     long Bytes,
     SurfaceDistance Distance,
     double? VertexDistance,
-    int MatchingVertices,
+    (int Near, int All)? MatchingVertices,
     (Mesh Mesh, SurfaceDistance Distance)? SameBytes);

@@ -92,8 +92,7 @@ public sealed class MeshApproximator
         var settings = new DamagedSearchSettings(_settings.Tolerance * _length, _settings.Seed, _settings.Effort);
         if (DamagedSearch.Find(_mesh, settings, _cancellation) is { } damaged
             && Judge(damaged) is { Verdict: ApproximationVerdict.Approximate } approximate
-            && (exact is null || approximate.Bytes + (VertexBytes * (exact.MatchingVertices - approximate.MatchingVertices))
-                < ClearlyLess * exact.Bytes))
+            && (exact is null || approximate.Bytes + (VertexBytes * MissingIn(approximate)) < ClearlyLess * exact.Bytes))
         {
             return approximate;
         }
@@ -140,7 +139,7 @@ public sealed class MeshApproximator
             ? null
             : new(
                 grammar.IsRecursive ? ApproximationVerdict.Exact : ApproximationVerdict.Repeats, grammar, written.Mesh, written.Bytes,
-                distance, vertices, MatchingIn(written.Mesh), null);
+                distance, vertices, null, null);
     }
 
     /// <summary>Compares a fractal with the simplified mesh of as many bytes; null where it is larger than wanted.</summary>
@@ -155,16 +154,17 @@ public sealed class MeshApproximator
         var simple = new SameBytesMesh(_mesh, simple => simple, _cancellation).Find(written.Bytes, ObjBytes);
         var simpleDistance = simple is null ? null : SurfaceDistance.Between(_mesh, simple, cancellation: _cancellation);
         // Where elements are missing or foreign, distances don't tell what is explained.
-        var matching = MatchingIn(written.Mesh);
+        var matching = VertexDistance.CountWithin(_mesh, written.Mesh, ExactTolerance * _length);
         var isBetter = simpleDistance is null
-            || (matching > MinGain * simple!.VertexCount && distance.RelativeMaxDistance.Upper < MaxReach)
+            || (matching.Near > MinGain * simple!.VertexCount && distance.RelativeMaxDistance.Upper < MaxReach)
             || distance.MeanDistance + distance.MeanDistanceError < simpleDistance.MeanDistance - simpleDistance.MeanDistanceError;
         return new(
             isBetter ? ApproximationVerdict.Approximate : ApproximationVerdict.NoFractal, grammar, written.Mesh, written.Bytes, distance,
             null, matching, simple is null ? null : (simple, simpleDistance!));
     }
 
-    private int MatchingIn(Mesh made) => VertexDistance.CountWithin(_mesh, made, ExactTolerance * _length);
+    private static int MissingIn(ApproximationResult result) =>
+        result.MatchingVertices is { } vertices ? vertices.All - vertices.Near : 0;
 
     /// <summary>Half of the shape, simplified, and its mirror image.</summary>
     private ApproximationResult? FindMirrored(MirrorPlane plane, long bytes)
@@ -188,7 +188,7 @@ public sealed class MeshApproximator
                 $"no mesh with a face has only {bytes} bytes, so there is nothing to write"));
         var written = WrittenGrammar.Create(Alone(simple), _length, long.MaxValue);
         var distance = SurfaceDistance.Between(_mesh, written.Mesh, cancellation: _cancellation);
-        return new(ApproximationVerdict.NoFractal, Alone(simple), written.Mesh, written.Bytes, distance, null, MatchingIn(written.Mesh),
+        return new(ApproximationVerdict.NoFractal, Alone(simple), written.Mesh, written.Bytes, distance, null, null,
             (simple, distance));
 
         static MeshGrammar Alone(Mesh mesh) => new([], null, mesh, null);

@@ -12,9 +12,6 @@ internal static class GeneratorRanking
     /// <summary>How many maps are compared with each other.</summary>
     public const int MaxMaps = 48;
 
-    // Maps that differ by so little of the diagonal are one.
-    private const double NearTolerance = 2e-3;
-
     private static readonly Lazy<Perceptron> Trained = new(() =>
     {
         using var stream = typeof(GeneratorRanking).Assembly.GetManifestResourceStream("generators.txt")!;
@@ -24,7 +21,7 @@ internal static class GeneratorRanking
     /// <summary>Returns the maps, the likeliest first.</summary>
     /// <param name="relations">At most <see cref="MaxMaps"/> maps that make smaller, most supported first.</param>
     /// <param name="model">The elements.</param>
-    public static List<AffineMap> Rank(IReadOnlyList<Relation> relations, DamagedModel model)
+    public static List<AffineMap> Rank(List<Relation> relations, DamagedModel model)
     {
         var features = FeaturesOf(relations, model);
         return [.. relations.Select((relation, index) => (relation.Map, Score: ScoreOf(features[index])))
@@ -36,17 +33,16 @@ internal static class GeneratorRanking
 
     /// <summary>Computes the inputs of the network for each map, all about 0 to 1.</summary>
     /// <inheritdoc cref="Rank"/>
-    public static double[][] FeaturesOf(IReadOnlyList<Relation> relations, DamagedModel model)
+    public static double[][] FeaturesOf(List<Relation> relations, DamagedModel model)
     {
         var count = relations.Count;
-        var images = relations.Select(relation => ImagesOf(relation.Map)).ToArray();
         var (made, before, after) = (new int[count], new int[count], new int[count]);
         for (var outer = 0; outer < count; outer++)
         {
             for (var inner = 0; inner < count; inner++)
             {
-                var product = ImagesOf(relations[outer].Map * relations[inner].Map);
-                if (Array.FindIndex(images, image => IsNear(image, product)) is var index and >= 0)
+                var product = relations[outer].Map * relations[inner].Map;
+                if (relations.FindIndex(relation => model.AreNear(relation.Map, product)) is var index and >= 0)
                 {
                     made[index]++;
                     after[outer]++;
@@ -66,11 +62,5 @@ internal static class GeneratorRanking
             1 - (1.0 / (1 + after[index])),
             (double)(before[index] + after[index]) / (1 + before.Max() + after.Max()),
         })];
-
-        Vector[] ImagesOf(AffineMap map) =>
-            [.. new[] { Vector.Zero, Vector.I, Vector.J, Vector.K }.Select(axis => map * (model.Centre + (0.5 * model.Diagonal * axis)))];
-
-        bool IsNear(Vector[] images1, Vector[] images2) =>
-            images1.Zip(images2).All(pair => (pair.First - pair.Second).MaxAbsComponent() < NearTolerance * model.Diagonal);
     }
 }

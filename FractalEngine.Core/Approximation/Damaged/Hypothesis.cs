@@ -13,6 +13,10 @@ internal sealed record Hypothesis(
     /// <summary>All maps but identities: those of sets, and then those of the tree.</summary>
     public List<AffineMap> Maps => [.. Sets.SelectMany(set => set.Skip(1)), .. Tree];
 
+    /// <summary>Number of products, some of which may be equal.</summary>
+    public double WordCount => Sets.Aggregate(
+        Enumerable.Range(0, Depth + 1).Sum(length => Math.Pow(Tree.Count, length)), (count, set) => count * set.Count);
+
     /// <summary>Returns the hypothesis with other maps, in the same order.</summary>
     public Hypothesis WithMaps(List<AffineMap> maps)
     {

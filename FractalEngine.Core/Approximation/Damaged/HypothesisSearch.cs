@@ -21,7 +21,7 @@ internal sealed class HypothesisSearch(DamagedModel model, DamagedSearchSettings
     private const int MaxMaps = 24;
     private const int MaxCandidates = 60;
 
-    // Products of maps with more images than elements, by this factor, explain nothing.
+    // More products of maps than elements, by this factor, explain nothing.
     private const double MaxPredicted = 8;
 
     // A set has no map whose support, with each map of it, is less than that part of what the others have on average.
@@ -31,9 +31,6 @@ internal sealed class HypothesisSearch(DamagedModel model, DamagedSearchSettings
     private const double MinRepeated = 0.3;
 
     private const double MaxContraction = 0.99;
-
-    // Maps that differ by so little, in entries and over the whole model, are one.
-    private const double NearTolerance = 3e-3;
 
     // Folded elements are dropped that are so unlikely, and beyond so many for each element.
     private const double MinWeight = 0.1;
@@ -123,11 +120,6 @@ internal sealed class HypothesisSearch(DamagedModel model, DamagedSearchSettings
             var (before, worth) = (double.NegativeInfinity, 0.0);
             for (var depth = 2; depth <= MaxTreeDepth && worth >= before; depth++)
             {
-                if (sets.Aggregate(Math.Pow(maps.Count, depth), (count, other) => count * other.Count) > MaxPredicted * _all.Count)
-                {
-                    break;
-                }
-
                 (before, worth) = (worth, Consider(new([.. sets], maps, depth, [])));
             }
         }
@@ -153,8 +145,14 @@ internal sealed class HypothesisSearch(DamagedModel model, DamagedSearchSettings
         }
     }
 
+    /// <summary>Finds bases for a hypothesis, and keeps it if it is the best so far; returns what it is worth.</summary>
     private double Consider(Hypothesis hypothesis)
     {
+        if (hypothesis.WordCount > MaxPredicted * _all.Count)
+        {
+            return double.NegativeInfinity;
+        }
+
         var (completed, explanation) = new BaseSearch(model, _all, settings.Seed, cancellation).Complete(hypothesis);
         // Of equal ones the last, which has most sets.
         if (explanation.Worth >= _best.Worth && explanation.Worth > 0)
@@ -183,7 +181,7 @@ internal sealed class HypothesisSearch(DamagedModel model, DamagedSearchSettings
 
         var back = set[members[0]].Placement.Inverse();
         return [AffineMap.Identity, .. members.Skip(1).Select(member => model.Templates[set[member].Class].Symmetries.Select(symmetry =>
-            (set[member].Placement with { Linear = set[member].Placement.Linear * symmetry.Map }) * back).MaxBy(search.SupportOf))];
+            PlacedElement.After(symmetry.Map, set[member].Placement) * back).MaxBy(search.SupportOf))];
     }
 
     /// <summary>The powers of the best relation, as far as there are any; null where even the second one hardly is.</summary>
@@ -191,11 +189,11 @@ internal sealed class HypothesisSearch(DamagedModel model, DamagedSearchSettings
     {
         // A map that turns all onto itself by two steps counts each pair twice.
         var step = relations.Select(relation => relation.Map)
-            .FirstOrDefault(map => !IsNear(map * map, AffineMap.Identity), relations[0].Map);
+            .FirstOrDefault(map => !model.AreNear(map * map, AffineMap.Identity), relations[0].Map);
         var powers = new List<AffineMap> { AffineMap.Identity, step };
         var last = 1;
         for (var power = step * step;
-            powers.Count < MaxSet && RelationSearch.CanInvert(power) && !IsNear(power, AffineMap.Identity);
+            powers.Count < MaxSet && RelationSearch.CanInvert(power) && !model.AreNear(power, AffineMap.Identity);
             power = step * power)
         {
             powers.Add(power);
@@ -215,7 +213,7 @@ internal sealed class HypothesisSearch(DamagedModel model, DamagedSearchSettings
         // What can be applied twice is a step of a row, or turns all onto itself.
         var first = relations.Find(relation =>
             search.SupportOf(relation.Map * relation.Map) < MinRepeated * search.SupportOf(relation.Map)
-            && !IsNear(relation.Map * relation.Map, AffineMap.Identity));
+            && !model.AreNear(relation.Map * relation.Map, AffineMap.Identity));
         if (first.Support == 0)
         {
             return [];
@@ -250,9 +248,6 @@ internal sealed class HypothesisSearch(DamagedModel model, DamagedSearchSettings
             }
         }
     }
-
-    private bool IsNear(AffineMap map1, AffineMap map2) => (map1.Linear - map2.Linear).MaxAbsEntry() < NearTolerance
-        && ((map1 * model.Centre) - (map2 * model.Centre)).MaxAbsComponent() < NearTolerance * model.Diagonal;
 
     /// <summary>
     /// Folds elements by the inverses of maps. What several elements are folded to is there; of the others each may be there by one map.

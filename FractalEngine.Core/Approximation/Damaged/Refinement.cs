@@ -50,10 +50,8 @@ internal sealed class Refinement(DamagedModel model, CancellationToken cancellat
         return found;
     }
 
-    private AffineMap PlacementOf((PlacedElement Element, int Symmetry) found) => found.Element.Placement with
-    {
-        Linear = found.Element.Placement.Linear * model.Templates[found.Element.Class].Symmetries[found.Symmetry].Map,
-    };
+    private AffineMap PlacementOf((PlacedElement Element, int Symmetry) found) =>
+        PlacedElement.After(model.Templates[found.Element.Class].Symmetries[found.Symmetry].Map, found.Element.Placement);
 
     /// <summary>Fits each map to the elements of words with it, and without it.</summary>
     private Hypothesis FitMaps(Hypothesis description, (PlacedElement Element, int Symmetry)?[,] found)

@@ -20,7 +20,6 @@ internal sealed class RelationSearch(DamagedModel model, PlacementIndex set, IRe
     // Maps of exact vertices agree within that part of the diagonal, over the whole model.
     private const double VoteCell = 1e-4;
     private const double MinVolume = 1e-9;
-    private const double MaxVotingNoise = 1e-6;
 
     // Hardly any two elements are level in this direction.
     private static readonly Vector OddVector = new(0.6180339887, 0.5436890127, 0.4655712319);
@@ -42,7 +41,7 @@ internal sealed class RelationSearch(DamagedModel model, PlacementIndex set, IRe
             return [];
         }
 
-        var maps = model.Noise <= MaxVotingNoise * model.Diagonal ? Vote(byClass, effort) : Grow(byClass, effort);
+        var maps = model.IsExact ? Vote(byClass, effort) : Grow(byClass, effort);
         return [.. maps.Where(CanInvert).Select(map => new Relation(map, SupportOf(map))).Where(relation => relation.Support > 0)
             .OrderByDescending(relation => relation.Support)];
     }
@@ -119,7 +118,7 @@ internal sealed class RelationSearch(DamagedModel model, PlacementIndex set, IRe
             .Select(vote => MapOf(set[order[vote.From]].Placement.Inverse(), vote.To, vote.Symmetry))];
 
         AffineMap MapOf(AffineMap back, int to, int symmetry) => Directed(
-            new AffineMap(set[order[to]].Placement.Linear * symmetries[symmetry].Map, set[order[to]].Placement.Translation) * back);
+            PlacedElement.After(symmetries[symmetry].Map, set[order[to]].Placement) * back);
     }
 
     /// <summary>Of a map and its inverse the one that makes smaller, or else moves in the direction of an odd vector.</summary>
@@ -165,7 +164,7 @@ internal sealed class RelationSearch(DamagedModel model, PlacementIndex set, IRe
                 cancellation.ThrowIfCancellationRequested();
                 foreach (var symmetry in symmetries)
                 {
-                    var map = new AffineMap(set[member].Placement.Linear * symmetry.Map, set[member].Placement.Translation) * back;
+                    var map = PlacedElement.After(symmetry.Map, set[member].Placement) * back;
                     if (Extend(map, order) is { } grown)
                     {
                         maps.Add(grown);
@@ -194,7 +193,7 @@ internal sealed class RelationSearch(DamagedModel model, PlacementIndex set, IRe
                 {
                     var template = model.Templates[elementClass];
                     var to = set[image].Placement;
-                    fit.Add(placement, to with { Linear = to.Linear * template.Symmetries[symmetry].Map }, template.IsFlat, 1);
+                    fit.Add(placement, PlacedElement.After(template.Symmetries[symmetry].Map, to), template.IsFlat, 1);
                 }
             }
 

@@ -49,7 +49,7 @@ internal sealed class ElementShape
     /// <summary>The vertices by rising radius.</summary>
     public int[] Order { get; }
 
-    /// <summary>The radii in this order.</summary>
+    /// <summary>The radii of all vertices, the smallest first.</summary>
     public double[] SortedRadii { get; }
 
     /// <summary>Whether all vertices lie in one plane.</summary>

@@ -13,6 +13,8 @@ internal sealed class DamagedModel
     // Within this part of their size elements of unknown noise count as images of a template.
     private const double MaxNoiseOfSize = 0.1;
 
+    private const double NearTolerance = 3e-3;
+
     // Files with seven digits have about so much noise, in diagonals.
     private const double MinNoise = 1e-7;
 
@@ -93,6 +95,10 @@ internal sealed class DamagedModel
 
         return deviations.Count == 0 ? null : RadiusPerDeviation * deviations.Order().ElementAt(deviations.Count / 2);
     }
+
+    /// <summary>Whether two maps are one: they differ little in entries, and in what they make of the model's centre.</summary>
+    public bool AreNear(AffineMap map1, AffineMap map2) => (map1.Linear - map2.Linear).MaxAbsEntry() < NearTolerance
+        && ((map1 * Centre) - (map2 * Centre)).MaxAbsComponent() < NearTolerance * Diagonal;
 
     /// <summary>Makes an index of placements with tolerances.</summary>
     /// <param name="relative">Largest distance in units of the placement's size.</param>
