@@ -69,7 +69,8 @@ internal static class RankingTable
 
     private static IEnumerable<(Damage Damage, List<RankingCase> Cases)> CasesOf(int firstSeed, int seeds)
     {
-        foreach (var damage in Damage.All.Where(damage => damage is { Kind: DamageKind.None or DamageKind.Missing or DamageKind.MissingAndStrangers }
+        foreach (var damage in Damage.All.Where(damage => damage
+            is { Kind: DamageKind.None or DamageKind.Missing or DamageKind.MissingAndStrangers }
             or { Kind: DamageKind.Noise, Amount: 0.01 }))
         {
             yield return (damage, [.. Kinds.SelectMany(kind => Enumerable.Range(firstSeed, seeds)
