@@ -49,42 +49,13 @@ public static class GrammarSearch
     private static MeshGrammar? Find(Mesh mesh, List<Element> elements, CancellationToken cancellation)
     {
         var length = mesh.UsedBounds.Diagonal;
-        var set = new ElementSet(elements, ExactTolerance * length, ElementSet.ExactShapeTolerance, cancellation);
-        var members = Enumerable.Range(0, set.Count).ToArray();
-        if (TreeSearch.Find(set, members, isFull: true, cancellation) is { } full)
-        {
-            return Make(set, [], members, full, length);
-        }
-
-        var factors = new List<MapFactor>();
-        var reference = FactorCandidates.ChooseReference(set, members);
-        var rest = members;
-        TreeGrammar? tree = null;
-        while (tree is null && rest.Length > 1 && FactorSearch.Find(set, rest, reference, cancellation) is { } factor)
-        {
-            factors.Add(factor);
-            rest = factor.Remainder;
-            tree = TreeSearch.Find(set, rest, isFull: true, cancellation);
-        }
-
-        for (var index = 0; tree is null && index < factors.Count; index++)
-        {
-            if (ClusterTree.Find(set, factors[index], cancellation) is var (clusters, found))
-            {
-                return Make(clusters, factors[..index], [.. Enumerable.Range(0, clusters.Count)], found, length);
-            }
-        }
-
-        if (tree is null && rest.Length > 2)
-        {
-            tree = TreeSearch.Find(set, rest, isFull: false, cancellation);
-        }
-
-        return factors.Count > 0 || tree is not null ? Make(set, factors, rest, tree, length) : null;
+        var set = new ExactElements(elements, ExactTolerance * length, cancellation);
+        return ElementGrammar.Find(set, cancellation) is { } grammar ? Make(grammar, length) : null;
     }
 
-    private static MeshGrammar Make(ElementSet set, List<MapFactor> factors, int[] rest, TreeGrammar? tree, double length)
+    private static MeshGrammar Make(ElementGrammar grammar, double length)
     {
+        var (set, factors, rest, tree) = grammar;
         var origin = factors.Count > 0 ? set.Elements[FactorCandidates.ChooseReference(set, rest)].Shape.Centroid : Vector.Zero;
         var centroid = Vector.Zero;
         foreach (var element in set.Elements)

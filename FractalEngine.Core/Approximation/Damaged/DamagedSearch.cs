@@ -55,6 +55,16 @@ public static class DamagedSearch
         Mesh mesh, double noise, DamagedSearchSettings settings, CancellationToken cancellation)
     {
         var model = DamagedModel.Create(mesh, noise, cancellation);
+        if (!model.IsExact && model.Elements.Count > 1
+            && ElementGrammar.Find(new NoisyElements(model), cancellation) is { } grammar)
+        {
+            var refined = new Refinement(model, cancellation).Refine(Hypothesis.Of(grammar));
+            if (refined.ExplainsMost(mesh.FaceCount))
+            {
+                return (refined, 1);
+            }
+        }
+
         var search = new HypothesisSearch(model, settings, cancellation);
         search.Run();
         return search.Best is { } best ? (new Refinement(model, cancellation).Refine(best), search.ExplainedPart) : (null, 0);

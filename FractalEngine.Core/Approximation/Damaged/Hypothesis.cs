@@ -1,3 +1,4 @@
+using FractalEngine.Core.Approximation.Grammars.Trees;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Approximation.Damaged;
@@ -10,12 +11,36 @@ namespace FractalEngine.Core.Approximation.Damaged;
 internal sealed record Hypothesis(
     List<List<AffineMap>> Sets, List<AffineMap> Tree, int Depth, List<(int Class, AffineMap Placement)> Bases)
 {
+    /// <summary>Which map of the tree may follow which, as in <see cref="TreeGrammar.Follows"/>; null where each may follow each.</summary>
+    public bool[,]? Follows { get; init; }
+
+    /// <summary>How many of the last bases stand only at products of full length, where the others then don't.</summary>
+    public int LeafCount { get; init; }
+
     /// <summary>All maps but identities: those of sets, and then those of the tree.</summary>
     public List<AffineMap> Maps => [.. Sets.SelectMany(set => set.Skip(1)), .. Tree];
 
     /// <summary>Number of products, some of which may be equal.</summary>
     public double WordCount => Sets.Aggregate(
         Enumerable.Range(0, Depth + 1).Sum(length => Math.Pow(Tree.Count, length)), (count, set) => count * set.Count);
+
+    /// <summary>Whether a base stands at a product of some maps.</summary>
+    public bool Stands(int part, int[] letters) => LeafCount == 0
+        || (part >= Bases.Count - LeafCount) == (letters.Count(letter => letter >= Maps.Count - Tree.Count) == Depth);
+
+    /// <summary>Returns what makes all elements of a damaged set.</summary>
+    public static Hypothesis Of(ElementGrammar grammar)
+    {
+        var (set, factors, rest, tree) = grammar;
+        var leaves = tree?.Leaves ?? [];
+        return new(
+            factors.ConvertAll(factor => factor.Maps), tree?.Maps ?? [], tree?.Depth ?? 0,
+            [.. (tree?.Base ?? [.. rest]).Select(member => (set.Elements[member].Class, set.Elements[member].Placement)), .. leaves])
+        {
+            Follows = tree is null or { IsFull: true } ? null : tree.Follows,
+            LeafCount = leaves.Count,
+        };
+    }
 
     /// <summary>Returns the hypothesis with other maps, in the same order.</summary>
     public Hypothesis WithMaps(List<AffineMap> maps)
@@ -41,7 +66,8 @@ internal sealed record Hypothesis(
         var level = words;
         for (var depth = 0; depth < Depth; depth++)
         {
-            level = [.. level.SelectMany(word => Append(word, first, Tree.Count))];
+            level = [.. level.SelectMany(word => Append(word, first, Tree.Count)
+                .Where(next => Follows?[depth > 0 ? word.Letters[^1] - first : Tree.Count, next.Letters[^1] - first] ?? true))];
             words = [.. words, .. level];
         }
 

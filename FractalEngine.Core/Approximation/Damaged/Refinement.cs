@@ -26,9 +26,15 @@ internal sealed class Refinement(DamagedModel model, CancellationToken cancellat
         }
 
         var all = Enumerable.Range(0, description.Tree.Count).ToArray();
-        var tree = all.Length == 0 ? null : new MapTree(description.Tree, [.. Enumerable.Repeat(all, all.Length + 1)], description.Depth);
-        var mesh = MeshOf(description, FindElements(description, relative));
-        return new([.. description.Sets.Select(set => new GrammarStep([set], 1))], tree, mesh, null);
+        var tree = all.Length == 0 ? null : new MapTree(
+            description.Tree,
+            [.. Enumerable.Range(0, all.Length + 1).Select(row => Array.FindAll(all, map => description.Follows?[row, map] ?? true))],
+            description.Depth);
+        var elements = FindElements(description, relative);
+        var baseCount = description.Bases.Count - description.LeafCount;
+        return new(
+            [.. description.Sets.Select(set => new GrammarStep([set], 1))], tree, MeshOf(description, elements, 0, baseCount),
+            description.LeafCount == 0 ? null : MeshOf(description, elements, baseCount, description.LeafCount));
     }
 
     /// <summary>For each base and each word the element there, and its symmetry; null where none is.</summary>
@@ -42,7 +48,10 @@ internal sealed class Refinement(DamagedModel model, CancellationToken cancellat
             for (var word = 0; word < words.Count; word++)
             {
                 var (elementClass, placement) = description.Bases[part];
-                var image = index.Find(elementClass, words[word].Map * placement, out var symmetry, out _);
+                var symmetry = 0;
+                var image = description.Stands(part, words[word].Letters)
+                    ? index.Find(elementClass, words[word].Map * placement, out symmetry, out _)
+                    : -1;
                 found[part, word] = image >= 0 ? (model.Elements[image], symmetry) : null;
             }
         }
@@ -131,11 +140,11 @@ internal sealed class Refinement(DamagedModel model, CancellationToken cancellat
     }
 
     /// <summary>The base mesh, with the vertices whose images are nearest to those of all its elements.</summary>
-    private Mesh MeshOf(Hypothesis description, (PlacedElement Element, int Symmetry)?[,] found)
+    private Mesh MeshOf(Hypothesis description, (PlacedElement Element, int Symmetry)?[,] found, int first, int count)
     {
         var positions = ImmutableArray.CreateBuilder<double>();
         var corners = ImmutableArray.CreateBuilder<int>();
-        for (var part = 0; part < description.Bases.Count; part++)
+        for (var part = first; part < first + count; part++)
         {
             var template = model.Templates[description.Bases[part].Class];
             var known = template.Vertices.Select(vertex => description.Bases[part].Placement * vertex).ToArray();

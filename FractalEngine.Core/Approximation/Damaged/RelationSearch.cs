@@ -14,8 +14,6 @@ internal sealed class RelationSearch(DamagedModel model, PlacementIndex set, IRe
     private const int MaxVotes = 600_000;
     private const int MaxVoted = 240;
     private const int MaxGrown = 60_000;
-    private const int NeighbourCount = 12;
-    private const int MinHits = 3;
 
     // Maps of exact vertices agree within that part of the diagonal, over the whole model.
     private const double VoteCell = 1e-4;
@@ -91,11 +89,12 @@ internal sealed class RelationSearch(DamagedModel model, PlacementIndex set, IRe
 
     private List<AffineMap> Vote(int[] members, double effort)
     {
-        var symmetries = model.Templates[set[members[0]].Class].Symmetries;
+        var template = model.Templates[set[members[0]].Class];
+        var symmetries = template.Symmetries[..template.CountSymmetries(PlacedElement.SizeOf(set[members[0]].Placement))];
         // The largest ones may all be foreign.
         var random = new Random(0);
         var order = members.OrderBy(_ => random.Next()).OrderByDescending(member => weights[member]).ToArray();
-        var references = Math.Min(order.Length, Math.Max(8, (int)(effort * MaxVotes / (symmetries.Count * order.Length))));
+        var references = Math.Min(order.Length, Math.Max(8, (int)(effort * MaxVotes / (symmetries.Length * order.Length))));
         var votes = new Dictionary<long, (double Count, int From, int To, int Symmetry)>();
         for (var from = 0; from < references; from++)
         {
@@ -104,7 +103,7 @@ internal sealed class RelationSearch(DamagedModel model, PlacementIndex set, IRe
             for (var to = 0; to < order.Length; to++)
             {
                 // Each pair once.
-                for (var symmetry = 0; symmetry < symmetries.Count && (to > from || to >= references); symmetry++)
+                for (var symmetry = 0; symmetry < symmetries.Length && (to > from || to >= references); symmetry++)
                 {
                     ref var vote = ref CollectionsMarshal.GetValueRefOrAddDefault(votes, KeyOf(MapOf(back, to, symmetry)), out _);
                     vote = (vote.Count + (weights[order[from]] * weights[order[to]]), from, to, symmetry);
@@ -149,23 +148,23 @@ internal sealed class RelationSearch(DamagedModel model, PlacementIndex set, IRe
     private List<AffineMap> Grow(int[] members, double effort)
     {
         var maps = new List<AffineMap>();
-        var symmetries = model.Templates[set[members[0]].Class].Symmetries;
+        var growth = new MapGrowth(model, set);
+        var template = model.Templates[set[members[0]].Class];
         // Maps of thin elements are uncertain across them.
         var references = members.OrderByDescending(member => ThicknessOf(set[member].Placement)).ToArray();
-        var count = Math.Min(3, Math.Max(1, (int)(effort * MaxGrown / (symmetries.Count * members.Length))));
+        var count = Math.Min(3, Math.Max(1, (int)(effort * MaxGrown / (template.Symmetries.Length * members.Length))));
         foreach (var reference in references.Take(count))
         {
-            var centre = set[reference].Placement.Translation;
-            var order = Enumerable.Range(0, set.Count).Where(member => member != reference)
-                .OrderBy(member => (set[member].Placement.Translation - centre).LengthSquared()).ToArray();
+            var order = growth.NeighboursOf(reference);
             var back = set[reference].Placement.Inverse();
             foreach (var member in members.Where(member => member != reference))
             {
                 cancellation.ThrowIfCancellationRequested();
-                foreach (var symmetry in symmetries)
+                var size = PlacedElement.SizeOf(set[member].Placement);
+                foreach (var symmetry in template.Symmetries.Take(template.CountSymmetries(size)))
                 {
                     var map = PlacedElement.After(symmetry.Map, set[member].Placement) * back;
-                    if (Extend(map, order) is { } grown)
+                    if (growth.Extend(map, order) is { } grown)
                     {
                         maps.Add(grown);
                     }
@@ -178,35 +177,4 @@ internal sealed class RelationSearch(DamagedModel model, PlacementIndex set, IRe
 
     private static double ThicknessOf(AffineMap placement) =>
         Math.Abs(placement.Linear.Determinant()) / (PlacedElement.SizeOf(placement) * PlacedElement.SizeOf(placement));
-
-    private AffineMap? Extend(AffineMap map, int[] order)
-    {
-        var needed = Math.Min(MinHits, order.Length / 3);
-        for (var count = Math.Min(NeighbourCount, order.Length); ; count = Math.Min(2 * count, order.Length))
-        {
-            var fit = new MapFit(model.Centre);
-            for (var rank = 0; rank < count; rank++)
-            {
-                var (elementClass, placement) = set[order[rank]];
-                var image = set.Find(elementClass, map * placement, out var symmetry, out _);
-                if (image >= 0)
-                {
-                    var template = model.Templates[elementClass];
-                    var to = set[image].Placement;
-                    fit.Add(placement, PlacedElement.After(template.Symmetries[symmetry].Map, to), template.IsFlat, 1);
-                }
-            }
-
-            if (fit.Count < needed)
-            {
-                return null;
-            }
-
-            map = fit.Solve(map);
-            if (count == order.Length)
-            {
-                return map;
-            }
-        }
-    }
 }

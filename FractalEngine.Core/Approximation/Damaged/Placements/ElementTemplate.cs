@@ -9,6 +9,10 @@ namespace FractalEngine.Core.Approximation.Damaged.Placements;
 /// </summary>
 internal sealed class ElementTemplate
 {
+    // What differs more is not called a symmetry, however small an element is.
+    private const double MaxError = 0.3;
+
+    private readonly double _tolerance;
     private readonly ElementTopology _topology;
     private readonly Vector[] _vertices;
 
@@ -19,24 +23,29 @@ internal sealed class ElementTemplate
     public ElementTemplate(Element element, ElementTopology topology, ElementShape shape, double tolerance)
     {
         _topology = topology;
+        _tolerance = tolerance;
         Corners = element.Corners;
         IsFlat = shape.IsFlat;
         var frame = FrameOf(shape);
         var back = frame.Inverse();
         _vertices = [.. shape.Points.Select(point => back * (point - shape.Centroid)).Select(q => IsFlat ? q with { Z = 0 } : q)];
+        var symmetries = new List<(Matrix Map, int[] Order, double Error)>();
         foreach (var order in topology.FindCorrespondences(topology))
         {
             var map = Fit(order, _vertices).Linear;
-            if (Enumerable.Range(0, order.Length).All(
-                vertex => (frame * ((map * _vertices[vertex]) - _vertices[order[vertex]])).Length() <= tolerance))
+            var error = Enumerable.Range(0, order.Length).Max(
+                vertex => (frame * ((map * _vertices[vertex]) - _vertices[order[vertex]])).Length()) / shape.Size;
+            if (error <= MaxError)
             {
-                Symmetries.Add((map, order));
+                symmetries.Add((map, order, error));
                 if (IsFlat)
                 {
-                    Symmetries.Add((map with { V3 = -map.V3 }, order));
+                    symmetries.Add((map with { V3 = -map.V3 }, order, error));
                 }
             }
         }
+
+        Symmetries = [.. symmetries.OrderBy(symmetry => symmetry.Error)];
     }
 
     /// <summary>Indices of vertices, [faces × 3].</summary>
@@ -48,8 +57,23 @@ internal sealed class ElementTemplate
     /// <summary>Whether all vertices lie in the plane z = 0.</summary>
     public bool IsFlat { get; }
 
-    /// <summary>The maps of the template to itself, each with the vertex that each vertex goes to.</summary>
-    public List<(Matrix Map, int[] Order)> Symmetries { get; } = [];
+    /// <summary>
+    /// The maps of the template to itself, the best first, each with the vertex that each vertex goes to, and how far off it puts
+    /// vertices, in units of its size.
+    /// </summary>
+    public (Matrix Map, int[] Order, double Error)[] Symmetries { get; }
+
+    /// <summary>Counts the first symmetries that noise does not tell from others, where an element is so large.</summary>
+    public int CountSymmetries(double size)
+    {
+        var count = 1;
+        while (count < Symmetries.Length && Symmetries[count].Error * size <= _tolerance)
+        {
+            count++;
+        }
+
+        return count;
+    }
 
     /// <summary>How many numbers of an element a map to it can't be fitted to.</summary>
     public int FreeNumbers => (3 * _vertices.Length) - (IsFlat ? 9 : 12);

@@ -9,11 +9,15 @@ internal sealed class PlacementIndex(IReadOnlyList<ElementTemplate> templates, d
     // Cells are as large as elements; a look-up must not reach beyond the next one.
     private const double MaxReach = 0.45;
 
+    // Normals of flat elements are those of similarities: they only tell from which side an element is seen.
+    private const double NormalWeight = 1e-8;
+
     // So many cells away, their numbers are no integers.
     private const double MaxCell = 1e15;
 
     private readonly Dictionary<(int Class, int Level, long X, long Y, long Z), List<int>> _cells = [];
     private readonly List<(int Class, AffineMap Placement)> _placements = [];
+    private readonly List<int> _symmetryCounts = [];
 
     /// <summary>Number of placements in the index.</summary>
     public int Count => _placements.Count;
@@ -34,6 +38,7 @@ internal sealed class PlacementIndex(IReadOnlyList<ElementTemplate> templates, d
 
         list.Add(_placements.Count);
         _placements.Add((elementClass, placement));
+        _symmetryCounts.Add(templates[elementClass].CountSymmetries(PlacedElement.SizeOf(placement)));
         return _placements.Count - 1;
     }
 
@@ -92,11 +97,12 @@ internal sealed class PlacementIndex(IReadOnlyList<ElementTemplate> templates, d
                 continue;
             }
 
-            var symmetries = templates[elementClass].Symmetries;
-            for (var number = 0; number < symmetries.Count; number++)
+            var (symmetries, normal) = (templates[elementClass].Symmetries, templates[elementClass].IsFlat ? NormalWeight : 1);
+            for (var number = 0; number < _symmetryCounts[index]; number++)
             {
                 var difference = (found.Linear * symmetries[number].Map) - placement.Linear;
-                var total = square + difference.V1.LengthSquared() + difference.V2.LengthSquared() + difference.V3.LengthSquared();
+                var total = square + difference.V1.LengthSquared() + difference.V2.LengthSquared()
+                    + (normal * difference.V3.LengthSquared());
                 if (total < bestSquare)
                 {
                     (best, bestSquare, symmetry) = (index, total, number);

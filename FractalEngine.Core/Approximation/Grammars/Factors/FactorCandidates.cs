@@ -16,15 +16,12 @@ internal sealed class FactorCandidates(ElementGroup group, int reference)
     {
         var group = members.GroupBy(member => set.Elements[member].Class)
             .OrderByDescending(group => group.Count()).ThenBy(group => group.Key).First();
-        var largest = group.Max(member => set.Elements[member].Shape.Size);
+        var largest = group.MaxBy(member => set.Elements[member].Shape.Size);
         // Upwards, as models stand, but turned so that hardly any two elements are level.
         var direction = new Vector(0.1618033989, 0.9436890127, 0.2655712319);
-        return group.Where(member => set.Elements[member].Shape.Size > 0.9999 * largest)
+        return group.Where(member => !set.IsSmaller(member, largest))
             .OrderByDescending(member => Vector.Dot(direction, set.Elements[member].Shape.Centroid)).ThenBy(member => member).First();
     }
-
-    /// <summary>Whether a map turns and stretches nothing.</summary>
-    public static bool IsTranslation(AffineMap map) => Oddity(map) < 1e-5;
 
     /// <summary>How far a map is from a translation; mirrors come last.</summary>
     public static double Oddity(AffineMap map) =>

@@ -52,7 +52,7 @@ internal sealed class FactorCircles(ElementGroup group, int reference, Cancellat
     private HashSet<int> FirstOfFigures(List<AffineMap> powers)
     {
         var parts = group.Members.Where(member => _elements[member].Class == _elements[reference].Class).ToArray();
-        var largest = parts.Count(part => _elements[part].Shape.Size > 0.9999 * _elements[reference].Shape.Size);
+        var largest = parts.Count(part => !group.Set.IsSmaller(part, reference));
         if (largest != powers.Count || largest == parts.Length
             || CallSearch.FindFirst(group, parts, powers, cancellation) is not { } first)
         {

@@ -45,7 +45,7 @@ internal sealed class FactorSearch
     {
         var group = new ElementGroup(set, members);
         var all = new FactorCandidates(group, reference).List();
-        var translations = all.FindAll(FactorCandidates.IsTranslation);
+        var translations = all.FindAll(set.IsTranslation);
         var search = new FactorSearch(group, reference, translations, cancellation);
         // Where cells are translated and turned, translations are enough to find the first cell.
         if ((search.Find(translations) ?? search.Find(all)) is { } factor)
@@ -116,8 +116,8 @@ internal sealed class FactorSearch
         var group = new ElementGroup(set, remainder);
         var symmetries = remainder.Where(member => set.Elements[member].Class == set.Elements[_reference].Class)
             .SelectMany(member => set.MapsBetween(_reference, member))
-            .Where(map => FactorCandidates.Oddity(map) > 1e-7 && group.IsClosedUnder(map)).Take(MaxSymmetries - 1);
-        return new(maps, [AffineMap.Identity, .. maps.TrueForAll(FactorCandidates.IsTranslation) ? [] : symmetries], remainder);
+            .Where(map => !set.IsTranslation(map) && group.IsClosedUnder(map)).Take(MaxSymmetries - 1);
+        return new(maps, [AffineMap.Identity, .. maps.TrueForAll(set.IsTranslation) ? [] : symmetries], remainder);
     }
 
     private int[] RemainderOf(Candidate candidate) => [.. _group.Members.Where(member => _group.Image(candidate.Map, member) >= 0)];

@@ -102,7 +102,7 @@ internal sealed class CallSearch(CallScene scene, CancellationToken cancellation
         var seen = new HashSet<(int, int)>();
         foreach (var parent in expansion.Parts)
         {
-            if (IsExhausted || scene.SizeOf(parent.Element) < 1.0001 * scene.SizeOf(next))
+            if (IsExhausted || !scene.Group.Set.IsSmaller(next, parent.Element))
             {
                 continue;
             }

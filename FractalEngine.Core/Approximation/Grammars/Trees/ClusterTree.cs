@@ -16,7 +16,7 @@ internal static class ClusterTree
     /// <param name="set">The elements that the factor is of.</param>
     /// <param name="factor">The factor.</param>
     /// <param name="cancellation">Ends the search early.</param>
-    public static (ElementSet Set, TreeGrammar Tree)? Find(ElementSet set, MapFactor factor, CancellationToken cancellation)
+    public static (ElementSet Set, TreeGrammar Tree)? Find(ExactElements set, MapFactor factor, CancellationToken cancellation)
     {
         if (factor.Maps.Count < MinMaps || factor.Maps.TrueForAll(map => Math.Abs(Math.Abs(map.Linear.Determinant()) - 1) < 1e-6))
         {
@@ -30,7 +30,7 @@ internal static class ClusterTree
             return null;
         }
 
-        var clusterSet = new ElementSet(clusters!, set.Tolerance, ElementSet.ExactShapeTolerance, cancellation);
+        var clusterSet = new ExactElements(clusters!, set.Tolerance, cancellation);
         var tree = TreeSearch.Find(clusterSet, [.. Enumerable.Range(0, clusterSet.Count)], isFull: false, cancellation);
         return tree is null ? null : (clusterSet, tree);
     }

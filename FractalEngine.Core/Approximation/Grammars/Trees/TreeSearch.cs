@@ -55,7 +55,7 @@ internal sealed class TreeSearch(ElementGroup group, CancellationToken cancellat
     {
         _bySize = [.. parts.OrderByDescending(SizeOf).ThenBy(member => member)];
         _root = _bySize[0];
-        if (SizeOf(_bySize[^1]) > 0.9999 * SizeOf(_root))
+        if (!_set.IsSmaller(_bySize[^1], _root))
         {
             return null;
         }
@@ -65,7 +65,7 @@ internal sealed class TreeSearch(ElementGroup group, CancellationToken cancellat
         {
             cancellation.ThrowIfCancellationRequested();
             // Others as large as the root belong to the base, if they are no images.
-            if (_explained.Contains(element) || SizeOf(element) > 0.9999 * SizeOf(_root))
+            if (_explained.Contains(element) || !_set.IsSmaller(element, _root))
             {
                 continue;
             }
