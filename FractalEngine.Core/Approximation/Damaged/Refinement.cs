@@ -9,7 +9,7 @@ namespace FractalEngine.Core.Approximation.Damaged;
 /// <summary>Fits maps and base vertices to all elements that a description explains, and makes a grammar of it.</summary>
 internal sealed class Refinement(DamagedModel model, CancellationToken cancellation)
 {
-    private const int Rounds = 4;
+    private const int Rounds = 12;
 
     /// <summary>Returns the grammar with fitted numbers.</summary>
     public MeshGrammar Refine(Hypothesis description)
@@ -22,7 +22,7 @@ internal sealed class Refinement(DamagedModel model, CancellationToken cancellat
             var found = FindElements(description, relative);
             description = FitMaps(description, found);
             description = FitBases(description, FindElements(description, relative));
-            relative /= 2;
+            relative = Math.Max(relative / 2, model.FirstTolerance / 16);
         }
 
         var all = Enumerable.Range(0, description.Tree.Count).ToArray();
@@ -62,43 +62,44 @@ internal sealed class Refinement(DamagedModel model, CancellationToken cancellat
     private AffineMap PlacementOf((PlacedElement Element, int Symmetry) found) =>
         PlacedElement.After(model.Templates[found.Element.Class].Symmetries[found.Symmetry].Map, found.Element.Placement);
 
-    /// <summary>Fits each map to the elements of words with it, and without it.</summary>
+    /// <summary>
+    /// Fits each map to the elements of all words with it. What a word is off is shared out to its maps, so that they don't all mend it.
+    /// </summary>
     private Hypothesis FitMaps(Hypothesis description, (PlacedElement Element, int Symmetry)?[,] found)
     {
         var words = description.Words();
         var maps = description.Maps;
         var fits = maps.ConvertAll(_ => new MapFit(model.Centre));
-        var wordOf = Enumerable.Range(0, words.Count).ToDictionary(word => string.Join(',', words[word].Letters));
-        for (var to = 0; to < words.Count; to++)
+        for (var word = 0; word < words.Count; word++)
         {
-            var letters = words[to].Letters;
+            var letters = words[word].Letters;
             var before = AffineMap.Identity;
-            for (var place = 0; place < letters.Length; place++)
+            foreach (var letter in letters)
             {
-                if (wordOf.TryGetValue(string.Join(',', letters.Where((_, other) => other != place)), out var from))
+                var back = before.Inverse();
+                var after = (before * maps[letter]).Inverse() * words[word].Map;
+                // Noise counts less where the maps before made things smaller.
+                var weight = Math.Cbrt(before.Linear.Determinant() * before.Linear.Determinant());
+                for (var part = 0; part < description.Bases.Count; part++)
                 {
-                    Add(fits[letters[place]], before, from, to);
+                    if (found[part, word] is { } element)
+                    {
+                        var from = after * description.Bases[part].Placement;
+                        var image = maps[letter] * from;
+                        var to = back * PlacementOf(element);
+                        var step = 1.0 / letters.Length;
+                        fits[letter].Add(
+                            from,
+                            new(image.Linear + (step * (to.Linear - image.Linear)), image.Translation + (step * (to.Translation - image.Translation))),
+                            model.Templates[element.Element.Class].IsFlat, weight);
+                    }
                 }
 
-                before *= maps[letters[place]];
+                before *= maps[letter];
             }
         }
 
         return description.WithMaps([.. maps.Zip(fits, (map, fit) => fit.Solve(map))]);
-
-        void Add(MapFit fit, AffineMap before, int from, int to)
-        {
-            var back = before.Inverse();
-            // Noise counts less where the maps before made things smaller.
-            var weight = Math.Cbrt(before.Linear.Determinant() * before.Linear.Determinant());
-            for (var part = 0; part < description.Bases.Count; part++)
-            {
-                if (found[part, from] is { } start && found[part, to] is { } end)
-                {
-                    fit.Add(back * PlacementOf(start), back * PlacementOf(end), model.Templates[start.Element.Class].IsFlat, weight);
-                }
-            }
-        }
     }
 
     /// <summary>Puts each base where its images are nearest to all its elements.</summary>

@@ -17,7 +17,7 @@ internal sealed class NoisyElements : ElementSet
     public NoisyElements(DamagedModel model)
     {
         _model = model;
-        _index = model.CreateFullIndex(model.FirstTolerance);
+        _index = model.CreateFullIndex(model.Tolerance);
         _growth = new(model, _index);
         Elements = [.. model.Elements.Select(element => ElementOf(element.Class, element.Placement))];
         RelativeTolerance = Math.Min(MaxRelativeTolerance, 4 * model.Noise / PlacedElement.SizeOf(model.Elements[^1].Placement));
@@ -50,7 +50,10 @@ internal sealed class NoisyElements : ElementSet
         var (start, end) = (_model.Elements[from].Placement, _model.Elements[to].Placement);
         var back = start.Inverse();
         return SymmetriesAt(_model.Elements[from].Class, Math.Min(PlacedElement.SizeOf(start), PlacedElement.SizeOf(end)))
-            .Select(symmetry => end * symmetry * back).Select(map => _growth.Extend(map, _neighbours.Order) ?? map);
+            .Select(symmetry => end * symmetry * back)
+            .Select(map => (Map: map, Grown: _growth.Extend(map, _neighbours.Order)))
+            .Select(pair => pair.Grown is { } grown && Match(grown, from) == to ? pair : pair with { Grown = null })
+            .OrderBy(pair => pair.Grown is null).Select(pair => pair.Grown ?? pair.Map);
     }
 
     private IEnumerable<AffineMap> SymmetriesAt(int elementClass, double size)
