@@ -15,6 +15,9 @@ public static class DamagedSearch
     // Exact elements are explained to a larger part.
     private const double SmallPart = 0.1;
 
+    // How far elements are off, in units of their size, where noise is small; more tells less which element is meant.
+    private const double TightTolerance = 0.02;
+
     /// <summary>Finds the grammar whose expansion explains most elements, or null if none explains more than it costs.</summary>
     /// <param name="mesh">The mesh; its elements must be connected as those of the undamaged one are.</param>
     /// <param name="settings">Noise, seed and effort.</param>
@@ -55,11 +58,11 @@ public static class DamagedSearch
         Mesh mesh, double noise, DamagedSearchSettings settings, CancellationToken cancellation)
     {
         var model = DamagedModel.Create(mesh, noise, cancellation);
-        if (!model.IsExact && model.Elements.Count > 1
-            && ElementGrammar.Find(new NoisyElements(model), cancellation) is { } grammar)
+        foreach (var tolerance in model.Elements.Count < 2 ? [] : new[] { TightTolerance, model.Tolerance })
         {
-            var refined = new Refinement(model, cancellation).Refine(Hypothesis.Of(grammar));
-            if (refined.ExplainsMost(mesh.FaceCount))
+            if (ElementGrammar.Find(new NoisyElements(model, tolerance), cancellation) is { } grammar
+                && new Refinement(model, cancellation).Refine(Hypothesis.Of(grammar, model.Diagonal)) is var refined
+                && refined.ExplainsMost(mesh.FaceCount))
             {
                 return (refined, 1);
             }

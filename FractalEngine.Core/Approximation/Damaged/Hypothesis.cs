@@ -1,3 +1,4 @@
+using FractalEngine.Core.Approximation.Grammars;
 using FractalEngine.Core.Approximation.Grammars.Trees;
 using FractalEngine.Core.Maths;
 
@@ -11,6 +12,9 @@ namespace FractalEngine.Core.Approximation.Damaged;
 internal sealed record Hypothesis(
     List<List<AffineMap>> Sets, List<AffineMap> Tree, int Depth, List<(int Class, AffineMap Placement)> Bases)
 {
+    // Powers of a map that was found from noisy elements differ by about so much from the maps that they stand for.
+    private const double RowTolerance = 3e-3;
+
     /// <summary>Which map of the tree may follow which, as in <see cref="TreeGrammar.Follows"/>; null where each may follow each.</summary>
     public bool[,]? Follows { get; init; }
 
@@ -29,17 +33,33 @@ internal sealed record Hypothesis(
         || (part >= Bases.Count - LeafCount) == (letters.Count(letter => letter >= Maps.Count - Tree.Count) == Depth);
 
     /// <summary>Returns what makes all elements of a damaged set.</summary>
-    public static Hypothesis Of(ElementGrammar grammar)
+    /// <param name="grammar">What makes them.</param>
+    /// <param name="length">Size of the whole, scene units.</param>
+    public static Hypothesis Of(ElementGrammar grammar, double length)
     {
         var (set, factors, rest, tree) = grammar;
         var leaves = tree?.Leaves ?? [];
         return new(
-            factors.ConvertAll(factor => factor.Maps), tree?.Maps ?? [], tree?.Depth ?? 0,
+            [.. factors.SelectMany(factor => Split(factor.Maps, length))], tree?.Maps ?? [], tree?.Depth ?? 0,
             [.. (tree?.Base ?? [.. rest]).Select(member => (set.Elements[member].Class, set.Elements[member].Placement)), .. leaves])
         {
             Follows = tree is null or { IsFull: true } ? null : tree.Follows,
             LeafCount = leaves.Count,
         };
+    }
+
+    /// <summary>Splits a set of rows into the powers of their map, and the set of their first maps.</summary>
+    private static IEnumerable<List<AffineMap>> Split(List<AffineMap> maps, double length)
+    {
+        if (MapRows.Find(maps, RowTolerance, length) is { Others.Count: > 1 } row
+            && row.Others.FindIndex(map => MapRows.AreNear(map, AffineMap.Identity, RowTolerance, length)) is var first && first >= 0)
+        {
+            row.Others.RemoveAt(first);
+            return Split([AffineMap.Identity, .. row.Others], length)
+                .Prepend([.. Enumerable.Range(0, row.Count).Select(row.Map.Power)]);
+        }
+
+        return [maps];
     }
 
     /// <summary>Returns the hypothesis with other maps, in the same order.</summary>

@@ -11,10 +11,12 @@ internal sealed class Refinement(DamagedModel model, CancellationToken cancellat
 {
     private const int Rounds = 12;
 
+    // After so many rounds elements must be near to half of what they were before.
+    private const int RoundsPerHalf = 3;
+
     /// <summary>Returns the grammar with fitted numbers.</summary>
     public MeshGrammar Refine(Hypothesis description)
     {
-        // Each round halves it.
         var relative = model.FirstTolerance;
         for (var round = 0; round < Rounds; round++)
         {
@@ -22,7 +24,7 @@ internal sealed class Refinement(DamagedModel model, CancellationToken cancellat
             var found = FindElements(description, relative);
             description = FitMaps(description, found);
             description = FitBases(description, FindElements(description, relative));
-            relative = Math.Max(relative / 2, model.FirstTolerance / 16);
+            relative = model.FirstTolerance * Math.ScaleB(1, -round / RoundsPerHalf);
         }
 
         var all = Enumerable.Range(0, description.Tree.Count).ToArray();

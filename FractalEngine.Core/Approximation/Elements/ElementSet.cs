@@ -32,6 +32,9 @@ internal abstract class ElementSet
     /// <summary>Returns all maps that take one element to another of its class.</summary>
     public abstract IEnumerable<AffineMap> MapsBetween(int from, int to);
 
+    /// <summary>Fits a map that is known from an element, and perhaps one other, to more of them, where that is of use.</summary>
+    public virtual AffineMap Fit(AffineMap map, int from) => map;
+
     /// <summary>Whether a map turns and stretches nothing.</summary>
     public bool IsTranslation(AffineMap map) => (map.Linear - Matrix.Identity).MaxAbsEntry() < RelativeTolerance;
 

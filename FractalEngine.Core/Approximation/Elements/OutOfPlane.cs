@@ -37,7 +37,7 @@ internal static class OutOfPlane
             var candidate = new AffineMap(linear, (map * shape.Centroid) - (linear * shape.Centroid));
             if (set.Match(candidate, part) == image)
             {
-                yield return candidate;
+                yield return set.Fit(candidate, flat);
             }
         }
     }

@@ -9,7 +9,7 @@ namespace FractalEngine.Core.Approximation.Damaged.Placements;
 internal sealed class MapFit(Vector centre)
 {
     // Normals of flat elements are known for similarities only: they count where nothing else does.
-    private const double NormalWeight = 1e-3;
+    private const double NormalWeight = 1e-8;
 
     private Matrix _products;
     private Matrix _squares;

@@ -14,10 +14,11 @@ internal sealed class NoisyElements : ElementSet
     private (int From, int[] Order) _neighbours = (-1, []);
 
     /// <param name="model">The elements in their classes.</param>
-    public NoisyElements(DamagedModel model)
+    /// <param name="tolerance">How far an element may be off, in units of its size.</param>
+    public NoisyElements(DamagedModel model, double tolerance)
     {
         _model = model;
-        _index = model.CreateFullIndex(model.Tolerance);
+        _index = model.CreateFullIndex(tolerance);
         _growth = new(model, _index);
         Elements = [.. model.Elements.Select(element => ElementOf(element.Class, element.Placement))];
         RelativeTolerance = Math.Min(MaxRelativeTolerance, 4 * model.Noise / PlacedElement.SizeOf(model.Elements[^1].Placement));
@@ -42,18 +43,22 @@ internal sealed class NoisyElements : ElementSet
     /// <inheritdoc/>
     public override IEnumerable<AffineMap> MapsBetween(int from, int to)
     {
+        var (start, end) = (_model.Elements[from].Placement, _model.Elements[to].Placement);
+        var back = start.Inverse();
+        return SymmetriesAt(_model.Elements[from].Class, Math.Min(PlacedElement.SizeOf(start), PlacedElement.SizeOf(end)))
+            .Select(symmetry => end * symmetry * back)
+            .Select(map => (Map: map, Fitted: Fit(map, from))).OrderBy(pair => pair.Map == pair.Fitted).Select(pair => pair.Fitted);
+    }
+
+    /// <inheritdoc/>
+    public override AffineMap Fit(AffineMap map, int from)
+    {
         if (_neighbours.From != from)
         {
             _neighbours = (from, _growth.NeighboursOf(from));
         }
 
-        var (start, end) = (_model.Elements[from].Placement, _model.Elements[to].Placement);
-        var back = start.Inverse();
-        return SymmetriesAt(_model.Elements[from].Class, Math.Min(PlacedElement.SizeOf(start), PlacedElement.SizeOf(end)))
-            .Select(symmetry => end * symmetry * back)
-            .Select(map => (Map: map, Grown: _growth.Extend(map, _neighbours.Order)))
-            .Select(pair => pair.Grown is { } grown && Match(grown, from) == to ? pair : pair with { Grown = null })
-            .OrderBy(pair => pair.Grown is null).Select(pair => pair.Grown ?? pair.Map);
+        return _growth.Extend(map, _neighbours.Order) is { } grown && Match(grown, from) == Match(map, from) ? grown : map;
     }
 
     private IEnumerable<AffineMap> SymmetriesAt(int elementClass, double size)
