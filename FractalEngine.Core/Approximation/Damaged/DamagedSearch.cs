@@ -58,9 +58,9 @@ public static class DamagedSearch
         Mesh mesh, double noise, DamagedSearchSettings settings, CancellationToken cancellation)
     {
         var model = DamagedModel.Create(mesh, noise, cancellation);
-        foreach (var tolerance in model.Elements.Count < 2 ? [] : new[] { TightTolerance, model.Tolerance })
+        foreach (var tolerance in noise == 0 || model.Elements.Count < 2 ? [] : new[] { TightTolerance, model.Tolerance })
         {
-            if (ElementGrammar.Find(new NoisyElements(model, tolerance), cancellation) is { } grammar
+            if (ElementGrammar.Find(new NoisyElements(model, tolerance, cancellation), cancellation) is { } grammar
                 && new Refinement(model, cancellation).Refine(Hypothesis.Of(grammar, model.Diagonal)) is var refined
                 && refined.ExplainsMost(mesh.FaceCount))
             {

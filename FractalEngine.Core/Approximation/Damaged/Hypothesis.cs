@@ -13,7 +13,7 @@ internal sealed record Hypothesis(
     List<List<AffineMap>> Sets, List<AffineMap> Tree, int Depth, List<(int Class, AffineMap Placement)> Bases)
 {
     // Powers of a map that was found from noisy elements differ by about so much from the maps that they stand for.
-    private const double RowTolerance = 3e-3;
+    private const double RowTolerance = 1e-2;
 
     /// <summary>Which map of the tree may follow which, as in <see cref="TreeGrammar.Follows"/>; null where each may follow each.</summary>
     public bool[,]? Follows { get; init; }
@@ -51,15 +51,18 @@ internal sealed record Hypothesis(
     /// <summary>Splits a set of rows into the powers of their map, and the set of their first maps.</summary>
     private static IEnumerable<List<AffineMap>> Split(List<AffineMap> maps, double length)
     {
-        if (MapRows.Find(maps, RowTolerance, length) is { Others.Count: > 1 } row
-            && row.Others.FindIndex(map => MapRows.AreNear(map, AffineMap.Identity, RowTolerance, length)) is var first && first >= 0)
+        if (MapRows.Find(maps, RowTolerance, length) is not { Others.Count: > 1 } row)
         {
-            row.Others.RemoveAt(first);
-            return Split([AffineMap.Identity, .. row.Others], length)
-                .Prepend([.. Enumerable.Range(0, row.Count).Select(row.Map.Power)]);
+            return [maps];
         }
 
-        return [maps];
+        // The identity is any of the powers of its row.
+        var before = Enumerable.Range(0, row.Count).FirstOrDefault(power => row.Others.Exists(map => IsIdentity(row.Map.Power(power) * map)));
+        var others = row.Others.ConvertAll(map => row.Map.Power(before) * map);
+        var powers = Enumerable.Range(-before, row.Count).Where(power => power != 0).Select(row.Map.Power).Prepend(AffineMap.Identity).ToList();
+        return others.RemoveAll(IsIdentity) == 1 ? Split([AffineMap.Identity, .. others], length).Prepend(powers) : [maps];
+
+        bool IsIdentity(AffineMap map) => MapRows.AreNear(map, AffineMap.Identity, RowTolerance, length);
     }
 
     /// <summary>Returns the hypothesis with other maps, in the same order.</summary>

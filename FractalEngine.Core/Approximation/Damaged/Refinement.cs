@@ -11,8 +11,9 @@ internal sealed class Refinement(DamagedModel model, CancellationToken cancellat
 {
     private const int Rounds = 12;
 
-    // After so many rounds elements must be near to half of what they were before.
+    // After so many rounds elements must be twice as near, if hardly any is lost by that.
     private const int RoundsPerHalf = 3;
+    private const double MinKept = 0.98;
 
     /// <summary>Returns the grammar with fitted numbers.</summary>
     public MeshGrammar Refine(Hypothesis description)
@@ -22,9 +23,18 @@ internal sealed class Refinement(DamagedModel model, CancellationToken cancellat
         {
             cancellation.ThrowIfCancellationRequested();
             var found = FindElements(description, relative);
-            description = FitMaps(description, found);
+            var first = 0;
+            foreach (var count in description.Sets.Select(set => set.Count - 1).Append(description.Tree.Count).ToArray())
+            {
+                description = FitMaps(description, found, first, count);
+                first += count;
+            }
+
             description = FitBases(description, FindElements(description, relative));
-            relative = model.FirstTolerance * Math.ScaleB(1, -round / RoundsPerHalf);
+            if (round % RoundsPerHalf == 0 && CountOf(FindElements(description, relative / 2)) > MinKept * CountOf(found))
+            {
+                relative /= 2;
+            }
         }
 
         var all = Enumerable.Range(0, description.Tree.Count).ToArray();
@@ -61,13 +71,16 @@ internal sealed class Refinement(DamagedModel model, CancellationToken cancellat
         return found;
     }
 
+    private static int CountOf((PlacedElement, int)?[,] found) => found.Cast<(PlacedElement, int)?>().Count(element => element is not null);
+
     private AffineMap PlacementOf((PlacedElement Element, int Symmetry) found) =>
         PlacedElement.After(model.Templates[found.Element.Class].Symmetries[found.Symmetry].Map, found.Element.Placement);
 
     /// <summary>
-    /// Fits each map to the elements of all words with it. What a word is off is shared out to its maps, so that they don't all mend it.
+    /// Fits the maps of a set, or of the tree, to the elements of all words with them. What a word is off is shared out to those of its
+    /// maps that are fitted, so that they don't all mend it.
     /// </summary>
-    private Hypothesis FitMaps(Hypothesis description, (PlacedElement Element, int Symmetry)?[,] found)
+    private Hypothesis FitMaps(Hypothesis description, (PlacedElement Element, int Symmetry)?[,] found, int first, int count)
     {
         var words = description.Words();
         var maps = description.Maps;
@@ -75,26 +88,13 @@ internal sealed class Refinement(DamagedModel model, CancellationToken cancellat
         for (var word = 0; word < words.Count; word++)
         {
             var letters = words[word].Letters;
+            var step = 1.0 / letters.Count(letter => letter >= first && letter < first + count);
             var before = AffineMap.Identity;
             foreach (var letter in letters)
             {
-                var back = before.Inverse();
-                var after = (before * maps[letter]).Inverse() * words[word].Map;
-                // Noise counts less where the maps before made things smaller.
-                var weight = Math.Cbrt(before.Linear.Determinant() * before.Linear.Determinant());
-                for (var part = 0; part < description.Bases.Count; part++)
+                if (letter >= first && letter < first + count)
                 {
-                    if (found[part, word] is { } element)
-                    {
-                        var from = after * description.Bases[part].Placement;
-                        var image = maps[letter] * from;
-                        var to = back * PlacementOf(element);
-                        var step = 1.0 / letters.Length;
-                        fits[letter].Add(
-                            from,
-                            new(image.Linear + (step * (to.Linear - image.Linear)), image.Translation + (step * (to.Translation - image.Translation))),
-                            model.Templates[element.Element.Class].IsFlat, weight);
-                    }
+                    Add(letter, word, before, step);
                 }
 
                 before *= maps[letter];
@@ -102,6 +102,32 @@ internal sealed class Refinement(DamagedModel model, CancellationToken cancellat
         }
 
         return description.WithMaps([.. maps.Zip(fits, (map, fit) => fit.Solve(map))]);
+
+        void Add(int letter, int word, AffineMap before, double step)
+        {
+            if (!RelationSearch.CanInvert(before) || !RelationSearch.CanInvert(maps[letter]))
+            {
+                return;
+            }
+
+            var back = before.Inverse();
+            var after = maps[letter].Inverse() * back * words[word].Map;
+            // Noise counts less where the maps before made things smaller.
+            var weight = Math.Cbrt(before.Linear.Determinant() * before.Linear.Determinant());
+            for (var part = 0; part < description.Bases.Count; part++)
+            {
+                if (found[part, word] is { } element)
+                {
+                    var from = after * description.Bases[part].Placement;
+                    var (image, to) = (maps[letter] * from, back * PlacementOf(element));
+                    fits[letter].Add(
+                        from,
+                        new(image.Linear + (step * (to.Linear - image.Linear)),
+                            image.Translation + (step * (to.Translation - image.Translation))),
+                        model.Templates[element.Element.Class].IsFlat, weight);
+                }
+            }
+        }
     }
 
     /// <summary>Puts each base where its images are nearest to all its elements.</summary>

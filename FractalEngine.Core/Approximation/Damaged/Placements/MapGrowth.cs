@@ -9,14 +9,17 @@ namespace FractalEngine.Core.Approximation.Damaged.Placements;
 internal sealed class MapGrowth(DamagedModel model, PlacementIndex set)
 {
     private const int NeighbourCount = 12;
+    private const int MaxNeighbours = 192;
     private const int MinHits = 3;
 
-    /// <summary>The other elements, nearest first.</summary>
+    /// <summary>The other elements, nearest first; of many that are far away only some.</summary>
     public int[] NeighboursOf(int reference)
     {
         var centre = set[reference].Placement.Translation;
-        return [.. Enumerable.Range(0, set.Count).Where(member => member != reference)
-            .OrderBy(member => (set[member].Placement.Translation - centre).LengthSquared())];
+        var order = Enumerable.Range(0, set.Count).Where(member => member != reference)
+            .OrderBy(member => (set[member].Placement.Translation - centre).LengthSquared()).ToArray();
+        var step = Math.Max(1, order.Length / MaxNeighbours);
+        return [.. order.Where((_, rank) => rank < MaxNeighbours || rank % step == 0)];
     }
 
     /// <summary>Returns the map that is fitted to all elements that it takes to elements, or null where these are too few at first.</summary>

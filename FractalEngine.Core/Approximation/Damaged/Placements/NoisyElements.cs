@@ -9,15 +9,18 @@ internal sealed class NoisyElements : ElementSet
     private const double MaxRelativeTolerance = 0.05;
 
     private readonly DamagedModel _model;
+    private readonly CancellationToken _cancellation;
     private readonly PlacementIndex _index;
     private readonly MapGrowth _growth;
     private (int From, int[] Order) _neighbours = (-1, []);
 
     /// <param name="model">The elements in their classes.</param>
     /// <param name="tolerance">How far an element may be off, in units of its size.</param>
-    public NoisyElements(DamagedModel model, double tolerance)
+    /// <param name="cancellation">Ends the work early.</param>
+    public NoisyElements(DamagedModel model, double tolerance, CancellationToken cancellation)
     {
         _model = model;
+        _cancellation = cancellation;
         _index = model.CreateFullIndex(tolerance);
         _growth = new(model, _index);
         Elements = [.. model.Elements.Select(element => ElementOf(element.Class, element.Placement))];
@@ -53,6 +56,7 @@ internal sealed class NoisyElements : ElementSet
     /// <inheritdoc/>
     public override AffineMap Fit(AffineMap map, int from)
     {
+        _cancellation.ThrowIfCancellationRequested();
         if (_neighbours.From != from)
         {
             _neighbours = (from, _growth.NeighboursOf(from));
