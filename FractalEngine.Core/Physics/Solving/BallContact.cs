@@ -51,7 +51,9 @@ internal struct BallContact(
     /// <summary>Smallest allowed relative velocity along the normal, units per second.</summary>
     public double MinNormalVelocity;
 
-    private readonly bool _slowsTurns = row.IsSlowedDown && masses.Inertia > 0;
+    /// <summary>True where the contact has friction against turning, see <see cref="TurnFriction"/>.</summary>
+    public readonly bool SlowsTurns = row.IsSlowedDown && masses.Inertia > 0;
+
     private readonly double _minDistance = row.MinDistance;
     private readonly double _normalMass = 1 / masses.Mass;
     private readonly double _frictionMass = 1 / (masses.Mass + masses.Spin);
@@ -59,9 +61,6 @@ internal struct BallContact(
 
     /// <summary>The radius against which overlaps are measured: that of the smaller ball.</summary>
     public readonly double SmallerRadius => IsBall && SecondRadius > 0 ? Math.Min(FirstRadius, SecondRadius) : FirstRadius;
-
-    /// <summary>True where the contact has friction against turning, see <see cref="TurnFriction"/>.</summary>
-    public readonly bool SlowsTurns => _slowsTurns;
 
     /// <summary>Unit normal towards the first ball.</summary>
     public readonly Vector256<double> Normal => _normal;
