@@ -3,13 +3,9 @@ using OpenTK.Graphics.OpenGL4;
 namespace FractalEngine.Render.Gl;
 
 /// <summary>A vertex array object, which connects buffers to vertex attributes.</summary>
-internal sealed class VertexArray : GlObject
+internal sealed class VertexArray(GlResources resources, string label) : GlObject(resources, label)
 {
-    private readonly int _name;
-
-    /// <summary>Creates a vertex array without attributes.</summary>
-    public VertexArray(GlResources resources, string label)
-        : base(resources, label) => _name = GL.GenVertexArray();
+    private readonly int _name = GL.GenVertexArray();
 
     /// <summary>Makes this the current vertex array.</summary>
     public void Bind() => Resources.State.BindVertexArray(_name);
@@ -57,5 +53,5 @@ internal sealed class VertexArray : GlObject
     }
 
     /// <inheritdoc/>
-    protected override void Delete() => Resources.State.DeleteVertexArray(_name);
+    protected internal override void Delete() => Resources.State.DeleteVertexArray(_name);
 }
