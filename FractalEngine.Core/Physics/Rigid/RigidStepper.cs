@@ -357,8 +357,7 @@ internal sealed class RigidStepper(PhysicsSettings settings, List<Body> bodies, 
         var (body, other) = (pair.First.Body!.Description, pair.Second.Body?.Description);
         var arm1 = state1.Turn.RotateBack(contact.Point);
         var arm2 = state2.Turn.RotateBack(pair.First.Motion.Origin + contact.Point - pair.Second.Motion.Origin);
-        var least = Math.Abs(contact.Normal.X) < 0.6 ? Vector.I : Vector.J;
-        var tangent = Vector.Cross(contact.Normal, least).UnitVector();
+        var tangent = contact.Normal.Perpendicular();
         var belt = pair.Second.Target?.Kinematic is { } moved ? moved.Rotate(moved.Belt) : Vector.Zero;
         return new()
         {
