@@ -1,7 +1,5 @@
 using System.Collections.Immutable;
-using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Geometry;
-using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Visibility.Levels;
 using FractalEngine.Render.Cameras;

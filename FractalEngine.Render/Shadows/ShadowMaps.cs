@@ -169,7 +169,7 @@ internal sealed class ShadowMaps(GlResources resources) : IDisposable
     private static bool NeedsFineDepths(List<ShadowView> views) => views.Exists(
         static view => view.IsPerspective || view.Far - view.Near > MaxCoarseStep * CoarseDepths * view.TexelSize);
 
-    private bool HasSameSizes(IReadOnlyList<ShadowView> views)
+    private bool HasSameSizes(List<ShadowView> views)
     {
         if (views.Count != _drawnViews.Count)
         {

@@ -12,7 +12,8 @@ namespace FractalEngine.Core.Physics.Stepping;
 
 /// <summary>Takes one body through one step: shrinking, damping, forces, motion and sleep.</summary>
 internal sealed class BodyStepper(
-    PhysicsSettings settings, List<Body> bodies, BodyGrid grid, NearbyBodies nearbyBodies, Obstacles obstacles, SleepIslands islands, IslandPlanner planner, QueryContext queryContext, ContactLog contactLog)
+    PhysicsSettings settings, List<Body> bodies, BodyGrid grid, NearbyBodies nearbyBodies, Obstacles obstacles, SleepIslands islands,
+    IslandPlanner planner, QueryContext queryContext, ContactLog contactLog)
 {
     // Relative to the speed that the acceleration adds in a step.
     private const double RestitutionThresholdFraction = 0.5;
