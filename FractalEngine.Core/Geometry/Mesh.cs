@@ -26,7 +26,8 @@ public sealed record Mesh
         Bounds = BoundsOf(positions.AsSpan());
         // A minimum or maximum with NaN is NaN, so that the bounds of other coordinates are never finite.
         ArgumentCheck.Require(
-            positions.IsEmpty || (Bounds.Minimum.IsFinite() && Bounds.Maximum.IsFinite()), "expected finite coordinates", nameof(positions));
+            positions.IsEmpty || (Bounds.Minimum.IsFinite() && Bounds.Maximum.IsFinite()), "expected finite coordinates",
+            nameof(positions));
         Positions = positions;
         VertexIndices = vertexIndices;
         RequireIndices(vertexIndices, null, positions.Length / 3, 0, nameof(vertexIndices));

@@ -18,7 +18,7 @@ internal readonly struct SurfaceMotion
     /// <param name="scale">Factor by which it has shrunk.</param>
     /// <param name="travel">How far the reference point goes in a unit of time.</param>
     /// <param name="turn">Rotation vector of the turn in a unit of time, radians.</param>
-    /// <param name="arm">The origin of the surface's frame relative to the reference point; zero where that goes straight on itself.</param>
+    /// <param name="arm">The origin of the surface's frame relative to the reference point; zero where that goes straight itself.</param>
     public SurfaceMotion(Vector position, Orientation orientation, double scale, Vector travel, Vector turn, Vector arm = default)
     {
         Position = position;
