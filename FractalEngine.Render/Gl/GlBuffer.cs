@@ -4,16 +4,25 @@ using OpenTK.Graphics.OpenGL4;
 namespace FractalEngine.Render.Gl;
 
 /// <summary>A GL buffer object with one binding target.</summary>
-/// <param name="resources">Resources of the current context.</param>
-/// <param name="label">Name of the buffer, for messages.</param>
-/// <param name="target">Target that the buffer is bound to.</param>
-internal sealed class GlBuffer(GlResources resources, string label, BufferTarget target) : GlObject(resources, label)
+internal sealed class GlBuffer : GlObject
 {
-    private readonly int _name = GL.GenBuffer();
+    private readonly BufferTarget _target;
+    private readonly int _name;
     private nint _size;
 
+    /// <summary>Creates an empty buffer.</summary>
+    /// <param name="resources">Resources of the current context.</param>
+    /// <param name="label">Name of the buffer, for messages.</param>
+    /// <param name="target">Target that the buffer is bound to.</param>
+    public GlBuffer(GlResources resources, string label, BufferTarget target)
+        : base(resources, label)
+    {
+        _target = target;
+        _name = GL.GenBuffer();
+    }
+
     /// <summary>Binds the buffer to its target.</summary>
-    public void Bind() => GL.BindBuffer(target, _name);
+    public void Bind() => GL.BindBuffer(_target, _name);
 
     /// <summary>Binds a uniform buffer to a binding point.</summary>
     public void BindTo(int bindingPoint) => Resources.State.BindUniformBuffer(bindingPoint, _name);
@@ -33,13 +42,13 @@ internal sealed class GlBuffer(GlResources resources, string label, BufferTarget
             {
                 if (size != _size)
                 {
-                    GL.BufferData(target, size, (nint)start, usage);
+                    GL.BufferData(_target, size, (nint)start, usage);
                     _size = size;
                     Resources.ThrowOnError($"{this} of {size} bytes");
                 }
                 else if (size > 0)
                 {
-                    GL.BufferSubData(target, IntPtr.Zero, size, (nint)start);
+                    GL.BufferSubData(_target, IntPtr.Zero, size, (nint)start);
                 }
             }
         }
@@ -57,7 +66,7 @@ internal sealed class GlBuffer(GlResources resources, string label, BufferTarget
             _size = checked((nint)(bytes + (bytes / 2)));
         }
 
-        GL.BufferData(target, _size, IntPtr.Zero, BufferUsageHint.StreamDraw);
+        GL.BufferData(_target, _size, IntPtr.Zero, BufferUsageHint.StreamDraw);
         Resources.ThrowOnError($"{this} of {_size} bytes");
     }
 
@@ -74,7 +83,7 @@ internal sealed class GlBuffer(GlResources resources, string label, BufferTarget
             {
                 if (data.Length > 0)
                 {
-                    GL.BufferSubData(target, checked((nint)offset), (nint)data.Length * sizeof(float), (nint)start);
+                    GL.BufferSubData(_target, checked((nint)offset), (nint)data.Length * sizeof(float), (nint)start);
                 }
             }
         }

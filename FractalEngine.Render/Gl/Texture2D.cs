@@ -3,11 +3,15 @@ using OpenTK.Graphics.OpenGL4;
 namespace FractalEngine.Render.Gl;
 
 /// <summary>A two-dimensional texture of 8-bit components.</summary>
-/// <param name="resources">Resources of the current context.</param>
-/// <param name="label">Name of the texture, for messages.</param>
-internal abstract class Texture2D(GlResources resources, string label) : GlObject(resources, label)
+internal abstract class Texture2D : GlObject
 {
-    private readonly int _name = GL.GenTexture();
+    private readonly int _name;
+
+    /// <summary>Creates an empty texture.</summary>
+    /// <param name="resources">Resources of the current context.</param>
+    /// <param name="label">Name of the texture, for messages.</param>
+    protected Texture2D(GlResources resources, string label)
+        : base(resources, label) => _name = GL.GenTexture();
 
     /// <summary>Binds the texture to the first texture unit.</summary>
     public void Bind() => Resources.State.BindTexture(_name);

@@ -3,9 +3,13 @@ using OpenTK.Graphics.OpenGL4;
 namespace FractalEngine.Render.Gl;
 
 /// <summary>A vertex array object, which connects buffers to vertex attributes.</summary>
-internal sealed class VertexArray(GlResources resources, string label) : GlObject(resources, label)
+internal sealed class VertexArray : GlObject
 {
-    private readonly int _name = GL.GenVertexArray();
+    private readonly int _name;
+
+    /// <summary>Creates a vertex array without attributes.</summary>
+    public VertexArray(GlResources resources, string label)
+        : base(resources, label) => _name = GL.GenVertexArray();
 
     /// <summary>Makes this the current vertex array.</summary>
     public void Bind() => Resources.State.BindVertexArray(_name);
