@@ -32,24 +32,15 @@ internal static class CommandLine
             });
     }
 
-    private static RootCommand CreateRootCommand()
+    private static RootCommand CreateRootCommand() => new(
+        "Draw, measure and simulate fractals of any size, together with regular meshes. "
+        + "Without a command, FILE or the gallery is opened in a window.")
     {
-        var root = new RootCommand(
-            "Draw, measure and simulate fractals of any size, together with regular meshes. "
-            + "Without a command, FILE or the gallery is opened in a window.");
-        foreach (var command in (Command[])[
-            ViewCommand.Create(), RenderCommand.Create(), AnimateCommand.Create(), InfoCommand.Create(), CountCommand.Create(),
-            ExportCommand.Create(), ApproximateCommand.Create(), CheckCommand.Create(), SaveCommand.Create(), GenerateCommand.Create(),
-            QueryCommand.Create(), SimulateCommand.Create(), LimitsCommand.Create()])
-        {
-            root.Add(command);
-        }
+        ViewCommand.Create(), RenderCommand.Create(), AnimateCommand.Create(), InfoCommand.Create(), CountCommand.Create(),
+        ExportCommand.Create(), ApproximateCommand.Create(), CheckCommand.Create(), SaveCommand.Create(), GenerateCommand.Create(),
+        QueryCommand.Create(), SimulateCommand.Create(), LimitsCommand.Create(), Limits,
+    };
 
-        root.Add(Limits);
-        return root;
-    }
-
-    /// <summary>Prepends <c>view</c> to arguments that begin neither with a command nor with a request for help.</summary>
     private static string[] WithDefaultCommand(RootCommand root, string[] args) => args switch
     {
         [var first, ..] when root.Subcommands.Any(command => command.Name == first) => args,

@@ -132,16 +132,7 @@ public sealed class SceneRenderer : IDisposable
         Context.MakeCurrent();
         var transforms = new ObjectTransforms(scene);
         var objectsPass = new ObjectsPass(Context, scene, _buffers, transforms);
-        try
-        {
-            _buffers.Upload(scene);
-        }
-        catch (GlException)
-        {
-            objectsPass.Dispose();
-            throw;
-        }
-
+        Gl.GlObject.DisposeOnFailure(objectsPass, () => _buffers.Upload(scene));
         _objectsPass.Dispose();
         _objectsPass = objectsPass;
         _transforms = transforms;

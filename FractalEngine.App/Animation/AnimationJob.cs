@@ -31,11 +31,7 @@ internal sealed record AnimationJob(
     public void Check()
     {
         var motions = new[] { IsTurntable, CameraList is not null, Images.ZoomLevels > 0 }.Count(static asked => asked);
-        if (motions > 1)
-        {
-            throw new UsageException("--turntable, --zoom and --path exclude each other");
-        }
-
+        UsageException.ThrowIf(motions > 1, "--turntable, --zoom and --path exclude each other");
         if (motions == 0 && !IsSimulated)
         {
             throw new UsageException("nothing moves: expected --turntable, --zoom LEVELS, --path CAMERAS.txt or --simulate");

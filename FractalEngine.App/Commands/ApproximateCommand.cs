@@ -66,11 +66,7 @@ internal sealed class ApproximateCommand
     {
         var (path, output, seconds) = (result.GetRequiredValue(_shared.File), result.GetRequiredValue(_output), result.GetValue(_seconds));
         var (reportPath, imagePath) = (result.GetValue(_report), result.GetValue(_image));
-        if (output == StandardInput.Name)
-        {
-            throw new UsageException("a fractal has several files, so --output can't be '-'");
-        }
-
+        UsageException.ThrowIf(output == StandardInput.Name, "a fractal has several files, so --output can't be '-'");
         var told = _told.Begin(result);
         var file = told.Measure("load", () => ConsoleLoader.Load(path, _shared.LoadOptions(result)));
         foreach (var written in new[] { output, reportPath, imagePath }.OfType<string>())

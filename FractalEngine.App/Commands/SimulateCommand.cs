@@ -65,11 +65,7 @@ internal static class SimulateCommand
                 $"{seconds:R} s take {steps:G4} steps of {step:R} s, which exceeds the limit of {MaxSteps} steps"));
         }
 
-        if (every > steps)
-        {
-            throw new UsageException(Invariant($"--every {every} is beyond the {steps} steps, so nothing would be written"));
-        }
-
+        UsageException.ThrowIf(every > steps, Invariant($"--every {every} is beyond the {steps} steps, so nothing would be written"));
         var file = ConsoleLoader.Load(path, options);
         if (output is not null)
         {

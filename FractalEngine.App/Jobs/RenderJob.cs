@@ -67,11 +67,7 @@ internal sealed record RenderJob(
             throw new UsageException("--zoom needs a fractal, or a scene whose only object is one, and --detail above 0");
         }
 
-        if (view.Projection != Core.Scenes.Cameras.Projection.Perspective)
-        {
-            throw new UsageException("--zoom needs the perspective projection");
-        }
-
+        UsageException.ThrowIf(view.Projection != Core.Scenes.Cameras.Projection.Perspective, "--zoom needs the perspective projection");
         try
         {
             var zoom = new CameraZoom(drawable.Source.Bounds, fractal, view);

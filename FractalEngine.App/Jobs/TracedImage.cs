@@ -41,11 +41,7 @@ internal sealed record TracedImage(int Samples, int Seed, bool KeepsPartial)
     /// <exception cref="FractalEngineException">The image has more pixels than the limit.</exception>
     public PathTracer CreateTracer(LoadedScene scene, View view, RenderJob job, PathTracer? previous = null)
     {
-        if (job.Background.IsTransparent)
-        {
-            throw new UsageException("--trace draws no transparent background: expected a colour");
-        }
-
+        UsageException.ThrowIf(job.Background.IsTransparent, "--trace draws no transparent background: expected a colour");
         if ((long)job.Size.Width * job.Size.Height > MaxPixels)
         {
             throw new FractalEngineException(

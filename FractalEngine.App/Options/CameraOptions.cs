@@ -62,11 +62,7 @@ internal sealed class CameraOptions
             throw new UsageException("--camera, --view and --look-from or --look-at exclude each other: give one of the three");
         }
 
-        if (result.GetValue(_up) is not null && !hasTarget)
-        {
-            throw new UsageException("--up needs --look-from or --look-at");
-        }
-
+        UsageException.ThrowIf(result.GetValue(_up) is not null && !hasTarget, "--up needs --look-from or --look-at");
         var ownView = Render.Views.View.Of(scene, aspect);
         if (result.GetValue(_camera) is { } text)
         {

@@ -84,10 +84,7 @@ internal sealed class DrawOptions
 
         foreach (var (isGiven, words, obstacle) in FindObstacles(result, hasWindow))
         {
-            if (isGiven && obstacle is not null)
-            {
-                throw new UsageException($"{words} has no effect {obstacle}");
-            }
+            UsageException.ThrowIf(isGiven && obstacle is not null, $"{words} has no effect {obstacle}");
         }
     }
 

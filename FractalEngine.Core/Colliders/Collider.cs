@@ -170,11 +170,7 @@ public abstract class Collider
     {
         var isFinite = box.Minimum.IsFinite() && box.Maximum.IsFinite();
         var isEmpty = box == BoundingBox.Empty || (isFinite && box.IsEmpty);
-        if (!isFinite && !isEmpty)
-        {
-            throw new ArgumentOutOfRangeException(nameof(box), box, "expected finite corners");
-        }
-
+        ArgumentCheck.RequireInRange(isFinite || isEmpty, box, "expected finite corners", nameof(box));
         return OverlapsCore(box, context ?? new());
     }
 
@@ -197,11 +193,7 @@ public abstract class Collider
     public ClosestPair FindClosestPair(Collider other, AffineMap placementOfOther, QueryContext? context = null)
     {
         ArgumentNullException.ThrowIfNull(other);
-        if (!placementOfOther.IsFinite())
-        {
-            throw new ArgumentOutOfRangeException(nameof(placementOfOther), placementOfOther, "expected finite numbers");
-        }
-
+        ArgumentCheck.RequireInRange(placementOfOther.IsFinite(), placementOfOther, "expected finite numbers", nameof(placementOfOther));
         return FindClosestPair(AffineMap.Identity, other, placementOfOther, context);
     }
 

@@ -1,4 +1,5 @@
 using System.Collections.Immutable;
+using System.Text.Json;
 
 namespace FractalEngine.Core.Colliders;
 
@@ -7,26 +8,10 @@ public static class ColliderNames
 {
     /// <summary>All kinds with their names, in the order in which lists show them.</summary>
     public static ImmutableArray<(ColliderKind Kind, string Name)> All { get; } =
-    [
-        (ColliderKind.Exact, "exact"),
-        (ColliderKind.Fractal, "fractal"),
-        (ColliderKind.Hierarchy, "hierarchy"),
-        (ColliderKind.BoundingBox, "bounding-box"),
-        (ColliderKind.Simple, "simple"),
-    ];
+        [.. Enum.GetValues<ColliderKind>().Select(static kind => (kind, JsonNamingPolicy.KebabCaseLower.ConvertName(kind.ToString())))];
 
     /// <summary>Returns the name of a kind.</summary>
     /// <exception cref="ArgumentOutOfRangeException">There is no such kind.</exception>
-    public static string Of(ColliderKind kind)
-    {
-        foreach (var known in All)
-        {
-            if (known.Kind == kind)
-            {
-                return known.Name;
-            }
-        }
-
-        throw new ArgumentOutOfRangeException(nameof(kind), kind, "expected one of the kinds of colliders");
-    }
+    public static string Of(ColliderKind kind) => All.FirstOrDefault(known => known.Kind == kind).Name
+        ?? throw new ArgumentOutOfRangeException(nameof(kind), kind, "expected one of the kinds of colliders");
 }

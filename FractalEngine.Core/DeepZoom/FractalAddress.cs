@@ -93,11 +93,7 @@ public sealed class FractalAddress
     public FractalAddress RelativeTo(LodRoot root)
     {
         var (_, parent, child) = EnumerateRoots(int.MaxValue).FirstOrDefault(found => found.Root == root, (default, -1, -1));
-        if (parent < 0)
-        {
-            throw new ArgumentException("expected a sub-fractal around the camera", nameof(root));
-        }
-
+        ArgumentCheck.Require(parent >= 0, "expected a sub-fractal around the camera", nameof(root));
         return new(_hierarchy, _frame.RelativeTo(parent, child, root.FrameToCamera));
     }
 

@@ -3,6 +3,7 @@ using FractalEngine.Core.Colliders;
 using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Geometry.Triangles;
+using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Distances;
 
@@ -68,10 +69,7 @@ public sealed record SurfaceDistance(OneSidedDistance Forward, OneSidedDistance 
     private static void ThrowIfEmpty(Mesh mesh, string name)
     {
         ArgumentNullException.ThrowIfNull(mesh, name);
-        if (mesh.FaceCount == 0)
-        {
-            throw new ArgumentException("expected a mesh with at least one face", name);
-        }
+        ArgumentCheck.Require(mesh.FaceCount > 0, "expected a mesh with at least one face", name);
     }
 
     private static Mesh Scale(Mesh mesh, double scale) =>

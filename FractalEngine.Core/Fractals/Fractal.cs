@@ -276,11 +276,7 @@ public sealed class Fractal : IEquatable<Fractal>
     /// </exception>
     public static Fractal Choose(int seed, params ImmutableArray<(double Weight, Fractal Fractal)> alternatives)
     {
-        if (alternatives.IsDefaultOrEmpty)
-        {
-            throw new ArgumentException("expected at least one alternative", nameof(alternatives));
-        }
-
+        ArgumentCheck.Require(!alternatives.IsDefaultOrEmpty, "expected at least one alternative", nameof(alternatives));
         var choice = new Choice([.. alternatives.Select(static one => one.Weight)], seed);
         var list = new FractalPartList();
         var meshes = new MeshList();

@@ -1,4 +1,5 @@
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Generation;
 
@@ -19,11 +20,8 @@ public static class Shapes
     /// <exception cref="ArgumentException">The box is empty or not finite.</exception>
     public static Mesh Box(BoundingBox box)
     {
-        if (box.IsEmpty || !box.Minimum.IsFinite() || !box.Maximum.IsFinite())
-        {
-            throw new ArgumentException("expected a finite box that is not empty", nameof(box));
-        }
-
+        ArgumentCheck.Require(
+            !box.IsEmpty && box.Minimum.IsFinite() && box.Maximum.IsFinite(), "expected a finite box that is not empty", nameof(box));
         var (x1, y1, z1) = box.Minimum;
         var (x2, y2, z2) = box.Maximum;
         return new(

@@ -70,6 +70,9 @@ public readonly record struct BoundingBox(Vector Minimum, Vector Maximum)
         return new(Vector.Min(minimum, maximum), Vector.Max(minimum, maximum));
     }
 
+    /// <summary>Returns the length of the diagonal, or a fallback where it is zero or infinite.</summary>
+    public double FiniteDiagonalOr(double fallback) => Diagonal is > 0 and < double.PositiveInfinity and var diagonal ? diagonal : fallback;
+
     /// <summary>Computes the smallest box that holds this one and a point.</summary>
     public BoundingBox Including(Vector point) => new(Vector.Min(Minimum, point), Vector.Max(Maximum, point));
 

@@ -22,10 +22,12 @@ public sealed record Mesh
     /// </exception>
     public Mesh(ImmutableArray<double> positions, ImmutableArray<int> vertexIndices)
     {
-        Require(!positions.IsDefault && positions.Length % 3 == 0, nameof(positions), "three coordinates a vertex");
+        ArgumentCheck.Require(!positions.IsDefault && positions.Length % 3 == 0, "expected three coordinates a vertex", nameof(positions));
         Bounds = BoundsOf(positions.AsSpan());
         // A minimum or maximum with NaN is NaN, so that the bounds of other coordinates are never finite.
-        Require(positions.IsEmpty || (Bounds.Minimum.IsFinite() && Bounds.Maximum.IsFinite()), nameof(positions), "finite coordinates");
+        ArgumentCheck.Require(
+            positions.IsEmpty || (Bounds.Minimum.IsFinite() && Bounds.Maximum.IsFinite()), "expected finite coordinates",
+            nameof(positions));
         Positions = positions;
         VertexIndices = vertexIndices;
         RequireIndices(vertexIndices, null, positions.Length / 3, 0, nameof(vertexIndices));
@@ -78,7 +80,8 @@ public sealed record Mesh
     /// <exception cref="ArgumentException">There are not three components a vertex.</exception>
     public Mesh WithColours(ImmutableArray<double> colours)
     {
-        Require(!colours.IsDefault && colours.Length == Positions.Length, nameof(colours), "three components a vertex");
+        ArgumentCheck.Require(
+            !colours.IsDefault && colours.Length == Positions.Length, "expected three components a vertex", nameof(colours));
         return this with { Colours = colours };
     }
 
@@ -87,7 +90,7 @@ public sealed record Mesh
     /// <param name="indices">Indices into them, −1 for none, [faces × 3].</param>
     public Mesh WithTextureCoordinates(ImmutableArray<double> coordinates, ImmutableArray<int> indices)
     {
-        Require(!coordinates.IsDefault && coordinates.Length % 2 == 0, nameof(coordinates), "two coordinates each");
+        ArgumentCheck.Require(!coordinates.IsDefault && coordinates.Length % 2 == 0, "expected two coordinates each", nameof(coordinates));
         RequireIndices(indices, VertexIndices.Length, coordinates.Length / 2, -1, nameof(indices));
         return this with { TextureCoordinates = coordinates, TextureIndices = indices };
     }
@@ -97,7 +100,7 @@ public sealed record Mesh
     /// <param name="indices">Indices into them, −1 for none, [faces × 3].</param>
     public Mesh WithNormals(ImmutableArray<double> normals, ImmutableArray<int> indices)
     {
-        Require(!normals.IsDefault && normals.Length % 3 == 0, nameof(normals), "three components each");
+        ArgumentCheck.Require(!normals.IsDefault && normals.Length % 3 == 0, "expected three components each", nameof(normals));
         RequireIndices(indices, VertexIndices.Length, normals.Length / 3, -1, nameof(indices));
         return this with { Normals = normals, NormalIndices = indices };
     }
@@ -190,9 +193,10 @@ public sealed record Mesh
 
     private static void RequireIndices(ImmutableArray<int> indices, int? length, int count, int minIndex, string name)
     {
-        Require(
-            !indices.IsDefault && indices.Length % 3 == 0 && (length ?? indices.Length) == indices.Length, name, "three indices a face");
-        Require(AreWithin(indices.AsSpan(), minIndex, count - 1), name, "indices of elements that exist");
+        ArgumentCheck.Require(
+            !indices.IsDefault && indices.Length % 3 == 0 && (length ?? indices.Length) == indices.Length, "expected three indices a face",
+            name);
+        ArgumentCheck.Require(AreWithin(indices.AsSpan(), minIndex, count - 1), "expected indices of elements that exist", name);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveOptimization)]
@@ -254,13 +258,5 @@ public sealed record Mesh
         }
 
         return box;
-    }
-
-    private static void Require(bool condition, string name, string what)
-    {
-        if (!condition)
-        {
-            throw new ArgumentException($"expected {what}", name);
-        }
     }
 }

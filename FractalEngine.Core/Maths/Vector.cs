@@ -94,6 +94,16 @@ public readonly record struct Vector(double X, double Y, double Z)
     /// <summary>Computes the largest absolute value of the components.</summary>
     public double MaxAbsComponent() => Math.Max(Math.Abs(X), Math.Max(Math.Abs(Y), Math.Abs(Z)));
 
+    /// <summary>Computes a vector of length 1 at right angles to a unit vector.</summary>
+    internal Vector Perpendicular() => Cross(this, Math.Abs(X) < 0.6 ? I : J).UnitVector();
+
+    /// <summary>Returns the vector, or one in its direction where it is longer than a limit.</summary>
+    internal Vector ShortenedTo(double maxLength)
+    {
+        var length = Length();
+        return length > maxLength ? maxLength / length * this : this;
+    }
+
     /// <summary>Computes the vector of length 1 in the same direction.</summary>
     /// <remarks>Exact to a few ulps for lengths from 1e-308 to 1e308.</remarks>
     /// <exception cref="InvalidOperationException">The vector is zero, infinite or NaN and has no direction.</exception>

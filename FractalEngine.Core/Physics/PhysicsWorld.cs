@@ -170,7 +170,7 @@ public sealed class PhysicsWorld
         set
         {
             ArgumentCheck.Require(
-                value is null || (value >= 0 && double.IsFinite(value.Value)), "the shrinkage must not be negative", null, nameof(value));
+                value is null || (value >= 0 && double.IsFinite(value.Value)), "the shrinkage must not be negative", nameof(value));
             if (field != value)
             {
                 field = value;
@@ -293,7 +293,7 @@ public sealed class PhysicsWorld
     public CharacterController AddCharacter(Player player)
     {
         ArgumentNullException.ThrowIfNull(player);
-        ArgumentCheck.Require(player.FindFault() is null, player.FindFault() ?? "", null, nameof(player));
+        ArgumentCheck.Require(player.FindFault() is null, player.FindFault() ?? "", nameof(player));
         Character?.IsActive = false;
         return Character = CreateCharacter(player);
     }
@@ -394,7 +394,7 @@ public sealed class PhysicsWorld
         ArgumentOutOfRangeException.ThrowIfNegative(objectIndex);
         ArgumentOutOfRangeException.ThrowIfGreaterThanOrEqual(objectIndex, _staticOfObject.Length);
         var target = _staticOfObject[objectIndex];
-        ArgumentCheck.Require(target is not null, "the object is a body, which moves by itself", null, nameof(objectIndex));
+        ArgumentCheck.Require(target is not null, "the object is a body, which moves by itself", nameof(objectIndex));
         target.MoveTo(placement);
     }
 
@@ -432,7 +432,7 @@ public sealed class PhysicsWorld
     /// <exception cref="InvalidOperationException">A body has left the range of a double; the message names it.</exception>
     public int Advance(double seconds)
     {
-        ArgumentCheck.Require(double.IsFinite(seconds), "expected a finite time", null, nameof(seconds));
+        ArgumentCheck.Require(double.IsFinite(seconds), "expected a finite time", nameof(seconds));
         _accumulatedTime = Math.Min(_accumulatedTime + Math.Max(0, seconds), Settings.MaxStepsPerAdvance * Settings.TimeStep);
         var steps = 0;
         for (; _accumulatedTime >= Settings.TimeStep; steps++)
@@ -458,7 +458,8 @@ public sealed class PhysicsWorld
     /// <exception cref="InvalidOperationException">A body has left the range of a double; the message names it.</exception>
     public void Step(double seconds)
     {
-        ArgumentCheck.RequireTimeStep(seconds, nameof(seconds));
+        ArgumentCheck.RequireInRange(
+            seconds > 0 && double.IsFinite(seconds), seconds, "expected a positive and finite time step", nameof(seconds));
         _stepper.Step(Character is { IsActive: true } character ? character : null, _gravity, seconds);
     }
 
@@ -511,8 +512,8 @@ public sealed class PhysicsWorld
     {
         ArgumentCheck.RequireFinite(start, nameof(start));
         ArgumentCheck.RequireFinite(displacement, nameof(displacement));
-        ArgumentCheck.Require(radius > 0 && double.IsFinite(radius), "the radius must be positive", null, nameof(radius));
-        ArgumentCheck.RequireLayer(layer, nameof(layer));
+        ArgumentCheck.Require(radius > 0 && double.IsFinite(radius), "the radius must be positive", nameof(radius));
+        Layers.Require(layer, nameof(layer));
         return _queries.TryCastSphere(start, radius, displacement, layer, mask, out hit);
     }
 
@@ -531,7 +532,7 @@ public sealed class PhysicsWorld
     public bool TryCastRay(
         Ray ray, out CastHit hit, double maxDistance = double.PositiveInfinity, int layer = 0, uint mask = Layers.All)
     {
-        ArgumentCheck.RequireLayer(layer, nameof(layer));
+        Layers.Require(layer, nameof(layer));
         return _queries.TryCastRay(ray, maxDistance, layer, mask, out hit);
     }
 
@@ -597,14 +598,14 @@ public sealed class PhysicsWorld
         description.Validate();
         ArgumentCheck.Require(
             description.ObjectIndex is not { } index || (index >= 0 && index < _scene.Objects.Length),
-            "the object index must be that of an object of the scene", description.Name is { } name ? $"body {name}" : null);
+            $"{(description.Name is { } name ? $"body {name}: " : "")}the object index must be that of an object of the scene");
     }
 
     /// <summary>Wakes a body of this world, with all that touch it, for something that callers do to it.</summary>
     private void WakeFor(Body body, Vector change, string name, Vector? point = null)
     {
         var isOwn = body.Index < _bodies.Count && ReferenceEquals(_bodies[body.Index], body);
-        ArgumentCheck.Require(isOwn, "the body is not of this world", null, nameof(body));
+        ArgumentCheck.Require(isOwn, "the body is not of this world", nameof(body));
         body.RequireFinite(change, name);
         body.RequireFinite(point ?? Vector.Zero, nameof(point));
         _stepper.Islands.Wake(body);

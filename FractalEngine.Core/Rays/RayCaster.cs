@@ -192,11 +192,7 @@ public abstract class RayCaster
             throw new ArgumentOutOfRangeException(nameof(minDistance), minDistance, "expected a finite number, not negative");
         }
 
-        if (!(maxDistance >= 0))
-        {
-            throw new ArgumentOutOfRangeException(nameof(maxDistance), maxDistance, "expected a number that is not negative");
-        }
-
+        ArgumentCheck.RequireInRange(maxDistance >= 0, maxDistance, "expected a number that is not negative", nameof(maxDistance));
         // Squares of any double stay within range after the division, and components that vanish beside others become 0.
         var direction = ray.Direction / largest;
         return (1 / direction.Length()) * direction;

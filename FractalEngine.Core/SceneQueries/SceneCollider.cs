@@ -97,11 +97,7 @@ public sealed class SceneCollider : Collider
         ArgumentOutOfRangeException.ThrowIfNegative(index);
         ArgumentOutOfRangeException.ThrowIfGreaterThanOrEqual(index, objects.Count);
         ArgumentNullException.ThrowIfNull(placed);
-        if (!_sharedColliders.ContainsKey(placed.Model))
-        {
-            throw new ArgumentException("expected the model of an object of the scene", nameof(placed));
-        }
-
+        ArgumentCheck.Require(_sharedColliders.ContainsKey(placed.Model), "expected the model of an object of the scene", nameof(placed));
         return new(objects.With(CreateInstance(index, placed)), _sharedColliders, this);
     }
 

@@ -65,11 +65,7 @@ public sealed class SceneRayCaster : InstanceRayCaster
         ArgumentOutOfRangeException.ThrowIfNegative(index);
         ArgumentOutOfRangeException.ThrowIfGreaterThanOrEqual(index, Instances?.Count ?? 0);
         ArgumentNullException.ThrowIfNull(placed);
-        if (!_casters.ContainsKey(placed.Model))
-        {
-            throw new ArgumentException("expected the model of an object of the scene", nameof(placed));
-        }
-
+        ArgumentCheck.Require(_casters.ContainsKey(placed.Model), "expected the model of an object of the scene", nameof(placed));
         var objects = Instances!.With(CreateInstance(_casters, index, placed));
         if (objects.IsDegraded)
         {

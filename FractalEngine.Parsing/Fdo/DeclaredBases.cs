@@ -6,14 +6,13 @@ namespace FractalEngine.Parsing.Fdo;
 /// <param name="keepsSums">Whether sums and sets stay as they are written, see <see cref="FractalPartList"/>.</param>
 internal sealed class DeclaredBases(bool keepsSums)
 {
-    private readonly List<BaseReference> _references = [];
     private readonly Dictionary<string, int> _numbers = [];
 
     /// <summary>The parts of all objects.</summary>
     public FractalPartList Parts { get; } = new(keepsSums);
 
     /// <summary>The files and shapes, in the order in which they were named.</summary>
-    public IReadOnlyList<BaseReference> References => _references;
+    public List<BaseReference> References { get; } = [];
 
     /// <summary>Adds the object that a file or shape is, without steps.</summary>
     /// <param name="name">Name of the file, as written, or of the shape.</param>
@@ -21,12 +20,12 @@ internal sealed class DeclaredBases(bool keepsSums)
     public DeclaredObject Add(string name, int offset)
     {
         // By chance, one file is one object wherever it is named.
-        if (!keepsSums || _numbers.TryAdd(name, _references.Count))
+        if (!keepsSums || _numbers.TryAdd(name, References.Count))
         {
-            _references.Add(new(name, offset));
+            References.Add(new(name, offset));
         }
 
-        return new(Parts.AddMesh(keepsSums ? _numbers[name] : _references.Count - 1), DeclaredSteps.None);
+        return new(Parts.AddMesh(keepsSums ? _numbers[name] : References.Count - 1), DeclaredSteps.None);
     }
 
     /// <summary>Returns the part that an object with all its steps is.</summary>

@@ -105,11 +105,7 @@ public abstract class MapSetParser : CallParser
             return true;
         }
 
-        if (power.Count > 1)
-        {
-            throw Error(cursor, $"a power is that of one map, not of {power.Count}: powers of each stand in the parentheses");
-        }
-
+        ThrowIf(power.Count > 1, cursor, $"a power is that of one map, not of {power.Count}: powers of each stand in the parentheses");
         if (!ParseMapExponent(cursor.Advance(1), out var from, out rest))
         {
             return false;
@@ -121,17 +117,9 @@ public abstract class MapSetParser : CallParser
             return false;
         }
 
-        if (to < from)
-        {
-            throw Error(cursor, "a range of powers begins at the smaller one, as in '^-2..2'");
-        }
-
+        ThrowIf(to < from, cursor, "a range of powers begins at the smaller one, as in '^-2..2'");
         RequireMapCount((long)to - from + 1, cursor);
-        if (from < 0 && power.HasColours)
-        {
-            throw Error(cursor, "a map with a colour has no powers below 0: what is mixed in can't be taken out");
-        }
-
+        ThrowIf(from < 0 && power.HasColours, cursor, "a map with a colour has no powers below 0: what is mixed in can't be taken out");
         power = power.ToPowers(from, to);
         RequireInvertible(cursor, power.Maps);
         return true;
@@ -170,11 +158,7 @@ public abstract class MapSetParser : CallParser
             value = isNegative ? -(double)size : size;
         }
 
-        if (Math.Floor(value) != value)
-        {
-            throw Error(cursor, FormattableString.Invariant($"the power of a map is a whole number, not {value:R}"));
-        }
-
+        ThrowIf(Math.Floor(value) != value, cursor, FormattableString.Invariant($"the power of a map is a whole number, not {value:R}"));
         if (Math.Abs(value) > FractalLimits.Depth.Value)
         {
             throw Error(cursor, $"the power is more than the limit of {FractalLimits.Depth.Value}", isLimitExceeded: true);

@@ -50,11 +50,7 @@ public abstract class ObjectParser : MapSetParser
         }
 
         ParseBlanks(rest, out var word);
-        if (number > Choice.MaxSeed)
-        {
-            throw Error(start, FormattableString.Invariant($"a seed is at most {Choice.MaxSeed}"));
-        }
-
+        ThrowIf(number > Choice.MaxSeed, start, FormattableString.Invariant($"a seed is at most {Choice.MaxSeed}"));
         var isByLevel = ParseWord(word, "by", out var next);
         _seed = (number, isByLevel);
         return !isByLevel || (ParseBlanks(next, out next) && ParseWord(next, "level", out rest));
@@ -79,11 +75,7 @@ public abstract class ObjectParser : MapSetParser
             return false;
         }
 
-        if (!(weights.Sum() is > 0 and < double.PositiveInfinity))
-        {
-            throw Error(cursor, "the weights of a choice are all 0, or too large to add");
-        }
-
+        ThrowIf(!(weights.Sum() is > 0 and < double.PositiveInfinity), cursor, "the weights of a choice are all 0, or too large to add");
         var choice = new Choice([.. weights], _seed.Number, _seed.IsByLevel);
         value = new(Bases.Parts.AddChoice([.. alternatives], choice, isOfBody: Calls is not null), DeclaredSteps.None);
         return true;
@@ -93,22 +85,14 @@ public abstract class ObjectParser : MapSetParser
     {
         for (var start = cursor; ; ParseBlanks(start.Advance(1), out start))
         {
-            if (!IsWeight(start.Rest))
-            {
-                throw Error(start, "each alternative of a choice has a weight and a colon, as in '1: box'");
-            }
-
+            ThrowIf(!IsWeight(start.Rest), start, "each alternative of a choice has a weight and a colon, as in '1: box'");
             if (!ParseExpression(start, out var weight, out rest) || !ParseBlanks(rest, out rest) || !ParseChar(rest, ':', out rest)
                 || !ParseBlanks(rest, out rest) || !ParseSum(rest, out var alternative, out rest))
             {
                 return false;
             }
 
-            if (weight < 0)
-            {
-                throw Error(start, FormattableString.Invariant($"a weight is not negative, and this one is {weight:R}"));
-            }
-
+            ThrowIf(weight < 0, start, FormattableString.Invariant($"a weight is not negative, and this one is {weight:R}"));
             RequireLimit(alternatives.Count + 1, Choice.MaxAlternatives, "the choice", "alternatives", start);
             RequireLimit(++_sumTermCount, ParsingLimits.Names.Value, "the file", "terms of sums", start);
             RequireRepeatedSteps(alternative.Steps.Count, start);
@@ -299,11 +283,7 @@ public abstract class ObjectParser : MapSetParser
         }
 
         var recursive = FindRecursion(cursor, name, keyword);
-        if (!(length > 0))
-        {
-            throw Error(start, FormattableString.Invariant($"a recursive ends at a size above 0, and this one is {length:R}"));
-        }
-
+        ThrowIf(!(length > 0), start, FormattableString.Invariant($"a recursive ends at a size above 0, and this one is {length:R}"));
         var (recursives, index) = recursive.GetRecursives(Bases.Parts);
         RequireRepeatedSteps(recursives.Sum(static one => one.Calls.Length), cursor);
         if (RecursiveCycles.FindGrowing(recursives) is { } cycle)

@@ -102,11 +102,7 @@ public abstract class RecursiveParser : ObjectParser
         foreach (var head in heads)
         {
             var value = Names.FindObject(head.BaseStart, head.BaseName);
-            if (Bases.IsInfinite(value))
-            {
-                throw Error(head.BaseStart, $"the base '{head.BaseName}' is infinite: give it a depth");
-            }
-
+            ThrowIf(Bases.IsInfinite(value), head.BaseStart, $"the base '{head.BaseName}' is infinite: give it a depth");
             if (!names.Add(head.BaseName))
             {
                 throw Error(head.BaseStart, $"the base '{head.BaseName}' is that of another recursive already: bases have different names");
@@ -132,11 +128,7 @@ public abstract class RecursiveParser : ObjectParser
         }
 
         var stepCount = body.Steps.Count - (isCall ? 0 : baseObject.Steps.Count);
-        if (stepCount == 0)
-        {
-            throw Error(bodyStart, $"the recursive '{name}' adds no transformations to its base '{baseName}'");
-        }
-
+        ThrowIf(stepCount == 0, bodyStart, $"the recursive '{name}' adds no transformations to its base '{baseName}'");
         RequireFiniteBody(head, body, bodyStart);
         RequireLimit(
             body.Steps.LevelCount - (isCall ? 0 : baseObject.Steps.LevelCount), FractalLimits.Levels.Value, "the fractal", "levels",
@@ -174,9 +166,6 @@ public abstract class RecursiveParser : ObjectParser
 
     private void RequireFiniteBody(RecursiveHead head, DeclaredObject body, Cursor start)
     {
-        if (Bases.IsInfinite(body))
-        {
-            throw Error(start, $"the body of the recursive '{head.Name}' is infinite: give the recursive in it a depth");
-        }
+        ThrowIf(Bases.IsInfinite(body), start, $"the body of the recursive '{head.Name}' is infinite: give the recursive in it a depth");
     }
 }

@@ -147,11 +147,7 @@ public abstract class TransformationParser : ExpressionParser
             throw Error(cursor, $"the components of a colour are from 0 to 1, not {vector}");
         }
 
-        if (amount is < 0 or > 1)
-        {
-            throw Error(start, FormattableString.Invariant($"the amount of a colour is from 0 to 1, not {amount:R}"));
-        }
-
+        ThrowIf(amount is < 0 or > 1, start, FormattableString.Invariant($"the amount of a colour is from 0 to 1, not {amount:R}"));
         var (red, green, blue) = vector;
         colour = new(new(red, green, blue), amount);
         return true;
@@ -181,16 +177,8 @@ public abstract class TransformationParser : ExpressionParser
                 return false;
             }
 
-            if (parameters.Contains(parameter))
-            {
-                throw Error(parameterStart, $"the parameter '{parameter}' is named twice");
-            }
-
-            if (parameters.Count == MaxParameters)
-            {
-                throw Error(parameterStart, $"a transformation has at most {MaxParameters} parameters");
-            }
-
+            ThrowIf(parameters.Contains(parameter), parameterStart, $"the parameter '{parameter}' is named twice");
+            ThrowIf(parameters.Count == MaxParameters, parameterStart, $"a transformation has at most {MaxParameters} parameters");
             parameters.Add(parameter);
         }
 

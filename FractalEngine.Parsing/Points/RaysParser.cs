@@ -54,11 +54,7 @@ public sealed class RaysParser : Parser
                 directionStart, $"a direction is beyond the limit of {Collider.MaxCoordinate:R} for lengths", isLimitExceeded: true);
         }
 
-        if (direction == Vector.Zero)
-        {
-            throw Error(directionStart, "a direction of length 0");
-        }
-
+        ThrowIf(direction == Vector.Zero, directionStart, "a direction of length 0");
         ray = new(origin, direction);
         return true;
     }

@@ -103,13 +103,7 @@ public abstract class SceneValueParser(SourceText source) : Parser(source)
     }
 
     /// <summary>Throws an exception for a value that has no valid meaning, unless the condition holds.</summary>
-    protected void Require(bool condition, Cursor cursor, string message)
-    {
-        if (!condition)
-        {
-            throw Error(cursor, message);
-        }
-    }
+    protected void Require(bool condition, Cursor cursor, string message) => ThrowIf(!condition, cursor, message);
 
     /// <summary>Returns a parser of a number that must meet a condition, with the message for one that does not.</summary>
     private protected ItemParser<double> Number(Func<double, bool> isValid, string fault) =>

@@ -7,7 +7,7 @@ namespace FractalEngine.Parsing.Stl;
 /// <summary>Collects the triangles of an STL file, which has no vertices but repeats their positions.</summary>
 internal sealed class StlMeshBuilder
 {
-    private readonly Dictionary<(double X, double Y, double Z), int> _vertices = [];
+    private readonly Dictionary<Vector, int> _vertices = [];
     private readonly List<double> _positions = [];
     private readonly List<int> _indices = [];
     private readonly ObjGroups _groups = new();
@@ -18,11 +18,10 @@ internal sealed class StlMeshBuilder
     /// <summary>Adds a corner; three of them make a triangle.</summary>
     public void AddCorner(Vector position)
     {
-        var key = (position.X, position.Y, position.Z);
-        if (!_vertices.TryGetValue(key, out var vertex))
+        if (!_vertices.TryGetValue(position, out var vertex))
         {
             vertex = _vertices.Count;
-            _vertices.Add(key, vertex);
+            _vertices.Add(position, vertex);
             _positions.AddRange([position.X, position.Y, position.Z]);
         }
 

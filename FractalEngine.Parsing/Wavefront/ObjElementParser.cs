@@ -229,11 +229,7 @@ public abstract class ObjElementParser : Parser
         var message = isRelative
             ? $"{elementName} {written} of {count} so far: it is before the first"
             : $"{elementName} {written} of {count} so far: it is beyond the last";
-        if (isRequired)
-        {
-            throw Error(cursor, message);
-        }
-
+        ThrowIf(isRequired, cursor, message);
         // A face can do without normals or texture coordinates, and some programs write numbers of ones that they omit.
         Contents.InvalidIndices.Add(PositionOf(cursor), $"{message}: the index is ignored");
         index = ObjCorner.None;

@@ -42,7 +42,6 @@ public sealed class FlyingCamera
     private readonly SceneFraming _framing;
     private readonly CameraPose _initialPose;
     private readonly FractalLocation? _fractal;
-    private FractalAddress? _address;
 
     /// <summary>Creates a camera for one scene.</summary>
     /// <param name="bounds">Bounds of the scene in world space, which determine speed and focus.</param>
@@ -69,7 +68,7 @@ public sealed class FlyingCamera
 
     /// <summary>The camera in world space, as far as double precision can express its position.</summary>
     public Camera Camera =>
-        _address is null ? Pose.Camera : Pose.Camera with { Position = _address.WorldPosition(_fractal!.ObjectToWorld) };
+        Address is null ? Pose.Camera : Pose.Camera with { Position = Address.WorldPosition(_fractal!.ObjectToWorld) };
 
     /// <summary>The present projection of the view.</summary>
     public Projection Projection => Pose.Projection;
@@ -78,10 +77,10 @@ public sealed class FlyingCamera
     public double? OrthographicHeight => Pose.OrthographicHeight;
 
     /// <summary>Number of levels between the whole fractal and the sub-fractal around the camera.</summary>
-    public int Depth => _address?.Depth ?? 0;
+    public int Depth => Address?.Depth ?? 0;
 
     /// <summary>Decimal logarithm of the magnification of the camera's surroundings.</summary>
-    public double Log10Magnification => _address is null ? 0 : -_address.LogUnit / Math.Log(10);
+    public double Log10Magnification => Address is null ? 0 : -Address.LogUnit / Math.Log(10);
 
     /// <summary>Distance of the point that the camera orbits and zooms to, straight ahead. In the present unit.</summary>
     public double FocusDistance { get; private set; }
@@ -92,13 +91,13 @@ public sealed class FlyingCamera
         get
         {
             var sceneSpeed = SceneSizesPerSecond * _framing.Extent;
-            if (_address is null)
+            if (Address is null)
             {
                 return sceneSpeed;
             }
 
-            var fractalSpeed = SurfaceDistancesPerSecond * _address.ClosestSurfaceDistance();
-            return _address.Depth == 0 ? Math.Min(sceneSpeed, fractalSpeed) : fractalSpeed;
+            var fractalSpeed = SurfaceDistancesPerSecond * Address.ClosestSurfaceDistance();
+            return Address.Depth == 0 ? Math.Min(sceneSpeed, fractalSpeed) : fractalSpeed;
         }
     }
 
@@ -107,16 +106,16 @@ public sealed class FlyingCamera
     /// <summary>Adapts a view to a camera within the fractal. Returns the view itself while the camera is outside.</summary>
     public View WithDeepZoom(View view)
     {
-        if (_address is not { Depth: > 0 } || Projection != Projection.Perspective)
+        if (Address is not { Depth: > 0 } || Projection != Projection.Perspective)
         {
             return view;
         }
 
-        var roots = _address.CollectRoots(MaxAncestors);
+        var roots = Address.CollectRoots(MaxAncestors);
         return view with
         {
-            DeepZoom = new(_fractal!.ObjectIndex, roots, _address.LogUnit),
-            FixedClipPlanes = (NearPlaneFraction * _address.ClosestSurfaceDistance(), FarPlaneFactor * _address.MaxDrawDistance(roots)),
+            DeepZoom = new(_fractal!.ObjectIndex, roots, Address.LogUnit),
+            FixedClipPlanes = (NearPlaneFraction * Address.ClosestSurfaceDistance(), FarPlaneFactor * Address.MaxDrawDistance(roots)),
         };
     }
 
@@ -149,12 +148,12 @@ public sealed class FlyingCamera
 
     private void ZoomOnce(double factor, double right, double up)
     {
-        if (_address is not null)
+        if (Address is not null)
         {
             // Zooming in leads to the closest surface, however close it is. Zooming out leads away from it by as much.
-            var surfaceDistance = _address.ClosestSurfaceDistance();
+            var surfaceDistance = Address.ClosestSurfaceDistance();
             var maxFocusDistance = Math.Max(1, factor) * MaxFocusDistanceRatio * surfaceDistance;
-            FocusDistance = factor > 1 && _address.Depth > 0 ? maxFocusDistance
+            FocusDistance = factor > 1 && Address.Depth > 0 ? maxFocusDistance
                 : factor > 1 ? Math.Min(FocusDistance, maxFocusDistance)
                 : Math.Clamp(FocusDistance, surfaceDistance, maxFocusDistance);
         }
@@ -182,15 +181,15 @@ public sealed class FlyingCamera
     }
 
     /// <summary>Address of the camera in the fractal, which nobody else may move; null outside of fractals.</summary>
-    public FractalAddress? Address => _address;
+    public FractalAddress? Address { get; private set; }
 
     /// <summary>Maps a point to world axes about the camera, in the present unit.</summary>
     /// <param name="point">World space, or relative to another camera.</param>
     /// <param name="viewpoint">Address of that other camera; null for world space.</param>
     /// <returns>Null where a double can't tell both places.</returns>
     public Vector? ToCameraFrame(Vector point, FractalAddress? viewpoint) =>
-        viewpoint is null ? Math.Exp(-(_address?.LogUnit ?? 0)) * (point - Camera.Position)
-        : _address?.MapFrom(viewpoint) is { } map ? map * point
+        viewpoint is null ? Math.Exp(-(Address?.LogUnit ?? 0)) * (point - Camera.Position)
+        : Address?.MapFrom(viewpoint) is { } map ? map * point
         : null;
 
     /// <summary>
@@ -203,11 +202,11 @@ public sealed class FlyingCamera
     {
         if (viewpoint is null)
         {
-            return isDeep ? point => Math.Exp(-_address!.LogUnit) * (point - Camera.Position) : static point => point;
+            return isDeep ? point => Math.Exp(-Address!.LogUnit) * (point - Camera.Position) : static point => point;
         }
 
         // An address that nobody has moved is relative to the whole fractal and to the origin of the world.
-        var target = isDeep || _fractal is null ? _address : new(_fractal.Hierarchy, _fractal.ObjectToWorld, Vector.Zero);
+        var target = isDeep || _fractal is null ? Address : new(_fractal.Hierarchy, _fractal.ObjectToWorld, Vector.Zero);
         return target?.MapFrom(viewpoint) is { } map ? point => map * point : null;
     }
 
@@ -254,16 +253,16 @@ public sealed class FlyingCamera
     /// <summary>Takes a moved camera. Within a fractal its position is a displacement in the present unit.</summary>
     private void Apply(Camera camera)
     {
-        if (_address is null)
+        if (Address is null)
         {
             Pose = Pose with { Camera = camera, FramedAspect = camera == Pose.Camera ? Pose.FramedAspect : null };
             return;
         }
 
         var displacement = camera.Position;
-        var logUnit = _address.LogUnit;
-        _address.Move(displacement);
-        FocusDistance *= Math.Exp(logUnit - _address.LogUnit);
+        var logUnit = Address.LogUnit;
+        Address.Move(displacement);
+        FocusDistance *= Math.Exp(logUnit - Address.LogUnit);
         Pose = Pose with
         {
             Camera = camera with { Position = Vector.Zero },
@@ -312,7 +311,7 @@ public sealed class FlyingCamera
 
     /// <summary>The present state, for <see cref="Restore"/>.</summary>
     public CameraState State =>
-        new(Pose, Camera, FocusDistance, _address is { Depth: > 0 and <= MaxStateDepth } ? _address.Clone() : null)
+        new(Pose, Camera, FocusDistance, Address is { Depth: > 0 and <= MaxStateDepth } ? Address.Clone() : null)
         {
             Fractal = _fractal,
         };
@@ -336,7 +335,7 @@ public sealed class FlyingCamera
         }
         else if (_fractal is null || state.Address is not null)
         {
-            _address = state.Address?.Clone();
+            Address = state.Address?.Clone();
             FocusDistance = state.FocusDistance;
         }
         else
@@ -365,9 +364,9 @@ public sealed class FlyingCamera
     {
         if (_fractal is not null)
         {
-            _address = new(_fractal.Hierarchy, _fractal.ObjectToWorld, Pose.Camera.Position);
-            _address.Move(Vector.Zero);
-            FocusDistance *= Math.Exp(-_address.LogUnit);
+            Address = new(_fractal.Hierarchy, _fractal.ObjectToWorld, Pose.Camera.Position);
+            Address.Move(Vector.Zero);
+            FocusDistance *= Math.Exp(-Address.LogUnit);
             Pose = Pose with { Camera = Pose.Camera with { Position = Vector.Zero }, MoveCount = Pose.MoveCount + 1 };
         }
     }

@@ -73,7 +73,7 @@ internal sealed class DepthAtlas : GlObject
     }
 
     /// <inheritdoc/>
-    protected override void Delete()
+    protected internal override void Delete()
     {
         GL.DeleteFramebuffer(_framebuffer);
         Resources.State.DeleteTexture(_texture);

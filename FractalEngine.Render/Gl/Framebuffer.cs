@@ -93,7 +93,7 @@ internal sealed class Framebuffer : GlObject
     }
 
     /// <inheritdoc/>
-    protected override void Delete()
+    protected internal override void Delete()
     {
         GL.DeleteFramebuffer(_name);
         GL.DeleteRenderbuffer(_colour);

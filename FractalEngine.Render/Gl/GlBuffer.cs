@@ -92,5 +92,5 @@ internal sealed class GlBuffer : GlObject
     }
 
     /// <inheritdoc/>
-    protected override void Delete() => Resources.State.DeleteBuffer(_name);
+    protected internal override void Delete() => Resources.State.DeleteBuffer(_name);
 }

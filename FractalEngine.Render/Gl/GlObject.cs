@@ -65,8 +65,6 @@ internal abstract class GlObject : IDisposable
         }
     }
 
-    internal void DeleteNow() => Delete();
-
     /// <summary>Calls the matching glDelete function. Runs once, on the context's thread.</summary>
-    protected abstract void Delete();
+    protected internal abstract void Delete();
 }

@@ -47,7 +47,7 @@ internal sealed class GlResources
         {
             foreach (var item in _pendingDeletion)
             {
-                item.DeleteNow();
+                item.Delete();
             }
 
             _pendingDeletion.Clear();
@@ -138,6 +138,6 @@ internal sealed class GlResources
             }
         }
 
-        item.DeleteNow();
+        item.Delete();
     }
 }

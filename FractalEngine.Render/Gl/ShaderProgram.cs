@@ -86,7 +86,7 @@ internal class ShaderProgram : GlObject
     }
 
     /// <inheritdoc/>
-    protected sealed override void Delete()
+    protected internal sealed override void Delete()
     {
         if (_isLinked)
         {

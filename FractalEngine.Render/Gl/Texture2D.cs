@@ -41,5 +41,5 @@ internal abstract class Texture2D : GlObject
     }
 
     /// <inheritdoc/>
-    protected override void Delete() => Resources.State.DeleteTexture(_name);
+    protected internal override void Delete() => Resources.State.DeleteTexture(_name);
 }

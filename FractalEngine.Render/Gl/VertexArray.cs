@@ -57,5 +57,5 @@ internal sealed class VertexArray : GlObject
     }
 
     /// <inheritdoc/>
-    protected override void Delete() => Resources.State.DeleteVertexArray(_name);
+    protected internal override void Delete() => Resources.State.DeleteVertexArray(_name);
 }

@@ -7,7 +7,6 @@ using FractalEngine.Core.Scenes.Cameras;
 using FractalEngine.Core.Scenes.Lights;
 using FractalEngine.Render.Gl;
 using FractalEngine.Render.Gl.State;
-using FractalEngine.Render.Views;
 using OpenTK.Graphics.OpenGL4;
 
 namespace FractalEngine.Render.Lights;

@@ -1,7 +1,5 @@
 using System.Collections.Immutable;
-using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Geometry;
-using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Visibility.Levels;
 using FractalEngine.Render.Cameras;
@@ -108,23 +106,10 @@ public sealed class DrawableScene
     }
 
     /// <summary>Builds what a camera enters where the only object is a fractal of several meshes; null for others.</summary>
-    private static LodHierarchy? JoinedHierarchyOf(LoadedScene scene)
-    {
-        if (scene.Objects is not [{ Model: FractalModel { Fractal: { HasSeveralMeshes: true } fractal } }])
-        {
-            return null;
-        }
-
-        try
-        {
-            return LodHierarchy.Build(fractal);
-        }
-        catch (Exception exception) when (exception is FractalLimitException or SingularMatrixException)
-        {
-            // The preparation of each mesh tells.
-            return null;
-        }
-    }
+    // Where there is none, the preparation of each mesh tells why.
+    private static LodHierarchy? JoinedHierarchyOf(LoadedScene scene) =>
+        scene.Objects is [{ Model: FractalModel { Fractal.HasSeveralMeshes: true } model }]
+            ? ModelPreparation.TryBuildHierarchy(model.Name, model, ImmutableArray.CreateBuilder<string>()) : null;
 
     private static int[] FirstItems(LoadedScene scene)
     {

@@ -105,7 +105,7 @@ internal static class ModelPreparation
     }
 
     /// <summary>Builds the hierarchy that instances are selected from; null where the fractal has no bounds and must be expanded.</summary>
-    private static LodHierarchy? TryBuildHierarchy(string name, Model model, ImmutableArray<string>.Builder notices)
+    public static LodHierarchy? TryBuildHierarchy(string name, Model model, ImmutableArray<string>.Builder notices)
     {
         try
         {

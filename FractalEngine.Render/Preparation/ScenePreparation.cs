@@ -91,12 +91,9 @@ public sealed class ScenePreparation
     /// <exception cref="OperationCanceledException">The work was cancelled.</exception>
     public void BakeSky(CancellationToken cancellation)
     {
-        foreach (var model in _prepared)
+        foreach (var model in _prepared.Where(NeedsBaking))
         {
-            if (NeedsBaking(model))
-            {
-                SkyMaskBaker.Bake(model!.LodHierarchy!, model.MeshWindingSign, cancellation);
-            }
+            SkyMaskBaker.Bake(model!.LodHierarchy!, model.MeshWindingSign, cancellation);
         }
     }
 

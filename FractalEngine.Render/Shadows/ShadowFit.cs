@@ -35,12 +35,11 @@ internal sealed class ShadowFit
     ];
 
     private readonly ConvexRegion _region = new();
-    private readonly List<ShadowView> _views = [];
     private readonly List<double> _weights = [];
     private bool _keepsIdleViews;
 
     /// <summary>Views of the depth maps, those of one light after those of another.</summary>
-    public List<ShadowView> Views => _views;
+    public List<ShadowView> Views { get; } = [];
 
     /// <summary>For each light, the index of its first view and their number; without any where it casts no shadow.</summary>
     public List<(int First, int Count)> Ranges { get; } = [];
@@ -67,36 +66,36 @@ internal sealed class ShadowFit
         _keepsIdleViews = !cullsLights;
         SkippedCount = 0;
         DistantLights = 0;
-        _views.Clear();
+        Views.Clear();
         _weights.Clear();
         Ranges.Clear();
         var hasShadows = !receivers.IsEmpty && receivers.Size.IsFinite() && receivers.Diagonal > 0 && casters.Size.IsFinite();
         foreach (var light in lights)
         {
-            var first = _views.Count;
+            var first = Views.Count;
             if (hasShadows)
             {
                 AddViews(light, in frame, origin, unitsPerSceneUnit, receivers, casters, fitsToView);
             }
 
-            if (_views.Count > MaxViews && _keepsIdleViews)
+            if (Views.Count > MaxViews && _keepsIdleViews)
             {
                 // Idle views take the place of no others.
                 Fit(lights, in frame, origin, unitsPerSceneUnit, receivers, casters, fitsToView);
                 return;
             }
 
-            if (_views.Count > MaxViews)
+            if (Views.Count > MaxViews)
             {
-                _views.RemoveRange(first, _views.Count - first);
+                Views.RemoveRange(first, Views.Count - first);
                 _weights.RemoveRange(first, _weights.Count - first);
             }
 
-            Ranges.Add((first, _views.Count - first));
+            Ranges.Add((first, Views.Count - first));
         }
 
-        ShadowMapSizes.Assign(_views, _weights, frame.Width, frame.Height);
-        ShadowMapSizes.Snap(_views);
+        ShadowMapSizes.Assign(Views, _weights, frame.Width, frame.Height);
+        ShadowMapSizes.Snap(Views);
     }
 
     /// <summary>Gives all views the plane that cuts the scene open, about their own eyes.</summary>
@@ -105,16 +104,16 @@ internal sealed class ShadowFit
     /// </param>
     public void CutViews(SectionPlane? section)
     {
-        for (var i = 0; section is { } plane && i < _views.Count; i++)
+        for (var i = 0; section is { } plane && i < Views.Count; i++)
         {
-            _views[i] = _views[i] with { Section = plane.About(_views[i].Position) };
+            Views[i] = Views[i] with { Section = plane.About(Views[i].Position) };
         }
     }
 
     /// <summary>Takes all views away, as nothing casts a shadow. Lights keep their places.</summary>
     public void Clear()
     {
-        _views.Clear();
+        Views.Clear();
         for (var i = 0; i < Ranges.Count; i++)
         {
             Ranges[i] = (0, 0);
@@ -229,7 +228,7 @@ internal sealed class ShadowFit
     {
         if (weight > 0 || _keepsIdleViews)
         {
-            _views.Add(view with { IsIdle = !(weight > 0) });
+            Views.Add(view with { IsIdle = !(weight > 0) });
             _weights.Add(weight);
         }
         else

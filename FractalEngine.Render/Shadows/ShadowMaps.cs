@@ -42,7 +42,7 @@ internal sealed class ShadowMaps(GlResources resources) : IDisposable
     /// <param name="isKept">False to draw all maps anew.</param>
     /// <param name="draw">Draws one view.</param>
     public void DrawStanding(
-        IReadOnlyList<ShadowView> views, CullingSettings? culling, DeepZoom? zoom, long version, bool isKept, Action<ShadowView> draw)
+        List<ShadowView> views, CullingSettings? culling, DeepZoom? zoom, long version, bool isKept, Action<ShadowView> draw)
     {
         DrawnCount = 0;
         var isCurrent = isKept && _standing is not null && _lastKey == (culling, zoom, version) && HasSameSizes(views);
@@ -120,9 +120,6 @@ internal sealed class ShadowMaps(GlResources resources) : IDisposable
         return true;
     }
 
-    /// <summary>Selects the map of a view, to draw what moves into it.</summary>
-    public void SelectMap(int index, in ShadowView view) => SelectMap(index, in view, clears: false);
-
     /// <summary>Tells whether a view shows any of a box, and notes where, to restore that for the next frame.</summary>
     public bool TryMark(int index, in ShadowView view, BoundingBox box)
     {
@@ -169,20 +166,10 @@ internal sealed class ShadowMaps(GlResources resources) : IDisposable
     public void Dispose() => GlObject.DisposeAll(_standing, _complete);
 
     /// <summary>Tells whether 16 bits are too few for the depths of any view: parallel ones have even steps.</summary>
-    private static bool NeedsFineDepths(IReadOnlyList<ShadowView> views)
-    {
-        for (var i = 0; i < views.Count; i++)
-        {
-            if (views[i].IsPerspective || views[i].Far - views[i].Near > MaxCoarseStep * CoarseDepths * views[i].TexelSize)
-            {
-                return true;
-            }
-        }
+    private static bool NeedsFineDepths(List<ShadowView> views) => views.Exists(
+        static view => view.IsPerspective || view.Far - view.Near > MaxCoarseStep * CoarseDepths * view.TexelSize);
 
-        return false;
-    }
-
-    private bool HasSameSizes(IReadOnlyList<ShadowView> views)
+    private bool HasSameSizes(List<ShadowView> views)
     {
         if (views.Count != _drawnViews.Count)
         {
@@ -200,7 +187,11 @@ internal sealed class ShadowMaps(GlResources resources) : IDisposable
         return true;
     }
 
-    private void SelectMap(int index, in ShadowView view, bool clears)
+    /// <summary>Selects the map of a view, to draw into it.</summary>
+    /// <param name="index">Index of the view.</param>
+    /// <param name="view">The view.</param>
+    /// <param name="clears">Whether what it shows is removed first.</param>
+    public void SelectMap(int index, in ShadowView view, bool clears = false)
     {
         var (x, y) = _corners[index];
         GL.Viewport(x, y, view.Size, view.Size);

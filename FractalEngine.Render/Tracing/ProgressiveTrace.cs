@@ -98,12 +98,7 @@ public sealed class ProgressiveTrace(int sampleCount, RenderSettings settings, A
             _task.GetAwaiter().GetResult();
         }
 
-        lock (_lock)
-        {
-            var hasUpdate = _hasUpdate;
-            _hasUpdate = false;
-            return hasUpdate;
-        }
+        return Interlocked.Exchange(ref _hasUpdate, false);
     }
 
     /// <summary>Ends the trace, without waiting for it.</summary>

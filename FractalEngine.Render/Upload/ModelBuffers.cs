@@ -44,21 +44,9 @@ internal sealed class ModelBuffers : IDisposable
         _vertices = new(resources, $"vertices of {model.Name}", BufferTarget.ArrayBuffer);
         _indices = new(resources, $"indices of {model.Name}", BufferTarget.ElementArrayBuffer);
         _instances = new(resources, $"instances of {model.Name}", BufferTarget.ArrayBuffer);
-        if (!model.TextureCoordinates.IsEmpty)
-        {
-            _textureCoordinates = new(resources, $"texture coordinates of {model.Name}", BufferTarget.ArrayBuffer);
-        }
-
-        if (!model.Colours.IsEmpty)
-        {
-            _colours = new(resources, $"colours of {model.Name}", BufferTarget.ArrayBuffer);
-        }
-
-        if (!model.InstanceTints.IsEmpty)
-        {
-            _mapTints = new(resources, $"colours of maps of {model.Name}", BufferTarget.ArrayBuffer);
-        }
-
+        _textureCoordinates = CreateUnlessEmpty(model.TextureCoordinates, "texture coordinates");
+        _colours = CreateUnlessEmpty(model.Colours, "colours");
+        _mapTints = CreateUnlessEmpty(model.InstanceTints, "colours of maps");
         GlObject.DisposeOnFailure(this, () => Upload(model));
     }
 
@@ -73,20 +61,7 @@ internal sealed class ModelBuffers : IDisposable
         _meshAlone, _vertexArray, _vertices, _indices, _instances, _textureCoordinates, _colours, _mapTints);
 
     /// <summary>The mesh without instances: the map of one is set before each draw. Shared by all objects of the model.</summary>
-    public VertexArray MeshAlone
-    {
-        get
-        {
-            if (_meshAlone is null)
-            {
-                _meshAlone = new(_resources, $"mesh of {_name}");
-                AttachMesh(_meshAlone);
-                _meshAlone.Unbind();
-            }
-
-            return _meshAlone;
-        }
-    }
+    public VertexArray MeshAlone => _meshAlone ??= AttachMesh(new(_resources, $"mesh of {_name}"));
 
     /// <summary>Attaches the mesh to another vertex array, with instances of its own.</summary>
     /// <param name="vertexArray">Vertex array that receives the attributes.</param>
@@ -102,7 +77,10 @@ internal sealed class ModelBuffers : IDisposable
         vertexArray.Unbind();
     }
 
-    private void AttachMesh(VertexArray vertexArray)
+    private GlBuffer? CreateUnlessEmpty(ReadOnlyMemory<float> values, string contents) =>
+        values.IsEmpty ? null : new(_resources, $"{contents} of {_name}", BufferTarget.ArrayBuffer);
+
+    private VertexArray AttachMesh(VertexArray vertexArray)
     {
         vertexArray.Bind();
         _indices.Bind();
@@ -117,6 +95,9 @@ internal sealed class ModelBuffers : IDisposable
         {
             vertexArray.Attribute(_colours, ColourLocation, 3, 3, 0);
         }
+
+        vertexArray.Unbind();
+        return vertexArray;
     }
 
     private void Upload(DrawableModel model)

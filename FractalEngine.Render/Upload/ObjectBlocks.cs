@@ -1,3 +1,4 @@
+using System.Runtime.InteropServices;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Render.Drawables;
@@ -19,12 +20,8 @@ internal sealed class ObjectBlocks(GlResources resources, int objectCount) : IDi
     public void BindRelative(DrawableObject item)
     {
         var key = (item.Colour, GradientEndOf(item));
-        if (!_sharedBlocks.TryGetValue(key, out var block))
-        {
-            block = new(resources, "instances about the camera");
-            _sharedBlocks.Add(key, block);
-        }
-
+        ref var block = ref CollectionsMarshal.GetValueRefOrAddDefault(_sharedBlocks, key, out _);
+        block ??= new(resources, "instances about the camera");
         block.Bind(GlState.ObjectBinding, AffineMap.Identity, key.Colour, key.Item2, Vector.Zero);
     }
 

@@ -48,14 +48,12 @@ internal sealed class VisibleInstances : IDisposable
         {
             _tints = new(resources, $"tints of {name}", BufferTarget.ArrayBuffer);
             _vertexArray.Attribute(_tints, TintLocation, 1, 1, 0, divisor: 1);
-            _vertexArray.Unbind();
         }
 
         if (hasMapTints)
         {
             _mapTints = new(resources, $"colours of maps of {name}", BufferTarget.ArrayBuffer);
             _vertexArray.Attribute(_mapTints, ModelBuffers.MapTintLocation, 4, 4, 0, divisor: 1);
-            _vertexArray.Unbind();
         }
 
         if (hasSkyParts)
@@ -63,8 +61,9 @@ internal sealed class VisibleInstances : IDisposable
             _skyParts = new(resources, $"sky of {name}", BufferTarget.ArrayBuffer);
             _vertexArray.Attribute(_skyParts, SkyAboveLocation, 3, 6, 0, divisor: 1);
             _vertexArray.Attribute(_skyParts, SkyBelowLocation, 3, 6, 3, divisor: 1);
-            _vertexArray.Unbind();
         }
+
+        _vertexArray.Unbind();
     }
 
     /// <summary>Bytes that were uploaded so far.</summary>

@@ -7,7 +7,7 @@ using OpenTK.Graphics;
 namespace FractalEngine.Render.Windowing;
 
 /// <summary>A window of Debian's OpenTK 1.1, over SDL 2 on X11.</summary>
-internal sealed class PlatformWindow : IPlatformWindow
+internal sealed class PlatformWindow : IDisposable
 {
     private readonly NativeWindow _window;
     private readonly GraphicsContext _context;
@@ -29,22 +29,27 @@ internal sealed class PlatformWindow : IPlatformWindow
         }
     }
 
+    /// <summary>Width of the framebuffer in pixels; 0 while the window is minimised on some systems.</summary>
     public int Width => _window.ClientSize.Width;
 
+    /// <summary>Height of the framebuffer in pixels.</summary>
     public int Height => _window.ClientSize.Height;
 
+    /// <summary>Text in the title bar.</summary>
     public string Title
     {
         get => _window.Title;
         set => _window.Title = value;
     }
 
+    /// <summary>Text of the system's clipboard; empty where it holds none.</summary>
     public string ClipboardText
     {
         get => SdlWindow.ReadClipboard();
         set => SdlWindow.SetClipboardText(value);
     }
 
+    /// <summary>Whether the window fills the screen, without a frame.</summary>
     public bool IsFullScreen
     {
         get => _window.WindowState == WindowState.Fullscreen;
@@ -75,6 +80,7 @@ internal sealed class PlatformWindow : IPlatformWindow
         }
     }
 
+    /// <summary>Makes the window's context the current one of the thread.</summary>
     public void MakeCurrent()
     {
         if (!_context.IsCurrent)
@@ -83,6 +89,9 @@ internal sealed class PlatformWindow : IPlatformWindow
         }
     }
 
+    /// <summary>
+    /// Makes the clip planes of the window's context 0 and 1 rather than −1 and 1 (glClipControl). The context must be current.
+    /// </summary>
     public unsafe void UseZeroToOneDepth()
     {
         // OpenTK 1.1 ends at OpenGL 4.4 and does not declare this function of 4.5.
@@ -93,8 +102,12 @@ internal sealed class PlatformWindow : IPlatformWindow
         clipControl(lowerLeft, zeroToOne);
     }
 
+    /// <summary>Presents the window's framebuffer on the screen.</summary>
     public void SwapBuffers() => _context.SwapBuffers();
 
+    /// <summary>Sleeps until an event arrives, then appends all events that have arrived.</summary>
+    /// <param name="timeout">Longest time to sleep; zero only polls, a negative time sleeps without limit.</param>
+    /// <param name="events">List that the events are appended to.</param>
     public void WaitEvents(TimeSpan timeout, List<WindowEvent> events)
     {
         // Another call that pumps, such as a change of the title, may have dispatched events already.
@@ -110,6 +123,7 @@ internal sealed class PlatformWindow : IPlatformWindow
         _pending.Clear();
     }
 
+    /// <summary>Ends the sleep of <see cref="WaitEvents"/>, from any thread.</summary>
     public unsafe void Wake()
     {
         var item = new SdlEvent { Type = SdlWindow.UserEvent };

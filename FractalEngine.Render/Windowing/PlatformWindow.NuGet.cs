@@ -9,7 +9,7 @@ using OpenTK.Windowing.GraphicsLibraryFramework;
 namespace FractalEngine.Render.Windowing;
 
 /// <summary>A window of OpenTK 4.9.4 from NuGet, over GLFW.</summary>
-internal sealed class PlatformWindow : IPlatformWindow
+internal sealed class PlatformWindow : IDisposable
 {
     private readonly NativeWindow _window;
     private readonly List<WindowEvent> _pending = [];
@@ -38,22 +38,27 @@ internal sealed class PlatformWindow : IPlatformWindow
         window.MouseWheel += wheel => _pending.Add(new WheelTurned(wheel.OffsetY, _modifiers));
     }
 
+    /// <summary>Width of the framebuffer in pixels; 0 while the window is minimised on some systems.</summary>
     public int Width => _window.FramebufferSize.X;
 
+    /// <summary>Height of the framebuffer in pixels.</summary>
     public int Height => _window.FramebufferSize.Y;
 
+    /// <summary>Text in the title bar.</summary>
     public string Title
     {
         get => _window.Title;
         set => _window.Title = value;
     }
 
+    /// <summary>Text of the system's clipboard; empty where it holds none.</summary>
     public string ClipboardText
     {
         get => _window.ClipboardString ?? "";
         set => _window.ClipboardString = value;
     }
 
+    /// <summary>Whether the window fills the screen, without a frame.</summary>
     public bool IsFullScreen
     {
         get => _window.WindowState == WindowState.Fullscreen;
@@ -112,6 +117,7 @@ internal sealed class PlatformWindow : IPlatformWindow
         }
     }
 
+    /// <summary>Makes the window's context the current one of the thread.</summary>
     public void MakeCurrent()
     {
         if (!_window.Context.IsCurrent)
@@ -120,10 +126,17 @@ internal sealed class PlatformWindow : IPlatformWindow
         }
     }
 
+    /// <summary>
+    /// Makes the clip planes of the window's context 0 and 1 rather than −1 and 1 (glClipControl). The context must be current.
+    /// </summary>
     public void UseZeroToOneDepth() => GL.ClipControl(ClipOrigin.LowerLeft, ClipDepthMode.ZeroToOne);
 
+    /// <summary>Presents the window's framebuffer on the screen.</summary>
     public void SwapBuffers() => _window.Context.SwapBuffers();
 
+    /// <summary>Sleeps until an event arrives, then appends all events that have arrived.</summary>
+    /// <param name="timeout">Longest time to sleep; zero only polls, a negative time sleeps without limit.</param>
+    /// <param name="events">List that the events are appended to.</param>
     public void WaitEvents(TimeSpan timeout, List<WindowEvent> events)
     {
         _window.NewInputFrame();
@@ -138,6 +151,7 @@ internal sealed class PlatformWindow : IPlatformWindow
         _pending.Clear();
     }
 
+    /// <summary>Ends the sleep of <see cref="WaitEvents"/>, from any thread.</summary>
     public void Wake() => GLFW.PostEmptyEvent();
 
     public void Dispose() => _window.Dispose();

@@ -16,7 +16,7 @@ public abstract class RenderContext : IDisposable
     private readonly Action<string> _reportLeak;
     private bool _isDisposed;
 
-    private protected RenderContext(IPlatformWindow window, Action<string>? reportLeak)
+    private protected RenderContext(PlatformWindow window, Action<string>? reportLeak)
     {
         Window = window;
         _reportLeak = reportLeak ?? Console.Error.WriteLine;
@@ -63,7 +63,7 @@ public abstract class RenderContext : IDisposable
     /// <summary>GL objects and bindings of the context.</summary>
     internal GlResources Resources { get; }
 
-    private protected IPlatformWindow Window { get; }
+    private protected PlatformWindow Window { get; }
 
     /// <summary>Makes this the thread's current context, and deletes GL objects that were disposed on other threads.</summary>
     /// <exception cref="InvalidOperationException">This is not the thread that created the context.</exception>

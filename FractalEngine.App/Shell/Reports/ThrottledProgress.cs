@@ -8,30 +8,12 @@ namespace FractalEngine.App.Shell.Reports;
 /// </summary>
 internal sealed class ThrottledProgress : IProgress<LoadProgress>, IProgress<PreparationProgress>
 {
-    private readonly Lock _lock = new();
-    private (string Text, double Fraction) _latest = ("", 0);
+    private volatile Tuple<string, double> _latest = Tuple.Create("", 0.0);
 
     /// <summary>The latest file name, and the completed fraction from 0 to 1.</summary>
-    public (string Text, double Fraction) Latest
-    {
-        get
-        {
-            lock (_lock)
-            {
-                return _latest;
-            }
-        }
+    public (string Text, double Fraction) Latest => _latest.ToValueTuple();
 
-        private set
-        {
-            lock (_lock)
-            {
-                _latest = value;
-            }
-        }
-    }
+    public void Report(LoadProgress value) => _latest = Tuple.Create(value.File, value.Fraction);
 
-    public void Report(LoadProgress value) => Latest = (value.File, value.Fraction);
-
-    public void Report(PreparationProgress value) => Latest = (value.FileName, value.Fraction);
+    public void Report(PreparationProgress value) => _latest = Tuple.Create(value.FileName, value.Fraction);
 }

@@ -7,7 +7,7 @@ namespace FractalEngine.App.Window.Actions;
 /// <summary>Translates keys that the settings have changed to those of the <see cref="ActionTable"/>.</summary>
 internal sealed class KeyBindings
 {
-    private readonly Dictionary<KeyChord, KeyChord?> _translations = [];
+    private readonly Dictionary<KeyChord, KeyChord?> _translations;
 
     // What a key meant when it was pressed is what it means when it is released.
     private readonly Dictionary<Key, Key> _heldKeys = [];
@@ -17,20 +17,11 @@ internal sealed class KeyBindings
     public KeyBindings(ImmutableDictionary<string, KeyChord> changed)
     {
         Changed = changed;
-        foreach (var action in ActionTable.All)
+        var moved = ActionTable.All.Where(action => changed.ContainsKey(action.Id) && !action.Keys.IsEmpty).ToArray();
+        _translations = moved.ToDictionary(static action => action.Keys[0], static _ => (KeyChord?)null);
+        foreach (var action in moved)
         {
-            if (changed.ContainsKey(action.Id) && action.Keys is [var first, ..])
-            {
-                _translations[first] = null;
-            }
-        }
-
-        foreach (var action in ActionTable.All)
-        {
-            if (changed.TryGetValue(action.Id, out var chord) && action.Keys is [var first, ..])
-            {
-                _translations[chord] = first;
-            }
+            _translations[changed[action.Id]] = action.Keys[0];
         }
     }
 

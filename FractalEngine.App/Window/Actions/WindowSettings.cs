@@ -44,14 +44,12 @@ internal sealed record WindowSettings
     public static WindowSettings Parse(string text)
     {
         var settings = new WindowSettings();
-        var number = 0;
-        foreach (var line in text.Split('\n'))
+        foreach (var (index, line) in text.Split('\n').Index())
         {
-            number++;
             var words = line.Split(' ', StringSplitOptions.RemoveEmptyEntries | StringSplitOptions.TrimEntries);
             if (words.Length > 0 && !words[0].StartsWith('#'))
             {
-                settings = settings.With(words) ?? throw new InvalidDataException($"line {number} is no setting: {line.Trim()}");
+                settings = settings.With(words) ?? throw new InvalidDataException($"line {index + 1} is no setting: {line.Trim()}");
             }
         }
 

@@ -7,35 +7,17 @@ using FractalEngine.Render.Ui;
 namespace FractalEngine.App.Window.Panels;
 
 /// <summary>Builds the menu bar, the panels and the list of keys of a window.</summary>
-internal sealed class WindowInterface
+/// <param name="actions">Runs what is chosen in menus; its layout gets the panels.</param>
+internal sealed class WindowInterface(WindowActions actions)
 {
     // Below this width at scale 1, two columns of panels leave no room for texts between them, which stand below them then.
     private const double MinWidthForTexts = 1000;
 
-    private readonly WindowActions _actions;
-    private readonly PanelLayout _panels;
-    private readonly KeyList _keyList;
-    private readonly AxisGizmo _gizmo;
-    private readonly TransformHandles _handles;
-    private readonly SectionHandle _sectionHandle;
-
-    /// <summary>Adds the panels to the layout of a window.</summary>
-    /// <param name="actions">Runs what is chosen in menus.</param>
-    public WindowInterface(WindowActions actions)
-    {
-        _actions = actions;
-        _panels = actions.Panels;
-        _keyList = new(actions);
-        _gizmo = new(actions);
-        _handles = new(actions);
-        _sectionHandle = new(actions);
-        _panels.Add("scene", new("Scene", OfDocument(new ScenePanel(actions).Build)) { Dock = UiDock.Left });
-        _panels.Add("fractal", new("Fractal", new FractalPanel(actions).Build) { Dock = UiDock.Left });
-        _panels.Add("view", new("View", new ViewPanel(actions).Build) { Dock = UiDock.Right });
-        _panels.Add("selection", new("Selection", OfDocument(new SelectionPanel(actions).Build)) { Dock = UiDock.Right });
-        _panels.Add("physics", new("Physics", OfDocument(new PhysicsPanel(actions).Build)) { Dock = UiDock.Right });
-        _panels.Add("statistics", new("Statistics", new StatisticsPanel(actions).Build) { Dock = UiDock.Right });
-    }
+    private readonly PanelLayout _panels = AddPanels(actions);
+    private readonly KeyList _keyList = new(actions);
+    private readonly AxisGizmo _gizmo = new(actions);
+    private readonly TransformHandles _handles = new(actions);
+    private readonly SectionHandle _sectionHandle = new(actions);
 
     /// <summary>Adds the menu bar, panels and handles while they are shown, and the list of keys.</summary>
     public void Build(UserInterface ui)
@@ -54,9 +36,20 @@ internal sealed class WindowInterface
         _keyList.Build(ui);
     }
 
-    private Action<UserInterface> OfDocument(Action<UserInterface, Document> build) => ui =>
+    private static PanelLayout AddPanels(WindowActions actions)
     {
-        if (_actions.Document is { } document)
+        actions.Panels.Add("scene", new("Scene", OfDocument(actions, new ScenePanel(actions).Build)) { Dock = UiDock.Left });
+        actions.Panels.Add("fractal", new("Fractal", new FractalPanel(actions).Build) { Dock = UiDock.Left });
+        actions.Panels.Add("view", new("View", new ViewPanel(actions).Build) { Dock = UiDock.Right });
+        actions.Panels.Add("selection", new("Selection", OfDocument(actions, new SelectionPanel(actions).Build)) { Dock = UiDock.Right });
+        actions.Panels.Add("physics", new("Physics", OfDocument(actions, new PhysicsPanel(actions).Build)) { Dock = UiDock.Right });
+        actions.Panels.Add("statistics", new("Statistics", new StatisticsPanel(actions).Build) { Dock = UiDock.Right });
+        return actions.Panels;
+    }
+
+    private static Action<UserInterface> OfDocument(WindowActions actions, Action<UserInterface, Document> build) => ui =>
+    {
+        if (actions.Document is { } document)
         {
             build(ui, document);
             return;
@@ -68,7 +61,7 @@ internal sealed class WindowInterface
     /// <summary>Writes the measured lengths beside their lines.</summary>
     private void MarkDimensions(UserInterface ui)
     {
-        if (_actions.Document is not { LatestView: { } view } document)
+        if (actions.Document is not { LatestView: { } view } document)
         {
             return;
         }
@@ -95,14 +88,14 @@ internal sealed class WindowInterface
         }
     }
 
-    private void BuildItems(UserInterface ui, WindowAction[] actions)
+    private void BuildItems(UserInterface ui, WindowAction[] items)
     {
-        foreach (var action in actions)
+        foreach (var action in items)
         {
-            var isOn = action.IsOn?.Invoke(_actions) == true;
-            if (ui.MenuItem(action.Name, _panels.Bindings.TextOf(action), isOn, action.IsAvailable(_actions)))
+            var isOn = action.IsOn?.Invoke(actions) == true;
+            if (ui.MenuItem(action.Name, _panels.Bindings.TextOf(action), isOn, action.IsAvailable(actions)))
             {
-                _actions.Choose(action);
+                actions.Choose(action);
             }
 
             ui.Tooltip(action.PlainHelp);

@@ -74,7 +74,7 @@ internal sealed class SectionTool(SectionPlane? plane)
         var first = Vector.Cross(plane.Normal, Math.Abs(plane.Normal.Y) < 0.9 ? Vector.J : Vector.I).UnitVector();
         var second = Vector.Cross(plane.Normal, first);
         // Within the scene's own sphere, so that the clip planes leave them whole.
-        var reach = 0.35 * SceneSize.Of(bounds);
+        var reach = 0.35 * bounds.FiniteDiagonalOr(1);
         var middle = MiddleOf(plane, bounds);
         var across = reach * (first + second);
         var down = reach * (first - second);

@@ -1,6 +1,5 @@
 using FractalEngine.App.Window.Actions;
 using FractalEngine.App.Window.State;
-using FractalEngine.App.Window.Tools;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes.Cameras;
 using FractalEngine.Render.Ui;
@@ -38,7 +37,7 @@ internal sealed class CameraFields(WindowActions actions)
 
         ui.Scope("camera", () =>
         {
-            var reach = SceneSize.Of(document.File.Scene.Bounds);
+            var reach = document.File.Scene.Bounds.FiniteDiagonalOr(1);
             var position = ui.Vector("position", camera.Position, _start.Position, reach, 0);
             var degrees = Degrees(camera);
             var rotation = ui.Vector("rotation in degrees", degrees, Degrees(_start), 180, 0.5);

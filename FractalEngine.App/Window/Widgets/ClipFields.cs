@@ -1,6 +1,5 @@
 using FractalEngine.App.Window.Actions;
 using FractalEngine.App.Window.State;
-using FractalEngine.App.Window.Tools;
 using FractalEngine.Parsing.Text;
 using FractalEngine.Render.Ui;
 
@@ -36,7 +35,7 @@ internal sealed class ClipFields(WindowActions actions)
         }
 
         ui.Row(1, 1);
-        var size = SceneSize.Of(document.File.Scene.Bounds);
+        var size = document.File.Scene.Bounds.FiniteDiagonalOr(1);
         var isChanged = ui.Slider("near", ref near, 1e-3 * size, size, isBounded: false)
             | ui.Slider("far", ref far, 1e-3 * size, 10 * size, isBounded: false);
         if (isChanged && near > 0 && near < far)

@@ -1,6 +1,5 @@
 using FractalEngine.App.Window.Actions;
 using FractalEngine.App.Window.State;
-using FractalEngine.App.Window.Tools;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Render.Ui;
@@ -53,7 +52,7 @@ internal sealed class SectionFields(WindowActions actions)
 
     private SectionPlane BuildSliders(UserInterface ui, Document document, SectionPlane plane)
     {
-        var reach = 0.5 * SceneSize.Of(document.File.Scene.Bounds);
+        var reach = 0.5 * document.File.Scene.Bounds.FiniteDiagonalOr(1);
         ui.Row(1);
         var distance = plane.Distance;
         if (ui.Slider("distance", ref distance, _start.Distance - reach, _start.Distance + reach, isBounded: false))

@@ -50,7 +50,7 @@ internal sealed class SectionHandle(WindowActions actions)
         document.Section.ShowsEdges = handle.IsHeld;
         if (handle.IsHeld)
         {
-            var grid = PlacementDrag.PowerOfTen((handle.IsControlHeld ? CoarseGrid : FineGrid) * SceneSize.Of(bounds));
+            var grid = PlacementDrag.PowerOfTen((handle.IsControlHeld ? CoarseGrid : FineGrid) * bounds.FiniteDiagonalOr(1));
             var distance = _startPlane.Distance + Moved(handle, pointer);
             var moved = _startPlane with { Distance = Math.Round(Math.Round(distance / grid) * grid, 12) };
             if (moved != plane)

@@ -1,5 +1,4 @@
 using FractalEngine.App.Window.Actions;
-using FractalEngine.App.Window.Tools;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Scenes.Lights;
@@ -62,7 +61,7 @@ internal sealed class SkyFields(WindowActions actions)
     private void BuildFog(UserInterface ui, Scene scene)
     {
         var density = scene.Fog?.Density ?? 0;
-        var size = SceneSize.Of(actions.Document!.File.Scene.Bounds);
+        var size = actions.Document!.File.Scene.Bounds.FiniteDiagonalOr(1);
         ui.Row(1);
         if (ui.Slider("haze", ref density, 0, 3 / size, 0, isBounded: false) && density is >= 0 and < 1e6)
         {

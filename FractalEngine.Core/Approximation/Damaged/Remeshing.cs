@@ -1,7 +1,6 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
-using FractalEngine.Core.Physics.Islands;
 
 namespace FractalEngine.Core.Approximation.Damaged;
 

@@ -1,7 +1,6 @@
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Geometry.Surfaces;
 using FractalEngine.Core.Maths;
-using FractalEngine.Core.Physics.Islands;
 
 namespace FractalEngine.Core.Approximation.Elements;
 
@@ -15,7 +14,6 @@ internal static class ElementFinder
     {
         var representatives = VertexWelding.FindRepresentatives(mesh);
         var connected = new DisjointSets();
-        connected.Reserve(mesh.VertexCount);
         connected.Reset(mesh.VertexCount);
         for (var vertex = 0; weldPositions && vertex < representatives.Length; vertex++)
         {

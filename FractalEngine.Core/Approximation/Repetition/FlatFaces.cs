@@ -1,5 +1,4 @@
 using FractalEngine.Core.Maths;
-using FractalEngine.Core.Physics.Islands;
 
 namespace FractalEngine.Core.Approximation.Repetition;
 
@@ -24,7 +23,6 @@ internal static class FlatFaces
         }
 
         var joined = new DisjointSets();
-        joined.Reserve(faces.Count);
         joined.Reset(faces.Count);
         for (var corner = 0; corner < faces.Corners.Length; corner++)
         {

@@ -4,7 +4,7 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Approximation.Repetition;
 
 /// <summary>Finds maps that may take many faces of a set to faces, and again: of some faces to those that look alike.</summary>
-internal sealed class MapCandidates
+internal sealed class MapCandidates(FaceSet faces, bool keepsSize)
 {
     // Faces that candidates start from, for each of the two radii that faces are compared in.
     private const int References = 8;
@@ -19,17 +19,8 @@ internal sealed class MapCandidates
     private const double MinLocalShare = 0.3;
     private const double LengthTolerance = 1e-3;
 
-    private readonly FaceSet _faces;
-    private readonly bool _keepsSize;
-    private readonly double _length;
+    private readonly double _length = FaceSet.TolerancesOfLength * faces.Tolerance;
     private readonly List<(AffineMap Map, double Share)> _maps = [];
-
-    private MapCandidates(FaceSet faces, bool keepsSize)
-    {
-        _faces = faces;
-        _keepsSize = keepsSize;
-        _length = FaceSet.TolerancesOfLength * faces.Tolerance;
-    }
 
     /// <summary>Finds maps, those first that seem to save most faces.</summary>
     /// <param name="faces">The faces.</param>
@@ -65,12 +56,12 @@ internal sealed class MapCandidates
 
     private void AddFrom(int reference, int[] members)
     {
-        var origin = _faces.Centroids[reference];
+        var origin = faces.Centroids[reference];
         var others = members.Where(face => face != reference).ToArray();
-        Array.Sort([.. others.Select(face => (_faces.Centroids[face] - origin).LengthSquared())], others);
+        Array.Sort([.. others.Select(face => (faces.Centroids[face] - origin).LengthSquared())], others);
         var local = FindLocalFaces(reference);
         var trail = FindTrail(local, origin);
-        var translations = others.Take(MaxTranslations).Select(face => AffineMap.Translate(_faces.Centroids[face] - origin));
+        var translations = others.Take(MaxTranslations).Select(face => AffineMap.Translate(faces.Centroids[face] - origin));
         foreach (var maps in new[] { translations, others.Take(MaxTurns).SelectMany(face => MapsBetween(reference, face)) })
         {
             foreach (var map in maps.Where(map => IsLocal(map, local)).Take(MaxPerReference))
@@ -92,14 +83,14 @@ internal sealed class MapCandidates
         var back = map.Inverse();
         for (var sample = 0; sample < SampleCount; sample++)
         {
-            var start = (int)((sample + 0.5) / SampleCount * _faces.Count);
+            var start = (int)((sample + 0.5) / SampleCount * faces.Count);
             var run = 1;
             foreach (var way in new[] { map, back })
             {
-                var face = _faces.Image(way, start);
+                var face = faces.Image(way, start);
                 for (var left = MaxRun; face >= 0 && face != start && left > 0; left--)
                 {
-                    face = _faces.Image(way, face);
+                    face = faces.Image(way, face);
                     run++;
                 }
 
@@ -116,20 +107,20 @@ internal sealed class MapCandidates
         _maps.Add((map, share));
     }
 
-    private bool IsLocal(AffineMap map, List<int> local) => _faces.Image(map, local[0]) >= 0
-        && !local.Where(face => _faces.Image(map, face) < 0).Skip((int)((1 - MinLocalShare) * local.Count)).Any();
+    private bool IsLocal(AffineMap map, List<int> local) => faces.Image(map, local[0]) >= 0
+        && !local.Where(face => faces.Image(map, face) < 0).Skip((int)((1 - MinLocalShare) * local.Count)).Any();
 
     /// <summary>The similarities that take one face to another, with each order of corners that has the same shape.</summary>
     private IEnumerable<AffineMap> MapsBetween(int from, int to)
     {
-        var corners = _faces.Starts[from + 1] - _faces.Starts[from];
-        var (a, b, c) = PointsFrom(_faces.Starts[from], 1);
-        for (var corner = _faces.Starts[to]; corner < _faces.Starts[to + 1]; corner++)
+        var corners = faces.Starts[from + 1] - faces.Starts[from];
+        var (a, b, c) = PointsFrom(faces.Starts[from], 1);
+        for (var corner = faces.Starts[to]; corner < faces.Starts[to + 1]; corner++)
         {
             foreach (var step in new[] { 1, corners - 1 })
             {
                 var (a2, b2, c2) = PointsFrom(corner, step);
-                var scale = _keepsSize ? 1 : (b2 - a2).Length() / (b - a).Length();
+                var scale = keepsSize ? 1 : (b2 - a2).Length() / (b - a).Length();
                 if (AreNear(a, b, a2, b2, scale) && AreNear(b, c, b2, c2, scale) && AreNear(c, a, c2, a2, scale))
                 {
                     foreach (var map in SimilarityFit.OfTriangles(a, b, c, a2, b2, c2, scale))
@@ -142,8 +133,8 @@ internal sealed class MapCandidates
 
         (Vector A, Vector B, Vector C) PointsFrom(int corner, int step)
         {
-            var next = _faces.After(corner, step);
-            return (_faces.PointOf(corner), _faces.PointOf(next), _faces.PointOf(_faces.After(next, step)));
+            var next = faces.After(corner, step);
+            return (faces.PointOf(corner), faces.PointOf(next), faces.PointOf(faces.After(next, step)));
         }
 
         static bool AreNear(Vector p, Vector q, Vector p2, Vector q2, double scale) =>
@@ -155,13 +146,13 @@ internal sealed class MapCandidates
         var local = new List<int> { reference };
         for (var index = 0; index < local.Count; index++)
         {
-            for (var corner = _faces.Starts[local[index]]; corner < _faces.Starts[local[index] + 1]; corner++)
+            for (var corner = faces.Starts[local[index]]; corner < faces.Starts[local[index] + 1]; corner++)
             {
-                for (var twin = _faces.Twins[corner]; twin != corner && local.Count < LocalFaces; twin = _faces.Twins[twin])
+                for (var twin = faces.Twins[corner]; twin != corner && local.Count < LocalFaces; twin = faces.Twins[twin])
                 {
-                    if (!local.Contains(_faces.FaceAt[twin]))
+                    if (!local.Contains(faces.FaceAt[twin]))
                     {
-                        local.Add(_faces.FaceAt[twin]);
+                        local.Add(faces.FaceAt[twin]);
                     }
                 }
             }
@@ -173,10 +164,10 @@ internal sealed class MapCandidates
     /// <summary>Points from the surroundings of a face to all of the set, the nearest first.</summary>
     private Vector[] FindTrail(List<int> local, Vector origin)
     {
-        var stride = Math.Max(1, _faces.Points.Length / (2 * SampleCount));
-        var trail = local.SelectMany(face => _faces.Corners[_faces.Starts[face].._faces.Starts[face + 1]])
-            .Concat(Enumerable.Range(0, _faces.Points.Length / stride).Select(index => index * stride))
-            .Distinct().Select(point => _faces.Points[point]).ToArray();
+        var stride = Math.Max(1, faces.Points.Length / (2 * SampleCount));
+        var trail = local.SelectMany(face => faces.Corners[faces.Starts[face]..faces.Starts[face + 1]])
+            .Concat(Enumerable.Range(0, faces.Points.Length / stride).Select(index => index * stride))
+            .Distinct().Select(point => faces.Points[point]).ToArray();
         Array.Sort([.. trail.Select(point => (point - origin).LengthSquared())], trail);
         return trail;
     }
@@ -186,7 +177,7 @@ internal sealed class MapCandidates
     {
         for (var count = 8; count < 2 * trail.Length; count *= 2)
         {
-            map = SimilarityFit.Refine(map, new(trail, 0, Math.Min(count, trail.Length)), _faces, _keepsSize);
+            map = SimilarityFit.Refine(map, new(trail, 0, Math.Min(count, trail.Length)), faces, keepsSize);
         }
 
         return map;

@@ -28,12 +28,10 @@ public sealed record Choice
     /// <exception cref="ArgumentException">A weight is negative or not finite, all are 0, or there are more than 64.</exception>
     public Choice(ImmutableArray<double> weights, int seed, bool isByLevel = false)
     {
-        if (weights.IsDefaultOrEmpty || weights.Length > MaxAlternatives
-            || !weights.All(static weight => weight >= 0) || weights.Sum() is not (> 0 and < double.PositiveInfinity))
-        {
-            throw new ArgumentException(
-                $"expected 1 to {MaxAlternatives} weights that are not negative, and at least one above 0", nameof(weights));
-        }
+        ArgumentCheck.Require(
+            !weights.IsDefaultOrEmpty && weights.Length <= MaxAlternatives
+                && weights.All(static weight => weight >= 0) && weights.Sum() is > 0 and < double.PositiveInfinity,
+            $"expected 1 to {MaxAlternatives} weights that are not negative, and at least one above 0", nameof(weights));
 
         Weights = weights;
         Seed = seed;

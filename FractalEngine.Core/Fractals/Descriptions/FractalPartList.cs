@@ -115,11 +115,7 @@ public sealed class FractalPartList(bool keepsSums = false)
     public ImmutableArray<FractalRecursive> CreateRecursives(
         ImmutableArray<int> bases, ImmutableArray<int> bodies, Func<int, bool>? isWhole = null)
     {
-        if (bases.Any(HasCalls))
-        {
-            throw new ArgumentException("expected bases without calls", nameof(bases));
-        }
-
+        ArgumentCheck.Require(!bases.Any(HasCalls), "expected bases without calls", nameof(bases));
         var recursives = new List<FractalRecursive>(bases.Select(static part => new FractalRecursive(part, [])));
         var named = new Dictionary<int, RecursiveCall>();
         var unnamedCalls = new Dictionary<FractalRecursive, RecursiveCall>();
@@ -228,11 +224,7 @@ public sealed class FractalPartList(bool keepsSums = false)
             (whole, steps) = (outermost.Inner, steps.AddRange(outermost.Steps));
         }
 
-        if (HasCalls(whole))
-        {
-            throw new ArgumentException("expected a part without calls", nameof(whole));
-        }
-
+        ArgumentCheck.Require(!HasCalls(whole), "expected a part without calls", nameof(whole));
         if (_entries[whole].Mesh is { } only)
         {
             meshes = [only];

@@ -28,11 +28,7 @@ public sealed class RecursivePart : FractalPart
     /// </exception>
     public RecursivePart(ImmutableArray<FractalRecursive> recursives, int root, int? levels, double? until = null)
     {
-        if (recursives.IsDefaultOrEmpty)
-        {
-            throw new ArgumentException("expected at least one recursive", nameof(recursives));
-        }
-
+        ArgumentCheck.Require(!recursives.IsDefaultOrEmpty, "expected at least one recursive", nameof(recursives));
         ArgumentOutOfRangeException.ThrowIfNegative(levels ?? 0, nameof(levels));
         ArgumentOutOfRangeException.ThrowIfNegative(root);
         ArgumentOutOfRangeException.ThrowIfGreaterThanOrEqual(root, recursives.Length);

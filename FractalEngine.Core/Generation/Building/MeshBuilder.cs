@@ -8,13 +8,11 @@ namespace FractalEngine.Core.Generation.Building;
 /// <summary>Collects the faces of a generated mesh, and computes the normals of smooth faces at the end.</summary>
 internal sealed class MeshBuilder
 {
-    private readonly List<Vector> _positions = [];
     private readonly List<(double U, double V)> _coordinates = [];
-    private readonly List<MeshTriangle> _triangles = [];
     private readonly List<(int FirstFace, string Name)> _groups = [];
 
     /// <summary>Number of faces so far.</summary>
-    public int FaceCount => _triangles.Count;
+    public int FaceCount => Triangles.Count;
 
     /// <summary>
     /// Smoothing group of the next faces: those of one group share normals where they share positions; 0 is flat.
@@ -22,19 +20,19 @@ internal sealed class MeshBuilder
     public int SmoothingGroup { get; set; }
 
     /// <summary>All faces, for reading and for splitting.</summary>
-    internal List<MeshTriangle> Triangles => _triangles;
+    internal List<MeshTriangle> Triangles { get; } = [];
 
     /// <summary>Positions of all vertices.</summary>
-    internal List<Vector> Positions => _positions;
+    internal List<Vector> Positions { get; } = [];
 
     /// <summary>Begins a named group, which the next faces belong to.</summary>
-    public void BeginGroup(string name) => _groups.Add((_triangles.Count, name));
+    public void BeginGroup(string name) => _groups.Add((Triangles.Count, name));
 
     /// <summary>Adds a vertex, and returns its index.</summary>
     public int AddPosition(Vector position)
     {
-        _positions.Add(position);
-        return _positions.Count - 1;
+        Positions.Add(position);
+        return Positions.Count - 1;
     }
 
     /// <summary>Adds a texture coordinate, and returns its index.</summary>
@@ -53,7 +51,7 @@ internal sealed class MeshBuilder
     }
 
     /// <summary>Adds a face, wound so that <c>Cross(b − a, c − a)</c> points outwards.</summary>
-    public void AddTriangle(MeshCorner a, MeshCorner b, MeshCorner c) => _triangles.Add(new(a, b, c, SmoothingGroup));
+    public void AddTriangle(MeshCorner a, MeshCorner b, MeshCorner c) => Triangles.Add(new(a, b, c, SmoothingGroup));
 
     /// <summary>Adds two faces, wound as a triangle of the first three corners.</summary>
     public void AddQuad(MeshCorner a, MeshCorner b, MeshCorner c, MeshCorner d)
@@ -119,9 +117,9 @@ internal sealed class MeshBuilder
     /// <summary>Builds the mesh; smooth faces have normals, flat ones none.</summary>
     public Mesh Build()
     {
-        var mesh = new Mesh([.. _positions.SelectMany(ToArray)], CollectIndices(corner => corner.PositionIndex))
+        var mesh = new Mesh([.. Positions.SelectMany(ToArray)], CollectIndices(corner => corner.PositionIndex))
             .WithTextureCoordinates([.. _coordinates.SelectMany(ToArray)], CollectIndices(corner => corner.CoordinateIndex));
-        var (normals, normalIndices) = VertexNormals.Compute(_positions, _triangles);
+        var (normals, normalIndices) = VertexNormals.Compute(Positions, Triangles);
         if (normals.Length > 0)
         {
             mesh = mesh.WithNormals(normals, normalIndices);
@@ -136,10 +134,10 @@ internal sealed class MeshBuilder
 
     private ImmutableArray<int> CollectIndices(Func<MeshCorner, int> indexOf)
     {
-        var indices = new int[3 * _triangles.Count];
-        for (var face = 0; face < _triangles.Count; face++)
+        var indices = new int[3 * Triangles.Count];
+        for (var face = 0; face < Triangles.Count; face++)
         {
-            var (a, b, c, _) = _triangles[face];
+            var (a, b, c, _) = Triangles[face];
             indices[3 * face] = indexOf(a);
             indices[(3 * face) + 1] = indexOf(b);
             indices[(3 * face) + 2] = indexOf(c);
@@ -154,7 +152,7 @@ internal sealed class MeshBuilder
         var groups = ImmutableArray.CreateBuilder<MeshGroup>();
         for (var i = 0; i < _groups.Count; i++)
         {
-            var end = i + 1 < _groups.Count ? _groups[i + 1].FirstFace : _triangles.Count;
+            var end = i + 1 < _groups.Count ? _groups[i + 1].FirstFace : Triangles.Count;
             if (end > _groups[i].FirstFace)
             {
                 groups.Add(new(_groups[i].FirstFace, end - _groups[i].FirstFace, "", _groups[i].Name, "", 0));

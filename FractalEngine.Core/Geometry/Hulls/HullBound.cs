@@ -35,7 +35,6 @@ internal sealed class HullBound
     private readonly Vector256<double>[] _smallHullVertices = [];
     private readonly Vector256<double> _centre;
     private readonly double _farDistanceSquared;
-    private readonly double _margin;
 
     /// <summary>Prepares a hull that is widened by a margin on all sides.</summary>
     /// <param name="hull">The hull, which may be flat.</param>
@@ -51,7 +50,7 @@ internal sealed class HullBound
         Planes = [.. planes.Select(plane => plane with { Offset = plane.Offset + margin })];
         _centre = SimdAffineMap.ToVector256(box.Centre);
         _farDistanceSquared = FarFactor * FarFactor * 0.25 * box.Size.LengthSquared();
-        _margin = margin;
+        Margin = margin;
         _planeCount = VectorX4.PaddedCount(planes.Length);
         _planes = VectorX4.CreateRows<HullPlane>(
             planes, 4, plane => [plane.Normal.X, plane.Normal.Y, plane.Normal.Z, plane.Offset + margin]);
@@ -74,7 +73,7 @@ internal sealed class HullBound
             i => new Vector(_vertices[i], _vertices[_vertexCount + i], _vertices[(2 * _vertexCount) + i]))];
 
     /// <summary>How far the solid reaches beyond its vertices.</summary>
-    public double Margin => _margin;
+    public double Margin { get; }
 
     /// <summary>Number of bytes of the arrays.</summary>
     public long StorageBytes => sizeof(double) * (long)(_planes.Length + _vertices.Length + (4 * _smallHullVertices.Length));
@@ -137,7 +136,7 @@ internal sealed class HullBound
 
     /// <summary>Computes the support of the solid: how far it reaches in a direction.</summary>
     /// <param name="unitDirection">Direction of length 1: x, y, z, 0.</param>
-    public double Support(Vector256<double> unitDirection) => VertexSupport(unitDirection) + _margin;
+    public double Support(Vector256<double> unitDirection) => VertexSupport(unitDirection) + Margin;
 
     /// <summary>Computes the squared distance by which a position lies beyond the solid in a direction; 0 if it does not.</summary>
     /// <param name="direction">Direction of any length.</param>
@@ -147,7 +146,7 @@ internal sealed class HullBound
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     private double SeparationSquared(Vector256<double> direction, double directionLengthSquared, Vector256<double> position, double support)
     {
-        var separation = Vector256.Dot(direction, position) - support - (_margin * Math.Sqrt(directionLengthSquared));
+        var separation = Vector256.Dot(direction, position) - support - (Margin * Math.Sqrt(directionLengthSquared));
         return separation > 0 ? separation * (separation / directionLengthSquared) : 0;
     }
 
@@ -156,7 +155,7 @@ internal sealed class HullBound
     {
         var localDirection = map.MultiplyTransposed(direction);
         var separation = Vector256.Dot(direction, position - map.Translation) - VertexSupport(localDirection)
-            - (_margin * Length(localDirection));
+            - (Margin * Length(localDirection));
         return separation > 0 ? separation * (separation / Vector256.Dot(direction, direction)) : 0;
     }
 

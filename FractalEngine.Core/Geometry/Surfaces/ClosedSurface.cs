@@ -17,45 +17,29 @@ public static class ClosedSurface
     public static bool IsSolid(Mesh mesh)
     {
         var representatives = VertexWelding.FindRepresentatives(mesh);
-        var indices = new int[mesh.VertexIndices.Length];
-        for (var i = 0; i < indices.Length; i++)
-        {
-            indices[i] = representatives[mesh.VertexIndices[i]];
-        }
-
+        int[] indices = [.. mesh.VertexIndices.Select(vertex => representatives[vertex])];
         var edgeBalance = new Dictionary<(int From, int To), int>(indices.Length);
-        int[] components = [.. Enumerable.Range(0, mesh.VertexCount)];
+        var components = new DisjointSets();
+        components.Reset(mesh.VertexCount);
         for (var i = 0; i < indices.Length; i++)
         {
             var (from, to) = (indices[i], indices[i % 3 == 2 ? i - 2 : i + 1]);
             CollectionsMarshal.GetValueRefOrAddDefault(edgeBalance, from < to ? (from, to) : (to, from), out _) += Math.Sign(to - from);
-            components[FindComponent(components, from)] = FindComponent(components, to);
+            components.Join(from, to);
         }
 
         return mesh.FaceCount > 0 && edgeBalance.Values.All(static count => count == 0)
             && AreComponentsWoundOutwards(mesh, indices, components);
     }
 
-    /// <summary>Finds the representative of a vertex's connected component, and halves the path to it.</summary>
-    private static int FindComponent(int[] components, int vertex)
-    {
-        while (components[vertex] != vertex)
-        {
-            components[vertex] = components[components[vertex]];
-            vertex = components[vertex];
-        }
-
-        return vertex;
-    }
-
-    private static bool AreComponentsWoundOutwards(Mesh mesh, int[] indices, int[] components)
+    private static bool AreComponentsWoundOutwards(Mesh mesh, int[] indices, DisjointSets components)
     {
         var volumes = new Dictionary<int, double>();
         var centre = mesh.Bounds.Centre;
         for (var face = 0; face < mesh.FaceCount; face++)
         {
             var (a, b, c) = mesh.Face(face);
-            CollectionsMarshal.GetValueRefOrAddDefault(volumes, FindComponent(components, indices[3 * face]), out _) +=
+            CollectionsMarshal.GetValueRefOrAddDefault(volumes, components.RootOf(indices[3 * face]), out _) +=
                 Vector.Dot(a - centre, Vector.Cross(b - centre, c - centre));
         }
 

@@ -15,12 +15,7 @@ internal static class VertexWelding
         for (var vertex = 0; vertex < representatives.Length; vertex++)
         {
             ref var first = ref CollectionsMarshal.GetValueRefOrAddDefault(firstVertices, mesh.Vertex(vertex), out var exists);
-            if (!exists)
-            {
-                first = vertex;
-            }
-
-            representatives[vertex] = first;
+            representatives[vertex] = first = exists ? first : vertex;
         }
 
         return representatives;

@@ -138,12 +138,8 @@ internal sealed class ContactSet() : ContactList(HalfSpaces.Capacity)
     /// <summary>Removes the contact at an index.</summary>
     public void RemoveAt(int index)
     {
-        for (var i = index + 1; i < Count; i++)
-        {
-            _contacts[i - 1] = _contacts[i];
-        }
-
         Count--;
+        Array.Copy(_contacts, index + 1, _contacts, index, Count - index);
     }
 
     /// <summary>Removes the contacts from which a velocity leads away.</summary>

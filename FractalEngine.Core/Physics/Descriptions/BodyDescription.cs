@@ -139,7 +139,7 @@ public sealed record BodyDescription(Vector Position, double Radius)
     /// <summary>Throws for a description that no body can have.</summary>
     /// <exception cref="ArgumentException">A number is not finite, or outside its range; the message names it and the body.</exception>
     internal void Validate() =>
-        ArgumentCheck.Require(FindFault() is null, FindFault() ?? "", Name is null ? "body without a name" : $"body {Name}");
+        ArgumentCheck.Require(FindFault() is null, $"{(Name is null ? "body without a name" : $"body {Name}")}: {FindFault()}");
 
     /// <summary>Describes the first number that no body can have; null for a valid description.</summary>
     internal string? FindFault() =>

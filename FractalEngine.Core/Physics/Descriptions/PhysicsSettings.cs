@@ -1,3 +1,5 @@
+using FractalEngine.Core.Maths;
+
 namespace FractalEngine.Core.Physics.Descriptions;
 
 /// <summary>The step length of a <c>PhysicsWorld</c>, and the speeds below which bodies no longer bounce or stay awake.</summary>

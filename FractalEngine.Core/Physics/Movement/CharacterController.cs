@@ -1,7 +1,6 @@
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics.Bodies;
-using FractalEngine.Core.Physics.Descriptions;
 using FractalEngine.Core.Physics.Statics;
 using FractalEngine.Core.Scenes;
 

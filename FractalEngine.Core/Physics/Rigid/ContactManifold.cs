@@ -165,8 +165,7 @@ internal sealed class ContactManifold
     {
         var group = _groupCount++;
         _normals[group] = normal;
-        var least = Math.Abs(normal.X) < 0.6 ? Vector.I : Vector.J;
-        var tangent1 = Vector.Cross(normal, least).UnitVector();
+        var tangent1 = normal.Perpendicular();
         var tangent2 = Vector.Cross(normal, tangent1);
         for (var i = 0; i < Directions; i++)
         {

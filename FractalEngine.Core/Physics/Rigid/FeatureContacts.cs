@@ -40,7 +40,6 @@ internal sealed class FeatureContacts
     private readonly List<(ContactPoint Contact, double SeamDistance, bool IsCrossing)> _edges = [];
     private readonly List<ContactPoint> _faces = [];
     private readonly List<(Vector End, int Triangle, bool IsFirst)> _crossed = [];
-    private readonly ContactManifold _manifold = new();
     private int[] _nearIndices = [];
     private List<NearPair> _near = [];
     private (double First, double Second) _outwards;
@@ -52,7 +51,7 @@ internal sealed class FeatureContacts
     public long Tests { get; private set; }
 
     /// <summary>The contacts that have been found, reduced.</summary>
-    public ContactManifold Manifold => _manifold;
+    public ContactManifold Manifold { get; } = new();
 
     /// <summary>Begins the contacts of two surfaces.</summary>
     /// <param name="isMirrored">Of which surfaces triangles are wound inwards.</param>
@@ -69,7 +68,7 @@ internal sealed class FeatureContacts
         _near = near;
         _edges.Clear();
         _faces.Clear();
-        _manifold.Begin(distance);
+        Manifold.Begin(distance);
     }
 
     /// <summary>Adds the contacts of two leaves.</summary>
@@ -112,11 +111,11 @@ internal sealed class FeatureContacts
         {
             if (!IsSeam(in edge, seamDistance, isCrossing))
             {
-                _manifold.Add(in edge);
+                Manifold.Add(in edge);
             }
         }
 
-        _manifold.CopyTo(contacts);
+        Manifold.CopyTo(contacts);
     }
 
     /// <summary>Adds the contacts of edges of one leaf that go through triangles of the other.</summary>
@@ -164,7 +163,7 @@ internal sealed class FeatureContacts
         }
         else
         {
-            _manifold.Add(in contact);
+            Manifold.Add(in contact);
         }
     }
 
@@ -217,7 +216,7 @@ internal sealed class FeatureContacts
     private void AddFace(in ContactPoint contact)
     {
         _faces.Add(contact);
-        _manifold.Add(in contact);
+        Manifold.Add(in contact);
     }
 
     private void AddEdges(in SurfaceEdge edge1, in SurfaceEdge edge2)
@@ -265,7 +264,7 @@ internal sealed class FeatureContacts
         else if (edge1.Rounding > 0 && edge2.Rounding > 0)
         {
             // Balls and capsules have no edges that could be seams.
-            _manifold.Add(in contact);
+            Manifold.Add(in contact);
         }
         else if (gap <= EdgeMargin * _distance)
         {

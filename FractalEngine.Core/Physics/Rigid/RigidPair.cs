@@ -6,8 +6,8 @@ namespace FractalEngine.Core.Physics.Rigid;
 /// </summary>
 internal sealed class RigidPair
 {
-    // Relative to the radius of the smaller body: the largest gap at which a contact is known before it is touched.
-    private const double MaxMargin = 0.02;
+    /// <summary>How far surfaces may be apart whose contacts are known before they touch, in radii of the smaller one.</summary>
+    public const double MaxGap = 0.02;
 
     // Relative to the contact distance: no closer does a sweep let surfaces come.
     private const double SweepDistance = 0.25;
@@ -67,9 +67,6 @@ internal sealed class RigidPair
     /// <summary>The earliest of all such parts that have been found in the substep.</summary>
     public double FirstImpact { get; private set; }
 
-    /// <summary>How far surfaces may be apart whose contacts are looked for, in radii of the smaller one.</summary>
-    public static double MaxGap => MaxMargin;
-
     /// <summary>Begins a pair of which nothing is known.</summary>
     public void Set(int firstIndex, RigidSurface first, int secondIndex, RigidSurface second, int thread)
     {
@@ -101,7 +98,7 @@ internal sealed class RigidPair
     public void FindContacts(ContactSearch search)
     {
         var (motion1, motion2) = RelativeMotions(First.Motion, Second.Motion);
-        var way = Math.Clamp(MarginFactor * MaxWay(in motion1, in motion2), MinMargin * Distance, MaxMargin * Radius);
+        var way = Math.Clamp(MarginFactor * MaxWay(in motion1, in motion2), MinMargin * Distance, MaxGap * Radius);
         var margin = (2 * Distance) + way;
         Contacts.Clear();
         _near.Clear();
@@ -152,7 +149,7 @@ internal sealed class RigidPair
     public void EndSubstep()
     {
         _way += _substepWay;
-        var isUsedUp = _margin > 0 && _way + _substepWay > _margin - (2 * Distance) && _substepWay < MaxMargin * Radius;
+        var isUsedUp = _margin > 0 && _way + _substepWay > _margin - (2 * Distance) && _substepWay < MaxGap * Radius;
         IsSearchDue = Impact < 1 || isUsedUp;
         _hit = Impact < 1 && Math.Min(First.Fraction, Second.Fraction) >= Impact ? _sweptHit : null;
     }

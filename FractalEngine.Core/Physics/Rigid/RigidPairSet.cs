@@ -26,7 +26,6 @@ internal sealed class RigidPairSet
     private readonly List<RigidPair> _unused = [];
     private readonly List<(double Minimum, int Index)> _order = [];
     private readonly List<(int First, int Second)> _found = [];
-    private List<RigidPair> _pairs = [];
     private List<RigidPair> _before = [];
     private List<RigidPair> _acted = [];
     private Action<RigidPair, ContactSearch, PairSweep>? _act;
@@ -38,17 +37,17 @@ internal sealed class RigidPairSet
     }
 
     /// <summary>The pairs, by their indices.</summary>
-    public List<RigidPair> Pairs => _pairs;
+    public List<RigidPair> Pairs { get; private set; } = [];
 
     /// <summary>Forgets all pairs, with their contacts.</summary>
     public void Clear()
     {
-        _unused.AddRange(_pairs);
-        _pairs.Clear();
+        _unused.AddRange(Pairs);
+        Pairs.Clear();
     }
 
     /// <summary>Forgets what is near, so that it is looked for anew.</summary>
-    public void ForgetNear() => _pairs.ForEach(static pair => pair.ForgetNear());
+    public void ForgetNear() => Pairs.ForEach(static pair => pair.ForgetNear());
 
     /// <summary>Counts the tests of all searches so far.</summary>
     public (long Faces, long Bounds) CountTests()
@@ -102,7 +101,7 @@ internal sealed class RigidPairSet
     public void FindContacts(List<RigidPair> searched)
     {
         searched.Clear();
-        foreach (var pair in _pairs)
+        foreach (var pair in Pairs)
         {
             if (pair.IsSearchDue)
             {
@@ -114,13 +113,13 @@ internal sealed class RigidPairSet
     }
 
     /// <summary>Finds which pairs come too close in the motions of a substep.</summary>
-    public void FindImpacts() => Run(_pairs, static (pair, _, sweep) => pair.FindImpact(sweep));
+    public void FindImpacts() => Run(Pairs, static (pair, _, sweep) => pair.FindImpact(sweep));
 
     /// <summary>Does the same for pairs of which one has stopped since, in its other part.</summary>
     public void FindLaterImpacts()
     {
         _due.Clear();
-        foreach (var pair in _pairs)
+        foreach (var pair in Pairs)
         {
             if (pair.IsSweepDue)
             {
@@ -165,7 +164,7 @@ internal sealed class RigidPairSet
     /// <summary>Makes the pairs that have been found, of those that there are already where it can.</summary>
     private void KeepPairs(List<RigidSurface> surfaces, bool isStepBegun)
     {
-        (_pairs, _before) = (_before, _pairs);
+        (Pairs, _before) = (_before, Pairs);
         var before = 0;
         foreach (var (firstIndex, secondIndex) in _found)
         {
@@ -179,7 +178,7 @@ internal sealed class RigidPairSet
             var pair = isKnown ? _before[before++] : CreatePair();
             if (!isKnown)
             {
-                pair.Set(firstIndex, first, secondIndex, second, _pairs.Count % _maxThreads);
+                pair.Set(firstIndex, first, secondIndex, second, Pairs.Count % _maxThreads);
             }
 
             if (!isStepBegun || !isKnown)
@@ -187,7 +186,7 @@ internal sealed class RigidPairSet
                 pair.BeginStep(Math.Max(ContactDistance * pair.Radius, MinContactDistance * first.Body!.Position.MaxAbsComponent()));
             }
 
-            _pairs.Add(pair);
+            Pairs.Add(pair);
         }
 
         _unused.AddRange(CollectionsMarshal.AsSpan(_before)[before..]);

@@ -1,6 +1,6 @@
+using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics.Bodies;
 using FractalEngine.Core.Physics.Descriptions;
-using FractalEngine.Core.Physics.Islands;
 using FractalEngine.Core.Physics.Statics;
 
 namespace FractalEngine.Core.Physics.Rigid;
@@ -46,7 +46,6 @@ internal sealed class RigidSleep(PhysicsSettings settings, List<Body> bodies)
     /// <param name="seconds">Length of the step.</param>
     public void EndStep(ReadOnlySpan<RigidState> states, ReadOnlySpan<RigidRow> rows, double seconds)
     {
-        _islands.Reserve(bodies.Count);
         _islands.Reset(bodies.Count);
         foreach (ref readonly var row in rows)
         {

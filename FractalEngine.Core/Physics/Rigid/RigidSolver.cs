@@ -168,7 +168,7 @@ internal static class RigidSolver
             var slip = RelativeVelocity(in row, states, row.TurnedArm1, row.TurnedArm2) - row.Belt;
             var impulse = row.FrictionImpulse - (row.TangentMass1 * Vector.Dot(row.Tangent1, slip) * row.Tangent1)
                 - (row.TangentMass2 * Vector.Dot(row.Tangent2, slip) * row.Tangent2);
-            impulse = Shorten(impulse, limit);
+            impulse = impulse.ShortenedTo(limit);
             var change = impulse - row.FrictionImpulse;
             row.FrictionImpulse = impulse;
             Apply(in row, states, change, Vector.Zero);
@@ -179,8 +179,8 @@ internal static class RigidSolver
             var turn = states[row.First].Spin - states[row.Second].Spin;
             var impulse = row.RollingImpulse - (AngularMass(in row, states, turn) * turn);
             var aboutImpulse = Vector.Dot(row.Normal, impulse) * row.Normal;
-            impulse = Shorten(impulse - aboutImpulse, row.RollingArm * row.NormalImpulse)
-                + Shorten(aboutImpulse, row.SpinningArm * row.NormalImpulse);
+            impulse = (impulse - aboutImpulse).ShortenedTo(row.RollingArm * row.NormalImpulse)
+                + aboutImpulse.ShortenedTo(row.SpinningArm * row.NormalImpulse);
             var change = impulse - row.RollingImpulse;
             row.RollingImpulse = impulse;
             Apply(in row, states, Vector.Zero, change);
@@ -193,12 +193,6 @@ internal static class RigidSolver
         var turned = (states[row.First].InverseInertia * direction) + (states[row.Second].InverseInertia * direction);
         var mobility = Vector.Dot(direction, turned);
         return mobility > 0 ? 1 / mobility : 0;
-    }
-
-    private static Vector Shorten(Vector vector, double maxLength)
-    {
-        var length = vector.Length();
-        return length > maxLength ? maxLength / length * vector : vector;
     }
 
     /// <summary>Lets contacts bounce that have stopped an approach.</summary>

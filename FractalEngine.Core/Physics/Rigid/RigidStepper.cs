@@ -13,7 +13,7 @@ namespace FractalEngine.Core.Physics.Rigid;
 /// Takes the bodies of a world through a step in which bodies have the shape of their meshes: gathers what may meet, finds the contacts,
 /// solves them, moves everything until it touches, and puts to sleep what rests.
 /// </summary>
-internal sealed class RigidStepper
+internal sealed class RigidStepper(PhysicsSettings settings, List<Body> bodies, StaticObjectSet statics, ContactLog log, int maxThreads)
 {
     // Radians that a body turns in a substep at most.
     private const double MaxAngle = 0.5;
@@ -29,40 +29,24 @@ internal sealed class RigidStepper
     private const double MinFraction = 0.01;
     private const int MaxHeldCount = 8;
 
-    private readonly List<Body> _bodies;
-    private readonly StaticObjectSet _statics;
-    private readonly PhysicsSettings _settings;
-    private readonly ContactLog _log;
-    private readonly int _maxThreads;
     private readonly Dictionary<object, RigidShape> _shapes = [];
     private readonly List<RigidSurface> _surfaces = [];
-    private readonly RigidPairSet _pairs;
+    private readonly RigidPairSet _pairs = new(maxThreads);
     private readonly List<RigidPair> _searched = [];
     private readonly List<RigidRow> _rows = [];
     private readonly List<RigidRow> _renewed = [];
     private readonly RigidSweep _sweep = new();
-    private readonly RigidSleep _sleep;
+    private readonly RigidSleep _sleep = new(settings, bodies);
     private RigidState[] _states = [];
     private RigidSurface? _character;
     private Vector _gravity;
     private double _seconds;
 
-    public RigidStepper(PhysicsSettings settings, List<Body> bodies, StaticObjectSet statics, ContactLog log, int maxThreads)
-    {
-        _settings = settings;
-        _bodies = bodies;
-        _statics = statics;
-        _log = log;
-        _maxThreads = maxThreads;
-        _pairs = new(maxThreads);
-        _sleep = new(settings, bodies);
-    }
-
     /// <summary>True where a body of the world has the shape of its mesh, so that this takes all bodies through their steps.</summary>
     public bool IsNeeded { get; private set; }
 
     /// <summary>Finds out whether a body has the shape of its mesh.</summary>
-    public void PlaceBodies() => IsNeeded = _bodies.Exists(static body => body.Description.Mesh is not null);
+    public void PlaceBodies() => IsNeeded = bodies.Exists(static body => body.Description.Mesh is not null);
 
     /// <summary>Forgets the contacts of all steps so far.</summary>
     public void Reset()
@@ -84,7 +68,7 @@ internal sealed class RigidStepper
         GatherCharacter(character, isTurned: gravity != _gravity);
         _gravity = gravity;
         _seconds = seconds;
-        _sleep.WakeNearMoving(_statics);
+        _sleep.WakeNearMoving(statics);
         var angle = 0.0;
         for (var i = 0; i < _surfaces.Count; i++)
         {
@@ -145,17 +129,17 @@ internal sealed class RigidStepper
             return true;
         }
 
-        return _statics.TryEnter(target, point, 0, context, out _);
+        return statics.TryEnter(target, point, 0, context, out _);
     }
 
     /// <summary>Lists all bodies, then all objects that stop something.</summary>
     private void GatherBodies()
     {
-        var count = _bodies.Count + _statics.Objects.Count;
+        var count = bodies.Count + statics.Objects.Count;
         for (var i = 0; i < count; i++)
         {
-            var body = i < _bodies.Count ? _bodies[i] : null;
-            var target = i < _bodies.Count ? null : _statics.Objects[i - _bodies.Count];
+            var body = i < bodies.Count ? bodies[i] : null;
+            var target = i < bodies.Count ? null : statics.Objects[i - bodies.Count];
             if (i < _surfaces.Count && _surfaces[i].Body == body && _surfaces[i].Target == target && !_surfaces[i].IsShapeOld)
             {
                 continue;
@@ -182,7 +166,7 @@ internal sealed class RigidStepper
             if (_character?.Character != character || isTurned)
             {
                 _character = new(character);
-                _character.Shape.Reserve(_maxThreads);
+                _character.Shape.Reserve(maxThreads);
             }
 
             _surfaces.Add(_character);
@@ -222,7 +206,7 @@ internal sealed class RigidStepper
         if (!_shapes.TryGetValue(key, out var shape))
         {
             shape = create(source);
-            shape.Reserve(_maxThreads);
+            shape.Reserve(maxThreads);
             _shapes[key] = shape;
         }
 
@@ -284,7 +268,7 @@ internal sealed class RigidStepper
 
             if (SetRest(time))
             {
-                _pairs.Find(_surfaces, _bodies.Count, isStepBegun: time > 0 || hasFound);
+                _pairs.Find(_surfaces, bodies.Count, isStepBegun: time > 0 || hasFound);
             }
 
             _pairs.FindContacts(_searched);
@@ -335,9 +319,9 @@ internal sealed class RigidStepper
             hasWoken |= pair.Contacts.Count > 0 && pair.Second.Body is { } second && _sleep.WakeIfPushed(pair.First.Body!, second);
         }
 
-        for (var i = 0; hasWoken && i < _bodies.Count; i++)
+        for (var i = 0; hasWoken && i < bodies.Count; i++)
         {
-            if (!_bodies[i].IsAsleep && !_states[i].IsDynamic)
+            if (!bodies[i].IsAsleep && !_states[i].IsDynamic)
             {
                 BeginBody(i);
             }
@@ -346,7 +330,7 @@ internal sealed class RigidStepper
 
     private void BeginBody(int index)
     {
-        _states[index] = CreateState(_bodies[index]);
+        _states[index] = CreateState(bodies[index]);
         _surfaces[index].IsReachDue = true;
     }
 
@@ -373,8 +357,7 @@ internal sealed class RigidStepper
         var (body, other) = (pair.First.Body!.Description, pair.Second.Body?.Description);
         var arm1 = state1.Turn.RotateBack(contact.Point);
         var arm2 = state2.Turn.RotateBack(pair.First.Motion.Origin + contact.Point - pair.Second.Motion.Origin);
-        var least = Math.Abs(contact.Normal.X) < 0.6 ? Vector.I : Vector.J;
-        var tangent = Vector.Cross(contact.Normal, least).UnitVector();
+        var tangent = contact.Normal.Perpendicular();
         var belt = pair.Second.Target?.Kinematic is { } moved ? moved.Rotate(moved.Belt) : Vector.Zero;
         return new()
         {
@@ -382,7 +365,7 @@ internal sealed class RigidStepper
             Tangent2 = Vector.Cross(contact.Normal, tangent), Arm1 = arm1, Arm2 = arm2,
             LocalArm1 = state1.Orientation.RotateBack(arm1), Offset = state2.TravelOf(arm2) - state1.TravelOf(arm1),
             Gap = contact.Gap - pair.Distance, Distance = pair.Distance,
-            BounceSpeed = _settings.RestitutionThreshold ?? 0.5 * _seconds * state1.Acceleration.Length(),
+            BounceSpeed = settings.RestitutionThreshold ?? 0.5 * _seconds * state1.Acceleration.Length(),
             Friction = Math.Min(body.Friction, other?.Friction ?? body.Friction),
             Restitution = Math.Min(body.Restitution, other?.Restitution ?? 1),
             RollingArm = Math.Min(body.RollingFriction, other?.RollingFriction ?? body.RollingFriction) * pair.Radius,
@@ -447,7 +430,7 @@ internal sealed class RigidStepper
                 _ = _surfaces[i].Stop(cut);
             }
 
-            if (i < _bodies.Count)
+            if (i < bodies.Count)
             {
                 Commit(_surfaces[i], ref _states[i], fraction * _seconds, isTimeKept: cut < 1 && _surfaces[i].Fraction == cut);
             }
@@ -492,7 +475,7 @@ internal sealed class RigidStepper
 
             if (!state.HasContacts)
             {
-                RigidFlight.Fly(_bodies[i], ref state, fraction * _seconds);
+                RigidFlight.Fly(bodies[i], ref state, fraction * _seconds);
             }
 
             var turn = state.Turn.After(state.TurnBefore.Inverse());
@@ -551,10 +534,10 @@ internal sealed class RigidStepper
         foreach (ref readonly var row in rows)
         {
             var other = _surfaces[row.Second];
-            if (row.NormalImpulseSum > 0 && _log.IsEnabled && other != _character)
+            if (row.NormalImpulseSum > 0 && log.IsEnabled && other != _character)
             {
                 var second = other.Body?.Index ?? ContactRecord.OfObject(other.Target!.Index);
-                _log.Add(row.First, second, _bodies[row.First].Position + row.TurnedArm1, row.Normal, row.NormalImpulseSum);
+                log.Add(row.First, second, bodies[row.First].Position + row.TurnedArm1, row.Normal, row.NormalImpulseSum);
             }
         }
     }

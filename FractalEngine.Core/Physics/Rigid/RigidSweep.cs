@@ -1,4 +1,5 @@
-using FractalEngine.Core.Physics.Islands;
+using FractalEngine.Core.Maths;
+
 
 namespace FractalEngine.Core.Physics.Rigid;
 
@@ -37,7 +38,6 @@ internal sealed class RigidSweep
     /// <summary>Stops all bodies that may meet, directly or through others, when the first one does: up to there all is free.</summary>
     private void StopIslands(RigidPairSet pairs, List<RigidSurface> surfaces)
     {
-        _islands.Reserve(surfaces.Count);
         _islands.Reset(surfaces.Count);
         foreach (var pair in pairs.Pairs)
         {

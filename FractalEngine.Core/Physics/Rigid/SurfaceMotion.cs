@@ -12,18 +12,14 @@ internal readonly struct SurfaceMotion
     // Relative to the radius: a body that turns about a farther axis goes straight on.
     private const double MaxAxisDistance = 100;
 
-    /// <summary>Makes a motion on which the origin of the surface's frame goes straight on.</summary>
-    /// <param name="position">The origin of the surface's frame: the centre of mass of a body, the position of an object.</param>
+    /// <summary>Makes a motion on which a reference point goes straight on.</summary>
+    /// <param name="position">The reference point at the beginning: the centre of mass of a body, the position of an object.</param>
     /// <param name="orientation">How the surface has turned about it.</param>
     /// <param name="scale">Factor by which it has shrunk.</param>
-    /// <param name="travel">How far the origin goes in a unit of time.</param>
+    /// <param name="travel">How far the reference point goes in a unit of time.</param>
     /// <param name="turn">Rotation vector of the turn in a unit of time, radians.</param>
-    public SurfaceMotion(Vector position, Orientation orientation, double scale, Vector travel, Vector turn)
-        : this(position, Vector.Zero, orientation, scale, travel, turn)
-    {
-    }
-
-    private SurfaceMotion(Vector position, Vector arm, Orientation orientation, double scale, Vector travel, Vector turn)
+    /// <param name="arm">The origin of the surface's frame relative to the reference point; zero where that goes straight itself.</param>
+    public SurfaceMotion(Vector position, Orientation orientation, double scale, Vector travel, Vector turn, Vector arm = default)
     {
         Position = position;
         Arm = arm;
@@ -85,7 +81,7 @@ internal readonly struct SurfaceMotion
         var across = Travel - (Vector.Dot(axis, Travel) * axis);
         var toAxis = 0.5 * (across + (Vector.Cross(axis, across) / Math.Tan(0.5 * Angle)));
         return toAxis.Length() <= MaxAxisDistance * radius
-            ? new(Position + toAxis, -toAxis, Orientation, Scale, Travel - across, Turn) : this;
+            ? new(Position + toAxis, Orientation, Scale, Travel - across, Turn, -toAxis) : this;
     }
 
     /// <summary>The same motion from a later time on.</summary>
@@ -98,7 +94,7 @@ internal readonly struct SurfaceMotion
         }
 
         var turned = Orientation.Identity.TurnedBy(time * Turn);
-        return new(Position + (time * Travel), turned.Rotate(Arm), turned.After(Orientation), Scale, Travel, Turn);
+        return new(Position + (time * Travel), turned.After(Orientation), Scale, Travel, Turn, turned.Rotate(Arm));
     }
 
     /// <summary>A part of the motion, which takes a unit of time itself.</summary>
@@ -107,14 +103,14 @@ internal readonly struct SurfaceMotion
     public SurfaceMotion Slice(double time, double duration)
     {
         var from = From(time);
-        return new(from.Position, from.Arm, from.Orientation, Scale, duration * Travel, duration * Turn);
+        return new(from.Position, from.Orientation, Scale, duration * Travel, duration * Turn, from.Arm);
     }
 
     /// <summary>The same motion with coordinates relative to a point.</summary>
-    public SurfaceMotion RelativeTo(Vector origin) => new(Position - origin, Arm, Orientation, Scale, Travel, Turn);
+    public SurfaceMotion RelativeTo(Vector origin) => new(Position - origin, Orientation, Scale, Travel, Turn, Arm);
 
     /// <summary>The motion of what stays where it is.</summary>
-    public SurfaceMotion Stopped => new(Position, Arm, Orientation, Scale, Vector.Zero, Vector.Zero);
+    public SurfaceMotion Stopped => new(Position, Orientation, Scale, Vector.Zero, Vector.Zero, Arm);
 
     /// <summary>Velocity of a point of the surface at the beginning, in units of the motion.</summary>
     public Vector VelocityAt(Vector point) => Angle == 0 ? Travel : Travel + Vector.Cross(Turn, point - Position);

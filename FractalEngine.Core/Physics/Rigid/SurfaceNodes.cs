@@ -75,13 +75,8 @@ internal sealed class SurfaceNodes
     /// <summary>The triangles of a leaf, with corners and edges, in the frame of the surface.</summary>
     public SurfaceLeaf Leaf(int node)
     {
-        if (!_leaves.TryGetValue(node, out var leaf))
-        {
-            leaf = new(_nodes!, node);
-            _leaves[node] = leaf;
-        }
-
-        return leaf;
+        ref var leaf = ref CollectionsMarshal.GetValueRefOrAddDefault(_leaves, node, out _);
+        return leaf ??= new(_nodes!, node);
     }
 
     private void AddBoxes()

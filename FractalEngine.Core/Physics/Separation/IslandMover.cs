@@ -7,28 +7,16 @@ using FractalEngine.Core.Physics.Rows;
 namespace FractalEngine.Core.Physics.Separation;
 
 /// <summary>What keeps bodies of islands from each other where their plans do not work out.</summary>
-internal sealed class IslandMover
+internal sealed class IslandMover(List<Body> bodies, IslandSet islands, BodyGrid grid, NearbyBodies nearbyBodies)
 {
     // Relative to the distance at which two touch.
     private const double NegligibleOverlap = 3e-7;
 
-    private readonly List<Body> _bodies;
-    private readonly IslandSet _islands;
-    private readonly BodyGrid _grid;
-    private readonly NearbyBodies _nearbyBodies;
     private readonly List<int> _neighbours = [];
 
     // In which round of the step a body has returned, counted from 1.
     private int[] _returnedIn = [];
     private int _round;
-
-    public IslandMover(List<Body> bodies, IslandSet islands, BodyGrid grid, NearbyBodies nearbyBodies)
-    {
-        _bodies = bodies;
-        _islands = islands;
-        _grid = grid;
-        _nearbyBodies = nearbyBodies;
-    }
 
     /// <summary>Number of times that a body had to stay where it was.</summary>
     public long ReturnCount { get; private set; }
@@ -45,15 +33,15 @@ internal sealed class IslandMover
     /// <returns>Null where there is none left.</returns>
     public Body? FindObstructing(ref int pairIndex)
     {
-        var pairs = _islands.All is [var only] && only.BodyCount == _bodies.Count ? [] : _islands.Graph.Pairs;
+        var pairs = islands.All is [var only] && only.BodyCount == bodies.Count ? [] : islands.Graph.Pairs;
         while (pairIndex < pairs.Length)
         {
             ref readonly var pair = ref pairs[pairIndex++];
-            if (!pair.IsSecondImmovable && (_islands.IslandOf(pair.First) >= 0) != (_islands.IslandOf(pair.Second) >= 0))
+            if (!pair.IsSecondImmovable && (islands.IslandOf(pair.First) >= 0) != (islands.IslandOf(pair.Second) >= 0))
             {
-                var isFirstMember = _islands.IslandOf(pair.First) >= 0;
-                var member = _bodies[isFirstMember ? pair.First : pair.Second];
-                var single = _bodies[isFirstMember ? pair.Second : pair.First];
+                var isFirstMember = islands.IslandOf(pair.First) >= 0;
+                var member = bodies[isFirstMember ? pair.First : pair.Second];
+                var single = bodies[isFirstMember ? pair.Second : pair.First];
                 var distance = (member.Radius + single.Radius) * (1 - NegligibleOverlap);
                 if (!single.HasMoved && (member.Target - single.Position).LengthSquared() < distance * distance)
                 {
@@ -72,7 +60,7 @@ internal sealed class IslandMover
     /// <param name="mayBeDeep">True where bodies of islands may overlap deeply; else it is looked at those that something has held.</param>
     public void ReturnOverlapping(bool mayBeDeep)
     {
-        foreach (var body in _bodies)
+        foreach (var body in bodies)
         {
             mayBeDeep |= body.IslandIndex >= 0 && body.IsHeld;
         }
@@ -82,15 +70,15 @@ internal sealed class IslandMover
             return;
         }
 
-        foreach (var island in _islands.All)
+        foreach (var island in islands.All)
         {
-            foreach (var index in _islands.BodiesOf(in island))
+            foreach (var index in islands.BodiesOf(in island))
             {
-                _grid.Update(index);
+                grid.Update(index);
             }
         }
 
-        Array.Clear(_returnedIn, 0, _bodies.Count);
+        Array.Clear(_returnedIn, 0, bodies.Count);
         _round = 0;
         while (ReturnOnce())
         {
@@ -115,15 +103,15 @@ internal sealed class IslandMover
     {
         var last = _round++;
         var hasReturned = false;
-        foreach (ref readonly var pair in _islands.Graph.Pairs)
+        foreach (ref readonly var pair in islands.Graph.Pairs)
         {
             if (last == 0 || _returnedIn[pair.First] == last || _returnedIn[pair.Second] == last)
             {
-                hasReturned |= Return(_bodies[pair.First], _bodies[pair.Second]);
+                hasReturned |= Return(bodies[pair.First], bodies[pair.Second]);
             }
         }
 
-        foreach (var body in _bodies)
+        foreach (var body in bodies)
         {
             if (last == 0 ? MayMeetUnknown(body) : _returnedIn[body.Index] == last)
             {
@@ -135,7 +123,7 @@ internal sealed class IslandMover
     }
 
     private bool MayMeetUnknown(Body body) =>
-        HasGone(body) ? _islands.Graph.HasDeviated(body.Index, body.Position - body.PlannedStart) : body.HasMoved;
+        HasGone(body) ? islands.Graph.HasDeviated(body.Index, body.Position - body.PlannedStart) : body.HasMoved;
 
     private static bool HasGone(Body body) => body.IslandIndex >= 0
         && (body.Position != body.PlannedStart || (body.IsCompound && body.Orientation != body.PlannedStartOrientation));
@@ -143,11 +131,11 @@ internal sealed class IslandMover
     private bool ReturnAmongAll(Body body)
     {
         _neighbours.Clear();
-        _nearbyBodies.CollectOverlaps(body.Position, body.Radius, body.Index, _neighbours);
+        nearbyBodies.CollectOverlaps(body.Position, body.Radius, body.Index, _neighbours);
         var hasReturned = false;
         foreach (var neighbour in _neighbours)
         {
-            hasReturned |= Return(body, _bodies[neighbour]);
+            hasReturned |= Return(body, bodies[neighbour]);
         }
 
         return hasReturned;
@@ -171,7 +159,7 @@ internal sealed class IslandMover
     private void PutBack(Body body)
     {
         body.Position = body.PlannedStart;
-        _grid.Update(body.Index);
+        grid.Update(body.Index);
         if (body.IsCompound)
         {
             body.SetOrientation(body.PlannedStartOrientation);

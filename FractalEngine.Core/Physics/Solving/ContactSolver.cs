@@ -321,10 +321,7 @@ internal sealed class ContactSolver(int bodyCount = 0)
         var spin = _bodies[row.First].Spin - (row.Second >= 0 ? _bodies[row.Second].Spin : row.SurfaceSpin);
         var turn = row.TurnImpulse - (row.TurnInertia * spin);
         var about = Vector.Dot(turn, row.Normal);
-        var rolling = turn - (about * row.Normal);
-        var length = rolling.Length();
-        var limit = row.RollingArm * row.NormalImpulse;
-        rolling = length > limit ? limit / length * rolling : rolling;
+        var rolling = (turn - (about * row.Normal)).ShortenedTo(row.RollingArm * row.NormalImpulse);
         var spinningLimit = row.SpinningArm * row.NormalImpulse;
         var turnChange = rolling + (Math.Clamp(about, -spinningLimit, spinningLimit) * row.Normal) - row.TurnImpulse;
         row.TurnImpulse += turnChange;

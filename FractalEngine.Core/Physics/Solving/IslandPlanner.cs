@@ -230,10 +230,8 @@ internal sealed class IslandPlanner(
                     _solver.Apply(in row, impulse, Vector.Zero);
                 }
 
-                var across = -row.FrictionMass * _solver.Slip(in row);
-                var limit = row.Friction * impulse;
-                var length = across.Length();
-                _solver.Apply(in row, row.HasArms ? 0 : impulse, length > limit ? limit / length * across : across);
+                var across = (-row.FrictionMass * _solver.Slip(in row)).ShortenedTo(row.Friction * impulse);
+                _solver.Apply(in row, row.HasArms ? 0 : impulse, across);
                 Log(in row, impulse);
                 hasBounced = true;
             }

@@ -55,7 +55,7 @@ public sealed class StaticObject
         get;
         set
         {
-            ArgumentCheck.RequireLayer(value, nameof(Layer));
+            Layers.Require(value, nameof(Layer));
             field = value;
             _set.ChangeFilters();
         }

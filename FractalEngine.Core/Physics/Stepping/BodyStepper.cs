@@ -11,7 +11,9 @@ using FractalEngine.Core.Queries;
 namespace FractalEngine.Core.Physics.Stepping;
 
 /// <summary>Takes one body through one step: shrinking, damping, forces, motion and sleep.</summary>
-internal sealed class BodyStepper
+internal sealed class BodyStepper(
+    PhysicsSettings settings, List<Body> bodies, BodyGrid grid, NearbyBodies nearbyBodies, Obstacles obstacles, SleepIslands islands,
+    IslandPlanner planner, QueryContext queryContext, ContactLog contactLog)
 {
     // Relative to the speed that the acceleration adds in a step.
     private const double RestitutionThresholdFraction = 0.5;
@@ -25,32 +27,13 @@ internal sealed class BodyStepper
     /// <summary>The offset of the only sphere of a body.</summary>
     public static readonly Vector[] SingleSphereOffset = [Vector.Zero];
 
-    private readonly PhysicsSettings _settings;
-    private readonly BodyGrid _grid;
-    private readonly NearbyBodies _nearbyBodies;
-    private readonly Obstacles _obstacles;
-    private readonly SleepIslands _islands;
-    private readonly QueryContext _queryContext;
-    private readonly BodyMover _mover;
-
-    public BodyStepper(
-        PhysicsSettings settings, List<Body> bodies, BodyGrid grid, NearbyBodies nearbyBodies, Obstacles obstacles, SleepIslands islands,
-        IslandPlanner planner, QueryContext queryContext, ContactLog contactLog)
-    {
-        _settings = settings;
-        _grid = grid;
-        _nearbyBodies = nearbyBodies;
-        _obstacles = obstacles;
-        _islands = islands;
-        _queryContext = queryContext;
-        _mover = new(bodies, obstacles, islands, planner, contactLog);
-    }
+    private readonly BodyMover _mover = new(bodies, obstacles, islands, planner, contactLog);
 
     /// <summary>Makes room for so many bodies near one.</summary>
     public void Reserve(int bodyCount)
     {
-        _nearbyBodies.Reserve(bodyCount);
-        _obstacles.Reserve(bodyCount);
+        nearbyBodies.Reserve(bodyCount);
+        obstacles.Reserve(bodyCount);
     }
 
     /// <summary>Begins the step of a body that is awake: all but its motion.</summary>
@@ -78,13 +61,13 @@ internal sealed class BodyStepper
 
         body.FreeAcceleration = acceleration;
         body.RestitutionThreshold =
-            _settings.RestitutionThreshold ?? RestitutionThresholdFraction * acceleration.Length() * stepLength;
+            settings.RestitutionThreshold ?? RestitutionThresholdFraction * acceleration.Length() * stepLength;
         var wasResolved = body.IsOverlapResolved;
         Begin(body, staticColliders, character, stepLength);
         _mover.Prepare(body, stepLength);
         if (!wasResolved)
         {
-            _grid.Update(body.Index);
+            grid.Update(body.Index);
         }
 
         End(body);
@@ -96,9 +79,9 @@ internal sealed class BodyStepper
     /// <param name="distance">How far the object moves.</param>
     public bool IsNearKinematic(Body body, StaticColliders? staticColliders, double distance)
     {
-        _obstacles.SetMover(staticColliders, SingleSphereOffset, body.Radius, body.SafeDistance, 0);
-        _obstacles.Time = 0;
-        return _obstacles.TryFindNearKinematic(body.Position, distance + _obstacles.ContactSlop(body.Position), out _);
+        obstacles.SetMover(staticColliders, SingleSphereOffset, body.Radius, body.SafeDistance, 0);
+        obstacles.Time = 0;
+        return obstacles.TryFindNearKinematic(body.Position, distance + obstacles.ContactSlop(body.Position), out _);
     }
 
     /// <summary>Finds the surfaces that a body may meet in the step.</summary>
@@ -129,7 +112,7 @@ internal sealed class BodyStepper
     {
         var motion = new SphereMotion(body.Position, body.Velocity, body.FreeAcceleration);
         Begin(body, staticColliders, character, stepLength);
-        _obstacles.PrepareNearbyBodies(in motion, stepLength, body.Index);
+        obstacles.PrepareNearbyBodies(in motion, stepLength, body.Index);
         _mover.Move(body, stepLength);
         End(body);
         Finish(body, stepLength, stepIndex);
@@ -169,14 +152,14 @@ internal sealed class BodyStepper
     /// <summary>Tells others where a body is that has ended its step: it wakes what may have lain on it. One thread at a time.</summary>
     public void CommitPosition(Body body)
     {
-        _islands.WakeLeft(body);
+        islands.WakeLeft(body);
         // Last, so that what was collected for this body serves its islands too.
-        _grid.Update(body.Index);
+        grid.Update(body.Index);
     }
 
     /// <summary>Does so unless others may have to be told: many threads may do so at once.</summary>
     /// <returns>False where <see cref="CommitPosition"/> has to be called.</returns>
-    public bool TryCommitPosition(Body body) => !_islands.HasSleeping && _grid.TryUpdateWithinCell(body.Index);
+    public bool TryCommitPosition(Body body) => !islands.HasSleeping && grid.TryUpdateWithinCell(body.Index);
 
     /// <summary>Moves a body on that a kinematic object has overrun, at the end of the step.</summary>
     /// <param name="body">Must have been moved.</param>
@@ -188,7 +171,7 @@ internal sealed class BodyStepper
         body.MayTouchBodies = true;
         _mover.PushOut(body);
         End(body);
-        _grid.Update(body.Index);
+        grid.Update(body.Index);
     }
 
     /// <summary>Ends the step of a body that has moved.</summary>
@@ -206,14 +189,14 @@ internal sealed class BodyStepper
         }
 
         body.Turn(stepLength);
-        var sleepSpeed = _settings.SleepSpeed ?? SleepSpeedFraction * Math.Sqrt(body.FreeAcceleration.Length() * body.Radius);
-        _islands.Update(body, sleepSpeed, _settings.TimeBeforeSleep, stepLength);
+        var sleepSpeed = settings.SleepSpeed ?? SleepSpeedFraction * Math.Sqrt(body.FreeAcceleration.Length() * body.Radius);
+        islands.Update(body, sleepSpeed, settings.TimeBeforeSleep, stepLength);
         body.IsFinished = true;
     }
 
     /// <summary>True for a ball that meets no surface on a way, as far as is known without a query.</summary>
     private bool IsFree(Body body, Vector start, double way) =>
-        !body.IsCompound && !_obstacles.HasKinematics && body.SafeDistance.LowerBoundAt(start) - body.Radius > way;
+        !body.IsCompound && !obstacles.HasKinematics && body.SafeDistance.LowerBoundAt(start) - body.Radius > way;
 
     /// <summary>Makes a body the mover of the obstacles, and begins to count its tests.</summary>
     private void Begin(
@@ -221,15 +204,15 @@ internal sealed class BodyStepper
     {
         var maxTravel = new SphereMotion(body.Position, body.Velocity, body.FreeAcceleration).MaxTravelDistance(stepLength);
         var margin = (2 * maxTravel) + (SearchMargin * body.Radius);
-        _obstacles.SetMover(staticColliders, SingleSphereOffset, body.Radius, body.SafeDistance, margin, character);
-        _obstacles.Time = time;
-        body.FaceTests -= _queryContext.Statistics.FaceTests;
-        body.BoundTests -= _queryContext.Statistics.BoundTests;
+        obstacles.SetMover(staticColliders, SingleSphereOffset, body.Radius, body.SafeDistance, margin, character);
+        obstacles.Time = time;
+        body.FaceTests -= queryContext.Statistics.FaceTests;
+        body.BoundTests -= queryContext.Statistics.BoundTests;
     }
 
     private void End(Body body)
     {
-        body.FaceTests += _queryContext.Statistics.FaceTests;
-        body.BoundTests += _queryContext.Statistics.BoundTests;
+        body.FaceTests += queryContext.Statistics.FaceTests;
+        body.BoundTests += queryContext.Statistics.BoundTests;
     }
 }

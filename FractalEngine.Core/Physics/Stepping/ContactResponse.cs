@@ -163,9 +163,7 @@ internal sealed class ContactResponse(List<Body> bodies, SleepIslands islands, I
         }
 
         var slip = relative - (Vector.Dot(relative, normal) * normal) + Vector.Cross(normal, spin);
-        var impulse = -slip / inverseMass;
-        var length = impulse.Length();
-        return length > limit ? limit / length * impulse : impulse;
+        return (-slip / inverseMass).ShortenedTo(limit);
     }
 
     /// <summary>Inverse of the mass that an impulse at the surface and along it moves.</summary>

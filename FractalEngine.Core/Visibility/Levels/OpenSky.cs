@@ -39,7 +39,7 @@ internal static class OpenSky
     private static bool KeepPlane(Mesh mesh, Vector normal, ReadOnlySpan<LodNode> nodes)
     {
         var origin = mesh.Vertex(mesh.VertexIndices[0]);
-        var across = Vector.Cross(normal, Math.Abs(normal.X) < 0.6 ? Vector.I : Vector.J).UnitVector();
+        var across = normal.Perpendicular();
         var along = Vector.Cross(normal, across);
         foreach (var node in nodes)
         {

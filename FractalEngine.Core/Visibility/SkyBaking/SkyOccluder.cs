@@ -92,7 +92,7 @@ internal sealed class SkyOccluder
     public bool TrySample(LodNode node, long levels, Random random, SkySample sample)
     {
         var direction = RandomDirection(random);
-        var across = Vector.Cross(direction, Math.Abs(direction.X) < 0.6 ? Vector.I : Vector.J).UnitVector();
+        var across = direction.Perpendicular();
         var (sine, cosine) = Math.SinCos(2 * Math.PI * random.NextDouble());
         var radius = 0.5 * node.Box.Diagonal;
         var offset = radius * Math.Sqrt(random.NextDouble()) * ((cosine * across) + (sine * Vector.Cross(direction, across)));

@@ -7,7 +7,7 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Parsing.Fdo.Writing;
 
 /// <summary>Writes the grammar of a mesh as a fractal file with named maps, powers and sums.</summary>
-internal sealed class GrammarWriter
+internal sealed class GrammarWriter(double length, Func<string, Mesh, string> fileOf)
 {
     // What rounding of the numbers may change: entries of matrices, and translations in units of the whole's size.
     private const double RoundingTolerance = 2e-10;
@@ -23,15 +23,7 @@ internal sealed class GrammarWriter
     private readonly StringBuilder _declarations = new();
     private readonly StringBuilder _objects = new();
     private readonly List<(AffineMap Map, string Name)> _maps = [];
-    private readonly double _length;
-    private readonly Func<string, Mesh, string> _fileOf;
     private int _partCount;
-
-    private GrammarWriter(double length, Func<string, Mesh, string> fileOf)
-    {
-        _length = length;
-        _fileOf = fileOf;
-    }
 
     /// <summary>Returns the text of the file.</summary>
     /// <param name="grammar">What makes the mesh.</param>
@@ -85,9 +77,9 @@ internal sealed class GrammarWriter
     private string WriteMesh(string name, Mesh mesh)
     {
         // The maps of a shape are rounded in its own units.
-        var text = _length >= MinLengthOfShapes && BaseShapeSearch.Find(mesh) is var (shape, map)
+        var text = length >= MinLengthOfShapes && BaseShapeSearch.Find(mesh) is var (shape, map)
             ? (IsIdentity(map) ? "" : $"[{NameOf(map)}] ") + shape
-            : $"\"{_fileOf(name, mesh)}\"";
+            : $"\"{fileOf(name, mesh)}\"";
         _objects.Append(Invariant($"{name}. {text}\n"));
         return name;
     }
@@ -138,7 +130,7 @@ internal sealed class GrammarWriter
 
     private string SetText(IReadOnlyList<AffineMap> maps)
     {
-        if (maps.Count > 2 && MapRows.Find(maps, RowTolerance, _length) is { } row)
+        if (maps.Count > 2 && MapRows.Find(maps, RowTolerance, length) is { } row)
         {
             var power = Invariant($"{NameOf(row.Map)}^0..{row.Count - 1}");
             return row.Others is [var only] && IsIdentity(only) ? power : $"{power}] [{SetText(row.Others)}";
@@ -147,13 +139,13 @@ internal sealed class GrammarWriter
         return string.Join(", ", maps.Select(map => IsIdentity(map) ? "#" : NameOf(map)));
     }
 
-    private bool IsIdentity(AffineMap map) => MapRows.AreNear(map, AffineMap.Identity, RoundingTolerance, _length);
+    private bool IsIdentity(AffineMap map) => MapRows.AreNear(map, AffineMap.Identity, RoundingTolerance, length);
 
     private string NameOf(AffineMap map)
     {
         foreach (var (known, knownName) in _maps)
         {
-            if (MapRows.AreNear(known, map, RoundingTolerance, _length))
+            if (MapRows.AreNear(known, map, RoundingTolerance, length))
             {
                 return knownName + ".";
             }
@@ -167,7 +159,7 @@ internal sealed class GrammarWriter
 
     private string MapText(AffineMap map)
     {
-        var translation = Rounded(map.Translation, RoundingTolerance * _length);
+        var translation = Rounded(map.Translation, RoundingTolerance * length);
         if (Decompose(map.Linear) is { } parts)
         {
             var scale = parts.Scale == Vector.One ? "#"

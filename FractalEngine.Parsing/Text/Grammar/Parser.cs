@@ -1,4 +1,5 @@
 using System.Collections.Immutable;
+using System.Diagnostics.CodeAnalysis;
 using FractalEngine.Core.Maths;
 using FractalEngine.Parsing.Text.Numbers;
 
@@ -44,6 +45,18 @@ public abstract class Parser(SourceText source)
     /// <param name="isLimitExceeded">True when the text is valid but exceeds a stated limit.</param>
     protected SourceException Error(Cursor cursor, string message, bool isLimitExceeded = false) =>
         Source.Error(cursor.Offset, message, isLimitExceeded);
+
+    /// <summary>Throws for text that is well-formed but has no valid meaning.</summary>
+    /// <param name="isFaulty">Whether it has none.</param>
+    /// <param name="cursor">Position of the faulty text.</param>
+    /// <param name="message">One line of text without a full stop.</param>
+    private protected void ThrowIf([DoesNotReturnIf(true)] bool isFaulty, Cursor cursor, string message)
+    {
+        if (isFaulty)
+        {
+            throw Error(cursor, message);
+        }
+    }
 
     /// <summary>
     /// Creates the exception for the furthest failure: what was found there, and the mistake behind it, or else what was expected instead.

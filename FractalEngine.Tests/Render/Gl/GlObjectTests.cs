@@ -177,6 +177,6 @@ public sealed class GlObjectTests
     {
         public List<int> DeletingThreads { get; } = [];
 
-        protected override void Delete() => DeletingThreads.Add(Environment.CurrentManagedThreadId);
+        protected internal override void Delete() => DeletingThreads.Add(Environment.CurrentManagedThreadId);
     }
 }

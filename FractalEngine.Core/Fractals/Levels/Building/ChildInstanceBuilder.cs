@@ -1,3 +1,4 @@
+using System.Runtime.InteropServices;
 using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Maths;
 
@@ -210,12 +211,8 @@ internal sealed class ChildInstanceBuilder(int baseCount)
         var inverseEntry = 1.0;
         foreach (var edge in chain.Edges)
         {
-            if (!_inverseEntries.TryGetValue(edge.Set, out var entries))
-            {
-                entries = Array.ConvertAll(edge.Set.Maps, static map => map.Inverse().Linear.MaxAbsEntry());
-                _inverseEntries.Add(edge.Set, entries);
-            }
-
+            ref var entries = ref CollectionsMarshal.GetValueRefOrAddDefault(_inverseEntries, edge.Set, out _);
+            entries ??= Array.ConvertAll(edge.Set.Maps, static map => map.Inverse().Linear.MaxAbsEntry());
             inverseEntry *= Math.Max(1, entries[edge.MapIndex]);
         }
 
@@ -264,13 +261,8 @@ internal sealed class ChildInstanceBuilder(int baseCount)
 
     private ChildInstance GetOrCreate(ChildEdge[] edges)
     {
-        if (!_instances.TryGetValue(edges, out var instance))
-        {
-            instance = new(edges);
-            _instances[edges] = instance;
-        }
-
-        return instance;
+        ref var instance = ref CollectionsMarshal.GetValueRefOrAddDefault(_instances, edges, out _);
+        return instance ??= new(edges);
     }
 
     /// <summary>Edges one after another, and the remaining levels of the sub-fractal that they lead to.</summary>

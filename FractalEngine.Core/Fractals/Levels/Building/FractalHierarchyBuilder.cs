@@ -1,4 +1,5 @@
 using System.Collections.Immutable;
+using System.Runtime.InteropServices;
 using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Fractals.Graphs;
 using FractalEngine.Core.Maths;
@@ -207,12 +208,8 @@ internal sealed class FractalHierarchyBuilder(
     private void AddLevel(long levelsBelowRepetition, int period, TransformationSet set)
     {
         _levels.RequireAllowedLevel(set.Maps.Length);
-        if (!_sets.TryGetValue(set, out var mapSet))
-        {
-            mapSet = new(set);
-            _sets[set] = mapSet;
-        }
-
+        ref var mapSet = ref CollectionsMarshal.GetValueRefOrAddDefault(_sets, set, out _);
+        mapSet ??= new(set);
         _levels.Add(EdgesAt(Built.Top + 1, levelsBelowRepetition, period, mapSet, Built.MapSetAt), mapSet);
     }
 

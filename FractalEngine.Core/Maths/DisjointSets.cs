@@ -1,4 +1,4 @@
-namespace FractalEngine.Core.Physics.Islands;
+namespace FractalEngine.Core.Maths;
 
 /// <summary>Sets of indices that are joined two by two (union–find). The lowest index stands for its set, whatever the order.</summary>
 internal sealed class DisjointSets
@@ -23,9 +23,10 @@ internal sealed class DisjointSets
     }
 
     /// <summary>Puts each index into a set of its own.</summary>
-    /// <param name="count">Number of indices, for which room must have been made.</param>
+    /// <param name="count">Number of indices, for which room is made.</param>
     public void Reset(int count)
     {
+        Reserve(count);
         // While none is joined, each is its own set.
         for (var i = JoinedCount > 0 ? 0 : _count; i < count; i++)
         {

@@ -1,7 +1,7 @@
-using FractalEngine.Core.Physics.Islands;
+using FractalEngine.Core.Maths;
 using FractalEngine.Tests.Support;
 
-namespace FractalEngine.Tests.Physics.Islands;
+namespace FractalEngine.Tests.Maths;
 
 /// <summary>Sets that are joined two by two, against sets that are merged one by one.</summary>
 public class DisjointSetsTests
