@@ -30,6 +30,11 @@ public static class DamagedSearch
             return remeshed;
         }
 
+        if (settings.Noise is null && DamagedModel.CreateOfDecimated(mesh, cancellation) is { } decimated)
+        {
+            return Find(mesh, decimated, settings, cancellation).Grammar;
+        }
+
         var diagonal = mesh.UsedBounds.Diagonal;
         if ((settings.Noise ?? DamagedModel.EstimateNoise(mesh, cancellation)) is { } noise)
         {
@@ -52,10 +57,13 @@ public static class DamagedSearch
     }
 
     private static (MeshGrammar? Grammar, double Part) Find(
-        Mesh mesh, double noise, DamagedSearchSettings settings, CancellationToken cancellation)
+        Mesh mesh, double noise, DamagedSearchSettings settings, CancellationToken cancellation) =>
+        Find(mesh, DamagedModel.Create(mesh, noise, cancellation), settings, cancellation);
+
+    private static (MeshGrammar? Grammar, double Part) Find(
+        Mesh mesh, DamagedModel model, DamagedSearchSettings settings, CancellationToken cancellation)
     {
-        var model = DamagedModel.Create(mesh, noise, cancellation);
-        if (!model.IsExact && model.Elements.Count > 1
+        if ((!model.IsExact || model.IsDecimated) && model.Elements.Count > 1
             && ElementGrammar.Find(new NoisyElements(model), cancellation) is { } grammar)
         {
             var refined = new Refinement(model, cancellation).Refine(Hypothesis.Of(grammar));
