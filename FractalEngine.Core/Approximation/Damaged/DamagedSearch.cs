@@ -5,7 +5,8 @@ using FractalEngine.Core.Geometry;
 namespace FractalEngine.Core.Approximation.Damaged;
 
 /// <summary>
-/// Finds what made a mesh that is damaged: with noise, without some of its elements, or with elements that don't belong to it.
+/// Finds what made a mesh that is damaged: with noise, without some of its elements, with elements that don't belong to it, or
+/// decimated.
 /// </summary>
 public static class DamagedSearch
 {
@@ -16,7 +17,7 @@ public static class DamagedSearch
     private const double SmallPart = 0.1;
 
     /// <summary>Finds the grammar whose expansion explains most elements, or null if none explains more than it costs.</summary>
-    /// <param name="mesh">The mesh; its elements must be connected as those of the undamaged one are.</param>
+    /// <param name="mesh">The mesh; its elements are connected as those of the undamaged one, or share many vertices with each other.</param>
     /// <param name="settings">Noise, seed and effort.</param>
     /// <param name="cancellation">Ends the search early.</param>
     /// <remarks>The same mesh and settings give the same grammar. Cost O(elements² · symmetries) maps, within the budget.</remarks>
@@ -30,9 +31,10 @@ public static class DamagedSearch
             return remeshed;
         }
 
-        if (settings.Noise is null && DamagedModel.CreateOfDecimated(mesh, cancellation) is { } decimated)
+        if (settings.Noise is null && DamagedModel.CreateOfDecimated(mesh, cancellation) is { } decimated
+            && Find(mesh, decimated, settings, cancellation).Grammar is { } grammar)
         {
-            return Find(mesh, decimated, settings, cancellation).Grammar;
+            return grammar;
         }
 
         var diagonal = mesh.UsedBounds.Diagonal;

@@ -14,7 +14,7 @@ internal sealed class DamagedModel
     private const double MaxNoiseOfSize = 0.1;
 
     // That part of decimated elements are connected in ways of their own.
-    private const double MinUnlike = 0.1;
+    private const double MinUnlike = 0.2;
 
     private const double NearTolerance = 3e-3;
 

@@ -24,7 +24,7 @@ internal sealed class SharedVertices
     private const double MaxVolumeRatio = 2;
 
     // Elements are looked for at so many pairs of faces, those first that most elements have.
-    private const int MaxFrames = 150;
+    private const int MaxFrames = 300;
 
     // Of so many vertices one is shared, or hardly any is.
     private const int MinTested = 24;
@@ -118,11 +118,12 @@ internal sealed class SharedVertices
     public List<AffineMap> FindSymmetries(double part)
     {
         var least = Math.Max(MinElements, SolidPart * _elementCount);
-        var solid = Enumerable.Range(0, _points.Count).Where(index => _counts[index] >= least).Select(index => _points[index]).ToArray();
+        var solid = _points.Where((_, index) => _counts[index] >= least).ToArray();
+        var needed = (int)(part * solid.Length);
         List<AffineMap> symmetries = [AffineMap.Identity];
         foreach (var map in MapsOf(_first).Where(_ => solid.Length > MinShared))
         {
-            if (CountShared(map, solid, (int)(part * solid.Length)) > 0)
+            if (CountShared(map, solid, needed) > 0)
             {
                 AddNew(Fit(map, solid));
             }
@@ -137,12 +138,12 @@ internal sealed class SharedVertices
             }
         }
 
-        return symmetries;
+        // A map that is no symmetry makes more and more others.
+        return symmetries.Count < MaxSymmetries ? symmetries : [AffineMap.Identity];
 
         void AddNew(AffineMap map)
         {
-            if (symmetries.Count < MaxSymmetries && CountShared(map, solid, (int)(part * solid.Length)) > 0
-                && !symmetries.Exists(known => _first.Shape.Points.All(
+            if (symmetries.Count < MaxSymmetries && !symmetries.Exists(known => _first.Shape.Points.All(
                     point => ((map * point) - (known * point)).Length() < SameMap * _first.Shape.Size)))
             {
                 symmetries.Add(map);
