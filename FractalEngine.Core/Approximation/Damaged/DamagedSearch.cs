@@ -17,7 +17,7 @@ public static class DamagedSearch
     private const double SmallPart = 0.1;
 
     /// <summary>Finds the grammar whose expansion explains most elements, or null if none explains more than it costs.</summary>
-    /// <param name="mesh">The mesh; its elements are connected as those of the undamaged one, or share many vertices with each other.</param>
+    /// <param name="mesh">The mesh; its elements are connected as the undamaged ones, or share many vertices with each other.</param>
     /// <param name="settings">Noise, seed and effort.</param>
     /// <param name="cancellation">Ends the search early.</param>
     /// <remarks>The same mesh and settings give the same grammar. Cost O(elements² · symmetries) maps, within the budget.</remarks>

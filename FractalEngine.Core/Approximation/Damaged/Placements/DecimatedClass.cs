@@ -10,6 +10,10 @@ internal sealed record DecimatedClass(
     DecimatedElement First, List<(DecimatedElement Element, AffineMap Map)> Members, SharedVertices Shared)
 {
     private const int Rounds = 2;
+    private const int FirstShared = 10;
+
+    // Where so many elements are like no other one, the others hardly are.
+    private const int MaxAlone = 20;
 
     // That part of the vertices lies on vertices after a symmetry.
     private const double SymmetricPart = 0.8;
@@ -22,16 +26,20 @@ internal sealed record DecimatedClass(
     {
         var classes = new List<DecimatedClass>();
         var left = elements.OrderByDescending(element => element.Shape.Points.Length).ToList();
-        while (left.Count > 1)
+        var alone = 0;
+        while (left.Count > 1 && alone < MaxAlone)
         {
             var found = new DecimatedClass(left[0], [(left[0], AffineMap.Identity)], new(left[0]));
             left.RemoveAt(0);
             // What more vertices prove comes first, so that it may tell vertices that prove others.
-            for (var needed = 10; needed >= SharedVertices.MinShared;)
+            var needed = FirstShared;
+            while (needed >= SharedVertices.MinShared)
             {
-                needed -= left.RemoveAll(element => found.TryAdd(element, needed, cancellation)) == 0 ? 1 : 0;
+                needed -= left.RemoveAll(
+                    element => found.TryAdd(element, found.Shared, needed, isRevised: false, cancellation)) == 0 ? 1 : 0;
             }
 
+            alone += found.Members.Count == 1 ? 1 : 0;
             if (found.Members.Count > 1)
             {
                 classes.Add(found.Revise(cancellation));
@@ -50,13 +58,7 @@ internal sealed record DecimatedClass(
             var next = new DecimatedClass(First, [(First, AffineMap.Identity)], new(First));
             foreach (var (element, _) in revised.Members.Skip(1))
             {
-                cancellation.ThrowIfCancellationRequested();
-                var (map, shared) = revised.Shared.Match(element, isWeighted: true);
-                if (shared >= SharedVertices.MinShared)
-                {
-                    next.Members.Add((element, map));
-                    next.Shared.Add(element, map);
-                }
+                next.TryAdd(element, revised.Shared, SharedVertices.MinShared, isRevised: true, cancellation);
             }
 
             revised = next;
@@ -65,17 +67,16 @@ internal sealed record DecimatedClass(
         return revised;
     }
 
-    private bool TryAdd(DecimatedElement element, int needed, CancellationToken cancellation)
+    private bool TryAdd(DecimatedElement element, SharedVertices known, int needed, bool isRevised, CancellationToken cancellation)
     {
         cancellation.ThrowIfCancellationRequested();
-        var (map, shared) = Shared.Match(element, isWeighted: false);
-        if (shared < needed)
+        var (map, shared) = known.Match(element, isRevised);
+        if (shared >= needed)
         {
-            return false;
+            Members.Add((element, map));
+            Shared.Add(element, map);
         }
 
-        Members.Add((element, map));
-        Shared.Add(element, map);
-        return true;
+        return shared >= needed;
     }
 }

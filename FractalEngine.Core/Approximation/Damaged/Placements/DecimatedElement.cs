@@ -14,22 +14,7 @@ internal sealed class DecimatedElement
     {
         (Shape, Corners) = (element.Shape, element.Corners);
         Volume = Math.Sqrt(1 / Shape.Inverse.Determinant());
-        var opposites = new Dictionary<(int, int), List<int>>();
-        for (var corner = 0; corner < Corners.Length; corner++)
-        {
-            var face = corner - (corner % 3);
-            var (a, b) = (Corners[corner], Corners[face + ((corner + 1) % 3)]);
-            var edge = (Math.Min(a, b), Math.Max(a, b));
-            if (!opposites.TryGetValue(edge, out var vertices))
-            {
-                opposites.Add(edge, vertices = []);
-            }
-
-            vertices.Add(Corners[face + ((corner + 2) % 3)]);
-        }
-
-        Frames = [.. opposites.Where(pair => pair.Value.Count == 2)
-            .Select(pair => (pair.Key.Item1, pair.Key.Item2, pair.Value[0], pair.Value[1])).Where(frame => VolumeOf(frame) > MinVolume * Volume)];
+        Frames = [.. new ElementTopology(Corners, Shape.Points.Length).PairsOfFaces().Where(frame => VolumeOf(frame) > MinVolume * Volume)];
     }
 
     /// <summary>Its vertices.</summary>

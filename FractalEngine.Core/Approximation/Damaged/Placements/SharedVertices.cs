@@ -203,26 +203,15 @@ internal sealed class SharedVertices
     /// <summary>The map that takes points nearest to the vertices that a known one takes them to.</summary>
     private AffineMap Fit(AffineMap known, Vector[] points)
     {
-        var pairs = points.Select(point => (From: point, To: Find(known * point))).Where(pair => pair.To >= 0).ToArray();
-        var (from, to) = (Vector.Zero, Vector.Zero);
-        foreach (var pair in pairs)
+        var fit = new MapFit(_first.Shape.Centroid);
+        foreach (var image in points.Select(point => known * point))
         {
-            (from, to) = (from + (pair.From / pairs.Length), to + (_points[pair.To] / pairs.Length));
+            if (Find(image) is var index && index >= 0)
+            {
+                fit.Add(new(default, image), new(default, _points[index]), false, 1);
+            }
         }
 
-        var (products, squares) = (default(Matrix), default(Matrix));
-        foreach (var pair in pairs)
-        {
-            products += Matrix.Outer(_points[pair.To] - to, pair.From - from);
-            squares += Matrix.Outer(pair.From - from, pair.From - from);
-        }
-
-        if (squares.Determinant() == 0)
-        {
-            return known;
-        }
-
-        var linear = products * squares.Inverse();
-        return new(linear, to - (linear * from));
+        return fit.Solve(AffineMap.Identity) * known;
     }
 }
