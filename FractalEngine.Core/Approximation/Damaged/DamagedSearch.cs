@@ -66,7 +66,9 @@ public static class DamagedSearch
         Mesh mesh, DamagedModel model, DamagedSearchSettings settings, CancellationToken cancellation)
     {
         if ((!model.IsExact || model.IsDecimated) && model.Elements.Count > 1
-            && ElementGrammar.Find(new NoisyElements(model), cancellation) is { } grammar)
+            && ElementGrammar.Find(new NoisyElements(model), cancellation) is { } grammar
+            // Where elements are missing, as some decimated ones are, calls make a list of those that are there.
+            && (!model.IsDecimated || grammar.Tree is null or { IsFull: true }))
         {
             var refined = new Refinement(model, cancellation).Refine(Hypothesis.Of(grammar));
             if (refined.ExplainsMost(mesh.FaceCount))
