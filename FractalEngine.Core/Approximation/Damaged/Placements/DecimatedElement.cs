@@ -17,7 +17,7 @@ internal sealed class DecimatedElement
         Frames = [.. new ElementTopology(Corners, Shape.Points.Length).PairsOfFaces().Where(frame => VolumeOf(frame) > MinVolume * Volume)];
     }
 
-    /// <summary>Its vertices.</summary>
+    /// <summary>The vertices of the element.</summary>
     public ElementShape Shape { get; }
 
     /// <summary>Indices of vertices, [faces × 3].</summary>
