@@ -1,5 +1,6 @@
 using System.Diagnostics;
 using FractalEngine.Benchmarks.Approximation.Unseen;
+using FractalEngine.Core.Approximation.Grammars;
 using FractalEngine.Parsing.Approximation;
 
 namespace FractalEngine.Benchmarks.Approximation;
@@ -43,8 +44,9 @@ internal sealed record SearchOutcome(
 
         var grammar = result.Grammar;
         var (maps, faces) = (grammar.MapCount, grammar.FaceCount);
-        var grade = damage.Kind is DamageKind.SplitEdges or DamageKind.Decimated
-            ? Grader.CompareSurfaces(result.Made, input, damage.Tolerance(input))
+        var grade = damage.Kind == DamageKind.SplitEdges ? Grader.CompareSurfaces(result.Made, input, damage.Tolerance(input))
+            // No base is as the undamaged one: maps are judged alone.
+            : damage.Kind == DamageKind.Decimated ? GradeMaps(grammar, input)
             : Grader.Compare(
                 result.Made, input, damage == Damage.None ? ExactTolerance * input.Clean.Bounds.Diagonal : damage.Tolerance(input));
 
@@ -56,6 +58,13 @@ internal sealed record SearchOutcome(
         return new(grade.IsFound && isSmall, !grade.IsFound, seconds, maps, faces, input.Mesh.FaceCount,
             $"{verdict} {result.Verdict} {steps} tree {grammar.Tree?.Maps.Count}^{grammar.Tree?.Depth}, {faces} faces, "
             + $"in {input.Description}");
+    }
+
+    private static Grade GradeMaps(MeshGrammar grammar, UnseenInput input)
+    {
+        var diagonal = input.Clean.Bounds.Diagonal;
+        var made = WrittenGrammar.Create(UndamagedBase.Put(grammar, input), diagonal, long.MaxValue).Mesh;
+        return Grader.CompareSurfaces(made, input, UndamagedBase.MapTolerance * diagonal);
     }
 
     /// <summary>One line for the log of the measurement.</summary>

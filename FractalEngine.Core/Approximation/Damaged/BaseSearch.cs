@@ -14,6 +14,8 @@ internal sealed class BaseSearch(DamagedModel model, PlacementIndex set, int see
     // How many elements of one description a base has at most.
     private const int MaxBases = 6;
 
+    private const double MinImages = 0.3;
+
     private readonly bool[] _isExplained = new bool[set.Count];
 
     /// <summary>Returns the description with its bases, and what it explains.</summary>
@@ -23,7 +25,14 @@ internal sealed class BaseSearch(DamagedModel model, PlacementIndex set, int see
         var bases = new List<(int Class, AffineMap Placement)>();
         while (bases.Count < MaxBases && FindNext(words) is { } found)
         {
-            foreach (var image in ImagesOf(found, words))
+            var images = ImagesOf(found, words);
+            // Decimated elements that were placed wrong are where other bases are.
+            if (model.IsDecimated && bases.Count > 0 && images.Count < MinImages * words.Count)
+            {
+                break;
+            }
+
+            foreach (var image in images)
             {
                 _isExplained[image] = true;
             }

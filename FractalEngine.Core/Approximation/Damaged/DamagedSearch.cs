@@ -5,7 +5,8 @@ using FractalEngine.Core.Geometry;
 namespace FractalEngine.Core.Approximation.Damaged;
 
 /// <summary>
-/// Finds what made a mesh that is damaged: with noise, without some of its elements, or with elements that don't belong to it.
+/// Finds what made a mesh that is damaged: with noise, without some of its elements, with elements that don't belong to it, or
+/// decimated.
 /// </summary>
 public static class DamagedSearch
 {
@@ -19,7 +20,7 @@ public static class DamagedSearch
     private const double TightTolerance = 0.02;
 
     /// <summary>Finds the grammar whose expansion explains most elements, or null if none explains more than it costs.</summary>
-    /// <param name="mesh">The mesh; its elements must be connected as those of the undamaged one are.</param>
+    /// <param name="mesh">The mesh; its elements are connected as the undamaged ones, or share many vertices with each other.</param>
     /// <param name="settings">Noise, seed and effort.</param>
     /// <param name="cancellation">Ends the search early.</param>
     /// <remarks>The same mesh and settings give the same grammar. Cost O(elements² · symmetries) maps, within the budget.</remarks>
@@ -31,6 +32,12 @@ public static class DamagedSearch
         if (remeshed?.ExplainsMost(mesh.FaceCount) == true)
         {
             return remeshed;
+        }
+
+        if (settings.Noise is null && DamagedModel.CreateOfDecimated(mesh, cancellation) is { } decimated
+            && Find(mesh, decimated, settings, cancellation).Grammar is { } grammar)
+        {
+            return grammar;
         }
 
         var diagonal = mesh.UsedBounds.Diagonal;
@@ -55,12 +62,18 @@ public static class DamagedSearch
     }
 
     private static (MeshGrammar? Grammar, double Part) Find(
-        Mesh mesh, double noise, DamagedSearchSettings settings, CancellationToken cancellation)
+        Mesh mesh, double noise, DamagedSearchSettings settings, CancellationToken cancellation) =>
+        Find(mesh, DamagedModel.Create(mesh, noise, cancellation), settings, cancellation);
+
+    private static (MeshGrammar? Grammar, double Part) Find(
+        Mesh mesh, DamagedModel model, DamagedSearchSettings settings, CancellationToken cancellation)
     {
-        var model = DamagedModel.Create(mesh, noise, cancellation);
-        foreach (var tolerance in noise == 0 || model.Elements.Count < 2 ? [] : new[] { TightTolerance, model.Tolerance })
+        double[] tolerances = model.IsDecimated ? [model.Tolerance] : model.IsNoisy ? [TightTolerance, model.Tolerance] : [];
+        foreach (var tolerance in tolerances)
         {
             if (ElementGrammar.Find(new NoisyElements(model, tolerance, cancellation), cancellation) is { } grammar
+                // Where elements are missing, as some decimated ones are, calls make a list of those that are there.
+                && (!model.IsDecimated || grammar.Tree is null or { IsFull: true })
                 && new Refinement(model, cancellation).Refine(Hypothesis.Of(grammar, model.Diagonal)) is var refined
                 && refined.ExplainsMost(mesh.FaceCount))
             {

@@ -186,7 +186,9 @@ internal sealed class Refinement(DamagedModel model, CancellationToken cancellat
 
         return new(positions.ToImmutable(), corners.ToImmutable());
 
-        Vector[] VerticesOf((PlacedElement Element, int Symmetry) element) => Array.ConvertAll(
-            model.Templates[element.Element.Class].Symmetries[element.Symmetry].Order, vertex => element.Element.Points[vertex]);
+        Vector[] VerticesOf((PlacedElement Element, int Symmetry) element) => model.IsDecimated
+            ? [.. model.Templates[element.Element.Class].Vertices.Select(vertex => PlacementOf(element) * vertex)]
+            : Array.ConvertAll(
+                model.Templates[element.Element.Class].Symmetries[element.Symmetry].Order, vertex => element.Element.Points[vertex]);
     }
 }

@@ -13,6 +13,9 @@ internal sealed class DamagedModel
     // Within this part of their size elements of unknown noise count as images of a template.
     private const double MaxNoiseOfSize = 0.1;
 
+    // That part of decimated elements are connected in ways of their own.
+    private const double MinUnlike = 0.2;
+
     private const double NearTolerance = 3e-3;
 
     // Files with seven digits have about so much noise, in diagonals.
@@ -31,6 +34,12 @@ internal sealed class DamagedModel
 
     /// <summary>Whether there is no more noise than the digits of files explain.</summary>
     public bool IsExact { get; }
+
+    /// <summary>Whether elements are placed by vertices that they share, and have fewer of these than what they are images of.</summary>
+    public bool IsDecimated { get; private init; }
+
+    /// <summary>Whether there are several elements, and noise that exact searches don't allow for.</summary>
+    public bool IsNoisy => Noise > MinNoise * Diagonal && Elements.Count > 1;
 
     /// <summary>How far an element that belongs to a hypothesis may be off, in units of its size.</summary>
     public double Tolerance => IsExact ? 1e-3 : 0.12;
@@ -67,10 +76,34 @@ internal sealed class DamagedModel
             }
         }
 
-        model.Elements.Sort((first, second) =>
-            PlacedElement.SizeOf(second.Placement).CompareTo(PlacedElement.SizeOf(first.Placement)) is var order && order != 0 ? order
-            : first.Placement.Translation.X.CompareTo(second.Placement.Translation.X));
+        model.SortBySize();
         return model;
+    }
+
+    /// <summary>Sorts elements by vertices that they share, if most of them are connected like no other one; else returns null.</summary>
+    public static DamagedModel? CreateOfDecimated(Mesh mesh, CancellationToken cancellation)
+    {
+        var groups = Groups(mesh).ToList();
+        if (groups.Sum(group => group.Count) is var count && (count == 0 || groups.Count(group => group.Count == 1) < MinUnlike * count))
+        {
+            return null;
+        }
+
+        var model = new DamagedModel(mesh, 0) { IsDecimated = true };
+        var elements = groups.SelectMany(group => group).Select(pair => pair.Element).Where(element => !element.Shape.IsFlat);
+        foreach (var found in DecimatedClass.Find([.. elements.Select(element => new DecimatedElement(element))], cancellation))
+        {
+            var template = new ElementTemplate(found.First, found.Symmetries, out var frame);
+            foreach (var (_, map) in found.Members)
+            {
+                model.Elements.Add(new(model.Templates.Count, map.Inverse() * frame, []));
+            }
+
+            model.Templates.Add(template);
+        }
+
+        model.SortBySize();
+        return model.Elements.Count > 1 ? model : null;
     }
 
     /// <summary>
@@ -118,6 +151,10 @@ internal sealed class DamagedModel
         ElementFinder.Find(mesh, weldPositions: false)
             .Select(element => (Element: element, Topology: new ElementTopology(element.Corners, element.Shape.Points.Length)))
             .GroupBy(pair => pair.Topology.Key).Select(group => group.OrderByDescending(pair => pair.Element.Shape.Size).ToList());
+
+    private void SortBySize() => Elements.Sort((first, second) =>
+        PlacedElement.SizeOf(second.Placement).CompareTo(PlacedElement.SizeOf(first.Placement)) is var order && order != 0 ? order
+        : first.Placement.Translation.X.CompareTo(second.Placement.Translation.X));
 
     private void Sort(Element element, ElementTopology topology, List<int> classes)
     {

@@ -48,6 +48,28 @@ internal sealed class ElementTemplate
         Symmetries = [.. symmetries.OrderBy(symmetry => symmetry.Error)];
     }
 
+    /// <summary>Makes a template of a decimated element, whose vertices don't tell the symmetries of what it is an image of.</summary>
+    /// <param name="first">The element.</param>
+    /// <param name="symmetries">Maps of what it is an image of to itself, scene units: a group.</param>
+    /// <param name="frame">The map that takes the template to the element.</param>
+    public ElementTemplate(DecimatedElement first, List<AffineMap> symmetries, out AffineMap frame)
+    {
+        Corners = first.Corners;
+        _topology = new(Corners, first.Shape.Points.Length);
+        var (centre, covariance) = (Vector.Zero, default(Matrix));
+        foreach (var map in symmetries)
+        {
+            centre += map * first.Shape.Centroid / symmetries.Count;
+            covariance += map.Linear * first.Shape.Inverse.Inverse() * map.Linear.Transpose() / symmetries.Count;
+        }
+
+        frame = new(FrameOf(covariance), centre);
+        var back = frame.Inverse();
+        _vertices = Array.ConvertAll(first.Shape.Points, point => back * point);
+        var linear = frame.Linear;
+        Symmetries = [.. symmetries.Select(map => (back.Linear * map.Linear * linear, Array.Empty<int>(), 0.0))];
+    }
+
     /// <summary>Indices of vertices, [faces × 3].</summary>
     public int[] Corners { get; }
 
@@ -121,6 +143,11 @@ internal sealed class ElementTemplate
             return new((a * u) + (uv / a * v), c * v, Math.Sqrt(a * c) * w);
         }
 
+        return FrameOf(covariance);
+    }
+
+    private static Matrix FrameOf(Matrix covariance)
+    {
         var x = Math.Sqrt(covariance.V1.X);
         var (y, z) = (covariance.V1.Y / x, covariance.V1.Z / x);
         var yy = Math.Sqrt(covariance.V2.Y - (y * y));

@@ -33,6 +33,11 @@ internal sealed class ElementTopology
         (_degrees.Length, _corners.Length / 3, _facesAt.Keys.Sum(edge => (long)_degrees[edge.Item1] * _degrees[edge.Item2])
             + (1_000_003L * _degrees.Sum(degree => (long)degree * degree)));
 
+    /// <summary>Lists the vertices of each two faces that meet at an edge: those of the edge, and then the others.</summary>
+    public IEnumerable<(int A, int B, int C, int D)> PairsOfFaces() => _facesAt.Where(pair => pair.Value.Count == 2).Select(pair =>
+        (pair.Key.Item1, pair.Key.Item2, OppositeOf(pair.Value[0], pair.Key.Item1, pair.Key.Item2),
+        OppositeOf(pair.Value[1], pair.Key.Item1, pair.Key.Item2)));
+
     /// <summary>Returns for each way in which faces correspond the vertices of the other element, [vertices].</summary>
     public List<int[]> FindCorrespondences(ElementTopology other)
     {
