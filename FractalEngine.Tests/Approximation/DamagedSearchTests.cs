@@ -23,6 +23,11 @@ public sealed class DamagedSearchTests : IDisposable
         { "TreeWithIdentity", 105, 8 },
         { "SkewedTree", 3, 3 },
         { "Leaves", 2, 3 },
+        { "Chain", 3, 5 },
+        { "Ring", 0, 5 },
+        { "EqualMaps", 3, 4 },
+        { "Tile", 3, 5 },
+        { "Leaves", 4, 4 },
     };
 
     [Theory]

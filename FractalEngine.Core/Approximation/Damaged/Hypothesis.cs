@@ -57,10 +57,13 @@ internal sealed record Hypothesis(
         }
 
         // The identity is any of the powers of its row.
-        var before = Enumerable.Range(0, row.Count).FirstOrDefault(power => row.Others.Exists(map => IsIdentity(row.Map.Power(power) * map)));
+        var before = Enumerable.Range(0, row.Count).FirstOrDefault(
+            power => row.Others.Exists(map => IsIdentity(row.Map.Power(power) * map)));
         var others = row.Others.ConvertAll(map => row.Map.Power(before) * map);
-        var powers = Enumerable.Range(-before, row.Count).Where(power => power != 0).Select(row.Map.Power).Prepend(AffineMap.Identity).ToList();
-        return others.RemoveAll(IsIdentity) == 1 ? Split([AffineMap.Identity, .. others], length).Prepend(powers) : [maps];
+        var powers = Enumerable.Range(-before, row.Count).Where(power => power != 0).Select(row.Map.Power);
+        return others.RemoveAll(IsIdentity) == 1
+            ? Split([AffineMap.Identity, .. others], length).Prepend([AffineMap.Identity, .. powers])
+            : [maps];
 
         bool IsIdentity(AffineMap map) => MapRows.AreNear(map, AffineMap.Identity, RowTolerance, length);
     }

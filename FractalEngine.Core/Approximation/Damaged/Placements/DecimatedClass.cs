@@ -12,8 +12,9 @@ internal sealed record DecimatedClass(
     private const int Rounds = 2;
     private const int FirstShared = 10;
 
-    // Where so many elements are like no other one, the others hardly are.
-    private const int MaxAlone = 20;
+    // Where so many elements are like none of so many others, the others hardly are: to compare all takes long.
+    private const int MaxAlone = 8;
+    private const int MaxTried = 30;
 
     // That part of the vertices lies on vertices after a symmetry.
     private const double SymmetricPart = 0.8;
@@ -29,8 +30,15 @@ internal sealed record DecimatedClass(
         var alone = 0;
         while (left.Count > 1 && alone < MaxAlone)
         {
+            cancellation.ThrowIfCancellationRequested();
             var found = new DecimatedClass(left[0], [(left[0], AffineMap.Identity)], new(left[0]));
             left.RemoveAt(0);
+            if (!left.Take(MaxTried).Any(element => found.Shared.Match(element, isWeighted: false).Shared >= SharedVertices.MinShared))
+            {
+                alone++;
+                continue;
+            }
+
             // What more vertices prove comes first, so that it may tell vertices that prove others.
             var needed = FirstShared;
             while (needed >= SharedVertices.MinShared)
@@ -39,11 +47,7 @@ internal sealed record DecimatedClass(
                     element => found.TryAdd(element, found.Shared, needed, isRevised: false, cancellation)) == 0 ? 1 : 0;
             }
 
-            alone += found.Members.Count == 1 ? 1 : 0;
-            if (found.Members.Count > 1)
-            {
-                classes.Add(found.Revise(cancellation));
-            }
+            classes.Add(found.Revise(cancellation));
         }
 
         return classes;

@@ -22,7 +22,7 @@ internal sealed class MapGrowth(DamagedModel model, PlacementIndex set)
         return [.. order.Where((_, rank) => rank < MaxNeighbours || rank % step == 0)];
     }
 
-    /// <summary>Returns the map that is fitted to all elements that it takes to elements, or null where these are too few at first.</summary>
+    /// <summary>Returns the map that is fitted to all elements that it takes to elements, or null where at first these are few.</summary>
     /// <param name="map">The map as it is known from one element.</param>
     /// <param name="order">The neighbours of that element.</param>
     public AffineMap? Extend(AffineMap map, int[] order)

@@ -3,7 +3,9 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Approximation.Damaged.Placements;
 
-/// <summary>The elements of a damaged mesh as the set that exact searches work on: maps are fitted to many elements, and then exact enough.</summary>
+/// <summary>
+/// The elements of a damaged mesh as the set that exact searches work on: maps are fitted to many elements, and then exact enough.
+/// </summary>
 internal sealed class NoisyElements : ElementSet
 {
     private const double MaxRelativeTolerance = 0.05;
