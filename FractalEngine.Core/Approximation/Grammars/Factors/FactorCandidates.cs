@@ -34,7 +34,7 @@ internal sealed class FactorCandidates(ElementGroup group, int reference)
         var parts = group.Set.Elements[reference].Shape.IsFlat && group.Members.Length <= MaxFlat
             ? OutOfPlane.PartsOf(group.Set, reference, neighbours)
             : [];
-        var needed = group.Members.Length > 2 * NeighbourCount ? 3 : 0;
+        var needed = group.Members.Length > 2 * NeighbourCount ? 2 : 0;
         var candidates = new List<AffineMap>();
         foreach (var member in group.Members)
         {
