@@ -28,13 +28,14 @@ internal sealed class FactorCandidates(ElementGroup group, int reference)
         (map.Linear - Matrix.Identity).MaxAbsEntry() + (map.Linear.Determinant() < 0 ? 10 : 0);
 
     /// <summary>Lists the maps of the reference that take some of its neighbours to elements, too.</summary>
-    public List<AffineMap> List()
+    /// <param name="minHits">How many of them, where there are many elements.</param>
+    public List<AffineMap> List(int minHits)
     {
         var neighbours = NeighboursOf(reference);
         var parts = group.Set.Elements[reference].Shape.IsFlat && group.Members.Length <= MaxFlat
             ? OutOfPlane.PartsOf(group.Set, reference, neighbours)
             : [];
-        var needed = group.Members.Length > 2 * NeighbourCount ? 2 : 0;
+        var needed = group.Members.Length > 2 * NeighbourCount ? minHits : 0;
         var candidates = new List<AffineMap>();
         foreach (var member in group.Members)
         {

@@ -15,6 +15,9 @@ namespace FractalEngine.Core.Approximation.Grammars.Factors;
 internal sealed class FactorSearch
 {
     private const int SampleSize = 192;
+
+    // So many neighbours of an element that a map takes to elements are hardly chance; where cells are small, fewer must do.
+    private const int MinHits = 3;
     private const int MaxSymmetries = 48;
     private const int MaxListed = 256;
     private const int MaxLookUps = 4_000_000;
@@ -41,10 +44,13 @@ internal sealed class FactorSearch
     }
 
     /// <summary>Finds the factor of fewest maps, or null.</summary>
-    public static MapFactor? Find(ElementSet set, int[] members, int reference, CancellationToken cancellation)
+    public static MapFactor? Find(ElementSet set, int[] members, int reference, CancellationToken cancellation) =>
+        Find(set, members, reference, MinHits, cancellation) ?? Find(set, members, reference, MinHits - 1, cancellation);
+
+    private static MapFactor? Find(ElementSet set, int[] members, int reference, int minHits, CancellationToken cancellation)
     {
         var group = new ElementGroup(set, members);
-        var all = new FactorCandidates(group, reference).List();
+        var all = new FactorCandidates(group, reference).List(minHits);
         var translations = all.FindAll(set.IsTranslation);
         var search = new FactorSearch(group, reference, translations, cancellation);
         // Where cells are translated and turned, translations are enough to find the first cell.
