@@ -16,6 +16,10 @@ public sealed class MeshApproximator
     // Vertices and surfaces within this part of the diagonal count as the same.
     private const double ExactTolerance = 1e-6;
 
+    // To show that two faces are the same takes about one division.
+    private const int MinDivisions = 500_000;
+    private const int DivisionsPerFace = 4;
+
     // What leaves more of the faces is a list of what the mesh consists of.
     private const double MaxShareLeft = 0.75;
 
@@ -133,7 +137,11 @@ public sealed class MeshApproximator
         }
 
         // Below half of the tolerance there is nothing to distinguish.
-        var settings = new SurfaceDistanceSettings { Resolution = 0.5 * ExactTolerance };
+        var settings = new SurfaceDistanceSettings
+        {
+            Resolution = 0.5 * ExactTolerance,
+            MaxDivisions = Math.Max(MinDivisions, DivisionsPerFace * _mesh.FaceCount),
+        };
         var distance = SurfaceDistance.Between(_mesh, written.Mesh, settings, _cancellation);
         return distance.MaxDistance.Upper > ExactTolerance * _length
             ? null

@@ -9,7 +9,7 @@ namespace FractalEngine.Core.Approximation.Grammars.Factors;
 internal sealed class FactorCandidates(ElementGroup group, int reference)
 {
     private const int NeighbourCount = 12;
-    private const int MaxFlat = 6000;
+    private const int MaxFlat = 60_000;
 
     /// <summary>Chooses the element that maps start from: of the most frequent class the largest, and outermost in one direction.</summary>
     public static int ChooseReference(ElementSet set, int[] members)
