@@ -9,7 +9,7 @@ namespace FractalEngine.Core.Approximation.Grammars.Factors;
 internal sealed class FactorCandidates(ElementGroup group, int reference)
 {
     private const int NeighbourCount = 12;
-    private const int MaxFlat = 60_000;
+    private const int MaxFlat = 20_000;
 
     /// <summary>Chooses the element that maps start from: of the most frequent class the largest, and outermost in one direction.</summary>
     public static int ChooseReference(ElementSet set, int[] members)
@@ -29,7 +29,8 @@ internal sealed class FactorCandidates(ElementGroup group, int reference)
 
     /// <summary>Lists the maps of the reference that take some of its neighbours to elements, too.</summary>
     /// <param name="minHits">How many of them, where there are many elements.</param>
-    public List<AffineMap> List(int minHits)
+    /// <param name="cancellation">Ends the work early.</param>
+    public List<AffineMap> List(int minHits, CancellationToken cancellation)
     {
         var neighbours = NeighboursOf(reference);
         var parts = group.Set.Elements[reference].Shape.IsFlat && group.Members.Length <= MaxFlat
@@ -39,6 +40,7 @@ internal sealed class FactorCandidates(ElementGroup group, int reference)
         var candidates = new List<AffineMap>();
         foreach (var member in group.Members)
         {
+            cancellation.ThrowIfCancellationRequested();
             if (group.Set.Elements[member].Class != group.Set.Elements[reference].Class || member == reference)
             {
                 continue;

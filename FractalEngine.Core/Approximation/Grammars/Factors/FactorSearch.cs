@@ -50,7 +50,7 @@ internal sealed class FactorSearch
     private static MapFactor? Find(ElementSet set, int[] members, int reference, int minHits, CancellationToken cancellation)
     {
         var group = new ElementGroup(set, members);
-        var all = new FactorCandidates(group, reference).List(minHits);
+        var all = new FactorCandidates(group, reference).List(minHits, cancellation);
         var translations = all.FindAll(set.IsTranslation);
         var search = new FactorSearch(group, reference, translations, cancellation);
         // Where cells are translated and turned, translations are enough to find the first cell.
