@@ -1,3 +1,4 @@
+using System.Runtime.CompilerServices;
 
 namespace FractalEngine.Core.Bvh;
 
@@ -22,10 +23,18 @@ internal readonly record struct BvhChild
     public int NodeIndex => _code;
 
     /// <summary>Place of the leaf's first triangle among the triangles of all leaves; meaningless for a node.</summary>
-    public int FirstTriangle => (int)((uint)~_code / BvhLayout.MaxLeafTriangles);
+    public int FirstTriangle
+    {
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        get => (int)((uint)~_code / BvhLayout.MaxLeafTriangles);
+    }
 
     /// <summary>Number of triangles in the leaf, from 1 to 8; meaningless for a node.</summary>
-    public int TriangleCount => (int)((uint)~_code % BvhLayout.MaxLeafTriangles) + 1;
+    public int TriangleCount
+    {
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        get => (int)((uint)~_code % BvhLayout.MaxLeafTriangles) + 1;
+    }
 
     /// <summary>Creates a reference to a node.</summary>
     public static BvhChild ForNode(int nodeIndex) => new(nodeIndex);

@@ -62,6 +62,7 @@ internal static class ChildStack
         }
     }
 
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     private static Vector256<int> FartherMask(Vector256<int> keys, Vector256<int> order) =>
         Vector256.GreaterThan(Vector256.Shuffle(keys, order), keys);
 
@@ -83,6 +84,7 @@ internal static class ChildStack
         }
     }
 
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     private static ulong Entry(uint key, uint child) => ((ulong)key << 32) | child;
 
     /// <summary>Places, keys and children of eight lanes.</summary>

@@ -144,6 +144,7 @@ internal static class TriangleFrames
         return length;
     }
 
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     private static double LengthSquared(Vector256<double> v) => Vector256.Dot(v, v);
 
     /// <summary>Writes the frame of a triangle without altitude: its longest edge is left of it, or one point.</summary>
@@ -166,6 +167,7 @@ internal static class TriangleFrames
         return length;
     }
 
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     private static Vector256<float> Row(ref float leaf, nint row, nint count) =>
         Vector256.LoadUnsafe(ref Unsafe.Add(ref leaf, row * count));
 }

@@ -16,9 +16,9 @@ public sealed class MeshApproximator
     // Vertices and surfaces within this part of the diagonal count as the same.
     private const double ExactTolerance = 1e-6;
 
-    // To show that two faces are the same takes about one division.
+    // To show that two faces are the same takes about one division, of some 300 bytes: more would take more than there is.
     private const int MinDivisions = 500_000;
-    private const int DivisionsPerFace = 4;
+    private const int MaxDivisions = 4_000_000;
 
     // What leaves more of the faces is a list of what the mesh consists of.
     private const double MaxShareLeft = 0.75;
@@ -140,7 +140,7 @@ public sealed class MeshApproximator
         var settings = new SurfaceDistanceSettings
         {
             Resolution = 0.5 * ExactTolerance,
-            MaxDivisions = Math.Max(MinDivisions, DivisionsPerFace * _mesh.FaceCount),
+            MaxDivisions = Math.Clamp(2 * _mesh.FaceCount, MinDivisions, MaxDivisions),
         };
         var distance = SurfaceDistance.Between(_mesh, written.Mesh, settings, _cancellation);
         return distance.MaxDistance.Upper > ExactTolerance * _length

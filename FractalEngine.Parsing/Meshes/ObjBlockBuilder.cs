@@ -135,6 +135,7 @@ internal class ObjBlockBuilder
     }
 
     /// <summary>Makes an array large enough.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     private protected static void Reserve<T>(ref T[] array, int length)
     {
         if (array.Length < length)

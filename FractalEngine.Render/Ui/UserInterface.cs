@@ -18,36 +18,53 @@ namespace FractalEngine.Render.Ui;
 /// Widgets are known by their labels, within the panel or <see cref="Scope"/> that they stand in. The interface takes only input over
 /// its own panels, and keys only for the widget that has the keyboard.
 /// </remarks>
-/// <param name="build">Adds all widgets.</param>
-/// <param name="readClipboard">Returns the text of the clipboard; null for none.</param>
-/// <param name="writeClipboard">Replaces the text of the clipboard; null for none.</param>
-public sealed class UserInterface(
-    Action<UserInterface> build, Func<string>? readClipboard = null, Action<string>? writeClipboard = null)
+public sealed class UserInterface
 {
     // Builds after an event until nothing changes any more: a widget may act on what stands before it.
     private const int MaxBuilds = 4;
 
-    private readonly Action<UserInterface> _build = build ?? throw new ArgumentNullException(nameof(build));
+    private readonly Action<UserInterface> _build;
     private readonly UiInput _input = new();
     private readonly UiPainter _painter = new();
+    private readonly UiAreas _areas;
+    private readonly UiLayout _layout;
+    private readonly UiFocus _focus;
+    private readonly UiTargets _targets;
+    private readonly UiTooltip _tooltip;
+    private readonly UiWidgets _widgets;
+    private readonly UiTextField _textField;
+    private readonly UiSlider _slider;
+    private readonly UiMarks _marks;
+    private readonly UiMenus _menus;
+    private readonly UiPanelBody _panelBody;
+    private readonly UiPanels _panels;
+    private readonly UiDialogs _dialogs;
+    private readonly UiEvents _events;
 
-    // Each part is made of those before it.
-    private UiAreas Areas => field ??= new(_painter);
-    private UiLayout Layout => field ??= new(_painter);
-    private UiFocus Focus => field ??= new(_input);
-    private UiTargets Targets => field ??= new(_input, _painter, Focus);
-    private UiTooltip TooltipWidget => field ??= new(_input, _painter, Targets, Areas);
-    private UiWidgets Widgets => field ??= new(_input, _painter, Layout, Targets, TooltipWidget);
-    private UiTextField TextFieldWidget => field ??= new(
-        _input, _painter, Layout, Targets, Focus, readClipboard ?? (static () => ""), writeClipboard ?? (static _ => { }));
-    private UiSlider SliderWidget => field ??= new(
-        _input, _painter, Layout, Targets, Focus, TooltipWidget, TextFieldWidget, text => ReadNumber(text));
-    private UiMarks Marks => field ??= new(_input, _painter, Targets);
-    private UiMenus Menus => field ??= new(_input, _painter, Layout, Targets, Focus, Areas);
-    private UiPanelBody PanelBody => field ??= new(_input, _painter, Layout, Targets, Focus);
-    private UiPanels PanelColumns => field ??= new(_input, _painter, Targets, Areas, Widgets, PanelBody);
-    private UiDialogs Dialogs => field ??= new(_input, _painter, Layout, Targets, Focus, Menus, Widgets, PanelBody);
-    private UiEvents Events => field ??= new(_input, Targets, Focus, Menus, Dialogs, Rebuild);
+    /// <summary>Makes an interface that is empty until it is built.</summary>
+    /// <param name="build">Adds all widgets.</param>
+    /// <param name="readClipboard">Returns the text of the clipboard; null for none.</param>
+    /// <param name="writeClipboard">Replaces the text of the clipboard; null for none.</param>
+    public UserInterface(Action<UserInterface> build, Func<string>? readClipboard = null, Action<string>? writeClipboard = null)
+    {
+        ArgumentNullException.ThrowIfNull(build);
+        _build = build;
+        _areas = new(_painter);
+        _layout = new(_painter);
+        _focus = new(_input);
+        _targets = new(_input, _painter, _focus);
+        _tooltip = new(_input, _painter, _targets, _areas);
+        _widgets = new(_input, _painter, _layout, _targets, _tooltip);
+        _textField = new(
+            _input, _painter, _layout, _targets, _focus, readClipboard ?? (static () => ""), writeClipboard ?? (static _ => { }));
+        _slider = new(_input, _painter, _layout, _targets, _focus, _tooltip, _textField, text => ReadNumber(text));
+        _marks = new(_input, _painter, _targets);
+        _menus = new(_input, _painter, _layout, _targets, _focus, _areas);
+        _panelBody = new(_input, _painter, _layout, _targets, _focus);
+        _panels = new(_input, _painter, _targets, _areas, _widgets, _panelBody);
+        _dialogs = new(_input, _painter, _layout, _targets, _focus, _menus, _widgets, _panelBody);
+        _events = new(_input, _targets, _focus, _menus, _dialogs, Rebuild);
+    }
 
     /// <summary>Reads the finite number that was typed on a slider; null for a text that is none, which then changes nothing.</summary>
     public Func<string, double?> ReadNumber { get; set; } = static text =>
@@ -70,33 +87,33 @@ public sealed class UserInterface(
     public int Version { get; private set; }
 
     /// <summary>Changes with each press, key and typed text: all changes within one drag have the same number.</summary>
-    public int Interaction => Events.Interaction;
+    public int Interaction => _events.Interaction;
 
     /// <summary>The part of the frame that no menu bar and no docked panel covers.</summary>
-    public UiRect FreeArea => Areas.Free;
+    public UiRect FreeArea => _areas.Free;
 
     /// <summary>
     /// What <see cref="FreeArea"/> is once all panels are added, for what is added before them so that it stays behind.
     /// </summary>
-    public UiRect SceneArea => Areas.Scene;
+    public UiRect SceneArea => _areas.Scene;
 
     /// <summary>
     /// The part of the frame in whose middle a scene is seen: between the columns of panels that are not folded, or all of it where these
     /// leave too little.
     /// </summary>
-    public UiRect ViewArea => Areas.View;
+    public UiRect ViewArea => _areas.View;
 
     /// <summary>The part of the frame for texts over it: the free one where that is wide enough, else all below the menu bar.</summary>
-    internal UiRect OverlayArea => Areas.Overlay;
+    internal UiRect OverlayArea => _areas.Overlay;
 
     /// <summary>True while a widget has the keyboard.</summary>
-    public bool HasFocus => Focus.Widget != 0;
+    public bool HasFocus => _focus.Widget != 0;
 
     /// <summary>True while a menu or a dialog is open.</summary>
-    public bool IsModal => Dialogs.IsModal;
+    public bool IsModal => _dialogs.IsModal;
 
     /// <summary>Whether a widget is being explained, in front of all texts.</summary>
-    internal bool HasTooltip => TooltipWidget.IsShown;
+    internal bool HasTooltip => _tooltip.IsShown;
 
     /// <summary>Rectangles and glyphs in drawing order.</summary>
     internal List<OverlayQuad> Quads { get; private set; } = [];
@@ -118,16 +135,16 @@ public sealed class UserInterface(
 
     /// <summary>Processes an event of the window.</summary>
     /// <returns>True when the event belongs to the interface, and the scene must not see it.</returns>
-    public bool Handle(WindowEvent windowEvent) => Events.Handle(windowEvent);
+    public bool Handle(WindowEvent windowEvent) => _events.Handle(windowEvent);
 
     /// <summary>Adds widgets whose labels are known only within this scope.</summary>
     /// <param name="name">Name or number of the scope.</param>
     /// <param name="build">Adds the widgets.</param>
-    public void Scope(object name, Action build) => Targets.Scope(name, build);
+    public void Scope(object name, Action build) => _targets.Scope(name, build);
 
     /// <summary>Divides the next row. Further rows are divided likewise, until the next call.</summary>
     /// <param name="widths">Width of each column: its number of characters, or its share of what is left where it is 1 or less.</param>
-    public void Row(params ReadOnlySpan<double> widths) => Layout.Row(widths);
+    public void Row(params ReadOnlySpan<double> widths) => _layout.Row(widths);
 
     /// <summary>Adds as many rows as a list has entries, of which only those in view are built.</summary>
     /// <param name="count">Number of entries, each of one row.</param>
@@ -135,59 +152,59 @@ public sealed class UserInterface(
     public void Rows(int count, Action<int> build)
     {
         ArgumentNullException.ThrowIfNull(build);
-        Layout.Rows(count, i => Scope(i, () => build(i)));
+        _layout.Rows(count, i => Scope(i, () => build(i)));
     }
 
     /// <summary>Adds a text. What does not fit is shown while the pointer is over it.</summary>
-    public void Label(string text, bool isDim = false) => Widgets.Label(text, isDim ? Theme.DimText : Theme.Text);
+    public void Label(string text, bool isDim = false) => _widgets.Label(text, isDim ? Theme.DimText : Theme.Text);
 
     /// <summary>Adds a text at the right edge of its place, as numbers stand.</summary>
-    public void Value(string text) => Widgets.Label(text, Theme.Text, align: 1);
+    public void Value(string text) => _widgets.Label(text, Theme.Text, align: 1);
 
     /// <summary>Adds the heading of what follows, in as many lines as it needs.</summary>
-    public void Heading(string text) => Widgets.Heading(text);
+    public void Heading(string text) => _widgets.Heading(text);
 
     /// <summary>Adds a text in as many lines as its place needs.</summary>
     /// <param name="text">Words that are wrapped at blanks.</param>
     /// <param name="isWarning">True for a text that the user should notice.</param>
     /// <param name="isDim">True for a text of less importance.</param>
     public void Paragraph(string text, bool isWarning = false, bool isDim = false) =>
-        Widgets.Paragraph(text, isWarning ? Theme.Warning : isDim ? Theme.DimText : Theme.Text);
+        _widgets.Paragraph(text, isWarning ? Theme.Warning : isDim ? Theme.DimText : Theme.Text);
 
     /// <summary>Adds a button that can be pressed.</summary>
     /// <param name="label">Text and identity of the button.</param>
     /// <param name="isEnabled">False for a button that can't be pressed now.</param>
     /// <returns>True when the button was pressed.</returns>
-    public bool Button(string label, bool isEnabled = true) => Widgets.Button(label, isEnabled);
+    public bool Button(string label, bool isEnabled = true) => _widgets.Button(label, isEnabled);
 
     /// <summary>Adds a check box with its label.</summary>
     /// <returns>True when the box was switched.</returns>
-    public bool CheckBox(string label, ref bool isChecked) => Widgets.CheckBox(label, ref isChecked);
+    public bool CheckBox(string label, ref bool isChecked) => _widgets.CheckBox(label, ref isChecked);
 
     /// <summary>Adds a row of a list.</summary>
     /// <param name="label">Text and identity of the row.</param>
     /// <param name="isSelected">Whether the row is the selected one.</param>
     /// <param name="depth">Depth in a tree, from 0.</param>
     /// <returns>True when the row was clicked.</returns>
-    public bool Selectable(string label, bool isSelected, int depth = 0) => Widgets.Selectable(label, isSelected, depth);
+    public bool Selectable(string label, bool isSelected, int depth = 0) => _widgets.Selectable(label, isSelected, depth);
 
     /// <summary>Adds a branch of a tree, which opens and closes.</summary>
     /// <returns>True while the branch is open, and what is below it should be added.</returns>
-    public bool Branch(string label, ref bool isOpen) => Widgets.Branch(label, ref isOpen);
+    public bool Branch(string label, ref bool isOpen) => _widgets.Branch(label, ref isOpen);
 
     /// <summary>Adds a bar that shows how far something is.</summary>
     /// <param name="fraction">Completed fraction, from 0 to 1.</param>
     /// <param name="label">Text over the bar.</param>
-    public void Progress(double fraction, string label) => Widgets.Progress(fraction, label);
+    public void Progress(double fraction, string label) => _widgets.Progress(fraction, label);
 
     /// <summary>Adds a graph of columns, the last value at the right edge.</summary>
     /// <param name="values">Values from the oldest to the latest.</param>
     /// <param name="maximum">Value of a column as high as the graph.</param>
     /// <param name="rows">Height of the graph in rows.</param>
-    public void Graph(IReadOnlyCollection<double> values, double maximum, int rows = 3) => Widgets.Graph(values, maximum, rows);
+    public void Graph(IReadOnlyCollection<double> values, double maximum, int rows = 3) => _widgets.Graph(values, maximum, rows);
 
     /// <summary>Adds a field of one colour.</summary>
-    public void Swatch(Colour colour) => Widgets.Swatch(colour);
+    public void Swatch(Colour colour) => _widgets.Swatch(colour);
 
     /// <summary>Adds a line of text that the user edits.</summary>
     /// <param name="label">Identity of the field; shown dim while the field is empty.</param>
@@ -203,7 +220,7 @@ public sealed class UserInterface(
     /// <param name="takesKeyboard">True to give the field the keyboard.</param>
     /// <returns>True when the text was changed.</returns>
     public bool TextField(string label, ref string text, out bool isCommitted, bool takesKeyboard = false) =>
-        TextFieldWidget.Add(label, ref text, out isCommitted, takesKeyboard);
+        _textField.Add(label, ref text, out isCommitted, takesKeyboard);
 
     /// <summary>
     /// Adds a number that is set by dragging, by the keys Left and Right, or typed: a click or Enter begins to type.
@@ -219,16 +236,16 @@ public sealed class UserInterface(
     /// </param>
     /// <returns>True when the number was changed.</returns>
     public bool Slider(string label, ref double value, double minimum, double maximum, double step = 0, bool isBounded = true) =>
-        SliderWidget.Add(label, ref value, minimum, maximum, step, isBounded);
+        _slider.Add(label, ref value, minimum, maximum, step, isBounded);
 
     /// <summary>Explains the last widget while the pointer is over it.</summary>
-    public void Tooltip(string text) => TooltipWidget.Explain(text);
+    public void Tooltip(string text) => _tooltip.Explain(text);
 
     /// <summary>Writes a text at a point of the frame, behind all panels. It takes no input.</summary>
     /// <param name="text">A few words or a number.</param>
     /// <param name="x">Pixels from the left edge of the frame to the middle of the text.</param>
     /// <param name="y">Pixels from the upper edge of the frame to the middle of the text.</param>
-    public void Mark(string text, double x, double y) => Marks.AddText(text, x, y);
+    public void Mark(string text, double x, double y) => _marks.AddText(text, x, y);
 
     /// <summary>Adds a round button anywhere in the frame, before what was added earlier.</summary>
     /// <param name="label">One or two characters, and the identity of the button.</param>
@@ -236,7 +253,7 @@ public sealed class UserInterface(
     /// <param name="y">Pixels from the upper edge of the frame to the middle.</param>
     /// <param name="colour">Ground of the button; dark, since the text is light.</param>
     /// <returns>True when the button was pressed.</returns>
-    public bool Knob(string label, double x, double y, Colour colour) => Marks.AddKnob(label, label, x, y, colour).IsActivated;
+    public bool Knob(string label, double x, double y, Colour colour) => _marks.AddKnob(label, label, x, y, colour).IsActivated;
 
     /// <summary>Adds a round handle anywhere in the frame, which is dragged.</summary>
     /// <param name="label">One or two characters.</param>
@@ -245,19 +262,19 @@ public sealed class UserInterface(
     /// <param name="y">Pixels from the upper edge of the frame to the middle.</param>
     /// <param name="colour">Ground of the handle; dark, since the text is light.</param>
     /// <remarks>The handle keeps the pointer until the button is released, wherever it is added meanwhile.</remarks>
-    public UiHandle Handle(string label, string name, double x, double y, Colour colour) => Marks.AddHandle(label, name, x, y, colour);
+    public UiHandle Handle(string label, string name, double x, double y, Colour colour) => _marks.AddHandle(label, name, x, y, colour);
 
     /// <summary>Adds the menu bar at the upper edge of the frame.</summary>
     /// <param name="build">Adds the menus.</param>
     /// <param name="note">Text at the right end of the bar.</param>
-    public void MenuBar(Action build, string note = "") => Menus.AddBar(build, note);
+    public void MenuBar(Action build, string note = "") => _menus.AddBar(build, note);
 
     /// <summary>Adds a menu to the menu bar.</summary>
     /// <param name="title">Title in the bar.</param>
     /// <param name="build">Adds the items while the menu is open.</param>
     /// <param name="columns">Width of an item in characters.</param>
     /// <param name="items">Number of items: what is too high for the frame has several columns.</param>
-    public void Menu(string title, Action build, int columns, int items = 1) => Menus.Add(title, build, columns, items);
+    public void Menu(string title, Action build, int columns, int items = 1) => _menus.Add(title, build, columns, items);
 
     /// <summary>Adds an item to the menu that is being built.</summary>
     /// <param name="label">Text and identity of the item.</param>
@@ -266,29 +283,29 @@ public sealed class UserInterface(
     /// <param name="isEnabled">False for an item that can't be chosen now.</param>
     /// <returns>True when the item was chosen. The menu closes then.</returns>
     public bool MenuItem(string label, string key = "", bool isOn = false, bool isEnabled = true) =>
-        Menus.AddItem(label, key, isOn, isEnabled);
+        _menus.AddItem(label, key, isOn, isEnabled);
 
     /// <summary>Opens a dialog, which <see cref="Dialog"/> adds from now on. It takes all input until it is closed.</summary>
-    public void OpenDialog(string title) => Dialogs.Open(title);
+    public void OpenDialog(string title) => _dialogs.Open(title);
 
     /// <summary>Closes the open dialog, if there is one.</summary>
-    public void CloseDialog() => Dialogs.Close();
+    public void CloseDialog() => _dialogs.Close();
 
     /// <summary>Adds a dialog in the middle of the frame, if it is the open one.</summary>
     /// <param name="title">Title by which it was opened.</param>
     /// <param name="head">Adds the widgets above the list; they never scroll.</param>
     /// <param name="panel">The list below, which scrolls.</param>
     /// <returns>True while the dialog is open.</returns>
-    public bool Dialog(string title, Action head, UiPanel panel) => Dialogs.Add(this, title, head, panel);
+    public bool Dialog(string title, Action head, UiPanel panel) => _dialogs.Add(this, title, head, panel);
 
     /// <summary>Adds panels: the docked ones in columns that share the height of the frame, the floating ones in front.</summary>
     /// <param name="panels">Panels in their order within a column; closed ones are left out.</param>
     /// <param name="bottomMargin">Rows of text that stay free at the lower edge of the frame.</param>
-    public void Panels(ImmutableArray<UiPanel> panels, int bottomMargin = 0) => PanelColumns.Add(this, panels, bottomMargin);
+    public void Panels(ImmutableArray<UiPanel> panels, int bottomMargin = 0) => _panels.Add(this, panels, bottomMargin);
 
     /// <summary>Scrolls the panel that is being built until the next rows are in view.</summary>
     /// <param name="rows">Number of rows, of which the first counts most.</param>
-    public void ScrollHere(int rows) => PanelBody.ScrollHere(rows);
+    public void ScrollHere(int rows) => _panelBody.ScrollHere(rows);
 
     private void Rebuild()
     {
@@ -296,19 +313,19 @@ public sealed class UserInterface(
         {
             _input.BuildsAgain = false;
             _painter.Clear();
-            Areas.Begin();
-            Focus.Begin();
-            Targets.Begin(Dialogs.Opened is not null);
-            TooltipWidget.Begin();
-            Menus.Begin();
-            Dialogs.Begin();
+            _areas.Begin();
+            _focus.Begin();
+            _targets.Begin(_dialogs.Opened is not null);
+            _tooltip.Begin();
+            _menus.Begin();
+            _dialogs.Begin();
             _build(this);
-            Dialogs.Finish();
-            Targets.Finish();
-            Focus.Finish();
-            Menus.Finish();
-            _input.BuildsAgain |= Areas.Finish();
-            TooltipWidget.Paint(IsModal);
+            _dialogs.Finish();
+            _targets.Finish();
+            _focus.Finish();
+            _menus.Finish();
+            _input.BuildsAgain |= _areas.Finish();
+            _tooltip.Paint(IsModal);
             _input.ClearEvents();
         }
 

@@ -7,17 +7,35 @@ using FractalEngine.Render.Ui;
 namespace FractalEngine.App.Window.Panels;
 
 /// <summary>Builds the menu bar, the panels and the list of keys of a window.</summary>
-/// <param name="actions">Runs what is chosen in menus; its layout gets the panels.</param>
-internal sealed class WindowInterface(WindowActions actions)
+internal sealed class WindowInterface
 {
     // Below this width at scale 1, two columns of panels leave no room for texts between them, which stand below them then.
     private const double MinWidthForTexts = 1000;
 
-    private readonly PanelLayout _panels = AddPanels(actions);
-    private readonly KeyList _keyList = new(actions);
-    private readonly AxisGizmo _gizmo = new(actions);
-    private readonly TransformHandles _handles = new(actions);
-    private readonly SectionHandle _sectionHandle = new(actions);
+    private readonly WindowActions _actions;
+    private readonly PanelLayout _panels;
+    private readonly KeyList _keyList;
+    private readonly AxisGizmo _gizmo;
+    private readonly TransformHandles _handles;
+    private readonly SectionHandle _sectionHandle;
+
+    /// <summary>Adds the panels to the layout of a window.</summary>
+    /// <param name="actions">Runs what is chosen in menus.</param>
+    public WindowInterface(WindowActions actions)
+    {
+        _actions = actions;
+        _panels = actions.Panels;
+        _keyList = new(actions);
+        _gizmo = new(actions);
+        _handles = new(actions);
+        _sectionHandle = new(actions);
+        _panels.Add("scene", new("Scene", OfDocument(new ScenePanel(actions).Build)) { Dock = UiDock.Left });
+        _panels.Add("fractal", new("Fractal", new FractalPanel(actions).Build) { Dock = UiDock.Left });
+        _panels.Add("view", new("View", new ViewPanel(actions).Build) { Dock = UiDock.Right });
+        _panels.Add("selection", new("Selection", OfDocument(new SelectionPanel(actions).Build)) { Dock = UiDock.Right });
+        _panels.Add("physics", new("Physics", OfDocument(new PhysicsPanel(actions).Build)) { Dock = UiDock.Right });
+        _panels.Add("statistics", new("Statistics", new StatisticsPanel(actions).Build) { Dock = UiDock.Right });
+    }
 
     /// <summary>Adds the menu bar, panels and handles while they are shown, and the list of keys.</summary>
     public void Build(UserInterface ui)
@@ -36,20 +54,9 @@ internal sealed class WindowInterface(WindowActions actions)
         _keyList.Build(ui);
     }
 
-    private static PanelLayout AddPanels(WindowActions actions)
+    private Action<UserInterface> OfDocument(Action<UserInterface, Document> build) => ui =>
     {
-        actions.Panels.Add("scene", new("Scene", OfDocument(actions, new ScenePanel(actions).Build)) { Dock = UiDock.Left });
-        actions.Panels.Add("fractal", new("Fractal", new FractalPanel(actions).Build) { Dock = UiDock.Left });
-        actions.Panels.Add("view", new("View", new ViewPanel(actions).Build) { Dock = UiDock.Right });
-        actions.Panels.Add("selection", new("Selection", OfDocument(actions, new SelectionPanel(actions).Build)) { Dock = UiDock.Right });
-        actions.Panels.Add("physics", new("Physics", OfDocument(actions, new PhysicsPanel(actions).Build)) { Dock = UiDock.Right });
-        actions.Panels.Add("statistics", new("Statistics", new StatisticsPanel(actions).Build) { Dock = UiDock.Right });
-        return actions.Panels;
-    }
-
-    private static Action<UserInterface> OfDocument(WindowActions actions, Action<UserInterface, Document> build) => ui =>
-    {
-        if (actions.Document is { } document)
+        if (_actions.Document is { } document)
         {
             build(ui, document);
             return;
@@ -61,7 +68,7 @@ internal sealed class WindowInterface(WindowActions actions)
     /// <summary>Writes the measured lengths beside their lines.</summary>
     private void MarkDimensions(UserInterface ui)
     {
-        if (actions.Document is not { LatestView: { } view } document)
+        if (_actions.Document is not { LatestView: { } view } document)
         {
             return;
         }
@@ -88,14 +95,14 @@ internal sealed class WindowInterface(WindowActions actions)
         }
     }
 
-    private void BuildItems(UserInterface ui, WindowAction[] items)
+    private void BuildItems(UserInterface ui, WindowAction[] actions)
     {
-        foreach (var action in items)
+        foreach (var action in actions)
         {
-            var isOn = action.IsOn?.Invoke(actions) == true;
-            if (ui.MenuItem(action.Name, _panels.Bindings.TextOf(action), isOn, action.IsAvailable(actions)))
+            var isOn = action.IsOn?.Invoke(_actions) == true;
+            if (ui.MenuItem(action.Name, _panels.Bindings.TextOf(action), isOn, action.IsAvailable(_actions)))
             {
-                actions.Choose(action);
+                _actions.Choose(action);
             }
 
             ui.Tooltip(action.PlainHelp);

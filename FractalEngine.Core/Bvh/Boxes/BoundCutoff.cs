@@ -1,3 +1,4 @@
+using System.Runtime.CompilerServices;
 
 namespace FractalEngine.Core.Bvh.Boxes;
 
@@ -26,5 +27,6 @@ internal readonly struct BoundCutoff(double factor, double summand)
 
     /// <summary>Computes the limit in the boxes' units: boxes with larger squared bounds contain no triangle that is closer.</summary>
     /// <param name="distanceSquared">Squared distance of the closest triangle so far, in the mesh's units.</param>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public double For(double distanceSquared) => (distanceSquared * factor) + summand;
 }

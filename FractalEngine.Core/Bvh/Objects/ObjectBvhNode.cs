@@ -102,6 +102,7 @@ internal sealed class ObjectBvhNode
         return Vector256.MaxNative(Vector256.MaxNative(Widen(minimum) - positions, positions - Widen(maximum)), Vector256<double>.Zero);
     }
 
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     private static Vector256<double> Widen(Vector128<float> values) => Vector256.WidenLower(values.ToVector256Unsafe());
 
     private void SetChild(int slot, object child)

@@ -17,7 +17,11 @@ internal readonly record struct SimdBoundingBox(Vector256<float> Extents)
     }
 
     /// <summary>The box that contains no point.</summary>
-    public static SimdBoundingBox Empty => new(Vector256.Create(float.PositiveInfinity));
+    public static SimdBoundingBox Empty
+    {
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        get => new(Vector256.Create(float.PositiveInfinity));
+    }
 
     /// <summary>The smallest coordinates: x, y, z and an unused lane.</summary>
     public Vector128<float> Minimum => Extents.GetLower();

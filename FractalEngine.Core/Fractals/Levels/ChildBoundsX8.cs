@@ -178,6 +178,7 @@ internal sealed class ChildBoundsX8(float[] rows, int groupCount, int rowCount, 
         }
     }
 
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     private static Vector256<float> Row(ref float rows, int row) => Vector256.LoadUnsafe(ref rows, (nuint)(row * LaneCount));
 
     private static bool HaveSimpleHull(ChildInstance[] children, HullBound? childHull) =>

@@ -6,13 +6,7 @@ using FractalEngine.Core.Physics.Rows;
 namespace FractalEngine.Core.Physics.Solving;
 
 /// <summary>A contact of two balls, or of a ball with a plane, while its island is solved in substeps.</summary>
-/// <param name="row">The contact, with the impulse of a substep to begin with.</param>
-/// <param name="second">Index of the second ball, or of the surface.</param>
-/// <param name="masses">Sums of both inverse masses, and of both inverse moments of inertia.</param>
-/// <param name="willBounce">True where they are still apart, and bounce in the next step.</param>
-/// <param name="impulseShare">Length of a substep, relative to the step.</param>
-internal struct BallContact(
-    in ContactRow row, int second, (double Mass, double Inertia, double Spin) masses, bool willBounce, double impulseShare)
+internal struct BallContact
 {
     /// <summary>The impulse along the normal is the fourth number beside that across it.</summary>
     public const int NormalLane = 3;
@@ -21,46 +15,74 @@ internal struct BallContact(
     private const double MinDistanceShare = 1e-9;
 
     /// <summary>Index of the first ball.</summary>
-    public readonly int First = row.First;
+    public readonly int First;
 
     /// <summary>Index of the second ball, or of the surface.</summary>
-    public readonly int Second = second;
+    public readonly int Second;
 
     /// <summary>True for two balls, whose normal turns as they move; false for a plane.</summary>
-    public readonly bool IsBall = row.IsBall;
+    public readonly bool IsBall;
 
     /// <summary>True where <see cref="ContactArms"/> belong to it.</summary>
-    public readonly bool HasArms = row.HasArms;
+    public readonly bool HasArms;
 
     /// <summary>Coulomb's coefficient of this pair.</summary>
-    public readonly double Friction = row.Friction;
+    public readonly double Friction;
 
     /// <summary>Radius of the first ball.</summary>
-    public readonly double FirstRadius = row.FirstRadius;
+    public readonly double FirstRadius;
 
     /// <summary>Radius of the second ball; 0 of a surface.</summary>
-    public readonly double SecondRadius = row.SecondRadius;
+    public readonly double SecondRadius;
 
     /// <summary>Vector between the centres, or from the surface's point, before either has moved.</summary>
-    public Vector256<double> Offset = SimdAffineMap.ToVector256(row.Offset);
+    public Vector256<double> Offset;
 
     /// <summary>Impulse across the normal in this substep, and along it in <see cref="NormalLane"/>.</summary>
-    public Vector256<double> Impulse = Vector256.Create(impulseShare)
-        * Vector256.Create(row.FrictionImpulse.X, row.FrictionImpulse.Y, row.FrictionImpulse.Z, row.NormalImpulse);
+    public Vector256<double> Impulse;
 
     /// <summary>Smallest allowed relative velocity along the normal, units per second.</summary>
     public double MinNormalVelocity;
 
-    /// <summary>True where the contact has friction against turning, see <see cref="TurnFriction"/>.</summary>
-    public readonly bool SlowsTurns = row.IsSlowedDown && masses.Inertia > 0;
+    private readonly bool _willBounce;
+    private readonly bool _slowsTurns;
+    private readonly double _minDistance;
+    private readonly double _normalMass;
+    private readonly double _frictionMass;
+    private Vector256<double> _normal;
 
-    private readonly double _minDistance = row.MinDistance;
-    private readonly double _normalMass = 1 / masses.Mass;
-    private readonly double _frictionMass = 1 / (masses.Mass + masses.Spin);
-    private Vector256<double> _normal = SimdAffineMap.ToVector256(row.Normal);
+    /// <summary>Creates a contact at the beginning of a step.</summary>
+    /// <param name="row">The contact, with the impulse of a substep to begin with.</param>
+    /// <param name="second">Index of the second ball, or of the surface.</param>
+    /// <param name="masses">Sums of both inverse masses, and of both inverse moments of inertia.</param>
+    /// <param name="willBounce">True where they are still apart, and bounce in the next step.</param>
+    /// <param name="impulseShare">Length of a substep, relative to the step.</param>
+    public BallContact(
+        in ContactRow row, int second, (double Mass, double Inertia, double Spin) masses, bool willBounce, double impulseShare)
+    {
+        First = row.First;
+        Second = second;
+        IsBall = row.IsBall;
+        HasArms = row.HasArms;
+        _willBounce = willBounce;
+        _slowsTurns = row.IsSlowedDown && masses.Inertia > 0;
+        Offset = SimdAffineMap.ToVector256(row.Offset);
+        _minDistance = row.MinDistance;
+        _normalMass = 1 / masses.Mass;
+        _frictionMass = 1 / (masses.Mass + masses.Spin);
+        Friction = row.Friction;
+        FirstRadius = row.FirstRadius;
+        SecondRadius = row.SecondRadius;
+        _normal = SimdAffineMap.ToVector256(row.Normal);
+        Impulse = Vector256.Create(impulseShare)
+            * Vector256.Create(row.FrictionImpulse.X, row.FrictionImpulse.Y, row.FrictionImpulse.Z, row.NormalImpulse);
+    }
 
     /// <summary>The radius against which overlaps are measured: that of the smaller ball.</summary>
     public readonly double SmallerRadius => IsBall && SecondRadius > 0 ? Math.Min(FirstRadius, SecondRadius) : FirstRadius;
+
+    /// <summary>True where the contact has friction against turning, see <see cref="TurnFriction"/>.</summary>
+    public readonly bool SlowsTurns => _slowsTurns;
 
     /// <summary>Unit normal towards the first ball.</summary>
     public readonly Vector256<double> Normal => _normal;
@@ -96,7 +118,7 @@ internal struct BallContact(
         var overlap = -gap - (slop * SmallerRadius);
         if (overlap > 0)
         {
-            var shift = Vector256.Create((willBounce ? 1 : share) * overlap * _normalMass) * _normal;
+            var shift = Vector256.Create((_willBounce ? 1 : share) * overlap * _normalMass) * _normal;
             first.Displacement += Vector256.Create(first.InverseMass) * shift;
             second.Displacement -= Vector256.Create(second.InverseMass) * shift;
         }
@@ -117,7 +139,7 @@ internal struct BallContact(
     public void Begin(double gap, double substep)
     {
         // What touches only at the end of the way has no impulse before it bounces, in the next step.
-        MinNormalVelocity = willBounce ? double.NegativeInfinity : -Math.Max(0, gap) / substep;
+        MinNormalVelocity = _willBounce ? double.NegativeInfinity : -Math.Max(0, gap) / substep;
         var across = Impulse.WithElement(NormalLane, 0);
         across -= Vector256.Create(Vector256.Dot(across, _normal)) * _normal;
         Impulse = across.WithElement(NormalLane, NormalImpulse);

@@ -74,6 +74,7 @@ internal readonly struct AffineFrame(Vector256<double> position, in SimdAffineMa
         _position, SimdAffineMap.Compose(in _map, child.SimdMap), SimdAffineMap.Compose(in child.InverseSimdMap, in _inverse));
 
     /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public bool CanRefine(
         SubFractal parent, SubFractal childSubFractal, bool isSmallBase, bool isUrgent, in FractalSearchState search) => !isUrgent;
 

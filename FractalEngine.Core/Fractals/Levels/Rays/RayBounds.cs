@@ -290,6 +290,7 @@ internal sealed class RayBounds
         return rows;
     }
 
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     private static Vector256<float> Row(ref float rows, int row) => Vector256.LoadUnsafe(ref rows, (nuint)(row * LaneCount));
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
