@@ -1,11 +1,13 @@
 using FractalEngine.Core.Maths;
+using FractalEngine.Render.Lights;
 
 namespace FractalEngine.Render.Tracing;
 
 /// <summary>How a surface reflects light: evenly scattered, and mirrored by small facets (GGX).</summary>
 /// <remarks>
 /// The facets after Walter and others, "Microfacet Models for Refraction through Rough Surfaces", EGSR 2007, with Schlick's Fresnel term;
-/// sampled by those that are visible, after E. Heitz, JCGT 2018.
+/// the rest is that of <see cref="SurfaceReflectance"/>. A normal for shading leans away from the face, and some directions would lead
+/// below it: they are mirrored by the face, so that no light is lost.
 /// </remarks>
 internal static class Reflection
 {
@@ -15,26 +17,28 @@ internal static class Reflection
     /// <param name="toLight">Unit direction.</param>
     public static Vector Evaluate(in TracedSurface surface, Vector toEye, Vector toLight)
     {
-        var cosine = Vector.Dot(surface.Normal, toLight);
-        if (!(cosine > 0) || !(Vector.Dot(surface.FaceNormal, toLight) > 0))
+        var height = Vector.Dot(surface.FaceNormal, toLight);
+        return height > 0
+            ? EvaluateLobe(in surface, toEye, toLight) + EvaluateLobe(in surface, toEye, toLight - (2 * height * surface.FaceNormal))
+            : Vector.Zero;
+    }
+
+    /// <summary>Computes how likely <see cref="TrySample"/> chooses a direction.</summary>
+    /// <param name="surface">The surface.</param>
+    /// <param name="toEye">Unit direction.</param>
+    /// <param name="toLight">Unit direction.</param>
+    /// <returns>The probability for each unit of solid angle.</returns>
+    public static double Density(in TracedSurface surface, Vector toEye, Vector toLight)
+    {
+        var height = Vector.Dot(surface.FaceNormal, toLight);
+        if (!(height > 0))
         {
-            return Vector.Zero;
+            return 0;
         }
 
-        var result = cosine * surface.Diffuse;
-        if (surface.IsGlossy)
-        {
-            var half = (toEye + toLight).UnitVector();
-            var cosineEye = Math.Max(Vector.Dot(surface.Normal, toEye), 1e-6);
-            var alphaSquared = surface.Roughness * surface.Roughness;
-            var cosineHalf = Vector.Dot(surface.Normal, half);
-            var d = (cosineHalf * cosineHalf * (alphaSquared - 1)) + 1;
-            var distribution = alphaSquared / (d * d);
-            var shadowing = Shadowing(cosineEye, alphaSquared) * Shadowing(cosine, alphaSquared);
-            result += distribution * shadowing / (4 * cosineEye) * Fresnel(surface.Specular, Vector.Dot(toLight, half));
-        }
-
-        return result;
+        var mirrored = MirroredPart(in surface, toEye);
+        return DensityOfLobe(in surface, toEye, toLight, mirrored)
+            + DensityOfLobe(in surface, toEye, toLight - (2 * height * surface.FaceNormal), mirrored);
     }
 
     /// <summary>Chooses the direction from which light is followed further.</summary>
@@ -48,65 +52,115 @@ internal static class Reflection
     public static bool TrySample(
         in TracedSurface surface, Vector toEye, ref SampleSequence samples, out Vector direction, out Vector weight, out double spread)
     {
-        var cosineEye = Math.Max(Vector.Dot(surface.Normal, toEye), 1e-6);
-        var mirrored = surface.IsGlossy ? Luminance(Fresnel(surface.Specular, cosineEye)) : 0;
-        var scattered = Luminance(surface.Diffuse);
-        var probability = mirrored + scattered > 0 ? mirrored / (mirrored + scattered) : 0;
-        var isMirrored = probability > 0 && samples.NextNumber() < probability;
+        var reflectance = surface.Reflectance;
+        var mirrored = MirroredPart(in surface, toEye);
+        var isMirrored = mirrored > 0 && samples.NextNumber() < mirrored;
         var point = samples.Next();
         var axes = AxesAround(surface.Normal);
         if (isMirrored)
         {
-            var alphaSquared = surface.Roughness * surface.Roughness;
-            var local = axes.Transpose() * toEye;
-            var half = axes * VisibleFacet(local, surface.Roughness, point);
+            var half = axes * FacetAlbedo.VisibleFacet(axes.Transpose() * toEye, reflectance.Roughness, point);
             direction = (2 * Vector.Dot(toEye, half) * half) - toEye;
-            var cosine = Vector.Dot(surface.Normal, direction);
-            weight = Shadowing(Math.Max(cosine, 1e-6), alphaSquared) / probability * Fresnel(surface.Specular, Vector.Dot(direction, half));
-            spread = surface.Roughness;
-            return cosine > 0 && Vector.Dot(surface.FaceNormal, direction) > 0;
+        }
+        else
+        {
+            var radius = Math.Sqrt(point.U);
+            var (sine, cosineAround) = Math.SinCos(2 * Math.PI * point.V);
+            direction = axes * new Vector(radius * cosineAround, radius * sine, Math.Sqrt(Math.Max(0, 1 - point.U)));
         }
 
-        var radius = Math.Sqrt(point.U);
-        var (sine, cosineAround) = Math.SinCos(2 * Math.PI * point.V);
-        direction = axes * new Vector(radius * cosineAround, radius * sine, Math.Sqrt(Math.Max(0, 1 - point.U)));
-        weight = surface.Diffuse / (1 - probability);
-        spread = 1;
-        // An interpolated normal leans away from the face, and some directions lead below it. Mirrored there, no light is lost.
+        spread = isMirrored ? reflectance.Roughness : 1;
+        // Scattered light alone has the same weight everywhere.
+        weight = reflectance.Diffuse;
+        var density = 1.0;
+        if (reflectance.IsGlossy)
+        {
+            density = Math.PI * DensityOfLobe(in surface, toEye, direction, mirrored);
+            weight = EvaluateLobe(in surface, toEye, direction) / Math.Max(density, double.Epsilon);
+        }
+
         var height = Vector.Dot(surface.FaceNormal, direction);
         direction -= height < 0 ? 2 * height * surface.FaceNormal : Vector.Zero;
-        return scattered > 0 && height != 0;
+        return weight != Vector.Zero && height != 0 && density > 0;
     }
 
     /// <summary>The brightness of a colour in linear light, by ITU-R BT.709.</summary>
     public static double Luminance(Vector colour) => (0.2126 * colour.X) + (0.7152 * colour.Y) + (0.0722 * colour.Z);
 
-    /// <summary>The part of facets that others don't hide, by Smith.</summary>
-    private static double Shadowing(double cosine, double alphaSquared) =>
-        2 * cosine / (cosine + Math.Sqrt(alphaSquared + ((1 - alphaSquared) * cosine * cosine)));
+    /// <summary>The same as <see cref="Evaluate"/>, of directions above the plane of the normal for shading alone.</summary>
+    private static Vector EvaluateLobe(in TracedSurface surface, Vector toEye, Vector toLight)
+    {
+        var cosine = Vector.Dot(surface.Normal, toLight);
+        var reflectance = surface.Reflectance;
+        if (!(cosine > 0))
+        {
+            return Vector.Zero;
+        }
+
+        if (!reflectance.IsGlossy)
+        {
+            return cosine * reflectance.Diffuse;
+        }
+
+        var half = (toEye + toLight).UnitVector();
+        var cosineEye = CosineEye(in surface, toEye);
+        var alphaSquared = reflectance.Roughness * reflectance.Roughness;
+        var shadowing = FacetAlbedo.Shadowing(cosineEye, alphaSquared) * FacetAlbedo.Shadowing(cosine, alphaSquared);
+        var mirrored = Distribution(Vector.Dot(surface.Normal, half), alphaSquared) * shadowing / (4 * cosineEye);
+        var eye = FacetAlbedo.At(cosineEye, reflectance.Roughness);
+        return (mirrored * Fresnel(reflectance.Specular, Vector.Dot(toLight, half)))
+            + (cosine * reflectance.Scattered(eye, FacetAlbedo.At(cosine, reflectance.Roughness)));
+    }
+
+    /// <summary>How likely the part of light is followed that facets mirror once.</summary>
+    private static double MirroredPart(in TracedSurface surface, Vector toEye)
+    {
+        if (!surface.Reflectance.IsGlossy)
+        {
+            return 0;
+        }
+
+        var mirrored = Luminance(surface.Reflectance.Albedo(
+            FacetAlbedo.At(CosineEye(in surface, toEye), surface.Reflectance.Roughness), out var scattered));
+        var sum = mirrored + Luminance(scattered);
+        return sum > 0 ? mirrored / sum : 0;
+    }
+
+    private static double DensityOfLobe(in TracedSurface surface, Vector toEye, Vector toLight, double mirroredPart)
+    {
+        var cosine = Vector.Dot(surface.Normal, toLight);
+        if (!(cosine > 0))
+        {
+            return 0;
+        }
+
+        var scattered = (1 - mirroredPart) * cosine / Math.PI;
+        if (mirroredPart == 0)
+        {
+            return scattered;
+        }
+
+        var cosineEye = CosineEye(in surface, toEye);
+        var alphaSquared = surface.Reflectance.Roughness * surface.Reflectance.Roughness;
+        var facets = Distribution(Vector.Dot(surface.Normal, (toEye + toLight).UnitVector()), alphaSquared) / Math.PI;
+        return scattered + (mirroredPart * facets * FacetAlbedo.Shadowing(cosineEye, alphaSquared) / (4 * cosineEye));
+    }
+
+    // A bent normal may nearly turn away from the eye.
+    private static double CosineEye(in TracedSurface surface, Vector toEye) => Math.Max(Vector.Dot(surface.Normal, toEye), 1e-6);
+
+    /// <summary>π times the density of facets (GGX).</summary>
+    private static double Distribution(double cosineHalf, double alphaSquared)
+    {
+        var d = (cosineHalf * cosineHalf * (alphaSquared - 1)) + 1;
+        return alphaSquared / (d * d);
+    }
 
     private static Vector Fresnel(Vector specular, double cosine)
     {
         var rest = Math.Clamp(1 - cosine, 0, 1);
         var power = rest * rest * (rest * rest) * rest;
         return specular + (power * (Vector.One - specular));
-    }
-
-    /// <summary>Samples the normal of a facet that is visible from a direction. Both in axes whose z is the normal.</summary>
-    private static Vector VisibleFacet(Vector toEye, double alpha, (double U, double V) point)
-    {
-        var stretched = new Vector(alpha * toEye.X, alpha * toEye.Y, toEye.Z).UnitVector();
-        var axes = AxesAround(stretched);
-        var radius = Math.Sqrt(point.U);
-        var angle = 2 * Math.PI * point.V;
-        var x = radius * Math.Cos(angle);
-        var share = 0.5 * (1 + stretched.Z);
-        var y = ((1 - share) * Math.Sqrt(Math.Max(0, 1 - (x * x)))) + (share * radius * Math.Sin(angle));
-        // The axes are those around the stretched direction: the second must lie in the plane of it and of the normal.
-        var first = stretched.Z < 0.9999 ? Vector.Cross(Vector.K, stretched).UnitVector() : axes.V1;
-        var second = Vector.Cross(stretched, first);
-        var normal = (x * first) + (y * second) + (Math.Sqrt(Math.Max(0, 1 - (x * x) - (y * y))) * stretched);
-        return new Vector(alpha * normal.X, alpha * normal.Y, Math.Max(1e-9, normal.Z)).UnitVector();
     }
 
     /// <summary>Chooses a unit direction of a cone, each as likely as another.</summary>

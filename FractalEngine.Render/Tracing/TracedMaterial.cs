@@ -1,6 +1,7 @@
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Render.Drawables;
+using FractalEngine.Render.Lights;
 using FractalEngine.Render.Preparation;
 
 namespace FractalEngine.Render.Tracing;
@@ -10,9 +11,6 @@ internal sealed class TracedMaterial
 {
     // What is not metal reflects about this part of light that falls straight onto it.
     private const double DielectricReflectance = 0.04;
-
-    // Smoother surfaces are as rough as this: a mirror's highlight of a point of light would never be hit.
-    private const double MinRoughness = 0.02;
 
     // As bright as the brightest light of a scene.
     private const double MaxEmission = 1e9;
@@ -79,7 +77,7 @@ internal sealed class TracedMaterial
                 ? DielectricReflectance * Vector.One
                 : Limit(new Vector(material.Specular.Red, material.Specular.Green, material.Specular.Blue), 1),
             // An exponent and a roughness with highlights of the same width (Walter and others, EGSR 2007).
-            Roughness = Math.Max(MinRoughness, isPhysical
+            Roughness = Math.Max(FacetAlbedo.MinRoughness, isPhysical
                 ? Math.Pow(Limit(material.Roughness ?? 1, 1), 2)
                 : Math.Sqrt(2 / (Math.Max(0, material.SpecularExponent) + 2))),
             Emission = Limit(new Vector(material.Emission.Red, material.Emission.Green, material.Emission.Blue), MaxEmission),
@@ -92,21 +90,9 @@ internal sealed class TracedMaterial
         };
     }
 
-    /// <summary>Divides light between what the surface scatters and what it mirrors.</summary>
+    /// <summary>Tells what a point of the surface does with light.</summary>
     /// <param name="colour">The point's colour in linear light, with texture and all else that multiplies it.</param>
-    /// <param name="specular">The part that is mirrored where light falls straight onto the surface.</param>
-    /// <returns>The part that is scattered.</returns>
-    public Vector Divide(Vector colour, out Vector specular)
-    {
-        specular = Specular;
-        if (Metalness == 0)
-        {
-            return colour.Stretch(Vector.One - specular);
-        }
-
-        specular = ((1 - Metalness) * specular) + (Metalness * colour);
-        return (1 - Metalness) * colour.Stretch(Vector.One - specular);
-    }
+    public SurfaceReflectance Reflect(Vector colour) => new(colour, Specular, Metalness, Roughness);
 
     private static Vector Limit(Vector colour, double max) => new(Limit(colour.X, max), Limit(colour.Y, max), Limit(colour.Z, max));
 

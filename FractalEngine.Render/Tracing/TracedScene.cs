@@ -215,8 +215,7 @@ internal sealed record TracedScene
             normal = SurfaceDetail.Apply(material, normal, map.Linear, corners, coordinates, u, v, direction);
         }
 
-        var diffuse = material.Divide(colour, out var specular);
-        return new(hit.Point, faceNormal, normal, diffuse, specular, material.Roughness, material.Emission, opacity);
+        return new(hit.Point, faceNormal, normal, material.Reflect(colour), material.Emission, opacity);
     }
 
     /// <summary>Brings an interpolated normal to the side that the ray comes from; the face's own where there is none.</summary>

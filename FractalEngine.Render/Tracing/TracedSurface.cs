@@ -1,4 +1,5 @@
 using FractalEngine.Core.Maths;
+using FractalEngine.Render.Lights;
 
 namespace FractalEngine.Render.Tracing;
 
@@ -6,14 +7,8 @@ namespace FractalEngine.Render.Tracing;
 /// <param name="Position">World space.</param>
 /// <param name="FaceNormal">The normal of the triangle.</param>
 /// <param name="Normal">For shading: interpolated, with bumps.</param>
-/// <param name="Diffuse">The part of light that is scattered, linear light.</param>
-/// <param name="Specular">The part of light that is mirrored where it falls straight onto the surface.</param>
-/// <param name="Roughness">α of the distribution of GGX.</param>
+/// <param name="Reflectance">What the surface does with light.</param>
 /// <param name="Emission">Radiance of the surface itself.</param>
 /// <param name="Opacity">From 0 to 1.</param>
 internal readonly record struct TracedSurface(
-    Vector Position, Vector FaceNormal, Vector Normal, Vector Diffuse, Vector Specular, double Roughness, Vector Emission, double Opacity)
-{
-    /// <summary>True where part of the light is mirrored.</summary>
-    public bool IsGlossy => Specular != Vector.Zero;
-}
+    Vector Position, Vector FaceNormal, Vector Normal, SurfaceReflectance Reflectance, Vector Emission, double Opacity);
