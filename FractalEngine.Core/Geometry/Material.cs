@@ -13,7 +13,7 @@ public sealed record Material(string Name)
     /// <summary><c>Ka</c>: the factor of ambient light, for each component of linear light.</summary>
     public Colour Ambient { get; init; } = Colour.White;
 
-    /// <summary><c>Ks</c>: the factor of specular highlights, for each component of linear light.</summary>
+    /// <summary><c>Ks</c>: the part of light that is mirrored where it falls straight onto the surface, for each component.</summary>
     public Colour Specular { get; init; } = Colour.Black;
 
     /// <summary><c>Ke</c>: the light that the surface emits, for each component of linear light; it may exceed 1.</summary>
@@ -37,10 +37,10 @@ public sealed record Material(string Name)
     /// <summary><c>norm</c>: a texture of normals in tangent space; null where there is none. It is shown in traced images only.</summary>
     public MaterialTexture? NormalTexture { get; init; }
 
-    /// <summary><c>Pr</c>: the roughness, from 0 (smooth) to 1; null where there is none. It is shown in traced images only.</summary>
+    /// <summary><c>Pr</c>: the roughness, from 0 (smooth) to 1; null where there is none.</summary>
     public double? Roughness { get; init; }
 
-    /// <summary><c>Pm</c>: the share of metal, from 0 to 1; null where there is none. It is shown in traced images only.</summary>
+    /// <summary><c>Pm</c>: the share of metal, from 0 to 1; null where there is none.</summary>
     public double? Metalness { get; init; }
 
     /// <summary>
@@ -51,8 +51,11 @@ public sealed record Material(string Name)
     /// <summary>Whether drawing the material needs texture coordinates.</summary>
     public bool IsTextured => Texture is not null || OpacityTexture is not null;
 
-    /// <summary>Whether the material has specular highlights.</summary>
-    public bool IsGlossy => Specular != Colour.Black;
+    /// <summary>Whether the material mirrors part of the light.</summary>
+    public bool IsGlossy => Specular != Colour.Black || IsPhysical;
+
+    /// <summary>Whether the material states its roughness or share of metal: then <c>Ks</c> and <c>Ns</c> have no meaning.</summary>
+    public bool IsPhysical => Roughness is not null || Metalness is not null;
 
     /// <summary>Replaces the texture by an even grey, for a texture whose image can't be loaded.</summary>
     public Material WithoutTexture() => this with

@@ -41,6 +41,7 @@ internal sealed class ObjectsPass(
     private DrawableScene _scene = scene;
     private DepthOrder _transparentOrder = DepthOrder.Of(scene, static model => model.HasTransparentBatches);
     private SphereBatch? _sphereBatch;
+    private GlossMaps? _glossMaps;
     private bool _hasSkyParts;
 
     /// <summary>Number of objects that the last frame drew with one face of their triangles culled.</summary>
@@ -83,6 +84,11 @@ internal sealed class ObjectsPass(
         }
 
         _shadowPass.Bind();
+        if (_scene.HasGloss)
+        {
+            (_glossMaps ??= new(context.Resources, _scene.Source.Scene)).Bind();
+        }
+
         _hasSkyParts = EffectiveCulling.HasSkyVisibility(settings);
         _meshPass.Begin(in frame, settings.Wireframe, FrameFeatures(settings), _shadowPass.DistantLights);
         DrawOpaque(in frame, settings);
@@ -104,7 +110,7 @@ internal sealed class ObjectsPass(
     }
 
     /// <inheritdoc/>
-    public void Dispose() => GlObject.DisposeAll(_objectBlocks, _skyPass, _shadowPass, _sphereBatch, _lightBlock, _meshPass);
+    public void Dispose() => GlObject.DisposeAll(_objectBlocks, _skyPass, _shadowPass, _sphereBatch, _glossMaps, _lightBlock, _meshPass);
 
     private MeshFeatures FrameFeatures(RenderSettings settings) =>
         (settings.Shading == Shading.PerPixel ? MeshFeatures.PerPixel : 0) | (_lightBlock.HasAtmosphere ? MeshFeatures.Atmosphere : 0)

@@ -56,12 +56,7 @@ internal sealed class DepthAtlas : GlObject
     public void Bind() => GL.BindFramebuffer(FramebufferTarget.Framebuffer, _framebuffer);
 
     /// <summary>Binds the texture to a texture unit other than the first.</summary>
-    public void BindTexture(int unit)
-    {
-        GL.ActiveTexture(TextureUnit.Texture0 + unit);
-        GL.BindTexture(TextureTarget.Texture2D, _texture);
-        GL.ActiveTexture(TextureUnit.Texture0);
-    }
+    public void BindTexture(int unit) => GlState.BindTexture(unit, _texture);
 
     /// <summary>Copies a rectangle to the same place of another atlas of the same size.</summary>
     public void CopyTo(DepthAtlas target, int left, int bottom, int right, int top)

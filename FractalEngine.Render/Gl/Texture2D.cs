@@ -16,6 +16,9 @@ internal abstract class Texture2D : GlObject
     /// <summary>Binds the texture to the first texture unit.</summary>
     public void Bind() => Resources.State.BindTexture(_name);
 
+    /// <summary>Binds the texture to a texture unit other than the first.</summary>
+    public void BindTo(int unit) => State.GlState.BindTexture(unit, _name);
+
     /// <summary>Binds the texture, uploads its first level, and sets its filters.</summary>
     /// <param name="internalFormat">Format in which the GPU stores the texture.</param>
     /// <param name="format">Components of the given pixels, one byte each.</param>

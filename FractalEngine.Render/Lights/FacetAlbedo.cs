@@ -50,9 +50,9 @@ internal readonly record struct FacetAlbedo(double Normal, double Grazing)
         return Mix(Means.Value[row], Means.Value[row + 1], part);
     }
 
-    /// <summary>The table for shaders: both numbers, by the root of the cosine, and rows by the root of the roughness.</summary>
+    /// <summary>The table for shaders: both numbers and a zero, by the root of the cosine, and rows by the root of the roughness.</summary>
     public static float[] ToTexels() =>
-        [.. Entries.Value.SelectMany(static entry => new[] { (float)entry.Normal, (float)entry.Grazing })];
+        [.. Entries.Value.SelectMany(static entry => (float[])[(float)entry.Normal, (float)entry.Grazing, 0])];
 
     /// <summary>The part of facets that others don't hide, by Smith.</summary>
     public static double Shadowing(double cosine, double alphaSquared) =>
@@ -75,6 +75,18 @@ internal readonly record struct FacetAlbedo(double Normal, double Grazing)
         var second = Vector.Cross(stretched, first);
         var normal = (x * first) + (y * second) + (Math.Sqrt(Math.Max(0, 1 - (x * x) - (y * y))) * stretched);
         return new Vector(alpha * normal.X, alpha * normal.Y, Math.Max(1e-9, normal.Z)).UnitVector();
+    }
+
+    /// <summary>Orthonormal axes whose third is a unit vector, after Duff and others, JCGT 2017.</summary>
+    public static Matrix AxesAround(Vector normal)
+    {
+        var sign = double.CopySign(1, normal.Z);
+        var a = -1 / (sign + normal.Z);
+        var b = normal.X * normal.Y * a;
+        return new(
+            new(1 + (sign * normal.X * normal.X * a), sign * b, -sign * normal.X),
+            new(b, sign + (normal.Y * normal.Y * a), -normal.Y),
+            normal);
     }
 
     // Even steps of √α: of what people call roughness.

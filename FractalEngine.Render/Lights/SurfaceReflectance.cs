@@ -1,3 +1,4 @@
+using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Render.Lights;
@@ -13,36 +14,68 @@ internal readonly record struct SurfaceReflectance
     // Of a surface that mirrors all nothing is left to be scattered: nothing over nothing.
     private const double MinRest = 1e-6;
 
+    // What is not metal reflects about this part of light that falls straight onto it.
+    private const double DielectricReflectance = 0.04;
+
+    private readonly FacetAlbedo _mean;
+
     /// <summary>Divides light between what is scattered and what is mirrored.</summary>
     /// <param name="colour">The point's colour in linear light, with texture and all else that multiplies it; at most 1.</param>
     /// <param name="coat">The part of light that the coat mirrors where it falls straight onto the surface; zero for none at all.</param>
     /// <param name="metalness">The share of metal, which mirrors in its colour, from 0 to 1.</param>
-    /// <param name="roughness">α of the distribution of GGX.</param>
+    /// <param name="roughness">α of the distribution of GGX, from <see cref="FacetAlbedo.MinRoughness"/> to 1.</param>
     public SurfaceReflectance(Vector colour, Vector coat, double metalness, double roughness)
     {
-        Diffuse = (1 - metalness) * colour;
         Coat = coat;
-        Specular = ((1 - metalness) * coat) + (metalness * colour);
+        Metalness = metalness;
         Roughness = roughness;
         IsGlossy = metalness > 0 || coat != Vector.Zero;
         if (IsGlossy)
         {
-            var mean = FacetAlbedo.MeanOf(roughness);
-            RestOfFacets = 1 - mean.White;
-            CoatOfSeveral = OfSeveralFacets(coat, mean);
-            SpecularOfSeveral = ((1 - metalness) * CoatOfSeveral) + (metalness * OfSeveralFacets(colour, mean));
-            RestOfCoat = Vector.Max(Through(mean), MinRest * Vector.One);
+            _mean = FacetAlbedo.MeanOf(roughness);
+            CoatOfSeveral = OfSeveralFacets(coat);
+            RestOfCoat = Vector.Max(Through(_mean), MinRest * Vector.One);
         }
+
+        this = WithColour(colour);
     }
 
+    /// <summary>Translates a material, white where its colour counts.</summary>
+    /// <remarks>
+    /// Numbers beyond their range are limited: a surface that sent back more light than it gets, or less than none, would have paths of
+    /// light without end.
+    /// </remarks>
+    /// <param name="material">As a file declares it; null for a matt surface.</param>
+    public static SurfaceReflectance Of(Material? material) => material is null ? new(Vector.One, Vector.Zero, 0, 1) : new(
+        Vector.One,
+        material.IsPhysical
+            ? DielectricReflectance * Vector.One
+            : new(Limit(material.Specular.Red), Limit(material.Specular.Green), Limit(material.Specular.Blue)),
+        Limit(material.Metalness ?? 0),
+        // An exponent and a roughness with highlights of the same width (Walter and others, EGSR 2007).
+        Math.Max(FacetAlbedo.MinRoughness, material.IsPhysical
+            ? Math.Pow(Limit(material.Roughness ?? 1), 2)
+            : Math.Sqrt(2 / (Math.Max(0, material.SpecularExponent) + 2))));
+
+    /// <summary>The same surface in another colour.</summary>
+    /// <param name="colour">The point's colour in linear light, with texture and all else that multiplies it; at most 1.</param>
+    public SurfaceReflectance WithColour(Vector colour) => this with
+    {
+        Diffuse = (1 - Metalness) * colour,
+        Specular = ((1 - Metalness) * Coat) + (Metalness * colour),
+        SpecularOfSeveral = Metalness > 0
+            ? ((1 - Metalness) * CoatOfSeveral) + (Metalness * OfSeveralFacets(colour))
+            : CoatOfSeveral,
+    };
+
     /// <summary>The part of light that is scattered, of what the coat lets through.</summary>
-    public Vector Diffuse { get; }
+    public Vector Diffuse { get; private init; }
 
     /// <summary>The part of light that the coat mirrors where it falls straight onto the surface.</summary>
     public Vector Coat { get; }
 
     /// <summary>The same of coat and metal together.</summary>
-    public Vector Specular { get; }
+    public Vector Specular { get; private init; }
 
     /// <summary>α of the distribution of GGX.</summary>
     public double Roughness { get; }
@@ -50,14 +83,17 @@ internal readonly record struct SurfaceReflectance
     /// <summary>Whether part of the light is mirrored.</summary>
     public bool IsGlossy { get; }
 
+    /// <summary>The share of metal, from 0 to 1.</summary>
+    public double Metalness { get; }
+
     /// <summary>The mean part of light that white facets don't send out after one reflection.</summary>
-    public double RestOfFacets { get; }
+    public double RestOfFacets => 1 - _mean.White;
 
     /// <summary>What the coat reflects of light that meets several facets.</summary>
     public Vector CoatOfSeveral { get; }
 
     /// <summary>The same of coat and metal together.</summary>
-    public Vector SpecularOfSeveral { get; }
+    public Vector SpecularOfSeveral { get; private init; }
 
     /// <summary>The mean part of light that comes through the coat.</summary>
     public Vector RestOfCoat { get; }
@@ -86,15 +122,19 @@ internal readonly record struct SurfaceReflectance
     private Vector Through(FacetAlbedo facets) =>
         Vector.One - ((facets.Normal * Coat) + (facets.Grazing * Vector.One) + ((1 - facets.White) * CoatOfSeveral));
 
-    private static Vector OfSeveralFacets(Vector specular, FacetAlbedo mean)
+    private Vector OfSeveralFacets(Vector specular)
     {
+        var white = _mean.White;
         return new(Component(specular.X), Component(specular.Y), Component(specular.Z));
 
         double Component(double f)
         {
             // The mean of Schlick's term over all angles.
             var facet = f + ((1 - f) / 21);
-            return facet * facet * mean.White / (1 - (facet * (1 - mean.White)));
+            return facet * facet * white / (1 - (facet * (1 - white)));
         }
     }
+
+    // 0 for what is no number, too.
+    private static double Limit(double number) => number > 0 ? Math.Min(number, 1) : 0;
 }

@@ -27,6 +27,7 @@ public sealed class DrawableScene
         _firstItems = FirstItems(source);
         Models = models;
         Objects = objects;
+        HasGloss = models.Any(static model => model.Batches.Any(static batch => batch.Material?.Material.IsGlossy == true));
         Notices = notices;
     }
 
@@ -44,6 +45,9 @@ public sealed class DrawableScene
 
     /// <summary>Textures of all materials, each once.</summary>
     public ImmutableArray<DrawableTexture> Textures { get; private init; } = [];
+
+    /// <summary>Whether any surface mirrors part of the light.</summary>
+    internal bool HasGloss { get; }
 
     /// <summary>Sentences for the user about whatever is not drawn in full.</summary>
     public ImmutableArray<string> Notices { get; }

@@ -61,13 +61,6 @@ vec3 incomingLight(Light light, vec3 surfacePosition, out vec3 toLight)
     return strength * light.colour.rgb;
 }
 
-// The highlight of J. Blinn, "Models of light reflection for computer synthesized pictures", 1977: by the angle between the normal and the
-// direction halfway between light and eye.
-float highlight(vec3 n, vec3 toLight, vec3 toEye, float exponent)
-{
-    return pow(max(dot(n, direction(toLight + toEye)), 0.0), exponent);
-}
-
 // The direction from a surface point towards the eye. The projection is orthographic where w does not depend on depth.
 vec3 towardsEye(vec3 surfacePosition, vec3 forward, vec4 depthScale)
 {

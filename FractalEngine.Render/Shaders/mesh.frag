@@ -16,6 +16,9 @@ in vec3 pixelPosition;
 #ifdef ATMOSPHERE
 #include "display.glsl"
 #endif
+#if defined(GLOSSY) && defined(PER_PIXEL)
+#include "gloss.glsl"
+#endif
 #ifdef SHADOWS
 #include "shadows.glsl"
 #endif
@@ -88,7 +91,12 @@ vec3 fillSection(vec3 position, out bool isCap)
 
 #ifdef PER_PIXEL
 // Adds what one light does. Its index is constant: see LightBlock.SymbolsOf.
-void addLight(int i, vec3 position, vec3 n, vec3 faceNormal, inout vec3 light, inout vec3 direct, inout vec3 highlights)
+#ifdef GLOSSY
+void addLight(
+    int i, vec3 position, vec3 n, vec3 faceNormal, Gloss gloss, vec3 toEye, inout vec3 light, inout vec3 direct, inout vec3 highlights)
+#else
+void addLight(int i, vec3 position, vec3 n, vec3 faceNormal, inout vec3 light, inout vec3 direct)
+#endif
 {
     vec3 toLight;
     vec3 incoming = incomingLight(lights[i], position, toLight);
@@ -102,18 +110,38 @@ void addLight(int i, vec3 position, vec3 n, vec3 faceNormal, inout vec3 light, i
         incoming *= lightThatArrives(i, position, faceNormal, toLight);
     }
 #endif
-    light += max(cosine, 0.0) * incoming;
 #ifdef GLOSSY
-    vec3 toEye = towardsEye(position, cameraAxes[2], depthScale);
-    highlights += max(sign(cosine), 0.0) * highlight(n, toLight, toEye, material[1].w) * incoming * material[1].rgb;
+    if (cosine > 0.0)
+    {
+        addGloss(gloss, n, toEye, toLight, cosine, incoming, light, highlights);
+    }
+#else
+    light += max(cosine, 0.0) * incoming;
 #endif
 }
 
-#define ADD_LIGHT(i) addLight(i, position, n, faceNormal, light, direct, highlights);
+#ifdef GLOSSY
+#define ADD_LIGHT(i) addLight(i, position, n, faceNormal, gloss, toEye, light, direct, highlights);
+#else
+#define ADD_LIGHT(i) addLight(i, position, n, faceNormal, light, direct);
+#endif
 #endif
 
 void main()
 {
+    float opacity = material[0].w;
+#ifdef TEXTURED
+    // A hole in the texture is a hole in the surface and has no highlight. Clear glass, by its opacity, keeps its highlight.
+    vec4 texel = texture(surfaceTexture, pixelTextureCoordinates);
+#ifdef CUT_OUT
+    if (texel.a < 0.5)
+    {
+        discard;
+    }
+#else
+    opacity *= texel.a;
+#endif
+#endif
     vec3 highlights = vec3(0.0);
 #if defined(PER_PIXEL) || defined(ATMOSPHERE)
     vec3 position = pixelPosition;
@@ -133,8 +161,19 @@ void main()
         faceNormal = n;
     }
 #endif
-    vec3 light = material[2].rgb * ambientLight(n.y);
+    vec3 ambient = ambientLight(n.y);
+    vec3 light = material[2].rgb * ambient;
     vec3 direct = vec3(0.0);
+    vec3 surface = pixelColour;
+#ifdef TEXTURED
+    surface *= texel.rgb;
+#endif
+#ifdef GLOSSY
+    vec3 toEye = towardsEye(position, cameraAxes[2], depthScale);
+    Gloss gloss = glossOf(surface, n, toEye);
+    vec3 mirrored = mirroredSurroundings(gloss, n, toEye, ambient);
+    surface = gloss.scattered;
+#endif
 #ifdef SKY_PARTS
     vec3 sky = light;
     light = vec3(0.0);
@@ -147,8 +186,14 @@ void main()
     seenSky = isCap ? 1.0 : seenSky;
 #endif
     light += lightInHole(sky, seenSky, direct, pixelColour);
+#ifdef GLOSSY
+    mirrored *= seenSky;
 #endif
-    vec3 colour = pixelColour * light;
+#endif
+#ifdef GLOSSY
+    highlights += mirrored;
+#endif
+    vec3 colour = surface * light;
 #else
 #ifdef FRONT_FACES_ONLY
     vec3 colour = frontColour;
@@ -163,20 +208,11 @@ void main()
 #endif
 #endif
 
-    float opacity = material[0].w;
-#ifdef TEXTURED
-    // A hole in the texture is a hole in the surface and has no highlight. Clear glass, by its opacity, keeps its highlight.
-    vec4 texel = texture(surfaceTexture, pixelTextureCoordinates);
+#if defined(TEXTURED) && !defined(PER_PIXEL)
     colour *= texel.rgb;
-#ifdef CUT_OUT
-    if (texel.a < 0.5)
-    {
-        discard;
-    }
-#else
-    opacity *= texel.a;
-    highlights *= texel.a;
 #endif
+#if defined(TEXTURED) && !defined(CUT_OUT)
+    highlights *= texel.a;
 #endif
 #ifdef EMISSIVE
     colour += material[4].rgb;

@@ -32,6 +32,29 @@ layout(std140) uniform ObjectBlock
 
 #include "material.glsl"
 #include "lighting.glsl"
+#if defined(GLOSSY) && !defined(PER_PIXEL)
+#include "gloss.glsl"
+
+// Lights one side of a surface, and returns what it mirrors.
+vec3 lightGloss(inout vec3 surface, vec3 n, vec3 position, vec3 toEye, inout vec3 light)
+{
+    Gloss gloss = glossOf(surface, n, toEye);
+    vec3 mirrored = mirroredSurroundings(gloss, n, toEye, ambientLight(n.y));
+    for (int i = 0; i < lightCount.x; i++)
+    {
+        vec3 toLight;
+        vec3 incoming = incomingLight(lights[i], position, toLight);
+        float cosine = dot(n, toLight);
+        if (cosine > 0.0)
+        {
+            addGloss(gloss, n, toEye, toLight, cosine, incoming, light, mirrored);
+        }
+    }
+
+    surface = gloss.scattered;
+    return mirrored;
+}
+#endif
 
 uniform vec3 cameraAxes[3]; // right, up and forward: the rows of the inverse axes
 uniform vec2 viewScale;     // 1 / (half height * aspect), 1 / half height
@@ -118,16 +141,18 @@ void main()
     pixelColour = surface;
 #else
     vec3 front = material[2].rgb * ambientLight(n.y);
+    vec3 frontSurface = surface;
 #ifndef FRONT_FACES_ONLY
     vec3 back = material[2].rgb * ambientLight(-n.y);
+    vec3 backSurface = surface;
 #endif
 #ifdef GLOSSY
     vec3 toEye = towardsEye(relative, cameraAxes[2], depthScale);
-    frontHighlight = vec3(0.0);
+    frontHighlight = lightGloss(frontSurface, n, relative, toEye, front);
 #ifndef FRONT_FACES_ONLY
-    backHighlight = vec3(0.0);
+    backHighlight = lightGloss(backSurface, -n, relative, toEye, back);
 #endif
-#endif
+#else
     for (int i = 0; i < lightCount.x; i++)
     {
         vec3 toLight;
@@ -137,19 +162,12 @@ void main()
 #ifndef FRONT_FACES_ONLY
         back += max(-cosine, 0.0) * light;
 #endif
-#ifdef GLOSSY
-        float side = sign(cosine);
-        vec3 reflected = highlight(side * n, toLight, toEye, material[1].w) * light * material[1].rgb;
-        frontHighlight += max(side, 0.0) * reflected;
-#ifndef FRONT_FACES_ONLY
-        backHighlight += max(-side, 0.0) * reflected;
-#endif
-#endif
     }
+#endif
 
-    frontColour = mix(surface * front, flatColour.rgb, flatColour.a);
+    frontColour = mix(frontSurface * front, flatColour.rgb, flatColour.a);
 #ifndef FRONT_FACES_ONLY
-    backColour = mix(surface * back, flatColour.rgb, flatColour.a);
+    backColour = mix(backSurface * back, flatColour.rgb, flatColour.a);
 #endif
 #endif
 }

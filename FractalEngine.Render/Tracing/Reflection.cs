@@ -56,7 +56,7 @@ internal static class Reflection
         var mirrored = MirroredPart(in surface, toEye);
         var isMirrored = mirrored > 0 && samples.NextNumber() < mirrored;
         var point = samples.Next();
-        var axes = AxesAround(surface.Normal);
+        var axes = FacetAlbedo.AxesAround(surface.Normal);
         if (isMirrored)
         {
             var half = axes * FacetAlbedo.VisibleFacet(axes.Transpose() * toEye, reflectance.Roughness, point);
@@ -164,7 +164,7 @@ internal static class Reflection
     }
 
     /// <summary>Chooses a unit direction of a cone, each as likely as another.</summary>
-    /// <param name="axes">Orthonormal axes whose third is in the middle, see <see cref="AxesAround"/>.</param>
+    /// <param name="axes">Orthonormal axes whose third is in the middle, see <see cref="FacetAlbedo.AxesAround"/>.</param>
     /// <param name="cosine">Cosine of the largest angle with the axis.</param>
     /// <param name="point">A point of the unit square.</param>
     public static Vector SampleCone(in Matrix axes, double cosine, (double U, double V) point)
@@ -173,17 +173,5 @@ internal static class Reflection
         var radius = Math.Sqrt(Math.Max(0, 1 - (z * z)));
         var (sine, cosineAround) = Math.SinCos(2 * Math.PI * point.V);
         return axes * new Vector(radius * cosineAround, radius * sine, z);
-    }
-
-    /// <summary>Orthonormal axes whose third is a unit vector, after Duff and others, JCGT 2017.</summary>
-    public static Matrix AxesAround(Vector normal)
-    {
-        var sign = double.CopySign(1, normal.Z);
-        var a = -1 / (sign + normal.Z);
-        var b = normal.X * normal.Y * a;
-        return new(
-            new(1 + (sign * normal.X * normal.X * a), sign * b, -sign * normal.X),
-            new(b, sign + (normal.Y * normal.Y * a), -normal.Y),
-            normal);
     }
 }

@@ -21,31 +21,21 @@ internal sealed class TracedLights
 
     // Around the direction towards each light that is parallel.
     private readonly Matrix[] _axes;
-    private readonly Vector _colourAtHorizon;
-    private readonly Vector _colourSlope;
-    private readonly SkyRadiance? _sky;
+    private readonly Surroundings _surroundings;
 
     /// <summary>Prepares the lights of a scene, or the default ones where it declares none.</summary>
     public TracedLights(LoadedScene scene)
     {
         _emitters = LightBlock.LightsOf(scene);
-        _axes = [.. _emitters.Select(static emitter => Reflection.AxesAround(-emitter.Axis))];
-        var (sky, ground, _) = SceneAmbient.OfLights(scene.Scene);
-        _sky = scene.Scene.Sky?.ToRadiance();
-        // Irradiance on a surface that faces upwards by the cosine c is then that of the drawn mixture (1 + c)/2 of sky and ground.
-        _colourAtHorizon = 0.5 * (sky + ground);
-        _colourSlope = 0.75 * (sky - ground);
+        _axes = [.. _emitters.Select(static emitter => FacetAlbedo.AxesAround(-emitter.Axis))];
+        _surroundings = new(scene.Scene);
     }
 
     /// <summary>Number of lights that are sampled.</summary>
     public int Count => _emitters.Length;
 
     /// <summary>The radiance of the surroundings in a direction.</summary>
-    public Vector Surroundings(Vector unitDirection)
-    {
-        var lights = Vector.Max(_colourAtHorizon + (unitDirection.Y * _colourSlope), Vector.Zero);
-        return _sky is { } sky ? lights + sky.At(unitDirection.Y) : lights;
-    }
+    public Vector Surroundings(Vector unitDirection) => _surroundings.At(unitDirection);
 
     /// <summary>Computes the irradiance, divided by π, that a light brings to a surface which faces it, without shadows.</summary>
     /// <param name="index">Index of the light.</param>

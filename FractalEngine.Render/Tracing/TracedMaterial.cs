@@ -9,9 +9,6 @@ namespace FractalEngine.Render.Tracing;
 /// <summary>A material as the path tracer needs it: colours in linear light, textures decoded.</summary>
 internal sealed class TracedMaterial
 {
-    // What is not metal reflects about this part of light that falls straight onto it.
-    private const double DielectricReflectance = 0.04;
-
     // As bright as the brightest light of a scene.
     private const double MaxEmission = 1e9;
 
@@ -25,14 +22,8 @@ internal sealed class TracedMaterial
     /// <summary>The colour, which that of object, vertices and texture multiply; null for the object's own.</summary>
     public Vector? BaseColour { get; private init; }
 
-    /// <summary>The part of light that what is not metal mirrors where it falls straight onto the surface.</summary>
-    public Vector Specular { get; private init; }
-
-    /// <summary>The share of metal, which mirrors in its colour and scatters nothing, from 0 to 1.</summary>
-    public double Metalness { get; private init; }
-
-    /// <summary>The roughness of the mirrored part: α of the distribution of GGX.</summary>
-    public double Roughness { get; private init; } = 1;
+    /// <summary>What the surface does with light, white.</summary>
+    public SurfaceReflectance Reflectance { get; private init; } = SurfaceReflectance.Of(null);
 
     /// <summary>Radiance of the surface itself.</summary>
     public Vector Emission { get; private init; }
@@ -59,27 +50,15 @@ internal sealed class TracedMaterial
     public bool IsTextured => Texture is not null || Bump is not null || Normals is not null;
 
     /// <summary>Prepares a material for tracing.</summary>
-    /// <remarks>
-    /// Numbers beyond their range are limited: a surface that sent back more light than it gets, or less than none, would have paths of
-    /// light without end.
-    /// </remarks>
     /// <param name="drawable">With its decoded texture.</param>
     /// <param name="textures">Decodes the maps of heights and normals.</param>
     public static TracedMaterial Create(DrawableMaterial drawable, TextureCache textures)
     {
         var material = drawable.Material;
-        var isPhysical = material.Roughness is not null || material.Metalness is not null;
         return new()
         {
             BaseColour = Limit(material.Diffuse.ToLinearVector(), 1),
-            Metalness = Limit(material.Metalness ?? 0, 1),
-            Specular = isPhysical
-                ? DielectricReflectance * Vector.One
-                : Limit(new Vector(material.Specular.Red, material.Specular.Green, material.Specular.Blue), 1),
-            // An exponent and a roughness with highlights of the same width (Walter and others, EGSR 2007).
-            Roughness = Math.Max(FacetAlbedo.MinRoughness, isPhysical
-                ? Math.Pow(Limit(material.Roughness ?? 1, 1), 2)
-                : Math.Sqrt(2 / (Math.Max(0, material.SpecularExponent) + 2))),
+            Reflectance = SurfaceReflectance.Of(material),
             Emission = Limit(new Vector(material.Emission.Red, material.Emission.Green, material.Emission.Blue), MaxEmission),
             Opacity = Limit(material.Opacity, 1),
             IsCutOut = drawable.IsCutOut,
@@ -89,10 +68,6 @@ internal sealed class TracedMaterial
             Normals = Load(material.NormalTexture, textures),
         };
     }
-
-    /// <summary>Tells what a point of the surface does with light.</summary>
-    /// <param name="colour">The point's colour in linear light, with texture and all else that multiplies it.</param>
-    public SurfaceReflectance Reflect(Vector colour) => new(colour, Specular, Metalness, Roughness);
 
     private static Vector Limit(Vector colour, double max) => new(Limit(colour.X, max), Limit(colour.Y, max), Limit(colour.Z, max));
 

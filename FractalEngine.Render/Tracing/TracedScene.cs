@@ -215,7 +215,7 @@ internal sealed record TracedScene
             normal = SurfaceDetail.Apply(material, normal, map.Linear, corners, coordinates, u, v, direction);
         }
 
-        return new(hit.Point, faceNormal, normal, material.Reflect(colour), material.Emission, opacity);
+        return new(hit.Point, faceNormal, normal, material.Reflectance.WithColour(colour), material.Emission, opacity);
     }
 
     /// <summary>Brings an interpolated normal to the side that the ray comes from; the face's own where there is none.</summary>

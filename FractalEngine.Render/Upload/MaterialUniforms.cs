@@ -11,11 +11,7 @@ namespace FractalEngine.Render.Upload;
 /// </summary>
 internal sealed class MaterialUniforms(ShaderProgram program, RedundancyFilter filter)
 {
-    private const int VectorCount = 5;
-
-    // 0 to the power of 0 is not defined, and with a greater exponent a highlight is smaller than any pixel.
-    private const double MinSpecularExponent = 1;
-    private const double MaxSpecularExponent = 10_000;
+    private const int VectorCount = 7;
 
     private readonly float[] _data = new float[4 * VectorCount];
     private (Material? Material, Colour Tint)? _lastKey;
@@ -34,16 +30,18 @@ internal sealed class MaterialUniforms(ShaderProgram program, RedundancyFilter f
         var diffuse = ClampNegative(material?.Diffuse ?? Colour.White).ToLinear();
         var linearTint = tint.ToLinear();
         var tinted = new Colour(diffuse.Red * linearTint.Red, diffuse.Green * linearTint.Green, diffuse.Blue * linearTint.Blue);
-        var exponent = Math.Clamp(material?.SpecularExponent ?? 1, MinSpecularExponent, MaxSpecularExponent);
+        var reflectance = SurfaceReflectance.Of(material);
         WriteVector(0, tinted, material?.Opacity ?? 1);
-        WriteVector(4, ClampNegative(material?.Specular ?? Colour.Black), exponent);
+        LightBlock.WriteVector(reflectance.Coat, reflectance.Roughness, _data.AsSpan(4));
         WriteVector(8, ClampNegative(material?.Ambient ?? Colour.White), material is null ? 0 : 1);
         if (material?.Texture is { } texture)
         {
             LightBlock.WriteVector(new(texture.Scale.U, texture.Scale.V, texture.Offset.U), texture.Offset.V, _data.AsSpan(12));
         }
 
-        WriteVector(16, ClampNegative(material?.Emission ?? Colour.Black), 0);
+        WriteVector(16, ClampNegative(material?.Emission ?? Colour.Black), reflectance.Metalness);
+        LightBlock.WriteVector(reflectance.CoatOfSeveral, reflectance.RestOfFacets, _data.AsSpan(20));
+        LightBlock.WriteVector(reflectance.RestOfCoat, 0, _data.AsSpan(24));
         GL.Uniform4(program.UniformLocation("material"), VectorCount, _data);
     }
 

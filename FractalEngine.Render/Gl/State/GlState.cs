@@ -23,6 +23,12 @@ internal sealed class GlState
     /// <summary>Texture unit of the depth maps.</summary>
     public const int ShadowTextureUnit = 1;
 
+    /// <summary>Texture unit of the part of light that facets mirror.</summary>
+    public const int FacetTextureUnit = 2;
+
+    /// <summary>Texture unit of the light from all around.</summary>
+    public const int SurroundingsTextureUnit = 3;
+
     // No GL object has this name, and no face this value, so that the next call always takes effect.
     private const int Unknown = -1;
 
@@ -64,6 +70,14 @@ internal sealed class GlState
             GL.ActiveTexture(TextureUnit.Texture0);
             GL.BindTexture(TextureTarget.Texture2D, name);
         }
+    }
+
+    /// <summary>Binds a two-dimensional texture to a texture unit other than the first, whatever is bound there.</summary>
+    public static void BindTexture(int unit, int name)
+    {
+        GL.ActiveTexture(TextureUnit.Texture0 + unit);
+        GL.BindTexture(TextureTarget.Texture2D, name);
+        GL.ActiveTexture(TextureUnit.Texture0);
     }
 
     /// <summary>Binds a uniform buffer to a binding point.</summary>

@@ -1,0 +1,147 @@
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Scenes.Cameras;
+using FractalEngine.Core.Scenes.Lights;
+using FractalEngine.Render.Tracing;
+using FractalEngine.Render.Views;
+
+namespace FractalEngine.Tests.Render;
+
+/// <summary>Glossy surfaces in drawn frames, against traced ones of the same scene.</summary>
+[Collection(GlTests.Name)]
+public sealed class GlossDrawingTests
+{
+    private const int Size = 9;
+
+    private static readonly View Near = new(Camera.Default, Projection.Orthographic) { OrthographicHeight = 1e-3 };
+
+    public static TheoryData<string> Materials => [.. Surfaces.Keys];
+
+    private static Dictionary<string, Material> Surfaces { get; } = new()
+    {
+        ["mirror"] = new("m") { Diffuse = Colour.Black, Specular = Colour.White, SpecularExponent = 200 },
+        ["paint"] = new("m") { Diffuse = new(0.9, 0.5, 0.3), Specular = new(0.04, 0.04, 0.04), SpecularExponent = 40 },
+        ["half mirror"] = new("m") { Diffuse = new(0.9, 0.5, 0.3), Specular = new(0.5, 0.3, 0.1), SpecularExponent = 5 },
+        ["smooth plastic"] = new("m") { Diffuse = new(0.9, 0.5, 0.3), Roughness = 0.3 },
+        ["rough plastic"] = new("m") { Diffuse = new(0.9, 0.5, 0.3), Roughness = 1 },
+        ["gold"] = new("m") { Diffuse = new(1, 0.8, 0.4), Roughness = 0.4, Metalness = 1 },
+        ["rough metal"] = new("m") { Diffuse = new(1, 0.8, 0.4), Roughness = 1, Metalness = 1 },
+        ["half metal"] = new("m") { Diffuse = new(1, 0.8, 0.4), Roughness = 0.6, Metalness = 0.5 },
+    };
+
+    [SkippableTheory]
+    [MemberData(nameof(Materials))]
+    public void Gloss_UnderOneLamp_IsDrawnAsItIsTraced(string name)
+    {
+        Light[] lamps =
+        [
+            new DirectionalLight(new(0.2, -0.3, 1), Colour.White, 1), new DirectionalLight(new(-0.9, 0.2, 0.5), Colour.White, 1),
+            new PointLight(new(1, 2, -2), new(1, 0.9, 0.7), 1, 30),
+        ];
+        foreach (var (pitch, yaw) in ((double, double)[])[(0, 0), (10, 40), (-60, 20)])
+        {
+            foreach (var lamp in lamps)
+            {
+                // Bright enough to be read from an image of bytes, and not too bright.
+                var light = Trace(name, pitch, yaw, new() { Lights = [lamp] }, 1);
+                var intensity = 0.6 / Math.Max(light.X, Math.Max(light.Y, light.Z));
+                if (!(intensity < 1e3))
+                {
+                    continue;
+                }
+
+                // A light that differs from corner to corner is not lit at vertices alike.
+                foreach (var shading in Enum.GetValues<Shading>().Where(shading => shading == Shading.PerPixel || lamp is not PointLight))
+                {
+                    var drawn = Draw(name, pitch, yaw, new() { Lights = [lamp with { Intensity = intensity }] }, shading);
+                    AssertClose(intensity * light, drawn, 0.03, $"{pitch}, {yaw}, {lamp}, {shading}");
+                }
+            }
+        }
+    }
+
+    [SkippableTheory]
+    [InlineData(Projection.Perspective)]
+    [InlineData(Projection.Orthographic)]
+    public void Highlight_OfASphere_IsDrawnWhereItIsTraced(Projection projection)
+    {
+        var sphere = TexturedScenes.WithMaterial(RenderScenes.Sphere(48), Surfaces["gold"]);
+        var scene = RenderScenes.Scene(
+            new() { Background = Colour.Black, Lights = [new DirectionalLight(new(0.3, -0.5, 0.7), Colour.White, 0.15)] },
+            (sphere, Transformation.Identity, null));
+        var view = RenderScenes.FrontView with { Projection = projection, OrthographicHeight = 3 };
+        var tracer = new PathTracer(scene, view, 100, 75);
+        for (var i = 0; i < 16; i++)
+        {
+            tracer.AddSample();
+        }
+
+        var difference = RenderScenes.Difference(tracer.ToImage(), RenderScenes.Draw(scene, view, 100, 75));
+        Assert.True(difference is { Mean: < 1, Share: < 0.02 }, $"{difference}");
+    }
+
+    [SkippableTheory]
+    [MemberData(nameof(Materials))]
+    public void WhiteSurface_UnderAWhiteSky_IsDrawnAsBrightAsTheSky(string name)
+    {
+        var white = new Colour(0.7, 0.7, 0.7);
+        var sky = new Scene { Sky = new(white, white, white) };
+        foreach (var pitch in (double[])[0, 45, 80])
+        {
+            foreach (var shading in Enum.GetValues<Shading>())
+            {
+                AssertClose(white.ToLinearVector(), Draw(name, pitch, 0, sky, shading, isWhite: true), 0.01, $"{pitch}, {shading}");
+            }
+        }
+    }
+
+    [SkippableTheory]
+    [MemberData(nameof(Materials))]
+    public void Gloss_UnderASky_IsDrawnAsItIsTraced(string name)
+    {
+        var sky = new Scene { Sky = new(new(0.4, 0.6, 0.9), new(0.8, 0.75, 0.7), new(0.5, 0.4, 0.3)) };
+        foreach (var (pitch, yaw) in ((double, double)[])[(0, 0), (50, 10), (-50, 20)])
+        {
+            var light = Trace(name, pitch, yaw, sky, 4096);
+            // What is mirrored at an angle is not quite what facets mirror along their normal.
+            AssertClose(light, Draw(name, pitch, yaw, sky, Shading.PerPixel), 0.09, $"{pitch}, {yaw}");
+        }
+    }
+
+    private static void AssertClose(Vector expected, Vector found, double part, string text)
+    {
+        foreach (var (light, seen) in new[] { (expected.X, found.X), (expected.Y, found.Y), (expected.Z, found.Z) })
+        {
+            // Half a step of a byte of sRGB, which is at most 2.4/1.055 of a step of light.
+            Assert.True(Math.Abs(seen - light) < (part * light) + 0.0045, $"{text}: {found} instead of {expected}");
+        }
+    }
+
+    private static LoadedScene Scene(string name, double pitch, double yaw, Scene lights, bool isWhite)
+    {
+        var material = Surfaces[name];
+        material = isWhite ? material with { Diffuse = Colour.White } : material;
+        return RenderScenes.Scene(
+            lights with { Background = Colour.Black },
+            (TexturedScenes.WithMaterial(RenderScenes.Square(1), material), new(Vector.Zero, new(pitch, yaw, 0), Vector.One), null));
+    }
+
+    private static Vector Draw(string name, double pitch, double yaw, Scene lights, Shading shading, bool isWhite = false)
+    {
+        var image = RenderScenes.Draw(Scene(name, pitch, yaw, lights, isWhite), Near, Size, Size, new() { Shading = shading });
+        var (red, green, blue, _) = image[Size / 2, Size / 2];
+        return new Colour(red / 255.0, green / 255.0, blue / 255.0).ToLinearVector();
+    }
+
+    private static Vector Trace(string name, double pitch, double yaw, Scene lights, int samples)
+    {
+        var tracer = new PathTracer(Scene(name, pitch, yaw, lights, isWhite: false), Near, 1, 1);
+        for (var i = 0; i < samples; i++)
+        {
+            tracer.AddSample();
+        }
+
+        return tracer.RadianceAt(0, 0);
+    }
+}
