@@ -31,10 +31,10 @@ public sealed record Material(string Name)
     /// <summary><c>map_Ke</c>: a texture of emitted light; null where there is none. It is kept, and not shown yet.</summary>
     public MaterialTexture? EmissionTexture { get; init; }
 
-    /// <summary><c>map_Bump</c>: a texture of heights; null where there is none. It is shown in traced images only.</summary>
+    /// <summary><c>map_Bump</c>: a texture of heights; null where there is none. <c>norm</c> goes before it.</summary>
     public MaterialTexture? BumpTexture { get; init; }
 
-    /// <summary><c>norm</c>: a texture of normals in tangent space; null where there is none. It is shown in traced images only.</summary>
+    /// <summary><c>norm</c>: a texture of normals in tangent space; null where there is none.</summary>
     public MaterialTexture? NormalTexture { get; init; }
 
     /// <summary><c>Pr</c>: the roughness, from 0 (smooth) to 1; null where there is none.</summary>
@@ -49,7 +49,10 @@ public sealed record Material(string Name)
     public MaterialTexture? OpacityTexture { get; init; }
 
     /// <summary>Whether drawing the material needs texture coordinates.</summary>
-    public bool IsTextured => Texture is not null || OpacityTexture is not null;
+    public bool IsTextured => Texture is not null || OpacityTexture is not null || DetailTexture is not null;
+
+    /// <summary>The texture that bends the normals of the surface: that of normals, or else that of heights; null for none.</summary>
+    public MaterialTexture? DetailTexture => NormalTexture ?? BumpTexture;
 
     /// <summary>Whether the material mirrors part of the light.</summary>
     public bool IsGlossy => Specular != Colour.Black || IsPhysical;

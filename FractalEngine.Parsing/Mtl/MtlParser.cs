@@ -5,8 +5,8 @@ namespace FractalEngine.Parsing.Mtl;
 
 /// <summary>
 /// Reads Wavefront material files: <c>newmtl</c>, <c>Kd</c>, <c>Ka</c>, <c>Ks</c>, <c>Ke</c>, <c>Ns</c>, <c>d</c>, <c>Tr</c>,
-/// <c>map_Kd</c>, <c>map_d</c>; and <c>map_Ke</c>, <c>map_Bump</c>, <c>norm</c>, <c>Pr</c>, <c>Pm</c>, which drawn frames do not show,
-/// with one warning per file.
+/// <c>Pr</c>, <c>Pm</c>, <c>map_Kd</c>, <c>map_d</c>, <c>map_Bump</c>, <c>norm</c>; and <c>map_Ke</c>, which is not shown, with one warning
+/// per file.
 /// </summary>
 /// <remarks>
 /// Other statements are ignored. Faulty ones are ignored with one warning per file: a surface of the wrong colour is better than none.
@@ -18,7 +18,6 @@ public sealed class MtlParser : MtlTextureParser
 
     // Immutable dictionaries took half of the time of large files.
     private readonly Dictionary<string, Material> _materials = [];
-    private readonly RepeatedWarning _tracedOnly = new("such statements");
     private readonly RepeatedWarning _unshown = new("such statements");
     private Material? _current;
     private bool _hasOpacity;
@@ -59,11 +58,6 @@ public sealed class MtlParser : MtlTextureParser
         if (_firstFault is not null)
         {
             yield return CreateWarning(_firstFault);
-        }
-
-        if (_tracedOnly.ToDiagnostic() is { } tracedOnly)
-        {
-            yield return tracedOnly with { ConcernsDrawnFrames = true };
         }
 
         if (_unshown.ToDiagnostic() is { } unshown)
@@ -121,11 +115,9 @@ public sealed class MtlParser : MtlTextureParser
             "Tr" => ParseTransparency(start, rest),
             "map_Kd" or "map_d" => ParseTexture(start, rest, keyword),
             "map_Ke" => ParseTexture(start, rest, keyword) && _unshown.Add(new(Source, start.Offset), "map_Ke is kept but not shown"),
-            "map_Bump" or "map_bump" or "bump" or "norm" => ParseTexture(start, rest, keyword) && KeepForTraces(start, keyword),
-            "Pr" => ParseScalar(start, rest, static (material, number) => material with { Roughness = number })
-                && KeepForTraces(start, keyword),
-            "Pm" => ParseScalar(start, rest, static (material, number) => material with { Metalness = number })
-                && KeepForTraces(start, keyword),
+            "map_Bump" or "map_bump" or "bump" or "norm" => ParseTexture(start, rest, keyword),
+            "Pr" => ParseScalar(start, rest, static (material, number) => material with { Roughness = number }),
+            "Pm" => ParseScalar(start, rest, static (material, number) => material with { Metalness = number }),
             _ => true,
         };
     }
@@ -175,9 +167,6 @@ public sealed class MtlParser : MtlTextureParser
     private bool ParseTexture(Cursor statement, Cursor cursor, string keyword) =>
         ParseTexture(cursor, out var texture)
         && UpdateMaterial(statement, material => TextureSlot.ByKeyword[keyword].With(material, texture));
-
-    private bool KeepForTraces(Cursor statement, string keyword) =>
-        _tracedOnly.Add(new(Source, statement.Offset), $"{keyword} is shown in traced images only");
 
     /// <summary>
     /// Parses an opacity. <c>d</c> overrides <c>Tr</c> in any order, because programs disagree about the meaning of <c>Tr</c>.

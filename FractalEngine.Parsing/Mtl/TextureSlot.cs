@@ -20,9 +20,9 @@ internal sealed record TextureSlot(
             static (material, texture) => material with { OpacityTexture = texture }),
         new(["map_Ke"], null, static material => material.EmissionTexture,
             static (material, texture) => material with { EmissionTexture = texture }),
-        new(["map_Bump", "map_bump", "bump"], "traced without it", static material => material.BumpTexture,
+        new(["map_Bump", "map_bump", "bump"], "shown without it", static material => material.BumpTexture,
             static (material, texture) => material with { BumpTexture = texture }),
-        new(["norm"], "traced without it", static material => material.NormalTexture,
+        new(["norm"], "shown without it", static material => material.NormalTexture,
             static (material, texture) => material with { NormalTexture = texture }),
     ];
 

@@ -22,9 +22,6 @@ public sealed record Diagnostic(
     /// <summary>True when the file is well-formed but exceeds a stated limit.</summary>
     public bool IsLimitExceeded { get; init; }
 
-    /// <summary>True for a warning about drawn frames only: of traced images it is not true.</summary>
-    public bool ConcernsDrawnFrames { get; init; }
-
     /// <summary>Returns <c>file:line:column: error: message</c>, then the source line and a caret, indented by two spaces.</summary>
     public override string ToString()
     {

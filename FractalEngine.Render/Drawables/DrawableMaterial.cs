@@ -7,6 +7,9 @@ namespace FractalEngine.Render.Drawables;
 /// <param name="Texture">Decoded texture; null where the material has none.</param>
 public sealed record DrawableMaterial(Material Material, DrawableTexture? Texture)
 {
+    /// <summary>Normals, or heights where the material has no normals; null for none.</summary>
+    public DrawableTexture? Detail { get; init; }
+
     /// <summary>True where the surface behind shows through. Such surfaces are drawn last, and blended.</summary>
     public bool IsTransparent => !IsCutOut && (Material.Opacity < 1 || Texture is { IsTransparent: true });
 

@@ -11,6 +11,9 @@ public sealed record DrawableTexture(string Name, PixelImage Image, bool IsTrans
     /// <summary>Whether many pixels are neither opaque nor invisible, so that a cut at half the opacity would look wrong.</summary>
     public bool HasSoftOpacity { get; init; }
 
+    /// <summary>Whether the pixels are normals or heights, no colours.</summary>
+    public bool IsDetail { get; init; }
+
     /// <summary>The files that the texture was decoded from; null for one that is never decoded again.</summary>
     internal TextureSource? Source { get; init; }
 }

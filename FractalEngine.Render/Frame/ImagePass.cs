@@ -12,7 +12,7 @@ internal sealed class ImagePass : IDisposable
     private readonly GlResources _resources;
     private readonly ShaderProgram _program;
     private readonly VertexArray _vertexArray;
-    private SrgbTexture? _texture;
+    private SurfaceTexture? _texture;
     private PixelImage? _image;
 
     /// <summary>Builds the program that draws images.</summary>

@@ -50,4 +50,7 @@ internal enum MeshFeatures
 
     /// <summary>Shadows of lights that have several depth maps, for slices of the view, are among them.</summary>
     ShadowSlices = 8192,
+
+    /// <summary>A texture of normals or heights that bends the surface, where pixels are lit.</summary>
+    Detailed = 16384,
 }

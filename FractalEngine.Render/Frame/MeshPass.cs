@@ -16,7 +16,7 @@ namespace FractalEngine.Render.Frame;
 /// <param name="lights">Lights of the scene.</param>
 internal sealed class MeshPass(RenderContext context, ImmutableArray<Emitter> lights) : IDisposable
 {
-    private const int FeatureCombinations = 16384;
+    private const int FeatureCombinations = 32768;
     private static readonly Colour WireframeColour = new(0.80, 0.83, 0.87);
 
     private string[] _lightSymbols = LightBlock.SymbolsOf(lights);
@@ -130,6 +130,7 @@ internal sealed class MeshPass(RenderContext context, ImmutableArray<Emitter> li
 
     private static MeshFeatures FeaturesOf(DrawableMaterial? material) =>
         (material?.Texture is not null ? MeshFeatures.Textured : 0)
+        | (material?.Detail is not null ? MeshFeatures.Detailed : 0)
         | (material?.IsCutOut == true ? MeshFeatures.CutOut : 0)
         | (material is not null && material.Material.Emission != Colour.Black ? MeshFeatures.Emissive : 0)
         | (material?.Material.IsGlossy == true ? MeshFeatures.Glossy : 0);

@@ -40,6 +40,7 @@ internal sealed class MeshProgram : ShaderProgram
         Use();
         Set("surfaceTexture", 0);
         Set("shadowMap", GlState.ShadowTextureUnit);
+        Set("detailTexture", GlState.DetailTextureUnit);
         Set("facetAlbedo", GlState.FacetTextureUnit);
         Set("surroundings", GlState.SurroundingsTextureUnit);
         _materialUniforms = new(this, _filter);

@@ -21,7 +21,7 @@ internal sealed class FaceBatches(ImmutableArray<DrawableBatch> batches, int[]? 
     public ImmutableArray<DrawableBatch> Batches { get; } = batches;
 
     /// <summary>True where any face has a texture.</summary>
-    public bool HasTextures => Batches.Any(static batch => batch.Material is { Texture: not null });
+    public bool HasTextures => Batches.Any(static batch => batch.Material is { Texture: not null } or { Detail: not null });
 
     /// <summary>Returns the index in the mesh of the face at a position in drawing order.</summary>
     /// <param name="drawIndex">Position in drawing order, from 0.</param>
@@ -116,7 +116,10 @@ internal sealed class FaceBatches(ImmutableArray<DrawableBatch> batches, int[]? 
                     materialIndices.Add((fileMaterial?.Name, hasTexture), materialIndex);
                     materials.Add(fileMaterial is null
                         ? null
-                        : textures.GetMaterial(hasTexture ? fileMaterial : fileMaterial with { Texture = null, OpacityTexture = null }));
+                        : textures.GetMaterial(hasTexture ? fileMaterial : fileMaterial with
+                        {
+                            Texture = null, OpacityTexture = null, BumpTexture = null, NormalTexture = null,
+                        }));
                 }
 
                 materialOfFace[face] = materialIndex;

@@ -22,8 +22,8 @@ internal sealed class TextureCache(ImmutableArray<string>.Builder notices, bool 
     private readonly ILookup<TextureSource, DrawableTexture> _previous = previous
         .Where(static texture => texture.Source is not null).ToLookup(static texture => texture.Source!);
 
-    // By path; null for a file that can't be decoded.
-    private readonly Dictionary<string, DrawableTexture?> _textures = [];
+    // By path, and by whether they are no colours; null for a file that can't be decoded.
+    private readonly Dictionary<(string Path, bool IsDetail), DrawableTexture?> _textures = [];
     // By the paths of the colours, null for none, and of the opacity; null where an image can't be decoded.
     private readonly Dictionary<(string? Colour, string Opacity), DrawableTexture?> _texturesWithOpacity = [];
     private readonly Dictionary<Material, DrawableMaterial> _materials = [];
@@ -38,12 +38,13 @@ internal sealed class TextureCache(ImmutableArray<string>.Builder notices, bool 
     {
         foreach (var batch in model.Batches)
         {
-            if (batch.Material?.Texture is { } texture && !_decoded.Any(known => ReferenceEquals(known, texture)))
+            foreach (var texture in new[] { batch.Material?.Texture, batch.Material?.Detail }.OfType<DrawableTexture>()
+                .Where(texture => !_decoded.Any(known => ReferenceEquals(known, texture))))
             {
                 _decoded.Add(texture);
                 if (texture.Source is { OpacityPath: null, ColourPath: { } path })
                 {
-                    _textures[path] = texture;
+                    _textures[(path, texture.IsDetail)] = texture;
                 }
                 else if (texture.Source is { OpacityPath: { } opacityPath, ColourPath: var colourPath })
                 {
@@ -61,33 +62,39 @@ internal sealed class TextureCache(ImmutableArray<string>.Builder notices, bool 
             return cached;
         }
 
+        return _materials[material] = LoadColours(material) with
+        {
+            Detail = material.DetailTexture is { } detail ? Load(detail.Path, "shown without it", isDetail: true) : null,
+        };
+    }
+
+    private DrawableMaterial LoadColours(Material material)
+    {
         if (material.OpacityTexture is { } opacity)
         {
             var combined = LoadWithOpacity(material.Texture?.Path, opacity.Path);
             // Grey where the colours can't be decoded still has its holes.
-            return _materials[material] = combined is not null ? new(material with { Texture = material.Texture ?? opacity }, combined)
-                : material.Texture is { } colours && _undecodable.Contains(colours.Path) ? GetMaterial(material.WithoutTexture())
-                : GetMaterial(material with { OpacityTexture = null });
+            return combined is not null ? new(material with { Texture = material.Texture ?? opacity }, combined)
+                : material.Texture is { } colours && _undecodable.Contains(colours.Path) ? LoadColours(material.WithoutTexture())
+                : LoadColours(material with { OpacityTexture = null });
         }
 
         var texture = material.Texture is { Path: var path } ? Load(path, "drawn grey") : null;
         var isUndecodable = material.Texture is not null && texture is null;
-        return _materials[material] = new(isUndecodable ? material.WithoutTexture() : material, texture);
+        return new(isUndecodable ? material.WithoutTexture() : material, texture);
     }
 
-    /// <summary>Returns a decoded image whose pixels are no colours; null, with one notice a file, if it can't be decoded.</summary>
-    public PixelImage? GetImage(string path) => Load(path, "traced without it")?.Image;
-
-    private DrawableTexture? Load(string path, string consequence)
+    private DrawableTexture? Load(string path, string consequence, bool isDetail = false)
     {
         // A file that can't be decoded is tried and reported once.
-        if (_textures.TryGetValue(path, out var cached) && (shareTextures || cached is null))
+        if (_textures.TryGetValue((path, isDetail), out var cached) && (shareTextures || cached is null))
         {
             return cached;
         }
 
         var source = TextureSource.Of(path, null);
-        return _textures[path] = TakePrevious(source) ?? (Decode(path, consequence) is { } image ? Add(path, image, source) : null);
+        return _textures[(path, isDetail)] = TakePrevious(source, isDetail)
+            ?? (Decode(path, consequence) is { } image ? Add(path, image, source, isDetail) : null);
     }
 
     /// <summary>Returns the texture of an image of colours, or of white, with the opacity of another; null if it can't be made.</summary>
@@ -126,9 +133,9 @@ internal sealed class TextureCache(ImmutableArray<string>.Builder notices, bool 
         return Add(opacityPath, OpacityImage.Combine(colours, opacity), source);
     }
 
-    private DrawableTexture? TakePrevious(TextureSource source)
+    private DrawableTexture? TakePrevious(TextureSource source, bool isDetail = false)
     {
-        var texture = shareTextures ? _previous[source].FirstOrDefault() : null;
+        var texture = shareTextures ? _previous[source].FirstOrDefault(texture => texture.IsDetail == isDetail) : null;
         if (texture is not null)
         {
             _decoded.Add(texture);
@@ -137,11 +144,12 @@ internal sealed class TextureCache(ImmutableArray<string>.Builder notices, bool 
         return texture;
     }
 
-    private DrawableTexture Add(string path, PixelImage image, TextureSource source)
+    private DrawableTexture Add(string path, PixelImage image, TextureSource source, bool isDetail = false)
     {
         var texture = new DrawableTexture(Path.GetFileName(path), image, OpacityImage.HasAlpha(image))
         {
             HasSoftOpacity = OpacityImage.IsSoft(image),
+            IsDetail = isDetail,
             Source = source,
         };
         _decoded.Add(texture);

@@ -16,6 +16,9 @@ in vec3 pixelPosition;
 #ifdef ATMOSPHERE
 #include "display.glsl"
 #endif
+#if defined(DETAILED) && defined(PER_PIXEL)
+#include "detail.glsl"
+#endif
 #if defined(GLOSSY) && defined(PER_PIXEL)
 #include "gloss.glsl"
 #endif
@@ -160,6 +163,9 @@ void main()
         n = -section.xyz;
         faceNormal = n;
     }
+#endif
+#ifdef DETAILED
+    n = bend(n, pixelPosition, towardsEye(position, cameraAxes[2], depthScale));
 #endif
     vec3 ambient = ambientLight(n.y);
     vec3 light = material[2].rgb * ambient;

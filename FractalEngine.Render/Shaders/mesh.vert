@@ -8,7 +8,7 @@ layout(location = 2) in vec4 instanceRow0;
 layout(location = 3) in vec4 instanceRow1;
 layout(location = 4) in vec4 instanceRow2;
 layout(location = 5) in float tint;  // from the object's colour to the other end of its gradient; 0 without a gradient
-#ifdef TEXTURED
+#if defined(TEXTURED) || defined(DETAILED)
 layout(location = 6) in vec2 textureCoordinates;
 #endif
 #ifdef VERTEX_COLOURS
@@ -89,6 +89,10 @@ out vec2 pixelSky;          // part of the sky that the front and the back of th
 out vec2 pixelTextureCoordinates;
 #endif
 
+#if defined(DETAILED) && defined(PER_PIXEL)
+out vec2 pixelDetail;       // texture coordinates as the mesh has them
+#endif
+
 void main()
 {
     vec4 local = vec4(position, 1.0);
@@ -133,6 +137,9 @@ void main()
     pixelTextureCoordinates = vec2(scaledCoordinates.x, 1.0 - scaledCoordinates.y);
 #endif
 
+#if defined(DETAILED) && defined(PER_PIXEL)
+    pixelDetail = textureCoordinates;
+#endif
 #if defined(PER_PIXEL) || defined(ATMOSPHERE)
     pixelPosition = relative;
 #endif

@@ -19,7 +19,7 @@ internal static class SurfaceDetail
         TracedMaterial material, Vector normal, Matrix linear, (Vector A, Vector B, Vector C) corners,
         (Vector A, Vector B, Vector C) coordinates, double u, double v, Vector direction)
     {
-        if ((material.Normals is null && material.Bump is null)
+        if (material.Detail is not { } detail
             || !TryFindTangents(linear, corners, coordinates, out var alongU, out var alongV))
         {
             return normal;
@@ -29,17 +29,17 @@ internal static class SurfaceDetail
         alongU -= Vector.Dot(alongU, normal) * normal;
         alongV -= Vector.Dot(alongV, normal) * normal;
         var bent = normal;
-        if (material.Normals is { } normals)
+        if (material.HasNormals)
         {
-            var (x, y, z) = (2 * normals.SampleValues(u, v)) - Vector.One;
+            var (x, y, z) = (2 * detail.SampleValues(u, v)) - Vector.One;
             bent = (x * Unit(alongU)) + (y * Unit(alongV)) + (Math.Max(z, 0) * normal);
         }
-        else if (material.Bump is { } bump)
+        else
         {
-            var (stepU, stepV) = bump.PixelSize;
-            var height = bump.SampleValues(u, v).X;
-            var slopeU = (bump.SampleValues(u + stepU, v).X - height) / stepU * bump.BumpFactor;
-            var slopeV = (bump.SampleValues(u, v + stepV).X - height) / stepV * bump.BumpFactor;
+            var (stepU, stepV) = detail.PixelSize;
+            var height = detail.SampleValues(u, v).X;
+            var slopeU = (detail.SampleValues(u + stepU, v).X - height) / stepU * detail.BumpFactor;
+            var slopeV = (detail.SampleValues(u, v + stepV).X - height) / stepV * detail.BumpFactor;
             // Heights are in units of the texture, whose size in the world the tangents tell.
             var unit = Math.Sqrt(alongU.Length() * alongV.Length());
             bent = BendBySlopes(normal, alongU, alongV, unit * slopeU, unit * slopeV);

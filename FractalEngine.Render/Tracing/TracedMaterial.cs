@@ -2,7 +2,6 @@ using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Render.Drawables;
 using FractalEngine.Render.Lights;
-using FractalEngine.Render.Preparation;
 
 namespace FractalEngine.Render.Tracing;
 
@@ -37,22 +36,21 @@ internal sealed class TracedMaterial
     /// <summary>Colour and opacity; null for none.</summary>
     public TracedTexture? Texture { get; private init; }
 
-    /// <summary>Heights; null for none.</summary>
-    public TracedTexture? Bump { get; private init; }
+    /// <summary>Normals in tangent space, or heights; null for none.</summary>
+    public TracedTexture? Detail { get; private init; }
 
-    /// <summary>Normals in tangent space; null for none.</summary>
-    public TracedTexture? Normals { get; private init; }
+    /// <summary>Whether these are normals.</summary>
+    public bool HasNormals { get; private init; }
 
     /// <summary>True where light may pass.</summary>
     public bool IsSeeThrough { get; private init; }
 
     /// <summary>True where texture coordinates are needed.</summary>
-    public bool IsTextured => Texture is not null || Bump is not null || Normals is not null;
+    public bool IsTextured => Texture is not null || Detail is not null;
 
     /// <summary>Prepares a material for tracing.</summary>
-    /// <param name="drawable">With its decoded texture.</param>
-    /// <param name="textures">Decodes the maps of heights and normals.</param>
-    public static TracedMaterial Create(DrawableMaterial drawable, TextureCache textures)
+    /// <param name="drawable">With its decoded textures.</param>
+    public static TracedMaterial Create(DrawableMaterial drawable)
     {
         var material = drawable.Material;
         return new()
@@ -64,8 +62,8 @@ internal sealed class TracedMaterial
             IsCutOut = drawable.IsCutOut,
             IsSeeThrough = drawable.IsTransparent || drawable.IsCutOut,
             Texture = drawable.Texture is { } texture && material.Texture is { } mapping ? new(texture.Image, mapping) : null,
-            Bump = Load(material.BumpTexture, textures),
-            Normals = Load(material.NormalTexture, textures),
+            Detail = drawable.Detail is { } detail && material.DetailTexture is { } place ? new(detail.Image, place) : null,
+            HasNormals = material.NormalTexture is not null,
         };
     }
 
@@ -73,7 +71,4 @@ internal sealed class TracedMaterial
 
     // 0 for what is no number, too.
     private static double Limit(double number, double max) => number > 0 ? Math.Min(number, max) : 0;
-
-    private static TracedTexture? Load(MaterialTexture? texture, TextureCache textures) =>
-        texture is not null && textures.GetImage(texture.Path) is { } image ? new(image, texture) : null;
 }

@@ -43,7 +43,7 @@ internal sealed class TracedModel
                 {
                     index = materials.Count;
                     indices.Add(name, index);
-                    materials.Add(TracedMaterial.Create(textures.GetMaterial(material), textures));
+                    materials.Add(TracedMaterial.Create(textures.GetMaterial(material)));
                 }
 
                 ofFace.AsSpan(group.FirstFace, group.FaceCount).Fill((ushort)index);

@@ -11,7 +11,7 @@ namespace FractalEngine.Render.Upload;
 /// </summary>
 internal sealed class MaterialUniforms(ShaderProgram program, RedundancyFilter filter)
 {
-    private const int VectorCount = 7;
+    private const int VectorCount = 8;
 
     private readonly float[] _data = new float[4 * VectorCount];
     private (Material? Material, Colour Tint)? _lastKey;
@@ -41,7 +41,13 @@ internal sealed class MaterialUniforms(ShaderProgram program, RedundancyFilter f
 
         WriteVector(16, ClampNegative(material?.Emission ?? Colour.Black), reflectance.Metalness);
         LightBlock.WriteVector(reflectance.CoatOfSeveral, reflectance.RestOfFacets, _data.AsSpan(20));
-        LightBlock.WriteVector(reflectance.RestOfCoat, 0, _data.AsSpan(24));
+        var detail = material?.DetailTexture;
+        LightBlock.WriteVector(reflectance.RestOfCoat, material?.NormalTexture is null ? detail?.BumpFactor ?? 0 : 0, _data.AsSpan(24));
+        if (detail is not null)
+        {
+            LightBlock.WriteVector(new(detail.Scale.U, detail.Scale.V, detail.Offset.U), detail.Offset.V, _data.AsSpan(28));
+        }
+
         GL.Uniform4(program.UniformLocation("material"), VectorCount, _data);
     }
 

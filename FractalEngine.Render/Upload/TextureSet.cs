@@ -7,7 +7,7 @@ namespace FractalEngine.Render.Upload;
 /// <summary>Holds the textures of a scene on the GPU, each once.</summary>
 internal sealed class TextureSet : IDisposable
 {
-    private readonly Dictionary<DrawableTexture, SrgbTexture> _textures = new(ReferenceEqualityComparer.Instance);
+    private readonly Dictionary<DrawableTexture, SurfaceTexture> _textures = new(ReferenceEqualityComparer.Instance);
 
     /// <summary>Deletes all textures but some.</summary>
     public void KeepOnly(IReadOnlyCollection<DrawableTexture> textures)
@@ -27,16 +27,21 @@ internal sealed class TextureSet : IDisposable
     {
         foreach (var texture in textures.Where(texture => !_textures.ContainsKey(texture)))
         {
-            _textures.Add(texture, new(resources, texture.Name, texture.Image));
+            _textures.Add(texture, new(resources, texture.Name, texture.Image, !texture.IsDetail));
         }
     }
 
-    /// <summary>Binds the texture of a material, if it has one.</summary>
+    /// <summary>Binds the textures of a material, if it has any.</summary>
     public void Bind(DrawableMaterial? material)
     {
         if (material?.Texture is { } texture)
         {
             _textures[texture].Bind(material.Material.Texture is { IsClamped: true });
+        }
+
+        if (material?.Detail is { } detail)
+        {
+            _textures[detail].Bind(material.Material.DetailTexture is { IsClamped: true }, GlState.DetailTextureUnit);
         }
     }
 

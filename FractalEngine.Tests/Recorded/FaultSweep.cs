@@ -61,7 +61,7 @@ internal sealed partial class FaultSweep
         foreach (var diagnostic in diagnostics)
         {
             string key = (diagnostic.Severity == DiagnosticSeverity.Warning ? "warning: " : "")
-                + (diagnostic.IsLimitExceeded ? "limit: " : "") + (diagnostic.ConcernsDrawnFrames ? "drawn: " : "") + diagnostic.Message;
+                + (diagnostic.IsLimitExceeded ? "limit: " : "") + diagnostic.Message;
             int words = key.Aggregate(17, (sum, letter) => unchecked((sum * 31) + letter));
             key = Faulty().Replace(key, "$1 …");
             var (count, places, known) = _messages.GetValueOrDefault(key);

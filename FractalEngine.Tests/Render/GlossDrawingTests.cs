@@ -109,6 +109,39 @@ public sealed class GlossDrawingTests
         }
     }
 
+    [SkippableTheory]
+    [InlineData(false, 1)]
+    [InlineData(true, 1)]
+    [InlineData(true, 3)]
+    public void NormalsAndHeights_OfATexture_AreDrawnAsTheyAreTraced(bool areHeights, double scale)
+    {
+        using var scenes = new TexturedScenes();
+        // Normals that lean to the right and up, or heights that grow to the right and down.
+        var texture = scenes.CreateTexture("detail.png", 64, 64, (x, y) => areHeights
+            ? ((byte)(2 * x + y), (byte)0, (byte)0, (byte)255) : ((byte)190, (byte)160, (byte)230, (byte)255));
+        texture = texture with { Scale = (scale, 1), BumpFactor = 0.4 };
+        var material = new Material("m") { Roughness = 0.5, Metalness = 0.3 };
+        material = areHeights ? material with { BumpTexture = texture } : material with { NormalTexture = texture };
+        foreach (var rotation in (Vector[])[Vector.Zero, new(20, 30, 40)])
+        {
+            var scene = RenderScenes.Scene(
+                new() { Background = Colour.Black, Lights = [new DirectionalLight(new(-0.6, 0.4, 0.5), Colour.White, 0.4)] },
+                (TexturedScenes.CreateSquare(1, material), new(new(0.02, 0.03, 0), rotation, Vector.One), null));
+            var tracer = new PathTracer(scene, Near, 1, 1);
+            tracer.AddSample();
+            var (red, green, blue, _) = RenderScenes.Draw(scene, Near, Size, Size)[Size / 2, Size / 2];
+
+            Assert.NotEqual(red, RenderScenes.Draw(
+                RenderScenes.Scene(
+                    scene.Scene with { Objects = [] },
+                    (TexturedScenes.CreateSquare(1, material with { BumpTexture = null, NormalTexture = null }),
+                        new(new(0.02, 0.03, 0), rotation, Vector.One), null)),
+                Near, Size, Size)[Size / 2, Size / 2].Red);
+            AssertClose(
+                tracer.RadianceAt(0, 0), new Colour(red / 255.0, green / 255.0, blue / 255.0).ToLinearVector(), 0.03, $"{rotation}");
+        }
+    }
+
     private static void AssertClose(Vector expected, Vector found, double part, string text)
     {
         foreach (var (light, seen) in new[] { (expected.X, found.X), (expected.Y, found.Y), (expected.Z, found.Z) })

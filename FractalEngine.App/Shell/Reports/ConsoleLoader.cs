@@ -15,7 +15,7 @@ internal static class ConsoleLoader
     /// <summary>Loads a file with all files that it refers to. The path <c>-</c> stands for the standard input.</summary>
     /// <param name="path">Path of the file.</param>
     /// <param name="options">Options for loading.</param>
-    /// <param name="isTraced">Whether nothing but traced images is made of it, so that warnings about drawn frames are not true.</param>
+    /// <param name="isTraced">Whether nothing but traced images is made of it.</param>
     /// <exception cref="SourceException">A file is missing or faulty.</exception>
     public static LoadedFile Load(string path, LoadOptions options, bool isTraced = false)
     {
@@ -40,7 +40,7 @@ internal static class ConsoleLoader
             throw new UsageException($"--set: no fractal of {path} declares a number '{unknown}'{NameSuggestion.Ask(unknown, numbers)}");
         }
 
-        foreach (var warning in file.Warnings.Where(warning => !(isTraced && warning.ConcernsDrawnFrames)))
+        foreach (var warning in file.Warnings)
         {
             Console.Error.WriteLine(warning);
         }

@@ -29,6 +29,9 @@ internal sealed class GlState
     /// <summary>Texture unit of the light from all around.</summary>
     public const int SurroundingsTextureUnit = 3;
 
+    /// <summary>Texture unit of the normals or heights of a surface.</summary>
+    public const int DetailTextureUnit = 4;
+
     // No GL object has this name, and no face this value, so that the next call always takes effect.
     private const int Unknown = -1;
 

@@ -218,8 +218,8 @@ public sealed class MaterialLoaderTests : IDisposable
 
         _folder.Write("a.mtl", "newmtl m\nmap_Kd a.png\nmap_Bump b.png\nnorm c.png\n");
         var loaded = Load("mtllib a.mtl\nusemtl m\nf 1 2 3\n");
-        Assert.Equal("with \"c.png\" all images have more than the limit of 134217728 pixels: traced without it",
-            loaded.Warnings.Single(static warning => !warning.ConcernsDrawnFrames).Message);
+        Assert.Equal("with \"c.png\" all images have more than the limit of 134217728 pixels: shown without it",
+            Assert.Single(loaded.Warnings).Message);
         Assert.Equal((true, true, false), MaterialOf(loaded) is { } material
             ? (material.Texture is not null, material.BumpTexture is not null, material.NormalTexture is not null)
             : default);
@@ -459,8 +459,8 @@ public sealed class MaterialLoaderTests : IDisposable
     {
         _folder.Write("a.mtl", $"newmtl m\n{statement} a.png\n");
         var loaded = Load("mtllib a.mtl\nusemtl m\nf 1 2 3\n");
-        var warning = loaded.Warnings.Single(static warning => !warning.ConcernsDrawnFrames);
-        Assert.Equal($"{message}: traced without it", warning.Message);
+        var warning = Assert.Single(loaded.Warnings);
+        Assert.Equal($"{message}: shown without it", warning.Message);
         Assert.Equal((2, statement.Length + 2), (warning.Line, warning.Column));
         Assert.Equal(new Material("m"), MaterialOf(loaded));
     }

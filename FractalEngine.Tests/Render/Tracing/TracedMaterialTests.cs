@@ -97,13 +97,15 @@ public sealed class TracedMaterialTests : IDisposable
         var notices = ImmutableArray.CreateBuilder<string>();
         var textures = new TextureCache(notices, shareTextures: true, []);
 
-        Assert.Same(textures.GetImage(texture.Path), textures.GetImage(texture.Path));
+        Assert.Same(
+            textures.GetMaterial(new("a") { NormalTexture = texture }).Detail!.Image,
+            textures.GetMaterial(new("b") { BumpTexture = texture }).Detail!.Image);
         var scene = RenderScenes.Scene(
             new Scene(),
             (TexturedScenes.CreateSquare(1, new("a") { NormalTexture = broken }), Transformation.Identity, null),
             (TexturedScenes.CreateSquare(1, new("b") { BumpTexture = broken }), Transformation.Identity, null));
         Assert.StartsWith(
-            $"{broken.Path}:1:1: warning: the texture can't be decoded, traced without it: ",
+            $"{broken.Path}:1:1: warning: the texture can't be decoded, shown without it: ",
             Assert.Single(new PathTracer(scene, Square, 1, 1).Notices), StringComparison.Ordinal);
     }
 
