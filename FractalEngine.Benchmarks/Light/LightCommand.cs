@@ -21,6 +21,7 @@ internal static class LightCommand
           Pixels with wrong shadows, of a resting and of a moving camera; decibels of the drawn image to a traced one, without
           both, with shadows, with occlusion too; processor time of frames likewise; writes light.csv.
           Unless scenes are named, also the light from all around within fractals, to a traced image; writes occlusion.csv.
+          furnace: white balls of all materials under a white sky; writes furnace.csv.
           --no-truth: without traced images, and the decibels to them.
           --images: also the images of both.
         """;
@@ -49,7 +50,7 @@ internal static class LightCommand
             .Flag("--no-truth", () => hasTruth = false)
             .Option("--output", value => output = value)
             .Option("--images", value => images = Directory.CreateDirectory(value).FullName)
-            .Names(static name => name == "occlusion" || File.Exists(PathOf(name)), scenes);
+            .Names(static name => name is "occlusion" or "furnace" || File.Exists(PathOf(name)), scenes);
         if (!parser.TryParse(args))
         {
             return 2;
@@ -60,6 +61,12 @@ internal static class LightCommand
         {
             scenes.AddRange(isQuick ? ["menger"] : ["menger", "playground", "gallery", "inside"]);
             MeasureOcclusion(isQuick, folder, images);
+            MeasureFurnace(isQuick, folder);
+        }
+        else if (scenes.RemoveAll(static name => name == "furnace") > 0)
+        {
+            MeasureFurnace(isQuick, folder);
+            return 0;
         }
         else if (scenes.RemoveAll(static name => name == "occlusion") > 0)
         {
@@ -77,6 +84,19 @@ internal static class LightCommand
 
         table.Save();
         return 0;
+    }
+
+    private static void MeasureFurnace(bool isQuick, string folder)
+    {
+        var ball = AssetLoader.Load(Path.Combine(FractalCase.Assets, "models", "sphere.obj")).Scene.Objects[0].Model.Mesh;
+        var table = new TableOptions("light", isQuick, folder).CreateTable("furnace.csv", FurnaceTable.Columns);
+        foreach (var row in FurnaceTable.Measure(ball, isQuick))
+        {
+            table.Add(row);
+            Console.WriteLine(string.Join(' ', row.Select(static field => Convert.ToString(field, CultureInfo.InvariantCulture))));
+        }
+
+        table.Save();
     }
 
     private static void MeasureOcclusion(bool isQuick, string folder, string? images)

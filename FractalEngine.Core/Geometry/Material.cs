@@ -19,11 +19,20 @@ public sealed record Material(string Name)
     /// <summary><c>Ke</c>: the light that the surface emits, for each component of linear light; it may exceed 1.</summary>
     public Colour Emission { get; init; } = Colour.Black;
 
-    /// <summary><c>Ns</c>: the specular exponent; a larger one makes a smaller and sharper highlight.</summary>
+    /// <summary><c>Ns</c>: the specular exponent; a larger one makes a smaller, sharper and brighter highlight.</summary>
     public double SpecularExponent { get; init; } = 1;
 
     /// <summary><c>d</c>, or 1 − <c>Tr</c>: the opacity, from 0 (invisible) to 1 (opaque).</summary>
     public double Opacity { get; init; } = 1;
+
+    /// <summary><c>Ni</c>: the index of refraction, 1 where light is not refracted.</summary>
+    public double RefractiveIndex { get; init; } = 1;
+
+    /// <summary><c>Tf</c>: the part of light that is left after a way of one scene unit within, for each component of linear light.</summary>
+    public Colour Transmission { get; init; } = Colour.White;
+
+    /// <summary>Whether solids of the material are glass, which refracts light: transparent, with an index above 1.</summary>
+    public bool IsGlass => RefractiveIndex > 1 && Opacity < 1;
 
     /// <summary><c>map_Kd</c>: the diffuse texture; null where there is none.</summary>
     public MaterialTexture? Texture { get; init; }
@@ -55,7 +64,7 @@ public sealed record Material(string Name)
     public MaterialTexture? DetailTexture => NormalTexture ?? BumpTexture;
 
     /// <summary>Whether the material mirrors part of the light.</summary>
-    public bool IsGlossy => Specular != Colour.Black || IsPhysical;
+    public bool IsGlossy => Specular != Colour.Black || IsPhysical || IsGlass;
 
     /// <summary>Whether the material states its roughness or share of metal: then <c>Ks</c> and <c>Ns</c> have no meaning.</summary>
     public bool IsPhysical => Roughness is not null || Metalness is not null;

@@ -5,7 +5,7 @@ namespace FractalEngine.Parsing.Mtl;
 
 /// <summary>
 /// Reads Wavefront material files: <c>newmtl</c>, <c>Kd</c>, <c>Ka</c>, <c>Ks</c>, <c>Ke</c>, <c>Ns</c>, <c>d</c>, <c>Tr</c>,
-/// <c>Pr</c>, <c>Pm</c>, <c>map_Kd</c>, <c>map_d</c>, <c>map_Bump</c>, <c>norm</c>; and <c>map_Ke</c>, which is not shown, with one warning
+/// <c>Ni</c>, <c>Tf</c>, <c>Pr</c>, <c>Pm</c>, <c>map_Kd</c>, <c>map_d</c>, <c>map_Bump</c>, <c>norm</c>; and <c>map_Ke</c>, which is not shown, with one warning
 /// per file.
 /// </summary>
 /// <remarks>
@@ -111,6 +111,8 @@ public sealed class MtlParser : MtlTextureParser
             "Ks" => ParseColour(start, rest, static (material, colour) => material with { Specular = colour }),
             "Ke" => ParseColour(start, rest, static (material, colour) => material with { Emission = colour }),
             "Ns" => ParseScalar(start, rest, static (material, number) => material with { SpecularExponent = number }),
+            "Ni" => ParseScalar(start, rest, static (material, number) => material with { RefractiveIndex = number }),
+            "Tf" => ParseColour(start, rest, static (material, colour) => material with { Transmission = colour }),
             "d" => ParseOpacity(start, rest),
             "Tr" => ParseTransparency(start, rest),
             "map_Kd" or "map_d" => ParseTexture(start, rest, keyword),

@@ -41,6 +41,8 @@ internal static class MtlWriter
         AppendNumber(text, "Ns", material, material.SpecularExponent, defaults.SpecularExponent);
         Require(material.Opacity is >= 0 and <= 1, material, "its opacity is not between 0 and 1");
         AppendNumber(text, "d", material, material.Opacity, defaults.Opacity);
+        AppendNumber(text, "Ni", material, material.RefractiveIndex, defaults.RefractiveIndex);
+        AppendColour(text, "Tf", material, material.Transmission, defaults.Transmission);
         AppendNumber(text, "Pr", material, material.Roughness);
         AppendNumber(text, "Pm", material, material.Metalness);
     }

@@ -46,16 +46,24 @@ internal readonly record struct SurfaceReflectance
     /// light without end.
     /// </remarks>
     /// <param name="material">As a file declares it; null for a matt surface.</param>
-    public static SurfaceReflectance Of(Material? material) => material is null ? new(Vector.One, Vector.Zero, 0, 1) : new(
-        Vector.One,
-        material.IsPhysical
-            ? DielectricReflectance * Vector.One
-            : new(Limit(material.Specular.Red), Limit(material.Specular.Green), Limit(material.Specular.Blue)),
-        Limit(material.Metalness ?? 0),
-        // An exponent and a roughness with highlights of the same width (Walter and others, EGSR 2007).
-        Math.Max(FacetAlbedo.MinRoughness, material.IsPhysical
-            ? Math.Pow(Limit(material.Roughness ?? 1), 2)
-            : Math.Sqrt(2 / (Math.Max(0, material.SpecularExponent) + 2))));
+    public static SurfaceReflectance Of(Material? material)
+    {
+        if (material is null)
+        {
+            return new(Vector.One, Vector.Zero, 0, 1);
+        }
+
+        var (red, green, blue) = material.Specular;
+        var roughness = Math.Pow(Limit(material.Roughness ?? (material.IsGlass ? 0 : 1)), 2);
+        var isStated = material.IsPhysical || material.IsGlass;
+        return new(
+            Vector.One,
+            material.IsGlass ? Math.Pow((material.RefractiveIndex - 1) / (material.RefractiveIndex + 1), 2) * Vector.One
+                : isStated ? DielectricReflectance * Vector.One : new(Limit(red), Limit(green), Limit(blue)),
+            Limit(material.Metalness ?? 0),
+            // An exponent and a roughness with highlights of the same width (Walter and others, EGSR 2007).
+            Math.Max(FacetAlbedo.MinRoughness, isStated ? roughness : Math.Sqrt(2 / (Math.Max(0, material.SpecularExponent) + 2))));
+    }
 
     /// <summary>The same surface in another colour.</summary>
     /// <param name="colour">The point's colour in linear light, with texture and all else that multiplies it; at most 1.</param>

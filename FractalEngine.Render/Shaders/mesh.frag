@@ -225,11 +225,19 @@ void main()
 #endif
     vec3 shown = colour * opacity + highlights;
     float coverage = opacity;
+#if defined(GLOSSY) && defined(PER_PIXEL)
+    // What is mirrored does not come through.
+    float covered = 1.0 - (1.0 - material[0].w) * dot(throughCoat(gloss.facets), vec3(1.0 / 3.0));
+#if defined(TEXTURED) && !defined(CUT_OUT)
+    covered *= texel.a;
+#endif
+    coverage = covered;
+#endif
 #ifdef ATMOSPHERE
     // An orthographic view measures the distance from its plane.
     float distance = depthScale.z != 0.0 ? length(position) : max(dot(position, cameraAxes[2]), 0.0);
     // Where clear glass has a highlight, that covers what is behind.
-    coverage = clamp(max(opacity, max(highlights.r, max(highlights.g, highlights.b))), 1e-4, 1.0);
+    coverage = clamp(max(coverage, max(highlights.r, max(highlights.g, highlights.b))), 1e-4, 1.0);
     shown = coverage * toScreen(throughHaze(shown / coverage, distance));
 #endif
     fragment = vec4(shown, coverage);

@@ -242,8 +242,10 @@ public sealed class PathTracer
         var throughput = Vector.One;
         var (minDistance, maxDistance) = clip;
         var layers = 0;
+        var isBehindGlass = false;
         // Fog is between the eye and the first surface only.
         var distanceBefore = 0.0;
+        Glass? medium = null;
         for (var bounce = 0; ;)
         {
             if (!_scene.TryIntersect(in ray, footprint, minDistance, maxDistance, context, out var surface))
@@ -252,7 +254,10 @@ public sealed class PathTracer
             }
 
             var passed = (surface.Position - ray.Origin).Length();
-            if (surface.Opacity < 1 && !(samples.NextNumber() < surface.Opacity))
+            // An eye within glass learns it from the first surface.
+            medium ??= surface.IsInside ? surface.Glass : null;
+            throughput = medium is null ? throughput : throughput.Stretch(medium.TransmissionOver(_unit * passed));
+            if (surface.Glass is null && surface.Opacity < 1 && !(samples.NextNumber() < surface.Opacity))
             {
                 if (++layers > MaxLayers)
                 {
@@ -268,18 +273,44 @@ public sealed class PathTracer
                 continue;
             }
 
-            if (bounce == 0 && _fogDensity > 0)
+            if (bounce == 0 && _fogDensity > 0 && !isBehindGlass)
             {
                 var clear = Math.Exp(-_fogDensity * (distanceBefore + passed));
                 radiance = (1 - clear) * _fogColour;
-                throughput = clear * Vector.One;
+                throughput *= clear;
             }
 
             radiance += throughput.Stretch(surface.Emission);
             var width = footprint.RadiusAt(passed);
             var origin = surface.Position + (_scene.OffsetAt(surface.Position) * surface.FaceNormal);
-            radiance += throughput.Stretch(_lights.Reflected(
-                in surface, _eye + (_unit * surface.Position), origin, -ray.Direction, width, _scene, _unit, ref samples, context));
+            if (!surface.IsInside)
+            {
+                radiance += throughput.Stretch(_lights.Reflected(
+                    in surface, _eye + (_unit * surface.Position), origin, -ray.Direction, width, _scene, _unit, ref samples, context));
+            }
+
+            if (surface.Glass is { } glass)
+            {
+                if (++layers > MaxLayers)
+                {
+                    return radiance;
+                }
+
+                var through = glass.Sample(in surface, -ray.Direction, ref samples, out var isRefracted);
+                if (!isRefracted || surface.Opacity == 0 || samples.NextNumber() >= surface.Opacity)
+                {
+                    medium = isRefracted == surface.IsInside ? null : glass;
+                    ray = new(isRefracted ? origin - (2 * _scene.OffsetAt(surface.Position) * surface.FaceNormal) : origin, through);
+                    footprint = footprint with { Radius = width };
+                    (minDistance, maxDistance) = (0, double.PositiveInfinity);
+                    isBehindGlass = true;
+                    continue;
+                }
+
+                // Scattered by what is not clear.
+                surface = surface with { Reflectance = SurfaceReflectance.Of(null).WithColour(surface.Reflectance.Diffuse / surface.Opacity) };
+            }
+
             if (++bounce > BounceLimit
                 || !Reflection.TrySample(in surface, -ray.Direction, ref samples, out var direction, out var weight, out var spread))
             {

@@ -24,6 +24,9 @@ internal sealed class TracedMaterial
     /// <summary>What the surface does with light, white.</summary>
     public SurfaceReflectance Reflectance { get; private init; } = SurfaceReflectance.Of(null);
 
+    /// <summary>What solids of the material refract light by; null for none.</summary>
+    public Glass? Glass { get; private init; }
+
     /// <summary>Radiance of the surface itself.</summary>
     public Vector Emission { get; private init; }
 
@@ -57,6 +60,7 @@ internal sealed class TracedMaterial
         {
             BaseColour = Limit(material.Diffuse.ToLinearVector(), 1),
             Reflectance = SurfaceReflectance.Of(material),
+            Glass = Glass.Of(material),
             Emission = Limit(new Vector(material.Emission.Red, material.Emission.Green, material.Emission.Blue), MaxEmission),
             Opacity = Limit(material.Opacity, 1),
             IsCutOut = drawable.IsCutOut,

@@ -215,7 +215,14 @@ internal sealed record TracedScene
             normal = SurfaceDetail.Apply(material, normal, map.Linear, corners, coordinates, u, v, direction);
         }
 
-        return new(hit.Point, faceNormal, normal, material.Reflectance.WithColour(colour), material.Emission, opacity);
+        var glass = material.Glass is { } refracting && model.IsSolid ? refracting : null;
+        // What is not scattered goes through.
+        colour = glass is null ? colour : opacity * colour;
+        return new(hit.Point, faceNormal, normal, material.Reflectance.WithColour(colour), material.Emission, opacity)
+        {
+            Glass = glass,
+            IsInside = glass is not null && IsInnerSide(in hit, index),
+        };
     }
 
     /// <summary>Brings an interpolated normal to the side that the ray comes from; the face's own where there is none.</summary>

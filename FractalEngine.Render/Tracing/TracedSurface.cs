@@ -11,4 +11,11 @@ namespace FractalEngine.Render.Tracing;
 /// <param name="Emission">Radiance of the surface itself.</param>
 /// <param name="Opacity">From 0 to 1.</param>
 internal readonly record struct TracedSurface(
-    Vector Position, Vector FaceNormal, Vector Normal, SurfaceReflectance Reflectance, Vector Emission, double Opacity);
+    Vector Position, Vector FaceNormal, Vector Normal, SurfaceReflectance Reflectance, Vector Emission, double Opacity)
+{
+    /// <summary>The material within, where the surface is that of a solid which refracts light; null for none.</summary>
+    public Glass? Glass { get; init; }
+
+    /// <summary>Whether the ray comes from within that solid.</summary>
+    public bool IsInside { get; init; }
+}

@@ -97,6 +97,22 @@ public sealed class GlossDrawingTests
     }
 
     [SkippableTheory]
+    [InlineData(0)]
+    [InlineData(0.5)]
+    [InlineData(1)]
+    public void GlassBall_UnderAnEvenSky_IsNotSeen(double roughness)
+    {
+        var white = new Colour(0.7, 0.7, 0.7);
+        var material = new Material("m") { RefractiveIndex = 1.5, Opacity = 0, Roughness = roughness };
+        var scene = RenderScenes.Scene(
+            new() { Sky = new(white, white, white) },
+            (TexturedScenes.WithMaterial(RenderScenes.Sphere(24), material), Transformation.Identity, null));
+        var image = RenderScenes.Draw(scene, RenderScenes.FrontView, 60, 60);
+
+        Assert.All(image.Pixels.Chunk(4), pixel => Assert.InRange(pixel[0], 176, 181));
+    }
+
+    [SkippableTheory]
     [MemberData(nameof(Materials))]
     public void Gloss_UnderASky_IsDrawnAsItIsTraced(string name)
     {

@@ -174,12 +174,7 @@ public sealed class MaterialLoaderTests : IDisposable
                 Roughness = 0.5,
             },
             MaterialOf(loaded));
-        Assert.Equal(
-            [
-                "map_Bump is shown in traced images only (2 such statements in all)",
-                "map_Ke is kept but not shown (2 such statements in all)",
-            ],
-            loaded.Warnings.Select(static warning => warning.Message));
+        Assert.Equal("map_Ke is kept but not shown (2 such statements in all)", Assert.Single(loaded.Warnings).Message);
     }
 
     [Theory]

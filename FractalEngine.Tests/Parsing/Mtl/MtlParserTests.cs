@@ -24,6 +24,7 @@ public class MtlParserTests
             d 0.25
             illum 2
             Ni 1.45
+            Tf 0.5 0.25 1
             Ke 0 0.5 2
             map_Kd wood.png
             map_d -clamp on holes.png
@@ -37,6 +38,8 @@ public class MtlParserTests
                 Specular = new(0.7, 0.8, 0.9),
                 SpecularExponent = 96.5,
                 Opacity = 0.25,
+                RefractiveIndex = 1.45,
+                Transmission = new(0.5, 0.25, 1),
                 Emission = new(0, 0.5, 2),
                 Texture = new("wood.png"),
                 OpacityTexture = new("holes.png") { IsClamped = true },
