@@ -1,4 +1,4 @@
-// What a glossy surface does with light, as Render.Lights.SurfaceReflectance and Tracing.Reflection have it. Behind material.glsl and
+// What a glossy surface does with light, as Render.Lights.Gloss and Tracing.Reflection have it. Behind material.glsl and
 // lighting.glsl.
 
 uniform sampler2D facetAlbedo;  // Render.Lights.FacetAlbedo

@@ -23,7 +23,7 @@ internal sealed record Glass(double RefractiveIndex, double Roughness, Vector Ab
 
         // Programs write black where nothing is said.
         var (red, green, blue) = material.Transmission == Colour.Black ? Colour.White : material.Transmission;
-        var roughness = SurfaceReflectance.Of(material).Roughness;
+        var roughness = Gloss.Of(material)!.Roughness;
         return new(
             material.RefractiveIndex, roughness > FacetAlbedo.MinRoughness ? roughness : 0,
             new(AbsorptionOf(red), AbsorptionOf(green), AbsorptionOf(blue)));

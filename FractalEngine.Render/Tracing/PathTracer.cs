@@ -308,7 +308,7 @@ public sealed class PathTracer
                 }
 
                 // Scattered by what is not clear.
-                surface = surface with { Reflectance = SurfaceReflectance.Of(null).WithColour(surface.Reflectance.Diffuse / surface.Opacity) };
+                surface = surface with { Gloss = null, Colour = surface.Colour / surface.Opacity };
             }
 
             if (++bounce > BounceLimit

@@ -6,7 +6,7 @@ namespace FractalEngine.Render.Tracing;
 /// <summary>How a surface reflects light: evenly scattered, and mirrored by small facets (GGX).</summary>
 /// <remarks>
 /// The facets after Walter and others, "Microfacet Models for Refraction through Rough Surfaces", EGSR 2007, with Schlick's Fresnel term;
-/// the rest is that of <see cref="SurfaceReflectance"/>. A normal for shading leans away from the face, and some directions would lead
+/// the rest is that of <see cref="Gloss"/>. A normal for shading leans away from the face, and some directions would lead
 /// below it: they are mirrored by the face, so that no light is lost.
 /// </remarks>
 internal static class Reflection
@@ -52,14 +52,13 @@ internal static class Reflection
     public static bool TrySample(
         in TracedSurface surface, Vector toEye, ref SampleSequence samples, out Vector direction, out Vector weight, out double spread)
     {
-        var reflectance = surface.Reflectance;
         var mirrored = MirroredPart(in surface, toEye);
         var isMirrored = mirrored > 0 && samples.NextNumber() < mirrored;
         var point = samples.Next();
         var axes = FacetAlbedo.AxesAround(surface.Normal);
         if (isMirrored)
         {
-            var half = axes * FacetAlbedo.VisibleFacet(axes.Transpose() * toEye, reflectance.Roughness, point);
+            var half = axes * FacetAlbedo.VisibleFacet(axes.Transpose() * toEye, surface.Gloss!.Roughness, point);
             direction = (2 * Vector.Dot(toEye, half) * half) - toEye;
         }
         else
@@ -69,11 +68,11 @@ internal static class Reflection
             direction = axes * new Vector(radius * cosineAround, radius * sine, Math.Sqrt(Math.Max(0, 1 - point.U)));
         }
 
-        spread = isMirrored ? reflectance.Roughness : 1;
+        spread = isMirrored ? surface.Gloss!.Roughness : 1;
         // Scattered light alone has the same weight everywhere.
-        weight = reflectance.Diffuse;
+        weight = surface.Colour;
         var density = 1.0;
-        if (reflectance.IsGlossy)
+        if (surface.Gloss is not null)
         {
             density = Math.PI * DensityOfLobe(in surface, toEye, direction, mirrored);
             weight = EvaluateLobe(in surface, toEye, direction) / Math.Max(density, double.Epsilon);
@@ -91,37 +90,36 @@ internal static class Reflection
     private static Vector EvaluateLobe(in TracedSurface surface, Vector toEye, Vector toLight)
     {
         var cosine = Vector.Dot(surface.Normal, toLight);
-        var reflectance = surface.Reflectance;
         if (!(cosine > 0))
         {
             return Vector.Zero;
         }
 
-        if (!reflectance.IsGlossy)
+        if (surface.Gloss is not { } gloss)
         {
-            return cosine * reflectance.Diffuse;
+            return cosine * surface.Colour;
         }
 
         var half = (toEye + toLight).UnitVector();
         var cosineEye = CosineEye(in surface, toEye);
-        var alphaSquared = reflectance.Roughness * reflectance.Roughness;
+        var alphaSquared = gloss.Roughness * gloss.Roughness;
         var shadowing = FacetAlbedo.Shadowing(cosineEye, alphaSquared) * FacetAlbedo.Shadowing(cosine, alphaSquared);
         var mirrored = Distribution(Vector.Dot(surface.Normal, half), alphaSquared) * shadowing / (4 * cosineEye);
-        var eye = FacetAlbedo.At(cosineEye, reflectance.Roughness);
-        return (mirrored * Fresnel(reflectance.Specular, Vector.Dot(toLight, half)))
-            + (cosine * reflectance.Scattered(eye, FacetAlbedo.At(cosine, reflectance.Roughness)));
+        var eye = FacetAlbedo.At(cosineEye, gloss.Roughness);
+        return (mirrored * Fresnel(gloss.Specular(surface.Colour), Vector.Dot(toLight, half)))
+            + (cosine * gloss.Scattered(surface.Colour, eye, FacetAlbedo.At(cosine, gloss.Roughness)));
     }
 
     /// <summary>How likely the part of light is followed that facets mirror once.</summary>
     private static double MirroredPart(in TracedSurface surface, Vector toEye)
     {
-        if (!surface.Reflectance.IsGlossy)
+        if (surface.Gloss is not { } gloss)
         {
             return 0;
         }
 
-        var mirrored = Luminance(surface.Reflectance.Albedo(
-            FacetAlbedo.At(CosineEye(in surface, toEye), surface.Reflectance.Roughness), out var scattered));
+        var mirrored = Luminance(gloss.Albedo(
+            surface.Colour, FacetAlbedo.At(CosineEye(in surface, toEye), gloss.Roughness), out var scattered));
         var sum = mirrored + Luminance(scattered);
         return sum > 0 ? mirrored / sum : 0;
     }
@@ -135,13 +133,13 @@ internal static class Reflection
         }
 
         var scattered = (1 - mirroredPart) * cosine / Math.PI;
-        if (mirroredPart == 0)
+        if (surface.Gloss is not { } gloss)
         {
             return scattered;
         }
 
         var cosineEye = CosineEye(in surface, toEye);
-        var alphaSquared = surface.Reflectance.Roughness * surface.Reflectance.Roughness;
+        var alphaSquared = gloss.Roughness * gloss.Roughness;
         var facets = Distribution(Vector.Dot(surface.Normal, (toEye + toLight).UnitVector()), alphaSquared) / Math.PI;
         return scattered + (mirroredPart * facets * FacetAlbedo.Shadowing(cosineEye, alphaSquared) / (4 * cosineEye));
     }

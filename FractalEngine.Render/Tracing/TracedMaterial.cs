@@ -21,8 +21,8 @@ internal sealed class TracedMaterial
     /// <summary>The colour, which that of object, vertices and texture multiply; null for the object's own.</summary>
     public Vector? BaseColour { get; private init; }
 
-    /// <summary>What the surface does with light, white.</summary>
-    public SurfaceReflectance Reflectance { get; private init; } = SurfaceReflectance.Of(null);
+    /// <summary>What mirrors; null for a matt surface.</summary>
+    public Gloss? Gloss { get; private init; }
 
     /// <summary>What solids of the material refract light by; null for none.</summary>
     public Glass? Glass { get; private init; }
@@ -59,7 +59,7 @@ internal sealed class TracedMaterial
         return new()
         {
             BaseColour = Limit(material.Diffuse.ToLinearVector(), 1),
-            Reflectance = SurfaceReflectance.Of(material),
+            Gloss = Gloss.Of(material),
             Glass = Glass.Of(material),
             Emission = Limit(new Vector(material.Emission.Red, material.Emission.Green, material.Emission.Blue), MaxEmission),
             Opacity = Limit(material.Opacity, 1),

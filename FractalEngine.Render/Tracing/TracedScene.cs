@@ -218,7 +218,7 @@ internal sealed record TracedScene
         var glass = material.Glass is { } refracting && model.IsSolid ? refracting : null;
         // What is not scattered goes through.
         colour = glass is null ? colour : opacity * colour;
-        return new(hit.Point, faceNormal, normal, material.Reflectance.WithColour(colour), material.Emission, opacity)
+        return new(hit.Point, faceNormal, normal, colour, material.Gloss, material.Emission, opacity)
         {
             Glass = glass,
             IsInside = glass is not null && IsInnerSide(in hit, index),

@@ -7,11 +7,12 @@ namespace FractalEngine.Render.Tracing;
 /// <param name="Position">World space.</param>
 /// <param name="FaceNormal">The normal of the triangle.</param>
 /// <param name="Normal">For shading: interpolated, with bumps.</param>
-/// <param name="Reflectance">What the surface does with light.</param>
+/// <param name="Colour">The part of light that is reflected, linear light.</param>
+/// <param name="Gloss">What mirrors; null for a matt surface.</param>
 /// <param name="Emission">Radiance of the surface itself.</param>
 /// <param name="Opacity">From 0 to 1.</param>
 internal readonly record struct TracedSurface(
-    Vector Position, Vector FaceNormal, Vector Normal, SurfaceReflectance Reflectance, Vector Emission, double Opacity)
+    Vector Position, Vector FaceNormal, Vector Normal, Vector Colour, Gloss? Gloss, Vector Emission, double Opacity)
 {
     /// <summary>The material within, where the surface is that of a solid which refracts light; null for none.</summary>
     public Glass? Glass { get; init; }

@@ -1,4 +1,5 @@
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
 using FractalEngine.Render.Gl;
 using FractalEngine.Render.Gl.State;
 using FractalEngine.Render.Lights;
@@ -14,6 +15,7 @@ internal sealed class MaterialUniforms(ShaderProgram program, RedundancyFilter f
     private const int VectorCount = 8;
 
     private readonly float[] _data = new float[4 * VectorCount];
+    private readonly Dictionary<Material, Gloss?> _gloss = new(ReferenceEqualityComparer.Instance);
     private (Material? Material, Colour Tint)? _lastKey;
 
     /// <summary>Sets the material of the next draw calls. The program must be in use.</summary>
@@ -30,25 +32,35 @@ internal sealed class MaterialUniforms(ShaderProgram program, RedundancyFilter f
         var diffuse = ClampNegative(material?.Diffuse ?? Colour.White).ToLinear();
         var linearTint = tint.ToLinear();
         var tinted = new Colour(diffuse.Red * linearTint.Red, diffuse.Green * linearTint.Green, diffuse.Blue * linearTint.Blue);
-        var reflectance = SurfaceReflectance.Of(material);
+        var gloss = GlossOf(material);
         WriteVector(0, tinted, material?.Opacity ?? 1);
-        LightBlock.WriteVector(reflectance.Coat, reflectance.Roughness, _data.AsSpan(4));
+        LightBlock.WriteVector(gloss?.Coat ?? default, gloss?.Roughness ?? 1, _data.AsSpan(4));
         WriteVector(8, ClampNegative(material?.Ambient ?? Colour.White), material is null ? 0 : 1);
         if (material?.Texture is { } texture)
         {
             LightBlock.WriteVector(new(texture.Scale.U, texture.Scale.V, texture.Offset.U), texture.Offset.V, _data.AsSpan(12));
         }
 
-        WriteVector(16, ClampNegative(material?.Emission ?? Colour.Black), reflectance.Metalness);
-        LightBlock.WriteVector(reflectance.CoatOfSeveral, reflectance.RestOfFacets, _data.AsSpan(20));
+        WriteVector(16, ClampNegative(material?.Emission ?? Colour.Black), gloss?.Metalness ?? 0);
+        LightBlock.WriteVector(gloss?.CoatOfSeveral ?? default, gloss?.RestOfFacets ?? 1, _data.AsSpan(20));
         var detail = material?.DetailTexture;
-        LightBlock.WriteVector(reflectance.RestOfCoat, material?.NormalTexture is null ? detail?.BumpFactor ?? 0 : 0, _data.AsSpan(24));
+        LightBlock.WriteVector(gloss?.RestOfCoat ?? Vector.One, material?.NormalTexture is null ? detail?.BumpFactor ?? 0 : 0, _data.AsSpan(24));
         if (detail is not null)
         {
             LightBlock.WriteVector(new(detail.Scale.U, detail.Scale.V, detail.Offset.U), detail.Offset.V, _data.AsSpan(28));
         }
 
         GL.Uniform4(program.UniformLocation("material"), VectorCount, _data);
+    }
+
+    private Gloss? GlossOf(Material? material)
+    {
+        if (material is null)
+        {
+            return null;
+        }
+
+        return _gloss.TryGetValue(material, out var known) ? known : _gloss[material] = Gloss.Of(material);
     }
 
     private static Colour ClampNegative(Colour colour) => new(Math.Max(colour.Red, 0), Math.Max(colour.Green, 0), Math.Max(colour.Blue, 0));

