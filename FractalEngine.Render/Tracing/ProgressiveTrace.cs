@@ -44,6 +44,9 @@ public sealed class ProgressiveTrace(int sampleCount, RenderSettings settings, A
     /// <summary>Number of samples that each pixel gets.</summary>
     public int MaxSampleCount => sampleCount;
 
+    /// <summary>Whether images are published without their noise. False unless stated.</summary>
+    public bool Denoises { get; init; }
+
     /// <summary>The latest image and its opacity; null before the first one.</summary>
     public ImageLayer? Layer { get; private set; }
 
@@ -150,7 +153,9 @@ public sealed class ProgressiveTrace(int sampleCount, RenderSettings settings, A
                 if (count == sampleCount || Stopwatch.GetElapsedTime(start) >= PublishInterval)
                 {
                     var opacity = Opacity(count, sampleCount);
-                    var layer = opacity > 0 ? new ImageLayer(tracer.ToImage(), opacity) : null;
+                    var layer = opacity > 0
+                        ? new ImageLayer(tracer.Denoise(scheduler: TaskScheduler.Current, cancellation: cancellation), opacity)
+                        : null;
                     Publish(request, count == sampleCount ? TraceState.Done : TraceState.Tracing, count, layer, null);
                     start = Stopwatch.GetTimestamp();
                 }
@@ -169,7 +174,7 @@ public sealed class ProgressiveTrace(int sampleCount, RenderSettings settings, A
     private PathTracer Prepare(TraceRequest request)
     {
         var (scene, view, width, height) = request;
-        var tracer = _prepared is not { } prepared ? new PathTracer(scene, view, width, height, settings)
+        var tracer = _prepared is not { } prepared ? new PathTracer(scene, view, width, height, settings) { CanDenoise = Denoises }
             : prepared.Request.Scene == scene ? prepared.Tracer.WithView(view, width, height)
             : prepared.Tracer.WithScene(scene, view, width, height);
         _prepared = (request, tracer);
