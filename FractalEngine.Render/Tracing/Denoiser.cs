@@ -47,7 +47,7 @@ internal sealed class Denoiser(SharedSamples samples, RadianceImage raw)
     private const int RawVariance = 17;
     private const int PlaneCount = 20;
 
-    private static readonly int _lanes = Vector<float>.Count;
+    private static readonly int Lanes = Vector<float>.Count;
 
     private readonly (int X, int Y, int Width, int Height) _viewport = samples.Viewport;
 
@@ -129,11 +129,11 @@ internal sealed class Denoiser(SharedSamples samples, RadianceImage raw)
 
     private void FilterRow(int y, int row, float[][] planes, RadianceImage target)
     {
-        for (var x = 0; x < _viewport.Width; x += _lanes)
+        for (var x = 0; x < _viewport.Width; x += Lanes)
         {
             var i = (row * _stride) + Radius + 1 + x;
             Average(i, planes, out var red, out var green, out var blue);
-            for (var lane = 0; lane < Math.Min(_lanes, _viewport.Width - x); lane++)
+            for (var lane = 0; lane < Math.Min(Lanes, _viewport.Width - x); lane++)
             {
                 var (column, line) = (_viewport.X + x + lane, _viewport.Y + y);
                 samples.Read(column, line, out _, out var emitted, out _, out _);

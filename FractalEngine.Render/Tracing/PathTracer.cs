@@ -267,7 +267,8 @@ public sealed class PathTracer
         }
     }
 
-    private Vector TracePixel(int x, int y, int sample, QueryContext context, out (double U, double V) point, out FirstHit first)
+    private Vector TracePixel(
+        int x, int y, int sample, QueryContext context, out (double U, double V) point, out FirstHit first)
     {
         var samples = new SampleSequence((y * Width) + x, sample, _seed);
         point = samples.Next();

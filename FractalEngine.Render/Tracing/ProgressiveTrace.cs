@@ -24,6 +24,9 @@ public sealed class ProgressiveTrace(int sampleCount, RenderSettings settings, A
 
     private static readonly TimeSpan PublishInterval = TimeSpan.FromSeconds(0.5);
 
+    // Samples get at least so many times as long as images to publish.
+    private const int SampleShare = 5;
+
     private readonly Lock _lock = new();
     private LowPriorityScheduler? _scheduler;
     private Task _task = Task.CompletedTask;
@@ -147,16 +150,20 @@ public sealed class ProgressiveTrace(int sampleCount, RenderSettings settings, A
         {
             var tracer = Prepare(request);
             var start = Stopwatch.GetTimestamp();
+            var interval = PublishInterval;
             for (var count = 1; count <= sampleCount; count++)
             {
                 tracer.AddSample(scheduler: TaskScheduler.Current, cancellation: cancellation);
-                if (count == sampleCount || Stopwatch.GetElapsedTime(start) >= PublishInterval)
+                if (count == sampleCount || Stopwatch.GetElapsedTime(start) >= interval)
                 {
+                    start = Stopwatch.GetTimestamp();
                     var opacity = Opacity(count, sampleCount);
                     var layer = opacity > 0
                         ? new ImageLayer(tracer.Denoise(scheduler: TaskScheduler.Current, cancellation: cancellation), opacity)
                         : null;
                     Publish(request, count == sampleCount ? TraceState.Done : TraceState.Tracing, count, layer, null);
+                    var cost = Stopwatch.GetElapsedTime(start);
+                    interval = SampleShare * cost > PublishInterval ? SampleShare * cost : PublishInterval;
                     start = Stopwatch.GetTimestamp();
                 }
             }
