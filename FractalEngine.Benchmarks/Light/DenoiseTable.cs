@@ -69,8 +69,8 @@ internal static class DenoiseTable
                 var after = ImageError.PeakSignalToNoiseRatio(Part(denoised, part), Part(truth, part));
                 yield return
                 [
-                    name, part, width, height, count, truthCount, Math.Round(before, 2), Math.Round(after, 2), Math.Round(after - before, 2),
-                    Math.Round(filtered, 2), Math.Round(traced, 1),
+                    name, part, width, height, count, truthCount,
+                    Math.Round(before, 2), Math.Round(after, 2), Math.Round(after - before, 2), Math.Round(filtered, 2), Math.Round(traced, 1),
                 ];
             }
         }

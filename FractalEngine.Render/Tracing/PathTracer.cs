@@ -123,7 +123,7 @@ public sealed class PathTracer
         }
     } = MaxBounces;
 
-    /// <summary>Whether what <see cref="Denoise"/> needs is kept: 80 bytes a pixel beside the image's own 24. False unless stated.</summary>
+    /// <summary>Whether what <see cref="Denoise"/> needs is kept: 80 bytes a pixel beside the image's 24. False unless stated.</summary>
     public bool CanDenoise { get; init; }
 
     /// <summary>Number of samples that every pixel has.</summary>

@@ -17,7 +17,7 @@ public class DenoiserTests
 
     private static readonly ParallelOptions OneThread = new() { MaxDegreeOfParallelism = 1 };
 
-    /// <summary>Light of a sample at a place of the image, in pixels: a random number from 0 to 2 with the mean 1 makes its noise.</summary>
+    /// <summary>Light of a sample at a place of the image, in pixels; a random number from 0 to 2 makes its noise.</summary>
     private delegate (Vector Radiance, FirstHit First) Film(double x, double y, double noise);
 
     [Theory]
