@@ -21,7 +21,7 @@ internal static class LightCommand
           Pixels with wrong shadows, of a resting and of a moving camera; decibels of the drawn image to a traced one, without
           both, with shadows, with occlusion too; processor time of frames likewise; writes light.csv.
           Unless scenes are named, also the light from all around within fractals, to a traced image; writes occlusion.csv.
-          Likewise what the denoiser gains, to a traced image of many samples; writes denoise.csv, which takes an hour.
+          Likewise what the denoiser gains, to a traced image of many samples; writes denoise.csv, for an hour.
           The names 'occlusion' and 'denoise' measure these alone.
           --no-truth: without traced images, and the decibels to them.
           --images: also the images of both.

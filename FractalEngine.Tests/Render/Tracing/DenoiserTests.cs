@@ -59,7 +59,7 @@ public class DenoiserTests
     [InlineData("edge of normals", 2.5)]
     [InlineData("texture", 2.5)]
     [InlineData("background", 2.5)]
-    [InlineData("glow", 2.5)]
+    [InlineData("glow", 1.5)]
     public void Filter_OfNoise_ComesCloserToTheTruth(string kind, double factor)
     {
         Film film = kind switch
