@@ -23,7 +23,7 @@ internal sealed class TracedFrames(PathTracer prepared, RenderJob job, TracedIma
             : _tracer.WithView(view, job.Size.Width, job.Size.Height);
         _movedScene = null;
         trace.AddSamples(_tracer, cancellation);
-        return _tracer.ToImage();
+        return _tracer.Denoise(cancellation: cancellation);
     }
 
     public override void Move(AnimatedBodies bodies) => _movedScene = bodies.GetScene();

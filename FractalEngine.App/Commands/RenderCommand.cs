@@ -77,7 +77,7 @@ internal static class RenderCommand
 
         var tracer = trace.Prepare(scene, view, job, report);
         var isComplete = report.Measure("trace", () => trace.TryAddSamples(tracer, report.IsQuiet));
-        Write(tracer.ToImage(), output, report);
+        Write(report.Measure("denoise", () => tracer.Denoise()), output, report);
         if (!isComplete)
         {
             throw new OperationCanceledException("interrupted");

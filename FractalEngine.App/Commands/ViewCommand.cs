@@ -41,6 +41,7 @@ internal static class ViewCommand
             "Samples of each pixel of the image that is traced while the view stands still"
             + $" (default: {WindowOptions.DefaultTraceSampleCount}).");
         var noTrace = new Option<bool>("--no-trace") { Description = "Don't trace the view while it stands still. Key Y switches." };
+        var noDenoise = SharedOptions.NoDenoiseOption();
         command.Validators.Add(result =>
         {
             if (result.GetResult(trace) is not null && result.GetValue(noTrace))
@@ -50,7 +51,7 @@ internal static class ViewCommand
         });
         shared.AddTo(command);
         draw.AddTo(command);
-        SharedOptions.AddAll(command, noWatch, trailLength, trace, noTrace);
+        SharedOptions.AddAll(command, noWatch, trailLength, trace, noTrace, noDenoise);
         command.SetAction(result =>
         {
             draw.RequireEffect(result, hasWindow: true);
@@ -62,6 +63,7 @@ internal static class ViewCommand
                 Section = draw.Section(result),
                 TrailLength = result.GetValue(trailLength) ?? DefaultTrailLength,
                 IsTraced = result.GetValue(noTrace) ? false : result.GetValue(trace) is null ? null : true,
+                DenoisesTrace = !result.GetValue(noDenoise),
                 TraceSampleCount = result.GetValue(trace) ?? WindowOptions.DefaultTraceSampleCount,
                 Size = draw.Resolution(result),
                 WatchesFiles = !result.GetValue(noWatch),

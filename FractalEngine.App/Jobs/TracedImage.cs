@@ -11,11 +11,16 @@ namespace FractalEngine.App.Jobs;
 /// <param name="Samples">Number of samples of each pixel.</param>
 /// <param name="Seed">Distinguishes independent images.</param>
 /// <param name="KeepsPartial">Whether an interrupted image is written as far as it is.</param>
-internal sealed record TracedImage(int Samples, int Seed, bool KeepsPartial)
+/// <param name="Denoises">Whether the noise is taken out.</param>
+internal sealed record TracedImage(int Samples, int Seed, bool KeepsPartial, bool Denoises)
 {
     // Sums take 24 bytes each, the image 4: 1.75 GiB.
     /// <summary>Largest number of pixels.</summary>
     public const long MaxPixels = 1L << 26;
+
+    // 80 bytes each beside them, and 24 while the filter runs: 2.06 GiB.
+    /// <summary>Largest number of pixels of an image whose noise is taken out.</summary>
+    public const long MaxDenoisedPixels = 1L << 24;
 
     /// <summary>Prepares an image without samples, and tells about textures that can't be decoded.</summary>
     /// <param name="scene">With its models loaded.</param>
@@ -42,18 +47,24 @@ internal sealed record TracedImage(int Samples, int Seed, bool KeepsPartial)
     public PathTracer CreateTracer(LoadedScene scene, View view, RenderJob job, PathTracer? previous = null)
     {
         UsageException.ThrowIf(job.Background.IsTransparent, "--trace draws no transparent background: expected a colour");
-        if ((long)job.Size.Width * job.Size.Height > MaxPixels)
+        var maxPixels = MaxPixelsOf(Denoises);
+        if ((long)job.Size.Width * job.Size.Height > maxPixels)
         {
             throw new FractalEngineException(
                 ErrorKind.Limit,
-                $"a traced image of {job.Size.Width}×{job.Size.Height} pixels has more than the limit of {MaxPixels} in all");
+                $"a traced image of {job.Size.Width}×{job.Size.Height} pixels has more than the limit of {maxPixels} in all"
+                + (Denoises ? $", which is {MaxPixels} with --no-denoise" : ""));
         }
 
         var background = job.Background.Colour ?? scene.Scene.Background;
         scene = scene with { Scene = scene.Scene with { Background = background } };
         return previous?.WithScene(scene, view, job.Size.Width, job.Size.Height)
-            ?? new(scene, view, job.Size.Width, job.Size.Height, job.Settings, Seed);
+            ?? new(scene, view, job.Size.Width, job.Size.Height, job.Settings, Seed) { CanDenoise = Denoises };
     }
+
+    /// <summary>Returns the largest number of pixels of an image.</summary>
+    /// <param name="denoises">Whether its noise is taken out.</param>
+    public static long MaxPixelsOf(bool denoises) => denoises ? MaxDenoisedPixels : MaxPixels;
 
     /// <summary>Adds all samples to an image.</summary>
     /// <param name="tracer">An image without samples.</param>

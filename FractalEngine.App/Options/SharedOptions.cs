@@ -122,6 +122,9 @@ internal sealed class SharedOptions
     /// <summary>Creates an option without a value.</summary>
     public static Option<bool> Flag(string name, string description) => new(name) { Description = description };
 
+    /// <summary>Creates the option that leaves traced images as they are.</summary>
+    public static Option<bool> NoDenoiseOption() => Flag("--no-denoise", "Leave the noise of traced images as it is.");
+
     /// <summary>Creates an option for a text, which the command parses.</summary>
     /// <param name="name">The name with its dashes.</param>
     /// <param name="helpName">The placeholder of the value in the help text.</param>

@@ -18,8 +18,10 @@ internal sealed class TraceOptions(bool canKeepPartial)
     private readonly Option<bool> _keepsPartial = SharedOptions.Flag(
         "--keep-partial", "Write a traced image that is interrupted as far as it is.");
 
+    private readonly Option<bool> _keepsNoise = SharedOptions.NoDenoiseOption();
+
     public void AddTo(Command command) =>
-        SharedOptions.AddAll(command, canKeepPartial ? [_samples, _keepsPartial] : [_samples]);
+        SharedOptions.AddAll(command, canKeepPartial ? [_samples, _keepsNoise, _keepsPartial] : [_samples, _keepsNoise]);
 
     /// <summary>How the image is traced; null where it is drawn.</summary>
     /// <exception cref="UsageException">An option has a meaning for traced images only.</exception>
@@ -27,8 +29,10 @@ internal sealed class TraceOptions(bool canKeepPartial)
     {
         var samples = result.GetValue(_samples);
         var keepsPartial = canKeepPartial && result.GetValue(_keepsPartial);
-        return samples is { } count ? new(count, result.GetValue<int?>(SharedOptions.SeedName) ?? 0, keepsPartial)
+        var keepsNoise = result.GetValue(_keepsNoise);
+        return samples is { } count ? new(count, result.GetValue<int?>(SharedOptions.SeedName) ?? 0, keepsPartial, !keepsNoise)
             : keepsPartial ? throw new UsageException("--keep-partial needs --trace")
+            : keepsNoise ? throw new UsageException("--no-denoise needs --trace")
             : null;
     }
 }

@@ -21,7 +21,9 @@ internal static class LightCommand
           Pixels with wrong shadows, of a resting and of a moving camera; decibels of the drawn image to a traced one, without
           both, with shadows, with occlusion too; processor time of frames likewise; writes light.csv.
           Unless scenes are named, also the light from all around within fractals, to a traced image; writes occlusion.csv.
-          furnace: white balls of all materials under a white sky; writes furnace.csv.
+          Likewise white balls of all materials under a white sky; writes furnace.csv.
+          Likewise what the denoiser gains, to a traced image of many samples; writes denoise.csv, for an hour.
+          The names 'occlusion', 'furnace' and 'denoise' measure these alone.
           --no-truth: without traced images, and the decibels to them.
           --images: also the images of both.
         """;
@@ -50,7 +52,7 @@ internal static class LightCommand
             .Flag("--no-truth", () => hasTruth = false)
             .Option("--output", value => output = value)
             .Option("--images", value => images = Directory.CreateDirectory(value).FullName)
-            .Names(static name => name is "occlusion" or "furnace" || File.Exists(PathOf(name)), scenes);
+            .Names(static name => name is "occlusion" or "furnace" or "denoise" || File.Exists(PathOf(name)), scenes);
         if (!parser.TryParse(args))
         {
             return 2;
@@ -62,10 +64,16 @@ internal static class LightCommand
             scenes.AddRange(isQuick ? ["menger"] : ["menger", "playground", "gallery", "inside"]);
             MeasureOcclusion(isQuick, folder, images);
             MeasureFurnace(isQuick, folder);
+            MeasureDenoising(isQuick, folder, images);
         }
         else if (scenes.RemoveAll(static name => name == "furnace") > 0)
         {
             MeasureFurnace(isQuick, folder);
+            return 0;
+        }
+        else if (scenes.RemoveAll(static name => name == "denoise") > 0)
+        {
+            MeasureDenoising(isQuick, folder, images);
             return 0;
         }
         else if (scenes.RemoveAll(static name => name == "occlusion") > 0)
@@ -105,6 +113,23 @@ internal static class LightCommand
         foreach (var name in isQuick ? ["menger-4"] : OcclusionTable.Fractals)
         {
             var row = OcclusionTable.Measure(name, isQuick, images);
+            table.Add(row);
+            Console.WriteLine(string.Join(' ', row.Select(static field => Convert.ToString(field, CultureInfo.InvariantCulture))));
+        }
+
+        table.Save();
+    }
+
+    private static void MeasureDenoising(bool isQuick, string folder, string? images)
+    {
+        var table = new TableOptions("light", isQuick, folder).CreateTable("denoise.csv", DenoiseTable.Columns);
+        string[] scenes = isQuick ? ["menger"] : ["menger", "gallery", "inside"];
+        foreach (var row in scenes.SelectMany(name => isQuick
+            ? DenoiseTable.Measure(name, 240, 135, [4, 16, 64], 256, images)
+            : DenoiseTable.Measure(name, 960, 540, [4, 16, 64, 256], 1024, images)
+                // A converged image of many samples has to have many more.
+                .Concat(DenoiseTable.Measure(name, 240, 135, [1024], 8192, images))))
+        {
             table.Add(row);
             Console.WriteLine(string.Join(' ', row.Select(static field => Convert.ToString(field, CultureInfo.InvariantCulture))));
         }

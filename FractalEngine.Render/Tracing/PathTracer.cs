@@ -54,6 +54,7 @@ public sealed class PathTracer
     private readonly Vector _fogColour;
     private readonly int _seed;
     private readonly RadianceImage _image;
+    private SharedSamples? _shared;
     private bool _isAffordable;
 
     /// <summary>Prepares an image without samples.</summary>
@@ -122,6 +123,9 @@ public sealed class PathTracer
         }
     } = MaxBounces;
 
+    /// <summary>Whether what <see cref="Denoise"/> needs is kept: 80 bytes a pixel beside the image's 24. False unless stated.</summary>
+    public bool CanDenoise { get; init; }
+
     /// <summary>Number of samples that every pixel has.</summary>
     public int SampleCount => _image.RowSamples.Min();
 
@@ -134,7 +138,8 @@ public sealed class PathTracer
     /// <param name="height">Pixels, at least 1.</param>
     /// <exception cref="ArgumentOutOfRangeException">Width or height is less than 1.</exception>
     public PathTracer WithView(View view, int width, int height) =>
-        new(view, width, height, _scene, _lights, _declared, _defaultBackground, _seed) { BounceLimit = BounceLimit };
+        new(view, width, height, _scene, _lights, _declared, _defaultBackground, _seed)
+        { BounceLimit = BounceLimit, CanDenoise = CanDenoise };
 
     /// <summary>
     /// Prepares an image of another scene, or of another state of the same one, without samples. What was prepared of models that both
@@ -152,7 +157,7 @@ public sealed class PathTracer
         return new(
             view, width, height, _scene.WithScene(scene), new(scene), TracedBackground.DeclaredIn(scene.Scene, _defaultBackground),
             _defaultBackground, _seed)
-        { BounceLimit = BounceLimit };
+        { BounceLimit = BounceLimit, CanDenoise = CanDenoise };
     }
 
     /// <summary>Adds one sample to each pixel.</summary>
@@ -166,16 +171,11 @@ public sealed class PathTracer
     /// </exception>
     public void AddSample(int? threads = null, TaskScheduler? scheduler = null, CancellationToken cancellation = default)
     {
-        var options = new ParallelOptions
-        {
-            MaxDegreeOfParallelism = threads ?? Environment.ProcessorCount,
-            CancellationToken = cancellation,
-            TaskScheduler = scheduler ?? TaskScheduler.Default,
-        };
+        var options = CreateOptions(threads, scheduler, cancellation);
         var sample = SampleCount;
         if (sample == 0 && !_isAffordable)
         {
-            PathCost.Check(_camera.Viewport, (x, y, context) => TracePixel(x, y, 0, context), cancellation);
+            PathCost.Check(_camera.Viewport, (x, y, context) => TracePixel(x, y, 0, context, out _, out _), cancellation);
             _isAffordable = true;
         }
 
@@ -188,18 +188,26 @@ public sealed class PathTracer
             }
         }
 
+        _shared ??= CanDenoise ? new(Width, Height, _camera.Viewport) : null;
+        // Rows that share samples are not traced at once.
+        var step = _shared is null ? 1 : 3;
         try
         {
-            Parallel.For(top, top + height, options, static () => new QueryContext(), (y, _, context) =>
+            for (var first = 0; first < step; first++)
             {
-                if (_image.RowSamples[y] == sample)
+                var start = top + first;
+                Parallel.For(0, (height - first + step - 1) / step, options, static () => new QueryContext(), (index, _, context) =>
                 {
-                    AddRow(y, sample, context);
-                    _image.RowSamples[y]++;
-                }
+                    var y = start + (step * index);
+                    if (_image.RowSamples[y] == sample)
+                    {
+                        AddRow(y, sample, context);
+                        _image.RowSamples[y]++;
+                    }
 
-                return context;
-            }, static _ => { });
+                    return context;
+                }, static _ => { });
+            }
         }
         catch (AggregateException exception) when (exception.InnerException is { } first)
         {
@@ -209,35 +217,71 @@ public sealed class PathTracer
     }
 
     /// <summary>Converts the present image to sRGB.</summary>
-    public PixelImage ToImage() => _image.ToImage(
-        _display, _camera.Viewport, RenderSettings.LetterboxColour(_declared.Background ?? _defaultBackground),
-        _background.IsSky);
+    public PixelImage ToImage() => ToImage(_image);
+
+    /// <summary>
+    /// Converts the present image to sRGB without its noise, as far as neighbouring pixels tell what is noise. The less there is, the
+    /// less the image is changed. Without <see cref="CanDenoise"/>, and beyond 4,096 samples, it is that of <see cref="ToImage()"/>.
+    /// </summary>
+    /// <param name="threads">The most threads to use; null for one a core.</param>
+    /// <param name="scheduler">Owns the threads, beside the calling one; null for those of the pool.</param>
+    /// <param name="cancellation">Cancels between strips of 16 rows.</param>
+    /// <exception cref="OperationCanceledException">The filter was cancelled.</exception>
+    /// <remarks>The same bits on any number of threads. Takes 24 bytes a pixel while it runs.</remarks>
+    public PixelImage Denoise(int? threads = null, TaskScheduler? scheduler = null, CancellationToken cancellation = default)
+    {
+        if (_shared is not { } shared || SampleCount > SharedSamples.MaxCount)
+        {
+            return ToImage();
+        }
+
+        var denoised = new RadianceImage(Width, Height);
+        new Denoiser(shared, _image).Filter(denoised, CreateOptions(threads, scheduler, cancellation));
+        return ToImage(denoised);
+    }
 
     /// <summary>The mean radiance of a pixel so far, linear light: red, green, blue.</summary>
     /// <param name="x">From the left, from 0.</param>
     /// <param name="y">From the top, from 0.</param>
     public Vector RadianceAt(int x, int y) => _image.At(x, y);
 
+    private PixelImage ToImage(RadianceImage image) => image.ToImage(
+        _display, _camera.Viewport, RenderSettings.LetterboxColour(_declared.Background ?? _defaultBackground),
+        _background.IsSky);
+
+    private static ParallelOptions CreateOptions(int? threads, TaskScheduler? scheduler, CancellationToken cancellation) => new()
+    {
+        MaxDegreeOfParallelism = threads ?? Environment.ProcessorCount,
+        CancellationToken = cancellation,
+        TaskScheduler = scheduler ?? TaskScheduler.Default,
+    };
+
     private void AddRow(int y, int sample, QueryContext context)
     {
         var (left, _, width, _) = _camera.Viewport;
         for (var x = left; x < left + width; x++)
         {
-            _image.Add(x, y, TracePixel(x, y, sample, context));
+            var radiance = TracePixel(x, y, sample, context, out var point, out var first);
+            _image.Add(x, y, radiance);
+            _shared?.Add(x, y, sample, TracedCamera.Tent(point.U), TracedCamera.Tent(point.V), radiance, in first);
         }
     }
 
-    private Vector TracePixel(int x, int y, int sample, QueryContext context)
+    private Vector TracePixel(
+        int x, int y, int sample, QueryContext context, out (double U, double V) point, out FirstHit first)
     {
         var samples = new SampleSequence((y * Width) + x, sample, _seed);
-        var ray = _camera.CreateRay(x, y, samples.Next(), out var footprint, out var clip);
-        return Trace(ray, footprint, clip, ref samples, context);
+        point = samples.Next();
+        var ray = _camera.CreateRay(x, y, point, out var footprint, out var clip);
+        return Trace(ray, footprint, clip, ref samples, context, out first);
     }
 
     /// <summary>Follows one path, and returns the radiance that comes along it.</summary>
     private Vector Trace(
-        Ray ray, RayFootprint footprint, (double Near, double Far) clip, ref SampleSequence samples, QueryContext context)
+        Ray ray, RayFootprint footprint, (double Near, double Far) clip, ref SampleSequence samples, QueryContext context,
+        out FirstHit first)
     {
+        first = default;
         var radiance = Vector.Zero;
         var throughput = Vector.One;
         var (minDistance, maxDistance) = clip;
@@ -250,7 +294,9 @@ public sealed class PathTracer
         {
             if (!_scene.TryIntersect(in ray, footprint, minDistance, maxDistance, context, out var surface))
             {
-                return radiance + throughput.Stretch(bounce == 0 ? _background.At(ray.Direction) : _lights.Surroundings(ray.Direction));
+                radiance += throughput.Stretch(bounce == 0 ? _background.At(ray.Direction) : _lights.Surroundings(ray.Direction));
+                first = bounce == 0 && !isBehindGlass ? new(radiance, Vector.Zero, Vector.Zero, 0) : first;
+                return radiance;
             }
 
             var passed = (surface.Position - ray.Origin).Length();
@@ -281,6 +327,11 @@ public sealed class PathTracer
             }
 
             radiance += throughput.Stretch(surface.Emission);
+            if (bounce == 0 && !isBehindGlass)
+            {
+                first = new(radiance, throughput.Stretch(surface.Albedo), surface.Normal, distanceBefore + passed);
+            }
+
             var width = footprint.RadiusAt(passed);
             var origin = surface.Position + (_scene.OffsetAt(surface.Position) * surface.FaceNormal);
             if (!surface.IsInside)

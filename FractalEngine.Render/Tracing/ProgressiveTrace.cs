@@ -24,6 +24,9 @@ public sealed class ProgressiveTrace(int sampleCount, RenderSettings settings, A
 
     private static readonly TimeSpan PublishInterval = TimeSpan.FromSeconds(0.5);
 
+    // Samples get at least so many times as long as images to publish.
+    private const int SampleShare = 5;
+
     private readonly Lock _lock = new();
     private LowPriorityScheduler? _scheduler;
     private Task _task = Task.CompletedTask;
@@ -43,6 +46,9 @@ public sealed class ProgressiveTrace(int sampleCount, RenderSettings settings, A
 
     /// <summary>Number of samples that each pixel gets.</summary>
     public int MaxSampleCount => sampleCount;
+
+    /// <summary>Whether images are published without their noise. False unless stated.</summary>
+    public bool Denoises { get; init; }
 
     /// <summary>The latest image and its opacity; null before the first one.</summary>
     public ImageLayer? Layer { get; private set; }
@@ -144,14 +150,20 @@ public sealed class ProgressiveTrace(int sampleCount, RenderSettings settings, A
         {
             var tracer = Prepare(request);
             var start = Stopwatch.GetTimestamp();
+            var interval = PublishInterval;
             for (var count = 1; count <= sampleCount; count++)
             {
                 tracer.AddSample(scheduler: TaskScheduler.Current, cancellation: cancellation);
-                if (count == sampleCount || Stopwatch.GetElapsedTime(start) >= PublishInterval)
+                if (count == sampleCount || Stopwatch.GetElapsedTime(start) >= interval)
                 {
+                    start = Stopwatch.GetTimestamp();
                     var opacity = Opacity(count, sampleCount);
-                    var layer = opacity > 0 ? new ImageLayer(tracer.ToImage(), opacity) : null;
+                    var layer = opacity > 0
+                        ? new ImageLayer(tracer.Denoise(scheduler: TaskScheduler.Current, cancellation: cancellation), opacity)
+                        : null;
                     Publish(request, count == sampleCount ? TraceState.Done : TraceState.Tracing, count, layer, null);
+                    var cost = Stopwatch.GetElapsedTime(start);
+                    interval = SampleShare * cost > PublishInterval ? SampleShare * cost : PublishInterval;
                     start = Stopwatch.GetTimestamp();
                 }
             }
@@ -169,7 +181,7 @@ public sealed class ProgressiveTrace(int sampleCount, RenderSettings settings, A
     private PathTracer Prepare(TraceRequest request)
     {
         var (scene, view, width, height) = request;
-        var tracer = _prepared is not { } prepared ? new PathTracer(scene, view, width, height, settings)
+        var tracer = _prepared is not { } prepared ? new PathTracer(scene, view, width, height, settings) { CanDenoise = Denoises }
             : prepared.Request.Scene == scene ? prepared.Tracer.WithView(view, width, height)
             : prepared.Tracer.WithScene(scene, view, width, height);
         _prepared = (request, tracer);

@@ -60,5 +60,5 @@ internal sealed class TracedCamera(View view, int width, int height, double foot
     }
 
     /// <summary>Spreads a number from 0 to 1 over −1 to 1, as densely as a tent is high.</summary>
-    private static double Tent(double number) => number < 0.5 ? Math.Sqrt(2 * number) - 1 : 1 - Math.Sqrt(2 - (2 * number));
+    public static double Tent(double number) => number < 0.5 ? Math.Sqrt(2 * number) - 1 : 1 - Math.Sqrt(2 - (2 * number));
 }

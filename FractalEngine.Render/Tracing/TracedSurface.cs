@@ -14,6 +14,10 @@ namespace FractalEngine.Render.Tracing;
 internal readonly record struct TracedSurface(
     Vector Position, Vector FaceNormal, Vector Normal, Vector Colour, Gloss? Gloss, Vector Emission, double Opacity)
 {
+    /// <summary>About the part of light that the surface returns.</summary>
+    public Vector Albedo => Glass is not null ? Vector.One
+        : Gloss is null ? Colour : Vector.Min(Colour + Gloss.Specular(Colour), Vector.One);
+
     /// <summary>The material within, where the surface is that of a solid which refracts light; null for none.</summary>
     public Glass? Glass { get; init; }
 

@@ -12,7 +12,7 @@ namespace FractalEngine.App.Window.Drawing;
 internal sealed class WindowTracing(WindowOptions options, Action published) : IDisposable
 {
     private readonly ProgressiveTrace _trace =
-        new(options.TraceSampleCount, options.Settings, published);
+        new(options.TraceSampleCount, options.Settings, published) { Denoises = options.DenoisesTrace };
 
     private string? _obstacle;
 
@@ -49,7 +49,7 @@ internal sealed class WindowTracing(WindowOptions options, Action published) : I
         TraceRequest? request = null;
         if (IsEnabled && document is not null)
         {
-            _obstacle = (long)width * height > TracedImage.MaxPixels ? "too many pixels" : FindObstacle(document, settings);
+            _obstacle = (long)width * height > TracedImage.MaxPixelsOf(options.DenoisesTrace) ? "too many pixels" : FindObstacle(document, settings);
             if (_obstacle is null && !document.IsMoving)
             {
                 request = new(document.Physics.CurrentScene, document.UpdateView((double)width / height), width, height);

@@ -32,6 +32,9 @@ internal sealed record WindowOptions
     /// <summary>Number of samples of each pixel of a traced image.</summary>
     public int TraceSampleCount { get; init; } = DefaultTraceSampleCount;
 
+    /// <summary>Whether noise is taken out of the traced image.</summary>
+    public bool DenoisesTrace { get; init; } = true;
+
     /// <summary>Width and height of the window's contents in pixels.</summary>
     public (int Width, int Height) Size { get; init; } = SharedOptions.DefaultResolution;
 

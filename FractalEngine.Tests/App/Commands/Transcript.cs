@@ -159,7 +159,7 @@ internal sealed partial class Transcript : IDisposable
 
     // Times, and what another machine rounds differently.
     [GeneratedRegex(
-        @"((?:^|[ \n])(?:load|prepare|write|draw|trace|generate|build|step|queries|rays) |(?<=\nstate )|loadMilliseconds"":? *"
+        @"((?:^|[ \n])(?:load|prepare|write|draw|trace|denoise|generate|build|step|queries|rays) |(?<=\nstate )|loadMilliseconds"":? *"
         + @"|loadMilliseconds +|prepareMilliseconds""?:? +(?=\d)|, (?=\d+\.\d s))([\d.,a-f]+)( ms| a second| s|)")]
     private static partial Regex Times();
 }
