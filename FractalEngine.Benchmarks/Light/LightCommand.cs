@@ -21,6 +21,8 @@ internal static class LightCommand
           Pixels with wrong shadows, of a resting and of a moving camera; decibels of the drawn image to a traced one, without
           both, with shadows, with occlusion too; processor time of frames likewise; writes light.csv.
           Unless scenes are named, also the light from all around within fractals, to a traced image; writes occlusion.csv.
+          Likewise the noise of very many lamps, sampled by importance and uniformly, at about equal time; writes lamps.csv.
+          occlusion and lamps are names too: of that table alone.
           --no-truth: without traced images, and the decibels to them.
           --images: also the images of both.
         """;
@@ -49,7 +51,7 @@ internal static class LightCommand
             .Flag("--no-truth", () => hasTruth = false)
             .Option("--output", value => output = value)
             .Option("--images", value => images = Directory.CreateDirectory(value).FullName)
-            .Names(static name => name == "occlusion" || File.Exists(PathOf(name)), scenes);
+            .Names(static name => name is "occlusion" or "lamps" || File.Exists(PathOf(name)), scenes);
         if (!parser.TryParse(args))
         {
             return 2;
@@ -60,6 +62,12 @@ internal static class LightCommand
         {
             scenes.AddRange(isQuick ? ["menger"] : ["menger", "playground", "gallery", "inside"]);
             MeasureOcclusion(isQuick, folder, images);
+            MeasureLamps(isQuick, folder, images);
+        }
+        else if (scenes.RemoveAll(static name => name == "lamps") > 0)
+        {
+            MeasureLamps(isQuick, folder, images);
+            return 0;
         }
         else if (scenes.RemoveAll(static name => name == "occlusion") > 0)
         {
@@ -77,6 +85,19 @@ internal static class LightCommand
 
         table.Save();
         return 0;
+    }
+
+    private static void MeasureLamps(bool isQuick, string folder, string? images)
+    {
+        var table = new TableOptions("light", isQuick, folder).CreateTable("lamps.csv", LampTable.Columns);
+        foreach (var swarm in LampTable.Swarms)
+        {
+            var row = LampTable.Measure(swarm, isQuick, images);
+            table.Add(row);
+            Console.WriteLine(string.Join(' ', row.Select(static field => Convert.ToString(field, CultureInfo.InvariantCulture))));
+        }
+
+        table.Save();
     }
 
     private static void MeasureOcclusion(bool isQuick, string folder, string? images)

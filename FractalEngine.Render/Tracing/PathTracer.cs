@@ -20,7 +20,8 @@ namespace FractalEngine.Render.Tracing;
 /// <remarks>
 /// Light is that of drawn frames (<see cref="TracedLights"/>), with shadows: the scene's lights are sampled directly at each hit, and the
 /// ambient light comes from all directions that no surface hides. Paths end by chance, and go on from up to <see cref="MaxBounces"/>
-/// surfaces. The same seed gives the same bits on any number of threads.
+/// surfaces. Emissive faces are sampled too, one for each surface (<see cref="TracedAreaLights"/>); only in a deep zoom their light is
+/// found by paths that meet them, which has the same mean and more noise. The same seed gives the same bits on any number of threads.
 /// </remarks>
 public sealed class PathTracer
 {
@@ -121,6 +122,12 @@ public sealed class PathTracer
             field = value;
         }
     } = MaxBounces;
+
+    /// <summary>How the light of emissive faces is found, to compare.</summary>
+    internal AreaLightSampling AreaLightSampling
+    {
+        init => _scene.Sampling = value;
+    }
 
     /// <summary>Number of samples that every pixel has.</summary>
     public int SampleCount => _image.RowSamples.Min();
@@ -244,6 +251,9 @@ public sealed class PathTracer
         var layers = 0;
         // Fog is between the eye and the first surface only.
         var distanceBefore = 0.0;
+        var areaLights = _scene.AreaLights;
+        // Where the path was reflected last.
+        var (last, lastOrigin, lastDensity) = (default(TracedSurface), default(Vector), 0.0);
         for (var bounce = 0; ;)
         {
             if (!_scene.TryIntersect(in ray, footprint, minDistance, maxDistance, context, out var surface))
@@ -275,15 +285,30 @@ public sealed class PathTracer
                 throughput = clear * Vector.One;
             }
 
-            radiance += throughput.Stretch(surface.Emission);
+            var seen = bounce == 0 || areaLights is null || surface.Emission == Vector.Zero
+                ? throughput
+                : areaLights.WeightOf(in surface, in last, lastOrigin, ray.Direction, lastDensity, context) * throughput;
+            radiance += seen.Stretch(surface.Emission);
             var width = footprint.RadiusAt(passed);
             var origin = surface.Position + (_scene.OffsetAt(surface.Position) * surface.FaceNormal);
             radiance += throughput.Stretch(_lights.Reflected(
                 in surface, _eye + (_unit * surface.Position), origin, -ray.Direction, width, _scene, _unit, ref samples, context));
+            if (bounce < BounceLimit && areaLights is not null)
+            {
+                radiance += throughput.Stretch(
+                    areaLights.Reflected(in surface, origin, -ray.Direction, _scene, ref samples, context));
+            }
+
             if (++bounce > BounceLimit
                 || !Reflection.TrySample(in surface, -ray.Direction, ref samples, out var direction, out var weight, out var spread))
             {
                 return radiance;
+            }
+
+            if (areaLights is not null)
+            {
+                (last, lastOrigin) = (surface, origin);
+                lastDensity = Reflection.Density(in surface, -ray.Direction, direction);
             }
 
             throughput = throughput.Stretch(weight);
@@ -299,7 +324,7 @@ public sealed class PathTracer
             }
 
             ray = new(origin, direction);
-            footprint = new(width, footprint.Spread + (spread * ScatteredSpread));
+            footprint = areaLights is not null ? default : new(width, footprint.Spread + (spread * ScatteredSpread));
             (minDistance, maxDistance) = (0, double.PositiveInfinity);
         }
     }

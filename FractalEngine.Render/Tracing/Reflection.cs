@@ -78,6 +78,35 @@ internal static class Reflection
         return scattered > 0 && height != 0;
     }
 
+    /// <summary>Computes how likely <see cref="TrySample"/> chooses a direction, per solid angle.</summary>
+    /// <param name="surface">The surface.</param>
+    /// <param name="toEye">Unit direction.</param>
+    /// <param name="toLight">Unit direction.</param>
+    public static double Density(in TracedSurface surface, Vector toEye, Vector toLight)
+    {
+        var height = Vector.Dot(surface.FaceNormal, toLight);
+        var cosine = Vector.Dot(surface.Normal, toLight);
+        var cosineEye = Math.Max(Vector.Dot(surface.Normal, toEye), 1e-6);
+        var mirrored = surface.IsGlossy ? Luminance(Fresnel(surface.Specular, cosineEye)) : 0;
+        var scattered = Luminance(surface.Diffuse);
+        if (!(height > 0) || !(mirrored + scattered > 0))
+        {
+            return 0;
+        }
+
+        // Directions below the face are mirrored there.
+        var density = scattered * (Math.Max(cosine, 0) + Math.Max(cosine - (2 * height * Vector.Dot(surface.Normal, surface.FaceNormal)), 0));
+        if (mirrored > 0 && cosine > 0)
+        {
+            var alphaSquared = surface.Roughness * surface.Roughness;
+            var cosineHalf = Vector.Dot(surface.Normal, (toEye + toLight).UnitVector());
+            var d = (cosineHalf * cosineHalf * (alphaSquared - 1)) + 1;
+            density += mirrored * alphaSquared * Shadowing(cosineEye, alphaSquared) / (4 * cosineEye * d * d);
+        }
+
+        return density / (Math.PI * (mirrored + scattered));
+    }
+
     /// <summary>The brightness of a colour in linear light, by ITU-R BT.709.</summary>
     public static double Luminance(Vector colour) => (0.2126 * colour.X) + (0.7152 * colour.Y) + (0.0722 * colour.Z);
 

@@ -11,8 +11,10 @@ namespace FractalEngine.Render.Tracing;
 /// <param name="Roughness">α of the distribution of GGX.</param>
 /// <param name="Emission">Radiance of the surface itself.</param>
 /// <param name="Opacity">From 0 to 1.</param>
+/// <param name="FaceIndex">Index of the face in its mesh; −1 for a point of a section.</param>
 internal readonly record struct TracedSurface(
-    Vector Position, Vector FaceNormal, Vector Normal, Vector Diffuse, Vector Specular, double Roughness, Vector Emission, double Opacity)
+    Vector Position, Vector FaceNormal, Vector Normal, Vector Diffuse, Vector Specular, double Roughness, Vector Emission, double Opacity,
+    int FaceIndex = -1)
 {
     /// <summary>True where part of the light is mirrored.</summary>
     public bool IsGlossy => Specular != Vector.Zero;

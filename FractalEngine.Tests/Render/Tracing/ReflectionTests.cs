@@ -118,6 +118,41 @@ public class ReflectionTests
         Assert.Equal(0.7 * expected, radiance, 1e-4);
     }
 
+    [Theory]
+    [InlineData(0.8, 0, 1, 0)]
+    [InlineData(0.8, 0, 1, 25)]
+    [InlineData(0.4, 0.3, 0.4, 0)]
+    [InlineData(0.4, 0.3, 0.6, 20)]
+    [InlineData(0, 1, 0.5, 0)]
+    public void Density_OverAllDirections_IsThatOfSamples(double diffuse, double specular, double roughness, double leanDegrees)
+    {
+        var surface = Surface(diffuse, specular, roughness) with { Normal = Direction(leanDegrees) };
+        var toEye = Direction(-35);
+        foreach (var weight in (Func<Vector, double>[])[static _ => 1, static d => d.X, static d => d.Z * d.Z])
+        {
+            var (expected, found) = (0.0, 0.0);
+            const int Steps = 400;
+            for (var i = 0; i < Steps * Steps; i++)
+            {
+                // Evenly over the sphere.
+                var z = ((2.0 * (i / Steps)) + 1 - Steps) / Steps;
+                var (sine, cosine) = Math.SinCos(2 * Math.PI * ((i % Steps) + 0.5) / Steps);
+                var direction = new Vector(Math.Sqrt(1 - (z * z)) * cosine, Math.Sqrt(1 - (z * z)) * sine, z);
+                expected += 4 * Math.PI / (Steps * Steps) * Reflection.Density(in surface, toEye, direction) * weight(direction);
+            }
+
+            const int Count = 1 << 17;
+            for (var i = 0; i < Count; i++)
+            {
+                var samples = new SampleSequence(1, i, 1);
+                found += Reflection.TrySample(in surface, toEye, ref samples, out var direction, out _, out _) ? weight(direction) / Count : 0;
+            }
+
+            // Three standard deviations of so many, if each were by itself.
+            Assert.Equal(expected, found, 0.004);
+        }
+    }
+
     private static TracedSurface Surface(double diffuse, double specular, double roughness, bool isGlossy = false) => new(
         Vector.Zero, Vector.K, Vector.K, diffuse * Vector.One, isGlossy ? new(0, 0, 1e-300) : specular * Vector.One, roughness,
         Vector.Zero, 1);
