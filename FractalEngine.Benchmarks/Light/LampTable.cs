@@ -1,5 +1,5 @@
 using System.Collections.Immutable;
-using FractalEngine.Benchmarks.Drawing;
+using FractalEngine.Benchmarks.Measuring;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Generation;
 using FractalEngine.Core.Geometry;
@@ -10,6 +10,7 @@ using FractalEngine.Core.Scenes.Cameras;
 using FractalEngine.Core.Scenes.Lights;
 using FractalEngine.Core.Views;
 using FractalEngine.Parsing;
+using FractalEngine.Render.Images;
 using FractalEngine.Render.Tracing;
 using FractalEngine.Render.Views;
 
@@ -36,15 +37,16 @@ internal static class LampTable
     /// <param name="folder">Receives the images; null for none.</param>
     public static object?[] Measure((int Maps, int Depth) swarm, bool isQuick, string? folder)
     {
-        var (width, height, samples) = isQuick ? (48, 27, 8) : (160, 90, 32);
+        var (width, height, samples) = isQuick ? (32, 18, 8) : (64, 36, 32);
         var fractal = Fireflies(swarm.Maps, swarm.Depth);
-        var scene = CreateScene(fractal, swarm.Depth, swarm.Maps);
+        var scene = CreateScene(fractal, swarm.Maps, swarm.Depth);
         var view = View.Of(scene, (double)width / height);
-        var truth = Trace(AreaLightSampling.ByImportance, 16 * samples, seed: 1, out _);
+        var truth = Trace(AreaLightSampling.ByImportance, 8 * samples, seed: 1, out _);
         var sampled = Trace(AreaLightSampling.ByImportance, samples, seed: 2, out var importanceTime);
+        Trace(AreaLightSampling.Uniform, samples, seed: 2, out _);
         var uniform = Trace(AreaLightSampling.Uniform, samples, seed: 2, out var uniformTime);
         // As many samples as the time of the other image allows.
-        uniform = Trace(AreaLightSampling.Uniform, Math.Max(1, (int)(samples * importanceTime / uniformTime)), seed: 3, out uniformTime);
+        uniform = Trace(AreaLightSampling.Uniform, Math.Max(1, (int)Math.Ceiling(samples * importanceTime / uniformTime)), seed: 3, out uniformTime);
         if (folder is not null)
         {
             truth.ToImage().SavePng(Path.Combine(folder, $"lamps-{swarm.Maps}-truth.png"));
@@ -89,22 +91,22 @@ internal static class LampTable
         }
     }
 
-    /// <summary>A swarm in a unit cube, of octahedra that get smaller with the distances between them.</summary>
+    /// <summary>A swarm of about the size 1, and flat, of octahedra that get smaller with the distances between them.</summary>
     private static Fractal Fireflies(int maps, int depth)
     {
         var random = new Random(5);
         var set = Enumerable.Range(0, maps).Select(i => new Transformation(
-            new(random.NextDouble() - 0.5, random.NextDouble() - 0.5, random.NextDouble() - 0.5),
+            new(random.NextDouble() - 0.5, 0.01 * (random.NextDouble() - 0.5), random.NextDouble() - 0.5),
             new(0, 360 * random.NextDouble(), 0), 0.42 * Vector.One)).ToArray();
         var lamp = Shapes.Octahedron();
         return Fractal.Of(lamp.WithGroups([new(0, lamp.FaceCount, "", "", "light", 0)], []))
-            .Apply([Transformation.Identity with { Scale = 0.03 * Vector.One }]).Repeat(set, depth);
+            .Apply([Transformation.Identity with { Scale = 0.003 * Vector.One }]).Repeat(set, depth);
     }
 
-    private static LoadedScene CreateScene(Fractal fractal, int depth, int maps)
+    private static LoadedScene CreateScene(Fractal fractal, int maps, int depth)
     {
         // All swarms are as bright, whatever the sum of their areas.
-        var glow = 2000 / Math.Pow(maps * 0.42 * 0.42, depth);
+        var glow = 100_000 / Math.Pow(maps * 0.42 * 0.42, depth);
         var light = new Material("light") { Emission = new(glow, 0.8 * glow, 0.3 * glow) };
         Mesh floor = new([-60, 0, -60, -60, 0, 60, 60, 0, 60, 60, 0, -60], [0, 1, 2, 0, 2, 3]);
         var tree = FractalFile.Read(Path.Combine(FractalCase.Assets, "fractals", "tree.fdo"));
@@ -120,7 +122,7 @@ internal static class LampTable
                 new(new FractalModel(tree)) { Placement = new(new(3, 0, 1), new(0, 70, 0), 1.3 * Vector.One) },
                 new(new FractalModel(fractal) { Materials = ImmutableDictionary<string, Material>.Empty.Add("light", light) })
                 {
-                    Placement = new(new(0, 2.3, 0), Vector.Zero, new(14, 3, 14)),
+                    Placement = new(new(0, 2.3, 0), Vector.Zero, 100 * Vector.One),
                 },
             ],
         });

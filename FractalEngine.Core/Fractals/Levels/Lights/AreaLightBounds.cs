@@ -3,13 +3,15 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Fractals.Levels.Lights;
 
-/// <summary>Some faces that shine from both sides: how strong they are, a ball around them, and a cone of their normals.</summary>
+/// <summary>Some faces that shine from both sides: how strong they are, a ball and a box around them, and a cone of their normals.</summary>
 /// <param name="Power">Sum over the faces of area times radiance, in units of the frame; or their number, where each counts the same.</param>
-/// <param name="Centre">Centre of the ball.</param>
+/// <param name="Centre">Centre of the ball and of the box.</param>
+/// <param name="HalfSize">Half the size of the box.</param>
 /// <param name="Radius">Radius of the ball.</param>
 /// <param name="Axis">Unit vector in the middle of the cone. Normals have no sign, since both sides shine.</param>
 /// <param name="Cosine">Cosine of the largest angle between the axis and a normal: 1 where all are parallel, 0 for any normals.</param>
-internal readonly record struct AreaLightBounds(double Power, Vector Centre, double Radius, Vector Axis, double Cosine)
+internal readonly record struct AreaLightBounds(
+    double Power, Vector Centre, Vector HalfSize, double Radius, Vector Axis, double Cosine)
 {
     // Normals that differ by a millionth of a radian are parallel.
     private const double ParallelCosine = 1 - 1e-12;
@@ -23,8 +25,9 @@ internal readonly record struct AreaLightBounds(double Power, Vector Centre, dou
         var cross = Vector.Cross(b - a, c - a);
         var length = cross.Length();
         var centre = (a + b + c) / 3;
+        var halfSize = Vector.Max((a - centre).Absolute(), Vector.Max((b - centre).Absolute(), (c - centre).Absolute()));
         var radius = Math.Sqrt(Math.Max((a - centre).LengthSquared(), Math.Max((b - centre).LengthSquared(), (c - centre).LengthSquared())));
-        return new(length > 0 ? 0.5 * length * radiance ?? 1 : 0, centre, radius, cross / length, 1);
+        return new(length > 0 ? 0.5 * length * radiance ?? 1 : 0, centre, halfSize, radius, cross / length, 1);
     }
 
     /// <summary>Bounds several groups of faces as one.</summary>
@@ -47,11 +50,13 @@ internal readonly record struct AreaLightBounds(double Power, Vector Centre, dou
             angle = Math.Max(angle, (between > ParallelCosine ? 0 : Math.Acos(between)) + Math.Acos(part.Cosine));
         }
 
-        return new(power, box.Centre, Math.Min(radius, 0.5 * box.Diagonal), axis, Math.Max(0, Math.Cos(Math.Min(angle, 0.5 * Math.PI))));
+        return new(
+            power, box.Centre, 0.5 * box.Size, Math.Min(radius, 0.5 * box.Diagonal), axis,
+            Math.Max(0, Math.Cos(Math.Min(angle, 0.5 * Math.PI))));
     }
 
-    /// <summary>A box around the ball.</summary>
-    public BoundingBox Box => new(Centre - (Radius * Vector.One), Centre + (Radius * Vector.One));
+    /// <summary>The box.</summary>
+    public BoundingBox Box => new(Centre - HalfSize, Centre + HalfSize);
 
     /// <summary>
     /// Bounds the image under a map. The power is exact under similarities, and where all normals are parallel; otherwise it is that of
@@ -66,12 +71,21 @@ internal readonly record struct AreaLightBounds(double Power, Vector Centre, dou
         var axis = cofactors * Axis;
         var factor = keepsPower ? 1 : Cosine == 1 ? axis.Length() : AreaFactor(in cofactors);
         return new(
-            factor * Power, map * Centre, norm * Radius, axis.UnitVector(), Cosine == 1 || map.Linear.IsChainableSimilarity() ? Cosine : 0);
+            factor * Power, map * Centre, Vector.Min(map.Linear.Absolute() * HalfSize, norm * Radius * Vector.One), norm * Radius,
+            axis.UnitVector(), Cosine == 1 || map.Linear.IsChainableSimilarity() ? Cosine : 0);
     }
 
-    /// <summary>Takes the ball around a box where that is smaller.</summary>
-    public AreaLightBounds Within(BoundingBox box) =>
-        0.5 * box.Diagonal < Radius ? this with { Centre = box.Centre, Radius = 0.5 * box.Diagonal } : this;
+    /// <summary>Bounds the same faces, which are known to lie in another box too.</summary>
+    public AreaLightBounds Within(BoundingBox other)
+    {
+        var box = BoundingBox.Intersection(Box, other);
+        return box.IsEmpty ? this : this with
+        {
+            Centre = box.Centre,
+            HalfSize = 0.5 * box.Size,
+            Radius = Math.Min(0.5 * box.Diagonal, Radius + (box.Centre - Centre).Length()),
+        };
+    }
 
     /// <summary>The factor by which a map enlarges areas: exact for similarities, else the root of the mean square over all normals.</summary>
     /// <param name="cofactors">Of the linear part.</param>

@@ -105,11 +105,12 @@ internal struct AreaLightWalk(Vector position, Vector normal, double number, boo
         }
 
         var cofactors = _map.ToAffineMap().Linear.Cofactors();
+        var upwards = SimdAffineMap.ToVector(_map.MultiplyTransposed(SimdAffineMap.ToVector256(normal))).Absolute();
         var areaFactor = AreaLightBounds.AreaFactor(in cofactors);
         sum = 0;
         for (var i = 0; i < buffer.Length; i++)
         {
-            buffer[i] = Importance(in node.Parts[i], in cofactors, areaFactor);
+            buffer[i] = Importance(in node.Parts[i], in cofactors, areaFactor, upwards);
             sum += buffer[i];
         }
 
@@ -123,9 +124,16 @@ internal struct AreaLightWalk(Vector position, Vector normal, double number, boo
         return node.Powers;
     }
 
-    private readonly double Importance(in AreaLightBounds part, in Matrix cofactors, double areaFactor)
+    private readonly double Importance(in AreaLightBounds part, in Matrix cofactors, double areaFactor, Vector upwards)
     {
         var direction = _map.Apply(part.Centre) - position;
+        // How high the box reaches above the surface: flat swarms are much lower than their balls.
+        var height = Vector.Dot(normal, direction) + Vector.Dot(upwards, part.HalfSize);
+        if (!(height > 0))
+        {
+            return 0;
+        }
+
         var distanceSquared = direction.LengthSquared();
         var radius = _norm * part.Radius;
         var axis = part.Cosine > 0 ? cofactors * part.Axis : Vector.Zero;
@@ -140,7 +148,7 @@ internal struct AreaLightWalk(Vector position, Vector normal, double number, boo
         var distance = Math.Sqrt(distanceSquared);
         var sine = radius / distance;
         var cosine = Math.Sqrt(1 - (sine * sine));
-        var atSurface = CosineOfDifference(Vector.Dot(normal, direction) / distance, cosine, sine);
+        var atSurface = Math.Min(height / distance, CosineOfDifference(Vector.Dot(normal, direction) / distance, cosine, sine));
         var partSine = Math.Sqrt(1 - (part.Cosine * part.Cosine));
         var spread = (part.Cosine * cosine) - (partSine * sine);
         var atLight = spread <= 0 ? 1 : CosineOfDifference(
