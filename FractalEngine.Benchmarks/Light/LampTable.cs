@@ -6,7 +6,6 @@ using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.SceneQueries;
 using FractalEngine.Core.Scenes;
-using FractalEngine.Core.Scenes.Cameras;
 using FractalEngine.Core.Scenes.Lights;
 using FractalEngine.Core.Views;
 using FractalEngine.Parsing;
