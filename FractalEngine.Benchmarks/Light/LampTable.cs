@@ -30,7 +30,7 @@ internal static class LampTable
     /// <summary>Sets and depths of the swarms: 10⁶, and 4³⁴ or 3·10²⁰ lamps.</summary>
     public static readonly (int Maps, int Depth)[] Swarms = [(10, 6), (4, 34)];
 
-    /// <summary>Measures one swarm.</summary>
+    /// <summary>Measures the noise under one swarm.</summary>
     /// <param name="swarm">Number of maps, and depth.</param>
     /// <param name="isQuick">Whether a smaller image with fewer samples will do.</param>
     /// <param name="folder">Receives the images; null for none.</param>
@@ -45,7 +45,8 @@ internal static class LampTable
         Trace(AreaLightSampling.Uniform, samples, seed: 2, out _);
         var uniform = Trace(AreaLightSampling.Uniform, samples, seed: 2, out var uniformTime);
         // As many samples as the time of the other image allows.
-        uniform = Trace(AreaLightSampling.Uniform, Math.Max(1, (int)Math.Ceiling(samples * importanceTime / uniformTime)), seed: 3, out uniformTime);
+        var count = Math.Max(1, (int)Math.Ceiling(samples * importanceTime / uniformTime));
+        uniform = Trace(AreaLightSampling.Uniform, count, seed: 3, out uniformTime);
         if (folder is not null)
         {
             truth.ToImage().SavePng(Path.Combine(folder, $"lamps-{swarm.Maps}-truth.png"));
@@ -62,17 +63,17 @@ internal static class LampTable
             Math.Round(noise / noiseOfUniform, 4),
         ];
 
-        PathTracer Trace(AreaLightSampling sampling, int count, int seed, out double milliseconds)
+        PathTracer Trace(AreaLightSampling sampling, int sampleCount, int seed, out double milliseconds)
         {
             var tracer = new PathTracer(scene, view, width, height, seed: seed) { AreaLightSampling = sampling, BounceLimit = 2 };
             tracer.AddSample();
             var start = Environment.CpuUsage.TotalTime;
-            for (var i = 1; i < count; i++)
+            for (var i = 1; i < sampleCount; i++)
             {
                 tracer.AddSample();
             }
 
-            milliseconds = (Environment.CpuUsage.TotalTime - start).TotalMilliseconds * count / Math.Max(1, count - 1);
+            milliseconds = (Environment.CpuUsage.TotalTime - start).TotalMilliseconds * sampleCount / Math.Max(1, sampleCount - 1);
             return tracer;
         }
 

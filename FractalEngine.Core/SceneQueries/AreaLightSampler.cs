@@ -42,7 +42,8 @@ public sealed class AreaLightSampler
         _maps = [.. scene.Objects.Select(static placed => new SimdAffineMap(placed.ObjectToWorld))];
         _norms = [.. scene.Objects.Select(static placed => BoundingSphere.OperatorNormBound(placed.ObjectToWorld.Linear))];
         _root = AreaLightNode.Build(
-            [.. _models.Select((model, index) => model?.Root?.Total.Transform(_maps[index].ToAffineMap(), _norms[index], isUniform) ?? default)],
+            [.. _models.Select((model, index) =>
+                model?.Root?.Total.Transform(_maps[index].ToAffineMap(), _norms[index], isUniform) ?? default)],
             _places);
         StorageBytes = (_root?.StorageBytes ?? 0) + known.Values.Sum(static model => model?.StorageBytes ?? 0) + (148L * _maps.Length);
     }

@@ -95,7 +95,8 @@ internal static class Reflection
         }
 
         // Directions below the face are mirrored there.
-        var density = scattered * (Math.Max(cosine, 0) + Math.Max(cosine - (2 * height * Vector.Dot(surface.Normal, surface.FaceNormal)), 0));
+        var below = cosine - (2 * height * Vector.Dot(surface.Normal, surface.FaceNormal));
+        var density = scattered * (Math.Max(cosine, 0) + Math.Max(below, 0));
         if (mirrored > 0 && cosine > 0)
         {
             var alphaSquared = surface.Roughness * surface.Roughness;

@@ -56,7 +56,8 @@ public class AreaLightSamplerTests
         const int Count = 40_000;
         for (var i = 0; i < Count; i++)
         {
-            if (sampler.TrySample(position, normal, random.NextDouble(), (random.NextDouble(), random.NextDouble()), context, out var sample))
+            var point = (random.NextDouble(), random.NextDouble());
+            if (sampler.TrySample(position, normal, random.NextDouble(), point, context, out var sample))
             {
                 var key = $"{sample.ObjectIndex}|{string.Join(',', context.LightPath)}|{sample.FaceIndex}";
                 found[key] = found.GetValueOrDefault(key) + 1;
@@ -134,7 +135,7 @@ public class AreaLightSamplerTests
     }
 
     private static IEnumerable<Transformation> Thirds =>
-        [Samples.Move(0.5, 0, 0) with { Scale = Half }, Samples.Move(-0.5, 0, 0) with { Scale = Half }, Samples.Move(0, 0.5, 0) with { Scale = Half }];
+        [Samples.MoveAndScale(0.5, 0, 0, 0.5), Samples.MoveAndScale(-0.5, 0, 0, 0.5), Samples.MoveAndScale(0, 0.5, 0, 0.5)];
 
     private static Vector Half => 0.5 * Vector.One;
 

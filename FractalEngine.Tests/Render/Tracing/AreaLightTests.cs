@@ -236,7 +236,7 @@ public class AreaLightTests
         var seen = caster.FindNearest(new(Eye.Position, forward))!.Value;
         Assert.Equal(0, seen.ObjectIndex);
         var material = TracedMaterial.Create(
-            new TextureCache(ImmutableArray.CreateBuilder<string>(), true, []).GetMaterial(((MeshModel)scene.Objects[0].Model).Materials["matt"]),
+            new TextureCache(ImmutableArray.CreateBuilder<string>(), true, []).GetMaterial(scene.Objects[0].Model.Materials["matt"]),
             new TextureCache(ImmutableArray.CreateBuilder<string>(), true, []));
         var diffuse = material.Divide(material.BaseColour!.Value, out var specular);
         var surface = new TracedSurface(seen.Point, Vector.J, Vector.J, diffuse, specular, material.Roughness, Vector.Zero, 1);

@@ -145,7 +145,8 @@ public class ReflectionTests
             for (var i = 0; i < Count; i++)
             {
                 var samples = new SampleSequence(1, i, 1);
-                found += Reflection.TrySample(in surface, toEye, ref samples, out var direction, out _, out _) ? weight(direction) / Count : 0;
+                var isReflected = Reflection.TrySample(in surface, toEye, ref samples, out var direction, out _, out _);
+                found += isReflected ? weight(direction) / Count : 0;
             }
 
             // Three standard deviations of so many, if each were by itself.

@@ -3,8 +3,8 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Fractals.Levels.Lights;
 
-/// <summary>Some faces that shine from both sides: how strong they are, a ball and a box around them, and a cone of their normals.</summary>
-/// <param name="Power">Sum over the faces of area times radiance, in units of the frame; or their number, where each counts the same.</param>
+/// <summary>Some faces that shine from both sides: their power, a ball and a box around them, and a cone of their normals.</summary>
+/// <param name="Power">Sum over the faces of area times radiance, in units of the frame; or their number.</param>
 /// <param name="Centre">Centre of the ball and of the box.</param>
 /// <param name="HalfSize">Half the size of the box.</param>
 /// <param name="Radius">Radius of the ball.</param>
@@ -16,7 +16,7 @@ internal readonly record struct AreaLightBounds(
     // Normals that differ by a millionth of a radian are parallel.
     private const double ParallelCosine = 1 - 1e-12;
 
-    /// <summary>Bounds a triangle.</summary>
+    /// <summary>Bounds one triangle of a mesh.</summary>
     /// <param name="radiance">What it sends in each direction; null where its power is 1 whatever its size.</param>
     /// <param name="triangle">The corners.</param>
     public static AreaLightBounds Of((Vector A, Vector B, Vector C) triangle, double? radiance)
@@ -26,7 +26,7 @@ internal readonly record struct AreaLightBounds(
         var length = cross.Length();
         var centre = (a + b + c) / 3;
         var halfSize = Vector.Max((a - centre).Absolute(), Vector.Max((b - centre).Absolute(), (c - centre).Absolute()));
-        var radius = Math.Sqrt(Math.Max((a - centre).LengthSquared(), Math.Max((b - centre).LengthSquared(), (c - centre).LengthSquared())));
+        var radius = Math.Max((a - centre).Length(), Math.Max((b - centre).Length(), (c - centre).Length()));
         return new(length > 0 ? 0.5 * length * radiance ?? 1 : 0, centre, halfSize, radius, cross / length, 1);
     }
 
@@ -55,7 +55,7 @@ internal readonly record struct AreaLightBounds(
             Math.Max(0, Math.Cos(Math.Min(angle, 0.5 * Math.PI))));
     }
 
-    /// <summary>The box.</summary>
+    /// <summary>The box around the faces.</summary>
     public BoundingBox Box => new(Centre - HalfSize, Centre + HalfSize);
 
     /// <summary>
@@ -87,7 +87,7 @@ internal readonly record struct AreaLightBounds(
         };
     }
 
-    /// <summary>The factor by which a map enlarges areas: exact for similarities, else the root of the mean square over all normals.</summary>
+    /// <summary>The factor by which a map enlarges areas: exact for similarities, else the root mean square over all normals.</summary>
     /// <param name="cofactors">Of the linear part.</param>
     public static double AreaFactor(in Matrix cofactors) => Math.Sqrt(
         (cofactors.V1.LengthSquared() + cofactors.V2.LengthSquared() + cofactors.V3.LengthSquared()) / 3);

@@ -23,7 +23,7 @@ internal sealed class AreaLightModel
     private readonly Dictionary<int, (AreaLightNode Node, int Slot)>[] _places;
 
     /// <summary>Prepares the emissive faces of a shape.</summary>
-    /// <param name="hierarchy">The levels of a fractal; null for a mesh. Those of more than thousands of levels shine without nodes.</param>
+    /// <param name="hierarchy">The levels of a fractal; null for a mesh. Beyond some thousand levels there are no nodes.</param>
     /// <param name="meshes">The base meshes, or the mesh.</param>
     /// <param name="radianceOf">The radiance of a face, by the indices of its mesh and of itself; 0 for most.</param>
     /// <param name="isUniform">True to count each face the same.</param>
