@@ -22,8 +22,9 @@ internal static class LightCommand
           both, with shadows, with occlusion too; processor time of frames likewise; writes light.csv.
           Unless scenes are named, also the light from all around within fractals, to a traced image; writes occlusion.csv.
           Likewise white balls of all materials under a white sky; writes furnace.csv.
+          Likewise the noise of very many lamps, sampled by importance and uniformly, at about equal time; writes lamps.csv.
           Likewise what the denoiser gains, to a traced image of many samples; writes denoise.csv, for an hour.
-          The names 'occlusion', 'furnace' and 'denoise' measure these alone.
+          The names 'occlusion', 'furnace', 'lamps' and 'denoise' measure these alone.
           --no-truth: without traced images, and the decibels to them.
           --images: also the images of both.
         """;
@@ -52,7 +53,7 @@ internal static class LightCommand
             .Flag("--no-truth", () => hasTruth = false)
             .Option("--output", value => output = value)
             .Option("--images", value => images = Directory.CreateDirectory(value).FullName)
-            .Names(static name => name is "occlusion" or "furnace" or "denoise" || File.Exists(PathOf(name)), scenes);
+            .Names(static name => name is "occlusion" or "furnace" or "lamps" or "denoise" || File.Exists(PathOf(name)), scenes);
         if (!parser.TryParse(args))
         {
             return 2;
@@ -64,6 +65,7 @@ internal static class LightCommand
             scenes.AddRange(isQuick ? ["menger"] : ["menger", "playground", "gallery", "inside"]);
             MeasureOcclusion(isQuick, folder, images);
             MeasureFurnace(isQuick, folder);
+            MeasureLamps(isQuick, folder, images);
             MeasureDenoising(isQuick, folder, images);
         }
         else if (scenes.RemoveAll(static name => name == "furnace") > 0)
@@ -74,6 +76,11 @@ internal static class LightCommand
         else if (scenes.RemoveAll(static name => name == "denoise") > 0)
         {
             MeasureDenoising(isQuick, folder, images);
+            return 0;
+        }
+        else if (scenes.RemoveAll(static name => name == "lamps") > 0)
+        {
+            MeasureLamps(isQuick, folder, images);
             return 0;
         }
         else if (scenes.RemoveAll(static name => name == "occlusion") > 0)
@@ -100,6 +107,19 @@ internal static class LightCommand
         var table = new TableOptions("light", isQuick, folder).CreateTable("furnace.csv", FurnaceTable.Columns);
         foreach (var row in FurnaceTable.Measure(ball, isQuick))
         {
+            table.Add(row);
+            Console.WriteLine(string.Join(' ', row.Select(static field => Convert.ToString(field, CultureInfo.InvariantCulture))));
+        }
+
+        table.Save();
+    }
+
+    private static void MeasureLamps(bool isQuick, string folder, string? images)
+    {
+        var table = new TableOptions("light", isQuick, folder).CreateTable("lamps.csv", LampTable.Columns);
+        foreach (var swarm in LampTable.Swarms)
+        {
+            var row = LampTable.Measure(swarm, isQuick, images);
             table.Add(row);
             Console.WriteLine(string.Join(' ', row.Select(static field => Convert.ToString(field, CultureInfo.InvariantCulture))));
         }

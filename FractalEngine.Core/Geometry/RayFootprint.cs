@@ -8,6 +8,9 @@ namespace FractalEngine.Core.Geometry;
 /// <param name="Spread">By how much the radius grows for each unit along the ray, not negative.</param>
 public readonly record struct RayFootprint(double Radius, double Spread)
 {
+    /// <summary>True where the ray is a line for objects with emissive faces: their parts shine by other faces than their box.</summary>
+    public bool KeepsLamps { get; init; }
+
     /// <summary>Radius at a distance along the ray.</summary>
     /// <param name="distance">Scene units.</param>
     public double RadiusAt(double distance) => Radius + (Spread * distance);

@@ -34,6 +34,7 @@ public sealed class QueryContext
     private ObjectQueue? _objectQueue;
     private RayStack? _rayStack;
     private TraversalStack? _traversalStack;
+    private List<int>? _lightPath;
 
     /// <summary>Counts of faces and bounding volumes that the queries of this context tested.</summary>
     public QueryStatistics Statistics { get; } = new();
@@ -73,6 +74,15 @@ public sealed class QueryContext
 
     /// <summary>The nodes that a traversal has yet to visit, made by the first of them.</summary>
     internal TraversalStack TraversalStack => _traversalStack ??= new();
+
+    /// <summary>Indices of child instances to the emissive face that was chosen last, made by the first choice.</summary>
+    internal List<int> LightPath => _lightPath ??= [];
+
+    /// <summary>Length of the path to what the last ray has hit in the buffer of the best path; −1 where that is a proxy.</summary>
+    internal int ChildPathLength { get; set; }
+
+    /// <summary>Indices of child instances to what the last ray has hit.</summary>
+    internal ReadOnlySpan<int> ChildPath => _bestPathBuffer.AsSpan(0, Math.Max(0, ChildPathLength));
 
     /// <summary>Memory for the numbers of a search, kept for the next search.</summary>
     internal Span<double> ScratchBuffer(int length) => _scratch.Length >= length ? _scratch : _scratch = new double[length];
@@ -118,6 +128,7 @@ public sealed class QueryContext
     {
         _instancePath.Clear();
         MeshIndex = 0;
+        ChildPathLength = 0;
     }
 
     internal void ShortenPath(int length) => CollectionsMarshal.SetCount(_instancePath, length);

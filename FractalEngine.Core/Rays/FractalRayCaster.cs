@@ -85,6 +85,7 @@ internal sealed class FractalRayCaster(
         context.ClearPath();
         var instance = hierarchy.ResolveInstance(
             context.BestPathBuffer(pathLength)[..pathLength], top, in map, context, out _);
+        context.ChildPathLength = search.Proxy is null ? pathLength : -1;
         return search.Proxy is { } proxy ? SimdAffineMap.Compose(in instance, in proxy.Map) : instance;
     }
 

@@ -10,8 +10,9 @@ namespace FractalEngine.Core.Rays;
 /// <param name="caster">In the frame of the model, made at the first ray.</param>
 /// <param name="objectToWorld">From that frame to world space.</param>
 /// <param name="bounds">In world space.</param>
+/// <param name="hasLamps">Whether any of its faces shines.</param>
 /// <exception cref="SingularMatrixException">The map has no inverse.</exception>
-internal sealed class RayInstance(int index, Lazy<ShapeRayCaster> caster, AffineMap objectToWorld, BoundingBox bounds)
+internal sealed class RayInstance(int index, Lazy<ShapeRayCaster> caster, AffineMap objectToWorld, BoundingBox bounds, bool hasLamps = false)
     : ObjectBvhLeaf(index, bounds)
 {
     private readonly AffineMap _objectToWorld = objectToWorld;
@@ -25,6 +26,9 @@ internal sealed class RayInstance(int index, Lazy<ShapeRayCaster> caster, Affine
 
     /// <summary>The largest absolute coordinate in world space.</summary>
     public double ShapeMagnitude { get; } = bounds.MaxAbsCoordinate();
+
+    /// <summary>Whether any of its faces shines.</summary>
+    public bool HasLamps { get; } = hasLamps;
 
     /// <summary>From the frame of the model to world space.</summary>
     public ref readonly AffineMap ObjectToWorld => ref _objectToWorld;

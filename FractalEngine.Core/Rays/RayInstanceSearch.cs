@@ -79,7 +79,7 @@ internal static class RayInstanceSearch
         RayInstance instance, in LocalRay ray, ref RaySearch search, QueryContext context, ref int pathLength)
     {
         var error = RayCaster.RoundingError(SimdAffineMap.ToVector(ray.Origin), ray.Start, instance.ShapeMagnitude);
-        var inner = search.WithError(error);
+        var inner = search.WithError(error, search.Footprint.KeepsLamps && instance.HasLamps ? default : search.Footprint);
         var local = instance.ToObject(in ray);
         var isHit = instance.Caster.Value.TryIntersect(in local, ref inner, context, ref pathLength);
         if (isHit)

@@ -96,5 +96,6 @@ public sealed class SceneRayCaster : InstanceRayCaster
     private static Lazy<ShapeRayCaster> CasterOf(Model model) => new(() => (ShapeRayCaster)model.CreateRayCaster());
 
     private static RayInstance CreateInstance(Dictionary<Model, Lazy<ShapeRayCaster>> casters, int index, PlacedModel placed) =>
-        new(index, casters[placed.Model], placed.ObjectToWorld, placed.Bounds);
+        new(index, casters[placed.Model], placed.ObjectToWorld, placed.Bounds, placed.Model.Parts.Any(static part =>
+            part.Materials.Values.Any(static material => material.Emission != Colour.Black)));
 }

@@ -20,7 +20,8 @@ namespace FractalEngine.Render.Tracing;
 /// <remarks>
 /// Light is that of drawn frames (<see cref="TracedLights"/>), with shadows: the scene's lights are sampled directly at each hit, and the
 /// ambient light comes from all directions that no surface hides. Paths end by chance, and go on from up to <see cref="MaxBounces"/>
-/// surfaces. The same seed gives the same bits on any number of threads.
+/// surfaces. Emissive faces are sampled too, one for each surface (<see cref="TracedAreaLights"/>); only in a deep zoom their light is
+/// found by paths that meet them, which has the same mean and more noise. The same seed gives the same bits on any number of threads.
 /// </remarks>
 public sealed class PathTracer
 {
@@ -125,6 +126,12 @@ public sealed class PathTracer
 
     /// <summary>Whether what <see cref="Denoise"/> needs is kept: 80 bytes a pixel beside the image's 24. False unless stated.</summary>
     public bool CanDenoise { get; init; }
+
+    /// <summary>How the light of emissive faces is found, to compare.</summary>
+    internal AreaLightSampling AreaLightSampling
+    {
+        init => _scene.Sampling = value;
+    }
 
     /// <summary>Number of samples that every pixel has.</summary>
     public int SampleCount => _image.RowSamples.Min();
@@ -287,9 +294,14 @@ public sealed class PathTracer
         var (minDistance, maxDistance) = clip;
         var layers = 0;
         var isBehindGlass = false;
+        // Since it was reflected last. Lamps behind glass are not sampled.
+        var isThroughGlass = false;
         // Fog is between the eye and the first surface only.
         var distanceBefore = 0.0;
         Glass? medium = null;
+        var areaLights = _scene.AreaLights;
+        // Where the path was reflected last.
+        var (last, lastOrigin, lastDensity) = (default(TracedSurface), default(Vector), 0.0);
         for (var bounce = 0; ;)
         {
             if (!_scene.TryIntersect(in ray, footprint, minDistance, maxDistance, context, out var surface))
@@ -326,7 +338,10 @@ public sealed class PathTracer
                 throughput *= clear;
             }
 
-            radiance += throughput.Stretch(surface.Emission);
+            var seen = bounce == 0 || isThroughGlass || areaLights is null || surface.Emission == Vector.Zero
+                ? throughput
+                : areaLights.WeightOf(in surface, in last, lastOrigin, ray.Direction, lastDensity, context) * throughput;
+            radiance += seen.Stretch(surface.Emission);
             if (bounce == 0 && !isBehindGlass)
             {
                 first = new(radiance, throughput.Stretch(surface.Albedo), surface.Normal, distanceBefore + passed);
@@ -354,7 +369,7 @@ public sealed class PathTracer
                     ray = new(isRefracted ? origin - (2 * _scene.OffsetAt(surface.Position) * surface.FaceNormal) : origin, through);
                     footprint = footprint with { Radius = width };
                     (minDistance, maxDistance) = (0, double.PositiveInfinity);
-                    isBehindGlass = true;
+                    (isBehindGlass, isThroughGlass) = (true, true);
                     continue;
                 }
 
@@ -362,10 +377,24 @@ public sealed class PathTracer
                 surface = surface with { Gloss = null, Colour = surface.Colour / surface.Opacity };
             }
 
+            if (bounce < BounceLimit && areaLights is not null)
+            {
+                radiance += throughput.Stretch(
+                    areaLights.Reflected(
+                    in surface, origin, -ray.Direction, new(width, footprint.Spread + ScatteredSpread), _scene, ref samples, context));
+            }
+
             if (++bounce > BounceLimit
                 || !Reflection.TrySample(in surface, -ray.Direction, ref samples, out var direction, out var weight, out var spread))
             {
                 return radiance;
+            }
+
+            isThroughGlass = false;
+            if (areaLights is not null)
+            {
+                (last, lastOrigin) = (surface, origin);
+                lastDensity = Reflection.Density(in surface, -ray.Direction, direction);
             }
 
             throughput = throughput.Stretch(weight);
@@ -381,7 +410,7 @@ public sealed class PathTracer
             }
 
             ray = new(origin, direction);
-            footprint = new(width, footprint.Spread + (spread * ScatteredSpread));
+            footprint = new(width, footprint.Spread + (spread * ScatteredSpread)) { KeepsLamps = areaLights is not null };
             (minDistance, maxDistance) = (0, double.PositiveInfinity);
         }
     }

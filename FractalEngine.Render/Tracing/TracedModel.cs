@@ -62,6 +62,9 @@ internal sealed class TracedModel
     /// <summary>True where light may pass through any face.</summary>
     public bool IsSeeThrough => _materials.Any(static material => material.IsSeeThrough);
 
+    /// <summary>True where any face shines.</summary>
+    public bool IsEmissive => _materials.Any(static material => material.Emission != Vector.Zero);
+
     /// <summary>The material of a face.</summary>
     public TracedMaterial MaterialOf(int face) => _materials[
         _materialOfFace.Length > 0 ? _materialOfFace[face] : _wideMaterialOfFace.Length > 0 ? _wideMaterialOfFace[face] : 0];

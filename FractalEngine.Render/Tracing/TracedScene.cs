@@ -32,6 +32,8 @@ internal sealed record TracedScene
 
     // What multiplies the colours of an object's materials.
     private readonly Vector[] _tints;
+    private readonly bool _isEmissive;
+    private readonly Lazy<TracedAreaLights?> _areaLights;
 
     // What a view has of its own.
     private RayCaster _caster;
@@ -67,6 +69,8 @@ internal sealed record TracedScene
             placed.Declaration.Gradient is { } gradient ? gradient.EndColour.ToLinearVector() : _colours[index][0])];
         _tints = [.. _objects.Select(static placed => (placed.Declaration.Colour ?? Colour.White).ToLinearVector())];
         IsSeeThrough = _models.Any(static parts => parts.Any(static model => model.IsSeeThrough));
+        _isEmissive = _models.Any(static parts => parts.Any(static model => model.IsEmissive));
+        _areaLights = new(() => TracedAreaLights.CreateOrNull(scene, _surfaces, Sampling == AreaLightSampling.Uniform));
         Notices = notices.ToImmutable();
         _offset = SurfaceOffset * scene.Bounds.FiniteDiagonalOr(1);
     }
@@ -76,6 +80,14 @@ internal sealed record TracedScene
 
     /// <summary>True where light may pass through any surface.</summary>
     public bool IsSeeThrough { get; }
+
+    /// <summary>
+    /// The emissive faces, which are sampled; null where there are none, and in a deep zoom. There light of theirs is found by chance.
+    /// </summary>
+    public TracedAreaLights? AreaLights => _isEmissive && _zoom is null && Sampling != AreaLightSampling.None ? _areaLights.Value : null;
+
+    /// <summary>How the light of emissive faces is found; set before the first sample.</summary>
+    public AreaLightSampling Sampling { get; set; }
 
     /// <summary>How far from a surface rays start that leave it, in the unit of the view.</summary>
     /// <param name="position">A point of the surface; in a deep zoom about the camera, since there is no size but its distance.</param>
@@ -117,6 +129,8 @@ internal sealed record TracedScene
 
         var index = context.ObjectIndex;
         surface = CreateSurface(ray.Direction, in hit, index, context);
+        // Behind a section the path to the face may be lost.
+        surface = start > minDistance ? surface with { FaceIndex = -1 } : surface;
         if (start > minDistance && _section is { HasCap: true, Normal: var normal }
             && IsWithinSolid(in ray, in hit, index, footprint, context))
         {
@@ -220,6 +234,7 @@ internal sealed record TracedScene
         colour = glass is null ? colour : opacity * colour;
         return new(hit.Point, faceNormal, normal, colour, material.Gloss, material.Emission, opacity)
         {
+            FaceIndex = hit.FaceIndex,
             Glass = glass,
             IsInside = glass is not null && IsInnerSide(in hit, index),
         };

@@ -18,6 +18,9 @@ internal readonly record struct TracedSurface(
     public Vector Albedo => Glass is not null ? Vector.One
         : Gloss is null ? Colour : Vector.Min(Colour + Gloss.Specular(Colour), Vector.One);
 
+    /// <summary>Index of the face in its mesh; −1 for a point of a section.</summary>
+    public int FaceIndex { get; init; } = -1;
+
     /// <summary>The material within, where the surface is that of a solid which refracts light; null for none.</summary>
     public Glass? Glass { get; init; }
 

@@ -23,6 +23,7 @@ public class MeasuredTablesTests
         { "skips.csv", OptimisationTable.Columns },
         { "light.csv", LightCommand.Columns },
         { "occlusion.csv", OcclusionTable.Columns },
+        { "lamps.csv", LampTable.Columns },
         { "physics.csv", PhysicsTable.Columns },
         { "physics-heaps.csv", HeapTable.Columns },
         { "physics-movers.csv", MoverTable.Columns },
