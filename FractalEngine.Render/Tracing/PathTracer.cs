@@ -379,8 +379,7 @@ public sealed class PathTracer
 
             if (bounce < BounceLimit && areaLights is not null)
             {
-                radiance += throughput.Stretch(
-                    areaLights.Reflected(
+                radiance += throughput.Stretch(areaLights.Reflected(
                     in surface, origin, -ray.Direction, new(width, footprint.Spread + ScatteredSpread), _scene, ref samples, context));
             }
 

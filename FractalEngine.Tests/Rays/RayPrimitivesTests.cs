@@ -121,9 +121,9 @@ public sealed class RayPrimitivesTests
         Assert.Equal((1.5, 9.0, -1, true), (search.MinDistance, search.MaxDistance, search.Face, search.StopsAtFirst));
         search.MaxDistance = 7;
         search.Face = 3;
-        var other = search.WithError(0.25);
+        var other = search.WithError(0.25, new(1, 0.5));
         Assert.Equal((1.75, 7.0, -1, 0.25), (other.MinDistance, other.MaxDistance, other.Face, other.Error));
-        Assert.Equal((0L, 0L, new RayFootprint(3, 0.25), true), (other.FaceTests, other.BoundTests, other.Footprint, other.StopsAtFirst));
+        Assert.Equal((0L, 0L, new RayFootprint(1, 0.5), true), (other.FaceTests, other.BoundTests, other.Footprint, other.StopsAtFirst));
         other.MaxDistance = 5;
         other.Face = 8;
         search.Accept(in other);

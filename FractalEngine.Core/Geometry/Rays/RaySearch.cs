@@ -42,7 +42,9 @@ internal struct RaySearch(double minDistance, double maxDistance, bool stopsAtFi
 
     /// <summary>The search for a nearer hit with another rounding, without the cost so far.</summary>
     /// <param name="error">Upper bound of how far rounding moves a point of the ray or of a target, in the frame of the query.</param>
-    public readonly RaySearch WithError(double error, RayFootprint footprint) => new(_minDistance, MaxDistance, StopsAtFirst, error, footprint);
+    /// <param name="footprint">Likewise.</param>
+    public readonly RaySearch WithError(double error, RayFootprint footprint) =>
+        new(_minDistance, MaxDistance, StopsAtFirst, error, footprint);
 
     /// <summary>Takes over the hit of a search with another rounding, but not its cost.</summary>
     public void Accept(in RaySearch other) =>

@@ -236,10 +236,8 @@ public class AreaLightTests
         var seen = caster.FindNearest(new(Eye.Position, forward))!.Value;
         Assert.Equal(0, seen.ObjectIndex);
         var material = TracedMaterial.Create(
-            new TextureCache(ImmutableArray.CreateBuilder<string>(), true, []).GetMaterial(scene.Objects[0].Model.Materials["matt"]),
-            new TextureCache(ImmutableArray.CreateBuilder<string>(), true, []));
-        var diffuse = material.Divide(material.BaseColour!.Value, out var specular);
-        var surface = new TracedSurface(seen.Point, Vector.J, Vector.J, diffuse, specular, material.Roughness, Vector.Zero, 1);
+            new TextureCache(ImmutableArray.CreateBuilder<string>(), true, []).GetMaterial(scene.Objects[0].Model.Materials["matt"]));
+        var surface = new TracedSurface(seen.Point, Vector.J, Vector.J, material.BaseColour!.Value, material.Gloss, Vector.Zero, 1);
         var sum = 0.0;
         foreach (var placed in scene.Objects.Skip(1))
         {
