@@ -70,7 +70,8 @@ internal static class DenoiseTable
                 yield return
                 [
                     name, part, width, height, count, truthCount,
-                    Math.Round(before, 2), Math.Round(after, 2), Math.Round(after - before, 2), Math.Round(filtered, 2), Math.Round(traced, 1),
+                    Math.Round(before, 2), Math.Round(after, 2), Math.Round(after - before, 2), Math.Round(filtered, 2),
+                    Math.Round(traced, 1),
                 ];
             }
         }

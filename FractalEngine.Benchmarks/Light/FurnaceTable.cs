@@ -17,7 +17,10 @@ internal static class FurnaceTable
 {
     /// <summary>Names of the table's columns.</summary>
     public static readonly string[] Columns =
-        ["material", "roughness", "samples", "mean", "darkest_ring", "brightest_ring", "brightest_pixel", "drawn_darkest", "drawn_brightest"];
+    [
+        "material", "roughness", "samples", "mean", "darkest_ring", "brightest_ring", "brightest_pixel", "drawn_darkest",
+        "drawn_brightest",
+    ];
 
     private const int Size = 64;
     private const int Rings = 8;

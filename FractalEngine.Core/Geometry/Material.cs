@@ -28,7 +28,7 @@ public sealed record Material(string Name)
     /// <summary><c>Ni</c>: the index of refraction, 1 where light is not refracted.</summary>
     public double RefractiveIndex { get; init; } = 1;
 
-    /// <summary><c>Tf</c>: the part of light that is left after a way of one scene unit within, for each component of linear light.</summary>
+    /// <summary><c>Tf</c>: the part of light that is left after one scene unit within, for each component of linear light.</summary>
     public Colour Transmission { get; init; } = Colour.White;
 
     /// <summary>Whether solids of the material are glass, which refracts light: transparent, with an index above 1.</summary>

@@ -12,7 +12,8 @@ namespace FractalEngine.Core.Rays;
 /// <param name="bounds">In world space.</param>
 /// <param name="hasLamps">Whether any of its faces shines.</param>
 /// <exception cref="SingularMatrixException">The map has no inverse.</exception>
-internal sealed class RayInstance(int index, Lazy<ShapeRayCaster> caster, AffineMap objectToWorld, BoundingBox bounds, bool hasLamps = false)
+internal sealed class RayInstance(
+    int index, Lazy<ShapeRayCaster> caster, AffineMap objectToWorld, BoundingBox bounds, bool hasLamps = false)
     : ObjectBvhLeaf(index, bounds)
 {
     private readonly AffineMap _objectToWorld = objectToWorld;

@@ -5,8 +5,8 @@ namespace FractalEngine.Parsing.Mtl;
 
 /// <summary>
 /// Reads Wavefront material files: <c>newmtl</c>, <c>Kd</c>, <c>Ka</c>, <c>Ks</c>, <c>Ke</c>, <c>Ns</c>, <c>d</c>, <c>Tr</c>,
-/// <c>Ni</c>, <c>Tf</c>, <c>Pr</c>, <c>Pm</c>, <c>map_Kd</c>, <c>map_d</c>, <c>map_Bump</c>, <c>norm</c>; and <c>map_Ke</c>, which is not shown, with one warning
-/// per file.
+/// <c>Ni</c>, <c>Tf</c>, <c>Pr</c>, <c>Pm</c>, <c>map_Kd</c>, <c>map_d</c>, <c>map_Bump</c>, <c>norm</c>; and <c>map_Ke</c>, which is not
+/// shown, with one warning per file.
 /// </summary>
 /// <remarks>
 /// Other statements are ignored. Faulty ones are ignored with one warning per file: a surface of the wrong colour is better than none.

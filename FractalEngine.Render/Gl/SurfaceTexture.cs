@@ -24,7 +24,7 @@ internal sealed class SurfaceTexture : Texture2D
         DisposeOnFailure(this, () => Upload(image, isSrgb));
     }
 
-    /// <summary>Binds the texture.</summary>
+    /// <summary>Binds the texture to a texture unit.</summary>
     /// <param name="isClamped">True to continue the colours of its edges beyond them, false to repeat the texture.</param>
     /// <param name="unit">The texture unit.</param>
     public void Bind(bool isClamped, int unit = 0)

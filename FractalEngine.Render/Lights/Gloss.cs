@@ -3,7 +3,7 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Render.Lights;
 
-/// <summary>What makes a surface glossy: a coat that mirrors, above what is scattered evenly, and metal, which mirrors in its colour.</summary>
+/// <summary>What makes a surface glossy: a coat that mirrors, above what is scattered, and metal, which mirrors in its colour.</summary>
 /// <remarks>
 /// A mixture of a coated surface and of a metal, as glTF 2.0 has it. Facets mirror once (GGX) or several times (C. Kulla and A. Conty,
 /// SIGGRAPH 2017); what the coat lets through is scattered, and leaves through the coat (C. Kelemen and L. Szirmay-Kalos, Eurographics
@@ -78,7 +78,7 @@ internal sealed class Gloss
     /// <summary>The part of light that a surface of a colour mirrors where it falls straight onto it.</summary>
     public Vector Specular(Vector colour) => ((1 - Metalness) * Coat) + (Metalness * colour);
 
-    /// <summary>Computes what leaves evenly scattered: below the coat, and by several facets. It is symmetrical in both directions.</summary>
+    /// <summary>Computes what leaves evenly scattered: below the coat, and by several facets. Both directions may be exchanged.</summary>
     /// <param name="colour">Linear light, at most 1.</param>
     /// <param name="eye">Facets seen from the eye.</param>
     /// <param name="light">Facets seen from the light.</param>

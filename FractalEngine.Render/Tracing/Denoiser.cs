@@ -54,7 +54,7 @@ internal sealed class Denoiser(SharedSamples samples, RadianceImage raw)
     // Rows have a margin of empty pixels, whose light and albedo of 0 count nothing.
     private readonly int _stride = samples.Viewport.Width + (2 * Radius) + 2 + Vector<float>.Count;
 
-    /// <summary>Filters the image.</summary>
+    /// <summary>Filters the image into another one.</summary>
     /// <param name="target">An image of the same size without samples.</param>
     /// <param name="options">Threads, and cancellation between strips of rows.</param>
     /// <exception cref="OperationCanceledException">The filter was cancelled.</exception>

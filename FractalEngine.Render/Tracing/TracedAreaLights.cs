@@ -11,8 +11,8 @@ namespace FractalEngine.Render.Tracing;
 /// </summary>
 /// <remarks>
 /// Multiple importance sampling with the balance heuristic, after E. Veach, "Robust Monte Carlo Methods for Light Transport Simulation",
-/// 1997, §9.2. Both ways see the light of the same face along the same ray, which is a line for objects that shine: a proxy would shine by other faces than the
-/// parts of a fractal that it stands for. What the sampler never chooses counts whole where a path meets it.
+/// 1997, §9.2. Both ways see the light of the same face along the same ray, which is a line for objects that shine: a proxy would shine by
+/// other faces than the parts of a fractal that it stands for. What the sampler never chooses counts whole where a path meets it.
 /// </remarks>
 internal sealed class TracedAreaLights
 {
@@ -45,7 +45,8 @@ internal sealed class TracedAreaLights
     /// <param name="samples">Choose the face, and the point.</param>
     /// <param name="context">Memory of the rays.</param>
     public Vector Reflected(
-        in TracedSurface surface, Vector origin, Vector toEye, RayFootprint footprint, TracedScene scene, ref SampleSequence samples, QueryContext context)
+        in TracedSurface surface, Vector origin, Vector toEye, RayFootprint footprint, TracedScene scene, ref SampleSequence samples,
+        QueryContext context)
     {
         var (first, second) = samples.Next();
         if (!_sampler.TrySample(
@@ -100,7 +101,8 @@ internal sealed class TracedAreaLights
     /// <param name="light">The surface there; its opacity is multiplied by what layers before it let through.</param>
     /// <returns>False where something hides the face.</returns>
     private static bool TryReach(
-        in AreaLightSample sample, Ray ray, RayFootprint footprint, double distance, TracedScene scene, QueryContext context, out TracedSurface light)
+        in AreaLightSample sample, Ray ray, RayFootprint footprint, double distance, TracedScene scene, QueryContext context,
+        out TracedSurface light)
     {
         // Rounding may bring the face a little farther away.
         const double Reach = 1.001;

@@ -32,8 +32,7 @@ internal sealed record TracedScene
 
     // What multiplies the colours of an object's materials.
     private readonly Vector[] _tints;
-    private readonly bool _isEmissive;
-    private readonly Lazy<TracedAreaLights?> _areaLights;
+    private readonly Lazy<TracedAreaLights?>? _areaLights;
 
     // What a view has of its own.
     private RayCaster _caster;
@@ -69,8 +68,9 @@ internal sealed record TracedScene
             placed.Declaration.Gradient is { } gradient ? gradient.EndColour.ToLinearVector() : _colours[index][0])];
         _tints = [.. _objects.Select(static placed => (placed.Declaration.Colour ?? Colour.White).ToLinearVector())];
         IsSeeThrough = _models.Any(static parts => parts.Any(static model => model.IsSeeThrough));
-        _isEmissive = _models.Any(static parts => parts.Any(static model => model.IsEmissive));
-        _areaLights = new(() => TracedAreaLights.CreateOrNull(scene, _surfaces, Sampling == AreaLightSampling.Uniform));
+        _areaLights = _models.Any(static parts => parts.Any(static model => model.IsEmissive))
+            ? new(() => TracedAreaLights.CreateOrNull(scene, _surfaces, Sampling == AreaLightSampling.Uniform))
+            : null;
         Notices = notices.ToImmutable();
         _offset = SurfaceOffset * scene.Bounds.FiniteDiagonalOr(1);
     }
@@ -84,7 +84,7 @@ internal sealed record TracedScene
     /// <summary>
     /// The emissive faces, which are sampled; null where there are none, and in a deep zoom. There light of theirs is found by chance.
     /// </summary>
-    public TracedAreaLights? AreaLights => _isEmissive && _zoom is null && Sampling != AreaLightSampling.None ? _areaLights.Value : null;
+    public TracedAreaLights? AreaLights => _zoom is null && Sampling != AreaLightSampling.None ? _areaLights?.Value : null;
 
     /// <summary>How the light of emissive faces is found; set before the first sample.</summary>
     public AreaLightSampling Sampling { get; set; }

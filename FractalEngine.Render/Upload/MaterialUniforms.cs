@@ -44,7 +44,8 @@ internal sealed class MaterialUniforms(ShaderProgram program, RedundancyFilter f
         WriteVector(16, ClampNegative(material?.Emission ?? Colour.Black), gloss?.Metalness ?? 0);
         LightBlock.WriteVector(gloss?.CoatOfSeveral ?? default, gloss?.RestOfFacets ?? 1, _data.AsSpan(20));
         var detail = material?.DetailTexture;
-        LightBlock.WriteVector(gloss?.RestOfCoat ?? Vector.One, material?.NormalTexture is null ? detail?.BumpFactor ?? 0 : 0, _data.AsSpan(24));
+        var bumpFactor = material?.NormalTexture is null ? detail?.BumpFactor ?? 0 : 0;
+        LightBlock.WriteVector(gloss?.RestOfCoat ?? Vector.One, bumpFactor, _data.AsSpan(24));
         if (detail is not null)
         {
             LightBlock.WriteVector(new(detail.Scale.U, detail.Scale.V, detail.Offset.U), detail.Offset.V, _data.AsSpan(28));

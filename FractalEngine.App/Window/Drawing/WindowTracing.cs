@@ -49,7 +49,9 @@ internal sealed class WindowTracing(WindowOptions options, Action published) : I
         TraceRequest? request = null;
         if (IsEnabled && document is not null)
         {
-            _obstacle = (long)width * height > TracedImage.MaxPixelsOf(options.DenoisesTrace) ? "too many pixels" : FindObstacle(document, settings);
+            _obstacle = (long)width * height > TracedImage.MaxPixelsOf(options.DenoisesTrace)
+                ? "too many pixels"
+                : FindObstacle(document, settings);
             if (_obstacle is null && !document.IsMoving)
             {
                 request = new(document.Physics.CurrentScene, document.UpdateView((double)width / height), width, height);

@@ -171,7 +171,8 @@ public class ReflectionTests
         // Head-on, the density of the facets is 1/(πα²), and a facet sends light to an angle four times as wide. What facets don't send out
         // at once, (1 − a)² of the light from here to there, they scatter by the mean of 1 − a.
         var alpha = Roughness * Roughness;
-        var rest = Enumerable.Range(0, 100).Sum(i => (i + 0.5) / 5000 * (1 - AlbedoOfFacets(alpha, Math.Acos((i + 0.5) / 100) * 180 / Math.PI)));
+        var rest = Enumerable.Range(0, 100).Sum(
+            i => (i + 0.5) / 5000 * (1 - AlbedoOfFacets(alpha, Math.Acos((i + 0.5) / 100) * 180 / Math.PI)));
         var several = Math.Pow(1 - AlbedoOfFacets(alpha, 0), 2) / rest;
         Assert.Equal(0.3 * ((1 / (4 * alpha * alpha)) + several), Trace(scene, 4).X, 1e-3);
     }
