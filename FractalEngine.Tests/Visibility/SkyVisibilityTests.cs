@@ -175,7 +175,7 @@ public class SkyVisibilityTests
             if (SkyDirections.VisiblePart(free, ToVector256(sample.Normal)) > 0.4)
             {
                 path.Set(sample.Steps);
-                path.ComputeParts(hierarchy, sample.Leaf!, sample.Steps.Count, VisibleSides.All, parts);
+                path.ComputeParts(hierarchy, sample.Leaf!, sample.Steps.Count, 0, VisibleSides.All, parts);
                 var part = AmbientCube.Blend(parts, (sample.FromMesh.Linear.Transpose() * sample.Normal).UnitVector());
                 blackened += part < 0.05 ? 1 : 0;
                 open++;
@@ -210,9 +210,9 @@ public class SkyVisibilityTests
         for (var child = 0; child < root.ChildMaps.Length; child++)
         {
             path.Set(0, new(root, first.LevelCount, child));
-            path.ComputeParts(first, first.NodeAt(0), 1, VisibleSides.All, parts1);
+            path.ComputeParts(first, first.NodeAt(0), 1, 0, VisibleSides.All, parts1);
             path.Set(0, new(second.NodeAt(second.LevelCount), second.LevelCount, child));
-            path.ComputeParts(second, second.NodeAt(0), 1, VisibleSides.All, parts2);
+            path.ComputeParts(second, second.NodeAt(0), 1, 0, VisibleSides.All, parts2);
             Assert.Equal(parts1, parts2);
         }
     }
