@@ -34,7 +34,7 @@ internal static class InstanceSky
         var sides = isSmall && BitOperations.PopCount((uint)visible) > FacingCount
             ? visible & visibleSides.FindFacing(in meshToView, frame.IsPerspective)
             : visible;
-        path.ComputeParts(context.Hierarchy, instance.Node, instance.Depth, sides, parts);
+        path.ComputeParts(context.Hierarchy, instance.Node, instance.Depth, instance.Path.Hash, sides, parts);
         if (sides != visible)
         {
             FillRest(sides, parts);

@@ -33,7 +33,7 @@ in vec2 pixelSky;
 
 // The part of direct light that falls on the surfaces around an open place, on the mean: some face away, some are in shadow. In a hole it
 // falls with the part of the sky that is seen.
-const float directPart = 0.3;
+const float directPart = 0.2;
 
 // The light from all around within a hole. What hides the sky has about the same colour, and shines back what it gets: the sky that is
 // seen here, and a part of the direct light. So e = part * sky + (1 - part) * albedo * (directPart * part * direct + e).

@@ -175,7 +175,7 @@ public class SkyVisibilityTests
             if (SkyDirections.VisiblePart(free, ToVector256(sample.Normal)) > 0.4)
             {
                 path.Set(sample.Steps);
-                path.ComputeParts(hierarchy, sample.Leaf!, sample.Steps.Count, VisibleSides.All, parts);
+                path.ComputeParts(hierarchy, sample.Leaf!, sample.Steps.Count, 0, VisibleSides.All, parts);
                 var part = AmbientCube.Blend(parts, (sample.FromMesh.Linear.Transpose() * sample.Normal).UnitVector());
                 blackened += part < 0.05 ? 1 : 0;
                 open++;
@@ -185,6 +185,84 @@ public class SkyVisibilityTests
         // Hidden directions of a whole cell are those of its few voting points.
         Assert.InRange(open, 200, 3000);
         Assert.InRange(blackened, 0, open / 100);
+    }
+
+    [Fact]
+    public void Apply_OfManyInstancesBetweenTwoCells_GivesBothInProportion()
+    {
+        // Free from the middle cell on, along x.
+        var masks = new ulong[SkyMasks.MaskCount];
+        for (var i = 0; i < masks.Length; i++)
+        {
+            masks[i] = i / AmbientCube.Count % SkyMasks.GridSize >= 2 ? ulong.MaxValue : 0;
+        }
+
+        var sky = new SkyMasks([masks], [new(new(Vector.Zero, Vector.One), Matrix.Identity, null)]);
+        for (var x = -0.1; x < 1.1; x += 0.01)
+        {
+            Assert.Equal(Math.Clamp((4 * x) - 1, 0, 1), MeanPart(sky, 0, 1, new(x, 1.001, 0.3)), 0.01);
+        }
+
+        // Across a surface, what lies in a side of the box is told from what lies below it, whatever the hash.
+        Assert.Equal((0, 1), (MeanPart(sky, 0, 3, new(-0.001, 0.5, 0.5)), MeanPart(sky, 0, 0, new(1.001, 0.5, 0.5))));
+    }
+
+    [Fact]
+    public void Parts_OnBothSidesOfASharedEdge_Agree()
+    {
+        // Two cubes that touch, beside a wall, which hides the more the closer a place is.
+        var wall = new Transformation(new(4, 1, 0), Vector.Zero, new(0.5, 4, 6));
+        var hierarchy = LodHierarchy.Build(CubesAt([Move(0, 0, 0), Move(2, 0, 0), wall]));
+        SkyMaskBaker.TryBake(hierarchy, 1, keepsAll: true);
+        var node = hierarchy.NodeAt(hierarchy.LevelCount);
+        var masks = hierarchy.SkyMasksAt(node, hierarchy.LevelCount)!;
+        var occluder = new SkyOccluder(hierarchy, 1);
+        var before = double.NaN;
+        for (var x = -1.0; x <= 3; x += 0.25)
+        {
+            var part = MeanPartAt(x < 1 ? 0 : 2, x);
+            var (free, _) = occluder.FreeDirections(node, hierarchy.LevelCount, -1, new(x, 1.001, 0), SkyDirections.Above(Vector.J));
+            Assert.Equal(SkyDirections.VisiblePart(free, ToVector256(Vector.J)), part, 0.1);
+            Assert.False(Math.Abs(part - before) > 0.08, $"{before} before {x}, {part} at it");
+            before = part;
+        }
+
+        // The cell at an end has votes of its inner half only: each is an eighth of a cube off, on the mean a sixteenth.
+        Assert.Equal(MeanPartAt(0, 1), MeanPartAt(2, 1), 0.08);
+
+        double MeanPartAt(double place, double x)
+        {
+            var child = Array.FindIndex(node.ChildMaps, map => Math.Abs(map.Translation[0] - place) < 1e-9);
+            return MeanPart(masks, child, 1, new(x - place, 1.001, 0));
+        }
+    }
+
+    [Fact]
+    public void Parts_OfASponge_AreCloseToRays()
+    {
+        var hierarchy = LodHierarchy.Build(AssetFractals.Load("menger", 3));
+        SkyMaskBaker.Bake(hierarchy, 1);
+        var occluder = new SkyOccluder(hierarchy, 1);
+        var (node, levels) = occluder.Nodes[0];
+        var (random, sample, path, parts) = (new Random(2), new SkySample(), new SkyPath(), new float[AmbientCube.Count]);
+        var (sum, squares, count) = (0.0, 0.0, 0);
+        for (var i = 0ul; i < 4000; i++)
+        {
+            if (occluder.TrySample(node, levels, random, sample))
+            {
+                var (free, _) = occluder.FreeDirections(node, levels, -1, sample.Point, SkyDirections.Above(sample.Normal));
+                path.Set(sample.Steps);
+                path.ComputeParts(hierarchy, sample.Leaf!, sample.Steps.Count, i * HashMixing.GoldenGamma, VisibleSides.All, parts);
+                var error = AmbientCube.Blend(parts, (sample.FromMesh.Linear.Transpose() * sample.Normal).UnitVector())
+                    - SkyDirections.VisiblePart(free, ToVector256(sample.Normal));
+                sum += error;
+                squares += error * error;
+                count++;
+            }
+        }
+
+        Assert.InRange(Math.Abs(sum / count), 0, 0.02);
+        Assert.InRange(10 * Math.Log10(count / squares), 19, 60);
     }
 
     [Fact]
@@ -210,9 +288,9 @@ public class SkyVisibilityTests
         for (var child = 0; child < root.ChildMaps.Length; child++)
         {
             path.Set(0, new(root, first.LevelCount, child));
-            path.ComputeParts(first, first.NodeAt(0), 1, VisibleSides.All, parts1);
+            path.ComputeParts(first, first.NodeAt(0), 1, 0, VisibleSides.All, parts1);
             path.Set(0, new(second.NodeAt(second.LevelCount), second.LevelCount, child));
-            path.ComputeParts(second, second.NodeAt(0), 1, VisibleSides.All, parts2);
+            path.ComputeParts(second, second.NodeAt(0), 1, 0, VisibleSides.All, parts2);
             Assert.Equal(parts1, parts2);
         }
     }
@@ -250,6 +328,21 @@ public class SkyVisibilityTests
         Assert.Equal((false, false), (hierarchy.IsSkyBaked, hierarchy.HasSkyMasks));
         SkyMaskBaker.Bake(hierarchy, 1);
         Assert.True(hierarchy.HasSkyMasks);
+    }
+
+    /// <summary>Computes the mean part of the sky that a place of a side sees, of many instances.</summary>
+    private static double MeanPart(SkyMasks masks, int child, int side, Vector point)
+    {
+        const int Count = 2000;
+        var sum = 0.0;
+        for (var i = 1ul; i <= Count; i++)
+        {
+            Span<SideVisibility> visibility = [new(side, ToVector256(point))];
+            masks.Apply(child, SkyDither.Of(i * HashMixing.GoldenGamma), visibility);
+            sum += SkyDirections.VisiblePart(visibility[0].Mask, side);
+        }
+
+        return sum / Count;
     }
 
     private static Vector256<double> ToVector256(Vector normal) => SimdAffineMap.ToVector256(normal);

@@ -31,9 +31,10 @@ internal sealed class SkyPath
     /// <param name="hierarchy">Hierarchy of the path, with masks.</param>
     /// <param name="node">Node at the end of the path, which is drawn as its proxy.</param>
     /// <param name="depth">Number of steps that lead to it.</param>
+    /// <param name="hash">Hash that tells the instance apart: of its neighbours, each takes the cells around it in other parts.</param>
     /// <param name="sides">Bits of the sides that count.</param>
     /// <param name="parts">Receives a number from 0 to 1 for each side; 1 for those that don't count.</param>
-    public void ComputeParts(LodHierarchy hierarchy, LodNode node, int depth, int sides, Span<float> parts)
+    public void ComputeParts(LodHierarchy hierarchy, LodNode node, int depth, ulong hash, int sides, Span<float> parts)
     {
         Span<SideVisibility> visibilities = stackalloc SideVisibility[AmbientCube.Count];
         var count = 0;
@@ -49,10 +50,12 @@ internal sealed class SkyPath
         }
 
         visibilities = visibilities[..count];
+        var dither = SkyDither.Of(hash);
         for (var i = depth - 1; i >= 0; i--)
         {
             ref readonly var step = ref _steps[i];
-            hierarchy.SkyMasksAt(step.Node, step.Levels)?.Apply(step.Child, visibilities);
+            hierarchy.SkyMasksAt(step.Node, step.Levels)?.Apply(step.Child, dither, visibilities);
+            dither = SkyDither.Next(dither);
             ref readonly var map = ref step.Node.ChildMaps[step.Child];
             for (var j = 0; i > 0 && j < visibilities.Length; j++)
             {

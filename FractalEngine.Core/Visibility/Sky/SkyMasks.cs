@@ -17,7 +17,10 @@ namespace FractalEngine.Core.Visibility.Sky;
 /// <param name="children">The other data of each child.</param>
 internal sealed class SkyMasks(ulong[][]? masks, SkyMasks.Child[] children)
 {
-    /// <summary>Cells of a grid along each axis: thin ones at both ends, for surfaces in a side of the box, and thirds.</summary>
+    /// <summary>
+    /// Cells of a grid along each axis. Along a surface, their middles are evenly spread from one end of the box to the other, so that
+    /// neighbours agree at their common end. Across it, there are thin ones at both ends, for surfaces in a side of the box, and thirds.
+    /// </summary>
     public const int GridSize = 5;
 
     /// <summary>Number of cells of a whole grid.</summary>
@@ -29,9 +32,15 @@ internal sealed class SkyMasks(ulong[][]? masks, SkyMasks.Child[] children)
     // Thickness of the outermost cells, by the size of the box.
     private const double ThinCell = 0.01;
 
+    private static readonly Vector256<double> Half = Vector256.Create(0.5);
+    private static readonly Vector256<double> LastCell = Vector256.Create(GridSize - 1.0);
     private static readonly Vector256<double> LastThird = Vector256.Create(GridSize - 3.0);
     private static readonly Vector256<double> FirstThinEnd = Vector256.Create(ThinCell);
     private static readonly Vector256<double> LastThinStart = Vector256.Create(1 - ThinCell);
+
+    // For each axis, all bits of its lane.
+    private static readonly Vector256<double>[] AcrossAxis =
+        [.. Enumerable.Range(0, 3).Select(static axis => Vector256<long>.Zero.WithElement(axis, -1).AsDouble())];
 
     private readonly ulong[][]? _masks = masks;
 
@@ -47,8 +56,9 @@ internal sealed class SkyMasks(ulong[][]? masks, SkyMasks.Child[] children)
 
     /// <summary>Maps what sides see from a child's frame to the node's; their points stay in the child's.</summary>
     /// <param name="child">Index of the child that the sides are part of.</param>
+    /// <param name="dither">Where the middle between cells is taken to be: from −½ to ½ cells along each axis.</param>
     /// <param name="visibilities">What they see.</param>
-    public void Apply(int child, Span<SideVisibility> visibilities)
+    public void Apply(int child, Vector256<double> dither, Span<SideVisibility> visibilities)
     {
         ref readonly var data = ref children[child];
         var masks = _masks?[child];
@@ -63,7 +73,7 @@ internal sealed class SkyMasks(ulong[][]? masks, SkyMasks.Child[] children)
             if (masks is not null)
             {
                 var side = visibility.IsTurned ? AmbientCube.Of(visibility.Normal) : visibility.Side;
-                visibility.Mask &= masks[(CellOf(in data, visibility.Point) * AmbientCube.Count) + side];
+                visibility.Mask &= masks[PlaceOf(in data, visibility.Point, side, dither)];
             }
 
         }
@@ -78,19 +88,22 @@ internal sealed class SkyMasks(ulong[][]? masks, SkyMasks.Child[] children)
         }
     }
 
-    /// <summary>Finds the cell of a child's grid that is closest to a point.</summary>
+    /// <summary>Finds the mask of the cell that is closest to a point of a surface.</summary>
     /// <param name="child">The child.</param>
     /// <param name="point">In the child's frame: x, y, z, 0.</param>
+    /// <param name="side">Index of the side that the surface faces.</param>
+    /// <param name="dither">As for <see cref="Apply"/>.</param>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static int CellOf(in Child child, Vector256<double> point)
+    public static int PlaceOf(in Child child, Vector256<double> point, int side, Vector256<double> dither)
     {
         var place = (point - child.Origin) * child.Scale;
+        var along = Vector256.Floor(Vector256.Min(Vector256.Max((place * LastCell) + Half + dither, Vector256<double>.Zero), LastCell));
         // Thirds are the cells 1 to 3; thin cells lie before and after them.
         var third = Vector256.Floor(Vector256.Min(Vector256.Max(place * (GridSize - 2), Vector256<double>.Zero), LastThird));
         var isInside = Vector256.GreaterThanOrEqual(place, FirstThinEnd) & Vector256<double>.One;
         var isAfter = Vector256.GreaterThan(place, LastThinStart) & Vector256<double>.One;
-        var cell = third + isInside + isAfter;
-        return (int)cell[0] + (GridSize * ((int)cell[1] + (GridSize * (int)cell[2])));
+        var cell = Vector256.ConditionalSelect(AcrossAxis[side < 3 ? side : side - 3], third + isInside + isAfter, along);
+        return ((int)cell[0] + (GridSize * ((int)cell[1] + (GridSize * (int)cell[2])))) * AmbientCube.Count + side;
     }
 
     /// <summary>Computes the squared distance of two cells, in cells.</summary>

@@ -265,8 +265,8 @@ public sealed class SkyMaskBaker
             var child = sample.Steps[0].Child;
             var inverse = node.ChildMaps[child].ToAffineMap().Inverse();
             var normalInChild = node.ChildMaps[child].ToAffineMap().Linear.Transpose() * sample.Normal;
-            var cell = SkyMasks.CellOf(in data[child], SimdAffineMap.ToVector256(inverse * sample.Point));
-            var place = (cell * AmbientCube.Count) + AmbientCube.Of(SimdAffineMap.ToVector256(normalInChild));
+            var side = AmbientCube.Of(SimdAffineMap.ToVector256(normalInChild));
+            var place = SkyMasks.PlaceOf(in data[child], SimdAffineMap.ToVector256(inverse * sample.Point), side, default);
             if (!hasVoted.Add((child, place)))
             {
                 continue;
