@@ -1,9 +1,7 @@
-using FractalEngine.Benchmarks.Measuring;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Scenes.Cameras;
-using FractalEngine.Core.Scenes.Lights;
 using FractalEngine.Render;
 using FractalEngine.Render.Tracing;
 using FractalEngine.Render.Views;

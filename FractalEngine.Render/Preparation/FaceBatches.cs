@@ -118,7 +118,10 @@ internal sealed class FaceBatches(ImmutableArray<DrawableBatch> batches, int[]? 
                         ? null
                         : textures.GetMaterial(hasTexture ? fileMaterial : fileMaterial with
                         {
-                            Texture = null, OpacityTexture = null, BumpTexture = null, NormalTexture = null,
+                            Texture = null,
+                            OpacityTexture = null,
+                            BumpTexture = null,
+                            NormalTexture = null,
                         }));
                 }
 

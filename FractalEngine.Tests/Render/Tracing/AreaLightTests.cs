@@ -3,7 +3,6 @@ using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Generation;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
-using FractalEngine.Core.Rays;
 using FractalEngine.Core.SceneQueries;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Scenes.Cameras;
@@ -12,7 +11,6 @@ using FractalEngine.Core.Views;
 using FractalEngine.Render.Preparation;
 using FractalEngine.Render.Tracing;
 using FractalEngine.Render.Views;
-using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Render.Tracing;
 

@@ -77,7 +77,8 @@ public class DenoiserTests
                 var (radiance, first) = Wall(0.5 * noise, 0.6);
                 var emitted = x < 20 ? 2 * Vector.One : Vector.Zero;
                 return (radiance + emitted, first with { Emitted = emitted });
-            },
+            }
+            ,
         };
         var (raw, filtered) = Filter(film, 16);
 

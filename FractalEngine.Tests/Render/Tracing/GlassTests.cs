@@ -2,7 +2,6 @@ using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Scenes.Cameras;
-using FractalEngine.Core.Scenes.Lights;
 using FractalEngine.Parsing.Mtl;
 using FractalEngine.Render.Tracing;
 using FractalEngine.Render.Views;
