@@ -24,7 +24,8 @@ internal static class LightCommand
           Likewise white balls of all materials under a white sky; writes furnace.csv.
           Likewise the noise of very many lamps, sampled by importance and uniformly, at about equal time; writes lamps.csv.
           Likewise what the denoiser gains, to a traced image of many samples; writes denoise.csv, for an hour.
-          The names 'occlusion', 'furnace', 'lamps' and 'denoise' measure these alone.
+          Likewise what flickers when the eye moves by an eighth of a pixel; writes shimmer.csv.
+          The names 'occlusion', 'furnace', 'lamps', 'shimmer' and 'denoise' measure these alone.
           --no-truth: without traced images, and the decibels to them.
           --images: also the images of both.
         """;
@@ -53,108 +54,64 @@ internal static class LightCommand
             .Flag("--no-truth", () => hasTruth = false)
             .Option("--output", value => output = value)
             .Option("--images", value => images = Directory.CreateDirectory(value).FullName)
-            .Names(static name => name is "occlusion" or "furnace" or "lamps" or "denoise" || File.Exists(PathOf(name)), scenes);
+            .Names(static name => name is "occlusion" or "furnace" or "lamps" or "shimmer" or "denoise"
+                || File.Exists(PathOf(name)), scenes);
         if (!parser.TryParse(args))
         {
             return 2;
         }
 
         var folder = output ?? CommandLineParser.FolderFor(isQuick);
+        var tables = new Dictionary<string, Action>
+        {
+            ["occlusion"] = () => Write("occlusion.csv", OcclusionTable.Columns, (isQuick ? ["menger-4"] : OcclusionTable.Fractals)
+                .Select(name => OcclusionTable.Measure(name, isQuick, images))),
+            ["furnace"] = () => Write("furnace.csv", FurnaceTable.Columns, FurnaceTable.Measure(
+                AssetLoader.Load(Path.Combine(FractalCase.Assets, "models", "sphere.obj")).Scene.Objects[0].Model.Mesh, isQuick)),
+            ["lamps"] = () => Write(
+                "lamps.csv", LampTable.Columns, LampTable.Swarms.Select(swarm => LampTable.Measure(swarm, isQuick, images))),
+            ["shimmer"] = () => Write("shimmer.csv", ShimmerTable.Columns, ShimmerTable.Scenes.SelectMany(ShimmerTable.Measure)),
+            ["denoise"] = () => Write("denoise.csv", DenoiseTable.Columns, MeasureDenoising(isQuick, images)),
+        };
+        var named = scenes.Where(tables.ContainsKey).ToArray();
+        foreach (var name in scenes.Count == 0 ? [.. tables.Keys] : named)
+        {
+            tables[name]();
+        }
+
         if (scenes.Count == 0)
         {
             scenes.AddRange(isQuick ? ["menger"] : ["menger", "playground", "gallery", "inside"]);
-            MeasureOcclusion(isQuick, folder, images);
-            MeasureFurnace(isQuick, folder);
-            MeasureLamps(isQuick, folder, images);
-            MeasureDenoising(isQuick, folder, images);
         }
-        else if (scenes.RemoveAll(static name => name == "furnace") > 0)
+        else if (scenes.RemoveAll(name => tables.ContainsKey(name)) > 0 && scenes.Count == 0)
         {
-            MeasureFurnace(isQuick, folder);
-            return 0;
-        }
-        else if (scenes.RemoveAll(static name => name == "denoise") > 0)
-        {
-            MeasureDenoising(isQuick, folder, images);
-            return 0;
-        }
-        else if (scenes.RemoveAll(static name => name == "lamps") > 0)
-        {
-            MeasureLamps(isQuick, folder, images);
-            return 0;
-        }
-        else if (scenes.RemoveAll(static name => name == "occlusion") > 0)
-        {
-            MeasureOcclusion(isQuick, folder, images);
             return 0;
         }
 
-        var table = new TableOptions("light", isQuick, folder).CreateTable("light.csv", Columns);
-        foreach (var scene in scenes)
-        {
-            var row = Measure(scene, isQuick, hasTruth, images);
-            table.Add(row);
-            Console.WriteLine(string.Join(' ', row.Select(static field => Convert.ToString(field, CultureInfo.InvariantCulture))));
-        }
-
-        table.Save();
+        Write("light.csv", Columns, scenes.Select(scene => Measure(scene, isQuick, hasTruth, images)));
         return 0;
-    }
 
-    private static void MeasureFurnace(bool isQuick, string folder)
-    {
-        var ball = AssetLoader.Load(Path.Combine(FractalCase.Assets, "models", "sphere.obj")).Scene.Objects[0].Model.Mesh;
-        var table = new TableOptions("light", isQuick, folder).CreateTable("furnace.csv", FurnaceTable.Columns);
-        foreach (var row in FurnaceTable.Measure(ball, isQuick))
+        void Write(string file, string[] columns, IEnumerable<object?[]> rows)
         {
-            table.Add(row);
-            Console.WriteLine(string.Join(' ', row.Select(static field => Convert.ToString(field, CultureInfo.InvariantCulture))));
-        }
+            var table = new TableOptions("light", isQuick, folder).CreateTable(file, columns);
+            foreach (var row in rows)
+            {
+                table.Add(row);
+                Console.WriteLine(string.Join(' ', row.Select(static field => Convert.ToString(field, CultureInfo.InvariantCulture))));
+            }
 
-        table.Save();
+            table.Save();
+        }
     }
 
-    private static void MeasureLamps(bool isQuick, string folder, string? images)
+    private static IEnumerable<object?[]> MeasureDenoising(bool isQuick, string? images)
     {
-        var table = new TableOptions("light", isQuick, folder).CreateTable("lamps.csv", LampTable.Columns);
-        foreach (var swarm in LampTable.Swarms)
-        {
-            var row = LampTable.Measure(swarm, isQuick, images);
-            table.Add(row);
-            Console.WriteLine(string.Join(' ', row.Select(static field => Convert.ToString(field, CultureInfo.InvariantCulture))));
-        }
-
-        table.Save();
-    }
-
-    private static void MeasureOcclusion(bool isQuick, string folder, string? images)
-    {
-        var table = new TableOptions("light", isQuick, folder).CreateTable("occlusion.csv", OcclusionTable.Columns);
-        foreach (var name in isQuick ? ["menger-4"] : OcclusionTable.Fractals)
-        {
-            var row = OcclusionTable.Measure(name, isQuick, images);
-            table.Add(row);
-            Console.WriteLine(string.Join(' ', row.Select(static field => Convert.ToString(field, CultureInfo.InvariantCulture))));
-        }
-
-        table.Save();
-    }
-
-    private static void MeasureDenoising(bool isQuick, string folder, string? images)
-    {
-        var table = new TableOptions("light", isQuick, folder).CreateTable("denoise.csv", DenoiseTable.Columns);
         string[] scenes = isQuick ? ["menger"] : ["menger", "gallery", "inside"];
-        foreach (var row in scenes.SelectMany(name => isQuick
+        return scenes.SelectMany(name => isQuick
             ? DenoiseTable.Measure(name, 240, 135, [4, 16, 64], 256, images)
             : DenoiseTable.Measure(name, 960, 540, [4, 16, 64, 256], 1024, images)
                 // A converged image of many samples has to have many more.
-                .Concat(DenoiseTable.Measure(name, 240, 135, [1024], 8192, images))))
-        {
-            table.Add(row);
-            Console.WriteLine(string.Join(' ', row.Select(static field => Convert.ToString(field, CultureInfo.InvariantCulture))));
-        }
-
-        table.Save();
+                .Concat(DenoiseTable.Measure(name, 240, 135, [1024], 8192, images)));
     }
 
     private static string PathOf(string name) => Path.Combine(FractalCase.Assets, "scenes", name + ".sdo");

@@ -64,15 +64,6 @@ public sealed class ShellTests : IDisposable
     }
 
     [Fact]
-    public void Render_OfAMaterialThatOnlyTracedImagesShow_WarnsWhereThatIsTrue()
-    {
-        _folder.Write("a.mtl", "newmtl a\nPr 0.5\n");
-        _folder.Write("a.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n");
-        Assert.Equal("", Run("render", "a.obj", "--trace", "1", "--resolution", "8x8", "--output", "a.png", "--quiet").Error);
-        Assert.StartsWith("a.mtl:2:1: warning: Pr is shown in traced images only\n", Run("info", "a.obj").Error, StringComparison.Ordinal);
-    }
-
-    [Fact]
     public void Info_OfTheStandardInput_ReadsAFractal()
     {
         var (exitCode, output, _) = RunWithInput(SampleFiles.Row("2"), "info", "-", "--json");

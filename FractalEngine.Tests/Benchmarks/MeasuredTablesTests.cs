@@ -24,6 +24,8 @@ public class MeasuredTablesTests
         { "light.csv", LightCommand.Columns },
         { "occlusion.csv", OcclusionTable.Columns },
         { "lamps.csv", LampTable.Columns },
+        { "furnace.csv", FurnaceTable.Columns },
+        { "shimmer.csv", ShimmerTable.Columns },
         { "physics.csv", PhysicsTable.Columns },
         { "physics-heaps.csv", HeapTable.Columns },
         { "physics-movers.csv", MoverTable.Columns },

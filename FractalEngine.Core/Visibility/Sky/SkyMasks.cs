@@ -15,11 +15,13 @@ namespace FractalEngine.Core.Visibility.Sky;
 /// </remarks>
 /// <param name="masks">Masks by child, cell and side, in directions of the node's frame; null where siblings hide nothing.</param>
 /// <param name="children">The other data of each child.</param>
-internal sealed class SkyMasks(ulong[][]? masks, SkyMasks.Child[] children)
+/// <param name="isSpread">Whether cells along a surface are spread from end to end, see <see cref="GridSize"/>; else all are thirds.</param>
+internal sealed class SkyMasks(ulong[][]? masks, SkyMasks.Child[] children, bool isSpread = true)
 {
     /// <summary>
     /// Cells of a grid along each axis. Along a surface, their middles are evenly spread from one end of the box to the other, so that
-    /// neighbours agree at their common end. Across it, there are thin ones at both ends, for surfaces in a side of the box, and thirds.
+    /// neighbours agree at their common end. Across it, and along it where that tells more, there are thin ones at both ends, for surfaces in
+    /// a side of the box, and thirds.
     /// </summary>
     public const int GridSize = 5;
 
@@ -73,7 +75,7 @@ internal sealed class SkyMasks(ulong[][]? masks, SkyMasks.Child[] children)
             if (masks is not null)
             {
                 var side = visibility.IsTurned ? AmbientCube.Of(visibility.Normal) : visibility.Side;
-                visibility.Mask &= masks[PlaceOf(in data, visibility.Point, side, dither)];
+                visibility.Mask &= masks[PlaceOf(in data, visibility.Point, side, isSpread ? dither : null)];
             }
 
         }
@@ -92,17 +94,22 @@ internal sealed class SkyMasks(ulong[][]? masks, SkyMasks.Child[] children)
     /// <param name="child">The child.</param>
     /// <param name="point">In the child's frame: x, y, z, 0.</param>
     /// <param name="side">Index of the side that the surface faces.</param>
-    /// <param name="dither">As for <see cref="Apply"/>.</param>
+    /// <param name="dither">As for <see cref="Apply"/>; null where all cells are thirds.</param>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static int PlaceOf(in Child child, Vector256<double> point, int side, Vector256<double> dither)
+    public static int PlaceOf(in Child child, Vector256<double> point, int side, Vector256<double>? dither)
     {
         var place = (point - child.Origin) * child.Scale;
-        var along = Vector256.Floor(Vector256.Min(Vector256.Max((place * LastCell) + Half + dither, Vector256<double>.Zero), LastCell));
         // Thirds are the cells 1 to 3; thin cells lie before and after them.
         var third = Vector256.Floor(Vector256.Min(Vector256.Max(place * (GridSize - 2), Vector256<double>.Zero), LastThird));
         var isInside = Vector256.GreaterThanOrEqual(place, FirstThinEnd) & Vector256<double>.One;
         var isAfter = Vector256.GreaterThan(place, LastThinStart) & Vector256<double>.One;
-        var cell = Vector256.ConditionalSelect(AcrossAxis[side < 3 ? side : side - 3], third + isInside + isAfter, along);
+        var cell = third + isInside + isAfter;
+        if (dither is { } offset)
+        {
+            var along = Vector256.Floor(Vector256.Min(Vector256.Max((place * LastCell) + Half + offset, Vector256<double>.Zero), LastCell));
+            cell = Vector256.ConditionalSelect(AcrossAxis[side < 3 ? side : side - 3], cell, along);
+        }
+
         return ((int)cell[0] + (GridSize * ((int)cell[1] + (GridSize * (int)cell[2])))) * AmbientCube.Count + side;
     }
 

@@ -1,3 +1,4 @@
+using System.Runtime.Intrinsics;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Visibility.Frames;
@@ -158,12 +159,8 @@ public sealed class SkyMaskBaker
             var (node, levels) = _occluder.Nodes[index];
             if (source < 0)
             {
-                var masks = Compute(node, levels, cancellation);
-                SetMasks(node, levels, masks);
-                var isUseful = masks.HideAnything && (keepsAll || SkyMaskTest.IsUseful(_occluder, _hierarchy, node, levels));
-                masks = isUseful ? masks : masks.WithoutMasks();
-                SetMasks(node, levels, masks);
-                hidesAnything |= masks.HideAnything;
+                // Where surfaces of large children touch, a smaller cell tells less than a larger one.
+                hidesAnything |= SetMasks(node, levels, isSpread: true) || SetMasks(node, levels, isSpread: false);
             }
         }
 
@@ -174,7 +171,16 @@ public sealed class SkyMaskBaker
 
         return hidesAnything;
 
-        void SetMasks(LodNode node, long levels, SkyMasks masks)
+        bool SetMasks(LodNode node, long levels, bool isSpread)
+        {
+            var masks = Compute(node, levels, isSpread, cancellation);
+            Set(node, levels, masks);
+            var isUseful = masks.HideAnything && (keepsAll || SkyMaskTest.IsUseful(_occluder, _hierarchy, node, levels));
+            Set(node, levels, isUseful ? masks : masks.WithoutMasks());
+            return isUseful;
+        }
+
+        void Set(LodNode node, long levels, SkyMasks masks)
         {
             if (levels < lastMasks.Length)
             {
@@ -227,7 +233,7 @@ public sealed class SkyMaskBaker
         return (node1.Box.Minimum - node2.Box.Minimum).Length() < tolerance && (node1.Box.Maximum - node2.Box.Maximum).Length() < tolerance;
     }
 
-    private SkyMasks Compute(LodNode node, long levels, CancellationToken cancellation)
+    private SkyMasks Compute(LodNode node, long levels, bool isSpread, CancellationToken cancellation)
     {
         var data = new SkyMasks.Child[node.ChildMaps.Length];
         for (var i = 0; i < data.Length; i++)
@@ -244,14 +250,14 @@ public sealed class SkyMaskBaker
         // Rounds with sources of their own, so that the result does not depend on the number of threads.
         SkyMaskAccumulator[] votes = [.. data.Select(static _ => new SkyMaskAccumulator())];
 
-        Parallel.For(0, RoundCount, new() { CancellationToken = cancellation }, round => Vote(node, levels, data, new(round), votes));
-        return new([.. votes.Select(static child => child.ToMasks())], data);
+        Parallel.For(0, RoundCount, new() { CancellationToken = cancellation }, round => Vote(node, levels, data, isSpread, new(round), votes));
+        return new([.. votes.Select(static child => child.ToMasks())], data, isSpread);
     }
 
     /// <summary>
     /// Lets the points of the surface that are seen from outside vote about the directions that are free for their child, cell and side.
     /// </summary>
-    private void Vote(LodNode node, long levels, SkyMasks.Child[] data, Random random, SkyMaskAccumulator[] votes)
+    private void Vote(LodNode node, long levels, SkyMasks.Child[] data, bool isSpread, Random random, SkyMaskAccumulator[] votes)
     {
         var sample = new SkySample();
         var hasVoted = new HashSet<(int Child, int Place)>();
@@ -266,7 +272,7 @@ public sealed class SkyMaskBaker
             var inverse = node.ChildMaps[child].ToAffineMap().Inverse();
             var normalInChild = node.ChildMaps[child].ToAffineMap().Linear.Transpose() * sample.Normal;
             var side = AmbientCube.Of(SimdAffineMap.ToVector256(normalInChild));
-            var place = SkyMasks.PlaceOf(in data[child], SimdAffineMap.ToVector256(inverse * sample.Point), side, default);
+            var place = SkyMasks.PlaceOf(in data[child], SimdAffineMap.ToVector256(inverse * sample.Point), side, isSpread ? Vector256<double>.Zero : null);
             if (!hasVoted.Add((child, place)))
             {
                 continue;

@@ -35,7 +35,7 @@ internal static class SkyMaskTest
                 var (free, _) = occluder.FreeDirections(node, levels, -1, sample.Point, SkyDirections.Above(sample.Normal));
                 var truth = SkyDirections.VisiblePart(free, SimdAffineMap.ToVector256(sample.Normal));
                 path.Set(sample.Steps);
-                path.ComputeParts(hierarchy, sample.Leaf!, sample.Steps.Count, (ulong)i, VisibleSides.All, parts);
+                path.ComputeParts(hierarchy, sample.Leaf!, sample.Steps.Count, (ulong)i * HashMixing.GoldenGamma, VisibleSides.All, parts);
                 var part = AmbientCube.Blend(parts, (sample.FromMesh.Linear.Transpose() * sample.Normal).UnitVector());
                 // As far apart as the values of an image are.
                 var (shown, shownTruth) = (Math.Sqrt(part), Math.Sqrt(truth));

@@ -141,7 +141,9 @@ internal struct AreaLightWalk(Vector position, Vector normal, double number, boo
         var power = part.Power * (part.Cosine == 1 ? axisLength : areaFactor);
         if (distanceSquared <= radius * radius)
         {
-            return power / (radius * radius);
+            // The mean of 1/d² over a ball is 3/r² from its centre, and about half of that from its surface.
+            var squaredRadius = radius * radius;
+            return power * (3 - (1.5 * distanceSquared / squaredRadius)) / squaredRadius;
         }
 
         // What the ball spans around its centre, as seen from the surface.
