@@ -11,6 +11,10 @@ namespace FractalEngine.Core.Visibility.SkyBaking;
 /// <summary>Computes what the parts of a fractal leave of each other's sky: rays are cast from each part at its siblings.</summary>
 public sealed class SkyMaskBaker
 {
+    // Errors of masks that are kept, by those without: of cells that are spread, and of thirds, which are the last choice.
+    private const double MaxErrorOfSpread = 0.5;
+    private const double MaxErrorOfThirds = 0.7;
+
     // From so many remaining levels on, levels with the same maps look alike.
     private const long SettledLevels = 4;
 
@@ -175,7 +179,8 @@ public sealed class SkyMaskBaker
         {
             var masks = Compute(node, levels, isSpread, cancellation);
             Set(node, levels, masks);
-            var isUseful = masks.HideAnything && (keepsAll || SkyMaskTest.IsUseful(_occluder, _hierarchy, node, levels));
+            var isUseful = masks.HideAnything && (keepsAll || SkyMaskTest.IsUseful(
+                _occluder, _hierarchy, node, levels, isSpread ? MaxErrorOfSpread : MaxErrorOfThirds));
             Set(node, levels, isUseful ? masks : masks.WithoutMasks());
             return isUseful;
         }

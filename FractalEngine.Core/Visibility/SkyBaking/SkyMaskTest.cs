@@ -7,9 +7,8 @@ namespace FractalEngine.Core.Visibility.SkyBaking;
 /// <summary>Tests whether <see cref="SkyMasks"/> come closer to the truth than none.</summary>
 internal static class SkyMaskTest
 {
-    // Lines of sight to points at which masks are compared with rays, and the maximum of their error, by that of no masks.
+    // Lines of sight to points at which masks are compared with rays; and how much worse they may be from one side than none.
     private const int TestedLines = 300;
-    private const double MaxErrorRatio = 0.7;
     private const double MaxLoss = 0.05;
 
     /// <summary>
@@ -19,7 +18,8 @@ internal static class SkyMaskTest
     /// <param name="hierarchy">Hierarchy of the node, with the masks that are tested.</param>
     /// <param name="node">A node with masks.</param>
     /// <param name="levels">Levels that it has left.</param>
-    public static bool IsUseful(SkyOccluder occluder, LodHierarchy hierarchy, LodNode node, long levels)
+    /// <param name="maxErrorRatio">How large errors may be, by those without masks.</param>
+    public static bool IsUseful(SkyOccluder occluder, LodHierarchy hierarchy, LodNode node, long levels, double maxErrorRatio)
     {
         var random = new Random(0);
         var path = new SkyPath();
@@ -46,7 +46,7 @@ internal static class SkyMaskTest
             }
         }
 
-        return error < MaxErrorRatio * MaxErrorRatio * errorWithout
+        return error < maxErrorRatio * maxErrorRatio * errorWithout
             && !gains.ContainsAnyInRange(double.NegativeInfinity, -MaxLoss * errorWithout);
     }
 }
