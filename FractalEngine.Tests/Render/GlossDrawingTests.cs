@@ -72,7 +72,7 @@ public sealed class GlossDrawingTests
             (sphere, Transformation.Identity, null));
         var view = RenderScenes.FrontView with { Projection = projection, OrthographicHeight = 3 };
         var tracer = new PathTracer(scene, view, 100, 75);
-        for (var i = 0; i < 16; i++)
+        for (var i = 0; i < 8; i++)
         {
             tracer.AddSample();
         }
@@ -119,7 +119,7 @@ public sealed class GlossDrawingTests
         var sky = new Scene { Sky = new(new(0.4, 0.6, 0.9), new(0.8, 0.75, 0.7), new(0.5, 0.4, 0.3)) };
         foreach (var (pitch, yaw) in ((double, double)[])[(0, 0), (50, 10), (-50, 20)])
         {
-            var light = Trace(name, pitch, yaw, sky, 4096);
+            var light = Trace(name, pitch, yaw, sky, 1024);
             // What is mirrored at an angle is not quite what facets mirror along their normal.
             AssertClose(light, Draw(name, pitch, yaw, sky, Shading.PerPixel), 0.09, $"{pitch}, {yaw}");
         }

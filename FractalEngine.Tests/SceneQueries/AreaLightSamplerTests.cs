@@ -76,7 +76,7 @@ public class AreaLightSamplerTests
         }
 
         chiSquared += rare * Count >= 10 ? Math.Pow(rareFound - (rare * Count), 2) / (rare * Count) : 0;
-        Assert.All(found.Keys, key => Assert.Contains(expected, one => one.Key == key));
+        Assert.Subset(expected.Select(static one => one.Key).ToHashSet(), found.Keys.ToHashSet());
         // Five standard deviations.
         Assert.InRange(chiSquared, 0, classes + 1 + (5 * Math.Sqrt(2 * (classes + 1))));
     }

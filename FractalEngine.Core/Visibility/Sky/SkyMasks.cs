@@ -15,13 +15,13 @@ namespace FractalEngine.Core.Visibility.Sky;
 /// </remarks>
 /// <param name="masks">Masks by child, cell and side, in directions of the node's frame; null where siblings hide nothing.</param>
 /// <param name="children">The other data of each child.</param>
-/// <param name="isSpread">Whether cells along a surface are spread from end to end, see <see cref="GridSize"/>; else all are thirds.</param>
+/// <param name="isSpread">Whether cells along a surface are spread, see <see cref="GridSize"/>; otherwise all are thirds.</param>
 internal sealed class SkyMasks(ulong[][]? masks, SkyMasks.Child[] children, bool isSpread = true)
 {
     /// <summary>
     /// Cells of a grid along each axis. Along a surface, their middles are evenly spread from one end of the box to the other, so that
-    /// neighbours agree at their common end. Across it, and along it where that tells more, there are thin ones at both ends, for surfaces in
-    /// a side of the box, and thirds.
+    /// neighbours agree at their common end. Across it, and along it where that tells more, there are thin ones at both ends, for surfaces
+    /// in a side of the box, and thirds.
     /// </summary>
     public const int GridSize = 5;
 

@@ -255,7 +255,9 @@ public sealed class SkyMaskBaker
         // Rounds with sources of their own, so that the result does not depend on the number of threads.
         SkyMaskAccumulator[] votes = [.. data.Select(static _ => new SkyMaskAccumulator())];
 
-        Parallel.For(0, RoundCount, new() { CancellationToken = cancellation }, round => Vote(node, levels, data, isSpread, new(round), votes));
+        Parallel.For(
+            0, RoundCount, new() { CancellationToken = cancellation },
+            round => Vote(node, levels, data, isSpread, new(round), votes));
         return new([.. votes.Select(static child => child.ToMasks())], data, isSpread);
     }
 
@@ -277,7 +279,8 @@ public sealed class SkyMaskBaker
             var inverse = node.ChildMaps[child].ToAffineMap().Inverse();
             var normalInChild = node.ChildMaps[child].ToAffineMap().Linear.Transpose() * sample.Normal;
             var side = AmbientCube.Of(SimdAffineMap.ToVector256(normalInChild));
-            var place = SkyMasks.PlaceOf(in data[child], SimdAffineMap.ToVector256(inverse * sample.Point), side, isSpread ? Vector256<double>.Zero : null);
+            var point = SimdAffineMap.ToVector256(inverse * sample.Point);
+            var place = SkyMasks.PlaceOf(in data[child], point, side, isSpread ? Vector256<double>.Zero : null);
             if (!hasVoted.Add((child, place)))
             {
                 continue;

@@ -44,9 +44,9 @@ public class ReflectionTests
     [Fact]
     public void FacetAlbedo_OfAnyRoughnessAndAngle_IsTheIntegral()
     {
-        foreach (var roughness in (double[])[0.02, 0.03, 0.1, 0.33, 0.6, 1])
+        foreach (var roughness in (double[])[0.02, 0.1, 0.33, 1])
         {
-            foreach (var degrees in (double[])[0, 17, 30, 60, 80])
+            foreach (var degrees in (double[])[0, 30, 80])
             {
                 var cosine = Math.Cos(degrees * Math.PI / 180);
                 Assert.Equal(AlbedoOfFacets(roughness, degrees), FacetAlbedo.At(cosine, roughness).White, 0.0015);
