@@ -54,7 +54,7 @@ public sealed class AreaLightSampler
     /// <summary>Area times radiance of all faces, scene units: exact for similarities.</summary>
     public double Power => _root?.Total.Power ?? 0;
 
-    /// <summary>Bytes of the hierarchy.</summary>
+    /// <summary>Bytes that the hierarchy of lamps takes: objects, levels and faces.</summary>
     public long StorageBytes { get; }
 
     /// <summary>Chooses a point of an emissive face.</summary>

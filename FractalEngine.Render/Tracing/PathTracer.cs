@@ -14,14 +14,15 @@ using FractalEngine.Render.Views;
 namespace FractalEngine.Render.Tracing;
 
 /// <summary>
-/// Draws a scene by following light backwards from the eye, without a GPU: shadows, light between surfaces, mirrors, transparency
-/// without refraction. The image is noisy at first, and converges as samples are added.
+/// Draws a scene by following light backwards from the eye, without a GPU: shadows, light between surfaces, mirrors, glass, and faces that
+/// shine. The image is noisy at first, and converges as samples are added.
 /// </summary>
 /// <remarks>
 /// Light is that of drawn frames (<see cref="TracedLights"/>), with shadows: the scene's lights are sampled directly at each hit, and the
 /// ambient light comes from all directions that no surface hides. Paths end by chance, and go on from up to <see cref="MaxBounces"/>
-/// surfaces. Emissive faces are sampled too, one for each surface (<see cref="TracedAreaLights"/>); only in a deep zoom their light is
-/// found by paths that meet them, which has the same mean and more noise. The same seed gives the same bits on any number of threads.
+/// surfaces. Emissive faces are sampled too, one for each surface (<see cref="TracedAreaLights"/>). In a deep zoom, behind glass, and of
+/// infinite or componentwise fractals, their light is found by paths that meet them, which has the same mean and more noise. The same
+/// seed gives the same bits on any number of threads.
 /// </remarks>
 public sealed class PathTracer
 {

@@ -3,6 +3,7 @@ using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Generation;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Queries;
 using FractalEngine.Core.SceneQueries;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Scenes.Cameras;
@@ -223,6 +224,31 @@ public class AreaLightTests
         Camera = camera,
         Objects = objects,
     });
+
+    [Fact]
+    public void Ray_ThatKeepsLamps_IsALineForObjectsThatShineOnly()
+    {
+        var footprint = new RayFootprint(0.2, 0);
+        var ray = new Ray(new(0.37, 0.31, -3), Vector.K);
+        foreach (var emission in (Colour[])[Colour.Black, Colour.White])
+        {
+            var menger = RenderScenes.Menger(6);
+            var mesh = menger.Mesh.WithGroups([new(0, menger.Mesh.FaceCount, "", "", "m", 0)], ["m.mtl"]);
+            var model = new FractalModel(new(menger.Fractal.Description, mesh))
+            {
+                SourcePath = "menger.fdo",
+                Materials = ImmutableDictionary<string, Material>.Empty.Add("m", new("m") { Emission = emission }),
+            };
+            var caster = new SceneRayCaster(RenderScenes.Scene(new(), (model, Transformation.Identity, null)));
+            var context = new QueryContext();
+            Assert.True(caster.TryFindNearest(ray, context, out var line));
+            Assert.True(caster.TryFindNearest(ray, context, out var wide, footprint: footprint));
+            Assert.True(caster.TryFindNearest(ray, context, out var kept, footprint: footprint with { KeepsLamps = true }));
+
+            Assert.NotEqual(line.InstanceMap, wide.InstanceMap);
+            Assert.Equal(emission == Colour.White ? line.InstanceMap : wide.InstanceMap, kept.InstanceMap);
+        }
+    }
 
     /// <summary>Adds up what each small part of each emissive face sends to the point of the floor that the eye sees.</summary>
     private static double Integrate(SceneObject[] expanded, bool isGlossy)

@@ -35,7 +35,7 @@ internal sealed class AreaLightNode
         }
     }
 
-    /// <summary>Bounds of the parts.</summary>
+    /// <summary>Power, ball and cone of each part of the node.</summary>
     public AreaLightBounds[] Parts { get; }
 
     /// <summary>For each part the index of the face, child or object.</summary>
@@ -44,10 +44,10 @@ internal sealed class AreaLightNode
     /// <summary>For each part the node of a group in the same frame; null for others.</summary>
     public AreaLightNode?[] Groups { get; }
 
-    /// <summary>The powers of the parts.</summary>
+    /// <summary>The powers of the parts alone, for choices from far away.</summary>
     public double[] Powers { get; }
 
-    /// <summary>Bounds of all parts.</summary>
+    /// <summary>Power, ball and cone of all parts of the node together.</summary>
     public AreaLightBounds Total { get; }
 
     /// <summary>True where the parts face about the same directions, so that from afar only their powers matter.</summary>
