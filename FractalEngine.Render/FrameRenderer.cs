@@ -77,7 +77,7 @@ public sealed class FrameRenderer : IDisposable
         }
 
         _linesPass.DrawSegments(in frame, scene.Lines);
-
+        scene.DrawAir(in frame, target, settings);
         GL.Disable(EnableCap.DepthTest);
     }
 

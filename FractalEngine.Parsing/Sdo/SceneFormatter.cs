@@ -39,7 +39,7 @@ internal static class SceneFormatter
         SceneDeclarationKind.Sky => scene.Sky is { } sky ? Join("sky", $"{sky.Zenith} {sky.Horizon}", sky.Ground?.ToString()) : null,
         SceneDeclarationKind.Exposure => AreBitEqual(scene.Exposure, 1) ? null : $"exposure {FormatNumber(scene.Exposure)}",
         SceneDeclarationKind.Tone => scene.Tone == Tone.Filmic ? "tone filmic" : null,
-        SceneDeclarationKind.Fog => scene.Fog is { } fog ? Join("fog", FormatNumber(fog.Density), fog.Colour?.ToString()) : null,
+        SceneDeclarationKind.Fog => scene.Fog is { } fog ? Format(fog) : null,
         SceneDeclarationKind.Gravity => AreBitEqual(scene.Gravity, Scene.DefaultGravity) ? null : $"gravity {scene.Gravity}",
         SceneDeclarationKind.Player => scene.Player is { } player ? Format(player) : null,
         SceneDeclarationKind.Light => index < scene.Lights.Length ? Format(scene.Lights[index]) : null,
@@ -49,6 +49,11 @@ internal static class SceneFormatter
 
     private static string Format(Light light) =>
         string.Join(' ', light.Declaration.Select(static word => Convert.ToString(word, CultureInfo.InvariantCulture)));
+
+    private static string Format(Fog fog) => Join(
+        $"fog {FormatNumber(fog.Density)}", fog.Colour?.ToString(),
+        AreBitEqual(fog.Albedo, 0) ? null : $"scatter {FormatNumber(fog.Albedo)}",
+        AreBitEqual(fog.Anisotropy, 0) ? null : $"forward {FormatNumber(fog.Anisotropy)}");
 
     private static string Format(Player player) => Join(
         $"player {player.Position} {FormatNumber(player.Radius)} {FormatNumber(player.Height)}",

@@ -1,6 +1,7 @@
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Scenes.Cameras;
+using FractalEngine.Core.Scenes.Lights;
 using FractalEngine.Core.Views;
 using FractalEngine.Parsing.Text;
 using FractalEngine.Parsing.Text.Grammar;
@@ -21,16 +22,28 @@ public abstract class SceneSettingParser : SceneValueParser
     private const double MaxClip = 1e30;
 
     private readonly Option<Player>[] _playerOptions;
+    private readonly Option<Fog>[] _fogOptions;
     private (Vector Target, Vector Up)? _cameraTarget;
 
     private protected SceneSettingParser(SourceText source)
-        : base(source) => _playerOptions =
+        : base(source)
+    {
+        _playerOptions =
         [
             Option<Player>.Of("speed", NonNegative("the player's speed"), (player, speed) => player with { WalkingSpeedOverride = speed }),
             Option<Player>.Of("jump", NonNegative("the speed of a jump"), (player, jump) => player with { JumpSpeedOverride = jump }),
             Option<Player>.Of<double>("slope", ParseSlope, (player, slope) => player with { MaxSlopeAngle = slope }),
             new("step", ParseStep),
         ];
+        var albedo = Number(static share => share is >= 0 and <= 1, "the share that fog scatters must lie between 0 and 1");
+        var anisotropy = Number(
+            static cosine => Math.Abs(cosine) <= Fog.MaxAnisotropy, "the anisotropy of fog must lie between -0.95 and 0.95");
+        _fogOptions =
+        [
+            Option<Fog>.Of("scatter", albedo, static (fog, share) => fog with { Albedo = share }),
+            Option<Fog>.Of("forward", anisotropy, static (fog, cosine) => fog with { Anisotropy = cosine }),
+        ];
+    }
 
     /// <summary>What was declared so far, without lights and objects.</summary>
     private protected Scene Scene { get; private set; } = new();
@@ -161,8 +174,15 @@ public abstract class SceneSettingParser : SceneValueParser
 
     private protected bool ParseFog(Cursor cursor, out Cursor rest)
     {
-        return ParseNonNegative(cursor, "the density of fog", out var density, out rest)
-            && ParseOptionalColour(rest, out var colour, out rest) && UpdateScene(Scene with { Fog = new(density, colour) });
+        if (!ParseNonNegative(cursor, "the density of fog", out var density, out rest))
+        {
+            return false;
+        }
+
+        ParseOptionalSeparator(rest, out var colourStart);
+        var hasColour = ParseColour(colourStart, out var colour, out var colourEnd);
+        var fog = new Fog(density, hasColour ? colour : null);
+        return UpdateScene(Scene with { Fog = ParseOptions(hasColour ? colourEnd : rest, fog, _fogOptions, out rest) });
     }
 
     private protected bool ParseGravity(Cursor cursor, out Cursor rest) =>

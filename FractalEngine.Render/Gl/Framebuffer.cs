@@ -25,6 +25,7 @@ internal sealed class Framebuffer : GlObject
     {
         Width = width;
         Height = height;
+        Samples = samples;
         _name = GL.GenFramebuffer();
         _colour = CreateRenderbuffer(RenderbufferStorage.Srgb8Alpha8, samples);
         _depth = hasDepth ? CreateRenderbuffer(RenderbufferStorage.DepthComponent32f, samples) : 0;
@@ -49,6 +50,9 @@ internal sealed class Framebuffer : GlObject
     /// <summary>Height of the framebuffer in pixels.</summary>
     public int Height { get; }
 
+    /// <summary>Number of samples a pixel; 0 without multisampling.</summary>
+    public int Samples { get; }
+
     /// <summary>Makes this the current framebuffer, with a viewport that covers it.</summary>
     public void Bind()
     {
@@ -62,6 +66,16 @@ internal sealed class Framebuffer : GlObject
         // With this state on, drivers decode before averaging (GL 4.4, §18.3.1). It leaves plain copies unchanged.
         GL.Enable(EnableCap.FramebufferSrgb);
         BlitTo(target._name, target.Width, target.Height);
+    }
+
+    /// <summary>Copies what is shown into textures of the same size: colours averaged likewise, and the depths of all samples.</summary>
+    /// <param name="colours">sRGB, 8 bits.</param>
+    /// <param name="depths">Floats of 32 bits, with as many samples.</param>
+    public void ResolveTo(RenderTexture colours, RenderTexture depths)
+    {
+        GL.Enable(EnableCap.FramebufferSrgb);
+        BlitTo(colours.Framebuffer, Width, Height);
+        BlitTo(depths.Framebuffer, Width, Height, ClearBufferMask.DepthBufferBit);
     }
 
     /// <summary>Copies the pixels unchanged to the window's own framebuffer.</summary>
@@ -112,7 +126,7 @@ internal sealed class Framebuffer : GlObject
     }
 
     /// <summary>Copies the common part of two framebuffers, aligned at the upper left corner.</summary>
-    private void BlitTo(int target, int width, int height)
+    private void BlitTo(int target, int width, int height, ClearBufferMask content = ClearBufferMask.ColorBufferBit)
     {
         GL.BindFramebuffer(FramebufferTarget.ReadFramebuffer, _name);
         GL.BindFramebuffer(FramebufferTarget.DrawFramebuffer, target);
@@ -121,6 +135,6 @@ internal sealed class Framebuffer : GlObject
         GL.BlitFramebuffer(
             0, Height - commonHeight, commonWidth, Height,
             0, height - commonHeight, commonWidth, height,
-            ClearBufferMask.ColorBufferBit, BlitFramebufferFilter.Nearest);
+            content, BlitFramebufferFilter.Nearest);
     }
 }
