@@ -27,6 +27,9 @@ internal sealed class LightTransport(
     /// <summary>Radiance of fog that nothing is seen through.</summary>
     public Vector FogColour { get; init; }
 
+    /// <summary>What scatters light before the first surface; null for nothing.</summary>
+    public TracedAir? Air { get; init; }
+
     /// <summary>Follows one path, and returns the radiance that comes along it.</summary>
     /// <param name="path">From the eye.</param>
     /// <param name="bounceLimit">Number of surfaces that it goes on from.</param>
@@ -44,6 +47,7 @@ internal sealed class LightTransport(
             {
                 path.Radiance += path.Throughput.Stretch(
                     path.Bounces == 0 ? background.At(ray.Direction) : lights.Surroundings(ray.Direction));
+                AddAir(ref path, double.PositiveInfinity, ref samples, context);
                 first = path.IsFirst ? new(path.Radiance, Vector.Zero, Vector.Zero, 0) : first;
                 return path.Radiance;
             }
@@ -67,6 +71,7 @@ internal sealed class LightTransport(
             }
 
             AddFog(ref path, passed);
+            AddAir(ref path, passed, ref samples, context);
             AddEmission(ref path, in surface, context);
             if (path.IsFirst)
             {
@@ -112,6 +117,19 @@ internal sealed class LightTransport(
             var clear = Math.Exp(-FogDensity * (path.DistanceBefore + passed));
             path.Radiance = (1 - clear) * FogColour;
             path.Throughput *= clear;
+        }
+    }
+
+    /// <summary>Adds the light that is scattered before the first surface, or before the background.</summary>
+    private void AddAir(ref LightPath path, double passed, ref SampleSequence samples, QueryContext context)
+    {
+        if (Air is not null && path.IsFirst)
+        {
+            // From the eye on, which layers that the path has passed are behind.
+            var (ray, footprint, before) = (path.Ray, path.Footprint, path.DistanceBefore);
+            path.Radiance += Air.Scattered(
+                ray with { Origin = ray.Origin - (before * ray.Direction) }, footprint with { Radius = footprint.RadiusAt(-before) },
+                before + passed, ref samples, context);
         }
     }
 
