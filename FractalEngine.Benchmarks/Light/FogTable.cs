@@ -41,7 +41,7 @@ internal static class FogTable
     /// <param name="folder">Receives the images; null for none.</param>
     public static object?[] Measure(string name, bool isQuick, string? folder)
     {
-        var (width, height, samples) = isQuick ? (160, 96, 16) : (960, 544, 64);
+        var (width, height, samples) = isQuick ? (160, 96, 16) : (640, 360, 64);
         var scene = AssetLoader.Load(Path.Combine(FractalCase.Assets, "scenes", name + ".sdo")).Scene;
         var fog = scene.Scene.Fog is { IsLit: true } lit ? lit : new(1 / scene.Bounds.Diagonal) { Albedo = 0.9, Anisotropy = 0.3 };
         scene = scene with { Scene = scene.Scene with { Fog = fog } };

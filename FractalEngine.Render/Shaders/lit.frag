@@ -16,12 +16,15 @@ vec3 lightBefore(float end, ivec2 pixel)
     // One point of each rank of the pattern. Those before and behind an edge look through other air.
     ivec2 first = ((pixel + 1) >> 1) - 2;
     ivec2 last = textureSize(air, 0) - 1;
+    float scale = 20.0 / end;
     vec4 sum = vec4(0.0);
     for (int i = 0; i < 16; i++)
     {
         vec4 point = texelFetch(air, clamp(first + ivec2(i & 3, i >> 2), ivec2(0), last), 0);
-        float difference = abs(point.w - end) / min(point.w, end);
-        sum += (exp(-min(5.0 * difference, 80.0)) + 1e-6 / (1.0 + difference)) * vec4(point.rgb, 1.0);
+        float difference = scale * (point.w - end);
+        float closeness = 1.0 / (1.0 + difference * difference);
+        // All count alike where none is close.
+        sum += (closeness * closeness + 1e-9) * vec4(point.rgb, 1.0);
     }
 
     return lostPart(end) * sum.rgb / sum.w;
