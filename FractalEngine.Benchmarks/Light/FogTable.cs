@@ -35,7 +35,7 @@ internal static class FogTable
     private const double Exposure = 0.25;
     private const double MinShown = 0.01;
 
-    /// <summary>Measures one scene.</summary>
+    /// <summary>Measures one scene, in blocks of pixels and in whole frames.</summary>
     /// <param name="name">Of a file of scenes, which gets haze if it has none that scatters.</param>
     /// <param name="isQuick">Whether a smaller image with fewer samples will do.</param>
     /// <param name="folder">Receives the images; null for none.</param>
@@ -87,11 +87,13 @@ internal static class FogTable
     {
         Scene = scene.Scene with
         {
-            Sky = null, Background = Colour.Black, Tone = Tone.None, Exposure = Exposure, Fog = scene.Scene.Fog! with { Colour = Colour.Black },
+            Sky = null, Background = Colour.Black, Tone = Tone.None, Exposure = Exposure,
+            Fog = scene.Scene.Fog! with { Colour = Colour.Black },
         },
         Objects =
         [
-            .. scene.Objects.Select(static item => new PlacedModel(item.Declaration with { Colour = Colour.Black, Gradient = null }, item.Model)),
+            .. scene.Objects.Select(static item => new PlacedModel(
+                item.Declaration with { Colour = Colour.Black, Gradient = null }, item.Model)),
         ],
     };
 

@@ -122,7 +122,8 @@ internal sealed class ObjectsPass(
     }
 
     /// <inheritdoc/>
-    public void Dispose() => GlObject.DisposeAll(_objectBlocks, _skyPass, _airPass, _shadowPass, _sphereBatch, _glossMaps, _lightBlock, _meshPass);
+    public void Dispose() => GlObject.DisposeAll(
+        _objectBlocks, _skyPass, _airPass, _shadowPass, _sphereBatch, _glossMaps, _lightBlock, _meshPass);
 
     private MeshFeatures FrameFeatures(RenderSettings settings) =>
         (settings.Shading == Shading.PerPixel ? MeshFeatures.PerPixel : 0) | (_lightBlock.HasAtmosphere ? MeshFeatures.Atmosphere : 0)

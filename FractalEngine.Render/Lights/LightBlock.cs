@@ -43,7 +43,8 @@ internal sealed class LightBlock : IDisposable
         _fogDensity = scene.Scene.Fog?.Density ?? 0;
         var display = DisplayTransform.Of(scene.Scene);
         WriteAmbient(SceneAmbient.Of(scene.Scene));
-        WriteVector(new(display.Exposure, display.Tone == Tone.Filmic ? 1 : 0, _fogDensity), scene.Scene.Fog?.Albedo ?? 0, _data.AsSpan(16));
+        WriteVector(
+            new(display.Exposure, display.Tone == Tone.Filmic ? 1 : 0, _fogDensity), _scene.Fog?.Albedo ?? 0, _data.AsSpan(16));
         HasAtmosphere = !display.IsIdentity || _fogDensity > 0;
         MemoryMarshal.Cast<float, int>(_data.AsSpan(8))[0] = _lights.Length;
     }

@@ -148,7 +148,8 @@ internal sealed class ShadowPass(
 
         _fitsToView = fitsToView;
         Selection.Update(
-            _casters.Scene, transforms.Bounds, spheres, bounds, in frame, _fit, fitsToView, settings.CasterCulling && _zoom is null && !isAirLit);
+            _casters.Scene, transforms.Bounds, spheres, bounds, in frame, _fit, fitsToView,
+            settings.CasterCulling && _zoom is null && !isAirLit);
         SkippedCasterCount = Selection.SkippedCount;
         if (!Selection.HasCasters && spheres.Count == 0)
         {

@@ -152,7 +152,8 @@ public sealed class LitFogTests
     }
 
     [SkippableFact]
-    public void Draw_OfLitFog_AllocatesNoMoreThanOfOtherFog() => Assert.Equal(AllocatedOf(Forward with { Albedo = 0 }), AllocatedOf(Forward));
+    public void Draw_OfLitFog_AllocatesNoMoreThanOfOtherFog() =>
+        Assert.Equal(AllocatedOf(Forward with { Albedo = 0 }), AllocatedOf(Forward));
 
     [SkippableFact]
     public void Fog_WithoutAlbedo_IsAsBefore()
@@ -172,7 +173,8 @@ public sealed class LitFogTests
     private static long AllocatedOf(Fog fog)
     {
         using var context = new SharedContext();
-        using var renderer = new SceneRenderer(context, DrawableScene.Prepare(Scene(fog, Sun, Roof, RenderScenes.TranslatedTo(0, -2, 4)), new()));
+        var scene = DrawableScene.Prepare(Scene(fog, Sun, Roof, RenderScenes.TranslatedTo(0, -2, 4)), new());
+        using var renderer = new SceneRenderer(context, scene);
         using var frame = new FrameRenderer(context);
         var settings = new RenderSettings();
         var before = 0L;
