@@ -26,9 +26,9 @@ internal sealed class AirPass(RenderContext context, ImmutableArray<Emitter> lig
     private (MeshFeatures Features, int DistantLights, int Samples)? _lastKey;
     private AirProgram? _march;
     private AirProgram? _composition;
-    private RenderTexture? _air;
-    private RenderTexture? _colours;
-    private RenderTexture? _depths;
+    private Framebuffer? _air;
+    private Framebuffer? _colours;
+    private DepthAtlas? _depths;
 
     /// <summary>Adds the light to what a framebuffer shows.</summary>
     /// <param name="frame">View of the frame.</param>
@@ -39,23 +39,21 @@ internal sealed class AirPass(RenderContext context, ImmutableArray<Emitter> lig
     public void Draw(in FrameView frame, Framebuffer target, MeshFeatures features, int distantLights)
     {
         BuildPrograms(features & ShadowFeatures, distantLights, target.Samples);
-        Allocate(ref _air, "air", (frame.Width + 1) / 2, (frame.Height + 1) / 2, PixelInternalFormat.Rgba32f);
-        Allocate(ref _colours, "frame without air", target.Width, target.Height, PixelInternalFormat.Srgb8Alpha8);
-        Allocate(ref _depths, "depths of the frame", target.Width, target.Height, PixelInternalFormat.DepthComponent32f, target.Samples);
-        target.ResolveTo(_colours!, _depths!);
+        Allocate(in frame, target);
+        target.ResolveTo(_colours!);
+        target.CopyDepthsTo(_depths!);
         _depths!.BindTexture(GlState.DepthTextureUnit);
         context.Resources.State.Cull(CullFace.None);
         GL.Disable(EnableCap.DepthTest);
         _vertexArray.Bind();
 
         _air!.Bind();
-        GL.Viewport(0, 0, _air.Width, _air.Height);
         Fill(_march!, in frame, target.Height);
 
         target.Bind();
         GL.Viewport(frame.X, target.Height - frame.Y - frame.Height, frame.Width, frame.Height);
-        _air.BindTexture(GlState.AirTextureUnit);
-        _colours!.BindTexture(GlState.FrameTextureUnit);
+        _air.Texture.BindTo(GlState.AirTextureUnit);
+        _colours!.Texture.BindTo(GlState.FrameTextureUnit);
         Fill(_composition!, in frame, target.Height);
     }
 
@@ -85,15 +83,21 @@ internal sealed class AirPass(RenderContext context, ImmutableArray<Emitter> lig
         _lastKey = (features, distantLights, samples);
     }
 
-    private void Allocate(
-        ref RenderTexture? texture, string label, int width, int height, PixelInternalFormat format, int samples = 0)
+    private void Allocate(in FrameView frame, Framebuffer target)
     {
-        if (texture is null || (texture.Width, texture.Height, texture.Samples) != (width, height, samples))
+        var (width, height) = ((frame.Width + 1) / 2, (frame.Height + 1) / 2);
+        if (_depths is not null && (_depths.Width, _depths.Height, _depths.Samples) == (target.Width, target.Height, target.Samples)
+            && (_air!.Width, _air.Height) == (width, height))
         {
-            texture?.Dispose();
-            texture = null;
-            texture = new(context.Resources, label, width, height, format, samples);
+            return;
         }
+
+        GlObject.DisposeAll(_air, _colours, _depths);
+        // Stays null if one of the allocations fails.
+        _depths = null;
+        _air = new(context.Resources, "air", width, height, PixelInternalFormat.Rgba32f);
+        _colours = new(context.Resources, "frame without air", target.Width, target.Height, PixelInternalFormat.Srgb8Alpha8);
+        _depths = new(context.Resources, "depths of the frame", target.Width, target.Height, isFine: true, target.Samples);
     }
 
     /// <summary>A program that looks up the distances of the frame's surfaces: air.glsl.</summary>

@@ -78,7 +78,7 @@ void main()
     ivec2 cell = ivec2(gl_FragCoord.xy);
     ivec2 pixel = min(2 * cell, viewport.zw - 1);
     vec2 plane = planePoint(pixel);
-    vec3 aside = plane.x * cameraAxes[0] + plane.y * cameraAxes[1];
+    vec3 aside = plane.x * cameraAxes[0] + plane.y * cameraAxes[1] - dot(plane, lean()) * cameraAxes[2];
     bool isPerspective = depthScale.z != 0.0;
     vec3 eye = isPerspective ? vec3(0.0) : aside;
     vec3 ray = isPerspective ? normalize(aside + cameraAxes[2]) : cameraAxes[2];

@@ -13,10 +13,16 @@ uniform sampler2D depths;
 // How far the eye looks where it meets no surface.
 const float endless = 1e30;
 
+// How far an image that is moved on the screen shows other points: the first two axes then lean forward.
+vec2 lean()
+{
+    return vec2(dot(cameraAxes[0], cameraAxes[2]), dot(cameraAxes[1], cameraAxes[2]));
+}
+
 // What a pixel of the viewport shows in the plane at depth 1, from its middle; without perspective at any depth.
 vec2 planePoint(ivec2 pixel)
 {
-    return ((2.0 * vec2(pixel) + 1.0) / vec2(viewport.zw) - 1.0) / viewScale;
+    return ((2.0 * vec2(pixel) + 1.0) / vec2(viewport.zw) - 1.0) / viewScale - lean();
 }
 
 // The distance of the surface at a sample of a pixel of the viewport. An orthographic view measures it from its plane.

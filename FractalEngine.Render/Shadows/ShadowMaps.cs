@@ -19,8 +19,8 @@ internal sealed class ShadowMaps(GlResources resources) : IDisposable
     private readonly List<ShadowView> _drawnViews = [];
     private readonly List<(int X, int Y)> _corners = [];
     private readonly List<(int Left, int Bottom, int Right, int Top)> _dirtyRectangles = [];
-    private RenderTexture? _standing;
-    private RenderTexture? _complete;
+    private DepthAtlas? _standing;
+    private DepthAtlas? _complete;
     private (CullingSettings? Culling, DeepZoom? Zoom, long Version)? _lastKey;
     private bool _isCopyStale = true;
     private long _lastMovingVersion;
@@ -50,14 +50,14 @@ internal sealed class ShadowMaps(GlResources resources) : IDisposable
         {
             _drawnViews.Clear();
             var (width, height) = AtlasLayout.Place(views, _corners);
-            var format = NeedsFineDepths(views) ? PixelInternalFormat.DepthComponent32f : PixelInternalFormat.DepthComponent16;
-            if (_standing is null || (_standing.Width, _standing.Height, _standing.Format) != (width, height, format))
+            var isFine = NeedsFineDepths(views);
+            if (_standing is null || (_standing.Width, _standing.Height, _standing.IsFine) != (width, height, isFine))
             {
                 _standing?.Dispose();
                 _complete?.Dispose();
                 _complete = null;
                 _standing = null;
-                _standing = new(resources, "shadow maps", width, height, format);
+                _standing = new(resources, "shadow maps", width, height, isFine);
             }
         }
 
@@ -98,7 +98,7 @@ internal sealed class ShadowMaps(GlResources resources) : IDisposable
         _lastMovingVersion = version;
         if (_complete is null)
         {
-            _complete = new(resources, "shadow maps with bodies", _standing!.Width, _standing.Height, _standing.Format);
+            _complete = new(resources, "shadow maps with bodies", _standing!.Width, _standing.Height, _standing.IsFine);
             _isCopyStale = true;
         }
 
