@@ -134,6 +134,29 @@ public sealed class LitFogTests
     }
 
     [SkippableFact]
+    public void GatheredFrames_OfALamp_AreAsTraced()
+    {
+        var (scene, view) = (Scene(Forward, Lamp, RenderScenes.TranslatedTo(0, -2, 9)), new View(new(Vector.Zero, Vector.Zero, 60), default));
+        using var context = new SharedContext();
+        using var renderer = new SceneRenderer(context, DrawableScene.Prepare(scene, new()));
+        using var frame = new FrameRenderer(context);
+        frame.Draw(renderer, view, 64, 64, new());
+        for (var i = 1; i < 8; i++)
+        {
+            frame.Gather(renderer, view, new());
+        }
+
+        var drawn = frame.Capture();
+        var tracer = Trace(scene, view, 64, 64, 16);
+        foreach (var left in (int[])[8, 40])
+        {
+            // Steps of the screen's values, and noise.
+            var traced = MeanOf(left, 24, 16, (x, y) => tracer.RadianceAt(x, y).Y);
+            Near.Equal(traced, MeanOf(left, 24, 16, (x, y) => LightOf(drawn, x, y)), 0.02 * traced);
+        }
+    }
+
+    [SkippableFact]
     public void Draw_OfOtherSizesAndSettings_IsThatOfANewRenderer()
     {
         var scene = Scene(Forward, Sun, Roof, RenderScenes.TranslatedTo(0, -2, 4));
