@@ -136,7 +136,8 @@ public sealed class LitFogTests
     [SkippableFact]
     public void GatheredFrames_OfALamp_AreAsTraced()
     {
-        var (scene, view) = (Scene(Forward, Lamp, RenderScenes.TranslatedTo(0, -2, 9)), new View(new(Vector.Zero, Vector.Zero, 60), default));
+        var scene = Scene(Forward, Lamp, RenderScenes.TranslatedTo(0, -2, 9));
+        var view = new View(new(Vector.Zero, Vector.Zero, 60), Projection.Perspective);
         using var context = new SharedContext();
         using var renderer = new SceneRenderer(context, DrawableScene.Prepare(scene, new()));
         using var frame = new FrameRenderer(context);
