@@ -65,8 +65,8 @@ public sealed class FrameRenderer : IDisposable
 
     /// <summary>Draws the last frame again, moved by a part of a pixel, and shows the mean of all since <see cref="Draw"/>.</summary>
     /// <remarks>
-    /// Edges become a little softer than those of traced images: those of a pixel, behind the same tent. What lies beyond the frame is culled as for
-    /// the first one. Takes 8 bytes a pixel.
+    /// Edges become a little softer than those of traced images: those of a pixel, behind the same tent. Instances are culled as for the
+    /// first frame. Takes 8 bytes a pixel.
     /// </remarks>
     /// <param name="scene">The scene of the last frame, unchanged since.</param>
     /// <param name="view">The view of the last frame.</param>

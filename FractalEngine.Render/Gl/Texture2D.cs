@@ -2,7 +2,7 @@ using OpenTK.Graphics.OpenGL4;
 
 namespace FractalEngine.Render.Gl;
 
-/// <summary>A two-dimensional texture.</summary>
+/// <summary>A two-dimensional texture of one level or more.</summary>
 internal abstract class Texture2D : GlObject
 {
     /// <summary>Creates an empty texture.</summary>

@@ -110,7 +110,8 @@ public sealed class GatheringTests
     }
 
     private static int CountChanged(PixelImage first, PixelImage second) =>
-        Enumerable.Range(0, Width * Height).Count(i => Math.Abs(first[i % Width, i / Width].Green - second[i % Width, i / Width].Green) > 25);
+        Enumerable.Range(0, Width * Height).Count(
+            i => Math.Abs(first[i % Width, i / Width].Green - second[i % Width, i / Width].Green) > 25);
 
     private static double Linear(byte component) => new Colour(component / 255.0, 0, 0).ToLinear().Red;
 
