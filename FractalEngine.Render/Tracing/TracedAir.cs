@@ -1,7 +1,6 @@
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Queries;
-using FractalEngine.Core.Rays;
 using FractalEngine.Core.Scenes.Lights;
 
 namespace FractalEngine.Render.Tracing;
