@@ -1,6 +1,5 @@
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Queries;
-using FractalEngine.Core.Rays;
 
 namespace FractalEngine.Render.Tracing;
 
