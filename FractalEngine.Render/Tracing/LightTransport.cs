@@ -46,8 +46,8 @@ internal sealed class LightTransport(
             {
                 path.Radiance += path.Throughput.Stretch(
                     path.Bounces == 0 ? background.At(ray.Direction) : lights.Surroundings(ray.Direction));
+                first = path.IsFirst ? new(path.Radiance, AlbedoOfAir(double.PositiveInfinity), Vector.Zero, 0) : first;
                 AddAir(ref path, double.PositiveInfinity, ref samples, context);
-                first = path.IsFirst ? new(path.Radiance, Vector.Zero, Vector.Zero, 0) : first;
                 return path.Radiance;
             }
 
@@ -70,12 +70,15 @@ internal sealed class LightTransport(
             }
 
             AddFog(ref path, passed);
-            AddAir(ref path, passed, ref samples, context);
             AddEmission(ref path, in surface, context);
             if (path.IsFirst)
             {
-                first = new(path.Radiance, path.Throughput.Stretch(surface.Albedo), surface.Normal, path.DistanceBefore + passed);
+                var distance = path.DistanceBefore + passed;
+                first = new(
+                    path.Radiance, AlbedoOfAir(distance) + path.Throughput.Stretch(surface.Albedo), surface.Normal, distance);
             }
+
+            AddAir(ref path, passed, ref samples, context);
 
             var width = path.WidthAt(passed);
             var origin = surface.Position + (scene.OffsetAt(surface.Position) * surface.FaceNormal);
@@ -118,6 +121,9 @@ internal sealed class LightTransport(
             path.Throughput *= clear;
         }
     }
+
+    /// <summary>The part of light that the air before the first surface returns.</summary>
+    private Vector AlbedoOfAir(double distance) => Air is null ? Vector.Zero : Air.AlbedoOf(distance) * Vector.One;
 
     /// <summary>Adds the light that is scattered before the first surface, or before the background.</summary>
     private void AddAir(ref LightPath path, double passed, ref SampleSequence samples, QueryContext context)

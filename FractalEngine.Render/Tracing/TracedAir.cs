@@ -20,6 +20,10 @@ internal sealed class TracedAir(Fog fog, TracedLights lights, TracedScene scene,
     // Nearer to a lamp than this part of its range its light does not grow.
     private const double LampRadiusByRange = 1e-4;
 
+    /// <summary>The part of light that the air on a way returns, before what is behind it.</summary>
+    /// <param name="distance">Length of the way, in the traced scene; may be infinite.</param>
+    public double AlbedoOf(double distance) => fog.Albedo * (1 - Math.Exp(-fog.Density * unit * distance));
+
     /// <summary>Samples the light that is scattered between the eye and a surface.</summary>
     /// <param name="ray">From the eye, in the space of the traced scene.</param>
     /// <param name="footprint">How wide the ray is.</param>
