@@ -38,11 +38,17 @@ internal sealed class ObjectsPass(
     private readonly SkyPass? _skyPass =
         scene.Source.Scene is { Sky: { } sky, Background: null } ? new(context.Resources, sky) : null;
 
+    private readonly LampsPass? _lampsPass = !LightBlock.SurfacesOf(scene.Source).IsEmpty
+        ? new(context, LightBlock.LightsOf(scene.Source).Length) : null;
+
     private DrawableScene _scene = scene;
     private DepthOrder _transparentOrder = DepthOrder.Of(scene, static model => model.HasTransparentBatches);
     private SphereBatch? _sphereBatch;
     private GlossMaps? _glossMaps;
     private bool _hasSkyParts;
+
+    /// <summary>Bounds of the surfaces of lamps, world space; empty where there are none.</summary>
+    public BoundingBox LampBounds { get; } = LightBlock.SurfacesOf(scene.Source);
 
     /// <summary>Number of objects that the last frame drew with one face of their triangles culled.</summary>
     public int BackFaceCulledCount { get; private set; }
@@ -103,6 +109,11 @@ internal sealed class ObjectsPass(
 
         if (!settings.Wireframe)
         {
+            if (view.DeepZoom is null)
+            {
+                _lampsPass?.Draw(in frame);
+            }
+
             DrawTransparent(view);
         }
 
@@ -110,7 +121,8 @@ internal sealed class ObjectsPass(
     }
 
     /// <inheritdoc/>
-    public void Dispose() => GlObject.DisposeAll(_objectBlocks, _skyPass, _shadowPass, _sphereBatch, _glossMaps, _lightBlock, _meshPass);
+    public void Dispose() => GlObject.DisposeAll(
+        _objectBlocks, _skyPass, _lampsPass, _shadowPass, _sphereBatch, _glossMaps, _lightBlock, _meshPass);
 
     private MeshFeatures FrameFeatures(RenderSettings settings) =>
         (settings.Shading == Shading.PerPixel ? MeshFeatures.PerPixel : 0) | (_lightBlock.HasAtmosphere ? MeshFeatures.Atmosphere : 0)

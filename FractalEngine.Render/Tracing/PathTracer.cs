@@ -82,7 +82,7 @@ public sealed class PathTracer
         ArgumentNullException.ThrowIfNull(view);
         ArgumentOutOfRangeException.ThrowIfLessThan(width, 1);
         ArgumentOutOfRangeException.ThrowIfLessThan(height, 1);
-        _scene = scene.ForView(view.DeepZoom, view.DeepZoom is null ? view.Section : view.RelativeSection);
+        _scene = scene.ForView(view.DeepZoom, view.DeepZoom is null ? view.Section : view.RelativeSection, view.Camera.Position);
         if (view.DeepZoom is { } zoom)
         {
             _eye = view.Camera.Position;
