@@ -29,31 +29,17 @@ public sealed class PathTracer
     /// <summary>Largest number of surfaces that a path of light goes on from. It touches one more.</summary>
     public const int MaxBounces = 8;
 
-    // From this bounce on, dark paths end by chance.
-    private const int FirstRouletteBounce = 3;
-
-    // Surfaces that a path may pass through.
-    private const int MaxLayers = 64;
-
     // Parts of a fractal of a smaller radius than so many pixels are traced as one.
     private const double FootprintPixels = 0.25;
-
-    // How much wider rays of scattered light become: their images are soft.
-    private const double ScatteredSpread = 0.03;
 
     private readonly TracedScene _scene;
     private readonly TracedLights _lights;
     private readonly TracedCamera _camera;
-
-    // Where positions of rays are relative to, and their unit in scene units: of the scene itself, unless the view is a deep zoom.
-    private readonly Vector _eye;
-    private readonly double _unit = 1;
+    private readonly LightTransport _light;
     private readonly Scene _declared;
     private readonly Colour _defaultBackground;
     private readonly TracedBackground _background;
     private readonly DisplayTransform _display;
-    private readonly double _fogDensity;
-    private readonly Vector _fogColour;
     private readonly int _seed;
     private readonly RadianceImage _image;
     private SharedSamples? _shared;
@@ -83,10 +69,10 @@ public sealed class PathTracer
         ArgumentOutOfRangeException.ThrowIfLessThan(width, 1);
         ArgumentOutOfRangeException.ThrowIfLessThan(height, 1);
         _scene = scene.ForView(view.DeepZoom, view.DeepZoom is null ? view.Section : view.RelativeSection, view.Camera.Position);
+        var (eye, unit) = (Vector.Zero, 1.0);
         if (view.DeepZoom is { } zoom)
         {
-            _eye = view.Camera.Position;
-            _unit = Math.Exp(zoom.LogUnit);
+            (eye, unit) = (view.Camera.Position, Math.Exp(zoom.LogUnit));
             view = view with { Camera = view.Camera with { Position = Vector.Zero } };
         }
 
@@ -96,8 +82,11 @@ public sealed class PathTracer
         _defaultBackground = background;
         _display = DisplayTransform.Of(declared);
         _background = new(declared, _display);
-        _fogDensity = _unit * (declared.Fog?.Density ?? 0);
-        _fogColour = LightBlock.FogColour(declared, background);
+        _light = new(_scene, lights, _background, eye, unit)
+        {
+            FogDensity = unit * (declared.Fog?.Density ?? 0),
+            FogColour = LightBlock.FogColour(declared, background),
+        };
         _seed = seed;
         Width = width;
         Height = height;
@@ -281,137 +270,6 @@ public sealed class PathTracer
         var samples = new SampleSequence((y * Width) + x, sample, _seed);
         point = samples.Next();
         var ray = _camera.CreateRay(x, y, point, out var footprint, out var clip);
-        return Trace(ray, footprint, clip, ref samples, context, out first);
-    }
-
-    /// <summary>Follows one path, and returns the radiance that comes along it.</summary>
-    private Vector Trace(
-        Ray ray, RayFootprint footprint, (double Near, double Far) clip, ref SampleSequence samples, QueryContext context,
-        out FirstHit first)
-    {
-        first = default;
-        var radiance = Vector.Zero;
-        var throughput = Vector.One;
-        var (minDistance, maxDistance) = clip;
-        var layers = 0;
-        var isBehindGlass = false;
-        // Since it was reflected last. Lamps behind glass are not sampled.
-        var isThroughGlass = false;
-        // Fog is between the eye and the first surface only.
-        var distanceBefore = 0.0;
-        Glass? medium = null;
-        var areaLights = _scene.AreaLights;
-        // Where the path was reflected last.
-        var (last, lastOrigin, lastDensity) = (default(TracedSurface), default(Vector), 0.0);
-        for (var bounce = 0; ;)
-        {
-            if (!_scene.TryIntersect(in ray, footprint, minDistance, maxDistance, context, out var surface))
-            {
-                radiance += throughput.Stretch(bounce == 0 ? _background.At(ray.Direction) : _lights.Surroundings(ray.Direction));
-                first = bounce == 0 && !isBehindGlass ? new(radiance, Vector.Zero, Vector.Zero, 0) : first;
-                return radiance;
-            }
-
-            var passed = (surface.Position - ray.Origin).Length();
-            // An eye within glass learns it from the first surface.
-            medium ??= surface.IsInside ? surface.Glass : null;
-            throughput = medium is null ? throughput : throughput.Stretch(medium.TransmissionOver(_unit * passed));
-            if (surface.Glass is null && surface.Opacity < 1 && !(samples.NextNumber() < surface.Opacity))
-            {
-                if (++layers > MaxLayers)
-                {
-                    return radiance;
-                }
-
-                passed += _scene.OffsetAt(surface.Position);
-                distanceBefore += passed;
-                ray = ray with { Origin = ray.Origin + (passed * ray.Direction) };
-                footprint = footprint with { Radius = footprint.RadiusAt(passed) };
-                minDistance = Math.Max(0, minDistance - passed);
-                maxDistance -= passed;
-                continue;
-            }
-
-            if (bounce == 0 && _fogDensity > 0 && !isBehindGlass)
-            {
-                var clear = Math.Exp(-_fogDensity * (distanceBefore + passed));
-                radiance = (1 - clear) * _fogColour;
-                throughput *= clear;
-            }
-
-            var seen = bounce == 0 || isThroughGlass || areaLights is null || surface.Emission == Vector.Zero
-                ? throughput
-                : areaLights.WeightOf(in surface, in last, lastOrigin, ray.Direction, lastDensity, context) * throughput;
-            radiance += seen.Stretch(surface.Emission);
-            if (bounce == 0 && !isBehindGlass)
-            {
-                first = new(radiance, throughput.Stretch(surface.Albedo), surface.Normal, distanceBefore + passed);
-            }
-
-            var width = footprint.RadiusAt(passed);
-            var origin = surface.Position + (_scene.OffsetAt(surface.Position) * surface.FaceNormal);
-            if (!surface.IsInside)
-            {
-                radiance += throughput.Stretch(_lights.Reflected(
-                    in surface, _eye + (_unit * surface.Position), origin, -ray.Direction, width, _scene, _unit, ref samples, context));
-            }
-
-            if (surface.Glass is { } glass)
-            {
-                if (++layers > MaxLayers)
-                {
-                    return radiance;
-                }
-
-                var through = glass.Sample(in surface, -ray.Direction, ref samples, out var isRefracted);
-                if (!isRefracted || surface.Opacity == 0 || samples.NextNumber() >= surface.Opacity)
-                {
-                    medium = isRefracted == surface.IsInside ? null : glass;
-                    ray = new(isRefracted ? origin - (2 * _scene.OffsetAt(surface.Position) * surface.FaceNormal) : origin, through);
-                    footprint = footprint with { Radius = width };
-                    (minDistance, maxDistance) = (0, double.PositiveInfinity);
-                    (isBehindGlass, isThroughGlass) = (true, true);
-                    continue;
-                }
-
-                // Scattered by what is not clear.
-                surface = surface with { Gloss = null, Colour = surface.Colour / surface.Opacity };
-            }
-
-            if (bounce < BounceLimit && areaLights is not null)
-            {
-                radiance += throughput.Stretch(areaLights.Reflected(
-                    in surface, origin, -ray.Direction, new(width, footprint.Spread + ScatteredSpread), _scene, ref samples, context));
-            }
-
-            if (++bounce > BounceLimit
-                || !Reflection.TrySample(in surface, -ray.Direction, ref samples, out var direction, out var weight, out var spread))
-            {
-                return radiance;
-            }
-
-            isThroughGlass = false;
-            if (areaLights is not null)
-            {
-                (last, lastOrigin) = (surface, origin);
-                lastDensity = Reflection.Density(in surface, -ray.Direction, direction);
-            }
-
-            throughput = throughput.Stretch(weight);
-            if (bounce >= FirstRouletteBounce)
-            {
-                var survival = Math.Min(0.95, Math.Max(throughput.X, Math.Max(throughput.Y, throughput.Z)));
-                if (!(samples.NextNumber() < survival))
-                {
-                    return radiance;
-                }
-
-                throughput /= survival;
-            }
-
-            ray = new(origin, direction);
-            footprint = new(width, footprint.Spread + (spread * ScatteredSpread)) { KeepsLamps = areaLights is not null };
-            (minDistance, maxDistance) = (0, double.PositiveInfinity);
-        }
+        return _light.Follow(new(ray, footprint, clip), BounceLimit, ref samples, context, out first);
     }
 }

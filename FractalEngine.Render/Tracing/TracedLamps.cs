@@ -60,13 +60,13 @@ internal sealed class TracedLamps
     /// <param name="surface">The surface.</param>
     /// <param name="origin">Point just before it.</param>
     /// <param name="toEye">Unit direction towards the eye.</param>
-    /// <param name="footprint">How wide rays are that leave the surface.</param>
+    /// <param name="width">Radius of the rays there.</param>
     /// <param name="isAlone">True where no path goes on that may meet the lamps too.</param>
     /// <param name="scene">Casts the shadows.</param>
     /// <param name="samples">Choose the points.</param>
     /// <param name="context">Memory of the rays.</param>
     public Vector Reflected(
-        in TracedSurface surface, Vector origin, Vector toEye, RayFootprint footprint, bool isAlone, TracedScene scene,
+        in TracedSurface surface, Vector origin, Vector toEye, double width, bool isAlone, TracedScene scene,
         ref SampleSequence samples, QueryContext context)
     {
         var sum = Vector.Zero;
@@ -78,7 +78,8 @@ internal sealed class TracedLamps
                 continue;
             }
 
-            var transmittance = scene.Transmittance(new(origin, toLight), footprint, Before * distance, context, out var passesGlass);
+            var transmittance = scene.Transmittance(
+                new(origin, toLight), new(width, TracedLights.ShadowSpread), Before * distance, context, out var passesGlass);
             // Paths that meet glass on their way are bent.
             var others = isAlone || passesGlass ? 0 : Reflection.Density(in surface, toEye, toLight);
             sum += transmittance / (Math.PI * (lamp.Density(origin, toLight, distance) + others)) * light;

@@ -17,8 +17,8 @@ namespace FractalEngine.Render.Tracing;
 /// </remarks>
 internal sealed class TracedLights
 {
-    // How much wider rays towards a light become: what they meet may be far away.
-    private const double ShadowSpread = 1e-3;
+    /// <summary>How much wider rays towards a light become: what they meet may be far away.</summary>
+    public const double ShadowSpread = 1e-3;
 
     private readonly ImmutableArray<Emitter> _emitters;
 
