@@ -38,8 +38,8 @@ internal sealed class ObjectsPass(
     private readonly SkyPass? _skyPass =
         scene.Source.Scene is { Sky: { } sky, Background: null } ? new(context.Resources, sky) : null;
 
-    private readonly LampsPass? _lampsPass = !LightBlock.SurfacesOf(scene.Source).IsEmpty
-        ? new(context, LightBlock.LightsOf(scene.Source).Length) : null;
+    private readonly LampsPass? _lampsPass =
+        LightBlock.SurfacesOf(scene.Source).IsEmpty ? null : new(context, LightBlock.LightsOf(scene.Source).Length);
 
     private DrawableScene _scene = scene;
     private DepthOrder _transparentOrder = DepthOrder.Of(scene, static model => model.HasTransparentBatches);

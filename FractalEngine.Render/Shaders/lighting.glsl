@@ -72,9 +72,17 @@ struct Outline
     bool isRound;
 };
 
-// The corners of a square, and the middles of its sides.
-const vec2 outlinePoints[8] = vec2[](
-    vec2(1.0, 1.0), vec2(1.0, 0.0), vec2(1.0, -1.0), vec2(0.0, -1.0), vec2(-1.0, -1.0), vec2(-1.0, 0.0), vec2(-1.0, 1.0), vec2(0.0, 1.0));
+// A point of an outline, from 0 to 15: each fourth is a corner. Round ones have the area of their circle, with all points or each second.
+vec3 outlinePoint(Outline outline, int i, int step)
+{
+    i &= 15;
+    vec2 p = vec2(1.0, 1.0 - 0.5 * float(i & 3));
+    p = (i & 4) != 0 ? vec2(p.y, -p.x) : p;
+    p = (i & 8) != 0 ? -p : p;
+    float angle = 3.14159265 / 8.0 * float(i);
+    p = outline.isRound ? (step == 1 ? 1.0130 : 1.0539) * vec2(cos(angle), -sin(angle)) : p;
+    return outline.centre + p.x * outline.right + p.y * outline.up;
+}
 
 // The circle in which a cone around a ball touches it. A point within the ball has none.
 Outline outlineOf(Light light, vec3 surfacePosition)
@@ -92,31 +100,6 @@ Outline outlineOf(Light light, vec3 surfacePosition)
     }
 
     return outline;
-}
-
-// Cuts the edge of an outline at the horizon. Where it crosses that, the point is kept. False where nothing of it is above.
-bool cutAtHorizon(vec3 n, inout vec3 from, inout vec3 to, inout vec3 setting, inout vec3 rising)
-{
-    float height1 = dot(n, from);
-    float height2 = dot(n, to);
-    if ((height1 > 0.0) == (height2 > 0.0))
-    {
-        return height1 > 0.0;
-    }
-
-    vec3 crossing = from + height1 / (height1 - height2) * (to - from);
-    if (height1 > 0.0)
-    {
-        to = crossing;
-        setting = crossing;
-    }
-    else
-    {
-        from = crossing;
-        rising = crossing;
-    }
-
-    return true;
 }
 
 // The angle between two vectors times the unit vector that is perpendicular to both. The tangent of an eighth of the angle is taken by the
@@ -153,16 +136,25 @@ vec3 quadFlux(Outline quad, vec3 n)
     vec3 sum = vec3(0.0);
     vec3 setting = vec3(0.0);
     vec3 rising = vec3(0.0);
-    for (int i = 0; i < 8; i += 2)
+    for (int i = 0; i < 16; i += 4)
     {
-        vec2 p = outlinePoints[i];
-        vec2 q = outlinePoints[(i + 2) & 7];
-        vec3 from = quad.centre + p.x * quad.right + p.y * quad.up;
-        vec3 to = quad.centre + q.x * quad.right + q.y * quad.up;
-        if (cutAtHorizon(n, from, to, setting, rising))
+        vec3 from = outlinePoint(quad, i, 4);
+        vec3 to = outlinePoint(quad, i + 4, 4);
+        float height1 = dot(n, from);
+        float height2 = dot(n, to);
+        vec3 crossing = mix(from, to, height1 / (height1 - height2));
+        if (height1 > 0.0 && height2 <= 0.0)
         {
-            sum += angleBetween(from, to);
+            to = crossing;
+            setting = crossing;
         }
+        else if (height1 <= 0.0 && height2 > 0.0)
+        {
+            from = crossing;
+            rising = crossing;
+        }
+
+        sum += max(height1, height2) > 0.0 ? angleBetween(from, to) : vec3(0.0);
     }
 
     sum += dot(setting, setting) > 0.0 && dot(rising, rising) > 0.0 ? angleBetween(setting, rising) : vec3(0.0);
@@ -198,13 +190,15 @@ vec3 ballFlux(Light light, vec3 surfacePosition, vec3 n)
     // Of the angle along the outline, from its highest point, where it meets the horizon.
     float cosineEnd = clamp(-cosine * height / (sine * across), -1.0, 1.0);
     float sineEnd = sqrt(1.0 - cosineEnd * cosineEnd);
-    float angle = acos(cosineEnd);
+    // Drivers know arc tangents better than arc cosines.
+    float angle = atan(sineEnd, cosineEnd);
     vec3 arc = sine * (sine * angle * c - cosine * sineEnd * level / across);
     float horizon = atan(sine * sineEnd, cosine * across - sine * height * cosineEnd);
     vec3 flux = (arc + horizon * n) / 3.14159265;
     // Of a small ball the last terms cancel each other: it is a disc, whose part above the horizon is integrated by its width.
     float t = height / sine;
-    float ofDisc = sine * sine * sine * (t * acos(-t) + sqrt(1.0 - t * t) * (2.0 + t * t) / 3.0) / 3.14159265;
+    float chord = sqrt(1.0 - t * t);
+    float ofDisc = sine * sine * sine * (t * atan(chord, -t) + chord * (2.0 + t * t) / 3.0) / 3.14159265;
     return sine < 0.05 ? ofDisc / (height + sine) * (c + sine * n) : flux;
 }
 
