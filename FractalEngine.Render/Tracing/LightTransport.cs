@@ -151,7 +151,9 @@ internal sealed class LightTransport(
         }
     }
 
-    /// <summary>The light of a lamp that a path meets: whole for the eye, else weighed, and none by glass that lets sampled light through.</summary>
+    /// <summary>
+    /// The light of a lamp that a path meets: whole for the eye, none behind glass, which lets sampled light through, and weighed elsewhere.
+    /// </summary>
     private static Vector LightOf(TracedLamp lamp, in LightPath path, Vector position)
     {
         if (path.Bounces == 0 || path.IsThroughGlass)

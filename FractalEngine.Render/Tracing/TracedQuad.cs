@@ -49,7 +49,9 @@ internal sealed class TracedQuad(Emitter emitter, Vector eye, double unit) : Tra
             : distance * distance / (-4 * _halfWidth * _halfHeight * Vector.Dot(_axes.V3, toLight));
     }
 
-    /// <summary>The rectangle as a point sees it, in its own axes about the point. Before the front, the third coordinate is negative.</summary>
+    /// <summary>
+    /// The rectangle as a point sees it, in its own axes about the point. Before the front, the third coordinate is negative.
+    /// </summary>
     private readonly struct Seen
     {
         private readonly (double X, double Y) _low;

@@ -32,7 +32,9 @@ public sealed record QuadLight(
 
     /// <inheritdoc/>
     public override IReadOnlyList<object> Declaration =>
-        ["light", "quad", Position, Direction, Width, Height, Colour, Intensity, Range, .. Turn == 0 ? (object[])[] : [Turn]];
+        ["light", "quad", Position, Direction, Width, Height, Colour, Intensity, Range, .. HasTurn ? (object[])[Turn] : []];
+
+    private bool HasTurn => Turn != 0 || double.IsNegative(Turn);
 
     /// <inheritdoc/>
     public override Emitter? ToEmitter()

@@ -94,7 +94,7 @@ public class SceneParserErrorTests
     [InlineData("tone film", 6, "unexpected 'film', expected 'none' or 'filmic'")]
     [InlineData("fog -0.1", 5, "the density of fog must not be negative")]
     [InlineData("fog 0.1 (2, 0, 0)", 9, "the components of a colour must lie between 0 and 1")]
-    [InlineData("light laser (1, 1, 1)", 7, "unexpected 'laser', expected 'ambient', 'ball', 'directional', 'point', 'quad' or 'spot'")]
+    [InlineData("light laser (1, 1, 1)", 7, "unexpected 'laser', expected 'ambient', 'directional', 'point', 'spot', 'ball' or 'quad'")]
     [InlineData("light directional (0, 0, 0) (1, 1, 1)", 19, "a direction must not be (0, 0, 0)")]
     [InlineData("light ambient (1, 1, 1) -1", 25, "the intensity of a light must not be negative")]
     [InlineData("light point (0, 0, 0) (1, 1, 1) 1", 34,
@@ -106,13 +106,13 @@ public class SceneParserErrorTests
     [InlineData("light ball (0, 0, 0) 1 (1, 1, 1) -1 30", 34, "the intensity of a light must not be negative")]
     [InlineData("light ball (0, 0, 0) 1e-5 (1, 1, 1) 1 30", 22, "the size of a light must lie between 1e-6 and 1e6 of its range")]
     [InlineData("light ball (0, 0, 0) 1 (1, 1, 1) 1 1e-7", 22, "the size of a light must lie between 1e-6 and 1e6 of its range")]
-    [InlineData("light ball (0, 0, 0) 1 (1, 1, 1) 1", 36,
+    [InlineData("light ball (0, 0, 0) 1 (1, 1, 1) 1", 35,
         "unexpected end of file: a ball light is its position, radius, colour, intensity and range")]
     [InlineData("light quad (0, 0, 0) (0, 0, 0) 2 1 (1, 1, 1) 1 30", 22, "a direction must not be (0, 0, 0)")]
     [InlineData("light quad (0, 0, 0) (0, 0, 1) 0 1 (1, 1, 1) 1 30", 32, "the width of a light must be positive")]
     [InlineData("light quad (0, 0, 0) (0, 0, 1) 2 -1 (1, 1, 1) 1 30", 34, "the height of a light must be positive")]
     [InlineData("light quad (0, 0, 0) (0, 0, 1) 2 1 (1, 1, 1) 1 30 x", 51, "unexpected 'x', expected the end of the line or a number")]
-    [InlineData("light quad (0, 0, 0) (0, 0, 1) 2", 34,
+    [InlineData("light quad (0, 0, 0) (0, 0, 1) 2", 33,
         "unexpected end of file: a quad light is its position, direction, width, height, colour, intensity and range")]
     [InlineData("light spot (0, 0, 0) (0, 0, 1) 180 (1, 1, 1) 1 1", 32, "the angle of the cone must lie between 0 and 180 degrees")]
     [InlineData("o \"a.fdo\" # gradient", 21, "unexpected end of file, expected 'level' or 'path'")]
