@@ -60,12 +60,12 @@ internal sealed class LightList(WindowActions actions)
         }
 
         ui.Row(1, 1);
-        if (ui.Button("Add a ball of light"))
+        if (ui.Button("Add a ball"))
         {
             AddAbove(static (above, size) => new BallLight(above, 0.05 * size, Colour.White, 0.7, 7.5 * size));
         }
 
-        if (ui.Button("Add a quad of light"))
+        if (ui.Button("Add a quad"))
         {
             AddAbove(static (above, size) => new QuadLight(above, -Vector.J, 0.3 * size, 0.2 * size, Colour.White, 0.7, 7.5 * size));
         }
