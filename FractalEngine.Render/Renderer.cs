@@ -178,6 +178,11 @@ public sealed class Renderer : IDisposable
     private PixelImage DrawFrame(SceneRenderer scene, View view)
     {
         _frameRenderer.Draw(scene, view, Width, Height, Settings);
+        while (_frameRenderer.GatheredCount < Settings.GatheredFrames)
+        {
+            _frameRenderer.Gather(scene, view, Settings);
+        }
+
         return _frameRenderer.Capture();
     }
 }

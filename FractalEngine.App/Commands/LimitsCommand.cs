@@ -37,6 +37,7 @@ internal static class LimitsCommand
         ("--fps", AnimateCommand.MaxFramesPerSecond, "frames a second: an animated PNG has times of 16 bits"),
         ("--resolution", SharedOptions.MaxImageSide, "pixels along a side of an image: drivers allow less, and say so"),
         ("--samples", DrawOptions.MaxSamples, "samples of each drawn pixel: drivers allow less, and give what they have"),
+        ("--gather", DrawOptions.MaxGatheredFrames, "frames whose mean is an image: more change nothing that 8 bits show"),
         ("--instances", DrawOptions.MaxInstances, "instances in a frame: 48 bytes each on the GPU"),
         ("--detail", DrawOptions.MaxDetail, "pixels of a proxy: as large as the frame"),
         ("--trace", TraceOptions.MaxSamples, "samples of each traced pixel: days of work"),

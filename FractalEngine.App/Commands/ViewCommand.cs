@@ -58,7 +58,7 @@ internal static class ViewCommand
             return Run(result.GetValue(shared.File) ?? FindGallery(), new()
             {
                 Load = shared.LoadOptions(result),
-                Settings = draw.Settings(result),
+                Settings = draw.Settings(result, DrawOptions.WindowGatheredFrames),
                 Projection = draw.Projection(result),
                 Section = draw.Section(result),
                 TrailLength = result.GetValue(trailLength) ?? DefaultTrailLength,

@@ -21,6 +21,12 @@ internal sealed class DrawOptions
     /// <summary>Largest number of samples of each pixel against jagged edges.</summary>
     public const int MaxSamples = 32;
 
+    /// <summary>Number of frames that a resting window gathers, unless stated otherwise.</summary>
+    public const int WindowGatheredFrames = 16;
+
+    /// <summary>Largest number of frames whose mean an image is.</summary>
+    public const int MaxGatheredFrames = 1024;
+
     private static readonly RenderSettings DefaultSettings = new();
     private static readonly CullingSettings DefaultCulling = new();
 
@@ -34,6 +40,11 @@ internal sealed class DrawOptions
 
     private readonly Option<int?> _sampleCount = NumberOption.Integer(
         "--samples", "N", 0, MaxSamples, $"Samples per pixel for antialiasing, 0 for none (default: {DefaultSettings.Samples}).");
+
+    private readonly Option<int?> _gatheredFrames = NumberOption.Integer(
+        "--gather", "FRAMES", 1, MaxGatheredFrames,
+        "Frames whose mean is shown where nothing moves, each moved by a part of a pixel "
+        + $"(default: {DefaultSettings.GatheredFrames}; in a window {WindowGatheredFrames}).");
 
     private readonly Option<double?> _minProjectedSize = NumberOption.Decimal(
         "--detail", "PIXELS", 0, MaxDetail,
@@ -58,7 +69,7 @@ internal sealed class DrawOptions
 
     public void AddTo(Command command) => SharedOptions.AddAll(
         command, _resolution, _projection, _shading, _noShadows, _noAmbientOcclusion, _wireframe, _grid, _section, _minProjectedSize,
-        _maxInstances, _sampleCount);
+        _maxInstances, _sampleCount, _gatheredFrames);
 
     /// <summary>Returns width and height of the frame in pixels.</summary>
     public (int Width, int Height) Resolution(ParseResult result) => result.GetValue(_resolution) ?? SharedOptions.DefaultResolution;
@@ -109,12 +120,15 @@ internal sealed class DrawOptions
         : result.GetValue(_noAmbientOcclusion) ? "--no-ambient-occlusion"
         : result.GetValue(_shading) == Shading.PerVertex ? "--shading vertex"
         : result.GetValue(_sampleCount) is not null ? "--samples"
+        : result.GetValue(_gatheredFrames) is not null ? "--gather"
         : result.GetValue(_minProjectedSize) is not null ? "--detail"
         : result.GetValue(_maxInstances) is not null ? "--instances"
         : null;
 
     /// <summary>Returns the render settings that the command line asks for.</summary>
-    public RenderSettings Settings(ParseResult result)
+    /// <param name="result">The command line.</param>
+    /// <param name="gatheredFrames">Number of frames that are gathered where it does not say.</param>
+    public RenderSettings Settings(ParseResult result, int gatheredFrames = 1)
     {
         var maxInstances = result.GetValue(_maxInstances);
         var minProjectedSize = result.GetValue(_minProjectedSize) ?? DefaultCulling.MinProjectedSize;
@@ -131,6 +145,7 @@ internal sealed class DrawOptions
             Culling = minProjectedSize > 0 ? culling : null,
             InstanceBudget = maxInstances ?? DefaultSettings.InstanceBudget,
             Samples = result.GetValue(_sampleCount) ?? DefaultSettings.Samples,
+            GatheredFrames = result.GetValue(_gatheredFrames) ?? gatheredFrames,
             Shading = result.GetValue(_shading) ?? DefaultSettings.Shading,
             Shadows = !result.GetValue(_noShadows),
             AmbientOcclusion = !result.GetValue(_noAmbientOcclusion),

@@ -99,6 +99,10 @@ internal sealed class SceneWindow : IDisposable
     private bool NeedsRefresh =>
         _isVisible && _redraw != Redraw.None && _window is { Width: > 0, Height: > 0 } && Size != _refusedSize;
 
+    // While the view is traced, nothing is seen of the frame below.
+    private bool CanGather => _isVisible && !NeedsRefresh && Document is { IsMoving: false } && !_tracing.IsTracing
+        && Size == _shownSize && _windowRenderer.CanGather(_actions.Settings);
+
     private (int Width, int Height) Size => (_window.Width, _window.Height);
 
     private void Run()
@@ -126,6 +130,10 @@ internal sealed class SceneWindow : IDisposable
             {
                 Refresh();
             }
+            else if (CanGather && !_isClosing && _windowRenderer.Gather(Document!, _actions.Settings))
+            {
+                _redraw |= Redraw.Overlay;
+            }
         }
     }
 
@@ -150,7 +158,7 @@ internal sealed class SceneWindow : IDisposable
     /// <summary>Returns the time until the loop must run again, even if no event arrives.</summary>
     private TimeSpan WaitTimeout()
     {
-        if (NeedsRefresh || _loader.IsDue)
+        if (NeedsRefresh || CanGather || _loader.IsDue)
         {
             return TimeSpan.Zero;
         }

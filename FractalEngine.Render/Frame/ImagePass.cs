@@ -6,7 +6,7 @@ using OpenTK.Graphics.OpenGL4;
 
 namespace FractalEngine.Render.Frame;
 
-/// <summary>Blends an image over a frame in linear light. It is uploaded again only when it is another one.</summary>
+/// <summary>Blends an image over a frame in linear light. An image of bytes is uploaded again only when it is another one.</summary>
 internal sealed class ImagePass : IDisposable
 {
     private readonly GlResources _resources;
@@ -39,9 +39,24 @@ internal sealed class ImagePass : IDisposable
             _image = layer.Image;
         }
 
-        _program.Use();
-        _program.Set("opacity", layer.Opacity);
         _texture!.Bind(isClamped: true);
+        Blend(layer.Opacity, isTopFirst: true);
+    }
+
+    /// <summary>Draws another frame into the bound framebuffer, which has its size.</summary>
+    /// <param name="frame">The frame.</param>
+    /// <param name="opacity">From 0 to 1.</param>
+    public void Draw(FrameTexture frame, double opacity)
+    {
+        frame.Bind();
+        Blend(opacity, isTopFirst: false);
+    }
+
+    private void Blend(double opacity, bool isTopFirst)
+    {
+        _program.Use();
+        _program.Set("opacity", opacity);
+        _program.Set("isTopFirst", isTopFirst ? 1 : 0);
         _resources.State.Cull(CullFace.None);
         GL.Enable(EnableCap.FramebufferSrgb);
         GlState.BeginBlending(BlendingFactorSrc.SrcAlpha);

@@ -4,43 +4,53 @@ using OpenTK.Graphics.OpenGL4;
 namespace FractalEngine.Render.Gl;
 
 /// <summary>
-/// An off-screen framebuffer with 8-bit sRGB colour and optionally a 32-bit depth buffer, multisampled or not.
+/// An off-screen framebuffer: 8-bit sRGB colours with a 32-bit depth buffer, multisampled or not; or colours alone, as a texture.
 /// </summary>
 internal sealed class Framebuffer : GlObject
 {
     private readonly int _name;
     private readonly int _colour;
     private readonly int _depth;
+    private readonly FrameTexture? _texture;
 
-    /// <summary>Allocates a framebuffer and its attachments.</summary>
+    /// <summary>Allocates a framebuffer of colours and depths.</summary>
     /// <param name="resources">Resources of the current context.</param>
     /// <param name="label">Name of the framebuffer, for messages.</param>
     /// <param name="width">Width in pixels, at least 1.</param>
     /// <param name="height">Height in pixels, at least 1.</param>
     /// <param name="samples">Number of samples a pixel; 0 without multisampling.</param>
-    /// <param name="hasDepth">Whether there is a depth buffer.</param>
     /// <exception cref="GlException">Size or memory exceed the driver's limits.</exception>
-    public Framebuffer(GlResources resources, string label, int width, int height, int samples, bool hasDepth)
+    public Framebuffer(GlResources resources, string label, int width, int height, int samples)
+        : this(resources, label, width, height)
+    {
+        _colour = CreateRenderbuffer(RenderbufferStorage.Srgb8Alpha8, samples);
+        _depth = CreateRenderbuffer(RenderbufferStorage.DepthComponent32f, samples);
+        Attach(FramebufferAttachment.ColorAttachment0, _colour);
+        Attach(FramebufferAttachment.DepthAttachment, _depth);
+        ThrowUnlessComplete($" and {samples} samples");
+    }
+
+    /// <summary>Allocates a framebuffer of colours alone, which shaders can read.</summary>
+    /// <param name="resources">Resources of the current context.</param>
+    /// <param name="label">Name of the framebuffer, for messages.</param>
+    /// <param name="width">Width in pixels, at least 1.</param>
+    /// <param name="height">Height in pixels, at least 1.</param>
+    /// <param name="format">Format of the colours.</param>
+    /// <exception cref="GlException">Size or memory exceed the driver's limits.</exception>
+    public Framebuffer(GlResources resources, string label, int width, int height, PixelInternalFormat format)
+        : this(resources, label, width, height)
+    {
+        _texture = new(resources, label, width, height, format);
+        _texture.Attach();
+        ThrowUnlessComplete("");
+    }
+
+    private Framebuffer(GlResources resources, string label, int width, int height)
         : base(resources, label)
     {
-        Width = width;
-        Height = height;
+        (Width, Height) = (width, height);
         _name = GL.GenFramebuffer();
-        _colour = CreateRenderbuffer(RenderbufferStorage.Srgb8Alpha8, samples);
-        _depth = hasDepth ? CreateRenderbuffer(RenderbufferStorage.DepthComponent32f, samples) : 0;
         GL.BindFramebuffer(FramebufferTarget.Framebuffer, _name);
-        Attach(FramebufferAttachment.ColorAttachment0, _colour);
-        if (hasDepth)
-        {
-            Attach(FramebufferAttachment.DepthAttachment, _depth);
-        }
-
-        var status = GL.CheckFramebufferStatus(FramebufferTarget.Framebuffer);
-        if (status != FramebufferErrorCode.FramebufferComplete || GL.GetError() != ErrorCode.NoError)
-        {
-            Dispose();
-            throw new GlException($"{this} of {width}×{height} pixels and {samples} samples is beyond the driver ({status})");
-        }
     }
 
     /// <summary>Width of the framebuffer in pixels.</summary>
@@ -48,6 +58,9 @@ internal sealed class Framebuffer : GlObject
 
     /// <summary>Height of the framebuffer in pixels.</summary>
     public int Height { get; }
+
+    /// <summary>The colours, of a framebuffer that shaders can read.</summary>
+    public FrameTexture Texture => _texture ?? throw new InvalidOperationException($"{this} can't be read by shaders");
 
     /// <summary>Makes this the current framebuffer, with a viewport that covers it.</summary>
     public void Bind()
@@ -98,6 +111,17 @@ internal sealed class Framebuffer : GlObject
         GL.DeleteFramebuffer(_name);
         GL.DeleteRenderbuffer(_colour);
         GL.DeleteRenderbuffer(_depth);
+        _texture?.Dispose();
+    }
+
+    private void ThrowUnlessComplete(string samples)
+    {
+        var status = GL.CheckFramebufferStatus(FramebufferTarget.Framebuffer);
+        if (status != FramebufferErrorCode.FramebufferComplete || GL.GetError() != ErrorCode.NoError)
+        {
+            Dispose();
+            throw new GlException($"{this} of {Width}×{Height} pixels{samples} is beyond the driver ({status})");
+        }
     }
 
     private static void Attach(FramebufferAttachment attachment, int renderbuffer) =>

@@ -2,22 +2,23 @@ using OpenTK.Graphics.OpenGL4;
 
 namespace FractalEngine.Render.Gl;
 
-/// <summary>A two-dimensional texture of 8-bit components.</summary>
+/// <summary>A two-dimensional texture of one level or more.</summary>
 internal abstract class Texture2D : GlObject
 {
-    private readonly int _name;
-
     /// <summary>Creates an empty texture.</summary>
     /// <param name="resources">Resources of the current context.</param>
     /// <param name="label">Name of the texture, for messages.</param>
     protected Texture2D(GlResources resources, string label)
-        : base(resources, label) => _name = GL.GenTexture();
+        : base(resources, label) => Name = GL.GenTexture();
+
+    /// <summary>OpenGL's name of the texture.</summary>
+    protected int Name { get; }
 
     /// <summary>Binds the texture to the first texture unit.</summary>
-    public void Bind() => Resources.State.BindTexture(_name);
+    public void Bind() => Resources.State.BindTexture(Name);
 
     /// <summary>Binds the texture to a texture unit other than the first.</summary>
-    public void BindTo(int unit) => State.GlState.BindTexture(unit, _name);
+    public void BindTo(int unit) => State.GlState.BindTexture(unit, Name);
 
     /// <summary>Binds the texture, uploads its first level, and sets its filters.</summary>
     /// <param name="internalFormat">Format in which the GPU stores the texture.</param>
@@ -44,5 +45,5 @@ internal abstract class Texture2D : GlObject
     }
 
     /// <inheritdoc/>
-    protected internal override void Delete() => Resources.State.DeleteTexture(_name);
+    protected internal override void Delete() => Resources.State.DeleteTexture(Name);
 }

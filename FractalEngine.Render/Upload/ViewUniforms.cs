@@ -20,9 +20,10 @@ internal sealed class ViewUniforms(ShaderProgram program, RedundancyFilter filte
     public void Set(in FrameView frame)
     {
         var view = frame.View;
-        if (filter.Update(ref _lastAxes, view.Camera.LocalAxesInverse))
+        var axes = frame.AxesInverse;
+        if (filter.Update(ref _lastAxes, axes))
         {
-            WriteRows(view.Camera.LocalAxesInverse, _rows);
+            WriteRows(axes, _rows);
             GL.Uniform3(program.UniformLocation("cameraAxes"), 3, _rows);
         }
 

@@ -1,4 +1,5 @@
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes.Cameras;
 using FractalEngine.Core.Visibility.Frames;
 
@@ -29,6 +30,27 @@ internal readonly record struct FrameView(View View, int X, int Y, int Width, in
 
     /// <summary>Plane that cuts the scene open, in world axes about the camera; null for none.</summary>
     public SectionPlane? Section { get; } = View.RelativeSection;
+
+    /// <summary>How far the image is moved on the screen, in pixels to the right and upwards. Perspective views alone follow it.</summary>
+    public (double X, double Y) Offset { get; init; }
+
+    /// <summary>
+    /// Maps world axes to the camera's: right, up and depth. With an <see cref="Offset"/> the first two grow with the depth.
+    /// </summary>
+    public Matrix AxesInverse
+    {
+        get
+        {
+            var axes = View.Camera.LocalAxesInverse;
+            if (Offset == default || View.Projection != Projection.Perspective)
+            {
+                return axes;
+            }
+
+            var (right, up) = (2 * Offset.X / Width * View.HalfHeight * Aspect, 2 * Offset.Y / Height * View.HalfHeight);
+            return new Matrix(new(1, 0, 0), new(0, 1, 0), new(right, up, 1)) * axes;
+        }
+    }
 
     /// <summary>Returns the same view in the form that culling takes.</summary>
     public CullingView ToCullingView() => new(

@@ -54,6 +54,17 @@ public sealed record RenderSettings
         init => field = RequireNotNegative(value, nameof(Samples));
     } = 4;
 
+    /// <summary>
+    /// Number of frames, each moved by a part of a pixel, whose mean is shown where nothing moves: edges smaller than a pixel then hold
+    /// still when the camera moves. A <see cref="FrameRenderer"/> gathers them when asked to.
+    /// </summary>
+    /// <exception cref="ArgumentOutOfRangeException">The number is negative.</exception>
+    public int GatheredFrames
+    {
+        get;
+        init => field = RequireNotNegative(value, nameof(GatheredFrames));
+    } = 1;
+
     /// <summary>Culls the back faces of closed meshes, where only front faces can be seen.</summary>
     public bool BackFaceCulling { get; init; } = true;
 

@@ -168,6 +168,19 @@ public sealed record View(Camera Camera, Projection Projection)
             : new(Camera.Position + (Camera.LocalAxes * new Vector(right, up, 0)), Camera.LocalAxes.V3);
     }
 
+    /// <summary>Moves the camera so that an orthographic image moves on the screen.</summary>
+    /// <param name="offset">Pixels to the right and upwards.</param>
+    /// <param name="height">Height of the frame in pixels.</param>
+    /// <param name="width">Width of the frame in pixels.</param>
+    internal View MovedBy((double X, double Y) offset, int width, int height)
+    {
+        var pixel = 2 * HalfHeight / Viewport(width, height).Height;
+        return this with
+        {
+            Camera = Camera with { Position = Camera.Position - (Camera.LocalAxes * new Vector(pixel * offset.X, pixel * offset.Y, 0)) },
+        };
+    }
+
     /// <summary>Returns the depths of the near and far clip planes.</summary>
     /// <param name="bounds">Bounds of all that is drawn, world space; may be empty.</param>
     /// <returns>

@@ -94,6 +94,7 @@ public sealed class RefusalTests : IDisposable
     [InlineData("render cube.obj -o a.png --view top --up (0,1,0)", "--up needs --look-from or --look-at")]
     [InlineData("render cube.obj -o a.png --keep-partial", "--keep-partial needs --trace")]
     [InlineData("render cube.obj -o a.png --no-denoise", "--no-denoise needs --trace")]
+    [InlineData("render cube.obj -o a.png --trace 1 --gather 8", "--gather draws triangles, and has no effect with --trace")]
     [InlineData("render cube.obj -o a.png --trace 1 --samples 8", "--samples draws triangles, and has no effect with --trace")]
     [InlineData("render cube.obj -o a.png --trace 1 --detail 0", "--detail draws triangles, and has no effect with --trace")]
     [InlineData("render cube.obj -o a.png --trace 1 --instances 1", "--instances draws triangles, and has no effect with --trace")]

@@ -1,3 +1,5 @@
+using System.Diagnostics;
+using System.Numerics;
 using FractalEngine.App.Window.State;
 using FractalEngine.Core.Images;
 using FractalEngine.Core.Scenes.Cameras;
@@ -16,17 +18,39 @@ namespace FractalEngine.App.Window.Drawing;
 /// </summary>
 internal sealed class WindowRenderer(FrameRenderer frame)
 {
+    // A window answers within this time while it gathers frames.
+    private static readonly TimeSpan MaxGatherTime = TimeSpan.FromSeconds(0.25);
+
     private readonly AdaptiveQuality _adaptiveQuality = new();
     private long _drawnCount;
     private long _presentedAgainCount;
     private View? _nextView;
     private View? _shownView;
+    private TimeSpan _gatherTime;
 
     /// <summary>The camera's view at the time of the last frame; null before the first frame of a document.</summary>
     public View? LatestView { get; private set; }
 
     /// <summary>True when the last frame was a preview or drawn for a moving camera, so that a full one must follow.</summary>
     public bool IsReducedQuality { get; private set; }
+
+    /// <summary>Whether another frame would sharpen the one that is shown, in time.</summary>
+    /// <param name="settings">The render settings for a camera at rest.</param>
+    public bool CanGather(RenderSettings settings) =>
+        !IsReducedQuality && _shownView is not null && frame.GatheredCount < settings.GatheredFrames && _gatherTime < MaxGatherTime;
+
+    /// <summary>Draws the last frame again, moved by a part of a pixel, for a mean of all.</summary>
+    /// <param name="document">The document of the last frame, unchanged since.</param>
+    /// <param name="settings">Its settings.</param>
+    /// <returns>Whether enough was added to show it: at each doubling, and at the end.</returns>
+    public bool Gather(Document document, RenderSettings settings)
+    {
+        var start = Stopwatch.GetTimestamp();
+        frame.Gather(document.Renderer, _shownView!, settings);
+        frame.Finish();
+        _gatherTime = Stopwatch.GetElapsedTime(start);
+        return BitOperations.IsPow2(frame.GatheredCount) || !CanGather(settings);
+    }
 
     /// <summary>Counts a frame that is presented again, below a new overlay.</summary>
     public void CountPresentedAgain() => _presentedAgainCount++;
@@ -53,6 +77,7 @@ internal sealed class WindowRenderer(FrameRenderer frame)
     public RenderSettings Draw(Document? document, RenderSettings settings, int width, int height)
     {
         _drawnCount++;
+        _gatherTime = TimeSpan.Zero;
         IsReducedQuality = document?.IsMoving == true;
         if (document is null)
         {

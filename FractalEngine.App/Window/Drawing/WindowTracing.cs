@@ -24,6 +24,9 @@ internal sealed class WindowTracing(WindowOptions options, Action published) : I
     /// <summary>The traced image, once nothing of the frame below it is visible; null before.</summary>
     public PixelImage? OpaqueImage => Layer is { Opacity: >= 1, Image: var image } ? image : null;
 
+    /// <summary>Whether the view is traced while it stands still.</summary>
+    public bool IsTracing => IsEnabled && (_obstacle ?? _trace.Problem) is null;
+
     /// <summary>How far the image is, or why there is none; null where there is nothing to tell.</summary>
     public string? StatusText => !IsEnabled ? null
         : (_obstacle ?? _trace.Problem) is { } obstacle ? $"not traced: {obstacle}"

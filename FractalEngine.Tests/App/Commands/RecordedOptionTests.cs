@@ -17,8 +17,8 @@ public class RecordedOptionTests
         draw.AddTo(command);
         string[] options =
         [
-            "", "--wireframe", "--grid", "--instances 7", "--instances 7 --detail 0", "--samples 0", "--samples 32", "--detail 0",
-            "--detail 1000", "--detail 2.5", "--shading vertex", "--shading pixel", "--no-shadows", "--no-ambient-occlusion",
+            "", "--wireframe", "--grid", "--instances 7", "--instances 7 --detail 0", "--samples 0", "--samples 32", "--gather 9",
+            "--detail 0", "--detail 1000", "--detail 2.5", "--shading vertex", "--shading pixel", "--no-shadows", "--no-ambient-occlusion",
             "--section 0,2,0,3", "--projection orthographic", "--projection perspective", "--resolution 30x20",
         ];
         string whole = Text("");

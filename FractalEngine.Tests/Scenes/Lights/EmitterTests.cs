@@ -89,7 +89,7 @@ public sealed class EmitterTests
             ("test.frag", Fragment.Replace("#include \"lighting.glsl\"", EmbeddedResource.ReadText("Shaders/lighting.glsl"),
                 StringComparison.Ordinal)));
         using var target = new Framebuffer(
-            context.Resources, "numbers", NumberCount, LightBlock.MaxLights, samples: 0, hasDepth: false);
+            context.Resources, "numbers", NumberCount, LightBlock.MaxLights, samples: 0);
         using var vertices = new VertexArray(context.Resources, "none");
         program.BindBlock("LightBlock", GlState.LightBinding);
         Seeded.Run(cases, random =>
