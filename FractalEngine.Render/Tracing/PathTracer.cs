@@ -20,9 +20,9 @@ namespace FractalEngine.Render.Tracing;
 /// <remarks>
 /// Light is that of drawn frames (<see cref="TracedLights"/>), with shadows: the scene's lights are sampled directly at each hit, and the
 /// ambient light comes from all directions that no surface hides. Paths end by chance, and go on from up to <see cref="MaxBounces"/>
-/// surfaces. Lights with a surface are sampled as well as met (<see cref="TracedLamps"/>). Emissive faces are sampled too, one for each surface (<see cref="TracedAreaLights"/>). In a deep zoom, behind glass, and of
-/// infinite or componentwise fractals, their light is found by paths that meet them, which has the same mean and more noise. The same
-/// seed gives the same bits on any number of threads.
+/// surfaces. Lights with a surface are sampled as well as met (<see cref="TracedLamps"/>). Emissive faces are sampled too, one for each
+/// surface (<see cref="TracedAreaLights"/>). In a deep zoom, behind glass, and of infinite or componentwise fractals, their light is found
+/// by paths that meet them, which has the same mean and more noise. The same seed gives the same bits on any number of threads.
 /// </remarks>
 public sealed class PathTracer
 {
