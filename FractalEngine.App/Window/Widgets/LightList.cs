@@ -89,11 +89,6 @@ internal sealed class LightList(WindowActions actions)
             actions.ChangeLight(index, present => present with { Intensity = intensity });
         }
 
-        if (ui.Colour(light.Colour) is { } colour)
-        {
-            actions.ChangeLight(index, present => present with { Colour = PanelWidgets.Merge(present.Colour, light.Colour, colour) });
-        }
-
         if (light is BallLight ball)
         {
             BuildSize(ui, ball, index, "radius", ball.Radius, static (light, size) => (BallLight)light with { Radius = size });
@@ -103,6 +98,11 @@ internal sealed class LightList(WindowActions actions)
         {
             BuildSize(ui, quad, index, "width", quad.Width, static (light, size) => (QuadLight)light with { Width = size });
             BuildSize(ui, quad, index, "height", quad.Height, static (light, size) => (QuadLight)light with { Height = size });
+        }
+
+        if (ui.Colour(light.Colour) is { } colour)
+        {
+            actions.ChangeLight(index, present => present with { Colour = PanelWidgets.Merge(present.Colour, light.Colour, colour) });
         }
 
         ui.Row(1);
