@@ -152,7 +152,7 @@ internal sealed class LightTransport(
     }
 
     /// <summary>
-    /// The light of a lamp that a path meets: whole for the eye, none behind glass, which lets sampled light through, and weighed elsewhere.
+    /// The light of a lamp that a path meets: whole for the eye, none behind glass, which lets sampled light through, else weighed.
     /// </summary>
     private static Vector LightOf(TracedLamp lamp, in LightPath path, Vector position)
     {

@@ -6,7 +6,7 @@ namespace FractalEngine.Tests.Render;
 /// <summary>Integrals over the surface of a lamp as a point sees it, cell by cell of the surface itself.</summary>
 internal static class LampIntegral
 {
-    /// <summary>The radiance of a lamp by the documented relation: π times the intensity falls onto what is a tenth of the range away.</summary>
+    /// <summary>The radiance of a lamp: π times the intensity falls onto what is a tenth of the range away.</summary>
     public static double RadianceOf(PointLight light) => Math.PI * light.Intensity * Math.Pow(light.Range / 10, 2) / (light switch
     {
         QuadLight quad => quad.Width * quad.Height,

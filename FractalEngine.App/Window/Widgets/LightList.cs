@@ -67,7 +67,7 @@ internal sealed class LightList(WindowActions actions)
 
         if (ui.Button("Add a quad"))
         {
-            AddAbove(static (above, size) => new QuadLight(above, -Vector.J, 0.3 * size, 0.2 * size, Colour.White, 0.7, 7.5 * size));
+            AddAbove(static (above, size) => new QuadLight(above, new(0, -1, 0), 0.3 * size, 0.2 * size, Colour.White, 0.7, 7.5 * size));
         }
     }
 
