@@ -19,7 +19,7 @@ internal sealed class LampsPass : IDisposable
     private readonly ViewUniforms _viewUniforms;
     private readonly VertexArray _vertexArray;
 
-    /// <summary>Builds the program.</summary>
+    /// <summary>Builds the program for the lights of a scene.</summary>
     /// <param name="context">Current context.</param>
     /// <param name="lightCount">Number of lights in the block.</param>
     /// <exception cref="GlException">The driver refuses the program.</exception>

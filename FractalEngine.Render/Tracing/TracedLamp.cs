@@ -10,10 +10,10 @@ namespace FractalEngine.Render.Tracing;
 /// <param name="unit">Unit of that space, in scene units.</param>
 internal abstract class TracedLamp(Emitter emitter, Vector eye, double unit)
 {
-    /// <summary>The light.</summary>
+    /// <summary>The light whose surface it is.</summary>
     public Emitter Emitter => emitter;
 
-    /// <summary>Its centre.</summary>
+    /// <summary>The centre, in the space of the traced scene.</summary>
     protected Vector Centre { get; } = (emitter.Position!.Value - eye) / unit;
 
     /// <summary>The radiance that a point is lit with, linear light.</summary>
