@@ -109,11 +109,7 @@ internal sealed class ObjectsPass(
 
         if (!settings.Wireframe)
         {
-            if (view.DeepZoom is null)
-            {
-                _lampsPass?.Draw(in frame);
-            }
-
+            (view.DeepZoom is null ? _lampsPass : null)?.Draw(in frame);
             DrawTransparent(view);
         }
 

@@ -74,11 +74,6 @@ internal sealed class LightTransport(
                 first = new(path.Radiance, path.Throughput.Stretch(surface.Albedo), surface.Normal, path.DistanceBefore + passed);
             }
 
-            if (surface.Lamp is not null)
-            {
-                return path.Radiance;
-            }
-
             var width = path.WidthAt(passed);
             var origin = surface.Position + (scene.OffsetAt(surface.Position) * surface.FaceNormal);
             if (!surface.IsInside)
@@ -156,13 +151,9 @@ internal sealed class LightTransport(
     /// </summary>
     private static Vector LightOf(TracedLamp lamp, in LightPath path, Vector position)
     {
-        if (path.Bounces == 0 || path.IsThroughGlass)
-        {
-            return path.Bounces == 0 ? lamp.Emitter.SurfaceRadiance : Vector.Zero;
-        }
-
         var (origin, density) = (path.ReflectedFrom, path.ReflectionDensity);
-        return density / (density + lamp.Density(origin, path.Ray.Direction, (position - origin).Length())) * lamp.RadianceAt(origin);
+        return path.Bounces == 0 ? lamp.Emitter.SurfaceRadiance : path.IsThroughGlass ? Vector.Zero
+            : density / (density + lamp.Density(origin, path.Ray.Direction, (position - origin).Length())) * lamp.RadianceAt(origin);
     }
 
     /// <summary>Lets glass mirror or refract a path; false where the path is scattered instead.</summary>

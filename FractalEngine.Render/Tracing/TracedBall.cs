@@ -29,8 +29,7 @@ internal sealed class TracedBall(Emitter emitter, Vector eye, double unit) : Tra
         (toLight, distance) = (default, double.PositiveInfinity);
         if (length > _radius)
         {
-            var cosine = 1 - OneMinusCosine(length);
-            toLight = Reflection.SampleCone(FacetAlbedo.AxesAround(toCentre / length), cosine, point);
+            toLight = Reflection.SampleCone(FacetAlbedo.AxesAround(toCentre / length), 1 - OneMinusCosine(length), point);
             distance = DistanceAlong(new(position, toLight));
         }
 

@@ -23,8 +23,7 @@ internal sealed class TracedLamps
     private TracedLamps(ImmutableArray<Emitter> emitters, Vector eye, double unit)
     {
         _emitters = emitters;
-        _lamps = [.. emitters.Select(TracedLamp (emitter) =>
-            emitter.Radius > 0 ? new TracedBall(emitter, eye, unit) : new TracedQuad(emitter, eye, unit))];
+        _lamps = [.. emitters.Select(TracedLamp (one) => one.Radius > 0 ? new TracedBall(one, eye, unit) : new TracedQuad(one, eye, unit))];
     }
 
     /// <summary>Prepares the lights of a scene that have a surface; null where there are none.</summary>

@@ -94,7 +94,6 @@ internal sealed class TracedQuad(Emitter emitter, Vector eye, double unit) : Tra
         public Vector MapByArea((double U, double V) point) =>
             new(_low.X + (point.U * (_high.X - _low.X)), _low.Y + (point.V * (_high.Y - _low.Y)), Z);
 
-        private static double Sine(double opposite, double beside) =>
-            opposite / Math.Sqrt((opposite * opposite) + (beside * beside));
+        private static double Sine(double opposite, double beside) => opposite / Math.Sqrt((opposite * opposite) + (beside * beside));
     }
 }

@@ -134,9 +134,8 @@ internal sealed record TracedScene
         var distance = isFound ? (surface.Position - ray.Origin).Length() : maxDistance;
         if (Lamps.FindNearest(in ray, minDistance, ref distance) is { } lamp)
         {
-            surface = new(
-                ray.Origin + (distance * ray.Direction), -ray.Direction, -ray.Direction, Vector.Zero, null, lamp.Emitter.SurfaceRadiance, 1)
-            { Lamp = lamp };
+            var (place, back) = (ray.Origin + (distance * ray.Direction), -ray.Direction);
+            surface = new(place, back, back, Vector.Zero, null, lamp.Emitter.SurfaceRadiance, 1) { Lamp = lamp };
             return true;
         }
 

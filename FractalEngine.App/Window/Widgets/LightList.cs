@@ -76,8 +76,8 @@ internal sealed class LightList(WindowActions actions)
     {
         var bounds = actions.Document!.File.Scene.Bounds;
         var size = bounds.FiniteDiagonalOr(1);
-        var light = create(bounds.Centre + (0.75 * size * Vector.J), size);
-        actions.ChangeScene(present => present with { Lights = present.Lights.Add(light) });
+        var above = bounds.Centre + (0.75 * size * Vector.J);
+        actions.ChangeScene(present => present with { Lights = present.Lights.Add(create(above, size)) });
     }
 
     private void BuildLight(UserInterface ui, Light light, int index)
@@ -115,11 +115,9 @@ internal sealed class LightList(WindowActions actions)
 
     private void BuildSize(UserInterface ui, PointLight light, int index, string label, double size, Func<Light, double, Light> resize)
     {
-        var changed = size;
-        if (ui.Slider(label, ref changed, 0, 2 * size, 0.01, isBounded: false)
-            && changed >= 1e-6 * light.Range && changed <= 1e6 * light.Range)
+        if (ui.Slider(label, ref size, 0, 2 * size, 0.01, isBounded: false) && size >= 1e-6 * light.Range && size <= 1e6 * light.Range)
         {
-            actions.ChangeLight(index, present => resize(present, changed));
+            actions.ChangeLight(index, present => resize(present, size));
         }
     }
 }

@@ -64,19 +64,14 @@ public sealed class Emitter(
     /// the light is the irradiance at a tenth of the range, and a surface of the area A, seen as a disc or straight on, at the distance d
     /// brings A/d² of its radiance.
     /// </summary>
-    public Vector SurfaceRadiance => HasSurface
-        ? 0.01 * Range * Range / (0.9999 * 0.9999) * Math.PI / SeenArea * Radiance
-        : Vector.Zero;
+    public Vector SurfaceRadiance =>
+        HasSurface ? 0.01 * Range * Range / (0.9999 * 0.9999) * Math.PI / SeenArea * Radiance : Vector.Zero;
 
     /// <summary>The box around that surface, world space; empty without one.</summary>
-    public BoundingBox SurfaceBounds
-    {
-        get
-        {
-            var reach = HalfWidth.Absolute() + HalfHeight.Absolute() + (Radius * Vector.One);
-            return HasSurface && Position is { } middle ? new(middle - reach, middle + reach) : BoundingBox.Empty;
-        }
-    }
+    public BoundingBox SurfaceBounds =>
+        HasSurface && Position is { } middle ? new(middle - Reach, middle + Reach) : BoundingBox.Empty;
+
+    private Vector Reach => HalfWidth.Absolute() + HalfHeight.Absolute() + (Radius * Vector.One);
 
     private double SeenArea => Radius > 0 ? Math.PI * Radius * Radius : 4 * Vector.Cross(HalfWidth, HalfHeight).Length();
 
@@ -125,8 +120,7 @@ public sealed class Emitter(
     /// <param name="distance">Distance from the position, scene units.</param>
     public double PartWithinRange(double distance)
     {
-        var relative = distance / Range;
-        var window = Math.Clamp(1 - (relative * relative * (relative * relative)), 0, 1);
+        var window = Math.Clamp(1 - Math.Pow(distance / Range, 4), 0, 1);
         return window * window;
     }
 

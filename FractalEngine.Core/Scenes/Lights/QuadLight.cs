@@ -31,10 +31,8 @@ public sealed record QuadLight(
     } = RequireDirection(Direction, nameof(Direction));
 
     /// <inheritdoc/>
-    public override IReadOnlyList<object> Declaration =>
-        ["light", "quad", Position, Direction, Width, Height, Colour, Intensity, Range, .. HasTurn ? (object[])[Turn] : []];
-
-    private bool HasTurn => Turn != 0 || double.IsNegative(Turn);
+    public override IReadOnlyList<object> Declaration => [
+        "light", "quad", Position, Direction, Width, Height, Colour, Intensity, Range, .. 1 / Turn < 0 || Turn > 0 ? (object[])[Turn] : []];
 
     /// <inheritdoc/>
     public override Emitter? ToEmitter()
