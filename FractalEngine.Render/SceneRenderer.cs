@@ -183,8 +183,10 @@ public sealed class SceneRenderer : IDisposable
     /// up to a ratio of 10¹². In scene units.
     /// </returns>
     public (double Near, double Far) ClipPlanes(View view, int width, int height, RenderSettings settings) => SceneClipPlanes.Of(
-        view, view.EffectiveAspect(width, height), LinesPass.BoundsIncludingLines(Bounds, settings), settings.Grid || settings.Axes,
-        _transforms.Bounds, _spheres, _hasMoved ? SceneBounds.GridOf(Scene) : 0);
+        view, view.EffectiveAspect(width, height),
+        BoundingBox.Union(LinesPass.BoundsIncludingLines(Bounds, settings), _objectsPass.LampBounds),
+        settings.Grid || settings.Axes || !_objectsPass.LampBounds.IsEmpty, _transforms.Bounds, _spheres,
+        _hasMoved ? SceneBounds.GridOf(Scene) : 0);
 
     /// <summary>Culls the instances for a frame without drawing it, on the context's thread.</summary>
     /// <param name="view">Camera and projection.</param>

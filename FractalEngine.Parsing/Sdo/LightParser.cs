@@ -9,6 +9,9 @@ namespace FractalEngine.Parsing.Sdo;
 /// <param name="source">Text that is parsed.</param>
 public abstract class LightParser(SourceText source) : SceneSettingParser(source)
 {
+    // Smallest size of a light by its range, and the largest range by its size.
+    private const double MinSize = 1e-6;
+
     /// <summary>All lights that were declared so far.</summary>
     private protected List<Light> Lights { get; } = [];
 
@@ -43,6 +46,23 @@ public abstract class LightParser(SourceText source) : SceneSettingParser(source
                 && AddLight(new SpotLight(position, direction, angle, colour, intensity, range));
         }
 
+        if (ParseKeyword(cursor, "ball", out rest))
+        {
+            return ParseVectorAndSeparator(rest, out var position, out var sizes) && ParseSize(sizes, "radius", out var radius, out rest)
+                && ParseColourIntensityAndRange(rest, out var colour, out var intensity, out var range, out rest)
+                && AddSizedLight(new BallLight(position, radius, colour, intensity, range), sizes, radius, radius);
+        }
+
+        if (ParseKeyword(cursor, "quad", out rest))
+        {
+            return ParseVectorAndSeparator(rest, out var position, out rest)
+                && ParseDirection(rest, out var direction, out var sizes) && ParseSize(sizes, "width", out var width, out rest)
+                && ParseSize(rest, "height", out var height, out rest)
+                && ParseColourIntensityAndRange(rest, out var colour, out var intensity, out var range, out rest)
+                && ParseTurn(ref rest, out var turn)
+                && AddSizedLight(new QuadLight(position, direction, width, height, colour, intensity, range, turn), sizes, width, height);
+        }
+
         return false;
     }
 
@@ -63,6 +83,26 @@ public abstract class LightParser(SourceText source) : SceneSettingParser(source
     {
         Lights.Add(light);
         return true;
+    }
+
+    /// <summary>Adds a light whose size makes its radiance a number of moderate size.</summary>
+    private bool AddSizedLight(PointLight light, Cursor sizes, double size1, double size2)
+    {
+        Require(
+            Math.Min(size1, size2) >= MinSize * light.Range && Math.Max(size1, size2) <= light.Range / MinSize, sizes,
+            "the size of a light must lie between 1e-6 and 1e6 of its range");
+        return AddLight(light);
+    }
+
+    private bool ParseSize(Cursor cursor, string name, out double size, out Cursor rest) =>
+        ParseNumber(cursor, static number => number > 0, $"the {name} of a light must be positive", out size, out rest)
+        && ParseOptionalSeparator(rest, out rest);
+
+    /// <summary>Parses the optional turn of a rectangle.</summary>
+    private bool ParseTurn(ref Cursor rest, out double turn)
+    {
+        turn = 0;
+        return ParseOptionalSeparator(rest, out var start) && (EndsAt(start) || ParseNumber(start, out turn, out rest));
     }
 
     private bool ParseDirection(Cursor cursor, out Vector direction, out Cursor rest)

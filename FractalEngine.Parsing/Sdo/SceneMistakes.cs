@@ -21,11 +21,10 @@ internal static class SceneMistakes
         // o "cube.obj" (#, #)
         ?? (failure.Expects(SyntaxFailure.Number) ? null : failure.Explain($@"{FileOfObject}{Values}\n\)", PlacementForm))
         // light point (0, 1, 0) (1, 1, 1)
-        ?? failure.Explain(
-            @"^[ \t]*light[ \t]+point\b([^()]*\([^()]*\))*[^()]*\n\z", "a point light is its position, colour, intensity and range")
-        ?? failure.Explain(
-            @"^[ \t]*light[ \t]+spot\b([^()]*\([^()]*\))*[^()]*\n\z",
-            "a spot light is its position, direction, angle, colour, intensity and range")
+        ?? ExplainLight(failure, "point", "position, colour, intensity and range")
+        ?? ExplainLight(failure, "spot", "position, direction, angle, colour, intensity and range")
+        ?? ExplainLight(failure, "ball", "position, radius, colour, intensity and range")
+        ?? ExplainLight(failure, "quad", "position, direction, width, height, colour, intensity and range")
         // c (0, 0, -5) #, of whole vectors only: within one, the failure is that of the vector.
         ?? failure.Explain(
             @"^[ \t]*c([ \t,]*(#|look-at|up|\([^()]*\)))+[ \t,]*\n", "a camera ends with its vertical angle of view in degrees",
@@ -39,4 +38,7 @@ internal static class SceneMistakes
         ?? failure.Explain(@"\n(?i:object|model|mesh)", "an object is declared by 'o'", "'gravity'")
         ?? failure.Explain(@"\n(?i:physics|body)", "a physics object is declared by 'p'", "'gravity'")
         ?? CommonMistakes.ExplainKeyword(failure);
+
+    private static string? ExplainLight(SyntaxFailure failure, string kind, string parts) => failure.Explain(
+        $@"^[ \t]*light[ \t]+{kind}\b([^()]*\([^()]*\))*[^()]*\n\z", $"a {kind} light is its {parts}");
 }

@@ -41,11 +41,17 @@ internal sealed class ObjectsPass(
     private readonly AirPass? _airPass =
         scene.Source.Scene.Fog is { IsLit: true } ? new(context, LightBlock.LightsOf(scene.Source)) : null;
 
+    private readonly LampsPass? _lampsPass =
+        LightBlock.SurfacesOf(scene.Source).IsEmpty ? null : new(context, LightBlock.LightsOf(scene.Source).Length);
+
     private DrawableScene _scene = scene;
     private DepthOrder _transparentOrder = DepthOrder.Of(scene, static model => model.HasTransparentBatches);
     private SphereBatch? _sphereBatch;
     private GlossMaps? _glossMaps;
     private bool _hasSkyParts;
+
+    /// <summary>Bounds of the surfaces of lamps, world space; empty where there are none.</summary>
+    public BoundingBox LampBounds { get; } = LightBlock.SurfacesOf(scene.Source);
 
     /// <summary>Number of objects that the last frame drew with one face of their triangles culled.</summary>
     public int BackFaceCulledCount { get; private set; }
@@ -106,6 +112,7 @@ internal sealed class ObjectsPass(
 
         if (!settings.Wireframe)
         {
+            (view.DeepZoom is null ? _lampsPass : null)?.Draw(in frame);
             DrawTransparent(view);
         }
 
@@ -123,7 +130,7 @@ internal sealed class ObjectsPass(
 
     /// <inheritdoc/>
     public void Dispose() => GlObject.DisposeAll(
-        _objectBlocks, _skyPass, _airPass, _shadowPass, _sphereBatch, _glossMaps, _lightBlock, _meshPass);
+        _objectBlocks, _skyPass, _lampsPass, _airPass, _shadowPass, _sphereBatch, _glossMaps, _lightBlock, _meshPass);
 
     private MeshFeatures FrameFeatures(RenderSettings settings) =>
         (settings.Shading == Shading.PerPixel ? MeshFeatures.PerPixel : 0) | (_lightBlock.HasAtmosphere ? MeshFeatures.Atmosphere : 0)

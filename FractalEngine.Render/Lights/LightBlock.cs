@@ -14,7 +14,7 @@ namespace FractalEngine.Render.Lights;
 /// <summary>The lights of a scene in a uniform buffer, laid out as <c>LightBlock</c> in lighting.glsl (std140).</summary>
 internal sealed class LightBlock : IDisposable
 {
-    /// <summary>Maximum number of directional, point and spot lights. Ambient lights are added up and don't count.</summary>
+    /// <summary>Maximum number of lights that shine from somewhere. Ambient lights are added up and don't count.</summary>
     public const int MaxLights = 16;
 
     // Programs grow with the number of lights that have constant indices.
@@ -64,6 +64,10 @@ internal sealed class LightBlock : IDisposable
         return [.. lights.Select(static light => light.ToEmitter()).OfType<Emitter>().Take(MaxLights)];
     }
 
+    /// <summary>Returns the bounds of all surfaces that are lights, world space; empty without any.</summary>
+    public static BoundingBox SurfacesOf(LoadedScene scene) => LightsOf(scene).Aggregate(
+        BoundingBox.Empty, static (bounds, light) => BoundingBox.Union(bounds, light.SurfaceBounds));
+
     /// <summary>
     /// Returns a loop over the lights, and the kinds of their shadows, as symbols of a shader. The loop over few lights has constant
     /// indices: without a GPU, reading a block at others takes a tenth to a fifth of a frame.
@@ -77,7 +81,8 @@ internal sealed class LightBlock : IDisposable
         var loop = lights.Length <= MaxUnrolledLights
             ? string.Concat(Enumerable.Range(0, lights.Length).Select(static i => FormattableString.Invariant($" DO({i})")))
             : FormattableString.Invariant($" for (int i = 0; i < {lights.Length}; i++) {{ DO(i) }}");
-        return [$"EACH_LIGHT(DO){loop}", $"LIGHT_KINDS int[]({kinds})"];
+        string[] symbols = [$"EACH_LIGHT(DO){loop}", $"LIGHT_KINDS int[]({kinds})"];
+        return lights.Any(static light => light.HasSurface) ? [.. symbols, "SURFACE_LIGHTS"] : symbols;
 
         char KindOfShadow(Emitter light, int index) =>
             light.Position is null || (distantLights & (1 << index)) != 0 ? '0' : light.NeedsCube ? '1' : '2';
@@ -149,7 +154,8 @@ internal sealed class LightBlock : IDisposable
 
     private static void WriteLight(Emitter light, Vector cameraPosition, double unitsPerSceneUnit, Span<float> target)
     {
-        WriteVector(light.Radiance, light.Position is null ? 0 : light.HasCone ? 2 : 1, target);
+        var kind = light.Position is null ? 0 : light.Radius > 0 ? 3 : light.HasSurface ? 4 : light.HasCone ? 2 : 1;
+        WriteVector(light.HasSurface ? light.SurfaceRadiance : light.Radiance, kind, target);
         if (light.Position is { } position)
         {
             WriteVector(unitsPerSceneUnit * (position - cameraPosition), unitsPerSceneUnit * light.Range, target[4..]);
@@ -161,6 +167,11 @@ internal sealed class LightBlock : IDisposable
 
         WriteVector(light.Axis, light.BrightCosine, target[8..]);
         target[12] = (float)light.EdgeCosine;
+        if (light.HasSurface)
+        {
+            WriteVector(unitsPerSceneUnit * light.HalfWidth, unitsPerSceneUnit * light.Radius, target[8..]);
+            WriteVector(unitsPerSceneUnit * light.HalfHeight, 0, target[12..]);
+        }
     }
 
     /// <summary>Writes a vector and a fourth number into the data of a uniform block.</summary>

@@ -71,7 +71,9 @@ vec3 scatteredOfLamp(int i, vec3 eye, vec3 ray, float end, float offset)
     return max(last - first, 0.0) * display.z / max(lostPart(end), 1e-30) * sum / float(steps);
 }
 
-#define ADD_LIGHT(i) light += lights[i].colour.w > 0.5 ? scatteredOfLamp(i, eye, ray, end, offset) : scatteredOfSun(i, eye, ray, end, offset);
+// Lamps with a surface light no air, as in traced images.
+#define ADD_LIGHT(i) light += lights[i].colour.w > 2.5 ? vec3(0.0) \
+    : lights[i].colour.w > 0.5 ? scatteredOfLamp(i, eye, ray, end, offset) : scatteredOfSun(i, eye, ray, end, offset);
 
 void main()
 {

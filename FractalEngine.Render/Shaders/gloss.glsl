@@ -48,8 +48,80 @@ float shadowing(float cosine, float alphaSquared)
     return 2.0 * cosine / (cosine + sqrt(alphaSquared + (1.0 - alphaSquared) * cosine * cosine));
 }
 
+vec3 fresnelOf(Gloss gloss, float cosine)
+{
+    float rest = clamp(1.0 - cosine, 0.0, 1.0);
+    return gloss.specular + rest * rest * (rest * rest) * rest * (1.0 - gloss.specular);
+}
+
+#ifdef SURFACE_LIGHTS
+// The slopes of the facet that mirrors a direction towards the eye, as a vector in the plane of the surface, by the roughness.
+vec3 slopesOf(vec3 toLight, vec3 n, vec3 toEye)
+{
+    vec3 halfway = toEye + normalize(toLight);
+    return (halfway / dot(n, halfway) - n) / material[1].w;
+}
+
+// What an edge adds to the facets within a polygon of slopes: their part w of all facets, and the sum of their slopes, w times the mean.
+// GGX has the density 1 / (pi (1 + r^2)^2) of slopes. Of that, the triangle from the middle to the edge, whose line has the distance h,
+// holds h / sqrt(1 + h^2) / (2 pi) times the difference of two arc tangents. The slopes are a gradient, and sum up along the edge.
+vec4 facetsAlong(vec3 from, vec3 to, vec3 n)
+{
+    vec3 edge = to - from;
+    float size = max(length(edge), 1e-12);
+    edge /= size;
+    float h = dot(n, cross(from, edge));
+    float k2 = 1.0 + h * h;
+    float angle = atan(size * sqrt(k2), k2 + dot(from, edge) * dot(to, edge));
+    return inversesqrt(k2) * angle / (2.0 * pi) * vec4(cross(n, edge), h);
+}
+
+// What facets mirror once of a lamp that has a surface of the radiance 1. Facets are seen by the cosine of their angle with the eye, which
+// is linear in their slopes, so that the sum above has them all; the rest is taken for the mean facet. Edges are straight between slopes,
+// nearly.
+vec3 mirroredOf(Light lamp, vec3 position, Gloss gloss, vec3 n, vec3 toEye)
+{
+    // A bent normal may turn away from the eye.
+    toEye += (gloss.cosineEye - dot(n, toEye)) * n;
+    Outline outline = outlineOf(lamp, position);
+    vec4 facets = vec4(0.0);
+    // Half of the points do for a small lamp. What is below the horizon is moved up to it.
+    int step = max(dot(outline.right, outline.right), dot(outline.up, outline.up)) < 0.05 ? 2 : 1;
+    vec3 last = outlinePoint(outline, 0, step);
+    vec3 lastSlopes = slopesOf(last - min(dot(n, last), 0.0) * n, n, toEye);
+    for (int i = step; i <= 16; i += step)
+    {
+        vec3 next = outlinePoint(outline, i, step);
+        float lastHeight = dot(n, last);
+        float height = dot(n, next);
+        if ((lastHeight > 0.0) != (height > 0.0))
+        {
+            vec3 crossing = slopesOf(mix(last, next, lastHeight / (lastHeight - height)), n, toEye);
+            facets += facetsAlong(lastSlopes, crossing, n);
+            lastSlopes = crossing;
+        }
+
+        vec3 slopes = slopesOf(next - min(height, 0.0) * n, n, toEye);
+        facets += facetsAlong(lastSlopes, slopes, n);
+        last = next;
+        lastSlopes = slopes;
+    }
+
+    facets *= facets.w < 0.0 ? -1.0 : 1.0;
+    float alpha = material[1].w;
+    float seen = max(facets.w + alpha * dot(toEye, facets.xyz) / gloss.cosineEye, 0.0);
+    vec3 halfway = normalize(n + alpha / max(facets.w, 1e-6) * facets.xyz);
+    float cosineFacet = clamp(dot(toEye, halfway), 0.0, 1.0);
+    float cosine = 2.0 * cosineFacet * dot(n, halfway) - gloss.cosineEye;
+    return seen * shadowing(gloss.cosineEye, alpha * alpha) * shadowing(max(cosine, 1e-4), alpha * alpha)
+        * fresnelOf(gloss, cosineFacet);
+}
+#endif
+
 // Adds the light of a lamp that falls onto the surface by a cosine: what comes through the coat, and what is mirrored.
-void addGloss(Gloss gloss, vec3 n, vec3 toEye, vec3 toLight, float cosine, vec3 incoming, inout vec3 light, inout vec3 mirrored)
+void addGloss(
+    Light lamp, vec3 position, Gloss gloss, vec3 n, vec3 toEye, vec3 toLight, float cosine, vec3 incoming, inout vec3 light,
+    inout vec3 mirrored)
 {
     vec2 facets = facetsSeenFrom(cosine);
     light += cosine * incoming * throughCoat(facets) / material[6].rgb;
@@ -59,11 +131,16 @@ void addGloss(Gloss gloss, vec3 n, vec3 toEye, vec3 toLight, float cosine, vec3 
     vec3 sine = cross(n, halfway);
     float cosineHalf = dot(n, halfway);
     float d = cosineHalf * cosineHalf * alphaSquared + dot(sine, sine);
-    float rest = clamp(1.0 - dot(toLight, halfway), 0.0, 1.0);
-    vec3 fresnel = gloss.specular + rest * rest * (rest * rest) * rest * (1.0 - gloss.specular);
     float once = alphaSquared / (d * d) * shadowing(gloss.cosineEye, alphaSquared) * shadowing(cosine, alphaSquared)
         / (4.0 * gloss.cosineEye);
-    mirrored += incoming * (once * fresnel + cosine * (1.0 - facets.x - facets.y) / material[5].w * gloss.several);
+    vec3 mirroredOnce = once * fresnelOf(gloss, dot(toLight, halfway));
+#ifdef SURFACE_LIGHTS
+    if (lamp.colour.w > 2.5)
+    {
+        mirroredOnce = mirroredOf(lamp, position, gloss, n, toEye) / max(fluxOf(lamp, position, n, toLight), 1e-30);
+    }
+#endif
+    mirrored += incoming * (mirroredOnce + cosine * (1.0 - facets.x - facets.y) / material[5].w * gloss.several);
 }
 
 // What is mirrored of the light from all around, where nothing hides it.

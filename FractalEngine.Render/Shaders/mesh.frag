@@ -102,7 +102,7 @@ void addLight(int i, vec3 position, vec3 n, vec3 faceNormal, inout vec3 light, i
 #endif
 {
     vec3 toLight;
-    vec3 incoming = incomingLight(lights[i], position, toLight);
+    vec3 incoming = incomingLight(lights[i], position, n, toLight);
     float cosine = dot(n, toLight);
 #ifdef SKY_PARTS
     direct += incoming;
@@ -110,13 +110,17 @@ void addLight(int i, vec3 position, vec3 n, vec3 faceNormal, inout vec3 light, i
 #ifdef SHADOWS
     if (cosine > 0.0)
     {
-        incoming *= lightThatArrives(i, position, faceNormal, toLight);
+        float arriving = lightThatArrives(i, position, faceNormal, toLight);
+#ifdef SURFACE_LIGHTS
+        arriving = mix(1.0, arriving, shadowOf(lights[i], position, faceNormal));
+#endif
+        incoming *= arriving;
     }
 #endif
 #ifdef GLOSSY
     if (cosine > 0.0)
     {
-        addGloss(gloss, n, toEye, toLight, cosine, incoming, light, highlights);
+        addGloss(lights[i], position, gloss, n, toEye, toLight, cosine, incoming, light, highlights);
     }
 #else
     light += max(cosine, 0.0) * incoming;

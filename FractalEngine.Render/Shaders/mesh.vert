@@ -43,11 +43,11 @@ vec3 lightGloss(inout vec3 surface, vec3 n, vec3 position, vec3 toEye, inout vec
     for (int i = 0; i < lightCount.x; i++)
     {
         vec3 toLight;
-        vec3 incoming = incomingLight(lights[i], position, toLight);
+        vec3 incoming = incomingLight(lights[i], position, n, toLight);
         float cosine = dot(n, toLight);
         if (cosine > 0.0)
         {
-            addGloss(gloss, n, toEye, toLight, cosine, incoming, light, mirrored);
+            addGloss(lights[i], position, gloss, n, toEye, toLight, cosine, incoming, light, mirrored);
         }
     }
 
@@ -163,10 +163,14 @@ void main()
     for (int i = 0; i < lightCount.x; i++)
     {
         vec3 toLight;
-        vec3 light = incomingLight(lights[i], relative, toLight);
+        vec3 light = incomingLight(lights[i], relative, n, toLight);
         float cosine = dot(n, toLight);
         front += max(cosine, 0.0) * light;
 #ifndef FRONT_FACES_ONLY
+#ifdef SURFACE_LIGHTS
+        light = incomingLight(lights[i], relative, -n, toLight);
+        cosine = dot(n, toLight);
+#endif
         back += max(-cosine, 0.0) * light;
 #endif
     }

@@ -19,6 +19,7 @@ internal sealed class LightTransport(
     private const double ScatteredSpread = 0.03;
 
     private readonly TracedAreaLights? _areaLights = scene.AreaLights;
+    private readonly TracedLamps? _lamps = scene.Lamps;
 
     /// <summary>Density of the fog, per unit of the traced scene.</summary>
     public double FogDensity { get; init; }
@@ -95,6 +96,13 @@ internal sealed class LightTransport(
                     return path.Radiance;
                 }
 
+                // The eye sees lamps in glass by itself.
+                if (_lamps is not null && path.Bounces > 0 && !surface.IsInside)
+                {
+                    path.Radiance += path.Throughput.Stretch(_lamps.Reflected(
+                        surface with { Colour = Vector.Zero }, origin, -ray.Direction, width, isAlone: true, scene, ref samples, context));
+                }
+
                 if (TryPassGlass(ref path, glass, in surface, origin, width, ref samples))
                 {
                     continue;
@@ -102,6 +110,12 @@ internal sealed class LightTransport(
 
                 // Scattered by what is not clear.
                 surface = surface with { Gloss = null, Colour = surface.Colour / surface.Opacity };
+            }
+
+            if (_lamps is not null)
+            {
+                path.Radiance += path.Throughput.Stretch(_lamps.Reflected(
+                    in surface, origin, -ray.Direction, width, path.Bounces >= bounceLimit, scene, ref samples, context));
             }
 
             if (path.Bounces >= bounceLimit || !TryReflect(ref path, in surface, origin, width, ref samples, context))
@@ -141,7 +155,11 @@ internal sealed class LightTransport(
     /// <summary>Adds the light of an emissive surface, weighed where it could have been sampled, too.</summary>
     private void AddEmission(ref LightPath path, in TracedSurface surface, QueryContext context)
     {
-        if (surface.Emission != Vector.Zero)
+        if (surface.Lamp is { } lamp)
+        {
+            path.Radiance += path.Throughput.Stretch(LightOf(lamp, in path, surface.Position));
+        }
+        else if (surface.Emission != Vector.Zero)
         {
             // Lamps behind glass are not sampled.
             var weight = path.Bounces == 0 || path.IsThroughGlass || _areaLights is null ? 1
@@ -149,6 +167,16 @@ internal sealed class LightTransport(
                     in surface, path.Reflector, path.ReflectedFrom, path.Ray.Direction, path.ReflectionDensity, context);
             path.Radiance += weight * path.Throughput.Stretch(surface.Emission);
         }
+    }
+
+    /// <summary>
+    /// The light of a lamp that a path meets: whole for the eye, none behind glass, which lets sampled light through, else weighed.
+    /// </summary>
+    private static Vector LightOf(TracedLamp lamp, in LightPath path, Vector position)
+    {
+        var (origin, density) = (path.ReflectedFrom, path.ReflectionDensity);
+        return path.Bounces == 0 ? lamp.Emitter.SurfaceRadiance : path.IsThroughGlass ? Vector.Zero
+            : density / (density + lamp.Density(origin, path.Ray.Direction, (position - origin).Length())) * lamp.RadianceAt(origin);
     }
 
     /// <summary>Lets glass mirror or refract a path; false where the path is scattered instead.</summary>
@@ -183,7 +211,7 @@ internal sealed class LightTransport(
             return false;
         }
 
-        if (_areaLights is not null)
+        if (_areaLights is not null || _lamps is not null)
         {
             path.Remember(in surface, origin, Reflection.Density(in surface, toEye, direction));
         }

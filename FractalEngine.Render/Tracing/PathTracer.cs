@@ -20,9 +20,9 @@ namespace FractalEngine.Render.Tracing;
 /// <remarks>
 /// Light is that of drawn frames (<see cref="TracedLights"/>), with shadows: the scene's lights are sampled directly at each hit, and the
 /// ambient light comes from all directions that no surface hides. Paths end by chance, and go on from up to <see cref="MaxBounces"/>
-/// surfaces. Emissive faces are sampled too, one for each surface (<see cref="TracedAreaLights"/>). In a deep zoom, behind glass, and of
-/// infinite or componentwise fractals, their light is found by paths that meet them, which has the same mean and more noise. The same
-/// seed gives the same bits on any number of threads.
+/// surfaces. Lights with a surface are sampled as well as met (<see cref="TracedLamps"/>). Emissive faces are sampled too, one for each
+/// surface (<see cref="TracedAreaLights"/>). In a deep zoom, behind glass, and of infinite or componentwise fractals, their light is found
+/// by paths that meet them, which has the same mean and more noise. The same seed gives the same bits on any number of threads.
 /// </remarks>
 public sealed class PathTracer
 {
@@ -68,7 +68,7 @@ public sealed class PathTracer
         ArgumentNullException.ThrowIfNull(view);
         ArgumentOutOfRangeException.ThrowIfLessThan(width, 1);
         ArgumentOutOfRangeException.ThrowIfLessThan(height, 1);
-        _scene = scene.ForView(view.DeepZoom, view.DeepZoom is null ? view.Section : view.RelativeSection);
+        _scene = scene.ForView(view.DeepZoom, view.DeepZoom is null ? view.Section : view.RelativeSection, view.Camera.Position);
         var (eye, unit) = (Vector.Zero, 1.0);
         if (view.DeepZoom is { } zoom)
         {

@@ -7,7 +7,10 @@ using FractalEngine.Render.Lights;
 
 namespace FractalEngine.Render.Tracing;
 
-/// <summary>The lights of a scene as the path tracer samples them, with the intensities of drawn frames.</summary>
+/// <summary>
+/// The lights of a scene without a surface, as the path tracer samples them, with the intensities of drawn frames. The others are
+/// <see cref="TracedLamps"/>.
+/// </summary>
 /// <remarks>
 /// An intensity of 1 shows a white surface white: it stands for the irradiance π, since a matt white surface sends 1/π of the irradiance in
 /// each direction. The ambient light is the radiance of the surroundings.
@@ -24,7 +27,7 @@ internal sealed class TracedLights
     /// <summary>Prepares the lights of a scene, or the default ones where it declares none.</summary>
     public TracedLights(LoadedScene scene)
     {
-        Emitters = LightBlock.LightsOf(scene);
+        Emitters = [.. LightBlock.LightsOf(scene).Where(static emitter => !emitter.HasSurface)];
         _axes = [.. Emitters.Select(static emitter => FacetAlbedo.AxesAround(-emitter.Axis))];
         _surroundings = new(scene.Scene);
     }

@@ -71,6 +71,7 @@ internal sealed record TracedScene
         _areaLights = _models.Any(static parts => parts.Any(static model => model.IsEmissive))
             ? new(() => TracedAreaLights.CreateOrNull(scene, _surfaces, Sampling == AreaLightSampling.Uniform))
             : null;
+        Lamps = TracedLamps.CreateOrNull(scene);
         Notices = notices.ToImmutable();
         _offset = SurfaceOffset * scene.Bounds.FiniteDiagonalOr(1);
     }
@@ -86,6 +87,9 @@ internal sealed record TracedScene
     /// </summary>
     public TracedAreaLights? AreaLights => _zoom is null && Sampling != AreaLightSampling.None ? _areaLights?.Value : null;
 
+    /// <summary>The lights that have a surface, in the space of the view; null where there are none.</summary>
+    public TracedLamps? Lamps { get; private init; }
+
     /// <summary>How the light of emissive faces is found; set before the first sample.</summary>
     public AreaLightSampling Sampling { get; set; }
 
@@ -96,10 +100,12 @@ internal sealed record TracedScene
     /// <summary>The same surfaces for a view; those of a deep zoom are around the camera, in the unit of the zoom.</summary>
     /// <param name="zoom">Deep zoom of the view; null for none.</param>
     /// <param name="section">Plane that cuts the scene open, in the frame of the rays; null for none.</param>
-    public TracedScene ForView(DeepZoom? zoom, SectionPlane? section) => zoom is null && section is null ? _whole : _whole with
+    /// <param name="eye">Origin of that frame in world space, where there is a deep zoom.</param>
+    public TracedScene ForView(DeepZoom? zoom, SectionPlane? section, Vector eye) => zoom is null && section is null ? _whole : _whole with
     {
         _zoom = zoom,
         _section = section,
+        Lamps = zoom is null ? _whole.Lamps : _whole.Lamps?.RelativeTo(eye, Math.Exp(zoom.LogUnit)),
         _caster = zoom is null ? _whole._caster : _zoomCasters.GetOrAdd(
             _objects[zoom.ObjectIndex].Model,
             static model => new DeepZoomRayCaster(((FractalModel)model).Fractal, [])).WithRoots(zoom.Roots),
@@ -115,8 +121,28 @@ internal sealed record TracedScene
             _zoomCasters.Where(known => models.Contains(known.Key)));
     }
 
-    /// <summary>Finds the nearest surface along a ray: a face, or the section through a solid.</summary>
+    /// <summary>Finds the nearest surface along a ray: a face, the section through a solid, or a lamp.</summary>
     public bool TryIntersect(
+        in Ray ray, RayFootprint footprint, double minDistance, double maxDistance, QueryContext context, out TracedSurface surface)
+    {
+        var isFound = TryIntersectObjects(in ray, footprint, minDistance, maxDistance, context, out surface);
+        if (Lamps is null)
+        {
+            return isFound;
+        }
+
+        var distance = isFound ? (surface.Position - ray.Origin).Length() : maxDistance;
+        if (Lamps.FindNearest(in ray, minDistance, ref distance) is { } lamp)
+        {
+            var (place, back) = (ray.Origin + (distance * ray.Direction), -ray.Direction);
+            surface = new(place, back, back, Vector.Zero, null, lamp.Emitter.SurfaceRadiance, 1) { Lamp = lamp };
+            return true;
+        }
+
+        return isFound;
+    }
+
+    private bool TryIntersectObjects(
         in Ray ray, RayFootprint footprint, double minDistance, double maxDistance, QueryContext context, out TracedSurface surface)
     {
         surface = default;
@@ -168,9 +194,19 @@ internal sealed record TracedScene
     /// <param name="footprint">How wide the ray is.</param>
     /// <param name="distance">Distance of the light.</param>
     /// <param name="context">Lends its memory.</param>
-    public double Transmittance(Ray ray, RayFootprint footprint, double distance, QueryContext context)
+    public double Transmittance(Ray ray, RayFootprint footprint, double distance, QueryContext context) =>
+        Transmittance(ray, footprint, distance, context, out _);
+
+    /// <summary>Likewise, and tells whether any light passes solid glass, which bends other rays.</summary>
+    public double Transmittance(Ray ray, RayFootprint footprint, double distance, QueryContext context, out bool passesGlass)
     {
         var minDistance = 0.0;
+        passesGlass = false;
+        if (Lamps?.FindNearest(in ray, minDistance, ref distance) is not null)
+        {
+            return 0;
+        }
+
         if (_section is { } section && !section.TryClip(in ray, ref minDistance, ref distance))
         {
             return 1;
@@ -183,9 +219,10 @@ internal sealed record TracedScene
 
         const int MaxLayers = 32;
         var transmittance = 1.0;
-        for (var layer = 0; transmittance > 0 && TryIntersect(in ray, footprint, 0, distance, context, out var surface); layer++)
+        for (var layer = 0; transmittance > 0 && TryIntersectObjects(in ray, footprint, 0, distance, context, out var surface); layer++)
         {
             transmittance *= layer < MaxLayers ? 1 - surface.Opacity : 0;
+            passesGlass |= surface.Glass is not null;
             var passed = (surface.Position - ray.Origin).Length() + OffsetAt(surface.Position);
             ray = ray with { Origin = ray.Origin + (passed * ray.Direction) };
             distance -= passed;

@@ -21,6 +21,9 @@ internal readonly record struct TracedSurface(
     /// <summary>Index of the face in its mesh; −1 for a point of a section.</summary>
     public int FaceIndex { get; init; } = -1;
 
+    /// <summary>The light whose surface it is; null for none.</summary>
+    public TracedLamp? Lamp { get; init; }
+
     /// <summary>The material within, where the surface is that of a solid which refracts light; null for none.</summary>
     public Glass? Glass { get; init; }
 

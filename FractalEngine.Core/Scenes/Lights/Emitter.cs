@@ -1,3 +1,4 @@
+using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Scenes.Lights;
@@ -46,6 +47,34 @@ public sealed class Emitter(
     /// <summary>Cosine of half of that angle.</summary>
     public double DiscCosine { get; } = Math.Cos(diameter * Math.PI / 360);
 
+    /// <summary>Radius of an evenly bright ball around the position, scene units; 0 for none.</summary>
+    public double Radius { get; init; }
+
+    /// <summary>From the middle of an evenly bright rectangle to that of a side, world space; zero without a rectangle.</summary>
+    public Vector HalfWidth { get; init; }
+
+    /// <summary>Likewise to a side next to that one, so that the cross product of both leads to the front.</summary>
+    public Vector HalfHeight { get; init; }
+
+    /// <summary>True where the light comes from a ball or a rectangle, and not from a point or from far away.</summary>
+    public bool HasSurface => Radius > 0 || HalfWidth != Vector.Zero;
+
+    /// <summary>
+    /// Radiance of that surface, linear light. From far away and straight before it, it brings what a point light brings: π times that of
+    /// the light is the irradiance at a tenth of the range, and a surface of the area A, seen as a disc or straight on, at the distance d
+    /// brings A/d² of its radiance.
+    /// </summary>
+    public Vector SurfaceRadiance =>
+        HasSurface ? 0.01 * Range * Range / (0.9999 * 0.9999) * Math.PI / SeenArea * Radiance : Vector.Zero;
+
+    /// <summary>The box around that surface, world space; empty without one.</summary>
+    public BoundingBox SurfaceBounds =>
+        HasSurface && Position is { } middle ? new(middle - Reach, middle + Reach) : BoundingBox.Empty;
+
+    private Vector Reach => HalfWidth.Absolute() + HalfHeight.Absolute() + (Radius * Vector.One);
+
+    private double SeenArea => Radius > 0 ? Math.PI * Radius * Radius : 4 * Vector.Cross(HalfWidth, HalfHeight).Length();
+
     /// <summary>True where the light fills a cone only.</summary>
     public bool HasCone => ConeAngle < AllAround;
 
@@ -58,7 +87,10 @@ public sealed class Emitter(
     /// <summary>Cosine of the angle with the axis up to which the light is not weakened.</summary>
     public double BrightCosine { get; } = Math.Cos(BrightPart * HalfAngle(coneAngle));
 
-    /// <summary>Computes the light that falls on a surface which faces it, without shadows. In lighting.glsl it is incomingLight.</summary>
+    /// <summary>
+    /// Computes the light that falls on a surface which faces it, without shadows. In lighting.glsl it is incomingLight. What shines from a
+    /// surface of its own counts as a point.
+    /// </summary>
     /// <param name="point">A point of the surface, world space.</param>
     /// <param name="toLight">Unit direction towards the light, or towards the middle of its disc.</param>
     /// <param name="distance">Distance of the light; infinite for parallel light.</param>
@@ -82,6 +114,14 @@ public sealed class Emitter(
         }
 
         return strength * Radiance;
+    }
+
+    /// <summary>The part of a light with a position that its range leaves, from 1 near it to 0 from the range on.</summary>
+    /// <param name="distance">Distance from the position, scene units.</param>
+    public double PartWithinRange(double distance)
+    {
+        var window = Math.Clamp(1 - Math.Pow(distance / Range, 4), 0, 1);
+        return window * window;
     }
 
     private static double HalfAngle(double angle) => 0.5 * angle * Math.PI / 180;

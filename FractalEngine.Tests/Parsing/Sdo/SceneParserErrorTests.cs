@@ -101,7 +101,7 @@ public class SceneParserErrorTests
     [InlineData("fog 0.1 forward -1", 17, "the anisotropy of fog must lie between -0.95 and 0.95")]
     [InlineData("fog 0.1 scatter", 16, "unexpected end of file, expected a number")]
     [InlineData("fog 0.1 glow 1", 9, "unexpected 'glow', expected a colour (r, g, b), 'scatter', 'forward' or the end of the line")]
-    [InlineData("light laser (1, 1, 1)", 7, "unexpected 'laser', expected 'ambient', 'directional', 'point' or 'spot'")]
+    [InlineData("light laser (1, 1, 1)", 7, "unexpected 'laser', expected 'ambient', 'directional', 'point', 'spot', 'ball' or 'quad'")]
     [InlineData("light directional (0, 0, 0) (1, 1, 1)", 19, "a direction must not be (0, 0, 0)")]
     [InlineData("light ambient (1, 1, 1) -1", 25, "the intensity of a light must not be negative")]
     [InlineData("light point (0, 0, 0) (1, 1, 1) 1", 34,
@@ -109,6 +109,18 @@ public class SceneParserErrorTests
     [InlineData("light spot (0, 0, 0) (0, 0, 1) 45", 34,
         "unexpected end of file: a spot light is its position, direction, angle, colour, intensity and range")]
     [InlineData("light point (0, 0, 0) (1, 1, 1) 1 0", 35, "the range of a light must be positive")]
+    [InlineData("light ball (0, 0, 0) 0 (1, 1, 1) 1 30", 22, "the radius of a light must be positive")]
+    [InlineData("light ball (0, 0, 0) 1 (1, 1, 1) -1 30", 34, "the intensity of a light must not be negative")]
+    [InlineData("light ball (0, 0, 0) 1e-5 (1, 1, 1) 1 30", 22, "the size of a light must lie between 1e-6 and 1e6 of its range")]
+    [InlineData("light ball (0, 0, 0) 1 (1, 1, 1) 1 1e-7", 22, "the size of a light must lie between 1e-6 and 1e6 of its range")]
+    [InlineData("light ball (0, 0, 0) 1 (1, 1, 1) 1", 35,
+        "unexpected end of file: a ball light is its position, radius, colour, intensity and range")]
+    [InlineData("light quad (0, 0, 0) (0, 0, 0) 2 1 (1, 1, 1) 1 30", 22, "a direction must not be (0, 0, 0)")]
+    [InlineData("light quad (0, 0, 0) (0, 0, 1) 0 1 (1, 1, 1) 1 30", 32, "the width of a light must be positive")]
+    [InlineData("light quad (0, 0, 0) (0, 0, 1) 2 -1 (1, 1, 1) 1 30", 34, "the height of a light must be positive")]
+    [InlineData("light quad (0, 0, 0) (0, 0, 1) 2 1 (1, 1, 1) 1 30 x", 51, "unexpected 'x', expected the end of the line or a number")]
+    [InlineData("light quad (0, 0, 0) (0, 0, 1) 2", 33,
+        "unexpected end of file: a quad light is its position, direction, width, height, colour, intensity and range")]
     [InlineData("light spot (0, 0, 0) (0, 0, 1) 180 (1, 1, 1) 1 1", 32, "the angle of the cone must lie between 0 and 180 degrees")]
     [InlineData("o \"a.fdo\" # gradient", 21, "unexpected end of file, expected 'level' or 'path'")]
     [InlineData("o \"a.fdo\" # gradient none (1, 1, 1)", 22, "unexpected 'none', expected 'level' or 'path'")]

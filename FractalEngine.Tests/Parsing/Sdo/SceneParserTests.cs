@@ -258,6 +258,9 @@ public class SceneParserTests
             new DirectionalLight(new(1, -2, 1), new(1, 0.5, 0), 1),
             new PointLight(new(1, 2, 3), new(0, 0, 1), 2, 30),
             new SpotLight(new(1, 2, 3), new(0, -1, 0), 40, new(0, 1, 0), 2, 30),
+            new BallLight(new(1, 2, 3), 0.5, new(0, 1, 0), 2, 30),
+            new QuadLight(new(1, 2, 3), new(0, -1, 0), 2, 1, new(0, 1, 0), 2, 30),
+            new QuadLight(new(1, 2, 3), new(0, -1, 0), 2, 1, new(0, 1, 0), 2, 30, -45),
         ],
         Parse("""
             light ambient (1, 1, 1) 0.2
@@ -266,6 +269,9 @@ public class SceneParserTests
             light directional (1, -2, 1) (1, 0.5, 0)
             light point (1, 2, 3) (0, 0, 1) 2 30
             light spot (1, 2, 3) (0, -1, 0) 40 (0, 1, 0) 2, 30
+            light ball (1, 2, 3) 0.5 (0, 1, 0) 2, 30
+            light quad (1, 2, 3) (0, -1, 0) 2 1 (0, 1, 0) 2 30
+            light quad (1, 2, 3) (0, -1, 0), 2, 1, (0, 1, 0), 2, 30, -45
             """).Lights.ToArray());
 
     [Fact]

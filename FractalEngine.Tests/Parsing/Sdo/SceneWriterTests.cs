@@ -73,6 +73,8 @@ public class SceneWriterTests
         new SunLight(v.Item1.Item1, c.Item1, c.Item2, 89 * c.Item1.Red),
         new PointLight(v.Item1.Item2, c.Item1, c.Item2, v.Item2),
         new SpotLight(v.Item1.Item2, v.Item1.Item1, 179.99999999999997, c.Item1, c.Item2, v.Item2),
+        new BallLight(v.Item1.Item2, v.Item2, c.Item1, c.Item2, v.Item2),
+        new QuadLight(v.Item1.Item2, v.Item1.Item1, v.Item2, v.Item2, c.Item1, c.Item2, v.Item2, c.Item1.Red),
     ]).SelectMany(kinds => Gen.Elements(kinds));
 
     private static readonly Gen<Scene> Scenes =

@@ -46,7 +46,8 @@ public class PathTracerTests
         dive.GoToDepth(2, 0.2);
         var unit = Math.Exp(dive.Address.LogUnit);
         var light = new PointLight(new(-3, 4, 2), Colour.White, 1, 30);
-        var scene = LoadedScene.Of(Scene([WhiteSky, light], new SceneObject(fractal) { Colour = Colour.White })
+        var lamp = new BallLight(new(3, 4, -2), 1, Colour.White, 0.3, 30);
+        var scene = LoadedScene.Of(Scene([WhiteSky, light, lamp], new SceneObject(fractal) { Colour = Colour.White })
             // As dense as it takes to hide a part of what is near.
             with
         { Fog = hasFog ? new(1 / unit, new(0, 0, 1)) : null });

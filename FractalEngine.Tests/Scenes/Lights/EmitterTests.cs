@@ -26,12 +26,14 @@ public sealed class EmitterTests
     // A row for each light, and a pixel for each number, whose four bytes are those of the float.
     private const string Fragment = """
         #version 330 core
+        #define SURFACE_LIGHTS
         #include "lighting.glsl"
+        uniform vec3 normal;
         out vec4 pixel;
         void main()
         {
             vec3 toLight;
-            vec3 light = incomingLight(lights[int(gl_FragCoord.y)], vec3(0.0), toLight);
+            vec3 light = incomingLight(lights[int(gl_FragCoord.y)], vec3(0.0), normal, toLight);
             float numbers[6] = float[](light.r, light.g, light.b, toLight.x, toLight.y, toLight.z);
             uint bits = floatBitsToUint(numbers[int(gl_FragCoord.x)]);
             pixel = vec4(uvec4(bits, bits >> 8, bits >> 16, bits >> 24) & 255u) / 255.0;
@@ -40,6 +42,46 @@ public sealed class EmitterTests
 
     [SkippableFact]
     public void Incoming_OfRandomLights_IsThatOfTheShaders()
+    {
+        var (lit, dark, weakened) = (0, 0, 0);
+        AskShaders(100, RandomLight, (light, camera, _, incoming, towards) =>
+        {
+            var emitter = light.ToEmitter()!;
+            var expected = emitter.Incoming(camera, out var toLight, out var distance);
+            // Rounding of floats, times the slopes of the falloff at its end and of the edge of a narrow cone.
+            var tolerance = (2e-5 * expected.MaxAbsComponent()) + (3e-4 * Bright(emitter, distance));
+            Assert.True((incoming - expected).MaxAbsComponent() <= tolerance, $"{light} from {camera}: {incoming} instead of {expected}");
+            Assert.True((towards - toLight).MaxAbsComponent() < 2e-6);
+            dark += expected == Vector.Zero ? 1 : 0;
+            lit += expected == Vector.Zero ? 0 : 1;
+            weakened += emitter.HasCone && -Vector.Dot(toLight, emitter.Axis) is var cosine
+                && cosine > emitter.EdgeCosine && cosine < emitter.BrightCosine ? 1 : 0;
+        });
+        Assert.True(lit > 200 && dark > 20 && weakened > 5, $"{lit} lit, {dark} dark, {weakened} at an edge");
+    }
+
+    [SkippableFact]
+    public void Incoming_OfRandomSurfaces_HasTheCosineOfTheIntegralOverThem()
+    {
+        var (partly, tiny) = (0, 0);
+        AskShaders(8, RandomSurface, (light, camera, normal, incoming, towards) =>
+        {
+            var expected = LampIntegral.Irradiance((PointLight)light, camera, normal, 120);
+            var towardsMiddle = (((PointLight)light).Position - camera).UnitVector();
+            var straight = LampIntegral.Irradiance((PointLight)light, camera, towardsMiddle, 120);
+            var found = incoming.Y * Math.Max(0, Vector.Dot(normal, towards));
+            Assert.True(
+                Math.Abs(found - expected) <= (2e-3 * expected) + (1e-3 * straight),
+                $"{light} from {camera}: {found} instead of {expected}");
+            partly += expected > 0 && expected < 0.1 * straight ? 1 : 0;
+            tiny += straight < 1e-2 * LampIntegral.RadianceOf((PointLight)light) ? 1 : 0;
+        });
+        Assert.True(partly > 5 && tiny > 20, $"{partly} partly seen, {tiny} tiny");
+    }
+
+    /// <summary>Has the shaders compute what lights bring to a camera that is a face with a normal, 16 at a time.</summary>
+    private static void AskShaders(
+        int cases, Func<int, Vector, Random, Light> create, Action<Light, Vector, Vector, Vector, Vector> check)
     {
         using var context = new SharedContext();
         using var program = new ShaderProgram(
@@ -50,16 +92,17 @@ public sealed class EmitterTests
             context.Resources, "numbers", NumberCount, LightBlock.MaxLights, samples: 0);
         using var vertices = new VertexArray(context.Resources, "none");
         program.BindBlock("LightBlock", GlState.LightBinding);
-        var (lit, dark, weakened) = (0, 0, 0);
-        Seeded.Run(100, random =>
+        Seeded.Run(cases, random =>
         {
             var camera = random.Vector(100);
-            Light[] lights = [.. Enumerable.Range(0, LightBlock.MaxLights).Select(i => RandomLight(i, camera, random))];
+            var normal = random.Direction();
+            Light[] lights = [.. Enumerable.Range(0, LightBlock.MaxLights).Select(i => create(i, camera, random))];
             var scene = LoadedScene.Of(new Scene { Lights = [.. lights] });
             using var block = new LightBlock(context.Resources, scene);
             block.Bind(GlState.LightBinding, camera, 1, Colour.Black);
             target.Bind();
             program.Use();
+            program.Set("normal", normal);
             vertices.Bind();
             DrawTriangle();
             var bytes = new byte[NumberCount * LightBlock.MaxLights * 4];
@@ -68,21 +111,10 @@ public sealed class EmitterTests
             {
                 var numbers = Enumerable.Range(0, NumberCount)
                     .Select(number => (double)BitConverter.ToSingle(bytes, 4 * ((i * NumberCount) + number))).ToArray();
-                var emitter = lights[i].ToEmitter()!;
-                var expected = emitter.Incoming(camera, out var toLight, out var distance);
-                // Rounding of floats, times the slopes of the falloff at its end and of the edge of a narrow cone.
-                var tolerance = (2e-5 * expected.MaxAbsComponent()) + (3e-4 * Bright(emitter, distance));
-                Assert.True(
-                    (new Vector(numbers[0], numbers[1], numbers[2]) - expected).MaxAbsComponent() <= tolerance,
-                    $"{lights[i]} from {camera}: {string.Join(' ', numbers)} instead of {expected}");
-                Assert.True((new Vector(numbers[3], numbers[4], numbers[5]) - toLight).MaxAbsComponent() < 2e-6);
-                dark += expected == Vector.Zero ? 1 : 0;
-                lit += expected == Vector.Zero ? 0 : 1;
-                weakened += emitter.HasCone && -Vector.Dot(toLight, emitter.Axis) is var cosine
-                    && cosine > emitter.EdgeCosine && cosine < emitter.BrightCosine ? 1 : 0;
+                check(
+                    lights[i], camera, normal, new(numbers[0], numbers[1], numbers[2]), new(numbers[3], numbers[4], numbers[5]));
             }
         });
-        Assert.True(lit > 200 && dark > 20 && weakened > 5, $"{lit} lit, {dark} dark, {weakened} at an edge");
     }
 
     [Fact]
@@ -132,6 +164,19 @@ public sealed class EmitterTests
             2 => new PointLight(position, colour, random.Between(0, 2), range),
             _ => new SpotLight(position, towardsCamera, random.Between(20, 170), colour, random.Between(0, 2), range),
         };
+    }
+
+    /// <summary>A ball or a quad at any distance, from within twice its size to a thousand times that.</summary>
+    private static PointLight RandomSurface(int index, Vector camera, Random random)
+    {
+        var towards = random.Direction();
+        var size = Math.Pow(10, random.Between(-1, 1));
+        var position = camera + (size * Math.Pow(10, random.Between(0.05, 3)) * towards);
+        return index % 2 == 0
+            ? new BallLight(position, size, Colour.White, 1, 1e7)
+            : new QuadLight(
+                position, random.Direction() - towards, 2 * size, 2 * size * random.Between(0.1, 1), Colour.White, 1, 1e7,
+                random.Between(0, 180));
     }
 
     /// <summary>Draws a triangle by the OpenTK that Render has: the tests don't reference it.</summary>
