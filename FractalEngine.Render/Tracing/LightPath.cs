@@ -1,6 +1,5 @@
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
-using FractalEngine.Core.Rays;
 
 namespace FractalEngine.Render.Tracing;
 

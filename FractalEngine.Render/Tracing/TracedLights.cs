@@ -29,13 +29,19 @@ internal sealed class TracedLights
         _emitters = LightBlock.LightsOf(scene);
         _axes = [.. _emitters.Select(static emitter => FacetAlbedo.AxesAround(-emitter.Axis))];
         _surroundings = new(scene.Scene);
+        Sky = TracedSky.CreateOrNull(scene.Scene);
     }
 
     /// <summary>Number of lights that are sampled.</summary>
     public int Count => _emitters.Length;
 
+    /// <summary>The image of the sky, which is sampled; null for none.</summary>
+    public TracedSky? Sky { get; }
+
     /// <summary>The radiance of the surroundings in a direction.</summary>
-    public Vector Surroundings(Vector unitDirection) => _surroundings.At(unitDirection);
+    /// <param name="unitDirection">World space.</param>
+    /// <param name="skyPart">How much of the sky counts.</param>
+    public Vector Surroundings(Vector unitDirection, double skyPart) => _surroundings.At(unitDirection, skyPart: skyPart);
 
     /// <summary>Computes the irradiance, divided by π, that a light brings to a surface which faces it, without shadows.</summary>
     /// <param name="index">Index of the light.</param>

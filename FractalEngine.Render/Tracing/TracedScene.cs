@@ -168,7 +168,9 @@ internal sealed record TracedScene
     /// <param name="footprint">How wide the ray is.</param>
     /// <param name="distance">Distance of the light.</param>
     /// <param name="context">Lends its memory.</param>
-    public double Transmittance(Ray ray, RayFootprint footprint, double distance, QueryContext context)
+    /// <param name="isStoppedByGlass">Whether glass hides the light, however clear it is.</param>
+    public double Transmittance(
+        Ray ray, RayFootprint footprint, double distance, QueryContext context, bool isStoppedByGlass = false)
     {
         var minDistance = 0.0;
         if (_section is { } section && !section.TryClip(in ray, ref minDistance, ref distance))
@@ -185,7 +187,7 @@ internal sealed record TracedScene
         var transmittance = 1.0;
         for (var layer = 0; transmittance > 0 && TryIntersect(in ray, footprint, 0, distance, context, out var surface); layer++)
         {
-            transmittance *= layer < MaxLayers ? 1 - surface.Opacity : 0;
+            transmittance *= layer < MaxLayers && !(isStoppedByGlass && surface.Glass is not null) ? 1 - surface.Opacity : 0;
             var passed = (surface.Position - ray.Origin).Length() + OffsetAt(surface.Position);
             ray = ray with { Origin = ray.Origin + (passed * ray.Direction) };
             distance -= passed;
