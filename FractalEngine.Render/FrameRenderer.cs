@@ -65,8 +65,8 @@ public sealed class FrameRenderer : IDisposable
 
     /// <summary>Draws the last frame again, moved by a part of a pixel, and shows the mean of all since <see cref="Draw"/>.</summary>
     /// <remarks>
-    /// Edges become a little softer than those of traced images: those of a pixel, behind the same tent. Instances are culled as for the
-    /// first frame. Takes 8 bytes a pixel.
+    /// Edges become a little softer than those of traced images: those of a pixel, behind the same tent. Instances are culled again, and
+    /// depth maps kept. Takes 8 bytes a pixel.
     /// </remarks>
     /// <param name="scene">The scene of the last frame, unchanged since.</param>
     /// <param name="view">The view of the last frame.</param>
@@ -87,8 +87,10 @@ public sealed class FrameRenderer : IDisposable
 
         // Points of Halton's sequence: each next one falls between those before.
         var offset = (TracedCamera.Tent(RadicalInverse(GatheredCount, 2)), TracedCamera.Tent(RadicalInverse(GatheredCount, 3)));
-        var moved = view.Projection == Projection.Perspective ? view : view.MovedBy(offset, width, height);
-        DrawFrame(scene, moved, width, height, settings, null, offset);
+        var isPerspective = view.Projection == Projection.Perspective;
+        DrawFrame(
+            scene, isPerspective ? view : view.MovedBy(offset, width, height), width, height, settings, null,
+            isPerspective ? offset : default);
         GatheredCount++;
         AddToMean();
     }
@@ -142,7 +144,7 @@ public sealed class FrameRenderer : IDisposable
         }
 
         _linesPass.DrawSegments(in frame, scene.Lines);
-
+        scene.DrawAir(in frame, target, settings);
         GL.Disable(EnableCap.DepthTest);
     }
 

@@ -228,6 +228,10 @@ public sealed class SceneRenderer : IDisposable
         _frameDrawCalls = (int)(Context.Resources.State.DrawCallCount - drawCallsBefore);
     }
 
+    /// <summary>Adds the light that the air scatters, after all else.</summary>
+    internal void DrawAir(in FrameView frame, Gl.Framebuffer target, RenderSettings settings) =>
+        _objectsPass.DrawAir(in frame, target, settings);
+
     private void CullFrame(in FrameView frame, RenderSettings settings)
     {
         if (_effectiveCulling.Of(settings) is { } culling)

@@ -25,7 +25,8 @@ internal static class LightCommand
           Likewise the noise of very many lamps, sampled by importance and uniformly, at about equal time; writes lamps.csv.
           Likewise what the denoiser gains, to a traced image of many samples; writes denoise.csv, for an hour.
           Likewise what flickers when the eye moves by an eighth of a pixel; writes shimmer.csv.
-          The names 'occlusion', 'furnace', 'lamps', 'shimmer' and 'denoise' measure these alone.
+          Likewise the light that haze scatters, drawn and traced, and what it costs; writes fog.csv.
+          The names 'occlusion', 'furnace', 'lamps', 'shimmer', 'fog' and 'denoise' measure these alone.
           --no-truth: without traced images, and the decibels to them.
           --images: also the images of both.
         """;
@@ -54,7 +55,7 @@ internal static class LightCommand
             .Flag("--no-truth", () => hasTruth = false)
             .Option("--output", value => output = value)
             .Option("--images", value => images = Directory.CreateDirectory(value).FullName)
-            .Names(static name => name is "occlusion" or "furnace" or "lamps" or "shimmer" or "denoise"
+            .Names(static name => name is "occlusion" or "furnace" or "lamps" or "shimmer" or "fog" or "denoise"
                 || File.Exists(PathOf(name)), scenes);
         if (!parser.TryParse(args))
         {
@@ -71,6 +72,8 @@ internal static class LightCommand
             ["lamps"] = () => Write(
                 "lamps.csv", LampTable.Columns, LampTable.Swarms.Select(swarm => LampTable.Measure(swarm, isQuick, images))),
             ["shimmer"] = () => Write("shimmer.csv", ShimmerTable.Columns, ShimmerTable.Scenes.SelectMany(ShimmerTable.Measure)),
+            ["fog"] = () => Write("fog.csv", FogTable.Columns, (isQuick ? FogTable.Scenes[..1] : FogTable.Scenes)
+                .Select(name => FogTable.Measure(name, isQuick, images))),
             ["denoise"] = () => Write("denoise.csv", DenoiseTable.Columns, MeasureDenoising(isQuick, images)),
         };
         var named = scenes.Where(tables.ContainsKey).ToArray();

@@ -30,7 +30,7 @@ public enum SceneDeclarationKind
     /// <summary>Curve from light to the screen: <c>tone none</c> or <c>tone filmic</c>.</summary>
     Tone,
 
-    /// <summary>Haze before distant surfaces: <c>fog density [colour]</c>.</summary>
+    /// <summary>Haze before distant surfaces: <c>fog density [colour] [scatter share] [forward cosine]</c>.</summary>
     Fog,
 
     /// <summary>Declaration of one light: <c>light kind …</c> or <c>sun …</c>.</summary>

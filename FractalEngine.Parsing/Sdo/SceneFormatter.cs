@@ -3,6 +3,7 @@ using FractalEngine.Core.Colliders;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Scenes.Cameras;
+using FractalEngine.Core.Scenes.Lights;
 
 namespace FractalEngine.Parsing.Sdo;
 
@@ -38,7 +39,7 @@ internal static class SceneFormatter
         SceneDeclarationKind.Sky => scene.Sky is { } sky ? Format(sky.Declaration) : null,
         SceneDeclarationKind.Exposure => AreBitEqual(scene.Exposure, 1) ? null : $"exposure {FormatNumber(scene.Exposure)}",
         SceneDeclarationKind.Tone => scene.Tone == Tone.Filmic ? "tone filmic" : null,
-        SceneDeclarationKind.Fog => scene.Fog is { } fog ? Join("fog", FormatNumber(fog.Density), fog.Colour?.ToString()) : null,
+        SceneDeclarationKind.Fog => scene.Fog is { } fog ? Format(fog) : null,
         SceneDeclarationKind.Gravity => AreBitEqual(scene.Gravity, Scene.DefaultGravity) ? null : $"gravity {scene.Gravity}",
         SceneDeclarationKind.Player => scene.Player is { } player ? Format(player) : null,
         SceneDeclarationKind.Light => index < scene.Lights.Length ? Format(scene.Lights[index].Declaration) : null,
@@ -48,6 +49,11 @@ internal static class SceneFormatter
 
     private static string Format(IReadOnlyList<object> declaration) =>
         string.Join(' ', declaration.Select(static word => Convert.ToString(word, CultureInfo.InvariantCulture)));
+
+    private static string Format(Fog fog) => Join(
+        $"fog {FormatNumber(fog.Density)}", fog.Colour?.ToString(),
+        AreBitEqual(fog.Albedo, 0) ? null : $"scatter {FormatNumber(fog.Albedo)}",
+        AreBitEqual(fog.Anisotropy, 0) ? null : $"forward {FormatNumber(fog.Anisotropy)}");
 
     private static string Format(Player player) => Join(
         $"player {player.Position} {FormatNumber(player.Radius)} {FormatNumber(player.Height)}",

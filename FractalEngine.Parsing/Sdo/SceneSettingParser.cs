@@ -23,6 +23,7 @@ public abstract class SceneSettingParser : SceneValueParser
 
     private readonly Option<Player>[] _playerOptions;
     private readonly Option<ImageSky>[] _skyOptions;
+    private readonly Option<Fog>[] _fogOptions;
     private (Vector Target, Vector Up)? _cameraTarget;
 
     private protected SceneSettingParser(SourceText source)
@@ -41,6 +42,14 @@ public abstract class SceneSettingParser : SceneValueParser
             Option<ImageSky>.Of(
                 "scale", Number(static factor => factor is > 0 and <= MaxFactor, "the scale of a sky must be positive and at most 1e9"),
                 (sky, factor) => sky with { Scale = factor }),
+        ];
+        var albedo = Number(static share => share is >= 0 and <= 1, "the share that fog scatters must lie between 0 and 1");
+        var anisotropy = Number(
+            static cosine => Math.Abs(cosine) <= Fog.MaxAnisotropy, "the anisotropy of fog must lie between -0.95 and 0.95");
+        _fogOptions =
+        [
+            Option<Fog>.Of("scatter", albedo, static (fog, share) => fog with { Albedo = share }),
+            Option<Fog>.Of("forward", anisotropy, static (fog, cosine) => fog with { Anisotropy = cosine }),
         ];
     }
 
@@ -184,8 +193,15 @@ public abstract class SceneSettingParser : SceneValueParser
 
     private protected bool ParseFog(Cursor cursor, out Cursor rest)
     {
-        return ParseNonNegative(cursor, "the density of fog", out var density, out rest)
-            && ParseOptionalColour(rest, out var colour, out rest) && UpdateScene(Scene with { Fog = new(density, colour) });
+        if (!ParseNonNegative(cursor, "the density of fog", out var density, out rest))
+        {
+            return false;
+        }
+
+        ParseOptionalSeparator(rest, out var colourStart);
+        var hasColour = ParseColour(colourStart, out var colour, out var colourEnd);
+        var fog = new Fog(density, hasColour ? colour : null);
+        return UpdateScene(Scene with { Fog = ParseOptions(hasColour ? colourEnd : rest, fog, _fogOptions, out rest) });
     }
 
     private protected bool ParseGravity(Cursor cursor, out Cursor rest) =>

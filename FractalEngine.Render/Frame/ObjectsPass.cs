@@ -40,6 +40,9 @@ internal sealed class ObjectsPass(
     private readonly SkyPass? _skyPass =
         scene.Source.Scene is { Sky: not null, Background: null } ? new(context.Resources, scene.Source.Scene) : null;
 
+    private readonly AirPass? _airPass =
+        scene.Source.Scene.Fog is { IsLit: true } ? new(context, LightBlock.LightsOf(scene.Source)) : null;
+
     private DrawableScene _scene = scene;
     private DepthOrder _transparentOrder = DepthOrder.Of(scene, static model => model.HasTransparentBatches);
     private SphereBatch? _sphereBatch;
@@ -111,8 +114,18 @@ internal sealed class ObjectsPass(
         _meshPass.End();
     }
 
+    /// <summary>Adds the light that the air scatters to a frame that is drawn otherwise.</summary>
+    public void DrawAir(in FrameView frame, Framebuffer target, RenderSettings settings)
+    {
+        if (!settings.Wireframe)
+        {
+            _airPass?.Draw(in frame, target, FrameFeatures(settings), _shadowPass.DistantLights);
+        }
+    }
+
     /// <inheritdoc/>
-    public void Dispose() => GlObject.DisposeAll(_objectBlocks, _skyPass, _shadowPass, _sphereBatch, _glossMaps, _lightBlock, _meshPass);
+    public void Dispose() => GlObject.DisposeAll(
+        _objectBlocks, _skyPass, _airPass, _shadowPass, _sphereBatch, _glossMaps, _lightBlock, _meshPass);
 
     private MeshFeatures FrameFeatures(RenderSettings settings) =>
         (settings.Shading == Shading.PerPixel ? MeshFeatures.PerPixel : 0) | (_lightBlock.HasAtmosphere ? MeshFeatures.Atmosphere : 0)

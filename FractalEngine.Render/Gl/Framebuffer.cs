@@ -23,6 +23,7 @@ internal sealed class Framebuffer : GlObject
     public Framebuffer(GlResources resources, string label, int width, int height, int samples)
         : this(resources, label, width, height)
     {
+        Samples = samples;
         _colour = CreateRenderbuffer(RenderbufferStorage.Srgb8Alpha8, samples);
         _depth = CreateRenderbuffer(RenderbufferStorage.DepthComponent32f, samples);
         Attach(FramebufferAttachment.ColorAttachment0, _colour);
@@ -59,6 +60,9 @@ internal sealed class Framebuffer : GlObject
     /// <summary>Height of the framebuffer in pixels.</summary>
     public int Height { get; }
 
+    /// <summary>Number of samples a pixel; 0 without multisampling.</summary>
+    public int Samples { get; }
+
     /// <summary>The colours, of a framebuffer that shaders can read.</summary>
     public FrameTexture Texture => _texture ?? throw new InvalidOperationException($"{this} can't be read by shaders");
 
@@ -76,6 +80,10 @@ internal sealed class Framebuffer : GlObject
         GL.Enable(EnableCap.FramebufferSrgb);
         BlitTo(target._name, target.Width, target.Height);
     }
+
+    /// <summary>Copies the depths of all samples.</summary>
+    /// <param name="target">As large, with as many samples of 32 bits.</param>
+    public void CopyDepthsTo(DepthAtlas target) => BlitTo(target.Framebuffer, Width, Height, ClearBufferMask.DepthBufferBit);
 
     /// <summary>Copies the pixels unchanged to the window's own framebuffer.</summary>
     /// <param name="width">Width of the window in pixels.</param>
@@ -136,7 +144,7 @@ internal sealed class Framebuffer : GlObject
     }
 
     /// <summary>Copies the common part of two framebuffers, aligned at the upper left corner.</summary>
-    private void BlitTo(int target, int width, int height)
+    private void BlitTo(int target, int width, int height, ClearBufferMask content = ClearBufferMask.ColorBufferBit)
     {
         GL.BindFramebuffer(FramebufferTarget.ReadFramebuffer, _name);
         GL.BindFramebuffer(FramebufferTarget.DrawFramebuffer, target);
@@ -145,6 +153,6 @@ internal sealed class Framebuffer : GlObject
         GL.BlitFramebuffer(
             0, Height - commonHeight, commonWidth, Height,
             0, height - commonHeight, commonWidth, height,
-            ClearBufferMask.ColorBufferBit, BlitFramebufferFilter.Nearest);
+            content, BlitFramebufferFilter.Nearest);
     }
 }

@@ -44,7 +44,8 @@ internal sealed class LightBlock : IDisposable
         _fogDensity = scene.Scene.Fog?.Density ?? 0;
         var display = DisplayTransform.Of(scene.Scene);
         WriteAmbient(SceneAmbient.Of(scene.Scene));
-        WriteVector(new(display.Exposure, display.Tone == Tone.Filmic ? 1 : 0, _fogDensity), 0, _data.AsSpan(16));
+        WriteVector(
+            new(display.Exposure, display.Tone == Tone.Filmic ? 1 : 0, _fogDensity), _scene.Fog?.Albedo ?? 0, _data.AsSpan(16));
         HasAtmosphere = !display.IsIdentity || _fogDensity > 0;
         MemoryMarshal.Cast<float, int>(_data.AsSpan(8))[0] = _lights.Length;
     }
@@ -137,7 +138,7 @@ internal sealed class LightBlock : IDisposable
             }
 
             _data[18] = (float)(_fogDensity / unitsPerSceneUnit);
-            WriteVector(FogColour(_scene, background), 0, _data.AsSpan(20));
+            WriteVector(FogColour(_scene, background), _scene.Fog?.Anisotropy ?? 0, _data.AsSpan(20));
             _buffer.Upload<float>(_data, BufferUsageHint.DynamicDraw);
             _lastKey = key;
         }

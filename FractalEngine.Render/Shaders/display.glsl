@@ -14,3 +14,11 @@ vec3 toScreen(vec3 light)
     vec3 filmic = clamp(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0);
     return display.y > 0.5 ? filmic : x;
 }
+
+// The light of the scene that is shown as given light of the screen, from 0 to 1.
+vec3 toScene(vec3 shown)
+{
+    vec3 a = 2.51 - 2.43 * shown;
+    vec3 b = 0.59 * shown - 0.03;
+    return (display.y > 0.5 ? (b + sqrt(b * b + 0.56 * a * shown)) / (2.0 * a) : shown) / display.x;
+}

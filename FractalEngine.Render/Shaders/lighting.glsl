@@ -15,8 +15,8 @@ layout(std140) uniform LightBlock
     vec4 groundColour;   // ambient light from below
     ivec4 lightCount;
     vec4 skyCurvature;   // ambient light in proportion to the square of the normal's height
-    vec4 display;        // exposure; 1 for the filmic tone; density of the haze per unit
-    vec4 fogColour;      // linear light
+    vec4 display;        // exposure; 1 for the filmic tone; density of the haze per unit; the share that it scatters
+    vec4 fogColour;      // linear light; w: anisotropy of what the haze scatters
     Light lights[maxLights];
     vec4 skySides[6];    // factors of products of the normal's components, where the sky differs from side to side
 };

@@ -52,6 +52,10 @@ float litPart(vec3 texel, vec2 slope)
         texelFetch(shadowMap, first + ivec2(0, 1), 0).r, texelFetch(shadowMap, first + ivec2(1, 1), 0).r);
 #endif
     float depth = texel.z - dot(slope, part);
+#ifdef AIR
+    // Behind everything there is light where nothing is stored.
+    depth = max(depth, 0.0);
+#endif
     vec4 weights = vec4(1.0 - part.x, part.x, 1.0 - part.x, part.x) * vec4(vec2(1.0 - part.y), vec2(part.y));
     vec4 depths = vec4(depth, depth + slope.x, depth + slope.y, depth + slope.x + slope.y);
     return dot(mix(vec4(0.0), weights, greaterThanEqual(depths, stored)), vec4(1.0));

@@ -37,6 +37,7 @@ internal sealed class ShadowFit
     private readonly ConvexRegion _region = new();
     private readonly List<double> _weights = [];
     private bool _keepsIdleViews;
+    private bool _isAirLit;
 
     /// <summary>Views of the depth maps, those of one light after those of another.</summary>
     public List<ShadowView> Views { get; } = [];
@@ -59,11 +60,13 @@ internal sealed class ShadowFit
     /// <param name="casters">Bounds of what casts them.</param>
     /// <param name="fitsToView">Whether maps show only what the frame shows.</param>
     /// <param name="cullsLights">Whether maps that are not needed have no view; otherwise they have idle ones.</param>
+    /// <param name="isAirLit">Whether shadows show in the air too: maps of the whole scene then serve where others end.</param>
     public void Fit(
         ImmutableArray<Emitter> lights, in FrameView frame, Vector origin, double unitsPerSceneUnit, BoundingBox receivers,
-        BoundingBox casters, bool fitsToView, bool cullsLights = true)
+        BoundingBox casters, bool fitsToView, bool cullsLights = true, bool isAirLit = false)
     {
         _keepsIdleViews = !cullsLights;
+        _isAirLit = isAirLit;
         SkippedCount = 0;
         DistantLights = 0;
         Views.Clear();
@@ -81,7 +84,7 @@ internal sealed class ShadowFit
             if (Views.Count > MaxViews && _keepsIdleViews)
             {
                 // Idle views take the place of no others.
-                Fit(lights, in frame, origin, unitsPerSceneUnit, receivers, casters, fitsToView);
+                Fit(lights, in frame, origin, unitsPerSceneUnit, receivers, casters, fitsToView, isAirLit: isAirLit);
                 return;
             }
 
@@ -155,7 +158,7 @@ internal sealed class ShadowFit
             weight = 0;
         }
 
-        SetRegion(in frame, origin, frame.Near, frame.Far, receivers, fitsToView);
+        SetRegion(in frame, origin, frame.Near, frame.Far, receivers, fitsToView && !_isAirLit);
         var near = NearByRange * Math.Min(range, receivers.Diagonal);
         if (!light.NeedsCube)
         {
@@ -197,12 +200,26 @@ internal sealed class ShadowFit
     {
         var axes = AxesAlong(direction, Math.Abs(direction.Y) > 0.99 ? Vector.K : Vector.J);
         SetRegion(in frame, origin, frame.Near, frame.Far, receivers, fitsToView);
-        if (_region.Corners.Length == 0)
+        if (_region.Corners.Length > 0)
+        {
+            AddSlices(in axes, in frame, origin, receivers, casters, fitsToView, weight);
+        }
+        else if (!_isAirLit)
         {
             SkippedCount++;
-            return;
         }
 
+        if (_isAirLit && fitsToView)
+        {
+            _region.SetBox(receivers);
+            AddView(ParallelShadowView.Create(axes, _region.Corners, receivers, casters), weight);
+        }
+    }
+
+    /// <summary>Adds the views for slices of the region, the nearest first.</summary>
+    private void AddSlices(
+        in Matrix axes, in FrameView frame, Vector origin, BoundingBox receivers, BoundingBox casters, bool fitsToView, double weight)
+    {
         var (near, far) = DepthRange(in frame, origin);
         var ratio = far / Math.Max(near, MinSliceRatio * far);
         var sliceCount = !fitsToView || frame.View.Projection == Projection.Orthographic || ratio < TwoSlicesRatio ? 1

@@ -30,6 +30,7 @@ internal sealed class ShadowPass(
     private const double DeepZoomReach = 2500;
 
     private readonly ImmutableArray<Emitter> _lights = LightBlock.LightsOf(scene.Source);
+    private readonly bool _isAirLit = scene.Source.Scene.Fog is { IsLit: true };
     private readonly ShadowFit _fit = new();
     private readonly ShadowMaps _fittedMaps = new(context.Resources);
     private readonly ShadowMaps _wholeMaps = new(context.Resources);
@@ -123,8 +124,10 @@ internal sealed class ShadowPass(
         var reach = Math.Min(frame.Far, DeepZoomReach * frame.Near);
         var casters = _zoom is null ? bounds : new BoundingBox(-frame.Far * Vector.One, frame.Far * Vector.One);
         var fitsToView = settings.FitShadowsToView || _zoom is not null;
+        // Nothing of the air of a scene is seen within a deep zoom.
+        var isAirLit = _isAirLit && _zoom is null;
         var receivers = _zoom is null ? StandingBounds(bounds) : new(-reach * Vector.One, reach * Vector.One);
-        _fit.Fit(_lights, in frame, origin, unitsPerSceneUnit, receivers, casters, fitsToView, settings.LightCulling);
+        _fit.Fit(_lights, in frame, origin, unitsPerSceneUnit, receivers, casters, fitsToView, settings.LightCulling, isAirLit);
         DistantLights = _fit.DistantLights;
         SkippedMapCount = _fit.SkippedCount;
         foreach (var view in _fit.Views)
@@ -145,7 +148,8 @@ internal sealed class ShadowPass(
 
         _fitsToView = fitsToView;
         Selection.Update(
-            _casters.Scene, transforms.Bounds, spheres, bounds, in frame, _fit, fitsToView, settings.CasterCulling && _zoom is null);
+            _casters.Scene, transforms.Bounds, spheres, bounds, in frame, _fit, fitsToView,
+            settings.CasterCulling && _zoom is null && !isAirLit);
         SkippedCasterCount = Selection.SkippedCount;
         if (!Selection.HasCasters && spheres.Count == 0)
         {

@@ -28,6 +28,9 @@ internal sealed class LightTransport(
     /// <summary>Radiance of fog that nothing is seen through.</summary>
     public Vector FogColour { get; init; }
 
+    /// <summary>What scatters light before the first surface; null for nothing.</summary>
+    public TracedAir? Air { get; init; }
+
     /// <summary>Follows one path, and returns the radiance that comes along it.</summary>
     /// <param name="path">From the eye.</param>
     /// <param name="bounceLimit">Number of surfaces that it goes on from.</param>
@@ -47,7 +50,8 @@ internal sealed class LightTransport(
                 var skyPart = _sky is null || path.IsThroughGlass ? 1 : _sky.WeightOf(ray.Direction, path.ReflectionDensity);
                 path.Radiance += path.Throughput.Stretch(
                     path.Bounces == 0 ? background.At(ray.Direction) : lights.Surroundings(ray.Direction, skyPart));
-                first = path.IsFirst ? new(path.Radiance, Vector.Zero, Vector.Zero, 0) : first;
+                first = path.IsFirst ? new(path.Radiance, AlbedoOfAir(double.PositiveInfinity), Vector.Zero, 0) : first;
+                AddAir(ref path, double.PositiveInfinity, ref samples, context);
                 return path.Radiance;
             }
 
@@ -73,8 +77,12 @@ internal sealed class LightTransport(
             AddEmission(ref path, in surface, context);
             if (path.IsFirst)
             {
-                first = new(path.Radiance, path.Throughput.Stretch(surface.Albedo), surface.Normal, path.DistanceBefore + passed);
+                var distance = path.DistanceBefore + passed;
+                first = new(
+                    path.Radiance, AlbedoOfAir(distance) + path.Throughput.Stretch(surface.Albedo), surface.Normal, distance);
             }
+
+            AddAir(ref path, passed, ref samples, context);
 
             var width = path.WidthAt(passed);
             var origin = surface.Position + (scene.OffsetAt(surface.Position) * surface.FaceNormal);
@@ -115,6 +123,22 @@ internal sealed class LightTransport(
             var clear = Math.Exp(-FogDensity * (path.DistanceBefore + passed));
             path.Radiance = (1 - clear) * FogColour;
             path.Throughput *= clear;
+        }
+    }
+
+    /// <summary>The part of light that the air before the first surface returns.</summary>
+    private Vector AlbedoOfAir(double distance) => Air is null ? Vector.Zero : Air.AlbedoOf(distance) * Vector.One;
+
+    /// <summary>Adds the light that is scattered before the first surface, or before the background.</summary>
+    private void AddAir(ref LightPath path, double passed, ref SampleSequence samples, QueryContext context)
+    {
+        if (Air is not null && path.IsFirst)
+        {
+            // From the eye on, which layers that the path has passed are behind.
+            var (ray, footprint, before) = (path.Ray, path.Footprint, path.DistanceBefore);
+            path.Radiance += Air.Scattered(
+                ray with { Origin = ray.Origin - (before * ray.Direction) }, footprint with { Radius = footprint.RadiusAt(-before) },
+                before + passed, ref samples, context);
         }
     }
 

@@ -86,6 +86,7 @@ public sealed class PathTracer
         {
             FogDensity = unit * (declared.Fog?.Density ?? 0),
             FogColour = LightBlock.FogColour(declared, background),
+            Air = declared.Fog is { IsLit: true } fog ? new(fog, lights, _scene, eye, unit) : null,
         };
         _seed = seed;
         Width = width;

@@ -14,10 +14,8 @@ namespace FractalEngine.Render.Tracing;
 /// </remarks>
 internal sealed class TracedLights
 {
-    // How much wider rays towards a light become: what they meet may be far away.
-    private const double ShadowSpread = 1e-3;
-
-    private readonly ImmutableArray<Emitter> _emitters;
+    /// <summary>How much wider rays towards a light become: what they meet may be far away.</summary>
+    public const double ShadowSpread = 1e-3;
 
     // Around the direction towards each light that is parallel.
     private readonly Matrix[] _axes;
@@ -26,14 +24,14 @@ internal sealed class TracedLights
     /// <summary>Prepares the lights of a scene, or the default ones where it declares none.</summary>
     public TracedLights(LoadedScene scene)
     {
-        _emitters = LightBlock.LightsOf(scene);
-        _axes = [.. _emitters.Select(static emitter => FacetAlbedo.AxesAround(-emitter.Axis))];
+        Emitters = LightBlock.LightsOf(scene);
+        _axes = [.. Emitters.Select(static emitter => FacetAlbedo.AxesAround(-emitter.Axis))];
         _surroundings = new(scene.Scene);
         Sky = TracedSky.CreateOrNull(scene.Scene);
     }
 
-    /// <summary>Number of lights that are sampled.</summary>
-    public int Count => _emitters.Length;
+    /// <summary>Lights that are sampled.</summary>
+    public ImmutableArray<Emitter> Emitters { get; }
 
     /// <summary>The image of the sky, which is sampled; null for none.</summary>
     public TracedSky? Sky { get; }
@@ -51,7 +49,7 @@ internal sealed class TracedLights
     /// <param name="distance">Distance of the light; infinite for parallel light.</param>
     public Vector Incoming(int index, Vector position, ref SampleSequence samples, out Vector toLight, out double distance)
     {
-        var emitter = _emitters[index];
+        var emitter = Emitters[index];
         var incoming = emitter.Incoming(position, out toLight, out distance);
         if (emitter.Diameter > 0)
         {
@@ -76,7 +74,7 @@ internal sealed class TracedLights
         ref SampleSequence samples, QueryContext context)
     {
         var sum = Vector.Zero;
-        for (var i = 0; i < Count; i++)
+        for (var i = 0; i < Emitters.Length; i++)
         {
             var incoming = Incoming(i, position, ref samples, out var toLight, out var distance);
             var reflected = incoming.Stretch(Reflection.Evaluate(in surface, toEye, toLight));

@@ -31,7 +31,7 @@ internal readonly record struct FrameView(View View, int X, int Y, int Width, in
     /// <summary>Plane that cuts the scene open, in world axes about the camera; null for none.</summary>
     public SectionPlane? Section { get; } = View.RelativeSection;
 
-    /// <summary>How far the image is moved on the screen, in pixels to the right and upwards. Perspective views alone follow it.</summary>
+    /// <summary>How far the image of a perspective view is moved on the screen, in pixels to the right and upwards.</summary>
     public (double X, double Y) Offset { get; init; }
 
     /// <summary>
@@ -42,7 +42,7 @@ internal readonly record struct FrameView(View View, int X, int Y, int Width, in
         get
         {
             var axes = View.Camera.LocalAxesInverse;
-            if (Offset == default || View.Projection != Projection.Perspective)
+            if (Offset == default)
             {
                 return axes;
             }
@@ -58,5 +58,6 @@ internal readonly record struct FrameView(View View, int X, int Y, int Width, in
         Near, Far)
     {
         Section = Section,
+        Offset = Offset,
     };
 }

@@ -26,6 +26,7 @@ public class MeasuredTablesTests
         { "lamps.csv", LampTable.Columns },
         { "furnace.csv", FurnaceTable.Columns },
         { "shimmer.csv", ShimmerTable.Columns },
+        { "fog.csv", FogTable.Columns },
         { "physics.csv", PhysicsTable.Columns },
         { "physics-heaps.csv", HeapTable.Columns },
         { "physics-movers.csv", MoverTable.Columns },

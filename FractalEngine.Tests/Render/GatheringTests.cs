@@ -1,3 +1,6 @@
+using System.Collections.Immutable;
+using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Images;
 using FractalEngine.Core.Maths;
@@ -46,6 +49,23 @@ public sealed class GatheringTests
         var gathered = CountChanged(Draw(scene, view, 16), Draw(scene, turned, 16));
         Assert.InRange(plain, 100, Width * Height);
         Assert.InRange(gathered, 0, plain / 4);
+    }
+
+    [SkippableTheory]
+    [InlineData(Projection.Perspective)]
+    [InlineData(Projection.Orthographic)]
+    public void Gather_InstancesSmallerThanPixels_CoverAllThatTheyCoverTogether(Projection projection)
+    {
+        // Nine squares make one, at every level: where none of their samples were drawn, the background would show.
+        var parts = Enumerable.Range(0, 9).Select(static i => new Transformation(
+            new((i % 3) - 1, (i / 3) - 1, 0), Vector.Zero, new(1.0 / 3, 1.0 / 3, 1.0 / 3))).ToImmutableArray();
+        var fractal = new Fractal(
+            new FractalDescription([new Repetition([new TransformationSet(parts)], 6)], Composition.Affine), RenderScenes.Square(1.5));
+        var scene = RenderScenes.Scene(
+            new Scene { Background = Colour.Black, Lights = [RenderScenes.FullLight] },
+            (new FractalModel(fractal) { SourcePath = "squares.fdo" }, Transformation.Identity, Colour.White));
+        var view = new View(new Camera(new(0, 0, -0.9), Vector.Zero, 90), projection) { OrthographicHeight = 1.8 };
+        Assert.Equal(0, RenderScenes.CountDifferent(Draw(scene, view, 8), (255, 255, 255, 255)));
     }
 
     [SkippableFact]

@@ -70,10 +70,21 @@ internal sealed class SkyFields(WindowActions actions)
         ui.Row(1);
         if (ui.Slider("haze", ref density, 0, 3 / size, 0, isBounded: false) && density is >= 0 and < 1e6)
         {
-            actions.ChangeScene(present => present with { Fog = density > 0 ? new(density, present.Fog?.Colour) : null });
+            actions.ChangeScene(present => present with { Fog = density > 0 ? (present.Fog ?? new(0)) with { Density = density } : null });
         }
 
         ui.Tooltip("density of the haze: after d units, exp(-density * d) of the light is left");
+        if (scene.Fog is not { Albedo: var albedo })
+        {
+            return;
+        }
+
+        if (ui.Slider("lit haze", ref albedo, 0, 1, 0.05))
+        {
+            actions.ChangeScene(present => present with { Fog = present.Fog is { } fog ? fog with { Albedo = albedo } : null });
+        }
+
+        ui.Tooltip("share of the light of suns and lamps that the haze scatters: shafts of light");
     }
 
     private void BuildImage(UserInterface ui, ImageSky sky)

@@ -19,6 +19,9 @@ public readonly record struct CullingView(
     /// <summary>The plane beyond which nothing is visible, in world axes about the camera; null for none.</summary>
     public SectionPlane? Section { get; init; }
 
+    /// <summary>How far the image is moved on the screen, in pixels to the right and upwards.</summary>
+    public (double X, double Y) Offset { get; init; }
+
     /// <summary>Pixels per scene unit to the right (at depth 1 in perspective).</summary>
     public double PixelsPerUnitX => 0.5 * Width / (HalfHeight * Aspect);
 

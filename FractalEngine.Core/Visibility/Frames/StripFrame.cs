@@ -92,11 +92,11 @@ internal readonly struct StripFrame(
     /// <summary>Pixels per unit upwards (at depth 1 in perspective).</summary>
     public double ScaleY { get; } = SamplesPerAxis(settings) * view.PixelsPerUnitY;
 
-    /// <summary>Horizontal coordinate of the frame's centre.</summary>
-    public double CentreX { get; } = SamplesPerAxis(settings) * 0.5 * view.Width;
+    /// <summary>Horizontal coordinate of what lies straight ahead: the frame's centre, unless the image is moved.</summary>
+    public double CentreX { get; } = SamplesPerAxis(settings) * ((0.5 * view.Width) + view.Offset.X);
 
-    /// <summary>Vertical coordinate of the frame's centre.</summary>
-    public double CentreY { get; } = SamplesPerAxis(settings) * 0.5 * view.Height;
+    /// <summary>Vertical coordinate of what lies straight ahead.</summary>
+    public double CentreY { get; } = SamplesPerAxis(settings) * ((0.5 * view.Height) - view.Offset.Y);
 
     /// <summary>First column of the strip.</summary>
     public int Left { get; } = SamplesPerAxis(settings) * left;
@@ -223,7 +223,7 @@ internal readonly struct StripFrame(
         var left = (Left - CentreX) * inverseScaleX;
         var right = (Right - CentreX) * inverseScaleX;
         var top = CentreY * inverseScaleY;
-        var bottom = -CentreY * inverseScaleY;
+        var bottom = (CentreY - Height) * inverseScaleY;
         return IsBoxBeyondPlane(-1, left, centre[0], halfSize[0], centre[2], halfSize[2])
             || IsBoxBeyondPlane(1, -right, centre[0], halfSize[0], centre[2], halfSize[2])
             || IsBoxBeyondPlane(1, -top, centre[1], halfSize[1], centre[2], halfSize[2])

@@ -32,6 +32,15 @@ internal sealed class GlState
     /// <summary>Texture unit of the normals or heights of a surface.</summary>
     public const int DetailTextureUnit = 4;
 
+    /// <summary>Texture unit of a frame that something is added to.</summary>
+    public const int FrameTextureUnit = 5;
+
+    /// <summary>Texture unit of the depths of a frame.</summary>
+    public const int DepthTextureUnit = 6;
+
+    /// <summary>Texture unit of the light that the air scatters.</summary>
+    public const int AirTextureUnit = 7;
+
     // No GL object has this name, and no face this value, so that the next call always takes effect.
     private const int Unknown = -1;
 
@@ -76,10 +85,10 @@ internal sealed class GlState
     }
 
     /// <summary>Binds a two-dimensional texture to a texture unit other than the first, whatever is bound there.</summary>
-    public static void BindTexture(int unit, int name)
+    public static void BindTexture(int unit, int name, TextureTarget kind = TextureTarget.Texture2D)
     {
         GL.ActiveTexture(TextureUnit.Texture0 + unit);
-        GL.BindTexture(TextureTarget.Texture2D, name);
+        GL.BindTexture(kind, name);
         GL.ActiveTexture(TextureUnit.Texture0);
     }
 

@@ -190,6 +190,16 @@ public class SceneParserTests
     public void Fog_IsADensityAndPerhapsAColour(string line, bool hasColour) =>
         Assert.Equal(new Fog(0.25, hasColour ? new Colour(0.1, 0.2, 0.3) : null), Parse(line).Fog);
 
+    [Theory]
+    [InlineData("fog 0.25 scatter 0.8", 0.8, 0)]
+    [InlineData("fog 0.25, (0.1, 0.2, 0.3) forward -0.95 scatter 1", 1, -0.95)]
+    [InlineData("fog 0.25 scatter 0.5 forward 0.6", 0.5, 0.6)]
+    public void Fog_MayScatterLight(string line, double albedo, double anisotropy)
+    {
+        var colour = line.Contains('(', StringComparison.Ordinal) ? new Colour(0.1, 0.2, 0.3) : (Colour?)null;
+        Assert.Equal(new Fog(0.25, colour) { Albedo = albedo, Anisotropy = anisotropy }, Parse(line).Fog);
+    }
+
     [Fact]
     public void Gravity_IsAVectorOrNone()
     {

@@ -106,7 +106,10 @@ public class SceneWriterTests
                 : new ColourSky(colour, new(colour.Blue, colour.Red, colour.Green), (given & 8) == 0 ? null : colour),
             Exposure = (given & 2048) == 0 ? 1 : Math.Clamp(sizes, 1e-9, 1e9),
             Tone = (given & 4096) == 0 ? Tone.None : Tone.Filmic,
-            Fog = (given & 8192) == 0 ? null : new(going.Item1, (given & 16) == 0 ? null : colour),
+            Fog = (given & 8192) == 0 ? null : new(going.Item1, (given & 16) == 0 ? null : colour)
+            {
+                Albedo = (given & 32) == 0 ? 0 : colour.Red, Anisotropy = (given & 64) == 0 ? 0 : 0.95 * colour.Green,
+            },
             Aspect = (given & 3) == 0 ? null : 0.01 + colour.Red,
             Handedness = (given & 5) == 0 ? Handedness.Right : Handedness.Left,
         };

@@ -55,6 +55,7 @@ public sealed class SceneMergeTests : IDisposable
     [InlineData("exposure 2", true)]
     [InlineData("tone filmic", true)]
     [InlineData("fog 0.1", true)]
+    [InlineData("fog 0.1 scatter 0.8 forward 0.5", true)]
     [InlineData("gravity #", true)]
     [InlineData("player (0, 0, 0) 1 2", true)]
     [InlineData("o \"a.obj\" #", false)]
