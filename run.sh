@@ -17,7 +17,7 @@ app=("$root/FractalEngine.App/bin/ready/FractalEngine.App")
 # be seen by nobody, so the program is told to draw that into a file.
 if [ -z "${DISPLAY:-}" ] && command -v xvfb-run >/dev/null; then
     case "${1:-}" in
-        info | count | export | check | save | generate | query | simulate | limits | --help | -h | '-?' | --version) ;;
+        info | count | export | check | save | generate | sky | query | simulate | limits | --help | -h | '-?' | --version) ;;
         *) FRACTALENGINE_NO_WINDOW=1 exec xvfb-run -a -s '-screen 0 1280x720x24 -noreset' "${app[@]}" "$@" ;;
     esac
 fi

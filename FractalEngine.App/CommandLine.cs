@@ -38,7 +38,7 @@ internal static class CommandLine
     {
         ViewCommand.Create(), RenderCommand.Create(), AnimateCommand.Create(), InfoCommand.Create(), CountCommand.Create(),
         ExportCommand.Create(), ApproximateCommand.Create(), CheckCommand.Create(), SaveCommand.Create(), GenerateCommand.Create(),
-        QueryCommand.Create(), SimulateCommand.Create(), LimitsCommand.Create(), Limits,
+        SkyCommand.Create(), QueryCommand.Create(), SimulateCommand.Create(), LimitsCommand.Create(), Limits,
     };
 
     private static string[] WithDefaultCommand(RootCommand root, string[] args) => args switch

@@ -2,6 +2,7 @@ using System.Text;
 using FractalEngine.Core;
 using FractalEngine.Core.Files;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Scenes.Lights;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Parsing.Assets.References;
 using FractalEngine.Parsing.Sdo;
@@ -41,7 +42,13 @@ public static class SceneFile
         ArgumentNullException.ThrowIfNull(scene);
         using var companions = new NewFiles();
         var models = new SceneModelWriter(Path.GetFullPath(path), companions);
-        var named = scene with { Objects = [.. scene.Objects.Select(declared => declared with { File = models.FileOf(declared) })] };
+        var named = scene with
+        {
+            Objects = [.. scene.Objects.Select(declared => declared with { File = models.FileOf(declared) })],
+            Sky = scene.Sky is ImageSky { Image.SourcePath: { } image } sky
+                ? sky with { File = FileReference.Create(Path.GetFullPath(path), image) }
+                : scene.Sky,
+        };
         var text = WriteText(named);
         AtomicFile.Write(path, stream => stream.Write(text));
         companions.Keep();
@@ -49,10 +56,9 @@ public static class SceneFile
 
     private static byte[] WriteText(Scene scene)
     {
-        foreach (var declared in scene.Objects)
+        foreach (var name in SceneRelocation.FilesOf(scene).Concat(scene.Objects.Select(static declared => declared.Name ?? "")))
         {
-            FileReference.RequireQuotable(declared.File!);
-            FileReference.RequireQuotable(declared.Name ?? "");
+            FileReference.RequireQuotable(name);
         }
 
         var text = SceneWriter.Write(scene);

@@ -45,6 +45,7 @@ internal static class LimitsCommand
         ("--no-denoise (pixels)", TracedImage.MaxPixels, "pixels of a traced image with its noise: 1.75 GiB"),
         ("--seconds / --step", SimulateCommand.MaxSteps, "steps of a simulation: hours, and gigabytes of text"),
         ("--trail", ViewCommand.MaxTrailLength, "levels of the trail of the paper's zoom: each is drawn"),
+        ("--haze", SkyCommand.MaxHaze, "times the haze of a clear day: nothing more is seen"),
         ("--faces", MeshGenerators.MaxFaceCount, "faces of a generated mesh: memory"),
     ];
 

@@ -3,6 +3,7 @@ using System.Text;
 using FractalEngine.App.Options;
 using FractalEngine.App.Shell;
 using FractalEngine.App.Shell.Reports;
+using FractalEngine.Core.Scenes.Lights;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Parsing.Assets.References;
 using FractalEngine.Parsing.Editing;
@@ -48,7 +49,8 @@ internal static class SaveCommand
         var mark = file.ParsedScene?.Source.HasByteOrderMark == true ? "\uFEFF" : "";
         OutputFile.Write(output, stream => stream.Write(Encoding.UTF8.GetBytes(mark + SceneWriter.Write(relocated, file.ParsedScene))));
         var folder = AssetFolder.ForFile(Path.GetFullPath(output));
-        if (file.Scene.Models.Any(model => !folder.Contains(model.SourcePath!)))
+        var image = (file.Scene.Scene.Sky as ImageSky)?.Image?.SourcePath;
+        if (file.Scene.Models.Select(static model => model.SourcePath).Append(image).OfType<string>().Any(path => !folder.Contains(path)))
         {
             Console.Error.WriteLine($"warning: {output} refers to files outside its folder, so it opens only with --allow-outside");
         }

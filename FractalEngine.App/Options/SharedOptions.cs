@@ -180,9 +180,10 @@ internal sealed class SharedOptions
         "--time", "SECONDS", 0, MaxTime, "Simulate the physics for this time first (default: 0).");
 
     /// <summary>Creates the option for the size of an image or window in pixels.</summary>
-    public static Option<(int Width, int Height)?> ResolutionOption() => new("--resolution")
+    /// <param name="fallback">The size without the option, as the help text names it.</param>
+    public static Option<(int Width, int Height)?> ResolutionOption(string fallback = "1280x720") => new("--resolution")
     {
-        Description = $"Width and height in pixels (default: {DefaultResolution.Width}x{DefaultResolution.Height}).",
+        Description = $"Width and height in pixels (default: {fallback}).",
         HelpName = "WIDTHxHEIGHT",
         CustomParser = result =>
         {

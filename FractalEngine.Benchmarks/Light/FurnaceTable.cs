@@ -1,6 +1,7 @@
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Scenes.Lights;
 using FractalEngine.Core.Scenes.Cameras;
 using FractalEngine.Render;
 using FractalEngine.Render.Tracing;
@@ -61,7 +62,7 @@ internal static class FurnaceTable
             Materials = System.Collections.Immutable.ImmutableDictionary<string, Material>.Empty.Add("m", material),
         };
         var scene = new LoadedScene(
-            new Scene { Sky = new(Sky, Sky, Sky) }, [new PlacedModel(new SceneObject("ball", Transformation.Identity), model)]);
+            new Scene { Sky = new ColourSky(Sky, Sky, Sky) }, [new PlacedModel(new SceneObject("ball", Transformation.Identity), model)]);
         var view = new View(Camera.Default with { Position = new(0, 0, -4) }, Projection.Orthographic) { OrthographicHeight = 2 };
         var tracer = new PathTracer(scene, view, Size, Size);
         for (var i = 0; i < samples; i++)

@@ -3,6 +3,7 @@ using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Scenes.Cameras;
+using FractalEngine.Core.Scenes.Lights;
 using FractalEngine.Parsing.Assets.References;
 using FractalEngine.Parsing.Sdo;
 using FractalEngine.Parsing.Text;
@@ -129,28 +130,42 @@ public sealed class AssetLoader
         var objects = ImmutableArray.CreateBuilder<SceneObject>(parsed.Scene.Objects.Length);
         foreach (var (declared, offset) in parsed.Scene.Objects.Zip(parsed.FileNameOffsets))
         {
-            try
+            Attempt(() =>
             {
                 declared.AttachModel(_models.LoadReferenced(parsed.Source, offset, declared.File!));
                 objects.Add(declared);
-            }
-            catch (SourceException exception)
-            {
-                // Loading goes on, so that a check finds the faults of the other files too.
-                if (_knownErrors.Add(exception.Diagnostic))
-                {
-                    _errors.Add(exception.Diagnostic);
-                }
-            }
+            });
         }
 
-        var scene = LoadedScene.Of(parsed.Scene with { Objects = objects.DrainToImmutable() });
+        var sky = parsed.Scene.Sky;
+        if (sky is ImageSky declaredSky)
+        {
+            Attempt(() => sky = declaredSky with { Image = _models.LoadSkyImage(parsed.Source, parsed.SkyNameOffset, declaredSky.File) });
+        }
+
+        var scene = LoadedScene.Of(parsed.Scene with { Objects = objects.DrainToImmutable(), Sky = sky });
         if (_errors.Count == 0)
         {
             RequireFiniteBounds(scene, parsed);
         }
 
         return CreateLoadedFile(FileKind.Scene, scene, parsed);
+    }
+
+    /// <summary>Loads a file. After a fault loading goes on, so that a check finds the faults of the other files too.</summary>
+    private void Attempt(Action load)
+    {
+        try
+        {
+            load();
+        }
+        catch (SourceException exception)
+        {
+            if (_knownErrors.Add(exception.Diagnostic))
+            {
+                _errors.Add(exception.Diagnostic);
+            }
+        }
     }
 
     /// <summary>Throws for an object whose placement takes it beyond the numbers that there are.</summary>

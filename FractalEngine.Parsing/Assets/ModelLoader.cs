@@ -1,10 +1,13 @@
 using System.Collections.Immutable;
+using FractalEngine.Core;
 using FractalEngine.Core.Files;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Generation;
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Images;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Scenes.Lights;
 using FractalEngine.Parsing.Assets.References;
 using FractalEngine.Parsing.Fdo;
 using FractalEngine.Parsing.Meshes;
@@ -88,6 +91,30 @@ internal sealed class ModelLoader
             _faults[fullPath] = exception.Diagnostic;
             throw;
         }
+    }
+
+    /// <summary>Loads the image of a sky, or takes it from the cache.</summary>
+    /// <param name="source">The text that names it.</param>
+    /// <param name="offset">Offset of the name in the text.</param>
+    /// <param name="file">Name as written.</param>
+    /// <exception cref="SourceException">The file can't be loaded.</exception>
+    public SkyImage LoadSkyImage(SourceText source, int offset, string file)
+    {
+        var (fullPath, displayName) = _references.Resolve(source, offset, _fullPath, file);
+        _textBytes += new FileInfo(fullPath).Length;
+        return AssetCache.ReadOrFind(_cache, fullPath, Record.Add(fullPath), () =>
+        {
+            _cache?.ReadCount += 1;
+            var bytes = SourceText.ReadBytes(fullPath, displayName, ParsingLimits.ImageBytes.Value);
+            try
+            {
+                return new SkyImage(RadianceFile.Read(bytes, ParsingLimits.SkyPixels.Value)) { SourcePath = fullPath };
+            }
+            catch (FractalEngineException fault)
+            {
+                throw source.Error(offset, $"the image \"{file}\" {fault.Message}", fault.Kind == ErrorKind.Limit);
+            }
+        });
     }
 
     /// <summary>Loads a model, or takes it from the cache if none of its files has changed.</summary>

@@ -31,10 +31,11 @@ public static class NewSceneFile
         NewFile.RequireFolder(path);
         var relocated = Relocate(file, scene, path);
         var folder = AssetFolder.ForFile(path);
-        if (!allowsOutsideFiles && relocated.Objects.FirstOrDefault(declared => !folder.Contains(FullPath(path, declared))) is { } outside)
+        if (!allowsOutsideFiles
+            && SceneRelocation.FilesOf(relocated).FirstOrDefault(named => !folder.Contains(FullPath(path, named))) is { } outside)
         {
             throw new IOException(
-                $"\"{outside.File}\" lies outside the folder of {Path.GetFileName(path)}: save the scene above its models, "
+                $"\"{outside}\" lies outside the folder of {Path.GetFileName(path)}: save the scene above its models, "
                 + "or allow that with --allow-outside");
         }
 
@@ -49,11 +50,10 @@ public static class NewSceneFile
     public static Scene Relocate(LoadedFile file, Scene scene, string path)
     {
         var relocated = SceneRelocation.Relocate(scene, file.Path, path);
-        return relocated.Objects.Any(static declared => declared.File!.IndexOfAny(['"', '\n', '\r']) >= 0)
+        return SceneRelocation.FilesOf(relocated).Any(static file => file.IndexOfAny(['"', '\n', '\r']) >= 0)
             ? throw new IOException("a scene can't refer to a file with a quote or a line break in its path")
             : relocated;
     }
 
-    private static string FullPath(string scene, SceneObject declared) =>
-        Path.GetFullPath(Path.Combine(Path.GetDirectoryName(scene)!, declared.File!));
+    private static string FullPath(string scene, string file) => Path.GetFullPath(Path.Combine(Path.GetDirectoryName(scene)!, file));
 }

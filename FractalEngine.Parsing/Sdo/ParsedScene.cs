@@ -17,6 +17,9 @@ public sealed record ParsedScene(SourceText Source, Scene Scene, ImmutableArray<
     public IEnumerable<int> FileNameOffsets =>
         Lines.Where(line => line.Kind == SceneDeclarationKind.SceneObject).Select(line => line.FileNameOffset);
 
+    /// <summary>Offset of the name of the sky's image in the text; 0 without one.</summary>
+    public int SkyNameOffset => Lines.FirstOrDefault(static line => line.Kind == SceneDeclarationKind.Sky)?.FileNameOffset ?? 0;
+
     /// <summary>Finds where an object is declared: the offset of its <c>o</c> or <c>p</c> in the text.</summary>
     /// <param name="objectIndex">Index of the object in the scene, from 0.</param>
     /// <exception cref="ArgumentOutOfRangeException">The scene has no such object.</exception>

@@ -21,7 +21,7 @@ public enum SceneDeclarationKind
     /// <summary>Colour of the background: <c>background (r, g, b)</c>.</summary>
     Background,
 
-    /// <summary>Light and background from all around: <c>sky (zenith) (horizon) [ground]</c>.</summary>
+    /// <summary>Light and background from all around: <c>sky (zenith) (horizon) [ground]</c> or <c>sky "file" …</c>.</summary>
     Sky,
 
     /// <summary>Factor of all light: <c>exposure factor</c>.</summary>

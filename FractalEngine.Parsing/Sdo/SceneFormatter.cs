@@ -36,19 +36,19 @@ internal static class SceneFormatter
         SceneDeclarationKind.Aspect => scene.Aspect is { } aspect ? $"aspect {FormatNumber(aspect)}" : null,
         SceneDeclarationKind.Clip => scene.Clip is var (near, far) ? $"clip {FormatNumber(near)} {FormatNumber(far)}" : null,
         SceneDeclarationKind.Background => scene.Background is { } background ? $"background {background}" : null,
-        SceneDeclarationKind.Sky => scene.Sky is { } sky ? Join("sky", $"{sky.Zenith} {sky.Horizon}", sky.Ground?.ToString()) : null,
+        SceneDeclarationKind.Sky => scene.Sky is { } sky ? Format(sky.Declaration) : null,
         SceneDeclarationKind.Exposure => AreBitEqual(scene.Exposure, 1) ? null : $"exposure {FormatNumber(scene.Exposure)}",
         SceneDeclarationKind.Tone => scene.Tone == Tone.Filmic ? "tone filmic" : null,
         SceneDeclarationKind.Fog => scene.Fog is { } fog ? Format(fog) : null,
         SceneDeclarationKind.Gravity => AreBitEqual(scene.Gravity, Scene.DefaultGravity) ? null : $"gravity {scene.Gravity}",
         SceneDeclarationKind.Player => scene.Player is { } player ? Format(player) : null,
-        SceneDeclarationKind.Light => index < scene.Lights.Length ? Format(scene.Lights[index]) : null,
+        SceneDeclarationKind.Light => index < scene.Lights.Length ? Format(scene.Lights[index].Declaration) : null,
         SceneDeclarationKind.SceneObject => index < scene.Objects.Length ? Format(scene.Objects[index]) : null,
         _ => throw new ArgumentOutOfRangeException(nameof(kind)),
     };
 
-    private static string Format(Light light) =>
-        string.Join(' ', light.Declaration.Select(static word => Convert.ToString(word, CultureInfo.InvariantCulture)));
+    private static string Format(IReadOnlyList<object> declaration) =>
+        string.Join(' ', declaration.Select(static word => Convert.ToString(word, CultureInfo.InvariantCulture)));
 
     private static string Format(Fog fog) => Join(
         $"fog {FormatNumber(fog.Density)}", fog.Colour?.ToString(),

@@ -55,9 +55,6 @@ public abstract class SceneObjectParser : LightParser
     /// <summary>All objects that were declared so far.</summary>
     private protected List<SceneObject> Objects { get; } = [];
 
-    /// <summary>Offset of the name of the file of the last object.</summary>
-    private protected int FileNameOffset { get; private set; }
-
     private static Option<SceneObject> BodyOption<T>(
         string keyword, ItemParser<T> parse, Func<PhysicsObject, T, PhysicsObject> with) =>
         Option<SceneObject>.Of<T>(keyword, parse, (declared, value) => with((PhysicsObject)declared, value));

@@ -79,7 +79,7 @@ public sealed class SceneParser : SceneObjectParser
 
             var text = Source.Text.AsMemory(cursor.Offset, rest.Offset - cursor.Offset);
             var index = kind is { } declared ? IndexOfLast(declared) : 0;
-            lines.Add(new(text, kind, index, kind is SceneDeclarationKind.SceneObject ? FileNameOffset : 0));
+            lines.Add(new(text, kind, index, kind is SceneDeclarationKind.SceneObject or SceneDeclarationKind.Sky ? FileNameOffset : 0));
             cursor = rest;
         }
 

@@ -1,4 +1,5 @@
 using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Scenes.Lights;
 using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.Parsing.Sdo;
@@ -15,12 +16,18 @@ public static class SceneRelocation
         var oldFolder = Path.GetDirectoryName(from)!;
         return oldFolder == Path.GetDirectoryName(to) ? scene : scene with
         {
-            Objects = [.. scene.Objects.Select(declared => Relocate(declared, oldFolder, to))],
+            Objects = [.. scene.Objects.Select(declared => Path.IsPathRooted(declared.File ?? "/") ? declared : declared with
+            {
+                File = Relocate(declared.File!),
+            })],
+            Sky = scene.Sky is ImageSky sky ? sky with { File = Relocate(sky.File) } : scene.Sky,
         };
+
+        string Relocate(string file) => Path.IsPathRooted(file) ? file : FileReference.Create(to, Path.Combine(oldFolder, file));
     }
 
-    private static SceneObject Relocate(SceneObject declared, string oldFolder, string to) =>
-        declared.File is not { } file || Path.IsPathRooted(file)
-            ? declared
-            : declared with { File = FileReference.Create(to, Path.Combine(oldFolder, file)) };
+    /// <summary>All files that a scene names: those of its objects, in their order, and that of its sky.</summary>
+    /// <param name="scene">A scene.</param>
+    internal static IEnumerable<string> FilesOf(Scene scene) =>
+        scene.Objects.Select(static declared => declared.File).Append((scene.Sky as ImageSky)?.File).OfType<string>();
 }

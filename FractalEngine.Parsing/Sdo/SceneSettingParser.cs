@@ -22,6 +22,7 @@ public abstract class SceneSettingParser : SceneValueParser
     private const double MaxClip = 1e30;
 
     private readonly Option<Player>[] _playerOptions;
+    private readonly Option<ImageSky>[] _skyOptions;
     private readonly Option<Fog>[] _fogOptions;
     private (Vector Target, Vector Up)? _cameraTarget;
 
@@ -35,6 +36,13 @@ public abstract class SceneSettingParser : SceneValueParser
             Option<Player>.Of<double>("slope", ParseSlope, (player, slope) => player with { MaxSlopeAngle = slope }),
             new("step", ParseStep),
         ];
+        _skyOptions =
+        [
+            Option<ImageSky>.Of<double>("turn", ParseNumber, (sky, angle) => sky with { Turn = angle }),
+            Option<ImageSky>.Of(
+                "scale", Number(static factor => factor is > 0 and <= MaxFactor, "the scale of a sky must be positive and at most 1e9"),
+                (sky, factor) => sky with { Scale = factor }),
+        ];
         var albedo = Number(static share => share is >= 0 and <= 1, "the share that fog scatters must lie between 0 and 1");
         var anisotropy = Number(
             static cosine => Math.Abs(cosine) <= Fog.MaxAnisotropy, "the anisotropy of fog must lie between -0.95 and 0.95");
@@ -47,6 +55,9 @@ public abstract class SceneSettingParser : SceneValueParser
 
     /// <summary>What was declared so far, without lights and objects.</summary>
     private protected Scene Scene { get; private set; } = new();
+
+    /// <summary>Offset of the last name of a file; 0 for a sky of colours.</summary>
+    private protected int FileNameOffset { get; set; }
 
     private protected bool ParseCamera(Cursor cursor, out Cursor rest)
     {
@@ -152,9 +163,17 @@ public abstract class SceneSettingParser : SceneValueParser
 
     private protected bool ParseSky(Cursor cursor, out Cursor rest)
     {
+        FileNameOffset = 0;
+        if (ParseString(cursor, "a file name in quotes", out var file, out rest))
+        {
+            FileNameOffset = cursor.Offset;
+            Require(file.EndsWith(".hdr", StringComparison.OrdinalIgnoreCase), cursor, "expected the name of an image (.hdr)");
+            return UpdateScene(Scene with { Sky = ParseOptions(rest, new ImageSky(file), _skyOptions, out rest) });
+        }
+
         return ParseColour(cursor, out var zenith, out rest) && ParseOptionalSeparator(rest, out rest)
             && ParseColour(rest, out var horizon, out rest) && ParseOptionalColour(rest, out var ground, out rest)
-            && UpdateScene(Scene with { Sky = new(zenith, horizon, ground) });
+            && UpdateScene(Scene with { Sky = new ColourSky(zenith, horizon, ground) });
     }
 
     private protected bool ParseExposure(Cursor cursor, out Cursor rest)

@@ -58,6 +58,10 @@ public static class ParsingLimits
     public static Limit TotalImagePixels { get; } = new(
         "image-pixels", 1L << 27, "pixels of all images of one file", "512 MiB, decoded", 1L << 40);
 
+    /// <summary>Largest number of pixels of a sky's image, 8192×4096: 800 MB with what is made of it.</summary>
+    public static Limit SkyPixels { get; } = new(
+        "sky-pixels", 1L << 25, "pixels of the image of a sky", "800 MB, with what is made of it", 1L << 28);
+
     /// <summary>Largest number of corners of one polygon. Cutting it takes a time that is quadratic at worst.</summary>
     public static Limit PolygonCorners { get; } = new(
         "polygon-corners", 20_000, "corners of a polygon", "cutting it takes a time of their square at worst");
@@ -66,6 +70,6 @@ public static class ParsingLimits
     public static ImmutableArray<Limit> All { get; } =
     [
         ObjBytes, DescriptionBytes, SceneLines, PointsBytes, Maps, Names, RepeatedSteps, ExpressionTerms, BaseFiles, MaterialBytes,
-        ImageBytes, ImageSide, TotalImagePixels, PolygonCorners,
+        ImageBytes, ImageSide, TotalImagePixels, SkyPixels, PolygonCorners,
     ];
 }

@@ -1,4 +1,5 @@
 using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Scenes.Lights;
 using FractalEngine.Render.Gl;
 using FractalEngine.Render.Gl.State;
 using FractalEngine.Render.Lights;
@@ -8,8 +9,9 @@ namespace FractalEngine.Render.Frame;
 /// <summary>What glossy surfaces look up: how much their facets mirror, and the light from all around that they mirror.</summary>
 internal sealed class GlossMaps : IDisposable
 {
-    // The sky changes from above to below only.
+    // A sky of colours changes from above to below only. Columns of an image are as wide as its rows.
     private const int SkyHeight = 256;
+    private const int ImageHeight = 128;
 
     private readonly FloatTexture _facets;
     private readonly FloatTexture _surroundings;
@@ -20,7 +22,8 @@ internal sealed class GlossMaps : IDisposable
     public GlossMaps(GlResources resources, Scene scene)
     {
         _facets = new(resources, "facets", FacetAlbedo.TableSize, FacetAlbedo.TableSize, [FacetAlbedo.ToTexels()]);
-        _surroundings = new(resources, "surroundings", 1, SkyHeight, new Surroundings(scene).Prefilter(1, SkyHeight));
+        var (width, height) = scene.Sky is ImageSky ? (2 * ImageHeight, ImageHeight) : (1, SkyHeight);
+        _surroundings = new(resources, "surroundings", width, height, new Surroundings(scene).Prefilter(width, height));
     }
 
     /// <summary>Binds both textures to their units.</summary>

@@ -14,12 +14,13 @@ namespace FractalEngine.Render.Frame;
 /// <summary>Selects the program that a material needs, and sets its uniforms, to draw lit, instanced triangles.</summary>
 /// <param name="context">Current context.</param>
 /// <param name="lights">Lights of the scene.</param>
-internal sealed class MeshPass(RenderContext context, ImmutableArray<Emitter> lights) : IDisposable
+/// <param name="hasSkySides">Whether its sky differs from side to side.</param>
+internal sealed class MeshPass(RenderContext context, ImmutableArray<Emitter> lights, bool hasSkySides) : IDisposable
 {
     private const int FeatureCombinations = 32768;
     private static readonly Colour WireframeColour = new(0.80, 0.83, 0.87);
 
-    private string[] _lightSymbols = LightBlock.SymbolsOf(lights);
+    private string[] _lightSymbols = LightBlock.SymbolsOf(lights, hasSides: hasSkySides);
     private int _distantLights;
 
     // Indexed by features. Each program is built when it is first needed.
@@ -125,7 +126,7 @@ internal sealed class MeshPass(RenderContext context, ImmutableArray<Emitter> li
         Array.Clear(_programs);
         Array.Clear(_lastFrameOfProgram);
         _distantLights = distantLights;
-        _lightSymbols = LightBlock.SymbolsOf(lights, distantLights);
+        _lightSymbols = LightBlock.SymbolsOf(lights, distantLights, hasSkySides);
     }
 
     private static MeshFeatures FeaturesOf(DrawableMaterial? material) =>

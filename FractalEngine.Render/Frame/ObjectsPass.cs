@@ -1,5 +1,6 @@
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes.Lights;
 using FractalEngine.Render.Drawables;
 using FractalEngine.Render.Gl;
 using FractalEngine.Render.Gl.State;
@@ -30,13 +31,14 @@ internal sealed class ObjectsPass(
     // Natural logarithm. In smaller units than this, point lights look the same.
     private const double MaxLogLightScale = 14;
 
-    private readonly MeshPass _meshPass = new(context, LightBlock.LightsOf(scene.Source));
+    private readonly MeshPass _meshPass = new(
+        context, LightBlock.LightsOf(scene.Source), scene.Source.Scene.Sky is ImageSky);
     private readonly LightBlock _lightBlock = new(context.Resources, scene.Source);
     private readonly ObjectBlocks _objectBlocks = new(context.Resources, scene.Objects.Length);
     private readonly DepthOrder _opaqueOrder = DepthOrder.Of(scene, static _ => true);
     private readonly ShadowPass _shadowPass = new(context, scene, buffers, transforms);
     private readonly SkyPass? _skyPass =
-        scene.Source.Scene is { Sky: { } sky, Background: null } ? new(context.Resources, sky) : null;
+        scene.Source.Scene is { Sky: not null, Background: null } ? new(context.Resources, scene.Source.Scene) : null;
 
     private readonly AirPass? _airPass =
         scene.Source.Scene.Fog is { IsLit: true } ? new(context, LightBlock.LightsOf(scene.Source)) : null;

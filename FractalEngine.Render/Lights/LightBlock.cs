@@ -21,6 +21,7 @@ internal sealed class LightBlock : IDisposable
     private const int MaxUnrolledLights = 4;
 
     private const int HeaderFloats = 24;
+    private const int SideFloats = 24;
     private const int FloatsPerLight = 16;
 
     private readonly Scene _scene;
@@ -28,7 +29,7 @@ internal sealed class LightBlock : IDisposable
     private readonly double _fogDensity;
     private readonly RedundancyFilter _uploadFilter;
     private readonly GlBuffer _buffer;
-    private readonly float[] _data = new float[HeaderFloats + (MaxLights * FloatsPerLight)];
+    private readonly float[] _data = new float[HeaderFloats + (MaxLights * FloatsPerLight) + SideFloats];
     private (Vector, double, Colour)? _lastKey;
 
     /// <summary>Creates the buffer for the lights of a scene, or for the default ones where it declares none.</summary>
@@ -74,15 +75,19 @@ internal sealed class LightBlock : IDisposable
     /// </summary>
     /// <param name="lights">Lights of the scene.</param>
     /// <param name="distantLights">Lights that have a position, but are parallel for the scene: bit i for light i.</param>
-    public static string[] SymbolsOf(ImmutableArray<Emitter> lights, int distantLights = 0)
+    /// <param name="hasSides">Whether the sky differs from side to side.</param>
+    public static string[] SymbolsOf(ImmutableArray<Emitter> lights, int distantLights = 0, bool hasSides = false)
     {
         // It has one element at least, as GLSL has no arrays of none.
         var kinds = string.Join(", ", lights.Select(KindOfShadow).DefaultIfEmpty('0'));
         var loop = lights.Length <= MaxUnrolledLights
             ? string.Concat(Enumerable.Range(0, lights.Length).Select(static i => FormattableString.Invariant($" DO({i})")))
             : FormattableString.Invariant($" for (int i = 0; i < {lights.Length}; i++) {{ DO(i) }}");
-        string[] symbols = [$"EACH_LIGHT(DO){loop}", $"LIGHT_KINDS int[]({kinds})"];
-        return lights.Any(static light => light.HasSurface) ? [.. symbols, "SURFACE_LIGHTS"] : symbols;
+        return
+        [
+            $"EACH_LIGHT(DO){loop}", $"LIGHT_KINDS int[]({kinds})",
+            .. hasSides ? (string[])["SKY_SIDES"] : [], .. lights.Any(static light => light.HasSurface) ? (string[])["SURFACE_LIGHTS"] : [],
+        ];
 
         char KindOfShadow(Emitter light, int index) =>
             light.Position is null || (distantLights & (1 << index)) != 0 ? '0' : light.NeedsCube ? '1' : '2';
@@ -183,5 +188,9 @@ internal sealed class LightBlock : IDisposable
         WriteVector(ambient.Above, 0, _data);
         WriteVector(ambient.Below, 0, _data.AsSpan(4));
         WriteVector(ambient.Curvature, 0, _data.AsSpan(12));
+        for (var i = 0; i < ambient.Sides.Length; i++)
+        {
+            WriteVector(ambient.Sides[i], 0, _data.AsSpan(_data.Length - SideFloats + (4 * i)));
+        }
     }
 }

@@ -14,18 +14,21 @@ internal sealed class Surroundings
     /// <summary>Prepares the light around a scene.</summary>
     public Surroundings(Scene scene)
     {
-        var (sky, ground, _) = SceneAmbient.OfLights(scene);
-        _sky = scene.Sky?.ToRadiance();
+        var (sky, ground, _, _) = SceneAmbient.OfLights(scene);
+        _sky = scene.Sky?.ToRadiance(scene.Handedness);
         // Irradiance on a surface that faces upwards by the cosine c is then that of the drawn mixture (1 + c)/2 of sky and ground.
         _colourAtHorizon = 0.5 * (sky + ground);
         _colourSlope = 0.75 * (sky - ground);
     }
 
-    /// <summary>The radiance in a direction.</summary>
-    public Vector At(Vector unitDirection)
+    /// <summary>The radiance in a direction, or about the mean around it, see <see cref="SkyRadiance.At"/>.</summary>
+    /// <param name="unitDirection">World space.</param>
+    /// <param name="solidAngle">How much is seen, in steradians.</param>
+    /// <param name="skyPart">How much of the sky counts.</param>
+    public Vector At(Vector unitDirection, double solidAngle = 0, double skyPart = 1)
     {
         var lights = Vector.Max(_colourAtHorizon + (unitDirection.Y * _colourSlope), Vector.Zero);
-        return _sky is { } sky ? lights + sky.At(unitDirection.Y) : lights;
+        return _sky is { } sky ? lights + (skyPart * sky.At(unitDirection, solidAngle)) : lights;
     }
 
     /// <summary>Computes what facets of growing roughness mirror of it, as levels of a texture.</summary>
@@ -45,6 +48,8 @@ internal sealed class Surroundings
 
     private float[] Prefilter(int width, int height, double roughness)
     {
+        var mirrored = Mirror(roughness);
+        var weights = mirrored.Sum(static sample => sample.Weight);
         var texels = new float[3 * width * height];
         Parallel.For(0, height, row =>
         {
@@ -52,21 +57,28 @@ internal sealed class Surroundings
             {
                 var (sine, cosine) = Math.SinCos((row + 0.5) / height * Math.PI);
                 var (around, along) = Math.SinCos(((column + 0.5) / width * 2 * Math.PI) - Math.PI);
-                var mirrored = Mirrored(new(sine * along, cosine, sine * around), roughness);
+                var axes = FacetAlbedo.AxesAround(new(sine * along, cosine, sine * around));
+                var sum = Vector.Zero;
+                foreach (var (direction, weight, solidAngle) in mirrored)
+                {
+                    sum += weight * At(axes * direction, solidAngle);
+                }
+
                 var target = texels.AsSpan(3 * ((row * width) + column), 3);
-                (target[0], target[1], target[2]) = ((float)mirrored.X, (float)mirrored.Y, (float)mirrored.Z);
+                (target[0], target[1], target[2]) =
+                    ((float)(sum.X / weights), (float)(sum.Y / weights), (float)(sum.Z / weights));
             }
         });
         return texels;
     }
 
-    /// <summary>The mean radiance that facets mirror into the direction of their normal.</summary>
-    private Vector Mirrored(Vector normal, double roughness)
+    /// <summary>The directions from which facets mirror light along their normal, their weights, and the solid angle of each.</summary>
+    private static List<(Vector Direction, double Weight, double SolidAngle)> Mirror(double roughness)
     {
         const int Rings = 12;
         const int Spokes = 16;
-        var axes = FacetAlbedo.AxesAround(normal);
-        var (sum, weights) = (Vector.Zero, 0.0);
+        var mirrored = new List<(Vector Direction, double Weight, double SolidAngle)>();
+        var alphaSquared = roughness * roughness;
         for (var i = 0; i < Rings * Spokes; i++)
         {
             var (ring, spoke) = Math.DivRem(i, Spokes);
@@ -74,12 +86,14 @@ internal sealed class Surroundings
             var direction = (2 * facet.Z * facet) - Vector.K;
             if (direction.Z > 0)
             {
-                var weight = FacetAlbedo.Shadowing(direction.Z, roughness * roughness);
-                sum += weight * At(axes * direction);
-                weights += weight;
+                // Samples are as dense as a quarter of the facets of GGX are. Small suns are not missed, or hit too often, between them
+                // (J. Krivanek and M. Colbert, EGSR 2008).
+                var d = (facet.Z * facet.Z * (alphaSquared - 1)) + 1;
+                mirrored.Add((
+                    direction, FacetAlbedo.Shadowing(direction.Z, alphaSquared), 4 * Math.PI * d * d / (alphaSquared * Rings * Spokes)));
             }
         }
 
-        return sum / weights;
+        return mirrored;
     }
 }

@@ -32,7 +32,7 @@ public sealed class ScenePreparation
         _scene = scene.ByParts();
         _settings = settings;
         _models = [.. _scene.Models];
-        _hasAmbientLight = SceneAmbient.Of(scene.Scene) != default;
+        _hasAmbientLight = !SceneAmbient.Of(scene.Scene).IsDark;
         _textures = new(_notices, settings.ShareTextures, previous?.Textures ?? []);
         _prepared = new DrawableModel?[_models.Length];
         var lightCount = scene.Scene.Lights.Count(static light => light.ToEmitter() is not null);

@@ -19,12 +19,20 @@ layout(std140) uniform LightBlock
     vec4 display;        // exposure; 1 for the filmic tone; density of the haze per unit; the share that it scatters
     vec4 fogColour;      // linear light; w: anisotropy of what the haze scatters
     Light lights[maxLights];
+    vec4 skySides[6];    // factors of products of the normal's components, where the sky differs from side to side
 };
 
-// Ambient light on a surface by the height of its unit normal, without shadows.
-vec3 ambientLight(float height)
+// Ambient light on a surface by its unit normal, without shadows.
+vec3 ambientLight(vec3 n)
 {
-    return mix(groundColour.rgb, skyColour.rgb, 0.5 + 0.5 * height) + height * height * skyCurvature.rgb;
+    vec3 light = mix(groundColour.rgb, skyColour.rgb, 0.5 + 0.5 * n.y) + n.y * n.y * skyCurvature.rgb;
+#ifdef SKY_SIDES
+    // Core's SkyIrradiance. Harmonics of a bright sun may be negative elsewhere.
+    light += n.x * skySides[0].rgb + n.z * skySides[1].rgb + n.x * n.y * skySides[2].rgb + n.y * n.z * skySides[3].rgb
+        + n.x * n.z * skySides[4].rgb + (n.x * n.x - n.z * n.z) * skySides[5].rgb;
+    light = max(light, vec3(0.0));
+#endif
+    return light;
 }
 
 // The unit vector of a vector so short that its square could underflow. Zero stays zero, never NaN.

@@ -171,7 +171,7 @@ void main()
 #ifdef DETAILED
     n = bend(n, pixelPosition, towardsEye(position, cameraAxes[2], depthScale));
 #endif
-    vec3 ambient = ambientLight(n.y);
+    vec3 ambient = ambientLight(n);
     vec3 light = material[2].rgb * ambient;
     vec3 direct = vec3(0.0);
     vec3 surface = pixelColour;

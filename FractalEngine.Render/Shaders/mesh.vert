@@ -39,7 +39,7 @@ layout(std140) uniform ObjectBlock
 vec3 lightGloss(inout vec3 surface, vec3 n, vec3 position, vec3 toEye, inout vec3 light)
 {
     Gloss gloss = glossOf(surface, n, toEye);
-    vec3 mirrored = mirroredSurroundings(gloss, n, toEye, ambientLight(n.y));
+    vec3 mirrored = mirroredSurroundings(gloss, n, toEye, ambientLight(n));
     for (int i = 0; i < lightCount.x; i++)
     {
         vec3 toLight;
@@ -147,10 +147,10 @@ void main()
     pixelNormal = n;
     pixelColour = surface;
 #else
-    vec3 front = material[2].rgb * ambientLight(n.y);
+    vec3 front = material[2].rgb * ambientLight(n);
     vec3 frontSurface = surface;
 #ifndef FRONT_FACES_ONLY
-    vec3 back = material[2].rgb * ambientLight(-n.y);
+    vec3 back = material[2].rgb * ambientLight(-n);
     vec3 backSurface = surface;
 #endif
 #ifdef GLOSSY

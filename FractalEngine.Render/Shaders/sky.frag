@@ -1,12 +1,31 @@
 #version 330 core
-// The sky behind everything, as Core's Sky describes it.
+// The sky behind everything, as Core's ColourRadiance and ImageRadiance describe it.
 
 #include "lighting.glsl"
 #include "display.glsl"
 
+#ifdef SKY_IMAGE
+uniform sampler2D skyImage; // linear light: rows from above to below, columns once around
+uniform vec2 place;        // x: where the direction ahead is, from the left; y: the sign of its z
+uniform float scale;
+
+const float pi = 3.14159265;
+
+vec3 skyLight(vec3 direction)
+{
+    float u = place.x + atan(direction.x, place.y * direction.z) / (2.0 * pi);
+    return scale * textureLod(skyImage, vec2(u, acos(clamp(direction.y, -1.0, 1.0)) / pi), 0.0).rgb;
+}
+#else
 uniform vec3 zenith;  // linear light
 uniform vec3 horizon;
 uniform vec3 ground;
+
+vec3 skyLight(vec3 direction)
+{
+    return direction.y >= 0.0 ? mix(horizon, zenith, direction.y) : mix(horizon, ground, sqrt(-direction.y));
+}
+#endif
 
 in vec3 pixelDirection;
 
@@ -23,9 +42,7 @@ float dither(ivec2 pixel)
 
 void main()
 {
-    float height = normalize(pixelDirection).y;
-    vec3 light = height >= 0.0 ? mix(horizon, zenith, height) : mix(horizon, ground, sqrt(-height));
-    vec3 shown = toScreen(light);
+    vec3 shown = toScreen(skyLight(normalize(pixelDirection)));
     // Steps of sRGB (IEC 61966-2-1) in linear light.
     vec3 step256 = max(2.4 / 1.055 * pow(shown, vec3(1.4 / 2.4)), vec3(1.0 / 12.92)) / 255.0;
     fragment = vec4(shown + dither(ivec2(gl_FragCoord.xy)) * step256, 1.0);

@@ -1,3 +1,4 @@
+using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Queries;
 
@@ -20,6 +21,7 @@ internal sealed class LightTransport(
 
     private readonly TracedAreaLights? _areaLights = scene.AreaLights;
     private readonly TracedLamps? _lamps = scene.Lamps;
+    private readonly TracedSky? _sky = lights.Sky;
 
     /// <summary>Density of the fog, per unit of the traced scene.</summary>
     public double FogDensity { get; init; }
@@ -45,8 +47,10 @@ internal sealed class LightTransport(
             var ray = path.Ray;
             if (!scene.TryIntersect(in ray, path.Footprint, path.Clip.Near, path.Clip.Far, context, out var surface))
             {
+                // The sky behind glass is not sampled.
+                var skyPart = _sky is null || path.IsThroughGlass ? 1 : _sky.WeightOf(ray.Direction, path.ReflectionDensity);
                 path.Radiance += path.Throughput.Stretch(
-                    path.Bounces == 0 ? background.At(ray.Direction) : lights.Surroundings(ray.Direction));
+                    path.Bounces == 0 ? background.At(ray.Direction) : lights.Surroundings(ray.Direction, skyPart));
                 first = path.IsFirst ? new(path.Radiance, AlbedoOfAir(double.PositiveInfinity), Vector.Zero, 0) : first;
                 AddAir(ref path, double.PositiveInfinity, ref samples, context);
                 return path.Radiance;
@@ -195,15 +199,24 @@ internal sealed class LightTransport(
         return true;
     }
 
-    /// <summary>Adds the light of emissive faces on a surface, and lets it reflect the path; false where that ends.</summary>
+    /// <summary>
+    /// Adds the light of emissive faces and of an image of the sky on a surface, and lets it reflect the path; false where that ends.
+    /// </summary>
     private bool TryReflect(
         ref LightPath path, in TracedSurface surface, Vector origin, double width, ref SampleSequence samples, QueryContext context)
     {
         var toEye = -path.Ray.Direction;
+        var scattered = new RayFootprint(width, path.Footprint.Spread + ScatteredSpread) { KeepsLamps = _areaLights is not null };
         if (_areaLights is not null)
         {
-            path.Radiance += path.Throughput.Stretch(_areaLights.Reflected(
-                in surface, origin, toEye, new(width, path.Footprint.Spread + ScatteredSpread), scene, ref samples, context));
+            path.Radiance += path.Throughput.Stretch(
+                _areaLights.Reflected(in surface, origin, toEye, scattered, scene, ref samples, context));
+        }
+
+        if (_sky is not null)
+        {
+            path.Radiance += path.Throughput.Stretch(
+                _sky.Reflected(in surface, origin, toEye, scattered, scene, ref samples, context));
         }
 
         if (!Reflection.TrySample(in surface, toEye, ref samples, out var direction, out var weight, out var spread))
@@ -211,15 +224,13 @@ internal sealed class LightTransport(
             return false;
         }
 
-        if (_areaLights is not null || _lamps is not null)
+        if (_areaLights is not null || _lamps is not null || _sky is not null)
         {
             path.Remember(in surface, origin, Reflection.Density(in surface, toEye, direction));
         }
 
         var throughput = path.Throughput.Stretch(weight);
-        path.Reflect(
-            new(origin, direction),
-            new(width, path.Footprint.Spread + (spread * ScatteredSpread)) { KeepsLamps = _areaLights is not null });
+        path.Reflect(new(origin, direction), scattered with { Spread = path.Footprint.Spread + (spread * ScatteredSpread) });
         if (path.Bounces >= FirstRouletteBounce)
         {
             var survival = Math.Min(0.95, Math.Max(throughput.X, Math.Max(throughput.Y, throughput.Z)));

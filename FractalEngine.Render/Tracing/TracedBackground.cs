@@ -10,7 +10,7 @@ namespace FractalEngine.Render.Tracing;
 /// <summary>What is seen behind everything: the sky, or one colour.</summary>
 internal readonly struct TracedBackground(Scene scene, DisplayTransform display)
 {
-    private readonly SkyRadiance? _sky = scene.Background is null ? scene.Sky?.ToRadiance() : null;
+    private readonly SkyRadiance? _sky = scene.Background is null ? scene.Sky?.ToRadiance(scene.Handedness) : null;
 
     // A background is shown as it is declared, whatever is done with light.
     private readonly Vector _radiance = display.Invert((scene.Background ?? RenderSettings.DefaultBackground).ToLinearVector());
@@ -25,5 +25,5 @@ internal readonly struct TracedBackground(Scene scene, DisplayTransform display)
         scene with { Background = scene.Background ?? (scene.Sky is null ? background : null) };
 
     /// <summary>The radiance that is seen in a direction.</summary>
-    public Vector At(Vector unitDirection) => _sky is { } sky ? sky.At(unitDirection.Y) : _radiance;
+    public Vector At(Vector unitDirection) => _sky is { } sky ? sky.At(unitDirection) : _radiance;
 }

@@ -30,13 +30,19 @@ internal sealed class TracedLights
         Emitters = [.. LightBlock.LightsOf(scene).Where(static emitter => !emitter.HasSurface)];
         _axes = [.. Emitters.Select(static emitter => FacetAlbedo.AxesAround(-emitter.Axis))];
         _surroundings = new(scene.Scene);
+        Sky = TracedSky.CreateOrNull(scene.Scene);
     }
 
     /// <summary>Lights that are sampled.</summary>
     public ImmutableArray<Emitter> Emitters { get; }
 
+    /// <summary>The image of the sky, which is sampled; null for none.</summary>
+    public TracedSky? Sky { get; }
+
     /// <summary>The radiance of the surroundings in a direction.</summary>
-    public Vector Surroundings(Vector unitDirection) => _surroundings.At(unitDirection);
+    /// <param name="unitDirection">World space.</param>
+    /// <param name="skyPart">How much of the sky counts.</param>
+    public Vector Surroundings(Vector unitDirection, double skyPart) => _surroundings.At(unitDirection, skyPart: skyPart);
 
     /// <summary>Computes the irradiance, divided by π, that a light brings to a surface which faces it, without shadows.</summary>
     /// <param name="index">Index of the light.</param>

@@ -27,6 +27,7 @@ public sealed class ParsingLimitTests
             ("image-bytes", 67_108_864, AnyInteger, "bytes of an image file", "memory"),
             ("image-side", 8_192, 65_536, "pixels along a side of an image", "what every driver of the last fifteen years can hold"),
             ("image-pixels", 134_217_728, 1_099_511_627_776, "pixels of all images of one file", "512 MiB, decoded"),
+            ("sky-pixels", 33_554_432, 268_435_456, "pixels of the image of a sky", "800 MB, with what is made of it"),
             ("polygon-corners", 20_000, AnyInteger, "corners of a polygon", "cutting it takes a time of their square at worst"),
         ];
         Assert.Equal(

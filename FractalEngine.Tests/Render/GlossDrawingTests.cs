@@ -86,7 +86,7 @@ public sealed class GlossDrawingTests
     public void WhiteSurface_UnderAWhiteSky_IsDrawnAsBrightAsTheSky(string name)
     {
         var white = new Colour(0.7, 0.7, 0.7);
-        var sky = new Scene { Sky = new(white, white, white) };
+        var sky = new Scene { Sky = new ColourSky(white, white, white) };
         foreach (var pitch in (double[])[0, 45, 80])
         {
             foreach (var shading in Enum.GetValues<Shading>())
@@ -105,7 +105,7 @@ public sealed class GlossDrawingTests
         var white = new Colour(0.7, 0.7, 0.7);
         var material = new Material("m") { RefractiveIndex = 1.5, Opacity = 0, Roughness = roughness };
         var scene = RenderScenes.Scene(
-            new() { Sky = new(white, white, white) },
+            new() { Sky = new ColourSky(white, white, white) },
             (TexturedScenes.WithMaterial(RenderScenes.Sphere(24), material), Transformation.Identity, null));
         var image = RenderScenes.Draw(scene, RenderScenes.FrontView, 60, 60);
 
@@ -116,7 +116,7 @@ public sealed class GlossDrawingTests
     [MemberData(nameof(Materials))]
     public void Gloss_UnderASky_IsDrawnAsItIsTraced(string name)
     {
-        var sky = new Scene { Sky = new(new(0.4, 0.6, 0.9), new(0.8, 0.75, 0.7), new(0.5, 0.4, 0.3)) };
+        var sky = new Scene { Sky = new ColourSky(new(0.4, 0.6, 0.9), new(0.8, 0.75, 0.7), new(0.5, 0.4, 0.3)) };
         foreach (var (pitch, yaw) in ((double, double)[])[(0, 0), (50, 10), (-50, 20)])
         {
             var light = Trace(name, pitch, yaw, sky, 1024);

@@ -18,7 +18,7 @@ namespace FractalEngine.Tests.Render;
 [Collection(GlTests.Name)]
 public sealed class SkyTests
 {
-    private static readonly Sky Blue = new(new(0.2, 0.4, 0.9), new(0.8, 0.85, 0.9), new(0.3, 0.25, 0.2));
+    private static readonly ColourSky Blue = new(new(0.2, 0.4, 0.9), new(0.8, 0.85, 0.9), new(0.3, 0.25, 0.2));
 
     [Theory]
     [InlineData(-1)]
@@ -28,7 +28,8 @@ public sealed class SkyTests
     [InlineData(1)]
     public void Irradiance_OfTheCoefficients_IsTheIntegralOfTheRadiance(double height)
     {
-        var (constant, linear, quadratic) = Blue.Irradiance();
+        var radiance = Blue.ToRadiance(Handedness.Left);
+        var irradiance = radiance.Irradiance();
         var normal = new Vector(Math.Sqrt(1 - (height * height)), height, 0);
         var sum = Vector.Zero;
         const int Steps = 400;
@@ -39,13 +40,13 @@ public sealed class SkyTests
                 var y = ((i + 0.5) * 2 / Steps) - 1;
                 var (sine, cosine) = Math.SinCos((j + 0.5) * 2 * Math.PI / Steps);
                 var radius = Math.Sqrt(1 - (y * y));
-                sum += Math.Max(0, Vector.Dot(normal, new(radius * cosine, y, radius * sine))) * Blue.ToRadiance().At(y);
+                sum += Math.Max(0, Vector.Dot(normal, new(radius * cosine, y, radius * sine))) * radiance.At(new(0, y, 0));
             }
         }
 
         // Every direction stands for 4π/n² of the sphere. Three harmonics of a sky with a bend at the horizon miss a few percent.
         var expected = 4.0 / (Steps * Steps) * sum;
-        var found = constant + (height * linear) + (height * height * quadratic);
+        var found = irradiance.Constant + (height * irradiance.Linear) + (height * height * irradiance.Quadratic);
         Assert.InRange((found - expected).Length(), 0, 0.04 * expected.Length());
     }
 
@@ -117,7 +118,7 @@ public sealed class SkyTests
     {
         // Three values of 256 from the horizon to the zenith, of which the image shows half. Rounded alike everywhere, pixels of a block
         // are up to half a value off, all of them.
-        var sky = new Sky(new(0.51, 0.51, 0.51), new(0.5, 0.5, 0.5), new(0.49, 0.49, 0.49));
+        var sky = new ColourSky(new(0.51, 0.51, 0.51), new(0.5, 0.5, 0.5), new(0.49, 0.49, 0.49));
         var scene = SkyAlone(new() { Sky = sky });
         const int Size = 64;
         const int Block = 8;
@@ -135,7 +136,7 @@ public sealed class SkyTests
                         var right = (((x + 0.5) * 2 / Size) - 1) * halfHeight;
                         var up = (1 - ((y + 0.5) * 2 / Size)) * halfHeight;
                         sum += image[x, y].Green;
-                        expected += 255 * Srgb(sky.ToRadiance().At(new Vector(right, up, 1).UnitVector().Y).Y);
+                        expected += 255 * Srgb(sky.ToRadiance(Handedness.Left).At(new Vector(right, up, 1).UnitVector()).Y);
                     }
                 }
 
@@ -148,7 +149,7 @@ public sealed class SkyTests
     public void Sky_OfOneColour_IsShownAsIs_AndNothingElseIsDithered()
     {
         var colour = new Colour(51 / 255.0, 0.6, 204 / 255.0);
-        var scene = SkyAlone(new() { Sky = new(colour, colour, colour) });
+        var scene = SkyAlone(new() { Sky = new ColourSky(colour, colour, colour) });
         Assert.Equal(0, RenderScenes.CountDifferent(Traced(scene, 40), (51, 153, 204, 255)));
         // A driver's conversion to sRGB may be off by more than half a value (OpenGL 3.3, 4.1.8): offsets close to half may cross.
         var drawn = RenderScenes.Draw(scene, RenderScenes.FrontView, 40, 40);

@@ -29,16 +29,21 @@ internal sealed class SkyFields(WindowActions actions)
         if (ui.CheckBox("sky", ref hasSky))
         {
             var path = actions.Document!.File.Path;
-            var added = _removed is var (owner, removed) && owner == path ? removed : new(DefaultZenith, DefaultHorizon);
+            var added = _removed is var (owner, removed) && owner == path ? removed : new ColourSky(DefaultZenith, DefaultHorizon);
             _removed = scene.Sky is { } present ? (path, present) : _removed;
             actions.ChangeScene(present => present with { Sky = hasSky ? added : null });
         }
 
         ui.Tooltip("light from all around; a background hides the sky itself");
-        if (scene.Sky is { } sky)
+        switch (scene.Sky)
         {
-            BuildColour(ui, "zenith", sky.Zenith, static sky => sky.Zenith, (present, colour) => present with { Zenith = colour });
-            BuildColour(ui, "horizon", sky.Horizon, static sky => sky.Horizon, (present, colour) => present with { Horizon = colour });
+            case ColourSky sky:
+                BuildColour(ui, "zenith", sky.Zenith, static sky => sky.Zenith, (present, colour) => present with { Zenith = colour });
+                BuildColour(ui, "horizon", sky.Horizon, static sky => sky.Horizon, (present, colour) => present with { Horizon = colour });
+                break;
+            case ImageSky sky:
+                BuildImage(ui, sky);
+                break;
         }
 
         ui.Row(1);
@@ -82,14 +87,28 @@ internal sealed class SkyFields(WindowActions actions)
         ui.Tooltip("share of the light of suns and lamps that the haze scatters: shafts of light");
     }
 
+    private void BuildImage(UserInterface ui, ImageSky sky)
+    {
+        ui.Row(1);
+        ui.Label(sky.File, isDim: true);
+        var (turn, scale) = (sky.Turn, sky.Scale);
+        var isChanged = ui.Slider("turn", ref turn, -180, 180, 1, isBounded: false);
+        isChanged |= ui.Slider("scale", ref scale, 0.1, 4, 0.05, isBounded: false);
+        if (isChanged && double.IsFinite(turn) && scale is > 0 and <= 1e9)
+        {
+            actions.ChangeScene(present => present with { Sky = sky with { Turn = turn, Scale = scale } });
+        }
+    }
+
     private void BuildColour(
-        UserInterface ui, string name, Colour colour, Func<Sky, Colour> read, Func<Sky, Colour, Sky> change) => ui.Scope(name, () =>
+        UserInterface ui, string name, Colour colour, Func<ColourSky, Colour> read,
+        Func<ColourSky, Colour, ColourSky> change) => ui.Scope(name, () =>
     {
         ui.Row(1);
         ui.Label(name, isDim: true);
         if (ui.Colour(colour) is { } changed)
         {
-            actions.ChangeScene(present => present.Sky is { } sky ? present with
+            actions.ChangeScene(present => present.Sky is ColourSky sky ? present with
             {
                 Sky = change(sky, PanelWidgets.Merge(read(sky), colour, changed)),
             } : present);

@@ -11,7 +11,7 @@ public class RecordedHelpTests
     public void Help_OfTheProgram_IsAsRecorded() => Check("help.txt", "--help", "limits --help", "limits");
 
     [Theory]
-    [InlineData("loading", "info", "check", "save", "count", "export", "generate", "simulate", "query")]
+    [InlineData("loading", "info", "check", "save", "count", "export", "generate", "sky", "simulate", "query")]
     [InlineData("drawing", "view", "render", "animate")]
     public void Help_OfCommands_IsAsRecorded(string file, params string[] commands) =>
         Check($"help-{file}.txt", [.. commands.Select(command => $"{command} --help")]);

@@ -168,7 +168,7 @@ public class SceneParserTests
     [InlineData("sky (0.1, 0.2, 0.3) (0.4, 0.5, 0.6)", false)]
     [InlineData("sky (0.1, 0.2, 0.3), (0.4, 0.5, 0.6), (0.7, 0.8, 0.9)", true)]
     public void Sky_IsTwoColoursOrThree(string line, bool hasGround) => Assert.Equal(
-        new Sky(new(0.1, 0.2, 0.3), new(0.4, 0.5, 0.6), hasGround ? new(0.7, 0.8, 0.9) : null), Parse(line).Sky);
+        new ColourSky(new(0.1, 0.2, 0.3), new(0.4, 0.5, 0.6), hasGround ? new(0.7, 0.8, 0.9) : null), Parse(line).Sky);
 
     [Theory]
     [InlineData("sun (1, -2, 0) (1, 0.9, 0.8) 3", SunLight.DefaultDiameter)]

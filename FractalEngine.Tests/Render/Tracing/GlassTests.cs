@@ -2,6 +2,7 @@ using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Scenes.Cameras;
+using FractalEngine.Core.Scenes.Lights;
 using FractalEngine.Parsing.Mtl;
 using FractalEngine.Render.Tracing;
 using FractalEngine.Render.Views;
@@ -103,7 +104,7 @@ public class GlassTests
 
     private static Material Clear => new("m") { RefractiveIndex = 1.5, Opacity = 0 };
 
-    private static Scene EvenSky => new() { Sky = new(Grey, Grey, Grey) };
+    private static Scene EvenSky => new() { Sky = new ColourSky(Grey, Grey, Grey) };
 
     private static View Straight => new(Camera.Default, Projection.Orthographic) { OrthographicHeight = 1e-6 };
 

@@ -53,6 +53,9 @@ internal static class InteractionFiles
         ("other.fdo", SampleFiles.Row("4").Replace("\r", "", StringComparison.Ordinal)),
         ("two.sdo", "c (0, 0, -8) (0, 0, 0) 60\no \"row.fdo\" ((0, 0, 0), #, #)\no \"other.fdo\" ((0, 2, 0), #, #)\n"),
         ("lit.sdo", Scene + "light ambient (1, 1, 1) 0.2\nlight directional (1, -2, 1) (1, 1, 1) 0.7\n"),
+        // Two pixels, whose bytes are text.
+        ("field.hdr", "#?RADIANCE\n\n-Y 1 +X 2\n@@@\u007f`@ \u007f"),
+        ("field.sdo", Scene + "sky \"field.hdr\" scale 2\n"),
         ("many.sdo", "c (0, 0, -8) (0, 0, 0) 60\n"
             + string.Concat(Enumerable.Range(0, 60).Select(i => $"o \"cube.obj\" (({3 * i}, 0, 0), #, #) name \"cube {i}\"\n"))),
         // All of a cube, down to no end: wherever a camera flies, it meets a surface.

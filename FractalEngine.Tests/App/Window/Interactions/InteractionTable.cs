@@ -122,6 +122,9 @@ internal static partial class InteractionTable
         new("type a zenith", "scene.sdo",
             [Keys("F2"), Click("Sky and haze"), Click("sky", right: -10), Type("0.9", "zenith", 0, 3, 1), Save()],
             [FrameDiffers(0.3), FileHas("\nsky (0.9, 0.45, 0.75) ")]),
+        new("type the turn of a sky's image", "field.sdo",
+            [Keys("F2"), Click("Sky and haze"), Shows("field.hdr"), Type("90", "turn", rows: 0), Save("field.sdo")],
+            [FrameDiffers(0.1), FileHas("\nsky \"field.hdr\" turn 90 scale 2\n", "field.sdo")]),
     ];
 
     private static IEnumerable<Interaction> OfFractal =>
