@@ -266,8 +266,8 @@ public class TracedLampTests
     private static TracedLamp TracedOf(PointLight light) => light.ToEmitter() is { Radius: > 0 } ball
         ? new TracedBall(ball, Vector.Zero, 1) : new TracedQuad(light.ToEmitter()!, Vector.Zero, 1);
 
-    private static QuadLight Lamp(Vector position, Vector direction, double halfWidth, double halfHeight) =>
-        new(position, direction, 2 * halfWidth, 2 * halfHeight, Colour.White, 1e-5, Range);
+    private static QuadLight Lamp(Vector position, Vector direction, double halfWidth, double halfHeight, double turn = 0) =>
+        new(position, direction, 2 * halfWidth, 2 * halfHeight, Colour.White, 1e-5, Range, turn);
 
     private static BallLight Lamp(Vector position, double radius) => new(position, radius, Colour.White, 1e-5, Range);
 
@@ -277,9 +277,8 @@ public class TracedLampTests
         var position = random.Between(0.8, 1.5) * random.Direction();
         var size = Math.Pow(10, logSize);
         return random.Next(2) == 0 ? Lamp(position, size)
-            : Lamp(position, (0.5 * random.Direction()) - position.UnitVector(), size * random.Between(0.3, 1.5), size) with
-            {
-                Turn = random.Between(0, 90),
-            };
+            : Lamp(
+                position, (0.5 * random.Direction()) - position.UnitVector(), size * random.Between(0.3, 1.5), size,
+                random.Between(0, 90));
     }
 }
