@@ -51,8 +51,8 @@ internal struct LightPath
     /// <summary>The material of the solid that the path is in; null for air.</summary>
     public Glass? Medium { get; set; }
 
-    /// <summary>The surface that has reflected the path last; the default before the first one.</summary>
-    public TracedSurface Reflector { get; private set; }
+    /// <summary>Normal for shading of the surface that has reflected the path last; zero before the first one.</summary>
+    public Vector ReflectorNormal { get; private set; }
 
     /// <summary>Where the path left that, ahead of layers that it has passed since.</summary>
     public Vector ReflectedFrom { get; private set; }
@@ -104,5 +104,5 @@ internal struct LightPath
     /// <param name="origin">Where the path leaves it.</param>
     /// <param name="density">How likely it has chosen the direction, per solid angle.</param>
     public void Remember(in TracedSurface surface, Vector origin, double density) =>
-        (Reflector, ReflectedFrom, ReflectionDensity) = (surface, origin, density);
+        (ReflectorNormal, ReflectedFrom, ReflectionDensity) = (surface.Normal, origin, density);
 }

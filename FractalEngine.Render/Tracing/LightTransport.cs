@@ -39,7 +39,7 @@ internal sealed class LightTransport(
     /// <param name="context">Memory of the rays.</param>
     /// <param name="first">What the path meets first.</param>
     public Vector Follow(
-        LightPath path, int bounceLimit, ref SampleSequence samples, QueryContext context, out FirstHit first)
+        ref LightPath path, int bounceLimit, ref SampleSequence samples, QueryContext context, out FirstHit first)
     {
         first = default;
         while (true)
@@ -168,7 +168,7 @@ internal sealed class LightTransport(
             // Lamps behind glass are not sampled.
             var weight = path.Bounces == 0 || path.IsThroughGlass || _areaLights is null ? 1
                 : _areaLights.WeightOf(
-                    in surface, path.Reflector, path.ReflectedFrom, path.Ray.Direction, path.ReflectionDensity, context);
+                    in surface, path.ReflectorNormal, path.ReflectedFrom, path.Ray.Direction, path.ReflectionDensity, context);
             path.Radiance += weight * path.Throughput.Stretch(surface.Emission);
         }
     }

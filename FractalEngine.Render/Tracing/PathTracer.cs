@@ -271,6 +271,7 @@ public sealed class PathTracer
         var samples = new SampleSequence((y * Width) + x, sample, _seed);
         point = samples.Next();
         var ray = _camera.CreateRay(x, y, point, out var footprint, out var clip);
-        return _light.Follow(new(ray, footprint, clip), BounceLimit, ref samples, context, out first);
+        var path = new LightPath(ray, footprint, clip);
+        return _light.Follow(ref path, BounceLimit, ref samples, context, out first);
     }
 }

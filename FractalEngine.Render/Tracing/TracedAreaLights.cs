@@ -65,30 +65,30 @@ internal sealed class TracedAreaLights
             return Vector.Zero;
         }
 
-        var density = DensityOf(in light, in surface, origin, toLight, context) + Reflection.Density(in surface, toEye, toLight);
+        var density = DensityOf(in light, surface.Normal, origin, toLight, context) + Reflection.Density(in surface, toEye, toLight);
         return density > 0 ? light.Opacity / (Math.PI * density) * reflected.Stretch(light.Emission) : Vector.Zero;
     }
 
     /// <summary>Computes the weight of light that a path meets by itself.</summary>
     /// <param name="light">The emissive surface that the last ray has hit.</param>
-    /// <param name="surface">The surface that reflects it.</param>
+    /// <param name="normal">Normal for shading of the surface that reflects it.</param>
     /// <param name="origin">Point just before that.</param>
     /// <param name="toLight">Unit direction from there.</param>
     /// <param name="reflectionDensity">How likely the reflection chooses the direction, per solid angle.</param>
     /// <param name="context">That of the ray.</param>
     public double WeightOf(
-        in TracedSurface light, in TracedSurface surface, Vector origin, Vector toLight, double reflectionDensity, QueryContext context)
+        in TracedSurface light, Vector normal, Vector origin, Vector toLight, double reflectionDensity, QueryContext context)
     {
-        var density = DensityOf(in light, in surface, origin, toLight, context);
+        var density = DensityOf(in light, normal, origin, toLight, context);
         return density > 0 ? reflectionDensity / (reflectionDensity + density) : 1;
     }
 
     /// <summary>Computes how likely a direction is chosen by the face that it leads to, per solid angle.</summary>
-    private double DensityOf(in TracedSurface light, in TracedSurface surface, Vector origin, Vector toLight, QueryContext context)
+    private double DensityOf(in TracedSurface light, Vector normal, Vector origin, Vector toLight, QueryContext context)
     {
         var cosine = Math.Abs(Vector.Dot(light.FaceNormal, toLight));
         return light.FaceIndex < 0 || cosine == 0 ? 0
-            : _sampler.DensityOf(origin, surface.Normal, context, light.FaceIndex) * (light.Position - origin).LengthSquared() / cosine;
+            : _sampler.DensityOf(origin, normal, context, light.FaceIndex) * (light.Position - origin).LengthSquared() / cosine;
     }
 
     /// <summary>Follows a ray to the point of a face that was chosen.</summary>

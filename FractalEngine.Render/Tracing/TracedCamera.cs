@@ -1,3 +1,4 @@
+using System.Runtime.CompilerServices;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Scenes.Cameras;
 using FractalEngine.Render.Views;
@@ -60,5 +61,6 @@ internal sealed class TracedCamera(View view, int width, int height, double foot
     }
 
     /// <summary>Spreads a number from 0 to 1 over −1 to 1, as densely as a tent is high.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static double Tent(double number) => number < 0.5 ? Math.Sqrt(2 * number) - 1 : 1 - Math.Sqrt(2 - (2 * number));
 }

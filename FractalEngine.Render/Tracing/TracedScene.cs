@@ -156,7 +156,11 @@ internal sealed record TracedScene
         var index = context.ObjectIndex;
         surface = CreateSurface(ray.Direction, in hit, index, context);
         // Behind a section the path to the face may be lost.
-        surface = start > minDistance ? surface with { FaceIndex = -1 } : surface;
+        if (start > minDistance)
+        {
+            surface = surface with { FaceIndex = -1 };
+        }
+
         if (start > minDistance && _section is { HasCap: true, Normal: var normal }
             && IsWithinSolid(in ray, in hit, index, footprint, context))
         {

@@ -60,7 +60,7 @@ internal sealed class RayBounds
         SubFractal subFractal, BoundingBox baseBox, RayDescendant[] descendants, RayChild[] children, RayNormals normals, RayBounds? single,
         double minInnerRadius)
     {
-        SubFractal = subFractal;
+        (SubFractal, IsEmpty) = (subFractal, subFractal.Box.IsEmpty);
         Box = new(subFractal.Box);
         Radius = subFractal.Radius * Box.InverseHalfExtent;
         MinInnerRadius = minInnerRadius;
@@ -82,7 +82,7 @@ internal sealed class RayBounds
     public SubFractal SubFractal { get; }
 
     /// <summary>True where there are no faces.</summary>
-    public bool IsEmpty => SubFractal.Box.IsEmpty;
+    public bool IsEmpty { get; }
 
     /// <summary>The bounds with the children themselves; these where no descendants take their places.</summary>
     public RayBounds Single { get; }
