@@ -125,7 +125,7 @@ vec3 angleBetween(vec3 from, vec3 to)
     return c * (8.0 * eighth * (1.0 - t * (1.0 / 3.0 - t * (1.0 / 5.0 - t * (1.0 / 7.0 - t / 9.0)))));
 }
 
-// The vector whose products with normals near n are the irradiance, divided by π, of an evenly bright surface of the radiance 1: half the
+// The vector whose products with normals near n are the irradiance, divided by pi, of an evenly bright surface of the radiance 1: half the
 // sum of what the edges of its visible part add, after J. H. Lambert, "Photometria", 1760.
 vec3 quadFlux(Outline quad, vec3 n)
 {
