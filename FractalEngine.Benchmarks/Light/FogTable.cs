@@ -87,7 +87,10 @@ internal static class FogTable
     {
         Scene = scene.Scene with
         {
-            Sky = null, Background = Colour.Black, Tone = Tone.None, Exposure = Exposure,
+            Sky = null,
+            Background = Colour.Black,
+            Tone = Tone.None,
+            Exposure = Exposure,
             Fog = scene.Scene.Fog! with { Colour = Colour.Black },
         },
         Objects =

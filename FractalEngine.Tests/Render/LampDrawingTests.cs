@@ -20,7 +20,8 @@ public sealed class LampDrawingTests
     private static readonly Vector ToEye = new Vector(-0.7, 0.5, 0).UnitVector();
 
     private static readonly View Slanted = new(
-        new(10 * ToEye, CameraFraming.LookRotation(-ToEye), 60), Projection.Orthographic) { OrthographicHeight = 3 * ToEye.Y };
+        new(10 * ToEye, CameraFraming.LookRotation(-ToEye), 60), Projection.Orthographic)
+    { OrthographicHeight = 3 * ToEye.Y };
 
     // The third is large and near, the last two stand in the floor, so that a part of them is below the horizon.
     private static readonly PointLight[] Lamps =

@@ -20,7 +20,8 @@ public class TracedLampTests
     private const double Range = 1e4;
 
     private static readonly View Above = new(
-        new(new(0.3, 1, 0.2), new(-0.5 * Math.PI, 0, 0), 60), Projection.Orthographic) { OrthographicHeight = 1e-3 };
+        new(new(0.3, 1, 0.2), new(-0.5 * Math.PI, 0, 0), 60), Projection.Orthographic)
+    { OrthographicHeight = 1e-3 };
 
     [Theory]
     [InlineData(0.5, 0.5, 1)]
