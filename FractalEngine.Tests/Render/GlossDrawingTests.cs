@@ -5,6 +5,7 @@ using FractalEngine.Core.Scenes.Cameras;
 using FractalEngine.Core.Scenes.Lights;
 using FractalEngine.Render.Tracing;
 using FractalEngine.Render.Views;
+using FractalEngine.Tests.Render.Tracing;
 
 namespace FractalEngine.Tests.Render;
 
@@ -183,14 +184,6 @@ public sealed class GlossDrawingTests
         return new Colour(red / 255.0, green / 255.0, blue / 255.0).ToLinearVector();
     }
 
-    private static Vector Trace(string name, double pitch, double yaw, Scene lights, int samples)
-    {
-        var tracer = new PathTracer(Scene(name, pitch, yaw, lights, isWhite: false), Near, 1, 1);
-        for (var i = 0; i < samples; i++)
-        {
-            tracer.AddSample();
-        }
-
-        return tracer.RadianceAt(0, 0);
-    }
+    private static Vector Trace(string name, double pitch, double yaw, Scene lights, int samples) =>
+        TracedMean.Of(Scene(name, pitch, yaw, lights, isWhite: false), Near, samples);
 }

@@ -296,14 +296,6 @@ public class ReflectionTests
         (TexturedScenes.WithMaterial(RenderScenes.Square(1), material), Transformation.Identity, null));
 
     /// <summary>The radiance of the middle, seen from straight above.</summary>
-    private static Vector Trace(LoadedScene scene, int samples)
-    {
-        var tracer = new PathTracer(scene, new(Camera.Default, Projection.Orthographic) { OrthographicHeight = 1e-6 }, 1, 1);
-        for (var i = 0; i < samples; i++)
-        {
-            tracer.AddSample();
-        }
-
-        return tracer.RadianceAt(0, 0);
-    }
+    private static Vector Trace(LoadedScene scene, int samples) =>
+        TracedMean.Of(scene, new(Camera.Default, Projection.Orthographic) { OrthographicHeight = 1e-6 }, samples);
 }
