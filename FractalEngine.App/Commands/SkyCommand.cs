@@ -13,7 +13,7 @@ namespace FractalEngine.App.Commands;
 /// <summary>The command <c>sky --output X.hdr</c>, which writes the image of a clear day's sky.</summary>
 internal static class SkyCommand
 {
-    /// <summary>Largest amount of haze.</summary>
+    /// <summary>Largest amount of haze, by that of a clear day.</summary>
     public const double MaxHaze = 100;
 
     public static Command Create()

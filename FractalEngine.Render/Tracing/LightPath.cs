@@ -21,7 +21,7 @@ internal struct LightPath
     /// <summary>The last part of the path.</summary>
     public Ray Ray { get; private set; }
 
-    /// <summary>How wide that is.</summary>
+    /// <summary>How wide the last part of the path is.</summary>
     public RayFootprint Footprint { get; private set; }
 
     /// <summary>Where that starts and ends, as distances along the ray.</summary>

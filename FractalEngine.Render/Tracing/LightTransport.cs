@@ -47,10 +47,8 @@ internal sealed class LightTransport(
             var ray = path.Ray;
             if (!scene.TryIntersect(in ray, path.Footprint, path.Clip.Near, path.Clip.Far, context, out var surface))
             {
-                // The sky behind glass is not sampled.
-                var skyPart = _sky is null || path.IsThroughGlass ? 1 : _sky.WeightOf(ray.Direction, path.ReflectionDensity);
                 path.Radiance += path.Throughput.Stretch(
-                    path.Bounces == 0 ? background.At(ray.Direction) : lights.Surroundings(ray.Direction, skyPart));
+                    path.Bounces == 0 ? background.At(ray.Direction) : lights.Surroundings(ray.Direction, PartOfSky(in path)));
                 first = path.IsFirst ? new(path.Radiance, AlbedoOfAir(double.PositiveInfinity), Vector.Zero, 0) : first;
                 AddAir(ref path, double.PositiveInfinity, ref samples, context);
                 return path.Radiance;
@@ -182,6 +180,10 @@ internal sealed class LightTransport(
         return path.Bounces == 0 ? lamp.Emitter.SurfaceRadiance : path.IsThroughGlass ? Vector.Zero
             : density / (density + lamp.Density(origin, path.Ray.Direction, (position - origin).Length())) * lamp.RadianceAt(origin);
     }
+
+    /// <summary>How much of the sky counts that a path meets: all of it behind glass, where it is not sampled, else weighed.</summary>
+    private double PartOfSky(in LightPath path) =>
+        _sky is null || path.IsThroughGlass ? 1 : _sky.WeightOf(path.Ray.Direction, path.ReflectionDensity);
 
     /// <summary>Lets glass mirror or refract a path; false where the path is scattered instead.</summary>
     private bool TryPassGlass(

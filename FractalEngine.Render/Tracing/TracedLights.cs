@@ -33,7 +33,7 @@ internal sealed class TracedLights
         Sky = TracedSky.CreateOrNull(scene.Scene);
     }
 
-    /// <summary>Lights that are sampled.</summary>
+    /// <summary>Lights without a surface, all of which are sampled at each surface of a path.</summary>
     public ImmutableArray<Emitter> Emitters { get; }
 
     /// <summary>The image of the sky, which is sampled; null for none.</summary>

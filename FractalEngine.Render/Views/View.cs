@@ -170,8 +170,8 @@ public sealed record View(Camera Camera, Projection Projection)
 
     /// <summary>Moves the camera so that an orthographic image moves on the screen.</summary>
     /// <param name="offset">Pixels to the right and upwards.</param>
-    /// <param name="height">Height of the frame in pixels.</param>
     /// <param name="width">Width of the frame in pixels.</param>
+    /// <param name="height">Height of the frame in pixels.</param>
     internal View MovedBy((double X, double Y) offset, int width, int height)
     {
         var pixel = 2 * HalfHeight / Viewport(width, height).Height;

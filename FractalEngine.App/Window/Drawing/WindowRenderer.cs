@@ -5,6 +5,7 @@ using FractalEngine.Core.Images;
 using FractalEngine.Core.Scenes.Cameras;
 using FractalEngine.Parsing.Text;
 using FractalEngine.Render;
+using FractalEngine.Render.Gl.State;
 using FractalEngine.Render.Ui;
 using FractalEngine.Render.Ui.Overlays;
 using FractalEngine.Render.Views;
@@ -46,7 +47,17 @@ internal sealed class WindowRenderer(FrameRenderer frame)
     public bool Gather(Document document, RenderSettings settings)
     {
         var start = Stopwatch.GetTimestamp();
-        frame.Gather(document.Renderer, _shownView!, settings);
+        try
+        {
+            frame.Gather(document.Renderer, _shownView!, settings);
+        }
+        catch (GlException) when (frame.GatheredCount == 1)
+        {
+            // There is no memory for a mean: the single frame stays, and nothing that is open is lost.
+            _gatherTime = MaxGatherTime;
+            return false;
+        }
+
         frame.Finish();
         _gatherTime = Stopwatch.GetElapsedTime(start);
         return BitOperations.IsPow2(frame.GatheredCount) || !CanGather(settings);
