@@ -122,6 +122,15 @@ public sealed class FrameRenderer : IDisposable
         _context.ApplySettings(settings);
         var target = EnsureTarget(width, height, Math.Clamp(settings.Samples, 0, _context.MaxSampleCount));
         var frame = FrameView.Create(view, width, height, scene?.ClipPlanes(view, width, height, settings)) with { Offset = offset };
+        if (scene?.ProbeBefore(in frame, settings) is { } probe)
+        {
+            DrawProbe(probe, scene, settings with
+            {
+                Samples = 0,
+                Culling = settings.Culling is { } culling ? culling with { OcclusionCulling = false } : null,
+            });
+        }
+
         scene?.UpdateShadows(in frame, settings);
         target.Bind();
         Clear(view.Background ?? scene?.Scene.Source.Scene.Background ?? settings.Background, in frame, width, height);
@@ -130,14 +139,10 @@ public sealed class FrameRenderer : IDisposable
             return;
         }
 
-        GL.Enable(EnableCap.FramebufferSrgb);
-        GL.Enable(EnableCap.DepthTest);
-        GL.DepthFunc(_context.HasReversedDepth ? DepthFunction.Greater : DepthFunction.Less);
-        GL.FrontFace(view.Camera.Handedness == Handedness.Left ? FrontFaceDirection.Cw : FrontFaceDirection.Ccw);
         FrameView? nextFrame = nextView is null
             ? null
             : FrameView.Create(nextView, width, height, scene.ClipPlanes(nextView, width, height, settings));
-        scene.Draw(in frame, nextFrame, settings);
+        DrawObjects(scene, in frame, nextFrame, settings);
         if (view.DeepZoom is null)
         {
             _linesPass.DrawGridAndAxes(in frame, scene.Bounds, settings);
@@ -146,6 +151,30 @@ public sealed class FrameRenderer : IDisposable
         _linesPass.DrawSegments(in frame, scene.Lines);
         scene.DrawAir(in frame, target, settings);
         GL.Disable(EnableCap.DepthTest);
+    }
+
+    private void DrawObjects(SceneRenderer scene, in FrameView frame, FrameView? nextFrame, RenderSettings settings)
+    {
+        GL.Enable(EnableCap.FramebufferSrgb);
+        GL.Enable(EnableCap.DepthTest);
+        GL.DepthFunc(_context.HasReversedDepth ? DepthFunction.Greater : DepthFunction.Less);
+        GL.FrontFace(frame.View.Camera.Handedness == Handedness.Left ? FrontFaceDirection.Cw : FrontFaceDirection.Ccw);
+        scene.Draw(in frame, nextFrame, settings);
+    }
+
+    /// <summary>Draws all that is seen from a reflection probe. Solids around it must not hide the rest.</summary>
+    private void DrawProbe(ReflectionProbe probe, SceneRenderer scene, RenderSettings settings)
+    {
+        for (var side = 0; side < ReflectionProbe.SideCount; side++)
+        {
+            var frame = probe.ViewOf(side, scene.Bounds);
+            scene.UpdateShadows(in frame, settings);
+            probe.Bind(side);
+            Clear(default, in frame, frame.Width, frame.Height);
+            DrawObjects(scene, in frame, null, settings);
+        }
+
+        probe.End(settings);
     }
 
     /// <summary>Waits until the GPU has drawn everything, for measurements of time.</summary>
@@ -238,14 +267,14 @@ public sealed class FrameRenderer : IDisposable
         var bottom = height - frame.Y - frame.Height;
         GL.Enable(EnableCap.ScissorTest);
         GL.Scissor(frame.X, bottom, frame.Width, frame.Height);
-        SetClearColour(background);
+        SetClearColour(background, frame.IsProbe ? 0 : 1);
         GL.Clear(ClearBufferMask.ColorBufferBit | ClearBufferMask.DepthBufferBit);
         GL.Disable(EnableCap.ScissorTest);
         GL.Viewport(frame.X, bottom, frame.Width, frame.Height);
     }
 
-    private static void SetClearColour(Colour colour) =>
-        GL.ClearColor((float)colour.Red, (float)colour.Green, (float)colour.Blue, 1);
+    private static void SetClearColour(Colour colour, float opacity = 1) =>
+        GL.ClearColor((float)colour.Red, (float)colour.Green, (float)colour.Blue, opacity);
 
     /// <summary>Returns a framebuffer of the requested size, replacing the last one where that differs.</summary>
     private Framebuffer EnsureTarget(int width, int height, int sampleCount)

@@ -60,6 +60,7 @@ public sealed class SceneRenderer : IDisposable
             if (value.Count > 0 || _spheres.Count > 0)
             {
                 _bounds = null;
+                _objectsPass.SpheresMoved();
             }
 
             _spheres = value;
@@ -208,6 +209,9 @@ public sealed class SceneRenderer : IDisposable
     /// <param name="settings">Style and optimisations.</param>
     internal void UpdateShadows(in FrameView frame, RenderSettings settings) =>
         _objectsPass.UpdateShadows(in frame, _spheres, Bounds, settings);
+
+    /// <summary>Returns the reflection probe that has to be drawn before a frame; null for none.</summary>
+    internal ReflectionProbe? ProbeBefore(in FrameView frame, RenderSettings settings) => _objectsPass.ProbeBefore(in frame, settings);
 
     /// <summary>Draws into the bound framebuffer's viewport.</summary>
     /// <param name="frame">View of the frame.</param>

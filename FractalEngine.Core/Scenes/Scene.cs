@@ -53,6 +53,17 @@ public sealed record Scene
     /// <summary>The sky, seen behind everything where there is no <see cref="Background"/>, and a light; null for none.</summary>
     public Sky? Sky { get; init; }
 
+    /// <summary>
+    /// Where a reflection probe stands, whose view to all sides drawn mirrors show, world space; null for mirrors of the light from all
+    /// around alone.
+    /// </summary>
+    /// <exception cref="ArgumentException">A coordinate is NaN or infinite.</exception>
+    public Vector? Probe
+    {
+        get;
+        init => field = value?.IsFinite() != false ? value : throw new ArgumentException("expected a finite position", nameof(Probe));
+    }
+
     /// <summary>Factor of all light before it is shown, positive.</summary>
     /// <exception cref="ArgumentException">The factor is not positive and finite.</exception>
     public double Exposure
@@ -85,8 +96,8 @@ public sealed record Scene
     public bool Equals(Scene? other) =>
         other is not null && Camera == other.Camera && Projection == other.Projection
         && OrthographicHeight.Equals(other.OrthographicHeight) && Aspect.Equals(other.Aspect) && Clip.Equals(other.Clip)
-        && Background == other.Background && Sky == other.Sky && Exposure.Equals(other.Exposure) && Tone == other.Tone
-        && Fog == other.Fog && Lights.SequenceEqual(other.Lights) && Objects.SequenceEqual(other.Objects)
+        && Background == other.Background && Sky == other.Sky && Probe == other.Probe
+        && Exposure.Equals(other.Exposure) && Tone == other.Tone && Fog == other.Fog && Lights.SequenceEqual(other.Lights) && Objects.SequenceEqual(other.Objects)
         && Gravity == other.Gravity && Player == other.Player && Handedness == other.Handedness;
 
     /// <inheritdoc/>

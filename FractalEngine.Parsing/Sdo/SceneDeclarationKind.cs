@@ -24,6 +24,9 @@ public enum SceneDeclarationKind
     /// <summary>Light and background from all around: <c>sky (zenith) (horizon) [ground]</c> or <c>sky "file" …</c>.</summary>
     Sky,
 
+    /// <summary>Place of the reflection probe: <c>probe (x, y, z)</c>.</summary>
+    Probe,
+
     /// <summary>Factor of all light: <c>exposure factor</c>.</summary>
     Exposure,
 

@@ -37,6 +37,7 @@ internal static class SceneFormatter
         SceneDeclarationKind.Clip => scene.Clip is var (near, far) ? $"clip {FormatNumber(near)} {FormatNumber(far)}" : null,
         SceneDeclarationKind.Background => scene.Background is { } background ? $"background {background}" : null,
         SceneDeclarationKind.Sky => scene.Sky is { } sky ? Format(sky.Declaration) : null,
+        SceneDeclarationKind.Probe => scene.Probe is { } probe ? $"probe {probe}" : null,
         SceneDeclarationKind.Exposure => AreBitEqual(scene.Exposure, 1) ? null : $"exposure {FormatNumber(scene.Exposure)}",
         SceneDeclarationKind.Tone => scene.Tone == Tone.Filmic ? "tone filmic" : null,
         SceneDeclarationKind.Fog => scene.Fog is { } fog ? Format(fog) : null,

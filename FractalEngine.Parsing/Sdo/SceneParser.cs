@@ -24,6 +24,7 @@ public sealed class SceneParser : SceneObjectParser
         ("light", SceneDeclarationKind.Light, static (parser, cursor, out rest) => parser.ParseLight(cursor, out rest)),
         ("sun", SceneDeclarationKind.Light, static (parser, cursor, out rest) => parser.ParseSun(cursor, out rest)),
         ("sky", SceneDeclarationKind.Sky, static (parser, cursor, out rest) => parser.ParseSky(cursor, out rest)),
+        ("probe", SceneDeclarationKind.Probe, static (parser, cursor, out rest) => parser.ParseProbe(cursor, out rest)),
         ("exposure", SceneDeclarationKind.Exposure, static (parser, cursor, out rest) => parser.ParseExposure(cursor, out rest)),
         ("tone", SceneDeclarationKind.Tone, static (parser, cursor, out rest) => parser.ParseTone(cursor, out rest)),
         ("fog", SceneDeclarationKind.Fog, static (parser, cursor, out rest) => parser.ParseFog(cursor, out rest)),

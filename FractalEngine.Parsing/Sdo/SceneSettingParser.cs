@@ -176,6 +176,9 @@ public abstract class SceneSettingParser : SceneValueParser
             && UpdateScene(Scene with { Sky = new ColourSky(zenith, horizon, ground) });
     }
 
+    private protected bool ParseProbe(Cursor cursor, out Cursor rest) =>
+        ParseVector(cursor, out var position, out rest) && UpdateScene(Scene with { Probe = position });
+
     private protected bool ParseExposure(Cursor cursor, out Cursor rest)
     {
         if (!ParseNumber(cursor, static number => number > 0, "the exposure must be positive", out var exposure, out rest))

@@ -1,5 +1,4 @@
-using System.Collections.Immutable;
-using FractalEngine.Core.Scenes.Lights;
+using FractalEngine.Core.Scenes;
 using FractalEngine.Render.Gl;
 using FractalEngine.Render.Gl.State;
 using FractalEngine.Render.Lights;
@@ -16,8 +15,8 @@ namespace FractalEngine.Render.Frame;
 /// </summary>
 /// <remarks>The light and shadow blocks of the frame must be bound. Allocates nothing while the sizes stay the same.</remarks>
 /// <param name="context">Current context.</param>
-/// <param name="lights">Lights of the scene.</param>
-internal sealed class AirPass(RenderContext context, ImmutableArray<Emitter> lights) : IDisposable
+/// <param name="scene">Scene that declares lights.</param>
+internal sealed class AirPass(RenderContext context, LoadedScene scene) : IDisposable
 {
     private const MeshFeatures ShadowFeatures = MeshFeatures.Shadows | MeshFeatures.PointShadows | MeshFeatures.ShadowSlices;
 
@@ -78,7 +77,7 @@ internal sealed class AirPass(RenderContext context, ImmutableArray<Emitter> lig
         _composition = null;
         string[] symbols = samples > 0 ? [FormattableString.Invariant($"SAMPLES {samples}")] : [];
         _march = new(
-            context, "air.frag", [.. symbols, .. MeshProgram.SymbolsOf(features), .. LightBlock.SymbolsOf(lights, distantLights)]);
+            context, "air.frag", [.. symbols, .. MeshProgram.SymbolsOf(features), .. LightBlock.SymbolsOf(scene, distantLights)]);
         _composition = new(context, "lit.frag", symbols);
         _lastKey = (features, distantLights, samples);
     }

@@ -1,6 +1,5 @@
-using System.Collections.Immutable;
 using FractalEngine.Core.Geometry;
-using FractalEngine.Core.Scenes.Lights;
+using FractalEngine.Core.Scenes;
 using FractalEngine.Render.Drawables;
 using FractalEngine.Render.Gl;
 using FractalEngine.Render.Gl.State;
@@ -13,14 +12,13 @@ namespace FractalEngine.Render.Frame;
 
 /// <summary>Selects the program that a material needs, and sets its uniforms, to draw lit, instanced triangles.</summary>
 /// <param name="context">Current context.</param>
-/// <param name="lights">Lights of the scene.</param>
-/// <param name="hasSkySides">Whether its sky differs from side to side.</param>
-internal sealed class MeshPass(RenderContext context, ImmutableArray<Emitter> lights, bool hasSkySides) : IDisposable
+/// <param name="scene">Scene that declares lights, sky and probe.</param>
+internal sealed class MeshPass(RenderContext context, LoadedScene scene) : IDisposable
 {
     private const int FeatureCombinations = 32768;
     private static readonly Colour WireframeColour = new(0.80, 0.83, 0.87);
 
-    private string[] _lightSymbols = LightBlock.SymbolsOf(lights, hasSides: hasSkySides);
+    private string[] _lightSymbols = LightBlock.SymbolsOf(scene);
     private int _distantLights;
 
     // Indexed by features. Each program is built when it is first needed.
@@ -126,7 +124,7 @@ internal sealed class MeshPass(RenderContext context, ImmutableArray<Emitter> li
         Array.Clear(_programs);
         Array.Clear(_lastFrameOfProgram);
         _distantLights = distantLights;
-        _lightSymbols = LightBlock.SymbolsOf(lights, distantLights, hasSkySides);
+        _lightSymbols = LightBlock.SymbolsOf(scene, distantLights);
     }
 
     private static MeshFeatures FeaturesOf(DrawableMaterial? material) =>

@@ -43,6 +43,8 @@ internal sealed class MeshProgram : ShaderProgram
         Set("detailTexture", GlState.DetailTextureUnit);
         Set("facetAlbedo", GlState.FacetTextureUnit);
         Set("surroundings", GlState.SurroundingsTextureUnit);
+        Set("probe", GlState.ProbeTextureUnit);
+        Set("probeDepths", GlState.ProbeDepthTextureUnit);
         _materialUniforms = new(this, _filter);
     }
 

@@ -31,8 +31,7 @@ internal sealed class ObjectsPass(
     // Natural logarithm. In smaller units than this, point lights look the same.
     private const double MaxLogLightScale = 14;
 
-    private readonly MeshPass _meshPass = new(
-        context, LightBlock.LightsOf(scene.Source), scene.Source.Scene.Sky is ImageSky);
+    private readonly MeshPass _meshPass = new(context, scene.Source);
     private readonly LightBlock _lightBlock = new(context.Resources, scene.Source);
     private readonly ObjectBlocks _objectBlocks = new(context.Resources, scene.Objects.Length);
     private readonly DepthOrder _opaqueOrder = DepthOrder.Of(scene, static _ => true);
@@ -41,7 +40,7 @@ internal sealed class ObjectsPass(
         scene.Source.Scene is { Sky: not null, Background: null } ? new(context.Resources, scene.Source.Scene) : null;
 
     private readonly AirPass? _airPass =
-        scene.Source.Scene.Fog is { IsLit: true } ? new(context, LightBlock.LightsOf(scene.Source)) : null;
+        scene.Source.Scene.Fog is { IsLit: true } ? new(context, scene.Source) : null;
 
     private readonly LampsPass? _lampsPass =
         LightBlock.SurfacesOf(scene.Source).IsEmpty ? null : new(context, LightBlock.LightsOf(scene.Source).Length);
@@ -50,6 +49,7 @@ internal sealed class ObjectsPass(
     private DepthOrder _transparentOrder = DepthOrder.Of(scene, static model => model.HasTransparentBatches);
     private SphereBatch? _sphereBatch;
     private GlossMaps? _glossMaps;
+    private ReflectionProbe? _probe;
     private bool _hasSkyParts;
 
     /// <summary>Bounds of the surfaces of lamps, world space; empty where there are none.</summary>
@@ -71,10 +71,30 @@ internal sealed class ObjectsPass(
         _objectBlocks.ForgetColours();
         _transparentOrder = DepthOrder.Of(prepared, static model => model.HasTransparentBatches);
         _shadowPass.SetScene(prepared);
+        _probe?.Forget();
     }
 
     /// <summary>Notes that an object stands elsewhere now.</summary>
-    public void ObjectMoved(int index, AffineMap map) => _shadowPass.ObjectMoved(index, map);
+    public void ObjectMoved(int index, AffineMap map)
+    {
+        _shadowPass.ObjectMoved(index, map);
+        _probe?.Forget();
+    }
+
+    /// <summary>Notes that spheres stand elsewhere now.</summary>
+    public void SpheresMoved() => _probe?.Forget();
+
+    /// <summary>Returns the probe that has to be drawn before a frame; null for none.</summary>
+    public ReflectionProbe? ProbeBefore(in FrameView frame, RenderSettings settings)
+    {
+        if (!_scene.HasGloss || _scene.Source.Scene.Probe is not { } position || settings.Wireframe || frame.View.DeepZoom is not null)
+        {
+            return null;
+        }
+
+        _probe ??= new(context, position);
+        return _probe.Shows(settings) ? null : _probe;
+    }
 
     /// <summary>Draws the depth maps of the lights, where they are not up to date.</summary>
     public void UpdateShadows(
@@ -88,8 +108,9 @@ internal sealed class ObjectsPass(
     public void Draw(in FrameView frame, IReadOnlyList<SphereInstance> spheres, RenderSettings settings)
     {
         var view = frame.View;
-        _lightBlock.Bind(GlState.LightBinding, view.Camera.Position, LightScaleOf(view), settings.Background);
-        if (_skyPass is not null && view.Background is null)
+        var probe = view.DeepZoom is null ? _probe?.Place : null;
+        _lightBlock.Bind(GlState.LightBinding, view.Camera.Position, LightScaleOf(view), settings.Background, probe, frame.IsProbe);
+        if (_skyPass is not null && view.Background is null && !frame.IsProbe)
         {
             _skyPass.Draw(in frame);
         }
@@ -98,6 +119,10 @@ internal sealed class ObjectsPass(
         if (_scene.HasGloss)
         {
             (_glossMaps ??= new(context.Resources, _scene.Source.Scene)).Bind();
+            if (probe is not null)
+            {
+                _probe!.BindTextures();
+            }
         }
 
         _hasSkyParts = EffectiveCulling.HasSkyVisibility(settings);
@@ -132,7 +157,7 @@ internal sealed class ObjectsPass(
 
     /// <inheritdoc/>
     public void Dispose() => GlObject.DisposeAll(
-        _objectBlocks, _skyPass, _lampsPass, _airPass, _shadowPass, _sphereBatch, _glossMaps, _lightBlock, _meshPass);
+        _objectBlocks, _skyPass, _lampsPass, _airPass, _shadowPass, _sphereBatch, _glossMaps, _probe, _lightBlock, _meshPass);
 
     private MeshFeatures FrameFeatures(RenderSettings settings) =>
         (settings.Shading == Shading.PerPixel ? MeshFeatures.PerPixel : 0) | (_lightBlock.HasAtmosphere ? MeshFeatures.Atmosphere : 0)
@@ -155,7 +180,8 @@ internal sealed class ObjectsPass(
                 continue;
             }
 
-            var culledFace = settings.Wireframe || !settings.BackFaceCulling ? CullFace.None : FaceToCull(i, in frame);
+            var culledFace = frame.IsProbe ? InnerFaceOf(i)
+                : settings.Wireframe || !settings.BackFaceCulling ? CullFace.None : FaceToCull(i, in frame);
             BackFaceCulledCount += culledFace == CullFace.None ? 0 : 1;
             _meshPass.Cull(culledFace);
             _meshPass.InnerFace = frame.Section is { HasCap: true } ? InnerFaceOf(i) : CullFace.None;

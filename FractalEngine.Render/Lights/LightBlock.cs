@@ -20,7 +20,7 @@ internal sealed class LightBlock : IDisposable
     // Programs grow with the number of lights that have constant indices.
     private const int MaxUnrolledLights = 4;
 
-    private const int HeaderFloats = 24;
+    private const int HeaderFloats = 32;
     private const int SideFloats = 24;
     private const int FloatsPerLight = 16;
 
@@ -30,7 +30,7 @@ internal sealed class LightBlock : IDisposable
     private readonly RedundancyFilter _uploadFilter;
     private readonly GlBuffer _buffer;
     private readonly float[] _data = new float[HeaderFloats + (MaxLights * FloatsPerLight) + SideFloats];
-    private (Vector, double, Colour)? _lastKey;
+    private (Vector, double, Colour, ProbePlace?, bool)? _lastKey;
 
     /// <summary>Creates the buffer for the lights of a scene, or for the default ones where it declares none.</summary>
     /// <param name="resources">Resources of the current context.</param>
@@ -44,8 +44,6 @@ internal sealed class LightBlock : IDisposable
         _fogDensity = scene.Scene.Fog?.Density ?? 0;
         var display = DisplayTransform.Of(scene.Scene);
         WriteAmbient(SceneAmbient.Of(scene.Scene));
-        WriteVector(
-            new(display.Exposure, display.Tone == Tone.Filmic ? 1 : 0, _fogDensity), _scene.Fog?.Albedo ?? 0, _data.AsSpan(16));
         HasAtmosphere = !display.IsIdentity || _fogDensity > 0;
         MemoryMarshal.Cast<float, int>(_data.AsSpan(8))[0] = _lights.Length;
     }
@@ -73,11 +71,11 @@ internal sealed class LightBlock : IDisposable
     /// Returns a loop over the lights, and the kinds of their shadows, as symbols of a shader. The loop over few lights has constant
     /// indices: without a GPU, reading a block at others takes a tenth to a fifth of a frame.
     /// </summary>
-    /// <param name="lights">Lights of the scene.</param>
+    /// <param name="scene">Scene that declares lights, sky and probe.</param>
     /// <param name="distantLights">Lights that have a position, but are parallel for the scene: bit i for light i.</param>
-    /// <param name="hasSides">Whether the sky differs from side to side.</param>
-    public static string[] SymbolsOf(ImmutableArray<Emitter> lights, int distantLights = 0, bool hasSides = false)
+    public static string[] SymbolsOf(LoadedScene scene, int distantLights = 0)
     {
+        var lights = LightsOf(scene);
         // It has one element at least, as GLSL has no arrays of none.
         var kinds = string.Join(", ", lights.Select(KindOfShadow).DefaultIfEmpty('0'));
         var loop = lights.Length <= MaxUnrolledLights
@@ -86,8 +84,11 @@ internal sealed class LightBlock : IDisposable
         return
         [
             $"EACH_LIGHT(DO){loop}", $"LIGHT_KINDS int[]({kinds})",
-            .. hasSides ? (string[])["SKY_SIDES"] : [], .. lights.Any(static light => light.HasSurface) ? (string[])["SURFACE_LIGHTS"] : [],
+            .. SymbolIf(scene.Scene.Sky is ImageSky, "SKY_SIDES"),
+            .. SymbolIf(lights.Any(static light => light.HasSurface), "SURFACE_LIGHTS"), .. SymbolIf(scene.Scene.Probe is not null, "PROBE"),
         ];
+
+        static string[] SymbolIf(bool isDefined, string symbol) => isDefined ? [symbol] : [];
 
         char KindOfShadow(Emitter light, int index) =>
             light.Position is null || (distantLights & (1 << index)) != 0 ? '0' : light.NeedsCube ? '1' : '2';
@@ -126,17 +127,20 @@ internal sealed class LightBlock : IDisposable
     }
 
     /// <summary>
-    /// Binds the block, uploading it at first and, with haze or a light that has a position, when one of these has changed.
+    /// Binds the block, uploading it at first and, with haze, a probe or a light that has a position, when one of these has changed.
     /// </summary>
     /// <param name="bindingPoint">Binding point of the program's block.</param>
     /// <param name="cameraPosition">Position of the camera in world space. Light positions are written relative to it.</param>
     /// <param name="unitsPerSceneUnit">1, or more where the frame is drawn in a smaller unit.</param>
     /// <param name="background">Colour of the background where the scene declares none.</param>
-    public void Bind(int bindingPoint, Vector cameraPosition, double unitsPerSceneUnit, Colour background)
+    /// <param name="probe">Reflection probe that mirrors show; null for none.</param>
+    /// <param name="isForProbe">Whether light is left as it is, without haze, exposure and tone.</param>
+    public void Bind(
+        int bindingPoint, Vector cameraPosition, double unitsPerSceneUnit, Colour background, ProbePlace? probe, bool isForProbe)
     {
-        var key = (cameraPosition, unitsPerSceneUnit, _fogDensity > 0 ? background : default);
-        var isRedundant = _lastKey is { } last
-            && (last == key || !(_fogDensity > 0 || _lights.Any(static light => light.Position is not null)));
+        var key = (cameraPosition, unitsPerSceneUnit, _fogDensity > 0 ? background : default, probe, isForProbe);
+        var isRedundant = _lastKey is { } last && (last == key
+            || !(_fogDensity > 0 || _scene.Probe is not null || _lights.Any(static light => light.Position is not null)));
         if (_uploadFilter.ShouldPerform(isRedundant))
         {
             for (var i = 0; i < _lights.Length; i++)
@@ -145,7 +149,17 @@ internal sealed class LightBlock : IDisposable
                 WriteLight(_lights[i], cameraPosition, unitsPerSceneUnit, target);
             }
 
-            _data[18] = (float)(_fogDensity / unitsPerSceneUnit);
+            var display = isForProbe ? new(1, Tone.None) : DisplayTransform.Of(_scene);
+            WriteVector(
+                new(display.Exposure, display.Tone == Tone.Filmic ? 1 : 0, isForProbe ? 0 : _fogDensity / unitsPerSceneUnit),
+                _scene.Fog?.Albedo ?? 0,
+                _data.AsSpan(16));
+            if (probe is { } place)
+            {
+                WriteVector(place.Position - cameraPosition, place.InverseAtZero, _data.AsSpan(24));
+            }
+
+            _data[28] = (float)(probe?.InverseAtOne ?? 0);
             WriteVector(FogColour(_scene, background), _scene.Fog?.Anisotropy ?? 0, _data.AsSpan(20));
             _buffer.Upload<float>(_data, BufferUsageHint.DynamicDraw);
             _lastKey = key;

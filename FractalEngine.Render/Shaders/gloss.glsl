@@ -143,11 +143,85 @@ void addGloss(
     mirrored += incoming * (mirroredOnce + cosine * (1.0 - facets.x - facets.y) / material[5].w * gloss.several);
 }
 
-// What is mirrored of the light from all around, where nothing hides it.
-vec3 mirroredSurroundings(Gloss gloss, vec3 n, vec3 toEye, vec3 ambient)
+#ifdef PROBE
+uniform samplerCube probe;       // Frame.ReflectionProbe: linear light times coverage, and coverage
+uniform samplerCube probeDepths; // along the axis of each side
+
+// How many times as far from the probe a place is as what the probe sees in its direction.
+float farness(vec3 place)
+{
+    float inverseDepth = mix(probePlace.w, probeDepth.x, textureLod(probeDepths, place, 0.0).r);
+    vec3 a = abs(place);
+    return inverseDepth * max(a.x, max(a.y, a.z));
+}
+
+const float behind = 1.01; // by more than rounding
+const float thick = 1.2;   // farther than most objects reach behind what is seen of them
+
+// How far a ray is from its origin where it is seen from the probe by an angle to that.
+float wayAt(float angle, float end, float size)
+{
+    return size * sin(angle) / max(sin(end - angle), 1e-4);
+}
+
+// What objects are mirrored, and how much of the light from all around they hide. The ray is followed to where it passes just behind what
+// the probe sees, by steps of equal angles from there, then by halves. (L. Szirmay-Kalos and others, Computer Graphics Forum 24, 2005, go by
+// distances instead, which misses what stands alone before a far background.)
+vec4 mirroredObjects(vec3 position, vec3 r)
+{
+    vec3 origin = position - probePlace.xyz;
+    float size = max(length(origin), 1e-30);
+    float end = acos(clamp(dot(origin, r) / size, -1.0, 1.0));
+    float way = wayAt(end, end, size);
+    bool isHidden = true;
+    for (int i = 1; i <= 24; i++)
+    {
+        float high = end * float(i) / 24.0;
+        bool wasHidden = isHidden;
+        isHidden = farness(origin + wayAt(high, end, size) * r) > behind;
+        if (wasHidden || !isHidden)
+        {
+            continue;
+        }
+
+        float low = high - end / 24.0;
+        for (int j = 0; j < 7; j++)
+        {
+            float middle = 0.5 * (low + high);
+            bool isBeyond = farness(origin + wayAt(middle, end, size) * r) > behind;
+            low = isBeyond ? low : middle;
+            high = isBeyond ? middle : high;
+        }
+
+        way = wayAt(high, end, size);
+        if (farness(origin + way * r) < thick)
+        {
+            break;
+        }
+
+        // The ray passes far behind what stands alone, and shows what the probe sees beside that.
+        way = wayAt(end * (float(i) - 1.5) / 24.0, end, size);
+    }
+
+    vec3 hit = origin + way * r;
+    // A texel of the level is about as wide as the lobe of the facets.
+    float width = 4.0 * material[1].w * way / max(length(hit), 1e-30);
+    return textureLod(probe, hit, max(log2(width * float(textureSize(probe, 0).x) / 1.5708), 0.0));
+}
+#endif
+
+// What is mirrored of the light from all around, where nothing hides it, and of objects that a probe sees.
+vec3 mirroredSurroundings(vec3 position, Gloss gloss, vec3 n, vec3 toEye, vec3 ambient)
 {
     vec3 r = 2.0 * dot(n, toEye) * n - toEye;
     vec2 place = vec2(atan(r.z, r.x) / (2.0 * pi) + 0.5, acos(clamp(r.y, -1.0, 1.0)) / pi);
     vec3 seen = textureLod(surroundings, place, log2(material[1].w / minRoughness)).rgb;
+#ifdef PROBE
+    if (probeDepth.x > 0.0)
+    {
+        vec4 objects = mirroredObjects(position, r);
+        seen = objects.rgb + (1.0 - objects.a) * seen;
+    }
+#endif
     return (gloss.facets.x * gloss.specular + gloss.facets.y) * seen + gloss.several * ambient;
 }

@@ -18,6 +18,8 @@ layout(std140) uniform LightBlock
     vec4 skyCurvature;   // ambient light in proportion to the square of the normal's height
     vec4 display;        // exposure; 1 for the filmic tone; density of the haze per unit; the share that it scatters
     vec4 fogColour;      // linear light; w: anisotropy of what the haze scatters
+    vec4 probePlace;     // of the reflection probe, relative to the camera; w: one divided by the depth that is stored as 0
+    vec4 probeDepth;     // x: likewise of 1; 0 where mirrors don't show the probe
     Light lights[maxLights];
     vec4 skySides[6];    // factors of products of the normal's components, where the sky differs from side to side
 };

@@ -181,7 +181,7 @@ void main()
 #ifdef GLOSSY
     vec3 toEye = towardsEye(position, cameraAxes[2], depthScale);
     Gloss gloss = glossOf(surface, n, toEye);
-    vec3 mirrored = mirroredSurroundings(gloss, n, toEye, ambient);
+    vec3 mirrored = mirroredSurroundings(position, gloss, n, toEye, ambient);
     surface = gloss.scattered;
 #endif
 #ifdef SKY_PARTS

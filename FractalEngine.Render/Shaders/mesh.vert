@@ -39,7 +39,7 @@ layout(std140) uniform ObjectBlock
 vec3 lightGloss(inout vec3 surface, vec3 n, vec3 position, vec3 toEye, inout vec3 light)
 {
     Gloss gloss = glossOf(surface, n, toEye);
-    vec3 mirrored = mirroredSurroundings(gloss, n, toEye, ambientLight(n));
+    vec3 mirrored = mirroredSurroundings(position, gloss, n, toEye, ambientLight(n));
     for (int i = 0; i < lightCount.x; i++)
     {
         vec3 toLight;

@@ -31,6 +31,9 @@ internal readonly record struct FrameView(View View, int X, int Y, int Width, in
     /// <summary>Plane that cuts the scene open, in world axes about the camera; null for none.</summary>
     public SectionPlane? Section { get; } = View.RelativeSection;
 
+    /// <summary>Whether this is a side of a reflection probe: light as it is, and solids around the camera left out.</summary>
+    public bool IsProbe { get; init; }
+
     /// <summary>How far the image of a perspective view is moved on the screen, in pixels to the right and upwards.</summary>
     public (double X, double Y) Offset { get; init; }
 

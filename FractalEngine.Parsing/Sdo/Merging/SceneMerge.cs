@@ -5,7 +5,7 @@ namespace FractalEngine.Parsing.Sdo.Merging;
 
 /// <summary>
 /// Merges changes of a scene into the text of its file as it is now, line by line. It knows the declarations that a scene has at most
-/// once: camera, projection, aspect, clip planes, background, sky, exposure,
+/// once: camera, projection, aspect, clip planes, background, sky, probe, exposure,
 /// tone, fog, gravity, player and handedness. All other lines are those of the file.
 /// </summary>
 /// <remarks>

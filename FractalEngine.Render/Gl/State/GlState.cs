@@ -41,6 +41,12 @@ internal sealed class GlState
     /// <summary>Texture unit of the light that the air scatters.</summary>
     public const int AirTextureUnit = 7;
 
+    /// <summary>Texture unit of the colours of a reflection probe.</summary>
+    public const int ProbeTextureUnit = 8;
+
+    /// <summary>Texture unit of the depths of a reflection probe.</summary>
+    public const int ProbeDepthTextureUnit = 9;
+
     // No GL object has this name, and no face this value, so that the next call always takes effect.
     private const int Unknown = -1;
 
@@ -84,7 +90,7 @@ internal sealed class GlState
         }
     }
 
-    /// <summary>Binds a two-dimensional texture to a texture unit other than the first, whatever is bound there.</summary>
+    /// <summary>Binds a texture to a texture unit other than the first, whatever is bound there.</summary>
     public static void BindTexture(int unit, int name, TextureTarget kind = TextureTarget.Texture2D)
     {
         GL.ActiveTexture(TextureUnit.Texture0 + unit);

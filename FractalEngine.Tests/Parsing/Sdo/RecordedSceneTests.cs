@@ -28,7 +28,7 @@ public class RecordedSceneTests
         "light point (0, 1, 0) (1, 1, 1) 2 30", "light spot (0, 1, 0) (0, -1, 0) 40, (1, 1, 1) 2 30", "sun (0, -1, 0) (1, 1, 1) 2 0.75",
         "light ball (0, 1, 0) 0.5, (1, 1, 1) 2 30", "light quad (0, 1, 0) (0, -1, 0) 2 1 (1, 1, 1) 2 30 45",
         "sun (0, -1, 0), (1, 1, 1), 2", "sky (0, 0, 1) (1, 1, 1) (0.5, 0.4, 0.3)", "sky (0, 0, 1), (1, 1, 1)", "exposure 2", "tone none",
-        "tone filmic", "fog 0.1 (1, 1, 1)", "fog 0.1", "gravity (0, -9, 0)", "gravity #",
+        "tone filmic", "fog 0.1 (1, 1, 1)", "fog 0.1", "probe (0, 1, 2)", "gravity (0, -9, 0)", "gravity #",
         "player (0, 1, 0) 0.3 1.8 speed 4 jump 5 slope 45 step 0.4", "player (0, 1, 0), 0.3, 1.8", "# comment\n\n \tfog 1",
         "fog 1\r\nexposure 2\rtone none", "handed right\nc (1, 2, -5) look-at (0, 1, 0) 50",
     ];

@@ -30,7 +30,7 @@ public class SceneParserErrorTests
     public void Keyword_Unknown_ListsTheKnownOnes() => FailsAt(
         "x \"a.obj\" #", 1,
         "unexpected 'x', expected 'c', 'o', 'p', 'handed', 'projection', 'aspect', 'clip', 'background', 'light', 'sun', 'sky', "
-        + "'exposure', 'tone', 'fog', 'gravity' or 'player'");
+        + "'probe', 'exposure', 'tone', 'fog', 'gravity' or 'player'");
 
     [Theory]
     [InlineData("c (1, 2, 3) (4, 5, 6)", 22, "unexpected end of file: a camera ends with its vertical angle of view in degrees")]
@@ -87,6 +87,7 @@ public class SceneParserErrorTests
     [InlineData("sun (0, -1, 0) (1, 1, 1)", 25, "unexpected end of file, expected a number")]
     [InlineData("sun (0, -1, 0) (1, 1, 1) -1", 26, "the intensity of a light must not be negative")]
     [InlineData("sun (0, -1, 0) (1, 1, 1) 1 90", 28, "the diameter of the sun must be at least 0 and less than 90 degrees")]
+    [InlineData("probe 1", 7, "unexpected '1', expected '('")]
     [InlineData("exposure 0", 10, "the exposure must be positive")]
     [InlineData("exposure 1e20", 10, "the exposure must lie between 1e-9 and 1e9")]
     [InlineData("exposure 1e-10", 10, "the exposure must lie between 1e-9 and 1e9")]
@@ -204,6 +205,7 @@ public class SceneParserErrorTests
     [InlineData("clip 1 2")]
     [InlineData("background (0, 0, 0)")]
     [InlineData("sky (0, 0, 1) (1, 1, 1)")]
+    [InlineData("probe (0, 1, 0)")]
     [InlineData("exposure 2")]
     [InlineData("tone none")]
     [InlineData("fog 0.1")]

@@ -178,6 +178,12 @@ public class SceneParserTests
         new SunLight(new(1, -2, 0), new(1, 0.9, 0.8), 3, diameter), Assert.Single(Parse(line).Lights));
 
     [Theory]
+    [InlineData("probe (1, -2.5, 3e-9)", true)]
+    [InlineData("fog 1", false)]
+    public void Probe_IsAPoint(string line, bool isDeclared) =>
+        Assert.Equal(isDeclared ? new Vector(1, -2.5, 3e-9) : null, Parse(line).Probe);
+
+    [Theory]
     [InlineData("exposure 1.5\ntone filmic", 1.5, Tone.Filmic)]
     [InlineData("tone none", 1, Tone.None)]
     [InlineData("handed left", 1, Tone.None)]

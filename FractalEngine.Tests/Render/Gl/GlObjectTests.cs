@@ -146,7 +146,7 @@ public sealed class GlObjectTests
         using var context = GlTests.OpenContext();
         for (var features = 0; features < 8; features++)
         {
-            new MeshProgram(context, (MeshFeatures)features, LightBlock.SymbolsOf([])).Dispose();
+            new MeshProgram(context, (MeshFeatures)features, LightBlock.SymbolsOf(LoadedScene.Of(new Scene()))).Dispose();
         }
 
         Assert.Empty(context.Resources.LiveObjects);

@@ -52,6 +52,7 @@ public sealed class SceneMergeTests : IDisposable
     [InlineData("clip 1 2", true)]
     [InlineData("background (0, 0, 0)", true)]
     [InlineData("sky (0, 0, 0) (1, 1, 1)", true)]
+    [InlineData("probe (0, 1, 0)", true)]
     [InlineData("exposure 2", true)]
     [InlineData("tone filmic", true)]
     [InlineData("fog 0.1", true)]
