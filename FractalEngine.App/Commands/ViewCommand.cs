@@ -57,7 +57,7 @@ internal static class ViewCommand
             draw.RequireEffect(result, hasWindow: true);
             return Run(result.GetValue(shared.File) ?? FindGallery(), new()
             {
-                Load = shared.LoadOptions(result),
+                Load = draw.Staged(result, shared.LoadOptions(result)),
                 Settings = draw.Settings(result, DrawOptions.WindowGatheredFrames),
                 Projection = draw.Projection(result),
                 Section = draw.Section(result),

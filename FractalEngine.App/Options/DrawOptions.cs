@@ -6,6 +6,7 @@ using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Scenes.Cameras;
 using FractalEngine.Core.Visibility.Frames;
+using FractalEngine.Parsing.Assets;
 using FractalEngine.Render.Views;
 
 namespace FractalEngine.App.Options;
@@ -55,6 +56,9 @@ internal sealed class DrawOptions
         "--shading", "Compute the lighting at each vertex or at each pixel (default: pixel).",
         ("vertex", Shading.PerVertex), ("pixel", Shading.PerPixel));
 
+    private readonly Option<bool> _plain = SharedOptions.Flag(
+        "--plain", "Show a mesh or fractal that is opened alone in one colour before a plain background, without sky and sun.");
+
     private readonly Option<bool> _noShadows = new("--no-shadows") { Description = "Draw no shadows." };
 
     private readonly Option<string?> _section = SharedOptions.TextOption(
@@ -68,8 +72,11 @@ internal sealed class DrawOptions
     private readonly Option<(int Width, int Height)?> _resolution = SharedOptions.ResolutionOption();
 
     public void AddTo(Command command) => SharedOptions.AddAll(
-        command, _resolution, _projection, _shading, _noShadows, _noAmbientOcclusion, _wireframe, _grid, _section, _minProjectedSize,
+        command, _resolution, _projection, _plain, _shading, _noShadows, _noAmbientOcclusion, _wireframe, _grid, _section, _minProjectedSize,
         _maxInstances, _sampleCount, _gatheredFrames);
+
+    /// <summary>Returns load options for what is drawn: on a stage, unless the command line asks for the plain look.</summary>
+    public LoadOptions Staged(ParseResult result, LoadOptions load) => load with { IsStaged = !result.GetValue(_plain) };
 
     /// <summary>Returns width and height of the frame in pixels.</summary>
     public (int Width, int Height) Resolution(ParseResult result) => result.GetValue(_resolution) ?? SharedOptions.DefaultResolution;

@@ -115,7 +115,8 @@ public sealed class AssetLoader
         var declared = new SceneObject(Path.GetFileName(_fullPath), Transformation.Identity) { Model = model };
         // Meshes come from other tools, which are right-handed; fractals are seen as the paper's figures show them.
         var handedness = kind == FileKind.Mesh ? Handedness.Right : Handedness.Left;
-        return CreateLoadedFile(kind, LoadedScene.Of(new() { Handedness = handedness, Objects = [declared] }), null);
+        var scene = _options.IsStaged ? Stage.Of(declared, handedness) : new() { Handedness = handedness, Objects = [declared] };
+        return CreateLoadedFile(kind, LoadedScene.Of(scene), null);
     }
 
     private LoadedFile CreateLoadedFile(FileKind kind, LoadedScene scene, ParsedScene? parsedScene) =>

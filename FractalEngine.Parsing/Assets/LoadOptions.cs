@@ -37,6 +37,12 @@ public sealed record LoadOptions
     /// </summary>
     public ImmutableDictionary<string, string> EditedTexts { get; init; } = ImmutableDictionary<string, string>.Empty;
 
+    /// <summary>
+    /// Whether a mesh or fractal that is opened alone stands under a sky and a sun, and a fractal without colours of its own has those of
+    /// a palette by level. False leaves it to whoever draws it.
+    /// </summary>
+    public bool IsStaged { get; init; }
+
     /// <summary>Whether all objects of one file share its model. False loads the file once per object, for comparison.</summary>
     public bool ShareModels { get; init; } = true;
 }

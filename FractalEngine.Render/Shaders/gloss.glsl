@@ -165,8 +165,8 @@ float wayAt(float angle, float end, float size)
 }
 
 // What objects are mirrored, and how much of the light from all around they hide. The ray is followed to where it passes just behind what
-// the probe sees, by steps of equal angles from there, then by halves. (L. Szirmay-Kalos and others, Computer Graphics Forum 24, 2005, go by
-// distances instead, which misses what stands alone before a far background.)
+// the probe sees, by steps of equal angles from there, then by halves. (L. Szirmay-Kalos and others, Computer Graphics Forum 24, 2005, go
+// by distances instead, which misses what stands alone before a far background.)
 vec4 mirroredObjects(vec3 position, vec3 r)
 {
     vec3 origin = position - probePlace.xyz;
