@@ -186,6 +186,9 @@ public sealed class Fractal : IEquatable<Fractal>
     /// <summary>What this is a part of, which shows other meshes too; null for a whole.</summary>
     private Fractal? Whole { get; init; }
 
+    /// <summary>The box of what this is a part of.</summary>
+    internal BoundingBox WholeBounds => (Whole ?? this).Bounds;
+
     /// <summary>The base meshes and all parts.</summary>
     internal FractalGraph Graph { get; }
 

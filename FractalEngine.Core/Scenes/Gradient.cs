@@ -2,7 +2,20 @@ using FractalEngine.Core.Geometry;
 
 namespace FractalEngine.Core.Scenes;
 
-/// <summary>How the instances of a fractal differ in colour: from the object's own colour to another one.</summary>
+/// <summary>How the instances of a fractal differ in colour: from the object's own colour to another one, or by a palette.</summary>
 /// <param name="Kind">What the colour depends on.</param>
 /// <param name="EndColour">The colour at the far end of the gradient.</param>
-public sealed record Gradient(GradientKind Kind, Colour EndColour);
+public sealed record Gradient(GradientKind Kind, Colour EndColour)
+{
+    /// <summary>Makes a gradient of a palette, which the object's own colour is no part of.</summary>
+    /// <param name="kind">What the colour depends on.</param>
+    /// <param name="palette">The colours.</param>
+    public Gradient(GradientKind kind, Palette palette)
+        : this(kind, (palette ?? throw new ArgumentNullException(nameof(palette))).Stops[^1].Colour) => Palette = palette;
+
+    /// <summary>All colours of the gradient; null where it leads from the object's own colour to the other one.</summary>
+    public Palette? Palette { get; }
+
+    /// <summary>True where the paths of maps decide alone, and colours of proxies are those at their own place in the gradient.</summary>
+    public bool IsPlain => Palette is null && Kind < GradientKind.Height;
+}

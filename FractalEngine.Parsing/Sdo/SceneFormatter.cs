@@ -99,8 +99,16 @@ internal static class SceneFormatter
             motion is { From: { } from, To: { } to } ? $"from {from} to {to}" : null);
     }
 
-    private static string Format(Gradient gradient) =>
-        $"gradient {(gradient.Kind == GradientKind.Level ? "level" : "path")} {gradient.EndColour}";
+    /// <summary>The word by which scenes call a kind of gradients.</summary>
+    public static string WordOf(GradientKind kind) => kind.ToString().ToLowerInvariant();
+
+    private static string Format(Gradient gradient) => $"gradient {WordOf(gradient.Kind)} " + gradient.Palette switch
+    {
+        null => gradient.EndColour.ToString(),
+        { Name: { } name } => $"\"{name}\"",
+        { IsEven: var isEven, Stops: var stops } => string.Join(
+            ' ', stops.Select(stop => isEven ? stop.Colour.ToString() : $"{FormatNumber(stop.Position)} {stop.Colour}")),
+    };
 
     private static string? FormatShape(BodyShape shape) =>
         shape.IsMesh ? "shape mesh"

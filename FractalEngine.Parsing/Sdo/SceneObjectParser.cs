@@ -3,12 +3,18 @@ using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Text;
+using FractalEngine.Parsing.Text.Grammar;
 
 namespace FractalEngine.Parsing.Sdo;
 
 /// <summary>Parses the objects of scene files, with the options that follow them.</summary>
 public abstract class SceneObjectParser : LightParser
 {
+    private static readonly (GradientKind Kind, string Word)[] GradientKinds =
+    [
+        .. Enum.GetValues<GradientKind>().Except([GradientKind.None]).Select(static kind => (kind, SceneFormatter.WordOf(kind))),
+    ];
+
     private readonly Option<SceneObject>[] _objectOptions;
     private readonly Option<SceneObject>[] _bodyOptions;
 
@@ -113,9 +119,67 @@ public abstract class SceneObjectParser : LightParser
 
     private bool ParseGradient(Cursor cursor, out Gradient gradient, out Cursor rest)
     {
-        gradient = new(GradientKind.None, default);
-        return ParseChoice(cursor, [(GradientKind.Level, "level"), (GradientKind.Path, "path")], out var kind, out rest)
-            && ParseBlanks(rest, out rest) && ParseColour(rest, out var colour, out rest) && Set(ref gradient, new(kind, colour));
+        gradient = new(GradientKind.None, Colour.White);
+        if (!ParseChoice(cursor, GradientKinds, out var kind, out rest) || !ParseBlanks(rest, out rest))
+        {
+            return false;
+        }
+
+        var start = rest;
+        if (ParseString(start, "the name of a palette in quotes", out var name, out rest))
+        {
+            var named = NamedPalettes.Find(name);
+            Require(
+                named is not null, start,
+                $"there is no palette '{name}'; there are: {string.Join(", ", NamedPalettes.All.Select(static known => known.Name))}");
+            gradient = new(kind, named!);
+            return true;
+        }
+
+        if (BeginsNumber(start))
+        {
+            return ParseStops(start, out var stops, out rest) && Set(ref gradient, new(kind, new Palette([.. stops])));
+        }
+
+        var colours = new List<Colour>();
+        do
+        {
+            if (!ParseColour(start, out var colour, out rest))
+            {
+                return colours.Count == 0 && Fail(start, SyntaxFailure.Number);
+            }
+
+            colours.Add(colour);
+            ParseOptionalSeparator(rest, out start);
+        }
+        while (start.Current == '(');
+        gradient = colours.Count == 1 ? new(kind, colours[0]) : new(kind, Palette.OfEven(colours));
+        return true;
+    }
+
+    private static bool BeginsNumber(Cursor cursor) => char.IsAsciiDigit(cursor.Current) || cursor.Current is '.' or '-' or '+';
+
+    /// <summary>Parses the stops of a palette, each with its position.</summary>
+    private bool ParseStops(Cursor cursor, out List<PaletteStop> stops, out Cursor rest)
+    {
+        stops = [];
+        rest = cursor;
+        for (var start = cursor; BeginsNumber(start); ParseOptionalSeparator(rest, out start))
+        {
+            var last = stops.Count == 0 ? 0 : stops[^1].Position;
+            if (!ParseNumber(
+                    start, number => number >= last && number <= 1, "the positions of a palette must ascend from 0 to 1",
+                    out var position, out rest)
+                || !ParseOptionalSeparator(rest, out rest) || !ParseColour(rest, out var colour, out rest))
+            {
+                return false;
+            }
+
+            stops.Add(new(position, colour));
+        }
+
+        Require(stops.Count > 1, cursor, "a palette has two stops or more");
+        return true;
     }
 
     /// <summary>Parses how an object moves by itself: <c>velocity (…) spin (…) from (…) to (…)</c>.</summary>

@@ -20,6 +20,7 @@ layout(location = 8) in vec3 skyAbove; // parts of the sky that the instance's s
 layout(location = 9) in vec3 skyBelow; // towards -x, -y and -z
 #endif
 layout(location = 10) in vec4 mapTint; // what maps add to the colour, linear light, and the share w that it keeps; else 0, 0, 0, 1
+layout(location = 11) in vec4 paletteColour; // of a gradient with a palette, linear light, and 0; else 0, 0, 0, 1
 
 layout(std140) uniform ObjectBlock
 {
@@ -126,7 +127,8 @@ void main()
     pixelSky = vec2(dot(squares, mix(skyBelow, skyAbove, isAbove)), dot(squares, mix(skyAbove, skyBelow, isAbove)));
 #endif
 
-    vec3 surface = mix(mix(colour.rgb, gradientEnd.rgb, tint), material[0].rgb, material[2].w);
+    vec3 surface = paletteColour.rgb + paletteColour.w * mix(colour.rgb, gradientEnd.rgb, tint);
+    surface = mix(surface, material[0].rgb, material[2].w);
 #ifdef VERTEX_COLOURS
     surface *= vertexColour;
 #endif

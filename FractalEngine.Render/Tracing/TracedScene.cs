@@ -29,6 +29,7 @@ internal sealed record TracedScene
     private readonly RenderSettings _settings;
     private readonly Vector[][] _colours;
     private readonly Vector[] _gradientEnds;
+    private readonly InstanceGradient?[] _gradients;
 
     // What multiplies the colours of an object's materials.
     private readonly Vector[] _tints;
@@ -66,6 +67,8 @@ internal sealed record TracedScene
             (part, mesh) => ObjectPalette.ColourOf(part, index + mesh).ToLinearVector()).ToArray())];
         _gradientEnds = [.. _objects.Select((placed, index) =>
             placed.Declaration.Gradient is { } gradient ? gradient.EndColour.ToLinearVector() : _colours[index][0])];
+        _gradients = [.. _objects.Select(static placed => placed.Model is FractalModel { Fractal: var fractal }
+            ? InstanceGradient.CreateOrNull(placed.Declaration.Gradient, fractal) : null)];
         _tints = [.. _objects.Select(static placed => (placed.Declaration.Colour ?? Colour.White).ToLinearVector())];
         IsSeeThrough = _models.Any(static parts => parts.Any(static model => model.IsSeeThrough));
         _areaLights = _models.Any(static parts => parts.Any(static model => model.IsEmissive))
@@ -308,14 +311,18 @@ internal sealed record TracedScene
         var objectIndex = _zoom?.ObjectIndex ?? index;
         var colour = PartOf(_colours[objectIndex], in hit);
         var placed = _objects[objectIndex];
-        if (placed.Declaration.Gradient is not { Kind: not GradientKind.None and var kind }
-            || placed.Model is not FractalModel { Fractal: var fractal })
+        var zoomed = _caster as DeepZoomRayCaster;
+        if (_gradients[objectIndex] is { } shading)
         {
-            return colour;
+            var shade = zoomed?.ShadeOf(shading, index, context) ?? shading.ShadeOf(context.InstancePath);
+            return shading.Gradient.Palette is null ? Mix(shade.Factor) : shade.Colour;
         }
 
-        var factor = (_caster as DeepZoomRayCaster)?.GradientFactorOf(kind, index, context)
-            ?? ColourPath.GradientFactorOf(fractal, kind, context.InstancePath);
-        return ((1 - factor) * colour) + (factor * _gradientEnds[objectIndex]);
+        return placed.Declaration.Gradient is { IsPlain: true, Kind: not GradientKind.None and var kind }
+            && placed.Model is FractalModel { Fractal: var fractal }
+            ? Mix(zoomed?.GradientFactorOf(kind, index, context) ?? ColourPath.GradientFactorOf(fractal, kind, context.InstancePath))
+            : colour;
+
+        Vector Mix(double factor) => ((1 - factor) * colour) + (factor * _gradientEnds[objectIndex]);
     }
 }
