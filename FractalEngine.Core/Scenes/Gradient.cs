@@ -7,14 +7,17 @@ namespace FractalEngine.Core.Scenes;
 /// <param name="EndColour">The colour at the far end of the gradient.</param>
 public sealed record Gradient(GradientKind Kind, Colour EndColour)
 {
+    /// <summary>All colours of the gradient; null where it leads from the object's own colour to the other one.</summary>
+    public Palette? Palette { get; init; }
+
     /// <summary>Makes a gradient of a palette, which the object's own colour is no part of.</summary>
     /// <param name="kind">What the colour depends on.</param>
     /// <param name="palette">The colours.</param>
-    public Gradient(GradientKind kind, Palette palette)
-        : this(kind, (palette ?? throw new ArgumentNullException(nameof(palette))).Stops[^1].Colour) => Palette = palette;
-
-    /// <summary>All colours of the gradient; null where it leads from the object's own colour to the other one.</summary>
-    public Palette? Palette { get; }
+    public static Gradient Of(GradientKind kind, Palette palette)
+    {
+        ArgumentNullException.ThrowIfNull(palette);
+        return new(kind, palette.Stops[^1].Colour) { Palette = palette };
+    }
 
     /// <summary>True where the paths of maps decide alone, and colours of proxies are those at their own place in the gradient.</summary>
     public bool IsPlain => Palette is null && Kind < GradientKind.Height;

@@ -132,13 +132,13 @@ public abstract class SceneObjectParser : LightParser
             Require(
                 named is not null, start,
                 $"there is no palette '{name}'; there are: {string.Join(", ", NamedPalettes.All.Select(static known => known.Name))}");
-            gradient = new(kind, named!);
+            gradient = Gradient.Of(kind, named!);
             return true;
         }
 
         if (BeginsNumber(start))
         {
-            return ParseStops(start, out var stops, out rest) && Set(ref gradient, new(kind, new Palette([.. stops])));
+            return ParseStops(start, out var stops, out rest) && Set(ref gradient, Gradient.Of(kind, new([.. stops])));
         }
 
         var colours = new List<Colour>();
@@ -153,7 +153,7 @@ public abstract class SceneObjectParser : LightParser
             ParseOptionalSeparator(rest, out start);
         }
         while (start.Current == '(');
-        gradient = colours.Count == 1 ? new(kind, colours[0]) : new(kind, Palette.OfEven(colours));
+        gradient = colours.Count == 1 ? new(kind, colours[0]) : Gradient.Of(kind, Palette.OfEven(colours));
         return true;
     }
 

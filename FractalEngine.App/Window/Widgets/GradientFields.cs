@@ -30,7 +30,7 @@ internal sealed class GradientFields(WindowActions actions)
             if (ui.Selectable(kind.ToString().ToLowerInvariant(), kind == (gradient?.Kind ?? GradientKind.None)))
             {
                 Change(present => kind == GradientKind.None ? null
-                    : (present ?? new Gradient(kind, NamedPalettes.All[0])) with { Kind = kind });
+                    : (present ?? Gradient.Of(kind, NamedPalettes.All[0])) with { Kind = kind });
             }
         }
 
@@ -43,14 +43,14 @@ internal sealed class GradientFields(WindowActions actions)
         ui.Row(1, 1, 1);
         if (ui.Selectable("two colours", gradient.Palette is null))
         {
-            Change(present => present is null ? null : new(present.Kind, present.EndColour));
+            Change(present => present is null ? null : present with { Palette = null });
         }
 
         foreach (var palette in NamedPalettes.All)
         {
             if (ui.Selectable(palette.Name!, palette.Equals(gradient.Palette)))
             {
-                Change(present => present is null ? null : new(present.Kind, palette));
+                Change(present => present is null ? null : Gradient.Of(present.Kind, palette));
             }
         }
 
