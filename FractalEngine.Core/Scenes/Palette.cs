@@ -20,8 +20,9 @@ public sealed class Palette : IEquatable<Palette>
     /// <summary>Makes a palette of stops.</summary>
     /// <param name="stops">At least two, with positions from 0 to 1 that do not decrease. Equal ones make a sharp edge.</param>
     /// <exception cref="ArgumentException">There are fewer stops, or their positions are others.</exception>
+    /// <exception cref="ArgumentNullException">The array is the default one.</exception>
     public Palette(ImmutableArray<PaletteStop> stops)
-        : this(stops, null)
+        : this(stops.IsDefault ? throw new ArgumentNullException(nameof(stops)) : stops, null)
     {
     }
 
@@ -60,7 +61,7 @@ public sealed class Palette : IEquatable<Palette>
     /// <exception cref="ArgumentException">There are fewer colours.</exception>
     public static Palette OfEven(params IReadOnlyCollection<Colour> colours) => OfEven(colours, null);
 
-    /// <summary>Likewise, with a name.</summary>
+    /// <summary>Makes an even palette that scenes call by a name.</summary>
     internal static Palette OfEven(IReadOnlyCollection<Colour> colours, string? name)
     {
         ArgumentNullException.ThrowIfNull(colours);

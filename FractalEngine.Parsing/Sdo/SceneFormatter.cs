@@ -102,7 +102,14 @@ internal static class SceneFormatter
     /// <summary>The word by which scenes call a kind of gradients.</summary>
     public static string WordOf(GradientKind kind) => kind.ToString().ToLowerInvariant();
 
-    private static string Format(Gradient gradient) => $"gradient {WordOf(gradient.Kind)} " + gradient.Palette switch
+    private static string Format(Gradient gradient) => Join(
+        $"gradient {WordOf(gradient.Kind)}", FormatColours(gradient), Format("roughness", gradient.Roughness),
+        Format("metal", gradient.Metalness), Format("glow", gradient.Glow));
+
+    private static string? Format(string word, GradientRange? range) =>
+        range is var (first, last) ? $"{word} {FormatNumber(first)} {FormatNumber(last)}" : null;
+
+    private static string FormatColours(Gradient gradient) => gradient.Palette switch
     {
         null => gradient.EndColour.ToString(),
         { Name: { } name } => $"\"{name}\"",

@@ -15,6 +15,14 @@ public abstract class SceneObjectParser : LightParser
         .. Enum.GetValues<GradientKind>().Except([GradientKind.None]).Select(static kind => (kind, SceneFormatter.WordOf(kind))),
     ];
 
+    // Nothing glows brighter than the brightest light of a scene.
+    private static readonly (string Word, double Maximum, string Fault, Func<Gradient, GradientRange, Gradient> With)[] SurfaceRanges =
+    [
+        ("roughness", 1, "the roughness must lie between 0 and 1", static (gradient, range) => gradient with { Roughness = range }),
+        ("metal", 1, "the share of metal must lie between 0 and 1", static (gradient, range) => gradient with { Metalness = range }),
+        ("glow", 1e9, "the glow must lie between 0 and 1e9", static (gradient, range) => gradient with { Glow = range }),
+    ];
+
     private readonly Option<SceneObject>[] _objectOptions;
     private readonly Option<SceneObject>[] _bodyOptions;
 
@@ -29,7 +37,7 @@ public abstract class SceneObjectParser : LightParser
             Option<SceneObject>.Of<string>("name", ParseObjectName, (declared, name) => declared with { Name = name }),
             Option<SceneObject>.Of<Colour>("colour", ParseColour, (declared, colour) => declared with { Colour = colour }),
             Option<SceneObject>.Of<Colour>("color", ParseColour, (declared, colour) => declared with { Colour = colour }),
-            Option<SceneObject>.Of<Gradient>("gradient", ParseGradient, (declared, gradient) => declared with { Gradient = gradient }),
+            Option<SceneObject>.Of<Gradient>("gradient", ParseGradedSurface, (declared, gradient) => declared with { Gradient = gradient }),
         ];
         Option<SceneObject>[] moving =
         [
@@ -116,6 +124,46 @@ public abstract class SceneObjectParser : LightParser
 
     private bool ParseObjectName(Cursor cursor, out string name, out Cursor rest) =>
         ParseString(cursor, "a name in quotes", out name, out rest);
+
+    /// <summary>Parses a gradient, and what it makes of surfaces besides their colour.</summary>
+    private bool ParseGradedSurface(Cursor cursor, out Gradient gradient, out Cursor rest)
+    {
+        var isFound = ParseGradient(cursor, out gradient, out rest);
+        if (!isFound)
+        {
+            return false;
+        }
+
+        while (isFound)
+        {
+            isFound = false;
+            foreach (var (word, maximum, fault, with) in SurfaceRanges)
+            {
+                if (ParseNextKeyword(rest, word, true, out var start))
+                {
+                    if (!ParseRange(start, maximum, fault, out var range, out rest))
+                    {
+                        return false;
+                    }
+
+                    gradient = with(gradient, range);
+                    isFound = true;
+                }
+            }
+        }
+
+        return true;
+    }
+
+    private bool ParseRange(Cursor cursor, double maximum, string fault, out GradientRange range, out Cursor rest)
+    {
+        var last = 0.0;
+        var success = ParseNumber(cursor, number => number >= 0 && number <= maximum, fault, out var first, out rest)
+            && ParseSeparator(rest, out rest)
+            && ParseNumber(rest, number => number >= 0 && number <= maximum, fault, out last, out rest);
+        range = new(first, last);
+        return success;
+    }
 
     private bool ParseGradient(Cursor cursor, out Gradient gradient, out Cursor rest)
     {

@@ -1,5 +1,6 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Scenes.Lights;
 using FractalEngine.Render.Drawables;
 using FractalEngine.Render.Gl;
@@ -17,7 +18,7 @@ namespace FractalEngine.Render.Frame;
 /// <param name="hasSkySides">Whether its sky differs from side to side.</param>
 internal sealed class MeshPass(RenderContext context, ImmutableArray<Emitter> lights, bool hasSkySides) : IDisposable
 {
-    private const int FeatureCombinations = 32768;
+    private const int FeatureCombinations = 65536;
     private static readonly Colour WireframeColour = new(0.80, 0.83, 0.87);
 
     private string[] _lightSymbols = LightBlock.SymbolsOf(lights, hasSides: hasSkySides);
@@ -59,12 +60,14 @@ internal sealed class MeshPass(RenderContext context, ImmutableArray<Emitter> li
     /// Those of <see cref="MeshFeatures.CameraRelative"/>, <see cref="MeshFeatures.FrontFacesOnly"/> and
     /// <see cref="MeshFeatures.VertexColours"/> that apply.
     /// </param>
+    /// <param name="graded">Gradient that decides about the surface instead of a material; null for none.</param>
     /// <exception cref="InvalidOperationException">No frame was begun.</exception>
     /// <exception cref="GlException">The driver refuses the program.</exception>
-    public void UseMaterial(DrawableMaterial? material, Colour tint, MeshFeatures instanceFeatures)
+    public void UseMaterial(DrawableMaterial? material, Colour tint, MeshFeatures instanceFeatures, Gradient? graded = null)
     {
         var (frame, wireframe, frameFeatures) = _frameState ?? throw new InvalidOperationException("no frame was begun");
-        var features = instanceFeatures | frameFeatures | (wireframe ? MeshFeatures.None : FeaturesOf(material));
+        var features = instanceFeatures | frameFeatures | (wireframe ? MeshFeatures.None : FeaturesOf(material))
+            | (graded is null ? 0 : MeshFeatures.Graded | (graded.IsGlossy ? MeshFeatures.Glossy : 0));
         var program = _programs[(int)features] ??= new(context, features, _lightSymbols);
         program.Use();
         if (context.Resources.State.Filter.Update(ref _lastFrameOfProgram[(int)features], _frameNumber))
@@ -80,6 +83,12 @@ internal sealed class MeshPass(RenderContext context, ImmutableArray<Emitter> li
         if (frame.Section is not null)
         {
             program.SetInnerFace(InnerFace);
+        }
+
+        if (graded is not null)
+        {
+            program.SetGradient(graded);
+            return;
         }
 
         // The object's own colour is not tinted: objects with different tints then share the uniforms.

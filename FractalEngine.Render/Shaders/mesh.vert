@@ -1,6 +1,6 @@
 #version 330 core
 // One vertex of one instance: projected by map(v) = axes^-1 * (v - position), and lit by all lights on both faces, unless pixels are lit.
-// PER_PIXEL, TEXTURED, GLOSSY, CAMERA_RELATIVE, FRONT_FACES_ONLY, VERTEX_COLOURS and SECTION are defined where they apply.
+// PER_PIXEL, TEXTURED, GLOSSY, CAMERA_RELATIVE, FRONT_FACES_ONLY, VERTEX_COLOURS, SECTION and GRADED are defined where they apply.
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
@@ -90,12 +90,18 @@ out vec2 pixelSky;          // part of the sky that the front and the back of th
 out vec2 pixelTextureCoordinates;
 #endif
 
+#ifdef GRADED
+out vec4 pixelGrade;        // emitted light, and the place in the gradient
+#endif
 #if defined(DETAILED) && defined(PER_PIXEL)
 out vec2 pixelDetail;       // texture coordinates as the mesh has them
 #endif
 
 void main()
 {
+#ifdef GRADED
+    grade(tint);
+#endif
     vec4 local = vec4(position, 1.0);
     vec3 inModel = vec3(dot(instanceRow0, local), dot(instanceRow1, local), dot(instanceRow2, local));
 #ifdef CAMERA_RELATIVE
@@ -133,6 +139,9 @@ void main()
     surface *= vertexColour;
 #endif
     surface = mapTint.rgb + mapTint.w * surface;
+#ifdef GRADED
+    pixelGrade = vec4(mix(gradedEnds.z, gradedEnds.w, tint) * surface, tint);
+#endif
 #ifdef TEXTURED
     // Textures are stored from the top, texture coordinates count from the bottom.
     vec2 scaledCoordinates = textureCoordinates * material[3].xy + material[3].zw;

@@ -81,7 +81,7 @@ public class InstanceGradientTests
     /// palette's range by others.
     /// </summary>
     [Theory]
-    [InlineData(Tree, 0.15)]
+    [InlineData(Tree, 0.3)]
     [InlineData(Cubes, 0.3)]
     public void Shades_OfProxies_AreMeansOfWhatTheyStandFor(string text, double maxError)
     {

@@ -100,7 +100,8 @@ public class PaletteTests
     /// <summary>Stops anywhere: sharp edges, ends that are missing.</summary>
     internal static Palette Random(Random random)
     {
-        var positions = Enumerable.Range(0, random.Next(2, 7)).Select(_ => random.Next(3) == 0 ? random.Next(5) / 4.0 : random.NextDouble());
+        var positions = Enumerable.Range(0, random.Next(2, 7)).Select(
+            _ => random.Next(3) == 0 ? random.Next(5) / 4.0 : random.NextDouble());
         return new([.. positions.Order().Select(position => new PaletteStop(position,
             new(random.NextDouble(), random.NextDouble(), random.NextDouble())))]);
     }

@@ -43,14 +43,14 @@ internal sealed class GradientFields(WindowActions actions)
         ui.Row(1, 1, 1);
         if (ui.Selectable("two colours", gradient.Palette is null))
         {
-            Change(present => present is null ? null : present with { Palette = null });
+            Set(static present => present with { Palette = null });
         }
 
         foreach (var palette in NamedPalettes.All)
         {
             if (ui.Selectable(palette.Name!, palette.Equals(gradient.Palette)))
             {
-                Change(present => present is null ? null : Gradient.Of(present.Kind, palette));
+                Set(present => present with { Palette = palette });
             }
         }
 
@@ -60,12 +60,38 @@ internal sealed class GradientFields(WindowActions actions)
         }
         else if (ui.Colour(gradient.EndColour) is { } colour)
         {
-            Change(present => present is { Palette: null }
-                ? present with { EndColour = PanelWidgets.Merge(present.EndColour, gradient.EndColour, colour) } : present);
+            Set(present => present with { EndColour = PanelWidgets.Merge(present.EndColour, gradient.EndColour, colour) });
         }
+
+        BuildRange(ui, "roughness", gradient.Roughness, 1, range => Set(present => present with { Roughness = range }));
+        BuildRange(ui, "metal", gradient.Metalness, 1, range => Set(present => present with { Metalness = range }));
+        BuildRange(ui, "glow", gradient.Glow, 4, range => Set(present => present with { Glow = range }));
+
+        void Set(Func<Gradient, Gradient> change) => Change(present => present is null ? null : change(present));
 
         void Change(Func<Gradient?, Gradient?> change) =>
             actions.ChangeObject(index, present => present with { Gradient = change(present.Gradient) });
+    }
+
+    private static void BuildRange(UserInterface ui, string name, GradientRange? range, double maximum, Action<GradientRange?> change)
+    {
+        ui.Row(1, 1, 1);
+        var isOn = range is not null;
+        if (ui.CheckBox(name, ref isOn))
+        {
+            change(isOn ? new(0, 1) : null);
+        }
+
+        if (range is var (first, last))
+        {
+            ui.Scope(name, () =>
+            {
+                if (ui.Slider("first", ref first, 0, maximum, 0.01) | ui.Slider("last", ref last, 0, maximum, 0.01))
+                {
+                    change(new(first, last));
+                }
+            });
+        }
     }
 
     private static void BuildSwatches(UserInterface ui, Palette palette)

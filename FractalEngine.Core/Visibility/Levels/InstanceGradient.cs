@@ -43,15 +43,16 @@ public sealed class InstanceGradient
         _levelMeans = gradient.Kind == GradientKind.Level && hierarchy.LevelCount <= MaxLevels ? ComputeLevelMeans() : [];
     }
 
-    /// <summary>The gradient itself.</summary>
+    /// <summary>The gradient that was prepared.</summary>
     public Gradient Gradient { get; }
 
     /// <summary>True where the places of instances count, and not only their paths.</summary>
     internal bool NeedsPlaces => Gradient.Kind >= GradientKind.Height;
 
-    /// <summary>Prepares what a gradient needs; null where it needs nothing, or the hierarchy has no fractal in affine composition.</summary>
+    /// <summary>Prepares what a gradient needs.</summary>
     /// <param name="gradient">The gradient; null for none.</param>
     /// <param name="hierarchy">That of the model.</param>
+    /// <returns>Null where the gradient needs nothing, or the hierarchy is not that of a fractal in affine composition.</returns>
     public static InstanceGradient? CreateOrNull(Gradient? gradient, LodHierarchy hierarchy)
     {
         ArgumentNullException.ThrowIfNull(hierarchy);
@@ -59,9 +60,10 @@ public sealed class InstanceGradient
             ? new(gradient, hierarchy) : null;
     }
 
-    /// <summary>Likewise for a fractal, whose hierarchy is built where the gradient needs it.</summary>
+    /// <summary>Prepares what a gradient on a fractal needs, and builds the fractal's hierarchy for it.</summary>
     /// <param name="gradient">The gradient; null for none.</param>
     /// <param name="fractal">The fractal.</param>
+    /// <returns>Null where the gradient needs nothing, or the fractal is not in affine composition.</returns>
     /// <exception cref="FractalLimitException">The bounds of some level overflow a double, or don't converge.</exception>
     /// <exception cref="SingularMatrixException">A map has no inverse.</exception>
     public static InstanceGradient? CreateOrNull(Gradient? gradient, Fractal fractal)
@@ -76,7 +78,7 @@ public sealed class InstanceGradient
     public GradientShade ShadeOf(ReadOnlySpan<int> instancePath) =>
         ShadeOf(ColourPath.Start, _hierarchy.Source!.HierarchyBySets.Top, AffineMap.Identity, instancePath);
 
-    /// <summary>Likewise from a sub-fractal on.</summary>
+    /// <summary>Computes what an instance or a proxy gets to which a path leads from a sub-fractal on.</summary>
     /// <param name="path">The path of maps to the sub-fractal.</param>
     /// <param name="start">The place of the sub-fractal.</param>
     /// <param name="toFractal">Map from its frame to that of the fractal.</param>
@@ -95,7 +97,7 @@ public sealed class InstanceGradient
         return ShadeOf(in path, _hierarchy.NodeAt(level), level, new(toFractal));
     }
 
-    /// <summary>Notes where a path has led.</summary>
+    /// <summary>Notes where a path has carried the centre of the fractal.</summary>
     /// <param name="path">The path, with the last map.</param>
     /// <param name="toFractal">Map from the frame of the sub-fractal to that of the fractal.</param>
     internal ColourPath PassBy(in ColourPath path, in SimdAffineMap toFractal) => path.PassBy(toFractal.Apply(_bounds.Centre), _bounds);

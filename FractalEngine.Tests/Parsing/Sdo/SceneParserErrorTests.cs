@@ -129,7 +129,8 @@ public class SceneParserErrorTests
         "unexpected end of file, expected the name of a palette in quotes, a colour (r, g, b) or a number")]
     [InlineData("o \"a.fdo\" # gradient path red", 27,
         "unexpected 'red', expected the name of a palette in quotes, a colour (r, g, b) or a number")]
-    [InlineData("o \"a.fdo\" # gradient level \"Ember\"", 28, "there is no palette 'Ember'; there are: slate, bark, gold, ember, rose, plum, "
+    [InlineData("o \"a.fdo\" # gradient level \"Ember\"", 28,
+        "there is no palette 'Ember'; there are: slate, bark, gold, ember, rose, plum, "
         + "dusk, ice, sea, lagoon, aurora, moss")]
     [InlineData("o \"a.fdo\" # gradient level \"ember", 34, "unexpected end of file, expected '\"'")]
     [InlineData("o \"a.fdo\" # gradient trap 0.5 (1, 1, 1)", 27, "a palette has two stops or more")]
@@ -138,6 +139,10 @@ public class SceneParserErrorTests
     [InlineData("o \"a.fdo\" # gradient trap 0.5 (1, 1, 1) 1.4 (0, 0, 0)", 41, "the positions of a palette must ascend from 0 to 1")]
     [InlineData("o \"a.fdo\" # gradient trap 0.5 0.6 (0, 0, 0)", 31, "unexpected '0.6', expected a colour (r, g, b)")]
     [InlineData("o \"a.fdo\" # gradient height (1, 1, 1) (2, 0, 0)", 39, "the components of a colour must lie between 0 and 1")]
+    [InlineData("o \"a.fdo\" # gradient level \"ember\" roughness 0 1.1", 48, "the roughness must lie between 0 and 1")]
+    [InlineData("o \"a.fdo\" # gradient level \"ember\" metal -1 1", 42, "the share of metal must lie between 0 and 1")]
+    [InlineData("o \"a.fdo\" # gradient level \"ember\" glow 1 1e10", 43, "the glow must lie between 0 and 1e9")]
+    [InlineData("o \"a.fdo\" # gradient level \"ember\" glow 1", 42, "unexpected end of file, expected a blank or ','")]
     [InlineData("o \"a.fdo\" # gradient level (1, 2, 1)", 28, "the components of a colour must lie between 0 and 1")]
     [InlineData("player (0, 0, 0) 1 1", 18, "the player's radius must be positive, and the height at least twice as much")]
     [InlineData("p \"a.obj\" # 1 friction -0.1", 24, "the friction must not be negative")]

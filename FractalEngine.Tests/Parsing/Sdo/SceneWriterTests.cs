@@ -57,7 +57,8 @@ public class SceneWriterTests
         (declared, g) => declared with
         {
             Gradient = g.Item2 == GradientKind.None ? null
-                : g.Item1 is { Name: null, IsEven: false, Stops.Length: 2 } two ? new(g.Item2, two.Stops[0].Colour) : Gradient.Of(g.Item2, g.Item1),
+                : g.Item1 is { Name: null, IsEven: false, Stops.Length: 2 } two ? new(g.Item2, two.Stops[0].Colour)
+                : Gradient.Of(g.Item2, g.Item1) with { Roughness = new(g.Item1.Stops[0].Position, 1), Glow = new(-0.0, 5) },
         });
 
     private static readonly Gen<SceneObject> Bodies = Plain.Zip(Unit)
