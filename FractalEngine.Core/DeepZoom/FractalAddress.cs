@@ -226,7 +226,8 @@ public sealed class FractalAddress
                         NodePath.ChildState(depth, child),
                         frameToCamera * node.ChildMaps[child].ToAffineMap(),
                         NodePath.Append(colourPath, node, child, ref toFractal),
-                        tint.Then(node.TintOf(child))) with { FrameToFractal = toFractal };
+                        tint.Then(node.TintOf(child))) with
+                    { FrameToFractal = toFractal };
                     yield return (root, depth, child);
                 }
             }

@@ -43,7 +43,9 @@ public sealed class SurfaceGradientTests
     {
         var gradient = Gradient.Of(GradientKind.Path, Colours) with
         {
-            Roughness = RangeOf(roughness1, roughness2), Metalness = RangeOf(metal1, metal2), Glow = RangeOf(glow1, glow2),
+            Roughness = RangeOf(roughness1, roughness2),
+            Metalness = RangeOf(metal1, metal2),
+            Glow = RangeOf(glow1, glow2),
         };
         var fractal = new FractalModel(new Fractal(new([Row]), RenderScenes.Square(1))) { SourcePath = "a.fdo" };
         var scene = new LoadedScene(
