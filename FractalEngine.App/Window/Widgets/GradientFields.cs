@@ -75,7 +75,7 @@ internal sealed class GradientFields(WindowActions actions)
 
     private static void BuildRange(UserInterface ui, string name, GradientRange? range, double maximum, Action<GradientRange?> change)
     {
-        ui.Row(1, 1, 1);
+        ui.Row(6, 5, 5);
         var isOn = range is not null;
         if (ui.CheckBox(name, ref isOn))
         {
