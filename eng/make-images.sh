@@ -93,7 +93,7 @@ make_image() {
         tree-09) draw "$1" assets/examples/tree-09.sdo 360x240 ;;
         tree-10) draw "$1" assets/examples/tree-10.sdo 360x240 --time 0.9 ;;
         gallery | forest) draw "$1" "assets/scenes/$1.sdo" 1280x720 ;;
-        gradients) draw "$1" assets/scenes/gradients.sdo 960x480 ;;
+        gradients | palettes) draw "$1" "assets/scenes/$1.sdo" 960x480 ;;
         appendix-b | inside | menger | textured | reef | cathedral | winter | wood | city) draw "$1" "assets/scenes/$1.sdo" 720x405 ;;
         conifer | coral | tower) draw "$1" "assets/scenes/$1.sdo" 480x320 ;;
         flake) draw "$1" "assets/scenes/$1.sdo" 320x320 ;;
@@ -135,7 +135,7 @@ make_image() {
 }
 
 all=(
-    forest gallery cathedral reef menger inside appendix-b gradients textured winter playground angles
+    forest gallery cathedral reef menger inside appendix-b gradients palettes textured winter playground angles
     wood city conifer coral tower flake
     classic-bush classic-context-tree classic-arch classic-synth-tree classic-dragon
     classic-koch classic-jerusalem classic-vicsek classic-cantor classic-pythagoras

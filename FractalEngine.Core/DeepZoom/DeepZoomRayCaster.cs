@@ -72,6 +72,18 @@ public sealed class DeepZoomRayCaster : InstanceRayCaster
         return path.ComputeGradientFactor(gradient, _fractal.LevelCount ?? long.MaxValue);
     }
 
+    /// <summary>Computes what a gradient gives to the instance that was hit last.</summary>
+    /// <param name="gradient">The gradient on the same fractal.</param>
+    /// <param name="rootIndex">Index of the sub-fractal that was hit.</param>
+    /// <param name="context">That of the query.</param>
+    public GradientShade ShadeOf(InstanceGradient gradient, int rootIndex, QueryContext context)
+    {
+        ArgumentNullException.ThrowIfNull(gradient);
+        ArgumentNullException.ThrowIfNull(context);
+        var root = Roots[rootIndex];
+        return gradient.ShadeOf(root.ColourPath, root.State, root.FrameToFractal, context.InstancePath);
+    }
+
     /// <summary>Computes what the maps that lead to the instance that was hit last mix into its colour.</summary>
     /// <param name="rootIndex">Index of the sub-fractal that was hit.</param>
     /// <param name="context">That of the query.</param>

@@ -201,7 +201,10 @@ public sealed class FractalAddress
     /// <summary>Lists the sub-fractals to draw, with the depth of the one that each is a child of; −1 for no child.</summary>
     private IEnumerable<(LodRoot Root, int Parent, int Child)> EnumerateRoots(int maxAncestors)
     {
-        yield return (RootAt(NodePath.StateAt(Depth), FrameToCamera, NodePath.ColourPathTo(Depth), NodePath.TintTo(Depth)), Depth, -1);
+        var pathToCamera = NodePath.ColourPathTo(Depth, out var toFractal);
+        yield return (
+            RootAt(NodePath.StateAt(Depth), FrameToCamera, pathToCamera, NodePath.TintTo(Depth)) with { FrameToFractal = toFractal },
+            Depth, -1);
         var frameToCamera = FrameToCamera;
         for (var depth = Depth - 1; depth >= Math.Max(0, Depth - (long)maxAncestors); depth--)
         {
@@ -212,17 +215,19 @@ public sealed class FractalAddress
                 yield break;
             }
 
-            var colourPath = NodePath.ColourPathTo(depth);
+            var colourPath = NodePath.ColourPathTo(depth, out var parentToFractal);
             var tint = NodePath.TintTo(depth);
             for (var child = 0; child < node.ChildMaps.Length; child++)
             {
                 if (child != Path[depth])
                 {
+                    toFractal = parentToFractal;
                     var root = RootAt(
                         NodePath.ChildState(depth, child),
                         frameToCamera * node.ChildMaps[child].ToAffineMap(),
-                        colourPath.Append(node.ChildMapIndices[child], node.SetSize),
-                        tint.Then(node.TintOf(child)));
+                        NodePath.Append(colourPath, node, child, ref toFractal),
+                        tint.Then(node.TintOf(child))) with
+                    { FrameToFractal = toFractal };
                     yield return (root, depth, child);
                 }
             }

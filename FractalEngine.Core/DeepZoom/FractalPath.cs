@@ -1,5 +1,6 @@
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Fractals.Levels;
+using FractalEngine.Core.Maths;
 using FractalEngine.Core.Visibility.Levels;
 
 namespace FractalEngine.Core.DeepZoom;
@@ -20,6 +21,9 @@ internal sealed class FractalPath(LodHierarchy hierarchy)
     // What the maps up to each depth mix into colours; empty where none does.
     private readonly List<Tint> _tints = hierarchy.HasColours ? [Tint.None] : [];
 
+    // Of the first depths: paths of maps, and maps to the frame of the fractal.
+    private readonly List<(ColourPath Path, AffineMap ToFractal)> _coloured = [(ColourPath.Start, AffineMap.Identity)];
+
     // The number of maps that are not the identity, up to each depth.
     private readonly List<int> _mapCounts = [0];
 
@@ -35,7 +39,7 @@ internal sealed class FractalPath(LodHierarchy hierarchy)
     /// <summary>Memory of the path in bytes.</summary>
     public long StorageBytes =>
         (sizeof(int) * ((long)_children.Capacity + _mapCounts.Capacity))
-        + (sizeof(long) * ((long)_remainingLevels.Capacity + (2 * _ways.Capacity) + (4 * _tints.Capacity)));
+        + (sizeof(long) * ((long)_remainingLevels.Capacity + (2 * _ways.Capacity) + (4 * _tints.Capacity) + (14 * _coloured.Capacity)));
 
     /// <summary>Finds the node that the path passes through at a depth; 0 is the whole fractal.</summary>
     public LodNode NodeAt(int depth) => hierarchy.NodeAt(_remainingLevels[depth]);
@@ -62,6 +66,7 @@ internal sealed class FractalPath(LodHierarchy hierarchy)
         copy._remainingLevels.AddRange(_remainingLevels.Skip(1));
         copy._ways.AddRange(_ways.Skip(1));
         copy._tints.AddRange(_tints.Skip(1));
+        copy._coloured.AddRange(_coloured.Skip(1));
         copy._mapCounts.AddRange(_mapCounts.Skip(1));
         return copy;
     }
@@ -80,6 +85,12 @@ internal sealed class FractalPath(LodHierarchy hierarchy)
         if (hierarchy.HasColours)
         {
             _tints.Add(_tints[^1].Then(node.TintOf(child)));
+        }
+
+        if (Depth < MaxColouredLevels)
+        {
+            var (path, toFractal) = _coloured[^1];
+            _coloured.Add((Append(path, node, child, ref toFractal), toFractal));
         }
 
         _children.Add(child);
@@ -102,21 +113,35 @@ internal sealed class FractalPath(LodHierarchy hierarchy)
             _tints.RemoveAt(_tints.Count - 1);
         }
 
+        if (Depth < MaxColouredLevels)
+        {
+            _coloured.RemoveAt(_coloured.Count - 1);
+        }
+
         _mapCounts.RemoveAt(_mapCounts.Count - 1);
         return child;
     }
 
-    /// <summary>Computes the colour path to the sub-fractal at a depth.</summary>
-    public ColourPath ColourPathTo(int depth)
+    /// <summary>Returns the colour path to the sub-fractal at a depth.</summary>
+    /// <param name="depth">Number of child instances.</param>
+    /// <param name="toFractal">Receives the map from its frame to that of the fractal, without maps too deep to be seen.</param>
+    public ColourPath ColourPathTo(int depth, out AffineMap toFractal)
     {
-        var colourPath = ColourPath.Start;
-        for (var i = 0; i < Math.Min(depth, MaxColouredLevels); i++)
-        {
-            var node = NodeAt(i);
-            colourPath = colourPath.Append(node.ChildMapIndices[_children[i]], node.SetSize);
-        }
+        (var path, toFractal) = _coloured[Math.Min(depth, MaxColouredLevels)];
+        return path with { MapCount = _mapCounts[depth] };
+    }
 
-        return colourPath with { MapCount = _mapCounts[depth] };
+    /// <summary>Appends a child instance to a colour path.</summary>
+    /// <param name="path">The path to a sub-fractal.</param>
+    /// <param name="node">The sub-fractal.</param>
+    /// <param name="child">Index of the child.</param>
+    /// <param name="toFractal">Map from the frame of the sub-fractal to that of the fractal; receives that of the child.</param>
+    public ColourPath Append(ColourPath path, LodNode node, int child, ref AffineMap toFractal)
+    {
+        toFractal *= node.ChildMaps[child].ToAffineMap();
+        path = path.Append(node.ChildMapIndices[child], node.SetSize);
+        return node.ChildMapIndices[child] >= 0 && hierarchy.WholeBounds is { } bounds
+            ? path.PassBy(toFractal * bounds.Centre, bounds) : path;
     }
 
     /// <summary>What the maps that lead to the sub-fractal at a depth mix into colours.</summary>

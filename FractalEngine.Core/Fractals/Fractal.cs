@@ -181,10 +181,13 @@ public sealed class Fractal : IEquatable<Fractal>
     /// <param name="keepsAllLevels">True to keep levels that no search from the whole fractal visits.</param>
     /// <exception cref="FractalLimitException">Bounds overflow a double, or don't converge; the message names the level.</exception>
     internal FractalHierarchy BuildHierarchy(bool doublesPowers = true, bool keepsAllLevels = false) =>
-        FractalHierarchyBuilder.Build(Graph, doublesPowers, keepsAllLevels, Whole?.Hierarchy.SizeLimits);
+        FractalHierarchyBuilder.Build(Graph, doublesPowers, keepsAllLevels, Description.HasPicks ? Whole?.Hierarchy.SizeLimits : null);
 
     /// <summary>What this is a part of, which shows other meshes too; null for a whole.</summary>
     private Fractal? Whole { get; init; }
+
+    /// <summary>The box of what this is a part of.</summary>
+    internal BoundingBox WholeBounds => (Whole ?? this).Bounds;
 
     /// <summary>The base meshes and all parts.</summary>
     internal FractalGraph Graph { get; }
@@ -459,7 +462,7 @@ public sealed class Fractal : IEquatable<Fractal>
         new(Description, [.. BaseMeshes.Select((mesh, other) => other == index ? mesh : Mesh.Empty)])
         {
             BaseMeshPaths = BaseMeshPaths,
-            Whole = Description.HasPicks ? this : null,
+            Whole = this,
         };
 
     /// <summary>Whether the instances of a base mesh count as such: those without faces do not, but the only mesh does.</summary>

@@ -26,6 +26,11 @@ public sealed record CulledObject(LodHierarchy Hierarchy, AffineMap ObjectToWorl
     /// <summary>The kind of the object's gradient; unless it is none, each instance has a gradient factor from 0 to 1.</summary>
     public GradientKind GradientKind { get; init; }
 
+    /// <summary>
+    /// What tells gradient factors that paths of maps alone do not, and colours of palettes; null where <see cref="GradientKind"/> does.
+    /// </summary>
+    public InstanceGradient? Shading { get; init; }
+
     /// <summary>Whether the hierarchy's <see cref="LodHierarchy.HasSkyMasks"/> was true before culling began.</summary>
     public bool HasSkyMasks { get; init; }
 }

@@ -1,7 +1,9 @@
 using System.Runtime.CompilerServices;
 using System.Runtime.InteropServices;
 using System.Runtime.Intrinsics;
+using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Visibility.Levels;
 using FractalEngine.Core.Visibility.Sky;
 
 namespace FractalEngine.Core.Visibility;
@@ -24,6 +26,7 @@ internal sealed class InstanceList(bool hasPathHashes)
     private float[] _gradientFactors = [];
     private float[] _skyParts = [];
     private float[] _tints = [];
+    private float[] _paletteColours = [];
     private ulong[] _pathHashes = [];
 
     /// <summary>Number of instances in the list.</summary>
@@ -43,6 +46,10 @@ internal sealed class InstanceList(bool hasPathHashes)
     /// <summary>Tints of the instances of an object with colours: what is added, and what is kept, [n × 4].</summary>
     /// <param name="rank">Rank of the object in the order of culling.</param>
     public ReadOnlySpan<float> TintsOf(int rank) => Slice(_tints, FloatsPerTint, rank);
+
+    /// <summary>Colours of the instances of an object with a palette: linear light and 0, [n × 4].</summary>
+    /// <param name="rank">Rank of the object in the order of culling.</param>
+    public ReadOnlySpan<float> PaletteColoursOf(int rank) => Slice(_paletteColours, FloatsPerTint, rank);
 
     /// <summary>Parts of the sky that the six sides of the instances of an object with masks see, [n × 6].</summary>
     /// <param name="rank">Rank of the object in the order of culling.</param>
@@ -108,6 +115,11 @@ internal sealed class InstanceList(bool hasPathHashes)
             SetGradientFactor(other._gradientFactors[index]);
         }
 
+        if (index * FloatsPerTint < other._paletteColours.Length)
+        {
+            SetVector(ref _paletteColours, Vector128.Create<float>(other._paletteColours.AsSpan(index * FloatsPerTint, FloatsPerTint)));
+        }
+
         if (index * FloatsPerTint < other._tints.Length)
         {
             SetTint(Vector128.Create<float>(other._tints.AsSpan(index * FloatsPerTint, FloatsPerTint)));
@@ -131,14 +143,26 @@ internal sealed class InstanceList(bool hasPathHashes)
     }
 
     /// <summary>Sets the tint of the last instance.</summary>
-    public void SetTint(Vector128<float> tint)
+    public void SetTint(Vector128<float> tint) => SetVector(ref _tints, tint);
+
+    /// <summary>Sets the gradient factor of the last instance, and its colour where a palette has one.</summary>
+    public void SetShade(GradientShade shade, bool hasPalette)
     {
-        if (_tints.Length < Count * FloatsPerTint)
+        SetGradientFactor((float)shade.Factor);
+        if (hasPalette)
         {
-            Array.Resize(ref _tints, _rows.Length / FloatsPerInstance * FloatsPerTint);
+            SetVector(ref _paletteColours, new Tint(shade.Colour, 0).ToSingle());
+        }
+    }
+
+    private void SetVector(ref float[] values, Vector128<float> value)
+    {
+        if (values.Length < Count * FloatsPerTint)
+        {
+            Array.Resize(ref values, _rows.Length / FloatsPerInstance * FloatsPerTint);
         }
 
-        tint.CopyTo(_tints.AsSpan((Count - 1) * FloatsPerTint));
+        value.CopyTo(values.AsSpan((Count - 1) * FloatsPerTint));
     }
 
     /// <summary>Returns the place of the last instance's parts of the sky.</summary>

@@ -11,7 +11,9 @@ namespace FractalEngine.Core.Visibility;
 /// <param name="frame">Parameters of the strip.</param>
 /// <param name="item">Object that is culled.</param>
 /// <param name="output">Receives the visible instances.</param>
-internal readonly ref struct StripContext(ref readonly StripFrame frame, CulledObject item, StripOutput output)
+/// <param name="viewToFractal">Map from view space to the frame of the fractal; any where places don't decide about colours.</param>
+internal readonly ref struct StripContext(
+    ref readonly StripFrame frame, CulledObject item, StripOutput output, SimdAffineMap viewToFractal = default)
 {
     private readonly ref readonly StripFrame _frame = ref frame;
 
@@ -35,6 +37,12 @@ internal readonly ref struct StripContext(ref readonly StripFrame frame, CulledO
 
     /// <summary>Kind of the object's gradient.</summary>
     public GradientKind Gradient { get; } = item.GradientKind;
+
+    /// <summary>What tells the colours of the object's gradient; null where their kind does.</summary>
+    public InstanceGradient? Shading { get; } = item.Shading;
+
+    /// <summary>Map from view space to the frame of the fractal; any where places don't decide about colours.</summary>
+    public SimdAffineMap ViewToFractal { get; } = viewToFractal;
 
     /// <summary>Whether instances come with tints.</summary>
     public bool HasColours { get; } = item.Hierarchy.HasColours;

@@ -98,7 +98,8 @@ internal sealed class StripCuller
         {
             var objectToView =
                 new AffineMap(worldToView * item.ObjectToWorld.Linear, worldToView * (item.ObjectToWorld.Translation - frame.Position));
-            VisitRoot(in context, item.Hierarchy.Start, objectToView, CullingPath.Start);
+            VisitRoot(
+                ContextOf(in context, item, objectToView, AffineMap.Identity), item.Hierarchy.Start, objectToView, CullingPath.Start);
             return;
         }
 
@@ -106,9 +107,16 @@ internal sealed class StripCuller
         {
             var frameToCamera = roots[i].FrameToCamera;
             var rootToView = new AffineMap(worldToView * frameToCamera.Linear, worldToView * frameToCamera.Translation);
-            VisitRoot(in context, roots[i].State, rootToView, CullingPath.FromRoot(i, roots[i].ColourPath, roots[i].Tint));
+            VisitRoot(
+                ContextOf(in context, item, rootToView, roots[i].FrameToFractal), roots[i].State, rootToView,
+                CullingPath.FromRoot(i, roots[i].ColourPath, roots[i].Tint));
         }
     }
+
+    /// <summary>The context of a root, which knows places in the fractal where colours depend on them.</summary>
+    private StripContext ContextOf(in StripContext context, CulledObject item, AffineMap rootToView, AffineMap rootToFractal) =>
+        item.Shading is { NeedsPlaces: true }
+            ? new(in context.Frame, item, Output, new(rootToFractal * rootToView.Inverse())) : context;
 
     private void VisitRoot(in StripContext context, LevelState state, AffineMap rootToView, CullingPath path)
     {
@@ -267,12 +275,24 @@ internal sealed class StripCuller
         _skyPath.Set(parent.Depth, new(node, parent.State.Level, child));
         var state = context.Hierarchy.Enter(node, child, parent.State);
         var path = parent.Path.Append(child, parent.Depth, node.ChildMapIndices[child], node.SetSize, context.Gradient);
+        var nodeToView = SimdAffineMap.Compose(in parent.NodeToView, in node.ChildMaps[child]);
+        if (context.Gradient == GradientKind.Trap && context.Shading is { } shading && node.ChildMapIndices[child] >= 0)
+        {
+            path = path with { ColourPath = shading.PassBy(path.ColourPath, ToFractal(in context, in nodeToView)) };
+        }
+
         return new(
             context.Hierarchy.NodeAt(state.Level),
             state,
-            SimdAffineMap.Compose(in parent.NodeToView, in node.ChildMaps[child]),
+            in nodeToView,
             parent.Depth + 1,
             node.ChildTints.Length == 0 ? path : path.WithTint(node.ChildTints[child]));
+    }
+
+    private static SimdAffineMap ToFractal(in StripContext context, in SimdAffineMap nodeToView)
+    {
+        var viewToFractal = context.ViewToFractal;
+        return SimdAffineMap.Compose(in viewToFractal, in nodeToView);
     }
 
     /// <summary>Appends the base mesh under a sub-fractal's proxy map to the output, unless closer instances hide it.</summary>
@@ -300,7 +320,14 @@ internal sealed class StripCuller
         var instanceToWorld = SimdAffineMap.Compose(in viewToWorld, in instanceToView);
         var instances = footprint.IsShared || !footprint.IsBeyondNearPlane ? output.SharedInstances : output.Instances;
         instances.Add(in instanceToWorld, context.VertexOrigin, instance.Path.Hash);
-        if (context.Gradient != GradientKind.None)
+        if (context.Shading is { } shading)
+        {
+            instances.SetShade(
+                shading.ShadeOf(
+                    instance.Path.ColourPath, instance.Node, instance.State.Level, ToFractal(in context, in instance.NodeToView)),
+                shading.Gradient.Palette is not null);
+        }
+        else if (context.Gradient != GradientKind.None)
         {
             instances.SetGradientFactor(instance.Path.ColourPath.ComputeGradientFactor(context.Gradient, context.Hierarchy.ColourLevels));
         }

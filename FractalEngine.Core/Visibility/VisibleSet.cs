@@ -118,6 +118,13 @@ public sealed class VisibleSet
     public ReadOnlySpan<float> Tints(int objectIndex, int chunk) => ListOf(chunk).TintsOf(RankOf(objectIndex));
 
     /// <summary>
+    /// Colours of <see cref="Instances"/> of an object with a palette, linear light: red, green, blue and 0, [n × 4].
+    /// </summary>
+    /// <param name="objectIndex">Index of the object in the list of <see cref="Cull"/>.</param>
+    /// <param name="chunk">Index of the chunk, less than <see cref="ChunkCount"/>.</param>
+    public ReadOnlySpan<float> PaletteColours(int objectIndex, int chunk) => ListOf(chunk).PaletteColoursOf(RankOf(objectIndex));
+
+    /// <summary>
     /// Parts of the sky from 0 to 1 that the sides of each of <see cref="Instances"/> see, towards +x, +y, +z, −x, −y, −z of the base
     /// mesh, [n × 6]; 1 for sides that the camera does not see. Meaningful where <see cref="CullingSettings.SkyVisibility"/> is on and
     /// the object's hierarchy has masks.

@@ -100,8 +100,23 @@ internal static class SceneFormatter
             motion is { From: { } from, To: { } to } ? $"from {from} to {to}" : null);
     }
 
-    private static string Format(Gradient gradient) =>
-        $"gradient {(gradient.Kind == GradientKind.Level ? "level" : "path")} {gradient.EndColour}";
+    /// <summary>The word by which scenes call a kind of gradients.</summary>
+    public static string WordOf(GradientKind kind) => kind.ToString().ToLowerInvariant();
+
+    private static string Format(Gradient gradient) => Join(
+        $"gradient {WordOf(gradient.Kind)}", FormatColours(gradient), Format("roughness", gradient.Roughness),
+        Format("metal", gradient.Metalness), Format("glow", gradient.Glow));
+
+    private static string? Format(string word, GradientRange? range) =>
+        range is var (first, last) ? $"{word} {FormatNumber(first)} {FormatNumber(last)}" : null;
+
+    private static string FormatColours(Gradient gradient) => gradient.Palette switch
+    {
+        null => gradient.EndColour.ToString(),
+        { Name: { } name } => $"\"{name}\"",
+        { IsEven: var isEven, Stops: var stops } => string.Join(
+            ' ', stops.Select(stop => isEven ? stop.Colour.ToString() : $"{FormatNumber(stop.Position)} {stop.Colour}")),
+    };
 
     private static string? FormatShape(BodyShape shape) =>
         shape.IsMesh ? "shape mesh"

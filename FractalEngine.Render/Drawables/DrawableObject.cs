@@ -22,4 +22,7 @@ public sealed record DrawableObject(string Name, DrawableModel Model, AffineMap 
 
     /// <summary>Colour gradient over the instances of a fractal; null for <see cref="Colour"/> alone.</summary>
     public Gradient? Gradient { get; init; }
+
+    /// <summary>The same where it decides about more than the colour of a fractal in affine composition; null elsewhere.</summary>
+    internal Gradient? SurfaceGradient { get; init; }
 }

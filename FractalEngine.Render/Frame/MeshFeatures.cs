@@ -53,4 +53,7 @@ internal enum MeshFeatures
 
     /// <summary>A texture of normals or heights that bends the surface, where pixels are lit.</summary>
     Detailed = 16384,
+
+    /// <summary>A gradient over the instances of a fractal decides about roughness, metal and glow.</summary>
+    Graded = 32768,
 }

@@ -15,7 +15,7 @@ namespace FractalEngine.Render.Frame;
 /// <param name="scene">Scene that declares lights, sky and probe.</param>
 internal sealed class MeshPass(RenderContext context, LoadedScene scene) : IDisposable
 {
-    private const int FeatureCombinations = 32768;
+    private const int FeatureCombinations = 65536;
     private static readonly Colour WireframeColour = new(0.80, 0.83, 0.87);
 
     private string[] _lightSymbols = LightBlock.SymbolsOf(scene);
@@ -57,12 +57,14 @@ internal sealed class MeshPass(RenderContext context, LoadedScene scene) : IDisp
     /// Those of <see cref="MeshFeatures.CameraRelative"/>, <see cref="MeshFeatures.FrontFacesOnly"/> and
     /// <see cref="MeshFeatures.VertexColours"/> that apply.
     /// </param>
+    /// <param name="graded">Gradient that decides about the surface instead of a material; null for none.</param>
     /// <exception cref="InvalidOperationException">No frame was begun.</exception>
     /// <exception cref="GlException">The driver refuses the program.</exception>
-    public void UseMaterial(DrawableMaterial? material, Colour tint, MeshFeatures instanceFeatures)
+    public void UseMaterial(DrawableMaterial? material, Colour tint, MeshFeatures instanceFeatures, Gradient? graded = null)
     {
         var (frame, wireframe, frameFeatures) = _frameState ?? throw new InvalidOperationException("no frame was begun");
-        var features = instanceFeatures | frameFeatures | (wireframe ? MeshFeatures.None : FeaturesOf(material));
+        var features = instanceFeatures | frameFeatures | (wireframe ? MeshFeatures.None : FeaturesOf(material))
+            | (graded is null ? 0 : MeshFeatures.Graded | (graded.IsGlossy ? MeshFeatures.Glossy : 0));
         var program = _programs[(int)features] ??= new(context, features, _lightSymbols);
         program.Use();
         if (context.Resources.State.Filter.Update(ref _lastFrameOfProgram[(int)features], _frameNumber))
@@ -78,6 +80,12 @@ internal sealed class MeshPass(RenderContext context, LoadedScene scene) : IDisp
         if (frame.Section is not null)
         {
             program.SetInnerFace(InnerFace);
+        }
+
+        if (graded is not null)
+        {
+            program.SetGradient(graded);
+            return;
         }
 
         // The object's own colour is not tinted: objects with different tints then share the uniforms.

@@ -1,11 +1,13 @@
 using System.Text.Json;
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Scenes;
 using FractalEngine.Render.Drawables;
 using FractalEngine.Render.Gl;
 using FractalEngine.Render.Gl.State;
 using FractalEngine.Render.Lights;
 using FractalEngine.Render.Upload;
 using FractalEngine.Render.Windowing;
+using OpenTK.Graphics.OpenGL4;
 
 namespace FractalEngine.Render.Frame;
 
@@ -18,6 +20,7 @@ internal sealed class MeshProgram : ShaderProgram
     private bool? _lastWireframe;
     private SectionPlane? _lastSection;
     private CullFace? _lastInnerFace;
+    private Gradient? _lastGradient;
 
     /// <summary>Compiles and links the program.</summary>
     /// <param name="context">Current context.</param>
@@ -88,4 +91,16 @@ internal sealed class MeshProgram : ShaderProgram
     /// <param name="material">Null for the object's own colour.</param>
     /// <param name="tint">Colour that multiplies the material's own, sRGB.</param>
     public void SetMaterial(DrawableMaterial? material, Colour tint) => _materialUniforms.Set(material?.Material, tint);
+
+    /// <summary>Sets the gradient of the next draw calls. The program must be in use, and have <see cref="MeshFeatures.Graded"/>.</summary>
+    public void SetGradient(Gradient gradient)
+    {
+        if (_filter.Update(ref _lastGradient, gradient))
+        {
+            GL.Uniform4(UniformLocation("gradedSteps"), GradedSurface.StepCount, GradedSurface.ToUniforms(gradient));
+            Set("gradedCoat", GradedSurface.CoatOf(gradient));
+            var (metal, glow) = (gradient.Metalness ?? default, gradient.Glow ?? default);
+            Set("gradedEnds", metal.First, metal.Last, glow.First, glow.Last);
+        }
+    }
 }

@@ -228,7 +228,8 @@ internal sealed class ObjectsPass(
             if (batch.IsTransparent == drawsTransparent)
             {
                 buffers.BindTexture(batch.Material);
-                _meshPass.UseMaterial(batch.Material, item.Tint, instanceFeatures);
+                _meshPass.UseMaterial(
+                    batch.Material, item.Tint, instanceFeatures, batch.Material is null ? item.SurfaceGradient : null);
                 DrawInstances(index, batch);
             }
         }

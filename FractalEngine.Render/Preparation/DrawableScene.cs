@@ -1,4 +1,5 @@
 using System.Collections.Immutable;
+using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Visibility.Levels;
@@ -27,7 +28,8 @@ public sealed class DrawableScene
         _firstItems = FirstItems(source);
         Models = models;
         Objects = objects;
-        HasGloss = models.Any(static model => model.Batches.Any(static batch => batch.Material?.Material.IsGlossy == true));
+        HasGloss = models.Any(static model => model.Batches.Any(static batch => batch.Material?.Material.IsGlossy == true))
+            || objects.Any(static item => item.SurfaceGradient is { IsGlossy: true });
         Notices = notices;
     }
 
@@ -146,6 +148,8 @@ public sealed class DrawableScene
         {
             Tint = declaration.Colour ?? Colour.White,
             Gradient = declaration.Gradient,
+            SurfaceGradient = declaration.Gradient is { HasSurface: true, Kind: not GradientKind.None }
+                && placed.Model is FractalModel { Fractal.Description.Composition: Composition.Affine } ? declaration.Gradient : null,
             IsDynamic = placed.Model is MeshModel && (declaration is PhysicsObject || declaration.Motion is not null),
         };
     }

@@ -2,7 +2,7 @@
 #extension GL_ARB_texture_gather : enable
 // The colour of the visible face. Front faces are wound clockwise on the screen in a left-handed scene, the other way in a
 // right-handed one. PER_PIXEL, TEXTURED, GLOSSY, FRONT_FACES_ONLY, CUT_OUT, EMISSIVE, ATMOSPHERE, SHADOWS, POINT_SHADOWS,
-// SHADOW_SLICES, SECTION and SKY_PARTS are defined where they apply.
+// SHADOW_SLICES, SECTION, SKY_PARTS and GRADED are defined where they apply.
 
 #include "material.glsl"
 #if defined(PER_PIXEL) || defined(ATMOSPHERE)
@@ -54,6 +54,9 @@ in vec3 backColour;
 in vec3 backHighlight;
 #endif
 #endif
+#endif
+#ifdef GRADED
+in vec4 pixelGrade;
 #endif
 #ifdef TEXTURED
 in vec2 pixelTextureCoordinates;
@@ -136,6 +139,9 @@ void addLight(int i, vec3 position, vec3 n, vec3 faceNormal, inout vec3 light, i
 
 void main()
 {
+#ifdef GRADED
+    grade(pixelGrade.w);
+#endif
     float opacity = material[0].w;
 #ifdef TEXTURED
     // A hole in the texture is a hole in the surface and has no highlight. Clear glass, by its opacity, keeps its highlight.
@@ -226,6 +232,9 @@ void main()
 #endif
 #ifdef EMISSIVE
     colour += material[4].rgb;
+#endif
+#ifdef GRADED
+    colour += pixelGrade.rgb;
 #endif
     vec3 shown = colour * opacity + highlights;
     float coverage = opacity;

@@ -1,6 +1,6 @@
 #version 330 core
 // One vertex of one instance: projected by map(v) = axes^-1 * (v - position), and lit by all lights on both faces, unless pixels are lit.
-// PER_PIXEL, TEXTURED, GLOSSY, CAMERA_RELATIVE, FRONT_FACES_ONLY, VERTEX_COLOURS and SECTION are defined where they apply.
+// PER_PIXEL, TEXTURED, GLOSSY, CAMERA_RELATIVE, FRONT_FACES_ONLY, VERTEX_COLOURS, SECTION and GRADED are defined where they apply.
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
@@ -20,6 +20,7 @@ layout(location = 8) in vec3 skyAbove; // parts of the sky that the instance's s
 layout(location = 9) in vec3 skyBelow; // towards -x, -y and -z
 #endif
 layout(location = 10) in vec4 mapTint; // what maps add to the colour, linear light, and the share w that it keeps; else 0, 0, 0, 1
+layout(location = 11) in vec4 paletteColour; // of a gradient with a palette, linear light, and 0; else 0, 0, 0, 1
 
 layout(std140) uniform ObjectBlock
 {
@@ -89,12 +90,18 @@ out vec2 pixelSky;          // part of the sky that the front and the back of th
 out vec2 pixelTextureCoordinates;
 #endif
 
+#ifdef GRADED
+out vec4 pixelGrade;        // emitted light, and the place in the gradient
+#endif
 #if defined(DETAILED) && defined(PER_PIXEL)
 out vec2 pixelDetail;       // texture coordinates as the mesh has them
 #endif
 
 void main()
 {
+#ifdef GRADED
+    grade(tint);
+#endif
     vec4 local = vec4(position, 1.0);
     vec3 inModel = vec3(dot(instanceRow0, local), dot(instanceRow1, local), dot(instanceRow2, local));
 #ifdef CAMERA_RELATIVE
@@ -126,11 +133,15 @@ void main()
     pixelSky = vec2(dot(squares, mix(skyBelow, skyAbove, isAbove)), dot(squares, mix(skyAbove, skyBelow, isAbove)));
 #endif
 
-    vec3 surface = mix(mix(colour.rgb, gradientEnd.rgb, tint), material[0].rgb, material[2].w);
+    vec3 surface = paletteColour.rgb + paletteColour.w * mix(colour.rgb, gradientEnd.rgb, tint);
+    surface = mix(surface, material[0].rgb, material[2].w);
 #ifdef VERTEX_COLOURS
     surface *= vertexColour;
 #endif
     surface = mapTint.rgb + mapTint.w * surface;
+#ifdef GRADED
+    pixelGrade = vec4(mix(gradedEnds.z, gradedEnds.w, tint) * surface, tint);
+#endif
 #ifdef TEXTURED
     // Textures are stored from the top, texture coordinates count from the bottom.
     vec2 scaledCoordinates = textureCoordinates * material[3].xy + material[3].zw;

@@ -9,6 +9,7 @@ using FractalEngine.Core.Rays;
 using FractalEngine.Core.SceneQueries;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Visibility.Levels;
+using FractalEngine.Render.Lights;
 using FractalEngine.Render.Preparation;
 using FractalEngine.Render.Views;
 
@@ -20,6 +21,9 @@ internal sealed record TracedScene
     // Rays leave a surface by this part of the scene's size: far more than rounding, far less than a pixel.
     private const double SurfaceOffset = 1e-9;
 
+    // Roughness and metal change by less from one to the next than can be seen.
+    private const int GradientGlossSteps = 256;
+
     private readonly TracedScene _whole;
     private readonly ConcurrentDictionary<Model, DeepZoomRayCaster> _zoomCasters;
     private readonly double _offset;
@@ -29,6 +33,10 @@ internal sealed record TracedScene
     private readonly RenderSettings _settings;
     private readonly Vector[][] _colours;
     private readonly Vector[] _gradientEnds;
+    private readonly InstanceGradient?[] _gradients;
+
+    // By places in the gradient; empty where it is matt.
+    private readonly Gloss?[][] _gradientGloss;
 
     // What multiplies the colours of an object's materials.
     private readonly Vector[] _tints;
@@ -66,6 +74,12 @@ internal sealed record TracedScene
             (part, mesh) => ObjectPalette.ColourOf(part, index + mesh).ToLinearVector()).ToArray())];
         _gradientEnds = [.. _objects.Select((placed, index) =>
             placed.Declaration.Gradient is { } gradient ? gradient.EndColour.ToLinearVector() : _colours[index][0])];
+        _gradients = [.. _objects.Select(static placed => placed.Model is FractalModel { Fractal: var fractal }
+            ? InstanceGradient.CreateOrNull(placed.Declaration.Gradient, fractal) : null)];
+        _gradientGloss = [.. _gradients.Select(static shading => shading is { Gradient: { IsGlossy: true } gradient }
+            ? Enumerable.Range(0, GradientGlossSteps + 1)
+                .Select(step => GradedSurface.At(gradient, (double)step / GradientGlossSteps)).ToArray()
+            : [])];
         _tints = [.. _objects.Select(static placed => (placed.Declaration.Colour ?? Colour.White).ToLinearVector())];
         IsSeeThrough = _models.Any(static parts => parts.Any(static model => model.IsSeeThrough));
         _areaLights = _models.Any(static parts => parts.Any(static model => model.IsEmissive))
@@ -252,9 +266,12 @@ internal sealed record TracedScene
         var faceNormal = hit.IsFrontFace ? hit.Normal : -hit.Normal;
         var normal = OrientedNormal(
             map.Linear.Cofactors() * model.InterpolateNormal(hit.FaceIndex, hit.Barycentrics), faceNormal, direction);
-        var colour = material.BaseColour?.Stretch(_tints[_zoom?.ObjectIndex ?? index]) ?? ObjectColour(index, in hit, context);
+        var (gloss, emission, glow) = (material.Gloss, material.Emission, 0.0);
+        var colour = material.BaseColour?.Stretch(_tints[_zoom?.ObjectIndex ?? index])
+            ?? ObjectColour(index, in hit, context, ref gloss, out glow);
         colour = colour.Stretch(model.InterpolateColour(hit.FaceIndex, hit.Barycentrics));
         colour = TintOf(index, context).Apply(colour);
+        emission = glow > 0 ? glow * colour : emission;
         var opacity = material.Opacity;
         if (material.IsTextured && model.TryGetTextureTriangle(hit.FaceIndex, out var corners, out var coordinates))
         {
@@ -273,9 +290,10 @@ internal sealed record TracedScene
         var glass = material.Glass is { } refracting && model.IsSolid ? refracting : null;
         // What is not scattered goes through.
         colour = glass is null ? colour : opacity * colour;
-        return new(hit.Point, faceNormal, normal, colour, material.Gloss, material.Emission, opacity)
+        return new(hit.Point, faceNormal, normal, colour, gloss, emission, opacity)
         {
-            FaceIndex = hit.FaceIndex,
+            // What glows by a gradient is never sampled.
+            FaceIndex = glow > 0 ? -1 : hit.FaceIndex,
             Glass = glass,
             IsInside = glass is not null && IsInnerSide(in hit, index),
         };
@@ -303,19 +321,27 @@ internal sealed record TracedScene
         : Tint.Of(fractal, context.InstancePath);
 
     /// <summary>The colour of an instance of an object, or in a deep zoom of a sub-fractal.</summary>
-    private Vector ObjectColour(int index, in RayHit hit, QueryContext context)
+    private Vector ObjectColour(int index, in RayHit hit, QueryContext context, ref Gloss? gloss, out double glow)
     {
+        glow = 0;
         var objectIndex = _zoom?.ObjectIndex ?? index;
         var colour = PartOf(_colours[objectIndex], in hit);
         var placed = _objects[objectIndex];
-        if (placed.Declaration.Gradient is not { Kind: not GradientKind.None and var kind }
-            || placed.Model is not FractalModel { Fractal: var fractal })
+        var zoomed = _caster as DeepZoomRayCaster;
+        if (_gradients[objectIndex] is { } shading)
         {
-            return colour;
+            var shade = zoomed?.ShadeOf(shading, index, context) ?? shading.ShadeOf(context.InstancePath);
+            glow = shading.Gradient.Glow?.At(shade.Factor) ?? 0;
+            gloss = shading.Gradient.IsGlossy
+                ? _gradientGloss[objectIndex][(int)Math.Round(shade.Factor * GradientGlossSteps)] : gloss;
+            return shading.Gradient.Palette is null ? Mix(shade.Factor) : shade.Colour;
         }
 
-        var factor = (_caster as DeepZoomRayCaster)?.GradientFactorOf(kind, index, context)
-            ?? ColourPath.GradientFactorOf(fractal, kind, context.InstancePath);
-        return ((1 - factor) * colour) + (factor * _gradientEnds[objectIndex]);
+        return placed.Declaration.Gradient is { IsPlain: true, Kind: not GradientKind.None and var kind }
+            && placed.Model is FractalModel { Fractal: var fractal }
+            ? Mix(zoomed?.GradientFactorOf(kind, index, context) ?? ColourPath.GradientFactorOf(fractal, kind, context.InstancePath))
+            : colour;
+
+        Vector Mix(double factor) => ((1 - factor) * colour) + (factor * _gradientEnds[objectIndex]);
     }
 }

@@ -55,13 +55,17 @@ internal sealed class SceneCuller : IDisposable
             if (model.LodHierarchy is { } hierarchy && !item.IsDynamic)
             {
                 var hasSkyMasks = usesSkyMasks && hierarchy.HasSkyMasks;
-                var hasTints = item.Gradient is not null;
+                var shading = InstanceGradient.CreateOrNull(item.Gradient, hierarchy);
+                var gradient = shading is null && item.Gradient is { IsPlain: false } ? null : item.Gradient;
+                var hasTints = gradient is not null;
                 var isSingle = hierarchy.HasNoLevels && !hasTints && !hasSkyMasks && !hierarchy.HasColours;
                 _visibleInstances[i] = new(
-                    resources, item.Name, models[model], isSingle, hasTints, hasSkyMasks, hierarchy.HasColours);
+                    resources, item.Name, models[model], isSingle, hasTints, hasSkyMasks, hierarchy.HasColours,
+                    shading?.Gradient.Palette is not null);
                 culledObjects.Add(new(hierarchy, item.Map, model.MeshOrigin, model.MeshWindingSign, !model.IsSeeThrough)
                 {
-                    GradientKind = item.Gradient?.Kind ?? GradientKind.None,
+                    GradientKind = gradient?.Kind ?? GradientKind.None,
+                    Shading = shading,
                     HasSkyMasks = hasSkyMasks,
                 });
             }

@@ -12,6 +12,7 @@ namespace FractalEngine.Render.Upload;
 internal sealed class VisibleInstances : IDisposable
 {
     private const int TintLocation = 5;
+    private const int PaletteColourLocation = 11;
     private const int SkyAboveLocation = 8;
     private const int SkyBelowLocation = 9;
 
@@ -19,6 +20,7 @@ internal sealed class VisibleInstances : IDisposable
     private readonly GlBuffer? _tints;
     private readonly GlBuffer? _skyParts;
     private readonly GlBuffer? _mapTints;
+    private readonly GlBuffer? _paletteColours;
     private readonly VertexArray _vertexArray;
     private readonly float[] _map = [];
     private int _instanceCount;
@@ -31,8 +33,10 @@ internal sealed class VisibleInstances : IDisposable
     /// <param name="hasTints">Whether the object has a gradient, so that each instance has a position in it.</param>
     /// <param name="hasSkyParts">Whether instances come with the parts of the sky that they see.</param>
     /// <param name="hasMapTints">Whether instances come with what maps mix into their colours.</param>
+    /// <param name="hasPalette">Whether instances come with colours of a palette.</param>
     public VisibleInstances(
-        GlResources resources, string name, ModelBuffers model, bool isSingle, bool hasTints, bool hasSkyParts, bool hasMapTints)
+        GlResources resources, string name, ModelBuffers model, bool isSingle, bool hasTints, bool hasSkyParts, bool hasMapTints,
+        bool hasPalette)
     {
         if (isSingle)
         {
@@ -54,6 +58,12 @@ internal sealed class VisibleInstances : IDisposable
         {
             _mapTints = new(resources, $"colours of maps of {name}", BufferTarget.ArrayBuffer);
             _vertexArray.Attribute(_mapTints, ModelBuffers.MapTintLocation, 4, 4, 0, divisor: 1);
+        }
+
+        if (hasPalette)
+        {
+            _paletteColours = new(resources, $"palette colours of {name}", BufferTarget.ArrayBuffer);
+            _vertexArray.Attribute(_paletteColours, PaletteColourLocation, 4, 4, 0, divisor: 1);
         }
 
         if (hasSkyParts)
@@ -93,6 +103,11 @@ internal sealed class VisibleInstances : IDisposable
             Upload(_mapTints, 4, static (set, index, chunk) => set.Tints(index, chunk));
         }
 
+        if (_paletteColours is not null)
+        {
+            Upload(_paletteColours, 4, static (set, index, chunk) => set.PaletteColours(index, chunk));
+        }
+
         if (_skyParts is not null && hasSkyParts)
         {
             Upload(_skyParts, 6, static (set, index, chunk) => set.SkyParts(index, chunk));
@@ -123,7 +138,8 @@ internal sealed class VisibleInstances : IDisposable
     }
 
     /// <inheritdoc/>
-    public void Dispose() => GlObject.DisposeAll(_instances is null ? null : _vertexArray, _tints, _mapTints, _skyParts, _instances);
+    public void Dispose() => GlObject.DisposeAll(
+        _instances is null ? null : _vertexArray, _tints, _mapTints, _paletteColours, _skyParts, _instances);
 
     private void CopyMap(VisibleSet visible, int objectIndex)
     {

@@ -18,6 +18,7 @@ internal sealed class ScenePanel(WindowActions actions)
 {
     private readonly LightList _lights = new(actions);
     private readonly PlacementFields _placement = new(actions);
+    private readonly GradientFields _gradient = new(actions);
     private readonly SkyFields _sky = new(actions);
     private readonly CameraFields _camera = new(actions);
     private int _object = -1;
@@ -141,6 +142,7 @@ internal sealed class ScenePanel(WindowActions actions)
                 index, present => present with { Colour = PanelWidgets.Merge(present.Colour ?? shown, shown, colour) });
         }
 
+        _gradient.Build(ui, declared, index);
         ui.Row(1, 1, 1);
         if (ui.Button("Hide"))
         {

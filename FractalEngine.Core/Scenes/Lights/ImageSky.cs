@@ -23,7 +23,10 @@ public sealed record ImageSky(string File, double Turn = 0, double Scale = 1) : 
 
     /// <inheritdoc/>
     public override IReadOnlyList<object> Declaration =>
-        ["sky", $"\"{File}\"", .. Turn == 0 ? (object[])[] : ["turn", Turn], .. Scale == 1 ? (object[])[] : ["scale", Scale]];
+    [
+        "sky", $"\"{File}\"", .. Turn == 0 && double.IsPositive(Turn) ? (object[])[] : ["turn", Turn],
+        .. Scale == 1 ? (object[])[] : ["scale", Scale],
+    ];
 
     /// <inheritdoc/>
     public override SkyRadiance ToRadiance(Handedness handedness) => Image is { } image

@@ -1,5 +1,6 @@
 using System.Runtime.CompilerServices;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 
@@ -18,6 +19,9 @@ namespace FractalEngine.Core.Visibility.Levels;
 public readonly record struct ColourPath(int MapCount, float PathFraction, float RemainingWeight)
 {
     private const int MaxSweepLevels = 12;
+
+    /// <summary>How near the centre of the fractal has come to itself along the path, see <see cref="GradientKind.Trap"/>.</summary>
+    public float NearestApproach { get; init; } = 1;
 
     /// <summary>The path of the whole fractal, without any map.</summary>
     public static ColourPath Start => new(0, 0, 1);
@@ -53,7 +57,21 @@ public readonly record struct ColourPath(int MapCount, float PathFraction, float
     /// <param name="setSize">Number of maps of the set.</param>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     internal ColourPath Append(int mapIndex, int setSize) => mapIndex < 0 ? this
-        : new(MapCount + 1, PathFraction + (0.5f * RemainingWeight * mapIndex / Math.Max(1, setSize - 1)), 0.5f * RemainingWeight);
+        : this with
+        {
+            MapCount = MapCount + 1,
+            PathFraction = PathFraction + (0.5f * RemainingWeight * mapIndex / Math.Max(1, setSize - 1)),
+            RemainingWeight = 0.5f * RemainingWeight,
+        };
+
+    /// <summary>Notes where the path has carried the centre of the fractal.</summary>
+    /// <param name="place">The place, in the frame of the fractal.</param>
+    /// <param name="bounds">The box of the fractal.</param>
+    internal ColourPath PassBy(Vector place, BoundingBox bounds)
+    {
+        var approach = (float)((place - bounds.Centre).Length() / (0.5 * bounds.Diagonal));
+        return approach < NearestApproach ? this with { NearestApproach = approach } : this;
+    }
 
     /// <summary>Appends one map of a set, which may be the identity.</summary>
     /// <param name="maps">The set.</param>
@@ -71,8 +89,11 @@ public readonly record struct ColourPath(int MapCount, float PathFraction, float
             return PathFraction;
         }
 
-        var sweepLevels = (int)Math.Clamp(levelCount, 1, MaxSweepLevels);
+        var sweepLevels = SweepLevels(levelCount);
         var phase = MapCount % (2 * sweepLevels) / (float)sweepLevels;
         return phase <= 1 ? phase : 2 - phase;
     }
+
+    /// <summary>Number of maps over which colours by level go from one end to the other.</summary>
+    internal static int SweepLevels(long levelCount) => (int)Math.Clamp(levelCount, 1, MaxSweepLevels);
 }

@@ -56,6 +56,9 @@ public sealed class LodHierarchy
     /// <summary>What the hierarchy was built of; null for a mesh.</summary>
     internal Fractal? Source { get; init; }
 
+    /// <summary>The box of the fractal with all of its meshes; null for a mesh, and for a fractal in componentwise composition.</summary>
+    internal BoundingBox? WholeBounds => Source?.WholeBounds;
+
     /// <summary>True where maps mix colours into what they make, so that instances have tints.</summary>
     public bool HasColours { get; internal init; }
 

@@ -13,6 +13,9 @@ public readonly record struct LodRoot(long RemainingLevels, AffineMap FrameToCam
     /// <summary>What the maps that lead to the sub-fractal mix into colours.</summary>
     public Tint Tint { get; init; } = Tint.None;
 
+    /// <summary>Map from the sub-fractal's frame to that of the fractal, as far as colours by places show it.</summary>
+    public AffineMap FrameToFractal { get; init; } = AffineMap.Identity;
+
     /// <summary>The place of the sub-fractal.</summary>
     internal LevelState State { get => new(RemainingLevels, field.Way, field.Size); init; }
 }

@@ -123,11 +123,27 @@ public class SceneParserErrorTests
     [InlineData("light quad (0, 0, 0) (0, 0, 1) 2", 33,
         "unexpected end of file: a quad light is its position, direction, width, height, colour, intensity and range")]
     [InlineData("light spot (0, 0, 0) (0, 0, 1) 180 (1, 1, 1) 1 1", 32, "the angle of the cone must lie between 0 and 180 degrees")]
-    [InlineData("o \"a.fdo\" # gradient", 21, "unexpected end of file, expected 'level' or 'path'")]
-    [InlineData("o \"a.fdo\" # gradient none (1, 1, 1)", 22, "unexpected 'none', expected 'level' or 'path'")]
-    [InlineData("o \"a.fdo\" # gradient (1, 1, 1)", 22, "unexpected '(', expected 'level' or 'path'")]
-    [InlineData("o \"a.fdo\" # gradient level", 27, "unexpected end of file, expected a colour (r, g, b)")]
-    [InlineData("o \"a.fdo\" # gradient path red", 27, "unexpected 'red', expected a colour (r, g, b)")]
+    [InlineData("o \"a.fdo\" # gradient", 21, "unexpected end of file, expected 'level', 'path', 'height', 'distance' or 'trap'")]
+    [InlineData("o \"a.fdo\" # gradient none (1, 1, 1)", 22, "unexpected 'none', expected 'level', 'path', 'height', 'distance' or 'trap'")]
+    [InlineData("o \"a.fdo\" # gradient (1, 1, 1)", 22, "unexpected '(', expected 'level', 'path', 'height', 'distance' or 'trap'")]
+    [InlineData("o \"a.fdo\" # gradient level", 27,
+        "unexpected end of file, expected the name of a palette in quotes, a colour (r, g, b) or a number")]
+    [InlineData("o \"a.fdo\" # gradient path red", 27,
+        "unexpected 'red', expected the name of a palette in quotes, a colour (r, g, b) or a number")]
+    [InlineData("o \"a.fdo\" # gradient level \"Ember\"", 28,
+        "there is no palette 'Ember'; there are: slate, bark, gold, ember, rose, plum, "
+        + "dusk, ice, sea, lagoon, aurora, moss")]
+    [InlineData("o \"a.fdo\" # gradient level \"ember", 34, "unexpected end of file, expected '\"'")]
+    [InlineData("o \"a.fdo\" # gradient trap 0.5 (1, 1, 1)", 27, "a palette has two stops or more")]
+    [InlineData("o \"a.fdo\" # gradient trap 0.5 (1, 1, 1) 0.4 (0, 0, 0)", 41, "the positions of a palette must ascend from 0 to 1")]
+    [InlineData("o \"a.fdo\" # gradient trap -0.5 (1, 1, 1) 0.4 (0, 0, 0)", 27, "the positions of a palette must ascend from 0 to 1")]
+    [InlineData("o \"a.fdo\" # gradient trap 0.5 (1, 1, 1) 1.4 (0, 0, 0)", 41, "the positions of a palette must ascend from 0 to 1")]
+    [InlineData("o \"a.fdo\" # gradient trap 0.5 0.6 (0, 0, 0)", 31, "unexpected '0.6', expected a colour (r, g, b)")]
+    [InlineData("o \"a.fdo\" # gradient height (1, 1, 1) (2, 0, 0)", 39, "the components of a colour must lie between 0 and 1")]
+    [InlineData("o \"a.fdo\" # gradient level \"ember\" roughness 0 1.1", 48, "the roughness must lie between 0 and 1")]
+    [InlineData("o \"a.fdo\" # gradient level \"ember\" metal -1 1", 42, "the share of metal must lie between 0 and 1")]
+    [InlineData("o \"a.fdo\" # gradient level \"ember\" glow 1 1e10", 43, "the glow must lie between 0 and 1e9")]
+    [InlineData("o \"a.fdo\" # gradient level \"ember\" glow 1", 42, "unexpected end of file, expected a blank or ','")]
     [InlineData("o \"a.fdo\" # gradient level (1, 2, 1)", 28, "the components of a colour must lie between 0 and 1")]
     [InlineData("player (0, 0, 0) 1 1", 18, "the player's radius must be positive, and the height at least twice as much")]
     [InlineData("p \"a.obj\" # 1 friction -0.1", 24, "the friction must not be negative")]

@@ -91,6 +91,27 @@ public class SceneParserTests
     }
 
     [Fact]
+    public void Object_WithAPalette_HasIt()
+    {
+        Assert.Equal(
+            Gradient.Of(GradientKind.Height, NamedPalettes.Find("ember")!),
+            ParseObject("o \"a.fdo\" # gradient height \"ember\"").Gradient);
+        var even = Palette.OfEven(new Colour(1, 0, 0), new Colour(0, 1, 0), new Colour(0, 0, 0.5));
+        string[] all = ["(1, 0, 0) (0, 1, 0) (0, 0, 0.5)", "(1 0 0),(0 1 0)(0 0 .5)", "0 (1, 0, 0) .5 (0, 1, 0) 1 (0, 0, 0.5)"];
+        foreach (var colours in all)
+        {
+            var declared = ParseObject($"o \"a.fdo\" # gradient trap {colours} name \"n\"");
+            Assert.Equal(("n", Gradient.Of(GradientKind.Trap, even)), (declared.Name, declared.Gradient));
+        }
+
+        Assert.Equal(
+            new Gradient(GradientKind.Path, Colour.White) { Roughness = new(0.2, 0.9), Glow = new(0, 4), Metalness = new(1, 0) },
+            ParseObject("o \"a.fdo\" # gradient path (1, 1, 1) glow 0 4 roughness .2, 0.9 metal 1 0 name \"n\"").Gradient);
+        var sharp = ParseObject("p \"a.fdo\" # 0.5 gradient distance 0.25 (1, 0, 0), 0.5 (0, 1, 0), 0.5 (0, 0, 0.5) mass 2").Gradient;
+        Assert.Equal([0.25, 0.5, 0.5], sharp!.Palette!.Stops.Select(static stop => stop.Position));
+    }
+
+    [Fact]
     public void PhysicsObject_WithoutOptions_HasTheDefaults()
     {
         var body = Assert.IsType<PhysicsObject>(ParseObject("p \"a.fdo\" # 0.5"));

@@ -31,6 +31,13 @@ public class SceneWriterTests
         .Select(i => (double)i / int.MaxValue));
     private static readonly Gen<double> NotNegative = Gen.OneOf(Gen.Elements(0.0, -0.0), Laws.AnyFinite.Select(Math.Abs));
     private static readonly Gen<Colour> Colours = Unit.Three().Select(t => new Colour(t.Item1, t.Item2, t.Item3));
+    private static readonly Gen<Palette> Palettes = Gen.OneOf(
+        Gen.Elements(NamedPalettes.All.AsEnumerable()), Colours.Three().Select(t => Palette.OfEven(t.Item1, t.Item2, t.Item3)),
+        Colours.Two().Select(t => Palette.OfEven(t.Item1, t.Item2)),
+        Colours.Three().Zip(Unit.Three(), (t, p) => new Palette([.. new[] { p.Item1, p.Item2, p.Item3 }.Order().Zip(
+            new[] { t.Item1, t.Item2, t.Item3 }, static (position, colour) => new PaletteStop(position, colour))])),
+        Colours.Two().Select(t => new Palette([new(0.1, t.Item1), new(0.2, t.Item2)])));
+
     private static readonly Gen<Vector> Directions = AnyVector.Where(v => v != Vector.Zero);
     private static readonly Gen<double> Factor = Laws.AnyFinite.Where(number => Math.Abs(number) is > 1e-100 and < 1e100);
     private static readonly Gen<Transformation> Placements = Gen.Elements(true, false).Three().SelectMany(given =>
@@ -46,8 +53,13 @@ public class SceneWriterTests
         .Zip(Names, (declared, name) => declared with { Name = name })
         .Zip(Gen.OneOf(Gen.Constant<Colour?>(null), Colours.Select(colour => (Colour?)colour)),
         (declared, colour) => declared with { Colour = colour })
-        .Zip(Colours.Zip(Gen.Elements(GradientKind.None, GradientKind.Level, GradientKind.Path)),
-        (declared, g) => declared with { Gradient = g.Item2 == GradientKind.None ? null : new(g.Item2, g.Item1) });
+        .Zip(Palettes.Zip(Gen.Elements(Enum.GetValues<GradientKind>())),
+        (declared, g) => declared with
+        {
+            Gradient = g.Item2 == GradientKind.None ? null
+                : g.Item1 is { Name: null, IsEven: false, Stops.Length: 2 } two ? new(g.Item2, two.Stops[0].Colour)
+                : Gradient.Of(g.Item2, g.Item1) with { Roughness = new(g.Item1.Stops[0].Position, 1), Glow = new(-0.0, 5) },
+        });
 
     private static readonly Gen<SceneObject> Bodies = Plain.Zip(Unit)
         .Zip(AnyVector.Zip(Positive), (o, b) => (SceneObject)new PhysicsObject(o.Item1.File!, o.Item1.Placement, o.Item2)
