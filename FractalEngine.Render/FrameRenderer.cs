@@ -4,6 +4,7 @@ using FractalEngine.Core.Scenes.Cameras;
 using FractalEngine.Render.Frame;
 using FractalEngine.Render.Gl;
 using FractalEngine.Render.Gl.State;
+using FractalEngine.Render.Lights;
 using FractalEngine.Render.Tracing;
 using FractalEngine.Render.Ui;
 using FractalEngine.Render.Ui.Drawing;
@@ -81,7 +82,9 @@ public sealed class FrameRenderer : IDisposable
         if (GatheredCount == 1)
         {
             _context.MakeCurrent();
-            _gatheredTarget ??= new(_context.Resources, "gathered frames", width, height, PixelInternalFormat.Rgba16f);
+            _gatheredTarget ??= new(
+                _context.Resources, "gathered frames", width, height,
+                KeepsLight ? PixelInternalFormat.Rgba32f : PixelInternalFormat.Rgba16f);
             AddToMean();
         }
 
@@ -120,11 +123,13 @@ public sealed class FrameRenderer : IDisposable
     {
         _context.MakeCurrent();
         _context.ApplySettings(settings);
-        var target = EnsureTarget(width, height, Math.Clamp(settings.Samples, 0, _context.MaxSampleCount));
+        var target = EnsureTarget(width, height, Math.Clamp(settings.Samples, 0, _context.MaxSampleCount), settings.KeepsLight);
         var frame = FrameView.Create(view, width, height, scene?.ClipPlanes(view, width, height, settings)) with { Offset = offset };
         scene?.UpdateShadows(in frame, settings);
         target.Bind();
-        Clear(view.Background ?? scene?.Scene.Source.Scene.Background ?? settings.Background, in frame, width, height);
+        Clear(
+            view.Background ?? scene?.Scene.Source.Scene.Background ?? settings.Background,
+            settings.KeepsLight && scene is not null ? DisplayTransform.Of(scene.Scene.Source.Scene) : null, in frame, width, height);
         if (scene is null)
         {
             return;
@@ -219,18 +224,51 @@ public sealed class FrameRenderer : IDisposable
         return PixelImage.FromBottomUp(frame.Width, frame.Height, pixels);
     }
 
+    /// <summary>Reads the light of the last frame back, drawn with <see cref="RenderSettings.KeepsLight"/>.</summary>
+    /// <exception cref="InvalidOperationException">No frame has been drawn yet, or without that setting.</exception>
+    /// <exception cref="GlException">The driver reports an error while the light is read.</exception>
+    public FloatImage CaptureLight()
+    {
+        if (!KeepsLight)
+        {
+            throw new InvalidOperationException("no frame has been drawn whose light is kept");
+        }
+
+        var frame = Resolve(null, null, []);
+        var light = new float[3 * frame.Width * frame.Height];
+        frame.ReadLight(light);
+        // OpenGL counts rows from the bottom.
+        var stride = 3 * frame.Width;
+        var row = new float[stride];
+        for (var y = 0; y < frame.Height / 2; y++)
+        {
+            var top = light.AsSpan(y * stride, stride);
+            var bottom = light.AsSpan((frame.Height - 1 - y) * stride, stride);
+            top.CopyTo(row);
+            bottom.CopyTo(top);
+            row.CopyTo(bottom);
+        }
+
+        return new(frame.Width, frame.Height, light);
+    }
+
     /// <summary>Deletes the framebuffers and shaders. Harmless when repeated.</summary>
     public void Dispose() => GlObject.DisposeAll(_sceneTarget, _resolvedTarget, _gatheredTarget, _linesPass, _overlayPass, _imagePass);
 
     /// <summary>Fills the frame with the background. Its sRGB values are written unchanged, so that the background is exact.</summary>
-    private void Clear(Colour background, in FrameView frame, int width, int height)
+    /// <param name="background">Colour of the background.</param>
+    /// <param name="display">What shows the frame's light, which the background becomes; null for a frame of colours.</param>
+    /// <param name="frame">View of the frame.</param>
+    /// <param name="width">Width of the frame in pixels.</param>
+    /// <param name="height">Height of the frame in pixels.</param>
+    private void Clear(Colour background, DisplayTransform? display, in FrameView frame, int width, int height)
     {
         GL.Disable(EnableCap.FramebufferSrgb);
         GL.DepthMask(true);
         GL.ClearDepth(_context.HasReversedDepth ? 0.0 : 1.0);
         if ((frame.Width, frame.Height) != (width, height))
         {
-            SetClearColour(RenderSettings.LetterboxColour(background));
+            SetClearColour(RenderSettings.LetterboxColour(background), display);
             GL.Clear(ClearBufferMask.ColorBufferBit);
         }
 
@@ -238,19 +276,25 @@ public sealed class FrameRenderer : IDisposable
         var bottom = height - frame.Y - frame.Height;
         GL.Enable(EnableCap.ScissorTest);
         GL.Scissor(frame.X, bottom, frame.Width, frame.Height);
-        SetClearColour(background);
+        SetClearColour(background, display);
         GL.Clear(ClearBufferMask.ColorBufferBit | ClearBufferMask.DepthBufferBit);
         GL.Disable(EnableCap.ScissorTest);
         GL.Viewport(frame.X, bottom, frame.Width, frame.Height);
     }
 
-    private static void SetClearColour(Colour colour) =>
-        GL.ClearColor((float)colour.Red, (float)colour.Green, (float)colour.Blue, 1);
+    private static void SetClearColour(Colour colour, DisplayTransform? display)
+    {
+        var (red, green, blue) = display?.Invert(colour.ToLinearVector()) ?? new(colour.Red, colour.Green, colour.Blue);
+        GL.ClearColor((float)red, (float)green, (float)blue, 1);
+    }
+
+    private bool KeepsLight => _sceneTarget?.Format == PixelInternalFormat.Rgba32f;
 
     /// <summary>Returns a framebuffer of the requested size, replacing the last one where that differs.</summary>
-    private Framebuffer EnsureTarget(int width, int height, int sampleCount)
+    private Framebuffer EnsureTarget(int width, int height, int sampleCount, bool keepsLight)
     {
-        if (_sceneTarget is not null && (_sceneTarget.Width, _sceneTarget.Height, _sampleCount) == (width, height, sampleCount))
+        if (_sceneTarget is not null
+            && (_sceneTarget.Width, _sceneTarget.Height, _sampleCount, KeepsLight) == (width, height, sampleCount, keepsLight))
         {
             return _sceneTarget;
         }
@@ -266,8 +310,8 @@ public sealed class FrameRenderer : IDisposable
         _gatheredTarget?.Dispose();
         // Stays null if one of the allocations fails.
         (_sceneTarget, _resolvedTarget, _gatheredTarget) = (null, null, null);
-        _sceneTarget = new(_context.Resources, "scene", width, height, sampleCount);
-        _resolvedTarget = new(_context.Resources, "resolved frame", width, height, PixelInternalFormat.Srgb8Alpha8);
+        _sceneTarget = new(_context.Resources, "scene", width, height, sampleCount, keepsLight);
+        _resolvedTarget = new(_context.Resources, "resolved frame", width, height, _sceneTarget.Format);
         _sampleCount = sampleCount;
         return _sceneTarget;
     }

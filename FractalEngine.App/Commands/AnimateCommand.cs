@@ -48,7 +48,7 @@ internal static class AnimateCommand
         report.AddTo(command);
         command.SetAction(result =>
         {
-            var (job, trace) = images.Read(result);
+            var (job, trace) = images.Read(result, result.GetRequiredValue(output));
             if (result.GetValue(path) is not null && images.Camera.IsGiven(result))
             {
                 throw new UsageException("--camera, --view, --look-from and --look-at have no effect with --path, which names the cameras");
@@ -132,7 +132,16 @@ internal static class AnimateCommand
                     frames.Move(bodies);
                 }
 
-                output.Add(frames.CreateFrame(motion(done), interruption.Token));
+                if (animation.Images.Format is { } format)
+                {
+                    var frame = frames.CreateLight(motion(done), interruption.Token);
+                    output.AddFile(stream => format.Write(frame, stream));
+                }
+                else
+                {
+                    output.Add(frames.CreateFrame(motion(done), interruption.Token));
+                }
+
                 progress.Report(done + 1);
             }
         }

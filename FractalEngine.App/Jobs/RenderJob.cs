@@ -24,6 +24,9 @@ internal sealed record RenderJob(
 
     public BackgroundChoice Background { get; init; } = BackgroundChoice.OfScene;
 
+    /// <summary>The format of images with more than 8 bits; null for others.</summary>
+    public LightFormat? Format { get; init; }
+
     /// <summary>Creates the view of a scene for an aspect ratio, before any zoom.</summary>
     public required Func<LoadedScene, double, View> CreateView { get; init; }
 

@@ -88,7 +88,7 @@ internal sealed class ObjectsPass(
     public void Draw(in FrameView frame, IReadOnlyList<SphereInstance> spheres, RenderSettings settings)
     {
         var view = frame.View;
-        _lightBlock.Bind(GlState.LightBinding, view.Camera.Position, LightScaleOf(view), settings.Background);
+        _lightBlock.Bind(GlState.LightBinding, view.Camera.Position, LightScaleOf(view), settings);
         if (_skyPass is not null && view.Background is null)
         {
             _skyPass.Draw(in frame);

@@ -18,14 +18,24 @@ internal readonly record struct DisplayTransform(double Exposure, Tone Tone)
     // Squares of larger ones leave the range of the shader's floats.
     private const double MaxLight = 1e18;
 
+    /// <summary>Shows light as it is.</summary>
+    public static DisplayTransform Identity { get; } = new(1, Tone.None);
+
     /// <summary>Whether light is shown as it is.</summary>
-    public bool IsIdentity => Exposure == 1 && Tone == Tone.None;
+    public bool IsIdentity => this == Identity;
 
     /// <summary>The transform that a scene declares.</summary>
     public static DisplayTransform Of(Scene scene) => new(scene.Exposure, scene.Tone);
 
     /// <summary>Converts linear light of the scene to linear light of the screen.</summary>
     public Vector Apply(Vector light) => new(Apply(light.X), Apply(light.Y), Apply(light.Z));
+
+    /// <summary>Converts linear light of the scene to what an image stores, from 0 to 1 or beyond where there is no tone curve.</summary>
+    public Vector ToSrgb(Vector light) => new(ToSrgb(Apply(light.X)), ToSrgb(Apply(light.Y)), ToSrgb(Apply(light.Z)));
+
+    // The curve of IEC 61966-2-1.
+    private static double ToSrgb(double linear) =>
+        linear <= 0.0031308 ? 12.92 * linear : (1.055 * Math.Pow(linear, 1 / 2.4)) - 0.055;
 
     /// <summary>Finds the light of the scene that is shown as given light of the screen, from 0 to 1.</summary>
     public Vector Invert(Vector shown) => new(Invert(shown.X), Invert(shown.Y), Invert(shown.Z));

@@ -32,6 +32,9 @@ internal sealed class TracedCamera(View view, int width, int height, double foot
         }
     }
 
+    /// <summary>Distance of a point from the plane of the camera.</summary>
+    public double DepthOf(Core.Maths.Vector position) => _camera.ToCameraSpace(position).Z;
+
     /// <summary>Makes a ray near the centre of a pixel.</summary>
     /// <param name="x">Pixel from the left, from 0.</param>
     /// <param name="y">Pixel from the top, from 0.</param>
