@@ -25,6 +25,9 @@ namespace FractalEngine.Render;
 /// </remarks>
 public sealed class FrameRenderer : IDisposable
 {
+    // Behind a lens, the first of them is sharp.
+    private const int MinLensFrames = 65;
+
     private readonly RenderContext _context;
     private readonly LinesPass _linesPass;
     private readonly OverlayPass _overlayPass;
@@ -33,6 +36,7 @@ public sealed class FrameRenderer : IDisposable
     private Framebuffer? _resolvedTarget;
     private Framebuffer? _gatheredTarget;
     private int _sampleCount;
+    private int _meanCount;
 
     /// <summary>Creates the framebuffer-independent resources of a context.</summary>
     /// <param name="context">Context to draw in. It must outlive this renderer.</param>
@@ -44,8 +48,19 @@ public sealed class FrameRenderer : IDisposable
         _overlayPass = new(context.Resources);
     }
 
-    /// <summary>Number of frames that the last one is the mean of: 1 after <see cref="Draw"/>; 0 before the first.</summary>
+    /// <summary>
+    /// Number of frames that the last one is the mean of: 1 after <see cref="Draw"/>; 0 before the first. Behind a lens the first one,
+    /// which is sharp, has no part in the mean of several.
+    /// </summary>
     public int GatheredCount { get; private set; }
+
+    /// <summary>Number of frames that an image of a view is made of: those of the settings, and at least 65 behind a lens.</summary>
+    public static int FrameCountOf(View view, RenderSettings settings)
+    {
+        ArgumentNullException.ThrowIfNull(view);
+        ArgumentNullException.ThrowIfNull(settings);
+        return view.HasLens ? Math.Max(settings.GatheredFrames, MinLensFrames) : settings.GatheredFrames;
+    }
 
     /// <summary>Draws a scene, or the background alone.</summary>
     /// <param name="scene">Scene of the same context; null to draw only the background.</param>
@@ -67,7 +82,8 @@ public sealed class FrameRenderer : IDisposable
     /// <summary>Draws the last frame again, moved by a part of a pixel, and shows the mean of all since <see cref="Draw"/>.</summary>
     /// <remarks>
     /// Edges become a little softer than those of traced images: those of a pixel, behind the same tent. Instances are culled again, and
-    /// depth maps kept. Takes 8 bytes a pixel.
+    /// depth maps kept. Takes 8 bytes a pixel. Behind a lens (<see cref="View.HasLens"/>) each frame is seen from another point of it, with
+    /// what is in focus in its place: P. Haeberli and K. Akeley, "The Accumulation Buffer", 1990. Depth maps may be drawn again then.
     /// </remarks>
     /// <param name="scene">The scene of the last frame, unchanged since.</param>
     /// <param name="view">The view of the last frame.</param>
@@ -85,12 +101,26 @@ public sealed class FrameRenderer : IDisposable
             _gatheredTarget ??= new(
                 _context.Resources, "gathered frames", width, height,
                 KeepsLight ? PixelInternalFormat.Rgba32f : PixelInternalFormat.Rgba16f);
-            AddToMean();
+            _meanCount = 0;
+            if (!view.HasLens)
+            {
+                AddToMean();
+            }
         }
 
         // Points of Halton's sequence: each next one falls between those before.
         var offset = (TracedCamera.Tent(RadicalInverse(GatheredCount, 2)), TracedCamera.Tent(RadicalInverse(GatheredCount, 3)));
         var isPerspective = view.Projection == Projection.Perspective;
+        if (view.HasLens)
+        {
+            var samples = new SampleSequence(0, GatheredCount - 1, seed: 0);
+            var eye = view.LensPoint(samples.Next());
+            // What is in focus would move by so many pixels.
+            var pixels = view.Viewport(width, height).Height / (2 * view.HalfHeight * view.Camera.FocusDepth);
+            offset = (offset.Item1 + (pixels * eye.Right), offset.Item2 + (pixels * eye.Up));
+            view = view.WithEyeAt(eye);
+        }
+
         DrawFrame(
             scene, isPerspective ? view : view.MovedBy(offset, width, height), width, height, settings, null,
             isPerspective ? offset : default);
@@ -103,7 +133,7 @@ public sealed class FrameRenderer : IDisposable
         _imagePass ??= new(_context.Resources);
         _sceneTarget!.ResolveTo(_resolvedTarget!);
         _gatheredTarget!.Bind();
-        _imagePass.Draw(_resolvedTarget!.Texture, 1.0 / GatheredCount);
+        _imagePass.Draw(_resolvedTarget!.Texture, 1.0 / ++_meanCount);
     }
 
     private static double RadicalInverse(int number, int radix)

@@ -200,7 +200,7 @@ public sealed class Renderer : IDisposable
     private void DrawFrames(SceneRenderer scene, View view)
     {
         _frameRenderer.Draw(scene, view, Width, Height, Settings);
-        while (_frameRenderer.GatheredCount < Settings.GatheredFrames)
+        while (_frameRenderer.GatheredCount < FrameRenderer.FrameCountOf(view, Settings))
         {
             _frameRenderer.Gather(scene, view, Settings);
         }

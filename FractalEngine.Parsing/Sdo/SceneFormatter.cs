@@ -25,8 +25,7 @@ internal static class SceneFormatter
     public static string? Format(Scene scene, SceneDeclarationKind kind, int index) => kind switch
     {
         SceneDeclarationKind.Handedness => scene.Handedness == Handedness.Right ? "handed right" : null,
-        SceneDeclarationKind.Camera => scene.Camera is { } camera
-            ? $"c {camera.Position} {camera.Rotation} {FormatNumber(camera.FieldOfView)}" : null,
+        SceneDeclarationKind.Camera => scene.Camera is { } camera ? Format(camera) : null,
         SceneDeclarationKind.Projection => scene switch
         {
             { Projection: Projection.Perspective } => null,
@@ -46,6 +45,11 @@ internal static class SceneFormatter
         SceneDeclarationKind.SceneObject => index < scene.Objects.Length ? Format(scene.Objects[index]) : null,
         _ => throw new ArgumentOutOfRangeException(nameof(kind)),
     };
+
+    private static string Format(Camera camera) => Join(
+        $"c {camera.Position} {camera.Rotation} {FormatNumber(camera.FieldOfView)}",
+        AreBitEqual(camera.Aperture, 0) ? null : $"aperture {FormatNumber(camera.Aperture)}",
+        AreBitEqual(camera.FocusDepth, 1) ? null : $"focus {FormatNumber(camera.FocusDepth)}");
 
     private static string Format(IReadOnlyList<object> declaration) =>
         string.Join(' ', declaration.Select(static word => Convert.ToString(word, CultureInfo.InvariantCulture)));

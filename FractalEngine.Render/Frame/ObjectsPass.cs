@@ -149,7 +149,7 @@ internal sealed class ObjectsPass(
         foreach (var i in _opaqueOrder.SortFrontToBack(frame.View.Camera, transforms.Bounds))
         {
             var item = _scene.Objects[i];
-            if (item.IsDynamic && settings.Culling is { FrustumCulling: true }
+            if (item.IsDynamic && frame.Offset == default && settings.Culling is { FrustumCulling: true }
                 && !frame.View.MayIntersectFrustum(transforms.Bounds[i], frame.Aspect))
             {
                 continue;

@@ -306,6 +306,11 @@ public sealed class PathTracer
         var samples = new SampleSequence((y * Width) + x, sample, _seed);
         point = samples.Next();
         var ray = _camera.CreateRay(x, y, point, out var footprint, out var clip);
+        if (_camera.HasLens)
+        {
+            ray = _camera.ThroughLens(ray, samples.Next(), ref footprint, ref clip);
+        }
+
         var path = new LightPath(ray, footprint, clip);
         return _light.Follow(ref path, BounceLimit, ref samples, context, out first);
     }

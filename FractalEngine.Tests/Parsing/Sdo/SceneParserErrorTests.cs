@@ -77,6 +77,8 @@ public class SceneParserErrorTests
     [InlineData("projection orthographic 0", 25, "the visible height must be positive")]
     [InlineData("aspect 0", 8, "the aspect ratio must lie between 1:100 and 100:1")]
     [InlineData("aspect 16:0", 8, "the aspect ratio must lie between 1:100 and 100:1")]
+    [InlineData("c # # 45 aperture -1", 19, "the aperture must lie between 0 and 1e30")]
+    [InlineData("c # # 45 focus 0", 16, "the focus must lie between 1e-30 and 1e30")]
     [InlineData("clip 10 1", 6, "the clip planes must satisfy 0 < near < far")]
     [InlineData("clip 0 1", 6, "the clip planes must satisfy 0 < near < far")]
     [InlineData("background (1, 2, 3)", 12, "the components of a colour must lie between 0 and 1")]

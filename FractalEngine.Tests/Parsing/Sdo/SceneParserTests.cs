@@ -54,6 +54,12 @@ public class SceneParserTests
         Assert.Equal(new Camera(Vector.Zero, Vector.Zero, 45), Parse("c # # 45").Camera);
 
     [Theory]
+    [InlineData("c # # 45 aperture 0.25 focus 3")]
+    [InlineData("c # look-at (0, 0, 1) 45 focus 3 aperture 0.25")]
+    public void Camera_WithALens_HasIt(string line) =>
+        Assert.Equal(new Camera(Vector.Zero, Vector.Zero, 45) { Aperture = 0.25, FocusDepth = 3 }, Parse(line).Camera);
+
+    [Theory]
     [InlineData("#", 0, 0, 1)]
     [InlineData("(#, #, #)", 0, 0, 1)]
     [InlineData("((7, 7, 7), #, #)", 7, 0, 1)]

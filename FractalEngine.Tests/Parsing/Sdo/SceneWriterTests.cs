@@ -80,7 +80,11 @@ public class SceneWriterTests
     private static readonly Gen<Scene> Scenes =
         from objects in Gen.OneOf(Plain, Bodies).NonEmptyListOf()
         from lights in Lights.ListOf()
-        from camera in AnyVector.Two().Zip(Unit, (v, fov) => new Camera(v.Item1, v.Item2, 0.001 + (179 * fov)))
+        from camera in AnyVector.Two().Zip(Unit, (v, fov) => new Camera(v.Item1, v.Item2, 0.001 + (179 * fov))
+        {
+            Aperture = fov < 0.5 ? 0 : fov,
+            FocusDepth = fov < 0.3 ? 1 : 1e-30 + (1e9 * fov),
+        })
         from gravity in AnyVector
         from sizes in Positive
         from colour in Colours
