@@ -37,7 +37,7 @@ internal static class SceneFormatter
         SceneDeclarationKind.Background => scene.Background is { } background ? $"background {background}" : null,
         SceneDeclarationKind.Sky => scene.Sky is { } sky ? Format(sky.Declaration) : null,
         SceneDeclarationKind.Exposure => AreBitEqual(scene.Exposure, 1) ? null : $"exposure {FormatNumber(scene.Exposure)}",
-        SceneDeclarationKind.Tone => scene.Tone == Tone.Filmic ? "tone filmic" : null,
+        SceneDeclarationKind.Tone => scene.Tone == Tone.None ? null : $"tone {scene.Tone.ToString().ToLowerInvariant()}",
         SceneDeclarationKind.Fog => scene.Fog is { } fog ? Format(fog) : null,
         SceneDeclarationKind.Gravity => AreBitEqual(scene.Gravity, Scene.DefaultGravity) ? null : $"gravity {scene.Gravity}",
         SceneDeclarationKind.Player => scene.Player is { } player ? Format(player) : null,

@@ -145,7 +145,7 @@ internal sealed class LightBlock : IDisposable
 
             var display = settings.KeepsLight ? DisplayTransform.Identity : DisplayTransform.Of(_scene);
             WriteVector(
-                new(display.Exposure, display.Tone == Tone.Filmic ? 1 : 0, _fogDensity / unitsPerSceneUnit), _scene.Fog?.Albedo ?? 0,
+                new(display.Exposure, (int)display.Tone, _fogDensity / unitsPerSceneUnit), _scene.Fog?.Albedo ?? 0,
                 _data.AsSpan(16));
             WriteVector(FogColour(_scene, settings.Background), _scene.Fog?.Anisotropy ?? 0, _data.AsSpan(20));
             _buffer.Upload<float>(_data, BufferUsageHint.DynamicDraw);

@@ -186,6 +186,8 @@ public class SceneParserTests
     [Theory]
     [InlineData("exposure 1.5\ntone filmic", 1.5, Tone.Filmic)]
     [InlineData("tone none", 1, Tone.None)]
+    [InlineData("tone reinhard", 1, Tone.Reinhard)]
+    [InlineData("tone aces", 1, Tone.Aces)]
     [InlineData("handed left", 1, Tone.None)]
     public void ExposureAndTone_AreRead(string text, double exposure, Tone tone) =>
         Assert.Equal((exposure, tone), (Parse(text).Exposure, Parse(text).Tone));
