@@ -51,7 +51,8 @@ internal static class AnimateCommand
             var (job, trace) = images.Read(result, result.GetRequiredValue(output));
             if (result.GetValue(path) is not null && images.Camera.IsGiven(result))
             {
-                throw new UsageException("--camera, --view, --look-from, --look-at, --aperture and --focus have no effect with --path, which names the cameras");
+                throw new UsageException(
+                    "--camera, --view, --look-from, --look-at, --aperture and --focus have no effect with --path, which names the cameras");
             }
 
             if (result.GetValue(rate) is not null && !result.GetValue(simulate)

@@ -70,7 +70,8 @@ internal sealed record LightFormat(string Ending, int Bits, ImmutableArray<Frame
         {
             throw new FractalEngineException(
                 ErrorKind.Limit,
-                $"an image of {size.Width}×{size.Height} pixels has more than the limit of {maxPixels} for {(HasLayers ? "--layers" : Ending)}");
+                $"an image of {size.Width}×{size.Height} pixels has more than the limit of {maxPixels} for "
+                + (HasLayers ? "--layers" : Ending));
         }
     }
 

@@ -39,7 +39,8 @@ internal sealed class CameraOptions
         "--zoom", "LEVELS", 0, CameraZoom.MaxLevels, "Fly so many levels into a fractal, towards the surface ahead.");
 
     private readonly Option<double?> _aperture = NumberOption.Decimal(
-        "--aperture", "DIAMETER", 0, 1e30, "Blur what is out of focus by a lens of this diameter, in scene units; 0 shows everything sharp.");
+        "--aperture", "DIAMETER", 0, 1e30,
+        "Blur what is out of focus by a lens of this diameter, in scene units; 0 shows everything sharp.");
 
     private readonly Option<double?> _focus = NumberOption.Decimal(
         "--focus", "DEPTH", 1e-30, 1e30, "Depth of what a lens shows sharp, in scene units.");

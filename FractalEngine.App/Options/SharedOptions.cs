@@ -154,7 +154,8 @@ internal sealed class SharedOptions
         {
             result =>
             {
-                if (result.Tokens is [{ Value: var path }] && !extension.Split('|').Any(known => path.EndsWith(known, StringComparison.OrdinalIgnoreCase))
+                if (result.Tokens is [{ Value: var path }]
+                    && !extension.Split('|').Any(known => path.EndsWith(known, StringComparison.OrdinalIgnoreCase))
                     && !(isText && path == StandardInput.Name))
                 {
                     result.AddError($"{name} '{path}' must end in {extension.Replace("|", " or ", StringComparison.Ordinal)}");

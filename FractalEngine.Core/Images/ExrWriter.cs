@@ -5,7 +5,7 @@ using System.Text;
 namespace FractalEngine.Core.Images;
 
 /// <summary>Writes images of OpenEXR (<c>.exr</c>): scan lines of named channels, halves and floats, compressed by ZIP.</summary>
-/// <remarks>After the format's own "OpenEXR File Layout" and "Technical Introduction". Primaries are those of Rec. 709, its default.</remarks>
+/// <remarks>After the format's own "OpenEXR File Layout". Primaries are those of Rec. 709, its default.</remarks>
 public static class ExrWriter
 {
     /// <summary>Largest number of bytes of a name.</summary>
@@ -26,7 +26,7 @@ public static class ExrWriter
     /// <param name="height">Pixels.</param>
     /// <param name="channels">At least one, each with a name of its own and as many numbers as there are pixels.</param>
     /// <param name="stream">Where to; left open. Need not seek.</param>
-    /// <exception cref="ArgumentException">There is no pixel or channel, or a channel has another size or a name that can't be used.</exception>
+    /// <exception cref="ArgumentException">There is no pixel or channel, or one of another size or with a faulty name.</exception>
     /// <exception cref="IOException">The stream can't be written.</exception>
     /// <remarks>
     /// Numbers beyond the range of halves, 65504, become its ends; infinite ones stay infinite. Equal images give equal bytes on one

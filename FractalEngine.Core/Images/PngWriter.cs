@@ -47,7 +47,8 @@ public static class PngWriter
         if (width < 1 || height < 1 || bytes.Length != (long)depth / 2 * width * height)
         {
             throw new ArgumentException(
-                $"{width}×{height} pixels of {bytes.Length} bytes, expected at least one pixel and {depth / 2} bytes for each", nameof(bytes));
+                $"{width}×{height} pixels of {bytes.Length} bytes, expected at least one pixel and {depth / 2} bytes for each",
+                nameof(bytes));
         }
 
         var chunks = new PngChunkWriter(stream);

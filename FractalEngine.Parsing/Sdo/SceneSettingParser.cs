@@ -205,7 +205,9 @@ public abstract class SceneSettingParser : SceneValueParser
     }
 
     private protected bool ParseTone(Cursor cursor, out Cursor rest) =>
-        ParseChoice(cursor, [(Tone.None, "none"), (Tone.Filmic, "filmic"), (Tone.Reinhard, "reinhard"), (Tone.Aces, "aces")], out var tone, out rest)
+        ParseChoice(
+            cursor, [(Tone.None, "none"), (Tone.Filmic, "filmic"), (Tone.Reinhard, "reinhard"), (Tone.Aces, "aces")],
+            out var tone, out rest)
         && UpdateScene(Scene with { Tone = tone });
 
     private protected bool ParseFog(Cursor cursor, out Cursor rest)

@@ -15,7 +15,7 @@ public sealed record LightFrame(FloatImage Light, Scene Scene)
     /// <summary>Channels of other layers.</summary>
     public ImmutableArray<ImageChannel> Layers { get; init; } = [];
 
-    /// <summary>Finds the opacity from two frames of the same scene, one before black and one before white, as <c>Matting</c> does.</summary>
+    /// <summary>Finds the opacity from two frames of the same scene, one before black and one before white.</summary>
     /// <param name="onBlack">The light before black.</param>
     /// <param name="onWhite">The light before white.</param>
     /// <param name="scene">Declares exposure and tone curve, which tell how much light is shown white.</param>

@@ -3,7 +3,7 @@ namespace FractalEngine.Render.Tracing;
 /// <summary>What an image tells of each pixel, each in channels of its own.</summary>
 public enum FrameLayer
 {
-    /// <summary>Linear light of the scene, before exposure and tone curve: <c>R</c>, <c>G</c>, <c>B</c>, and <c>A</c> where there is one.</summary>
+    /// <summary>Linear light before exposure and tone curve: <c>R</c>, <c>G</c>, <c>B</c>, and <c>A</c> where there is one.</summary>
     Colour,
 
     /// <summary>The part of light that surfaces reflect, 0 for the background: <c>albedo.R</c>, <c>.G</c>, <c>.B</c>.</summary>

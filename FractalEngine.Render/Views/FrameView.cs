@@ -31,7 +31,7 @@ internal readonly record struct FrameView(View View, int X, int Y, int Width, in
     /// <summary>Plane that cuts the scene open, in world axes about the camera; null for none.</summary>
     public SectionPlane? Section { get; } = View.RelativeSection;
 
-    /// <summary>How far the image of a perspective view is moved on the screen, in pixels to the right and upwards; far for points of a lens.</summary>
+    /// <summary>How far the image of a perspective view is moved on the screen, in pixels to the right and upwards.</summary>
     public (double X, double Y) Offset { get; init; }
 
     /// <summary>

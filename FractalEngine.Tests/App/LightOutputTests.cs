@@ -6,7 +6,7 @@ using FractalEngine.Tests.Images;
 
 namespace FractalEngine.Tests.App;
 
-/// <summary>Tests the outputs of <c>render</c> with more than 8 bits. Each command runs as a process, and a plain reader reads its file.</summary>
+/// <summary>Tests outputs of <c>render</c> with more than 8 bits. Each command is a process, and a plain reader reads its file.</summary>
 public sealed class LightOutputTests : DrawingCommandTests
 {
     private const string Shown = "exposure 1.5\ntone filmic\nlight ambient (1, 1, 1) 0.7\nlight directional (0.3, -0.5, 1) (1, 1, 1) 3\n";
@@ -87,7 +87,9 @@ public sealed class LightOutputTests : DrawingCommandTests
     [SkippableFact]
     public void Render_OfADrawnFractal_HasItsLevelsAndTheDepthsOfTheTracedOne()
     {
-        Folder.Write("three.fdo", "v 0.5 0 0\nv 0.5 0.5 0.5\nv -0.5 0 0\nt.a.b. (a, #, b)\nx. \"cube.obj\"\nz<x>. [t.1.2, t.3.2] x\n<$>. z 3\n");
+        Folder.Write(
+            "three.fdo",
+            "v 0.5 0 0\nv 0.5 0.5 0.5\nv -0.5 0 0\nt.a.b. (a, #, b)\nx. \"cube.obj\"\nz<x>. [t.1.2, t.3.2] x\n<$>. z 3\n");
         Render("three.fdo", "drawn.exr", "--layers", "level,depth", "--bits", "32");
         Render("three.fdo", "traced.exr", "--layers", "depth,level", "--trace", "1");
         var (drawn, traced) = (new PlainExr(File.ReadAllBytes(Folder["drawn.exr"])), new PlainExr(File.ReadAllBytes(Folder["traced.exr"])));
@@ -116,7 +118,8 @@ public sealed class LightOutputTests : DrawingCommandTests
     public void Animate_ToNumberedFilesOfLight_WritesEach()
     {
         var (exitCode, output, error) = Run(
-            "animate", "scene.sdo", "--turntable", "--frames", "2", "--trace", "1", "-o", "f.exr", "--layers", "depth", "--resolution", "8x8");
+            "animate", "scene.sdo", "--turntable", "--frames", "2", "--trace", "1", "-o", "f.exr", "--layers", "depth",
+            "--resolution", "8x8");
         Assert.Equal((0, ""), (exitCode, output));
         Assert.Contains("f-0001.exr to f-0002.exr", error, StringComparison.Ordinal);
         Assert.All(new[] { "f-0001.exr", "f-0002.exr" }, name => Assert.Equal(

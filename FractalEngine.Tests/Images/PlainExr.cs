@@ -74,7 +74,8 @@ internal sealed class PlainExr
             var name = Name(list, ref place);
             var fields = Ints(list[place..(place + 16)]);
             Assert.Equal([0, 1, 1], fields[1..]);
-            Channels.Add((name, fields[0] switch { 1 => true, 2 => false, _ => throw new InvalidDataException() }, new float[Width * Height]));
+            Assert.InRange(fields[0], 1, 2);
+            Channels.Add((name, fields[0] == 1, new float[Width * Height]));
             place += 16;
         }
     }

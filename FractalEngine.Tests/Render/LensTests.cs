@@ -52,7 +52,8 @@ public sealed class LensTests
     {
         var view = ViewOf(3, 1);
         const int Side = 200;
-        var points = Enumerable.Range(0, Side * Side).Select(i => view.LensPoint(((i % Side + 0.5) / Side, (i / Side + 0.5) / Side))).ToArray();
+        var points = Enumerable.Range(0, Side * Side)
+            .Select(i => view.LensPoint((((i % Side) + 0.5) / Side, ((i / Side) + 0.5) / Side))).ToArray();
         Assert.All(points, point => Assert.InRange(Math.Sqrt((point.Right * point.Right) + (point.Up * point.Up)), 0, 1.5));
         // Parts of the area: a disc within, and a half.
         Assert.Equal(0.25, points.Count(p => (p.Right * p.Right) + (p.Up * p.Up) < 0.75 * 0.75) / (double)points.Length, 0.005);
@@ -72,7 +73,8 @@ public sealed class LensTests
     private static View ViewOf(double aperture, double focus) => new(
         new Camera(new(0, 0, -Depth), Vector.Zero, 90) { Aperture = aperture, FocusDepth = focus }, Projection.Perspective);
 
-    private static LoadedScene Scene => RenderScenes.WhiteOnBlack(RenderScenes.Square(Edge / (Height / 2.0) * Depth), Transformation.Identity);
+    private static LoadedScene Scene =>
+        RenderScenes.WhiteOnBlack(RenderScenes.Square(Edge / (Height / 2.0) * Depth), Transformation.Identity);
 
     /// <summary>The light of the middle row.</summary>
     private static double[] Draw(View view, int frames)
@@ -93,7 +95,7 @@ public sealed class LensTests
 
     private static double[] Trace(View view, int samples)
     {
-        var tracer = new PathTracer(Scene, view, Width, Height) { BounceLimit = 0 };
+        var tracer = new PathTracer(Scene, view, Width, Height) { BounceLimit = 1 };
         for (var i = 0; i < samples; i++)
         {
             tracer.AddSample();

@@ -93,7 +93,7 @@ public class SceneParserErrorTests
     [InlineData("exposure 1e20", 10, "the exposure must lie between 1e-9 and 1e9")]
     [InlineData("exposure 1e-10", 10, "the exposure must lie between 1e-9 and 1e9")]
     [InlineData("sun (0, -1, 0) (1, 1, 1) 2e9", 26, "the intensity of a light must not exceed 1e9")]
-    [InlineData("tone film", 6, "unexpected 'film', expected 'none' or 'filmic'")]
+    [InlineData("tone film", 6, "unexpected 'film', expected 'none', 'filmic', 'reinhard' or 'aces'")]
     [InlineData("fog -0.1", 5, "the density of fog must not be negative")]
     [InlineData("fog 0.1 (2, 0, 0)", 9, "the components of a colour must lie between 0 and 1")]
     [InlineData("fog 0.1 (2, 0, 0) scatter 1", 9, "the components of a colour must lie between 0 and 1")]
