@@ -93,6 +93,8 @@ internal static class AnimateCommand
             job.RequireMotion(scene, "there is nothing to simulate");
         }
 
+        // That of the first view, so that frames don't flicker.
+        scene = job.Exposed(scene, view);
         var bodies = animation.IsSimulated ? new AnimatedBodies(job.Path, file, scene) : null;
         scene = bodies is null ? job.AtTime(file, scene) : scene;
         using var frames = CreateFrames(animation, scene, view, report, out var motion);

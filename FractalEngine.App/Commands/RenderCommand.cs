@@ -52,7 +52,7 @@ internal static class RenderCommand
         var scene = job.WithProjection(file.Scene);
         // A default camera frames the scene as it is at time 0, so that images of several times show the same view.
         var view = job.CreateView(scene, (double)job.Size.Width / job.Size.Height);
-        scene = job.AtTime(file, scene);
+        scene = job.Exposed(job.AtTime(file, scene), view);
         if (trace is not null)
         {
             Trace(scene, view, job, trace, output, report);

@@ -75,7 +75,7 @@ internal sealed record LightFormat(string Ending, int Bits, ImmutableArray<Frame
         }
     }
 
-    /// <summary>Writes an image.</summary>
+    /// <summary>Writes an image of light in this format.</summary>
     /// <exception cref="IOException">The stream can't be written.</exception>
     public void Write(LightFrame frame, Stream stream)
     {

@@ -36,7 +36,9 @@ internal static class SceneFormatter
         SceneDeclarationKind.Clip => scene.Clip is var (near, far) ? $"clip {FormatNumber(near)} {FormatNumber(far)}" : null,
         SceneDeclarationKind.Background => scene.Background is { } background ? $"background {background}" : null,
         SceneDeclarationKind.Sky => scene.Sky is { } sky ? Format(sky.Declaration) : null,
-        SceneDeclarationKind.Exposure => AreBitEqual(scene.Exposure, 1) ? null : $"exposure {FormatNumber(scene.Exposure)}",
+        SceneDeclarationKind.Exposure => AreBitEqual(scene.Exposure, 1)
+            ? (scene.HasAutoExposure ? "exposure auto" : null)
+            : $"exposure {(scene.HasAutoExposure ? "auto " : "")}{FormatNumber(scene.Exposure)}",
         SceneDeclarationKind.Tone => scene.Tone == Tone.None ? null : $"tone {scene.Tone.ToString().ToLowerInvariant()}",
         SceneDeclarationKind.Fog => scene.Fog is { } fog ? Format(fog) : null,
         SceneDeclarationKind.Gravity => AreBitEqual(scene.Gravity, Scene.DefaultGravity) ? null : $"gravity {scene.Gravity}",

@@ -195,13 +195,22 @@ public abstract class SceneSettingParser : SceneValueParser
 
     private protected bool ParseExposure(Cursor cursor, out Cursor rest)
     {
-        if (!ParseNumber(cursor, static number => number > 0, "the exposure must be positive", out var exposure, out rest))
+        var isAuto = ParseWord(cursor, "auto", out rest);
+        var start = cursor;
+        if (isAuto)
+        {
+            ParseBlanks(rest, out start);
+        }
+
+        var exposure = 1.0;
+        if (!(isAuto && EndsAt(start))
+            && !ParseNumber(start, static number => number > 0, "the exposure must be positive", out exposure, out rest))
         {
             return false;
         }
 
-        Require(exposure is >= 1e-9 and <= MaxFactor, cursor, "the exposure must lie between 1e-9 and 1e9");
-        return UpdateScene(Scene with { Exposure = exposure });
+        Require(exposure is >= 1e-9 and <= MaxFactor, start, "the exposure must lie between 1e-9 and 1e9");
+        return UpdateScene(Scene with { Exposure = exposure, HasAutoExposure = isAuto });
     }
 
     private protected bool ParseTone(Cursor cursor, out Cursor rest) =>

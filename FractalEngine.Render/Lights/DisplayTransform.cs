@@ -15,9 +15,11 @@ internal readonly record struct DisplayTransform(double Exposure, Tone Tone)
     private const double D = 0.59;
     private const double E = 0.14;
 
-    // Luminance of sRGB (IEC 61966-2-1), and that which E. Reinhard and others, "Photographic Tone Reproduction for Digital Images",
+    /// <summary>The shares of red, green and blue in the luminance of sRGB (IEC 61966-2-1).</summary>
+    public static readonly Vector Luminance = new(0.2126, 0.7152, 0.0722);
+
+    // The luminance that E. Reinhard and others, "Photographic Tone Reproduction for Digital Images",
     // 2002, equation 4, show as 1.
-    private static readonly Vector Luminance = new(0.2126, 0.7152, 0.0722);
     private const double White = 4;
 
     // S. Hill's fit of the Academy's reference rendering and its output to sRGB, in M. Pettineo's BakingLab, 2016: columns of the maps

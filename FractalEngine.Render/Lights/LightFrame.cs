@@ -23,6 +23,7 @@ public sealed record LightFrame(FloatImage Light, Scene Scene)
     {
         ArgumentNullException.ThrowIfNull(onBlack);
         ArgumentNullException.ThrowIfNull(onWhite);
+        ArgumentNullException.ThrowIfNull(scene);
         var white = DisplayTransform.Of(scene).Invert(Core.Maths.Vector.One);
         var opacity = new float[onBlack.Width * onBlack.Height];
         for (var i = 0; i < opacity.Length; i++)

@@ -89,6 +89,8 @@ public class SceneParserErrorTests
     [InlineData("sun (0, -1, 0) (1, 1, 1)", 25, "unexpected end of file, expected a number")]
     [InlineData("sun (0, -1, 0) (1, 1, 1) -1", 26, "the intensity of a light must not be negative")]
     [InlineData("sun (0, -1, 0) (1, 1, 1) 1 90", 28, "the diameter of the sun must be at least 0 and less than 90 degrees")]
+    [InlineData("exposure auto 0", 15, "the exposure must be positive")]
+    [InlineData("exposure auto 1e10", 15, "the exposure must lie between 1e-9 and 1e9")]
     [InlineData("exposure 0", 10, "the exposure must be positive")]
     [InlineData("exposure 1e20", 10, "the exposure must lie between 1e-9 and 1e9")]
     [InlineData("exposure 1e-10", 10, "the exposure must lie between 1e-9 and 1e9")]

@@ -54,6 +54,17 @@ public class SceneParserTests
         Assert.Equal(new Camera(Vector.Zero, Vector.Zero, 45), Parse("c # # 45").Camera);
 
     [Theory]
+    [InlineData("exposure auto", 1)]
+    [InlineData("exposure auto 0.5", 0.5)]
+    [InlineData("exposure auto  2 ", 2)]
+    public void Exposure_ByWhatIsShown_IsReadAndWritten(string line, double exposure)
+    {
+        var scene = Parse(line);
+        Assert.Equal((true, exposure), (scene.HasAutoExposure, scene.Exposure));
+        Assert.Equal(scene, Parse(SceneWriter.Write(scene)));
+    }
+
+    [Theory]
     [InlineData("c # # 45 aperture 0.25 focus 3")]
     [InlineData("c # look-at (0, 0, 1) 45 focus 3 aperture 0.25")]
     public void Camera_WithALens_HasIt(string line) =>

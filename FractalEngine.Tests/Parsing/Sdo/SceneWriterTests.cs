@@ -111,6 +111,7 @@ public class SceneWriterTests
                 : (given & 32) == 0 ? new ImageSky("field.hdr", (given & 8) == 0 ? 0 : gravity.X, Math.Clamp(sizes, 1e-9, 1e9))
                 : new ColourSky(colour, new(colour.Blue, colour.Red, colour.Green), (given & 8) == 0 ? null : colour),
             Exposure = (given & 2048) == 0 ? 1 : Math.Clamp(sizes, 1e-9, 1e9),
+            HasAutoExposure = (given & 12288) == 4096,
             Tone = (given & 4096) == 0 ? Tone.None : (Tone)(1 + (given % 3)),
             Fog = (given & 8192) == 0 ? null : new(going.Item1, (given & 16) == 0 ? null : colour)
             {
