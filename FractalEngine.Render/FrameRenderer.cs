@@ -4,6 +4,7 @@ using FractalEngine.Core.Scenes.Cameras;
 using FractalEngine.Render.Frame;
 using FractalEngine.Render.Gl;
 using FractalEngine.Render.Gl.State;
+using FractalEngine.Render.Lights;
 using FractalEngine.Render.Tracing;
 using FractalEngine.Render.Ui;
 using FractalEngine.Render.Ui.Drawing;
@@ -24,6 +25,9 @@ namespace FractalEngine.Render;
 /// </remarks>
 public sealed class FrameRenderer : IDisposable
 {
+    // Behind a lens, the first of them is sharp.
+    private const int MinLensFrames = 65;
+
     private readonly RenderContext _context;
     private readonly LinesPass _linesPass;
     private readonly OverlayPass _overlayPass;
@@ -32,6 +36,7 @@ public sealed class FrameRenderer : IDisposable
     private Framebuffer? _resolvedTarget;
     private Framebuffer? _gatheredTarget;
     private int _sampleCount;
+    private int _meanCount;
 
     /// <summary>Creates the framebuffer-independent resources of a context.</summary>
     /// <param name="context">Context to draw in. It must outlive this renderer.</param>
@@ -43,8 +48,19 @@ public sealed class FrameRenderer : IDisposable
         _overlayPass = new(context.Resources);
     }
 
-    /// <summary>Number of frames that the last one is the mean of: 1 after <see cref="Draw"/>; 0 before the first.</summary>
+    /// <summary>
+    /// Number of frames that the last one is the mean of: 1 after <see cref="Draw"/>; 0 before the first. Behind a lens the first one,
+    /// which is sharp, has no part in the mean of several.
+    /// </summary>
     public int GatheredCount { get; private set; }
+
+    /// <summary>Number of frames that an image of a view is made of: those of the settings, and at least 65 behind a lens.</summary>
+    public static int FrameCountOf(View view, RenderSettings settings)
+    {
+        ArgumentNullException.ThrowIfNull(view);
+        ArgumentNullException.ThrowIfNull(settings);
+        return view.HasLens ? Math.Max(settings.GatheredFrames, MinLensFrames) : settings.GatheredFrames;
+    }
 
     /// <summary>Draws a scene, or the background alone.</summary>
     /// <param name="scene">Scene of the same context; null to draw only the background.</param>
@@ -66,7 +82,8 @@ public sealed class FrameRenderer : IDisposable
     /// <summary>Draws the last frame again, moved by a part of a pixel, and shows the mean of all since <see cref="Draw"/>.</summary>
     /// <remarks>
     /// Edges become a little softer than those of traced images: those of a pixel, behind the same tent. Instances are culled again, and
-    /// depth maps kept. Takes 8 bytes a pixel.
+    /// depth maps kept. Takes 8 bytes a pixel. Behind a lens (<see cref="View.HasLens"/>) each frame is seen from another point of it, with
+    /// what is in focus in its place: P. Haeberli and K. Akeley, "The Accumulation Buffer", 1990. Depth maps may be drawn again then.
     /// </remarks>
     /// <param name="scene">The scene of the last frame, unchanged since.</param>
     /// <param name="view">The view of the last frame.</param>
@@ -81,13 +98,29 @@ public sealed class FrameRenderer : IDisposable
         if (GatheredCount == 1)
         {
             _context.MakeCurrent();
-            _gatheredTarget ??= new(_context.Resources, "gathered frames", width, height, PixelInternalFormat.Rgba16f);
-            AddToMean();
+            _gatheredTarget ??= new(
+                _context.Resources, "gathered frames", width, height,
+                KeepsLight ? PixelInternalFormat.Rgba32f : PixelInternalFormat.Rgba16f);
+            _meanCount = 0;
+            if (!view.HasLens)
+            {
+                AddToMean();
+            }
         }
 
         // Points of Halton's sequence: each next one falls between those before.
         var offset = (TracedCamera.Tent(RadicalInverse(GatheredCount, 2)), TracedCamera.Tent(RadicalInverse(GatheredCount, 3)));
         var isPerspective = view.Projection == Projection.Perspective;
+        if (view.HasLens)
+        {
+            var samples = new SampleSequence(0, GatheredCount - 1, seed: 0);
+            var eye = view.LensPoint(samples.Next());
+            // What is in focus would move by so many pixels.
+            var pixels = view.Viewport(width, height).Height / (2 * view.HalfHeight * view.Camera.FocusDepth);
+            offset = (offset.Item1 + (pixels * eye.Right), offset.Item2 + (pixels * eye.Up));
+            view = view.WithEyeAt(eye);
+        }
+
         DrawFrame(
             scene, isPerspective ? view : view.MovedBy(offset, width, height), width, height, settings, null,
             isPerspective ? offset : default);
@@ -100,7 +133,7 @@ public sealed class FrameRenderer : IDisposable
         _imagePass ??= new(_context.Resources);
         _sceneTarget!.ResolveTo(_resolvedTarget!);
         _gatheredTarget!.Bind();
-        _imagePass.Draw(_resolvedTarget!.Texture, 1.0 / GatheredCount);
+        _imagePass.Draw(_resolvedTarget!.Texture, 1.0 / ++_meanCount);
     }
 
     private static double RadicalInverse(int number, int radix)
@@ -120,20 +153,23 @@ public sealed class FrameRenderer : IDisposable
     {
         _context.MakeCurrent();
         _context.ApplySettings(settings);
-        var target = EnsureTarget(width, height, Math.Clamp(settings.Samples, 0, _context.MaxSampleCount));
+        var target = EnsureTarget(width, height, Math.Clamp(settings.Samples, 0, _context.MaxSampleCount), settings.KeepsLight);
         var frame = FrameView.Create(view, width, height, scene?.ClipPlanes(view, width, height, settings)) with { Offset = offset };
         if (scene?.ProbeBefore(in frame, settings) is { } probe)
         {
             DrawProbe(probe, scene, settings with
             {
                 Samples = 0,
+                KeepsLight = true,
                 Culling = settings.Culling is { } culling ? culling with { OcclusionCulling = false } : null,
             });
         }
 
         scene?.UpdateShadows(in frame, settings);
         target.Bind();
-        Clear(view.Background ?? scene?.Scene.Source.Scene.Background ?? settings.Background, in frame, width, height);
+        Clear(
+            view.Background ?? scene?.Scene.Source.Scene.Background ?? settings.Background,
+            settings.KeepsLight && scene is not null ? DisplayTransform.Of(scene.Scene.Source.Scene) : null, in frame, width, height);
         if (scene is null)
         {
             return;
@@ -170,7 +206,7 @@ public sealed class FrameRenderer : IDisposable
             var frame = probe.ViewOf(side, scene.Bounds);
             scene.UpdateShadows(in frame, settings);
             probe.Bind(side);
-            Clear(default, in frame, frame.Width, frame.Height);
+            Clear(default, null, in frame, frame.Width, frame.Height);
             DrawObjects(scene, in frame, null, settings);
         }
 
@@ -248,18 +284,51 @@ public sealed class FrameRenderer : IDisposable
         return PixelImage.FromBottomUp(frame.Width, frame.Height, pixels);
     }
 
+    /// <summary>Reads the light of the last frame back, drawn with <see cref="RenderSettings.KeepsLight"/>.</summary>
+    /// <exception cref="InvalidOperationException">No frame has been drawn yet, or without that setting.</exception>
+    /// <exception cref="GlException">The driver reports an error while the light is read.</exception>
+    public FloatImage CaptureLight()
+    {
+        if (!KeepsLight)
+        {
+            throw new InvalidOperationException("no frame has been drawn whose light is kept");
+        }
+
+        var frame = Resolve(null, null, []);
+        var light = new float[3 * frame.Width * frame.Height];
+        frame.ReadLight(light);
+        // OpenGL counts rows from the bottom.
+        var stride = 3 * frame.Width;
+        var row = new float[stride];
+        for (var y = 0; y < frame.Height / 2; y++)
+        {
+            var top = light.AsSpan(y * stride, stride);
+            var bottom = light.AsSpan((frame.Height - 1 - y) * stride, stride);
+            top.CopyTo(row);
+            bottom.CopyTo(top);
+            row.CopyTo(bottom);
+        }
+
+        return new(frame.Width, frame.Height, light);
+    }
+
     /// <summary>Deletes the framebuffers and shaders. Harmless when repeated.</summary>
     public void Dispose() => GlObject.DisposeAll(_sceneTarget, _resolvedTarget, _gatheredTarget, _linesPass, _overlayPass, _imagePass);
 
     /// <summary>Fills the frame with the background. Its sRGB values are written unchanged, so that the background is exact.</summary>
-    private void Clear(Colour background, in FrameView frame, int width, int height)
+    /// <param name="background">Colour of the background.</param>
+    /// <param name="display">What shows the frame's light, which the background becomes; null for a frame of colours.</param>
+    /// <param name="frame">View of the frame.</param>
+    /// <param name="width">Width of the frame in pixels.</param>
+    /// <param name="height">Height of the frame in pixels.</param>
+    private void Clear(Colour background, DisplayTransform? display, in FrameView frame, int width, int height)
     {
         GL.Disable(EnableCap.FramebufferSrgb);
         GL.DepthMask(true);
         GL.ClearDepth(_context.HasReversedDepth ? 0.0 : 1.0);
         if ((frame.Width, frame.Height) != (width, height))
         {
-            SetClearColour(RenderSettings.LetterboxColour(background));
+            SetClearColour(RenderSettings.LetterboxColour(background), display);
             GL.Clear(ClearBufferMask.ColorBufferBit);
         }
 
@@ -267,19 +336,25 @@ public sealed class FrameRenderer : IDisposable
         var bottom = height - frame.Y - frame.Height;
         GL.Enable(EnableCap.ScissorTest);
         GL.Scissor(frame.X, bottom, frame.Width, frame.Height);
-        SetClearColour(background, frame.IsProbe ? 0 : 1);
+        SetClearColour(background, display, frame.IsProbe ? 0 : 1);
         GL.Clear(ClearBufferMask.ColorBufferBit | ClearBufferMask.DepthBufferBit);
         GL.Disable(EnableCap.ScissorTest);
         GL.Viewport(frame.X, bottom, frame.Width, frame.Height);
     }
 
-    private static void SetClearColour(Colour colour, float opacity = 1) =>
-        GL.ClearColor((float)colour.Red, (float)colour.Green, (float)colour.Blue, opacity);
+    private static void SetClearColour(Colour colour, DisplayTransform? display, float opacity = 1)
+    {
+        var (red, green, blue) = display?.Invert(colour.ToLinearVector()) ?? new(colour.Red, colour.Green, colour.Blue);
+        GL.ClearColor((float)red, (float)green, (float)blue, opacity);
+    }
+
+    private bool KeepsLight => _sceneTarget?.Format == PixelInternalFormat.Rgba32f;
 
     /// <summary>Returns a framebuffer of the requested size, replacing the last one where that differs.</summary>
-    private Framebuffer EnsureTarget(int width, int height, int sampleCount)
+    private Framebuffer EnsureTarget(int width, int height, int sampleCount, bool keepsLight)
     {
-        if (_sceneTarget is not null && (_sceneTarget.Width, _sceneTarget.Height, _sampleCount) == (width, height, sampleCount))
+        if (_sceneTarget is not null
+            && (_sceneTarget.Width, _sceneTarget.Height, _sampleCount, KeepsLight) == (width, height, sampleCount, keepsLight))
         {
             return _sceneTarget;
         }
@@ -295,8 +370,8 @@ public sealed class FrameRenderer : IDisposable
         _gatheredTarget?.Dispose();
         // Stays null if one of the allocations fails.
         (_sceneTarget, _resolvedTarget, _gatheredTarget) = (null, null, null);
-        _sceneTarget = new(_context.Resources, "scene", width, height, sampleCount);
-        _resolvedTarget = new(_context.Resources, "resolved frame", width, height, PixelInternalFormat.Srgb8Alpha8);
+        _sceneTarget = new(_context.Resources, "scene", width, height, sampleCount, keepsLight);
+        _resolvedTarget = new(_context.Resources, "resolved frame", width, height, _sceneTarget.Format);
         _sampleCount = sampleCount;
         return _sceneTarget;
     }

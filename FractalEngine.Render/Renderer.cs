@@ -129,6 +129,22 @@ public sealed class Renderer : IDisposable
         return DrawFrame(Load(scene, () => scene), view);
     }
 
+    /// <summary>Draws the light of a prepared scene, with <see cref="RenderSettings.KeepsLight"/>.</summary>
+    /// <param name="scene">Scene that was prepared before, on any thread.</param>
+    /// <param name="view">Camera and projection. A background is what the scene's exposure and tone curve show as its colour.</param>
+    /// <returns>Linear light of the scene before exposure and tone curve, <see cref="Width"/> × <see cref="Height"/> pixels.</returns>
+    /// <exception cref="GlException">The image or the scene is too large for the driver.</exception>
+    /// <exception cref="ObjectDisposedException">The renderer was disposed.</exception>
+    /// <exception cref="InvalidOperationException">
+    /// This is not the thread that created the renderer, or its settings don't keep light.
+    /// </exception>
+    public FloatImage DrawLight(DrawableScene scene, View view)
+    {
+        ArgumentNullException.ThrowIfNull(scene);
+        DrawFrames(Load(scene, () => scene), view);
+        return _frameRenderer.CaptureLight();
+    }
+
     /// <summary>Moves an object of a prepared scene for the images that follow, until another scene is drawn.</summary>
     /// <param name="scene">Scene that was prepared before, on any thread.</param>
     /// <param name="objectIndex">Index of the object in the scene, from 0.</param>
@@ -177,12 +193,16 @@ public sealed class Renderer : IDisposable
 
     private PixelImage DrawFrame(SceneRenderer scene, View view)
     {
+        DrawFrames(scene, view);
+        return _frameRenderer.Capture();
+    }
+
+    private void DrawFrames(SceneRenderer scene, View view)
+    {
         _frameRenderer.Draw(scene, view, Width, Height, Settings);
-        while (_frameRenderer.GatheredCount < Settings.GatheredFrames)
+        while (_frameRenderer.GatheredCount < FrameRenderer.FrameCountOf(view, Settings))
         {
             _frameRenderer.Gather(scene, view, Settings);
         }
-
-        return _frameRenderer.Capture();
     }
 }

@@ -32,7 +32,7 @@ public class EqualityTests
             scene with { Projection = Projection.Orthographic }, scene with { OrthographicHeight = 3 }, scene with { Aspect = 2 },
             scene with { Clip = (1, 2) }, scene with { Background = Red }, scene with { Sky = new ColourSky(Red, Red) },
             scene with { Exposure = 2 }, scene with { Probe = Vector.Zero },
-            scene with { Tone = Tone.Filmic }, scene with { Fog = new(0.1) },
+            scene with { Tone = Tone.Filmic }, scene with { HasAutoExposure = true }, scene with { Fog = new(0.1) },
             scene with { Fog = new(0.1) { Albedo = 0.5 } }, scene with { Fog = new(0.1) { Anisotropy = 0.5 } }, scene with { Lights = [] },
             scene with { Lights = [new AmbientLight(Red, 0.6)] }, scene with { Objects = [] },
             scene with { Objects = [new("b.obj", Transformation.Identity)] }, scene with { Gravity = Vector.J },

@@ -102,6 +102,7 @@ public sealed class NullArgumentTests : IDisposable
         {
             "FractalFile" => ".fdo",
             "SceneFile" => ".sdo",
+            "AnimationOutput" => ".png",
             _ => ".obj",
         };
         try

@@ -1,10 +1,13 @@
 using FractalEngine.App.Jobs;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Images;
+using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Simulation;
 using FractalEngine.Render;
 using FractalEngine.Render.Images;
+using FractalEngine.Render.Lights;
 using FractalEngine.Render.Preparation;
+using FractalEngine.Render.Tracing;
 using FractalEngine.Render.Views;
 using FractalEngine.Render.Windowing;
 
@@ -17,6 +20,8 @@ namespace FractalEngine.App.Animation;
 internal sealed class DrawnFrames(DrawableScene drawable, RenderJob job) : FrameSource
 {
     private readonly Renderer _renderer = Renderer.Offscreen(job.Size.Width, job.Size.Height, job.Settings);
+    private LoadedScene _scene = drawable.Source;
+    private PathTracer? _tracer;
 
     public override PixelImage CreateFrame(View view, CancellationToken cancellation)
     {
@@ -26,8 +31,24 @@ internal sealed class DrawnFrames(DrawableScene drawable, RenderJob job) : Frame
             : DrawOn(view, job.Background.Colour);
     }
 
+    public override LightFrame CreateLight(View view, CancellationToken cancellation)
+    {
+        cancellation.ThrowIfCancellationRequested();
+        var layers = job.Format!.Layers;
+        // Rays find what the triangles show, without tracing light.
+        _tracer = layers.All(static layer => layer == FrameLayer.Colour) ? null
+            : _tracer?.WithScene(_scene, view, job.Size.Width, job.Size.Height)
+            ?? new(_scene, view, job.Size.Width, job.Size.Height, job.Settings);
+        var declared = drawable.Source.Scene;
+        var frame = job.Background.IsTransparent
+            ? LightFrame.Combine(LightOn(view, Colour.Black), LightOn(view, Colour.White), declared)
+            : new(LightOn(view, job.Background.Colour), declared);
+        return frame with { Layers = [.. _tracer?.FindLayers(layers, cancellation) ?? []] };
+    }
+
     public override void Move(AnimatedBodies bodies)
     {
+        _scene = bodies.GetScene();
         foreach (var (index, map) in bodies.Maps)
         {
             _renderer.Move(drawable, index, map);
@@ -40,6 +61,9 @@ internal sealed class DrawnFrames(DrawableScene drawable, RenderJob job) : Frame
         base.Dispose();
     }
 
-    private PixelImage DrawOn(View view, Colour? background) =>
-        _renderer.Draw(drawable, background is null ? view : view with { Background = background });
+    private PixelImage DrawOn(View view, Colour? background) => _renderer.Draw(drawable, Before(view, background));
+
+    private FloatImage LightOn(View view, Colour? background) => _renderer.DrawLight(drawable, Before(view, background));
+
+    private static View Before(View view, Colour? background) => background is null ? view : view with { Background = background };
 }

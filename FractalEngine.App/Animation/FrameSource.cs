@@ -1,5 +1,6 @@
 using FractalEngine.Core.Images;
 using FractalEngine.Parsing.Simulation;
+using FractalEngine.Render.Lights;
 using FractalEngine.Render.Views;
 
 namespace FractalEngine.App.Animation;
@@ -12,6 +13,10 @@ internal abstract class FrameSource : IDisposable
     /// <param name="cancellation">Ends the work on an image that takes long.</param>
     /// <exception cref="OperationCanceledException">The work was cancelled.</exception>
     public abstract PixelImage CreateFrame(View view, CancellationToken cancellation);
+
+    /// <summary>Makes the image of a view's light, with the layers of the job's format.</summary>
+    /// <inheritdoc cref="CreateFrame"/>
+    public abstract LightFrame CreateLight(View view, CancellationToken cancellation);
 
     public abstract void Move(AnimatedBodies bodies);
 

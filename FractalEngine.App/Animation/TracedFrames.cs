@@ -2,6 +2,7 @@ using FractalEngine.App.Jobs;
 using FractalEngine.Core.Images;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Simulation;
+using FractalEngine.Render.Lights;
 using FractalEngine.Render.Tracing;
 using FractalEngine.Render.Views;
 
@@ -18,12 +19,23 @@ internal sealed class TracedFrames(PathTracer prepared, RenderJob job, TracedIma
 
     public override PixelImage CreateFrame(View view, CancellationToken cancellation)
     {
+        Trace(view, cancellation);
+        return _tracer.Denoise(cancellation: cancellation);
+    }
+
+    public override LightFrame CreateLight(View view, CancellationToken cancellation)
+    {
+        Trace(view, cancellation);
+        return _tracer.ToLightFrame(job.Format!.Layers, cancellation);
+    }
+
+    private void Trace(View view, CancellationToken cancellation)
+    {
         _tracer = _movedScene is { } scene
             ? trace.CreateTracer(scene, view, job, _tracer)
             : _tracer.WithView(view, job.Size.Width, job.Size.Height);
         _movedScene = null;
         trace.AddSamples(_tracer, cancellation);
-        return _tracer.Denoise(cancellation: cancellation);
     }
 
     public override void Move(AnimatedBodies bodies) => _movedScene = bodies.GetScene();

@@ -48,10 +48,11 @@ internal static class AnimateCommand
         report.AddTo(command);
         command.SetAction(result =>
         {
-            var (job, trace) = images.Read(result);
+            var (job, trace) = images.Read(result, result.GetRequiredValue(output));
             if (result.GetValue(path) is not null && images.Camera.IsGiven(result))
             {
-                throw new UsageException("--camera, --view, --look-from and --look-at have no effect with --path, which names the cameras");
+                throw new UsageException(
+                    "--camera, --view, --look-from, --look-at, --aperture and --focus have no effect with --path, which names the cameras");
             }
 
             if (result.GetValue(rate) is not null && !result.GetValue(simulate)
@@ -92,6 +93,8 @@ internal static class AnimateCommand
             job.RequireMotion(scene, "there is nothing to simulate");
         }
 
+        // That of the first view, so that frames don't flicker.
+        scene = job.Exposed(scene, view);
         var bodies = animation.IsSimulated ? new AnimatedBodies(job.Path, file, scene) : null;
         scene = bodies is null ? job.AtTime(file, scene) : scene;
         using var frames = CreateFrames(animation, scene, view, report, out var motion);
@@ -132,7 +135,16 @@ internal static class AnimateCommand
                     frames.Move(bodies);
                 }
 
-                output.Add(frames.CreateFrame(motion(done), interruption.Token));
+                if (animation.Images.Format is { } format)
+                {
+                    var frame = frames.CreateLight(motion(done), interruption.Token);
+                    output.AddFile(stream => format.Write(frame, stream));
+                }
+                else
+                {
+                    output.Add(frames.CreateFrame(motion(done), interruption.Token));
+                }
+
                 progress.Report(done + 1);
             }
         }

@@ -43,6 +43,8 @@ internal static class LimitsCommand
         ("--trace", TraceOptions.MaxSamples, "samples of each traced pixel: days of work"),
         ("--trace (pixels)", TracedImage.MaxDenoisedPixels, "pixels of a traced image: 2.06 GiB"),
         ("--no-denoise (pixels)", TracedImage.MaxPixels, "pixels of a traced image with its noise: 1.75 GiB"),
+        (".exr, .hdr (pixels)", LightFormat.MaxPixels, "pixels of an image of light, or a .png of 16 bits: 2.75 GiB"),
+        ("--layers (pixels)", LightFormat.MaxLayeredPixels, "pixels of an image with layers beside its colour: 1.6 GiB"),
         ("--seconds / --step", SimulateCommand.MaxSteps, "steps of a simulation: hours, and gigabytes of text"),
         ("--trail", ViewCommand.MaxTrailLength, "levels of the trail of the paper's zoom: each is drawn"),
         ("--haze", SkyCommand.MaxHaze, "times the haze of a clear day: nothing more is seen"),

@@ -6,6 +6,7 @@ using FractalEngine.App.Shell;
 using FractalEngine.App.Shell.Reports;
 using FractalEngine.Core.Images;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Render.Lights;
 using FractalEngine.Render.Preparation;
 using FractalEngine.Render.Views;
 
@@ -18,11 +19,11 @@ internal static class RenderCommand
     {
         var images = new ImageOptions(canKeepPartial: true);
         var report = new ReportOptions();
-        var output = SharedOptions.OutputOption(".png", "Image to write.", isText: false);
+        var output = SharedOptions.OutputOption(".png|.exr|.hdr", "Image to write.", isText: false);
         var command = new DocumentedCommand(
-            "render", "Draw FILE into a PNG image, without a window.",
+            "render", "Draw FILE into an image, without a window: PNG, OpenEXR or Radiance.",
             "render assets/scenes/gallery.sdo --output out/gallery.png --resolution 1920x1080",
-            "render assets/scenes/gallery.sdo --output out/traced.png --trace 64")
+            "render assets/scenes/gallery.sdo --output out/traced.exr --trace 64 --layers colour,normal,depth")
         {
             output,
         };
@@ -30,8 +31,9 @@ internal static class RenderCommand
         report.AddTo(command);
         command.SetAction(result =>
         {
-            var (job, trace) = images.Read(result);
-            Run(job, trace, result.GetRequiredValue(output), report.Begin(result));
+            var path = result.GetRequiredValue(output);
+            var (job, trace) = images.Read(result, path);
+            Run(job, trace, path, report.Begin(result));
             return ExitCode.Done;
         });
         return command;
@@ -40,7 +42,7 @@ internal static class RenderCommand
     /// <summary>Draws a file into an image, and writes that.</summary>
     /// <param name="job">What to draw.</param>
     /// <param name="trace">How it is traced; null to draw it.</param>
-    /// <param name="output">Path of the PNG to write.</param>
+    /// <param name="output">Path of the image to write.</param>
     /// <param name="report">Tells what was written.</param>
     /// <exception cref="OperationCanceledException">A traced image was interrupted; it may be written as far as it was.</exception>
     public static void Run(RenderJob job, TracedImage? trace, string output, WrittenReport report)
@@ -50,7 +52,7 @@ internal static class RenderCommand
         var scene = job.WithProjection(file.Scene);
         // A default camera frames the scene as it is at time 0, so that images of several times show the same view.
         var view = job.CreateView(scene, (double)job.Size.Width / job.Size.Height);
-        scene = job.AtTime(file, scene);
+        scene = job.Exposed(job.AtTime(file, scene), view);
         if (trace is not null)
         {
             Trace(scene, view, job, trace, output, report);
@@ -63,8 +65,14 @@ internal static class RenderCommand
         using var notice = new SlowWorkNotice("drawing", report.IsQuiet);
         view = Zoom(drawable, view, job);
         using var frames = new DrawnFrames(drawable, job);
-        var image = report.Measure("draw", () => frames.CreateFrame(view, CancellationToken.None));
-        Write(image, output, report);
+        if (job.Format is { } format)
+        {
+            Write(report.Measure("draw", () => frames.CreateLight(view, CancellationToken.None)), format, output, report);
+        }
+        else
+        {
+            Write(report.Measure("draw", () => frames.CreateFrame(view, CancellationToken.None)), output, report);
+        }
     }
 
     private static void Trace(LoadedScene scene, View view, RenderJob job, TracedImage trace, string output, WrittenReport report)
@@ -77,7 +85,15 @@ internal static class RenderCommand
 
         var tracer = trace.Prepare(scene, view, job, report);
         var isComplete = report.Measure("trace", () => trace.TryAddSamples(tracer, report.IsQuiet));
-        Write(report.Measure("denoise", () => tracer.Denoise()), output, report);
+        if (job.Format is { } format)
+        {
+            Write(report.Measure("denoise", () => tracer.ToLightFrame(format.Layers)), format, output, report);
+        }
+        else
+        {
+            Write(report.Measure("denoise", () => tracer.Denoise()), output, report);
+        }
+
         if (!isComplete)
         {
             throw new OperationCanceledException("interrupted");
@@ -95,9 +111,15 @@ internal static class RenderCommand
         return zoom.FlyTo(steps);
     }
 
-    private static void Write(PixelImage image, string output, WrittenReport report)
+    private static void Write(PixelImage image, string output, WrittenReport report) =>
+        Write(output, (image.Width, image.Height), stream => PngWriter.Write(image, stream), report);
+
+    private static void Write(LightFrame frame, LightFormat format, string output, WrittenReport report) =>
+        Write(output, (frame.Light.Width, frame.Light.Height), stream => format.Write(frame, stream), report);
+
+    private static void Write(string output, (int Width, int Height) size, Action<Stream> write, WrittenReport report)
     {
-        report.Measure("write", () => OutputFile.Write(output, stream => PngWriter.Write(image, stream)));
-        report.Written(output, $"{image.Width}×{image.Height} pixels");
+        report.Measure("write", () => OutputFile.Write(output, write));
+        report.Written(output, $"{size.Width}×{size.Height} pixels");
     }
 }

@@ -6,6 +6,7 @@ using FractalEngine.Parsing.Simulation;
 using FractalEngine.Parsing.Text;
 using FractalEngine.Render.Cameras;
 using FractalEngine.Render.Preparation;
+using FractalEngine.Render.Tracing;
 using FractalEngine.Render.Views;
 
 namespace FractalEngine.App.Jobs;
@@ -23,6 +24,9 @@ internal sealed record RenderJob(
     public double Time { get; init; }
 
     public BackgroundChoice Background { get; init; } = BackgroundChoice.OfScene;
+
+    /// <summary>The format of images with more than 8 bits; null for others.</summary>
+    public LightFormat? Format { get; init; }
 
     /// <summary>Creates the view of a scene for an aspect ratio, before any zoom.</summary>
     public required Func<LoadedScene, double, View> CreateView { get; init; }
@@ -47,6 +51,9 @@ internal sealed record RenderJob(
 
         return AnimatedBodies.SceneAfter(Path, file, scene, Time);
     }
+
+    /// <summary>Gives a scene the exposure that a view of it needs, where it leaves that open.</summary>
+    public LoadedScene Exposed(LoadedScene scene, View view) => ExposureMeter.Expose(scene, view, Size.Width, Size.Height, Settings);
 
     /// <summary>Requires a scene to have physics objects or moving ones.</summary>
     /// <exception cref="UsageException">It has none.</exception>

@@ -38,13 +38,22 @@ internal sealed class CameraOptions
     private readonly Option<double?> _zoom = NumberOption.Decimal(
         "--zoom", "LEVELS", 0, CameraZoom.MaxLevels, "Fly so many levels into a fractal, towards the surface ahead.");
 
-    public void AddTo(Command command) => SharedOptions.AddAll(command, _camera, _lookFrom, _lookAt, _up, _view, _zoom);
+    private readonly Option<double?> _aperture = NumberOption.Decimal(
+        "--aperture", "DIAMETER", 0, 1e30,
+        "Blur what is out of focus by a lens of this diameter, in scene units; 0 shows everything sharp.");
+
+    private readonly Option<double?> _focus = NumberOption.Decimal(
+        "--focus", "DEPTH", 1e-30, 1e30, "Depth of what a lens shows sharp, in scene units.");
+
+    public void AddTo(Command command) =>
+        SharedOptions.AddAll(command, _camera, _lookFrom, _lookAt, _up, _view, _zoom, _aperture, _focus);
 
     /// <summary>Returns the number of levels that the camera flies into a fractal.</summary>
     public double Zoom(ParseResult result) => result.GetValue(_zoom) ?? 0;
 
     public bool IsGiven(ParseResult result) =>
-        result.GetValue(_camera) is not null || result.GetValue(_view) is not null || HasTarget(result);
+        result.GetValue(_camera) is not null || result.GetValue(_view) is not null || HasTarget(result)
+        || result.GetValue(_aperture) is not null || result.GetValue(_focus) is not null;
 
     private bool HasTarget(ParseResult result) => result.GetValue(_lookFrom) is not null || result.GetValue(_lookAt) is not null;
 
@@ -55,6 +64,26 @@ internal sealed class CameraOptions
     /// <param name="aspect">Width divided by height of the image.</param>
     /// <exception cref="UsageException">The options contradict each other, or have a faulty value.</exception>
     public View View(ParseResult result, LoadedScene scene, bool hasProjection, double aspect)
+    {
+        var view = ViewOf(result, scene, hasProjection, aspect);
+        var (aperture, focus) = (result.GetValue(_aperture), result.GetValue(_focus));
+        if (aperture is null && focus is null)
+        {
+            return view;
+        }
+
+        UsageException.ThrowIf(view.Projection != Projection.Perspective, "--aperture and --focus need the perspective projection");
+        UsageException.ThrowIf(
+            focus is null && view.Camera.Aperture == 0, "--aperture needs --focus DEPTH, unless the scene's camera has a focus");
+        UsageException.ThrowIf(aperture is null && view.Camera.Aperture == 0, "--focus needs --aperture DIAMETER, or a scene's");
+        var camera = view.Camera;
+        return view with
+        {
+            Camera = camera with { Aperture = aperture ?? camera.Aperture, FocusDepth = focus ?? camera.FocusDepth },
+        };
+    }
+
+    private View ViewOf(ParseResult result, LoadedScene scene, bool hasProjection, double aspect)
     {
         var hasTarget = HasTarget(result);
         if (new[] { result.GetValue(_camera) is not null, hasTarget, result.GetValue(_view) is not null }.Count(static given => given) > 1)
@@ -105,7 +134,11 @@ internal sealed class CameraOptions
                 : "--look-from and --look-at must be different points");
         }
 
-        return CameraFraming.LookAt(position, target, up, camera.FieldOfView, scene.Scene.Handedness);
+        return CameraFraming.LookAt(position, target, up, camera.FieldOfView, scene.Scene.Handedness) with
+        {
+            Aperture = camera.Aperture,
+            FocusDepth = camera.FocusDepth,
+        };
     }
 
     private static Option<string?> VectorOption(string name, string description) =>

@@ -14,6 +14,13 @@ internal sealed class ImageOptions(bool canKeepPartial)
     private readonly Option<double?> _time = SharedOptions.TimeOption();
     private readonly Option<string?> _background = SharedOptions.BackgroundOption();
 
+    private readonly Option<int?> _bits = WordOption.Single(
+        "--bits", "Bits of each number: 8 or 16 of a .png (default: 8), 16 or 32 of an .exr (default: 16).",
+        ("8", 8), ("16", 16), ("32", 32));
+
+    private readonly Option<string?> _layers = SharedOptions.TextOption(
+        "--layers", "NAME,NAME", $"What an .exr tells of each pixel (default: colour): {LightFormat.LayerNames}.");
+
     public CameraOptions Camera { get; } = new();
 
     public void AddTo(Command command)
@@ -23,25 +30,34 @@ internal sealed class ImageOptions(bool canKeepPartial)
         Camera.AddTo(command);
         command.Add(_background);
         command.Add(_time);
+        SharedOptions.AddAll(command, _bits, _layers);
         _trace.AddTo(command);
     }
 
     /// <summary>Returns what the command line asks for.</summary>
+    /// <param name="result">The parsed command line.</param>
+    /// <param name="output">Name of the output.</param>
     /// <returns>What each image shows, and how it is traced; null where it is drawn.</returns>
     /// <exception cref="UsageException">An option has a faulty value, or no effect.</exception>
-    public (RenderJob Job, TracedImage? Trace) Read(ParseResult result)
+    /// <exception cref="Core.FractalEngineException">The image has more pixels than its format may.</exception>
+    public (RenderJob Job, TracedImage? Trace) Read(ParseResult result, string output)
     {
+        var trace = _trace.Choice(result);
+        var format = LightFormat.Parse(output, result.GetValue(_bits), result.GetValue(_layers), trace is not null);
+        format?.CheckSize(_draw.Resolution(result));
         var job = new RenderJob(
             result.GetRequiredValue(_shared.File), _draw.Staged(result, _shared.LoadOptions(result)), _draw.Resolution(result),
-            _draw.Projection(result), _draw.Settings(result))
+            _draw.Projection(result), _draw.Settings(result) with { KeepsLight = format is not null })
         {
+            Format = format,
             Time = result.GetValue(_time) ?? 0,
             Background = BackgroundChoice.Parse(result.GetValue(_background)),
             CreateView = (scene, aspect) =>
                 Camera.View(result, scene, _draw.Projection(result) is not null, aspect) with { Section = _draw.Section(result) },
             ZoomLevels = Camera.Zoom(result),
         };
-        var trace = _trace.Choice(result);
+        UsageException.ThrowIf(
+            job.Background.IsTransparent && format is { Ending: ".hdr" }, "an .hdr has no transparent background: expected .exr or .png");
         _draw.RequireEffect(result, trace);
         return (job, trace);
     }

@@ -133,7 +133,7 @@ internal sealed class SharedOptions
         new(name) { Description = description, HelpName = helpName };
 
     /// <summary>Creates the required option for an output file.</summary>
-    /// <param name="extension">The extension that the file name must have, with its dot.</param>
+    /// <param name="extension">The extension that the file name must have, with its dot; several are separated by <c>|</c>.</param>
     /// <param name="description">The sentence in the help text.</param>
     /// <param name="isText">Whether <c>-</c> stands for the standard output.</param>
     public static Option<string> OutputOption(string extension, string description, bool isText = true)
@@ -154,10 +154,11 @@ internal sealed class SharedOptions
         {
             result =>
             {
-                if (result.Tokens is [{ Value: var path }] && !path.EndsWith(extension, StringComparison.OrdinalIgnoreCase)
+                if (result.Tokens is [{ Value: var path }]
+                    && !extension.Split('|').Any(known => path.EndsWith(known, StringComparison.OrdinalIgnoreCase))
                     && !(isText && path == StandardInput.Name))
                 {
-                    result.AddError($"{name} '{path}' must end in {extension}");
+                    result.AddError($"{name} '{path}' must end in {extension.Replace("|", " or ", StringComparison.Ordinal)}");
                 }
             },
         },

@@ -46,7 +46,7 @@ public sealed class ApngAnimation
         }
 
         using var data = new MemoryStream();
-        PngWriter.Compress(image, data);
+        PngWriter.Compress(image.Pixels, image.Height, 4, data);
         _frames.Add(data.ToArray());
     }
 
@@ -64,7 +64,7 @@ public sealed class ApngAnimation
 
         var chunks = new PngChunkWriter(stream);
         chunks.WriteSignature();
-        PngWriter.WriteHeader(_first, chunks);
+        PngWriter.WriteHeader(_first.Width, _first.Height, chunks);
         Span<byte> control = stackalloc byte[AnimationControlBytes];
         BinaryPrimitives.WriteInt32BigEndian(control, _frames.Count);
         // Zero repetitions mean without end.

@@ -24,19 +24,38 @@ public static class PngWriter
     public static void Write(PixelImage image, Stream stream)
     {
         ArgumentNullException.ThrowIfNull(image);
+        Write(image.Width, image.Height, image.Pixels, 8, stream);
+    }
+
+    /// <summary>Writes an image as RGBA of 16 bits, in the same way.</summary>
+    /// <inheritdoc cref="Write(PixelImage, Stream)"/>
+    public static void WriteDeep(DeepImage image, Stream stream)
+    {
+        ArgumentNullException.ThrowIfNull(image);
+        var bytes = new byte[2L * image.Pixels.Length];
+        for (var i = 0; i < image.Pixels.Length; i++)
+        {
+            BinaryPrimitives.WriteUInt16BigEndian(bytes.AsSpan(2 * i), image.Pixels[i]);
+        }
+
+        Write(image.Width, image.Height, bytes, 16, stream);
+    }
+
+    private static void Write(int width, int height, byte[] bytes, int depth, Stream stream)
+    {
         ArgumentNullException.ThrowIfNull(stream);
-        if (image.Width < 1 || image.Height < 1 || image.Pixels.Length != 4L * image.Width * image.Height)
+        if (width < 1 || height < 1 || bytes.Length != (long)depth / 2 * width * height)
         {
             throw new ArgumentException(
-                $"{image.Width}×{image.Height} pixels of {image.Pixels.Length} bytes, expected at least one pixel and 4 bytes for each",
-                nameof(image));
+                $"{width}×{height} pixels of {bytes.Length} bytes, expected at least one pixel and {depth / 2} bytes for each",
+                nameof(bytes));
         }
 
         var chunks = new PngChunkWriter(stream);
         chunks.WriteSignature();
-        WriteHeader(image, chunks);
+        WriteHeader(width, height, chunks, depth);
         using var data = new MemoryStream();
-        Compress(image, data);
+        Compress(bytes, height, depth / 2, data);
         foreach (var chunk in data.ToArray().Chunk(DataChunkBytes))
         {
             chunks.Write(PngChunk.Data, chunk);
@@ -46,24 +65,28 @@ public static class PngWriter
     }
 
     /// <summary>Writes the filtered and compressed rows of an image, the contents of its data chunks.</summary>
-    internal static void Compress(PixelImage image, Stream data)
+    /// <param name="bytes">All rows.</param>
+    /// <param name="height">Number of rows.</param>
+    /// <param name="pixelBytes">Bytes of a pixel: 4 or 8.</param>
+    /// <param name="data">Where to.</param>
+    internal static void Compress(byte[] bytes, int height, int pixelBytes, Stream data)
     {
         using var compressed = new ZLibStream(data, CompressionLevel.Optimal, leaveOpen: true);
-        var stride = 4 * image.Width;
-        var filter = new PngFilter(stride);
-        for (var y = 0; y < image.Height; y++)
+        var stride = bytes.Length / height;
+        var filter = new PngFilter(stride, pixelBytes);
+        for (var y = 0; y < height; y++)
         {
-            compressed.Write(filter.Apply(image.Pixels.AsSpan(y * stride, stride)));
+            compressed.Write(filter.Apply(bytes.AsSpan(y * stride, stride)));
         }
     }
 
     /// <summary>Writes the chunk with the size and the format of an image.</summary>
-    internal static void WriteHeader(PixelImage image, PngChunkWriter chunks)
+    internal static void WriteHeader(int width, int height, PngChunkWriter chunks, int depth = 8)
     {
         Span<byte> header = stackalloc byte[HeaderBytes];
-        BinaryPrimitives.WriteInt32BigEndian(header, image.Width);
-        BinaryPrimitives.WriteInt32BigEndian(header[4..], image.Height);
-        header[8] = 8;
+        BinaryPrimitives.WriteInt32BigEndian(header, width);
+        BinaryPrimitives.WriteInt32BigEndian(header[4..], height);
+        header[8] = (byte)depth;
         header[9] = Rgba;
         // The methods of compression and filtering, of which there is one each, and no interlacing.
         header[10..].Clear();

@@ -74,6 +74,9 @@ public sealed record Scene
             : throw new ArgumentException("expected a positive and finite exposure", nameof(Exposure));
     } = 1;
 
+    /// <summary>Whether images find their exposure by what they show, times <see cref="Exposure"/>.</summary>
+    public bool HasAutoExposure { get; init; }
+
     /// <summary>How light becomes what the screen shows; as it is unless stated otherwise.</summary>
     public Tone Tone { get; init; }
 
@@ -97,7 +100,8 @@ public sealed record Scene
         other is not null && Camera == other.Camera && Projection == other.Projection
         && OrthographicHeight.Equals(other.OrthographicHeight) && Aspect.Equals(other.Aspect) && Clip.Equals(other.Clip)
         && Background == other.Background && Sky == other.Sky && Probe == other.Probe
-        && Exposure.Equals(other.Exposure) && Tone == other.Tone && Fog == other.Fog && Lights.SequenceEqual(other.Lights) && Objects.SequenceEqual(other.Objects)
+        && Exposure.Equals(other.Exposure) && Tone == other.Tone && HasAutoExposure == other.HasAutoExposure
+        && Fog == other.Fog && Lights.SequenceEqual(other.Lights) && Objects.SequenceEqual(other.Objects)
         && Gravity == other.Gravity && Player == other.Player && Handedness == other.Handedness;
 
     /// <inheritdoc/>

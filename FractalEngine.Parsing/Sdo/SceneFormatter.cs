@@ -25,8 +25,7 @@ internal static class SceneFormatter
     public static string? Format(Scene scene, SceneDeclarationKind kind, int index) => kind switch
     {
         SceneDeclarationKind.Handedness => scene.Handedness == Handedness.Right ? "handed right" : null,
-        SceneDeclarationKind.Camera => scene.Camera is { } camera
-            ? $"c {camera.Position} {camera.Rotation} {FormatNumber(camera.FieldOfView)}" : null,
+        SceneDeclarationKind.Camera => scene.Camera is { } camera ? Format(camera) : null,
         SceneDeclarationKind.Projection => scene switch
         {
             { Projection: Projection.Perspective } => null,
@@ -38,8 +37,10 @@ internal static class SceneFormatter
         SceneDeclarationKind.Background => scene.Background is { } background ? $"background {background}" : null,
         SceneDeclarationKind.Sky => scene.Sky is { } sky ? Format(sky.Declaration) : null,
         SceneDeclarationKind.Probe => scene.Probe is { } probe ? $"probe {probe}" : null,
-        SceneDeclarationKind.Exposure => AreBitEqual(scene.Exposure, 1) ? null : $"exposure {FormatNumber(scene.Exposure)}",
-        SceneDeclarationKind.Tone => scene.Tone == Tone.Filmic ? "tone filmic" : null,
+        SceneDeclarationKind.Exposure => AreBitEqual(scene.Exposure, 1)
+            ? (scene.HasAutoExposure ? "exposure auto" : null)
+            : $"exposure {(scene.HasAutoExposure ? "auto " : "")}{FormatNumber(scene.Exposure)}",
+        SceneDeclarationKind.Tone => scene.Tone == Tone.None ? null : $"tone {scene.Tone.ToString().ToLowerInvariant()}",
         SceneDeclarationKind.Fog => scene.Fog is { } fog ? Format(fog) : null,
         SceneDeclarationKind.Gravity => AreBitEqual(scene.Gravity, Scene.DefaultGravity) ? null : $"gravity {scene.Gravity}",
         SceneDeclarationKind.Player => scene.Player is { } player ? Format(player) : null,
@@ -47,6 +48,11 @@ internal static class SceneFormatter
         SceneDeclarationKind.SceneObject => index < scene.Objects.Length ? Format(scene.Objects[index]) : null,
         _ => throw new ArgumentOutOfRangeException(nameof(kind)),
     };
+
+    private static string Format(Camera camera) => Join(
+        $"c {camera.Position} {camera.Rotation} {FormatNumber(camera.FieldOfView)}",
+        AreBitEqual(camera.Aperture, 0) ? null : $"aperture {FormatNumber(camera.Aperture)}",
+        AreBitEqual(camera.FocusDepth, 1) ? null : $"focus {FormatNumber(camera.FocusDepth)}");
 
     private static string Format(IReadOnlyList<object> declaration) =>
         string.Join(' ', declaration.Select(static word => Convert.ToString(word, CultureInfo.InvariantCulture)));

@@ -21,6 +21,7 @@ public abstract class SceneSettingParser : SceneValueParser
     private const double MinClip = 1e-30;
     private const double MaxClip = 1e30;
 
+    private readonly Option<Camera>[] _cameraOptions;
     private readonly Option<Player>[] _playerOptions;
     private readonly Option<ImageSky>[] _skyOptions;
     private readonly Option<Fog>[] _fogOptions;
@@ -29,6 +30,15 @@ public abstract class SceneSettingParser : SceneValueParser
     private protected SceneSettingParser(SourceText source)
         : base(source)
     {
+        _cameraOptions =
+        [
+            Option<Camera>.Of(
+                "aperture", Number(static diameter => diameter is >= 0 and <= MaxClip, "the aperture must lie between 0 and 1e30"),
+                static (camera, diameter) => camera with { Aperture = diameter }),
+            Option<Camera>.Of(
+                "focus", Number(static depth => depth is >= MinClip and <= MaxClip, "the focus must lie between 1e-30 and 1e30"),
+                static (camera, depth) => camera with { FocusDepth = depth }),
+        ];
         _playerOptions =
         [
             Option<Player>.Of("speed", NonNegative("the player's speed"), (player, speed) => player with { WalkingSpeedOverride = speed }),
@@ -65,7 +75,10 @@ public abstract class SceneSettingParser : SceneValueParser
             && ParseOrientation(rest, position, out var rotation, out rest) && ParseOptionalSeparator(rest, out rest)
             && ParseNumber(rest, static number => number is > 0 and < 180, "the angle of view must lie between 0 and 180 degrees",
                 out var fieldOfView, out rest)
-            && UpdateScene(Scene with { Camera = new(position, rotation, fieldOfView) });
+            && UpdateScene(Scene with
+            {
+                Camera = ParseOptions(rest, new Camera(position, rotation, fieldOfView), _cameraOptions, out rest),
+            });
     }
 
     /// <summary>Parses angles in radians, or <c>look-at point [up direction]</c>.</summary>
@@ -99,7 +112,11 @@ public abstract class SceneSettingParser : SceneValueParser
 
     /// <summary>Turns the camera to its target. The handedness, on which the angles depend, may be declared below the camera.</summary>
     private protected Camera? TurnToTarget(Camera? camera) => camera is not null && _cameraTarget is var (target, up)
-        ? CameraFraming.LookAt(camera.Position, target, up, camera.FieldOfView, Scene.Handedness)
+        ? camera with
+        {
+            Rotation = CameraFraming.LookAt(camera.Position, target, up, camera.FieldOfView, Scene.Handedness).Rotation,
+            Handedness = Scene.Handedness,
+        }
         : camera;
 
     private protected bool ParseHandedness(Cursor cursor, out Cursor rest) =>
@@ -181,17 +198,28 @@ public abstract class SceneSettingParser : SceneValueParser
 
     private protected bool ParseExposure(Cursor cursor, out Cursor rest)
     {
-        if (!ParseNumber(cursor, static number => number > 0, "the exposure must be positive", out var exposure, out rest))
+        var isAuto = ParseWord(cursor, "auto", out rest);
+        var start = cursor;
+        if (isAuto)
+        {
+            ParseBlanks(rest, out start);
+        }
+
+        var exposure = 1.0;
+        if (!(isAuto && EndsAt(start))
+            && !ParseNumber(start, static number => number > 0, "the exposure must be positive", out exposure, out rest))
         {
             return false;
         }
 
-        Require(exposure is >= 1e-9 and <= MaxFactor, cursor, "the exposure must lie between 1e-9 and 1e9");
-        return UpdateScene(Scene with { Exposure = exposure });
+        Require(exposure is >= 1e-9 and <= MaxFactor, start, "the exposure must lie between 1e-9 and 1e9");
+        return UpdateScene(Scene with { Exposure = exposure, HasAutoExposure = isAuto });
     }
 
     private protected bool ParseTone(Cursor cursor, out Cursor rest) =>
-        ParseChoice(cursor, [(Tone.None, "none"), (Tone.Filmic, "filmic")], out var tone, out rest)
+        ParseChoice(
+            cursor, [(Tone.None, "none"), (Tone.Filmic, "filmic"), (Tone.Reinhard, "reinhard"), (Tone.Aces, "aces")],
+            out var tone, out rest)
         && UpdateScene(Scene with { Tone = tone });
 
     private protected bool ParseFog(Cursor cursor, out Cursor rest)

@@ -46,6 +46,8 @@ public sealed class CameraPath
         return CameraFraming.LookAt(Vector.Zero, direction, UpBetween(from, to, fraction), fieldOfView, _handedness) with
         {
             Position = position,
+            Aperture = from.Aperture + (fraction * (to.Aperture - from.Aperture)),
+            FocusDepth = from.FocusDepth + (fraction * (to.FocusDepth - from.FocusDepth)),
         };
     }
 

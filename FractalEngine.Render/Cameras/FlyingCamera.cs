@@ -215,6 +215,13 @@ public sealed class FlyingCamera
     public void SetFieldOfView(double degrees) =>
         Pose = Pose with { Camera = Pose.Camera with { FieldOfView = degrees }, FramedAspect = null };
 
+    /// <summary>Changes the lens, see <see cref="Camera.Aperture"/> and <see cref="Camera.FocusDepth"/>.</summary>
+    /// <param name="aperture">Diameter, scene units.</param>
+    /// <param name="focusDepth">Depth of what is sharp, scene units.</param>
+    /// <exception cref="ArgumentException">The diameter is negative, the depth not positive, or one of them not finite.</exception>
+    public void SetLens(double aperture, double focusDepth) =>
+        Pose = Pose with { Camera = Pose.Camera with { Aperture = aperture, FocusDepth = focusDepth } };
+
     /// <summary>Takes a projection as it is, without moving the camera.</summary>
     /// <param name="projection">The projection of the view.</param>
     /// <param name="orthographicHeight">The visible height in scene units; null where it follows the camera.</param>

@@ -86,7 +86,7 @@ internal sealed class AirPass(RenderContext context, LoadedScene scene) : IDispo
     {
         var (width, height) = ((frame.Width + 1) / 2, (frame.Height + 1) / 2);
         if (_depths is not null && (_depths.Width, _depths.Height, _depths.Samples) == (target.Width, target.Height, target.Samples)
-            && (_air!.Width, _air.Height) == (width, height))
+            && (_air!.Width, _air.Height, _colours!.Format) == (width, height, target.Format))
         {
             return;
         }
@@ -95,7 +95,7 @@ internal sealed class AirPass(RenderContext context, LoadedScene scene) : IDispo
         // Stays null if one of the allocations fails.
         _depths = null;
         _air = new(context.Resources, "air", width, height, PixelInternalFormat.Rgba32f);
-        _colours = new(context.Resources, "frame without air", target.Width, target.Height, PixelInternalFormat.Srgb8Alpha8);
+        _colours = new(context.Resources, "frame without air", target.Width, target.Height, target.Format);
         _depths = new(context.Resources, "depths of the frame", target.Width, target.Height, isFine: true, target.Samples);
     }
 

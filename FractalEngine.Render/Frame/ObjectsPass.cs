@@ -109,7 +109,7 @@ internal sealed class ObjectsPass(
     {
         var view = frame.View;
         var probe = view.DeepZoom is null ? _probe?.Place : null;
-        _lightBlock.Bind(GlState.LightBinding, view.Camera.Position, LightScaleOf(view), settings.Background, probe, frame.IsProbe);
+        _lightBlock.Bind(GlState.LightBinding, view.Camera.Position, LightScaleOf(view), settings, probe, frame.IsProbe);
         if (_skyPass is not null && view.Background is null && !frame.IsProbe)
         {
             _skyPass.Draw(in frame);
@@ -174,7 +174,7 @@ internal sealed class ObjectsPass(
         foreach (var i in _opaqueOrder.SortFrontToBack(frame.View.Camera, transforms.Bounds))
         {
             var item = _scene.Objects[i];
-            if (item.IsDynamic && settings.Culling is { FrustumCulling: true }
+            if (item.IsDynamic && frame.Offset == default && settings.Culling is { FrustumCulling: true }
                 && !frame.View.MayIntersectFrustum(transforms.Bounds[i], frame.Aspect))
             {
                 continue;

@@ -58,6 +58,7 @@ internal sealed class SkyPass : IDisposable
         GL.Uniform3(_program.UniformLocation("cameraAxes"), 3, _axes);
         var halfHeight = frame.View.Projection == Projection.Perspective ? frame.View.HalfHeight : 0;
         _program.Set("halfSize", halfHeight * frame.Aspect, halfHeight);
+        _program.Set("offset", 2 * frame.Offset.X / frame.Width, 2 * frame.Offset.Y / frame.Height);
         _resources.State.Cull(CullFace.None);
         GL.Disable(EnableCap.DepthTest);
         _image?.Bind();

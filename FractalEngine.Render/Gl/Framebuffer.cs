@@ -4,7 +4,7 @@ using OpenTK.Graphics.OpenGL4;
 namespace FractalEngine.Render.Gl;
 
 /// <summary>
-/// An off-screen framebuffer: 8-bit sRGB colours with a 32-bit depth buffer, multisampled or not; or colours alone, as a texture.
+/// An off-screen framebuffer: colours with a 32-bit depth buffer, multisampled or not; or colours alone, as a texture.
 /// </summary>
 internal sealed class Framebuffer : GlObject
 {
@@ -19,12 +19,13 @@ internal sealed class Framebuffer : GlObject
     /// <param name="width">Width in pixels, at least 1.</param>
     /// <param name="height">Height in pixels, at least 1.</param>
     /// <param name="samples">Number of samples a pixel; 0 without multisampling.</param>
+    /// <param name="hasFloats">Whether colours are 32-bit floats of linear light, instead of 8 bits of sRGB.</param>
     /// <exception cref="GlException">Size or memory exceed the driver's limits.</exception>
-    public Framebuffer(GlResources resources, string label, int width, int height, int samples)
-        : this(resources, label, width, height)
+    public Framebuffer(GlResources resources, string label, int width, int height, int samples, bool hasFloats = false)
+        : this(resources, label, (width, height), hasFloats ? PixelInternalFormat.Rgba32f : PixelInternalFormat.Srgb8Alpha8)
     {
         Samples = samples;
-        _colour = CreateRenderbuffer(RenderbufferStorage.Srgb8Alpha8, samples);
+        _colour = CreateRenderbuffer((RenderbufferStorage)Format, samples);
         _depth = CreateRenderbuffer(RenderbufferStorage.DepthComponent32f, samples);
         Attach(FramebufferAttachment.ColorAttachment0, _colour);
         Attach(FramebufferAttachment.DepthAttachment, _depth);
@@ -39,17 +40,18 @@ internal sealed class Framebuffer : GlObject
     /// <param name="format">Format of the colours.</param>
     /// <exception cref="GlException">Size or memory exceed the driver's limits.</exception>
     public Framebuffer(GlResources resources, string label, int width, int height, PixelInternalFormat format)
-        : this(resources, label, width, height)
+        : this(resources, label, (width, height), format)
     {
         _texture = new(resources, label, width, height, format);
         _texture.Attach();
         ThrowUnlessComplete("");
     }
 
-    private Framebuffer(GlResources resources, string label, int width, int height)
+    private Framebuffer(GlResources resources, string label, (int Width, int Height) size, PixelInternalFormat format)
         : base(resources, label)
     {
-        (Width, Height) = (width, height);
+        (Width, Height) = size;
+        Format = format;
         _name = GL.GenFramebuffer();
         GL.BindFramebuffer(FramebufferTarget.Framebuffer, _name);
     }
@@ -59,6 +61,9 @@ internal sealed class Framebuffer : GlObject
 
     /// <summary>Height of the framebuffer in pixels.</summary>
     public int Height { get; }
+
+    /// <summary>Format of the colours.</summary>
+    public PixelInternalFormat Format { get; }
 
     /// <summary>Number of samples a pixel; 0 without multisampling.</summary>
     public int Samples { get; }
@@ -97,16 +102,24 @@ internal sealed class Framebuffer : GlObject
     /// <summary>Reads the colours back, with the bottom row first.</summary>
     /// <param name="pixels">Receives RGBA bytes, [height × width × 4].</param>
     /// <exception cref="GlException">The driver reports an error.</exception>
-    public void ReadPixels(Span<byte> pixels)
+    public void ReadPixels(Span<byte> pixels) => ReadPixels(pixels, PixelFormat.Rgba, PixelType.UnsignedByte);
+
+    /// <summary>Reads colours of floats back, with the bottom row first.</summary>
+    /// <param name="light">Receives red, green and blue, [height × width × 3].</param>
+    /// <exception cref="GlException">The driver reports an error.</exception>
+    public void ReadLight(Span<float> light) => ReadPixels(light, PixelFormat.Rgb, PixelType.Float);
+
+    private void ReadPixels<T>(Span<T> pixels, PixelFormat format, PixelType type)
+        where T : unmanaged
     {
         GL.Disable(EnableCap.FramebufferSrgb);
         GL.BindFramebuffer(FramebufferTarget.ReadFramebuffer, _name);
         GL.PixelStore(PixelStoreParameter.PackAlignment, 1);
         unsafe
         {
-            fixed (byte* start = pixels)
+            fixed (T* start = pixels)
             {
-                GL.ReadPixels(0, 0, Width, Height, PixelFormat.Rgba, PixelType.UnsignedByte, (IntPtr)start);
+                GL.ReadPixels(0, 0, Width, Height, format, type, (IntPtr)start);
             }
         }
 

@@ -7,6 +7,7 @@ using FractalEngine.Core.Scenes.Cameras;
 using FractalEngine.Core.Scenes.Lights;
 using FractalEngine.Render.Gl;
 using FractalEngine.Render.Gl.State;
+using FractalEngine.Render.Views;
 using OpenTK.Graphics.OpenGL4;
 
 namespace FractalEngine.Render.Lights;
@@ -30,7 +31,7 @@ internal sealed class LightBlock : IDisposable
     private readonly RedundancyFilter _uploadFilter;
     private readonly GlBuffer _buffer;
     private readonly float[] _data = new float[HeaderFloats + (MaxLights * FloatsPerLight) + SideFloats];
-    private (Vector, double, Colour, ProbePlace?, bool)? _lastKey;
+    private (Vector, double, Colour, bool, ProbePlace?)? _lastKey;
 
     /// <summary>Creates the buffer for the lights of a scene, or for the default ones where it declares none.</summary>
     /// <param name="resources">Resources of the current context.</param>
@@ -42,9 +43,8 @@ internal sealed class LightBlock : IDisposable
         _lights = LightsOf(scene);
         _buffer = new(resources, "lights", BufferTarget.UniformBuffer);
         _fogDensity = scene.Scene.Fog?.Density ?? 0;
-        var display = DisplayTransform.Of(scene.Scene);
         WriteAmbient(SceneAmbient.Of(scene.Scene));
-        HasAtmosphere = !display.IsIdentity || _fogDensity > 0;
+        HasAtmosphere = !DisplayTransform.Of(_scene).IsIdentity || _fogDensity > 0;
         MemoryMarshal.Cast<float, int>(_data.AsSpan(8))[0] = _lights.Length;
     }
 
@@ -132,15 +132,16 @@ internal sealed class LightBlock : IDisposable
     /// <param name="bindingPoint">Binding point of the program's block.</param>
     /// <param name="cameraPosition">Position of the camera in world space. Light positions are written relative to it.</param>
     /// <param name="unitsPerSceneUnit">1, or more where the frame is drawn in a smaller unit.</param>
-    /// <param name="background">Colour of the background where the scene declares none.</param>
+    /// <param name="settings">The background where the scene declares none, and whether frames keep the scene's light.</param>
     /// <param name="probe">Reflection probe that mirrors show; null for none.</param>
-    /// <param name="isForProbe">Whether light is left as it is, without haze, exposure and tone.</param>
+    /// <param name="isForProbe">Whether light is left without haze.</param>
     public void Bind(
-        int bindingPoint, Vector cameraPosition, double unitsPerSceneUnit, Colour background, ProbePlace? probe, bool isForProbe)
+        int bindingPoint, Vector cameraPosition, double unitsPerSceneUnit, RenderSettings settings, ProbePlace? probe = null,
+        bool isForProbe = false)
     {
-        var key = (cameraPosition, unitsPerSceneUnit, _fogDensity > 0 ? background : default, probe, isForProbe);
-        var isRedundant = _lastKey is { } last && (last == key
-            || !(_fogDensity > 0 || _scene.Probe is not null || _lights.Any(static light => light.Position is not null)));
+        var key = (cameraPosition, unitsPerSceneUnit, _fogDensity > 0 ? settings.Background : default, settings.KeepsLight, probe);
+        var isRedundant = _lastKey is { } last && (last == key || (last.Item4 == key.KeepsLight
+            && !(_fogDensity > 0 || _scene.Probe is not null || _lights.Any(static light => light.Position is not null))));
         if (_uploadFilter.ShouldPerform(isRedundant))
         {
             for (var i = 0; i < _lights.Length; i++)
@@ -149,18 +150,17 @@ internal sealed class LightBlock : IDisposable
                 WriteLight(_lights[i], cameraPosition, unitsPerSceneUnit, target);
             }
 
-            var display = isForProbe ? new(1, Tone.None) : DisplayTransform.Of(_scene);
+            var display = settings.KeepsLight ? DisplayTransform.Identity : DisplayTransform.Of(_scene);
             WriteVector(
-                new(display.Exposure, display.Tone == Tone.Filmic ? 1 : 0, isForProbe ? 0 : _fogDensity / unitsPerSceneUnit),
-                _scene.Fog?.Albedo ?? 0,
+                new(display.Exposure, (int)display.Tone, isForProbe ? 0 : _fogDensity / unitsPerSceneUnit), _scene.Fog?.Albedo ?? 0,
                 _data.AsSpan(16));
+            WriteVector(FogColour(_scene, settings.Background), _scene.Fog?.Anisotropy ?? 0, _data.AsSpan(20));
             if (probe is { } place)
             {
                 WriteVector(place.Position - cameraPosition, place.InverseAtZero, _data.AsSpan(24));
             }
 
             _data[28] = (float)(probe?.InverseAtOne ?? 0);
-            WriteVector(FogColour(_scene, background), _scene.Fog?.Anisotropy ?? 0, _data.AsSpan(20));
             _buffer.Upload<float>(_data, BufferUsageHint.DynamicDraw);
             _lastKey = key;
         }

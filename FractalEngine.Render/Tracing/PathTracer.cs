@@ -226,26 +226,61 @@ public sealed class PathTracer
     /// <param name="cancellation">Cancels between strips of 16 rows.</param>
     /// <exception cref="OperationCanceledException">The filter was cancelled.</exception>
     /// <remarks>The same bits on any number of threads. Takes 24 bytes a pixel while it runs.</remarks>
-    public PixelImage Denoise(int? threads = null, TaskScheduler? scheduler = null, CancellationToken cancellation = default)
+    public PixelImage Denoise(int? threads = null, TaskScheduler? scheduler = null, CancellationToken cancellation = default) =>
+        ToImage(DenoisedOrRaw(CreateOptions(threads, scheduler, cancellation)));
+
+    /// <summary>Returns the light of the present image, without its noise as <see cref="Denoise"/> does, and further layers.</summary>
+    /// <param name="layers">Layers beside the light, which is always there. Without a sample, the light is black.</param>
+    /// <param name="cancellation">Cancels between rows.</param>
+    /// <exception cref="OperationCanceledException">The work was cancelled.</exception>
+    /// <remarks>
+    /// A lens is taken as a point for all layers but the light. In a deep zoom, depth and position are about the camera in the unit of the
+    /// zoom. The same bits on any number of threads. Takes 12 bytes a pixel, and 44 with layers.
+    /// </remarks>
+    public LightFrame ToLightFrame(IReadOnlyCollection<FrameLayer> layers, CancellationToken cancellation = default)
+    {
+        ArgumentNullException.ThrowIfNull(layers);
+        var letterbox = _display.Invert(LetterboxColour.ToLinearVector());
+        var light = DenoisedOrRaw(CreateOptions(null, null, cancellation)).ToLight(_camera.Viewport, letterbox);
+        return new(light, _declared) { Layers = [.. FindLayers(layers, cancellation)] };
+    }
+
+    /// <summary>Finds the channels of layers, all but those of the light. Needs no sample.</summary>
+    /// <inheritdoc cref="ToLightFrame"/>
+    public IEnumerable<ImageChannel> FindLayers(IReadOnlyCollection<FrameLayer> layers, CancellationToken cancellation = default)
+    {
+        ArgumentNullException.ThrowIfNull(layers);
+        if (layers.All(static layer => layer == FrameLayer.Colour))
+        {
+            return [];
+        }
+
+        var found = new SurfaceLayers(_scene, _camera, Width, Height).Find(layers, CreateOptions(null, null, cancellation));
+        var counts = Enumerable.Range(0, Width * Height).Select(pixel => (float)_image.RowSamples[pixel / Width]);
+        return layers.Contains(FrameLayer.Samples) ? found.Append(new("samples.X", [.. counts])) : found;
+    }
+
+    private RadianceImage DenoisedOrRaw(ParallelOptions options)
     {
         if (_shared is not { } shared || SampleCount > SharedSamples.MaxCount)
         {
-            return ToImage();
+            return _image;
         }
 
         var denoised = new RadianceImage(Width, Height);
-        new Denoiser(shared, _image).Filter(denoised, CreateOptions(threads, scheduler, cancellation));
-        return ToImage(denoised);
+        new Denoiser(shared, _image).Filter(denoised, options);
+        return denoised;
     }
+
+    private Colour LetterboxColour => RenderSettings.LetterboxColour(_declared.Background ?? _defaultBackground);
 
     /// <summary>The mean radiance of a pixel so far, linear light: red, green, blue.</summary>
     /// <param name="x">From the left, from 0.</param>
     /// <param name="y">From the top, from 0.</param>
     public Vector RadianceAt(int x, int y) => _image.At(x, y);
 
-    private PixelImage ToImage(RadianceImage image) => image.ToImage(
-        _display, _camera.Viewport, RenderSettings.LetterboxColour(_declared.Background ?? _defaultBackground),
-        _background.IsSky);
+    private PixelImage ToImage(RadianceImage image) =>
+        image.ToImage(_display, _camera.Viewport, LetterboxColour, _background.IsSky);
 
     private static ParallelOptions CreateOptions(int? threads, TaskScheduler? scheduler, CancellationToken cancellation) => new()
     {
@@ -271,6 +306,11 @@ public sealed class PathTracer
         var samples = new SampleSequence((y * Width) + x, sample, _seed);
         point = samples.Next();
         var ray = _camera.CreateRay(x, y, point, out var footprint, out var clip);
+        if (_camera.HasLens)
+        {
+            ray = _camera.ThroughLens(ray, samples.Next(), ref footprint, ref clip);
+        }
+
         var path = new LightPath(ray, footprint, clip);
         return _light.Follow(ref path, BounceLimit, ref samples, context, out first);
     }

@@ -58,20 +58,35 @@ internal sealed class RadianceImage(int width, int height)
 
                 var sum = _sums.AsSpan(3 * ((y * width) + x), 3);
                 var scale = 1.0 / Math.Max(1, RowSamples[y]);
-                var (red, green, blue) = display.Apply(new(sum[0] * scale, sum[1] * scale, sum[2] * scale));
+                var (red, green, blue) = display.ToSrgb(new(sum[0] * scale, sum[1] * scale, sum[2] * scale));
                 var offset = isDithered ? OrderedDither.At(x, y) : 0;
                 (target[0], target[1], target[2]) =
-                    (ToByte(ToSrgb(red), offset), ToByte(ToSrgb(green), offset), ToByte(ToSrgb(blue), offset));
+                    (ToByte(red, offset), ToByte(green, offset), ToByte(blue, offset));
             }
         }
 
         return new(width, height, pixels);
     }
 
+    /// <summary>Returns the present light, with that which is shown as a colour beside the viewport.</summary>
+    /// <param name="viewport">The part that shows the scene.</param>
+    /// <param name="letterbox">Light beside it.</param>
+    public FloatImage ToLight((int X, int Y, int Width, int Height) viewport, Vector letterbox)
+    {
+        var image = new FloatImage(width, RowSamples.Length, new float[_sums.Length]);
+        for (var y = 0; y < image.Height; y++)
+        {
+            for (var x = 0; x < width; x++)
+            {
+                var isShown = x >= viewport.X && x < viewport.X + viewport.Width && y >= viewport.Y && y < viewport.Y + viewport.Height;
+                image[x, y] = isShown ? At(x, y) : letterbox;
+            }
+        }
+
+        return image;
+    }
+
     private static byte ToByte(double component, double offset) =>
         (byte)Math.Clamp(Math.Round((255 * Math.Clamp(component, 0, 1)) + offset), 0, 255);
 
-    /// <summary>The curve of IEC 61966-2-1, from linear light.</summary>
-    private static double ToSrgb(double linear) =>
-        linear <= 0.0031308 ? 12.92 * linear : (1.055 * Math.Pow(linear, 1 / 2.4)) - 0.055;
 }

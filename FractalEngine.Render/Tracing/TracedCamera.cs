@@ -32,7 +32,13 @@ internal sealed class TracedCamera(View view, int width, int height, double foot
         }
     }
 
-    /// <summary>Makes a ray near the centre of a pixel.</summary>
+    /// <summary>Distance of a point from the plane of the camera.</summary>
+    public double DepthOf(Core.Maths.Vector position) => _camera.ToCameraSpace(position).Z;
+
+    /// <summary>Whether rays start at points of a lens.</summary>
+    public bool HasLens => view.HasLens;
+
+    /// <summary>Makes a ray near the centre of a pixel, from the middle of the lens.</summary>
     /// <param name="x">Pixel from the left, from 0.</param>
     /// <param name="y">Pixel from the top, from 0.</param>
     /// <param name="point">A point of the unit square, which the filter spreads over the pixel and its neighbours.</param>
@@ -58,6 +64,23 @@ internal sealed class TracedCamera(View view, int width, int height, double foot
         footprint = new(_footprint, 0);
         clip = _clip;
         return new(_camera.Position + (right * axisRight) + (up * axisUp), forward);
+    }
+
+    /// <summary>Moves a ray to a point of a thin lens: it meets the other one where that is in focus.</summary>
+    /// <param name="ray">From the middle of the lens.</param>
+    /// <param name="point">A point of the unit square.</param>
+    /// <param name="footprint">How wide the ray is.</param>
+    /// <param name="clip">The smallest and the largest distance along the ray that are shown.</param>
+    public Ray ThroughLens(Ray ray, (double U, double V) point, ref RayFootprint footprint, ref (double Near, double Far) clip)
+    {
+        var (axisRight, axisUp, forward) = _camera.LocalAxes;
+        var (right, up) = view.LensPoint(point);
+        var origin = ray.Origin + (right * axisRight) + (up * axisUp);
+        var target = ray.Origin + (_camera.FocusDepth / Core.Maths.Vector.Dot(ray.Direction, forward) * ray.Direction);
+        var length = (target - origin).Length() / _camera.FocusDepth;
+        footprint = new(0, _footprint / length);
+        clip = (length * _clip.Near, length * _clip.Far);
+        return new(origin, (target - origin) / (length * _camera.FocusDepth));
     }
 
     /// <summary>Spreads a number from 0 to 1 over −1 to 1, as densely as a tent is high.</summary>

@@ -184,6 +184,10 @@ internal sealed record TracedScene
         return true;
     }
 
+    /// <summary>Number of maps that lead to the instance that a ray has hit last; 0 for a mesh.</summary>
+    public int LevelOf(QueryContext context) =>
+        context.InstancePath.Length + (_zoom is { } zoom ? zoom.Roots[context.ObjectIndex].ColourPath.MapCount : 0);
+
     /// <summary>Tells whether a ray comes to its first face from within a solid.</summary>
     private bool IsWithinSolid(in Ray ray, in RayHit hit, int index, RayFootprint footprint, QueryContext context)
     {

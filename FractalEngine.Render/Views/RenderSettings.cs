@@ -65,6 +65,11 @@ public sealed record RenderSettings
         init => field = RequireNotNegative(value, nameof(GatheredFrames));
     } = 1;
 
+    /// <summary>
+    /// Frames keep the light of the scene as 32-bit floats, before exposure and tone curve: see <see cref="Renderer.DrawLight"/>.
+    /// </summary>
+    public bool KeepsLight { get; init; }
+
     /// <summary>Culls the back faces of closed meshes, where only front faces can be seen.</summary>
     public bool BackFaceCulling { get; init; } = true;
 

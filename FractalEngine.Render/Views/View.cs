@@ -84,6 +84,24 @@ public sealed record View(Camera Camera, Projection Projection)
     /// <summary>Half of the visible height, scene units: at depth 1 in perspective, at any depth in orthographic projection.</summary>
     internal double HalfHeight => Projection == Projection.Perspective ? Camera.HalfHeightAtUnitDepth : 0.5 * OrthographicHeight;
 
+    /// <summary>
+    /// Whether surfaces out of focus are blurred: by a lens, in perspective. Within a deep zoom, scene units are no measure for what is
+    /// seen, so that everything is sharp.
+    /// </summary>
+    public bool HasLens => Camera.Aperture > 0 && Projection == Projection.Perspective && DeepZoom is null;
+
+    /// <summary>Returns a point of the camera's lens.</summary>
+    /// <param name="point">A point of the unit square, which is mapped to a disc evenly (P. Shirley and K. Chiu, 1997).</param>
+    /// <returns>To the right and upwards of the lens's middle, scene units.</returns>
+    internal (double Right, double Up) LensPoint((double U, double V) point)
+    {
+        var (a, b) = ((2 * point.U) - 1, (2 * point.V) - 1);
+        var isWide = Math.Abs(a) > Math.Abs(b);
+        var radius = 0.5 * Camera.Aperture * (isWide ? a : b);
+        var angle = a == 0 && b == 0 ? 0 : Math.PI / 4 * (isWide ? b / a : 2 - (a / b));
+        return (radius * Math.Cos(angle), radius * Math.Sin(angle));
+    }
+
     /// <summary>Creates the view that a scene declares, with defaults for what it leaves open.</summary>
     /// <param name="scene">Scene that gives projection, clip planes, aspect ratio and bounds.</param>
     /// <param name="frameAspect">Width divided by height of the window or image. A default camera frames the scene for it.</param>
@@ -175,11 +193,14 @@ public sealed record View(Camera Camera, Projection Projection)
     internal View MovedBy((double X, double Y) offset, int width, int height)
     {
         var pixel = 2 * HalfHeight / Viewport(width, height).Height;
-        return this with
-        {
-            Camera = Camera with { Position = Camera.Position - (Camera.LocalAxes * new Vector(pixel * offset.X, pixel * offset.Y, 0)) },
-        };
+        return WithEyeAt((-pixel * offset.X, -pixel * offset.Y));
     }
+
+    /// <summary>Moves the camera to the right and upwards, scene units.</summary>
+    internal View WithEyeAt((double Right, double Up) place) => this with
+    {
+        Camera = Camera with { Position = Camera.Position + (Camera.LocalAxes * new Vector(place.Right, place.Up, 0)) },
+    };
 
     /// <summary>Returns the depths of the near and far clip planes.</summary>
     /// <param name="bounds">Bounds of all that is drawn, world space; may be empty.</param>

@@ -120,7 +120,7 @@ public sealed class RefusalTests : IDisposable
     [InlineData("animate cube.obj -o a.png --turntable --fps 5",
         "--fps has no effect on numbered images unless --simulate moves something")]
     [InlineData("animate cube.obj -o a.apng --path c.txt --view top",
-        "--camera, --view, --look-from and --look-at have no effect with --path, which names the cameras")]
+        "--camera, --view, --look-from, --look-at, --aperture and --focus have no effect with --path, which names the cameras")]
     public void Option_WithoutEffect_IsRefused(string arguments, string message)
     {
         _folder.Write("drop.sdo", "p \"cube.obj\" # 0.5\n");

@@ -1,3 +1,4 @@
+using System.IO.Compression;
 using FractalEngine.Core.Images;
 using FractalEngine.Render.Images;
 using FractalEngine.Tests.Support;
@@ -25,6 +26,31 @@ public class PngWriterTests
         // Beyond the steps after which the sums of the filters are carried over, and beyond one chunk.
         var image = Image(random, width, height);
         Assert.True(image.Pixels.AsSpan().SequenceEqual(ImageFile.Load(new MemoryStream(Write(image)), isTga: false).Pixels));
+    });
+
+    [Fact]
+    public void WriteDeep_OfRandomImages_HasTheRowsOfThePlainEncoder() => Seeded.Run(100, random =>
+    {
+        var (width, height) = (random.Next(1, 40), random.Next(1, 9));
+        var isSmooth = random.Next(2) == 0;
+        var pixels = Enumerable.Range(0, 4 * width * height).Select(i => (ushort)(isSmooth ? 97 * i : random.Next(65536))).ToArray();
+        var stream = new MemoryStream();
+        PngWriter.WriteDeep(new(width, height, pixels), stream);
+        var file = stream.ToArray();
+        Assert.Equal([16, 6, 0, 0, 0], file[24..29]);
+        // A decoder of 8 bits keeps about the upper byte.
+        var read = ImageFile.Load(new MemoryStream(file), isTga: false);
+        Assert.All(pixels.Zip(read.Pixels), pair => Assert.InRange(pair.First - (257 * pair.Second), -257, 257));
+        Assert.Equal(["IHDR", "IDAT", "IEND"], Chunks(file).Select(chunk => chunk.Type));
+        using var data = new ZLibStream(new MemoryStream(file[41..^16]), CompressionMode.Decompress);
+        var rows = new MemoryStream();
+        data.CopyTo(rows);
+        var samples = new PlainSamples(width, height, 6, 16, false, pixels);
+        var candidates = Enumerable.Range(0, 5).Select(type => PlainPng.Filtered(samples, random, type)).ToArray();
+        var expected = Enumerable.Range(0, height).SelectMany(y => candidates
+            .Select(all => all.AsSpan(y * ((8 * width) + 1), (8 * width) + 1).ToArray())
+            .MinBy(line => line.Skip(1).Sum(value => Math.Abs((int)(sbyte)value)))!);
+        Assert.Equal(expected, rows.ToArray());
     });
 
     [Fact]

@@ -185,12 +185,58 @@ public sealed class SkyTests
         Assert.Equal((51, 153, 255, 255), tracer.ToImage()[1, 1]);
     }
 
+    [SkippableTheory]
+    [InlineData(Tone.None)]
+    [InlineData(Tone.Filmic)]
+    [InlineData(Tone.Reinhard)]
+    [InlineData(Tone.Aces)]
+    public void Tone_OfASky_IsDrawnAsItIsTraced(Tone tone)
+    {
+        // From black over colours to far beyond white, and a background that is shown as it is.
+        foreach (var (background, exposure) in ((Colour?, double)[])[(null, 0.1), (null, 3), (null, 60), (new(1, 0.2, 0), 3)])
+        {
+            var scene = SkyAlone(new Scene
+            {
+                Sky = new ColourSky(new(0.1, 0.2, 1), new(1, 1, 0.9), new(0.3, 0, 0)), Tone = tone, Exposure = exposure,
+                Background = background,
+            });
+            var drawn = RenderScenes.Draw(scene, RenderScenes.FrontView, 30, 40);
+            var tracer = new PathTracer(scene, RenderScenes.FrontView, 30, 40);
+            for (var i = 0; i < 64; i++)
+            {
+                tracer.AddSample();
+            }
+
+            var traced = tracer.ToImage();
+            // A pixel of the traced image is a mean, which matters at the bend of the horizon only.
+            Assert.InRange(drawn.Pixels.Zip(traced.Pixels).Count(pair => Math.Abs(pair.First - pair.Second) > 1), 0, 30 * 4 * 3);
+            if (background is { } shown)
+            {
+                Assert.Equal(((int)(255 * shown.Red), (int)(255 * shown.Green), (int)(255 * shown.Blue), 255), traced[3, 3]);
+            }
+        }
+    }
+
+    [Theory]
+    // Equation 4 of the paper with a white of 4, and the fit's polynomials by hand for grey, which keeps its hue.
+    [InlineData(Tone.Reinhard, 1, 0.53125)]
+    [InlineData(Tone.Reinhard, 4, 1)]
+    [InlineData(Tone.Aces, 0.18, 0.1056)]
+    [InlineData(Tone.Aces, 1, 0.6191)]
+    public void DisplayTransform_OfGrey_IsThatOfTheSource(Tone tone, double light, double shown) =>
+        Assert.Equal(0, (new DisplayTransform(1, tone).Apply(light * Vector.One) - (shown * Vector.One)).Length(), 2e-3);
+
     [Fact]
     public void DisplayTransform_Inverted_ReturnsTheLight()
     {
-        foreach (var tone in (Tone[])[Tone.None, Tone.Filmic])
+        foreach (var tone in Enum.GetValues<Tone>())
         {
             var display = new DisplayTransform(1.7, tone);
+            foreach (var shown in (Vector[])[Vector.Zero, Vector.One, Vector.I, Vector.K, new(0.9, 0.01, 0.5)])
+            {
+                Assert.Equal(0, (display.Apply(display.Invert(shown)) - shown).Length(), 1e-9);
+            }
+
             Assert.Equal(0, (display.Apply(display.Invert(new(0, 0.3, 0.999))) - new Vector(0, 0.3, 0.999)).Length(), 1e-12);
         }
     }

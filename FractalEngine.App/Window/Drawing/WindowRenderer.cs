@@ -38,7 +38,8 @@ internal sealed class WindowRenderer(FrameRenderer frame)
     /// <summary>Whether another frame would sharpen the one that is shown, in time.</summary>
     /// <param name="settings">The render settings for a camera at rest.</param>
     public bool CanGather(RenderSettings settings) =>
-        !IsReducedQuality && _shownView is not null && frame.GatheredCount < settings.GatheredFrames && _gatherTime < MaxGatherTime;
+        !IsReducedQuality && _shownView is { } view && frame.GatheredCount < FrameRenderer.FrameCountOf(view, settings)
+        && _gatherTime < MaxGatherTime;
 
     /// <summary>Draws the last frame again, moved by a part of a pixel, for a mean of all.</summary>
     /// <param name="document">The document of the last frame, unchanged since.</param>

@@ -55,6 +55,17 @@ internal sealed class ViewPanel(WindowActions actions)
         }
 
         ui.Tooltip("full vertical angle of view in degrees");
+        var (aperture, focus) = (document.FlyingCamera.Camera.Aperture, document.FlyingCamera.Camera.FocusDepth);
+        var size = document.File.Scene.Bounds.FiniteDiagonalOr(1);
+        var isMoved = ui.Slider("aperture", ref aperture, 0, 0.1 * size, 0.0005 * size);
+        ui.Tooltip("diameter of the lens in scene units; 0 shows everything sharp");
+        isMoved |= ui.Slider("focus", ref focus, 0.001 * size, 3 * size, 0.001 * size);
+        ui.Tooltip("depth of what is sharp; Ctrl+click in the scene focuses on a point");
+        if (isMoved && aperture >= 0 && focus > 0 && double.IsFinite(aperture + focus))
+        {
+            document.MoveCamera((camera, _) => camera.SetLens(aperture, focus), 1, ui.Interaction);
+            actions.RequestDraw();
+        }
     }
 
     private void BuildDetail(UserInterface ui)

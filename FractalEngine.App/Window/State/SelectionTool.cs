@@ -30,6 +30,7 @@ internal sealed class SelectionTool(Document document)
     private Picker _picker = new();
     private Document _document = document;
     private (double X, double Y)? _press;
+    private bool _focuses;
     private (double X, double Y, TimeSpan Time)? _lastClick;
 
     /// <summary>What is selected; null for nothing.</summary>
@@ -92,15 +93,18 @@ internal sealed class SelectionTool(Document document)
     {
         switch (windowEvent)
         {
-            case MousePressed { Button: MouseButton.Left, Modifiers: KeyModifiers.None } pressed when !_document.Physics.IsWalking:
+            case MousePressed { Button: MouseButton.Left, Modifiers: KeyModifiers.None or KeyModifiers.Control } pressed
+                when !_document.Physics.IsWalking:
                 _press = (pressed.X, pressed.Y);
+                _focuses = pressed.Modifiers == KeyModifiers.Control;
                 return null;
             case MousePressed:
                 _press = null;
                 return null;
             case MouseReleased { Button: MouseButton.Left } released when _press is var (x, y):
                 _press = null;
-                return Math.Abs(released.X - x) + Math.Abs(released.Y - y) <= MaxClickDistance ? Click((x, y), size, now) : null;
+                return Math.Abs(released.X - x) + Math.Abs(released.Y - y) > MaxClickDistance ? null
+                    : _focuses ? Focus((x, y), size) : Click((x, y), size, now);
             default:
                 return null;
         }
@@ -151,6 +155,28 @@ internal sealed class SelectionTool(Document document)
         }
 
         Measure.AddLines(lines, _document.MapToDrawnFrame);
+    }
+
+    /// <summary>Focuses the camera's lens on the point under a pixel.</summary>
+    private string Focus((double X, double Y) pixel, (int Width, int Height) size)
+    {
+        try
+        {
+            if (Pick(_document.Physics.CurrentScene, pixel, size) is not { Viewpoint: null } clicked)
+            {
+                return "nothing is there to focus on";
+            }
+
+            var camera = _document.FlyingCamera.Camera;
+            var depth = camera.ToCameraSpace(clicked.Point).Z;
+            _document.MoveCamera((flying, _) => flying.SetLens(camera.Aperture, depth), 1);
+            var hint = camera.Aperture > 0 ? "" : "; an aperture above 0 blurs the rest";
+            return string.Create(System.Globalization.CultureInfo.InvariantCulture, $"in focus: depth {depth:G4}{hint}");
+        }
+        catch (Exception exception) when (exception is FractalEngineException or InvalidOperationException)
+        {
+            return exception.Message;
+        }
     }
 
     private string Click((double X, double Y) pixel, (int Width, int Height) size, TimeSpan now)

@@ -4,10 +4,10 @@ namespace FractalEngine.Core.Images.Animations;
 public abstract class AnimationOutput : IDisposable
 {
     /// <summary>Endings of names, for messages.</summary>
-    public const string Endings = ".png, .apng, .mp4, .webm or .gif";
+    public const string Endings = ".png, .exr, .hdr, .apng, .mp4, .webm or .gif";
 
     /// <summary>Returns whether an output is a list of images, none of which has a time.</summary>
-    public static bool HasNoTimes(string path) => path.EndsWith(".png", StringComparison.OrdinalIgnoreCase);
+    public static bool HasNoTimes(string path) => Path.GetExtension(path).ToUpperInvariant() is ".PNG" or ".EXR" or ".HDR";
 
     /// <summary>Creates the output for the ending of a name.</summary>
     /// <param name="path">Path that ends in one of <see cref="Endings"/>.</param>
@@ -18,7 +18,7 @@ public abstract class AnimationOutput : IDisposable
     public static AnimationOutput? Create(string path, int frameCount, double framesPerSecond) =>
         Path.GetExtension(path).ToUpperInvariant() switch
         {
-            ".PNG" => new NumberedImages(path, frameCount),
+            ".PNG" or ".EXR" or ".HDR" => new NumberedImages(path, frameCount),
             ".APNG" => new AnimatedImage(path, framesPerSecond),
             ".MP4" or ".WEBM" or ".GIF" => new Video(path, framesPerSecond),
             _ => null,
@@ -32,6 +32,11 @@ public abstract class AnimationOutput : IDisposable
 
     /// <summary>Adds a frame behind the others.</summary>
     public abstract void Add(PixelImage frame);
+
+    /// <summary>Adds a frame that is a file of its own, behind the others.</summary>
+    /// <param name="write">Writes the file, in the format that the ending names.</param>
+    /// <exception cref="NotSupportedException">The output is one file.</exception>
+    public virtual void AddFile(Action<Stream> write) => throw new NotSupportedException($"{Name} has no file for each frame");
 
     /// <summary>Completes the output, with all frames or with those before an interruption.</summary>
     public abstract void Complete();

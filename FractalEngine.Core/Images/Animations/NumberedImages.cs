@@ -3,7 +3,7 @@ using FractalEngine.Core.Files;
 
 namespace FractalEngine.Core.Images.Animations;
 
-/// <summary>Frames as PNG files of their own: <c>frames-0001.png</c> and so on, each written whole.</summary>
+/// <summary>Frames as files of their own: <c>frames-0001.png</c> and so on, each written whole.</summary>
 /// <param name="path">Path to which the numbers are added.</param>
 /// <param name="frameCount">Number of all frames, which gives the number of digits.</param>
 internal sealed class NumberedImages(string path, int frameCount) : AnimationOutput
@@ -20,9 +20,12 @@ internal sealed class NumberedImages(string path, int frameCount) : AnimationOut
     public override IEnumerable<string> Files => Enumerable.Range(1, frameCount).Select(PathOf);
 
     /// <inheritdoc/>
-    public override void Add(PixelImage frame)
+    public override void Add(PixelImage frame) => AddFile(stream => PngWriter.Write(frame, stream));
+
+    /// <inheritdoc/>
+    public override void AddFile(Action<Stream> write)
     {
-        AtomicFile.Write(PathOf(_count + 1), stream => PngWriter.Write(frame, stream));
+        AtomicFile.Write(PathOf(_count + 1), write);
         _count++;
     }
 

@@ -66,6 +66,26 @@ public sealed record Camera
             : throw new ArgumentException("expected an angle of view between 0 and 180 degrees", nameof(FieldOfView));
     }
 
+    /// <summary>Diameter of the lens in scene units: 0, as unless stated otherwise, shows everything sharp.</summary>
+    /// <exception cref="ArgumentException">The diameter is negative or not finite.</exception>
+    public double Aperture
+    {
+        get;
+        init => field = value is >= 0 and < double.PositiveInfinity
+            ? value
+            : throw new ArgumentException("expected a finite diameter that is not negative", nameof(Aperture));
+    }
+
+    /// <summary>Depth of the plane that a lens shows sharp, scene units; 1 unless stated otherwise.</summary>
+    /// <exception cref="ArgumentException">The depth is not positive and finite.</exception>
+    public double FocusDepth
+    {
+        get;
+        init => field = value is > 0 and < double.PositiveInfinity
+            ? value
+            : throw new ArgumentException("expected a positive and finite depth", nameof(FocusDepth));
+    } = 1;
+
     /// <summary>Columns: the camera's right, up and forward axes in world space. The determinant is −1 in a right-handed scene.</summary>
     public Matrix LocalAxes { get; private init; }
 

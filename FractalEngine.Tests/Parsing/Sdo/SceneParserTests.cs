@@ -54,6 +54,23 @@ public class SceneParserTests
         Assert.Equal(new Camera(Vector.Zero, Vector.Zero, 45), Parse("c # # 45").Camera);
 
     [Theory]
+    [InlineData("exposure auto", 1)]
+    [InlineData("exposure auto 0.5", 0.5)]
+    [InlineData("exposure auto  2 ", 2)]
+    public void Exposure_ByWhatIsShown_IsReadAndWritten(string line, double exposure)
+    {
+        var scene = Parse(line);
+        Assert.Equal((true, exposure), (scene.HasAutoExposure, scene.Exposure));
+        Assert.Equal(scene, Parse(SceneWriter.Write(scene)));
+    }
+
+    [Theory]
+    [InlineData("c # # 45 aperture 0.25 focus 3")]
+    [InlineData("c # look-at (0, 0, 1) 45 focus 3 aperture 0.25")]
+    public void Camera_WithALens_HasIt(string line) =>
+        Assert.Equal(new Camera(Vector.Zero, Vector.Zero, 45) { Aperture = 0.25, FocusDepth = 3 }, Parse(line).Camera);
+
+    [Theory]
     [InlineData("#", 0, 0, 1)]
     [InlineData("(#, #, #)", 0, 0, 1)]
     [InlineData("((7, 7, 7), #, #)", 7, 0, 1)]
@@ -207,6 +224,8 @@ public class SceneParserTests
     [Theory]
     [InlineData("exposure 1.5\ntone filmic", 1.5, Tone.Filmic)]
     [InlineData("tone none", 1, Tone.None)]
+    [InlineData("tone reinhard", 1, Tone.Reinhard)]
+    [InlineData("tone aces", 1, Tone.Aces)]
     [InlineData("handed left", 1, Tone.None)]
     public void ExposureAndTone_AreRead(string text, double exposure, Tone tone) =>
         Assert.Equal((exposure, tone), (Parse(text).Exposure, Parse(text).Tone));

@@ -92,7 +92,11 @@ public class SceneWriterTests
     private static readonly Gen<Scene> Scenes =
         from objects in Gen.OneOf(Plain, Bodies).NonEmptyListOf()
         from lights in Lights.ListOf()
-        from camera in AnyVector.Two().Zip(Unit, (v, fov) => new Camera(v.Item1, v.Item2, 0.001 + (179 * fov)))
+        from camera in AnyVector.Two().Zip(Unit, (v, fov) => new Camera(v.Item1, v.Item2, 0.001 + (179 * fov))
+        {
+            Aperture = fov < 0.5 ? 0 : fov,
+            FocusDepth = fov < 0.3 ? 1 : 1e-30 + (1e9 * fov),
+        })
         from gravity in AnyVector
         from sizes in Positive
         from colour in Colours
@@ -120,7 +124,8 @@ public class SceneWriterTests
                 : new ColourSky(colour, new(colour.Blue, colour.Red, colour.Green), (given & 8) == 0 ? null : colour),
             Probe = (given & 6) == 2 ? gravity : null,
             Exposure = (given & 2048) == 0 ? 1 : Math.Clamp(sizes, 1e-9, 1e9),
-            Tone = (given & 4096) == 0 ? Tone.None : Tone.Filmic,
+            HasAutoExposure = (given & 12288) == 4096,
+            Tone = (given & 4096) == 0 ? Tone.None : (Tone)(1 + (given % 3)),
             Fog = (given & 8192) == 0 ? null : new(going.Item1, (given & 16) == 0 ? null : colour)
             {
                 Albedo = (given & 32) == 0 ? 0 : colour.Red, Anisotropy = (given & 64) == 0 ? 0 : 0.95 * colour.Green,

@@ -99,7 +99,7 @@ public sealed class EmitterTests
             Light[] lights = [.. Enumerable.Range(0, LightBlock.MaxLights).Select(i => create(i, camera, random))];
             var scene = LoadedScene.Of(new Scene { Lights = [.. lights] });
             using var block = new LightBlock(context.Resources, scene);
-            block.Bind(GlState.LightBinding, camera, 1, Colour.Black, null, isForProbe: false);
+            block.Bind(GlState.LightBinding, camera, 1, new() { Background = Colour.Black });
             target.Bind();
             program.Use();
             program.Set("normal", normal);
