@@ -88,7 +88,7 @@ internal sealed record AnimationJob(
         if (CameraList is { } list)
         {
             var path = CameraText.ReadPath(list, scene.Scene.Handedness);
-            return frame => view with { Camera = path.At((double)frame / last) };
+            return frame => view with { Camera = path.At(path.Duration * ((double)frame / last)) };
         }
 
         if (Images.ZoomLevels > 0)
