@@ -1,6 +1,7 @@
 using FractalEngine.App.Jobs;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Images;
+using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Simulation;
 using FractalEngine.Render;
 using FractalEngine.Render.Images;
@@ -11,14 +12,15 @@ using FractalEngine.Render.Windowing;
 namespace FractalEngine.App.Animation;
 
 /// <summary>Draws an image, or the frames of an animation, with OpenGL, before the background of a command.</summary>
-/// <param name="drawable">The prepared scene.</param>
+/// <param name="prepared">The prepared scene.</param>
 /// <param name="job">Size, background and settings of the images.</param>
 /// <exception cref="GraphicsUnavailableException">There is no display, or no OpenGL 3.3.</exception>
-internal sealed class DrawnFrames(DrawableScene drawable, RenderJob job) : FrameSource
+internal sealed class DrawnFrames(DrawableScene prepared, RenderJob job) : FrameSource
 {
     private readonly Renderer _renderer = Renderer.Offscreen(job.Size.Width, job.Size.Height, job.Settings);
+    private DrawableScene _drawable = prepared;
 
-    public override PixelImage CreateFrame(View view, CancellationToken cancellation)
+    public override PixelImage CreateFrame(View view, CancellationToken cancellation, int part = 0)
     {
         cancellation.ThrowIfCancellationRequested();
         return job.Background.IsTransparent
@@ -30,9 +32,12 @@ internal sealed class DrawnFrames(DrawableScene drawable, RenderJob job) : Frame
     {
         foreach (var (index, map) in bodies.Maps)
         {
-            _renderer.Move(drawable, index, map);
+            _renderer.Move(_drawable, index, map);
         }
     }
+
+    public override void Replace(LoadedScene scene) =>
+        _drawable = DrawableScene.Prepare(job.Background.ApplyTo(scene), job.Settings, previous: _drawable);
 
     public override void Dispose()
     {
@@ -41,5 +46,5 @@ internal sealed class DrawnFrames(DrawableScene drawable, RenderJob job) : Frame
     }
 
     private PixelImage DrawOn(View view, Colour? background) =>
-        _renderer.Draw(drawable, background is null ? view : view with { Background = background });
+        _renderer.Draw(_drawable, background is null ? view : view with { Background = background });
 }

@@ -48,8 +48,7 @@ internal static class RenderCommand
         var file = report.Measure("load", () => ConsoleLoader.Load(job.Path, job.Load, isTraced: trace is not null));
         InputFiles.Protect(output);
         var scene = job.WithProjection(file.Scene);
-        // A default camera frames the scene as it is at time 0, so that images of several times show the same view.
-        var view = job.CreateView(scene, (double)job.Size.Width / job.Size.Height);
+        var view = job.CreateFirstView(scene);
         scene = job.AtTime(file, scene);
         if (trace is not null)
         {

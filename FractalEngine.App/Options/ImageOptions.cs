@@ -32,7 +32,8 @@ internal sealed class ImageOptions(bool canKeepPartial)
     public (RenderJob Job, TracedImage? Trace) Read(ParseResult result)
     {
         var job = new RenderJob(
-            result.GetRequiredValue(_shared.File), _shared.LoadOptions(result), _draw.Resolution(result),
+            result.GetRequiredValue(_shared.File), _shared.LoadOptions(result) with { FilmTime = result.GetValue(_time) },
+            _draw.Resolution(result),
             _draw.Projection(result), _draw.Settings(result))
         {
             Time = result.GetValue(_time) ?? 0,

@@ -67,7 +67,7 @@ public abstract class FilmParser : SceneObjectParser
     private bool ParseNumberKey(Cursor cursor, double time, out FilmKey key, out Cursor rest)
     {
         key = default!;
-        if (!ParseName(cursor, "'c' or the name of a number", out var name, out rest) || !ParseBlanks(rest, out rest)
+        if (!ParseName(cursor, "the name of a number", out var name, out rest) || !ParseBlanks(rest, out rest)
             || !ParseChar(rest, '=', out rest) || !ParseBlanks(rest, out rest) || !ParseNumber(rest, out var value, out rest))
         {
             return false;

@@ -5,7 +5,7 @@ namespace FractalEngine.App.Window.State;
 /// <summary>The lines over the scene of a document.</summary>
 internal static class DocumentLines
 {
-    /// <summary>Adds the lines of what is selected, measured, cut and moved by handles to those of the bodies.</summary>
+    /// <summary>Adds the lines of what is selected, measured, cut, moved by handles and filmed to those of the bodies.</summary>
     /// <param name="document">The document, whose renderer draws the lines.</param>
     /// <param name="view">The present view in world space.</param>
     public static void Update(Document document, View view)
@@ -14,6 +14,7 @@ internal static class DocumentLines
         document.Section.AddLines(document.File.Scene.Bounds, lines);
         HandleLines.AddLines(document, view, lines);
         lines.AddRange(document.Renderer.Lines);
+        lines.AddRange(document.Film?.Lines ?? []);
         if (document.VisibleDepth > 0 && document.MapToDrawnFrame(null) is { } map)
         {
             lines = lines.ConvertAll(line => line with { From = map(line.From), To = map(line.To) });

@@ -15,6 +15,9 @@ public sealed record Film(double Duration)
     /// <summary>Those of the keys that are cameras, in their order.</summary>
     public IEnumerable<CameraKey> Cameras => Keys.OfType<CameraKey>();
 
+    /// <summary>Whether any number changes, and with it the shape of a fractal.</summary>
+    public bool HasNumbers => Keys.Any(static key => key is NumberKey);
+
     /// <summary>Returns the values of all numbers that have keys.</summary>
     /// <param name="time">Seconds; before its first key and after its last, a number has the value of that key.</param>
     public ImmutableDictionary<string, double> ValuesAt(double time)

@@ -55,7 +55,7 @@ public class FilmParserTests
             at 10.5 angle = 60 ease out
             """)).Scene.Film!;
         Assert.Equal(10.5, film.Duration);
-        Assert.Equal(
+        FilmKey[] expected =
             [
                 new CameraKey(0, new(new(0, 2, 9), Vector.Zero, 45)) { Target = (Vector.Zero, Vector.J) },
                 new NumberKey(0, "angle", 20),
@@ -63,8 +63,9 @@ public class FilmParserTests
                 new CameraKey(4.5, new(new(5, 3, 4), Vector.Zero, 40)) { Ease = Ease.Hold },
                 new NumberKey(10.5, "c", -60) { Ease = Ease.In },
                 new NumberKey(10.5, "angle", 60) { Ease = Ease.Out },
-            ],
-            film.Keys);
+            ];
+        Assert.Equal(expected.Length, film.Keys.Length);
+        Assert.All(expected.Zip(film.Keys), static pair => Assert.Equal(pair.First, pair.Second));
     }
 
     [Fact]
