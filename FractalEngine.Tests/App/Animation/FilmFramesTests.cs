@@ -118,7 +118,7 @@ public sealed class FilmFramesTests : DrawingCommandTests
     }
 
     [Theory]
-    [InlineData("at 0.5 leam = 3", "film.sdo:9:1: error: no fractal of the scene declares a number 'leam', did you mean 'lean'?\n"
+    [InlineData("at 0.5 leam = 3", "film.sdo:9:1: error: no fractal of the scene declares a number 'leam': did you mean 'lean'?\n"
         + "  at 0.5 leam = 3\n  ^\n", 1)]
     [InlineData("p \"cube.obj\" # 1", "error: film.sdo has physics objects, which can't move while the film changes numbers\n", 2)]
     public void Render_AFaultyFilm_SaysWhy(string line, string message, int exitCode)

@@ -12,6 +12,7 @@ public sealed class FilmWindowTests : IDisposable
 
     public FilmWindowTests()
     {
+        _folder.Write("cube.obj", "mtllib missing.mtl\n" + SampleFiles.Cube);
         _folder.Write("arms.fdo", "lean = 10 from 0 to 90\na. ((0, 1, 0), (0, 0, lean), (0.5))\nz<box>. [#, a.] box\n<$>. z 3\n");
         _folder.Write(
             "film.sdo",
@@ -19,6 +20,7 @@ public sealed class FilmWindowTests : IDisposable
             c (0, 0, -9) # 60
             film 0.75
             o "arms.fdo" #
+            o "cube.obj" ((-2, 0, 0), #, #)
             # The camera ends far away.
             at 0 c (0, 0.5, -5) # 60
             at 0.75 c (9, 0.5, -30) # 60
@@ -33,8 +35,7 @@ public sealed class FilmWindowTests : IDisposable
     [SkippableFact]
     public void Window_KeySpace_PlaysTheFilmToItsEndAndAgain()
     {
-        Display.Require();
-        using var window = DrivenWindow.Open(_folder, "film.sdo");
+        using var window = Open();
         var start = window.Screenshot();
         window.Send("key space");
         Polling.WaitUntil(() => Settles(window), "end of the film");
@@ -51,8 +52,7 @@ public sealed class FilmWindowTests : IDisposable
     [SkippableFact]
     public void Window_AddAKey_WritesItAtTheTimeOfTheFilm()
     {
-        Display.Require();
-        using var window = DrivenWindow.Open(_folder, "film.sdo");
+        using var window = Open();
         var start = window.Screenshot();
         window.Send("key space");
         Polling.WaitUntil(() => Settles(window), "end of the film");
@@ -64,7 +64,7 @@ public sealed class FilmWindowTests : IDisposable
         window.Send("key ctrl+s");
         window.WaitForError("saved film.sdo");
         var lines = File.ReadAllLines(_folder["film.sdo"]);
-        Assert.Equal(("# The camera ends far away.", "at 0 c (0, 0.5, -5) # 60", "at 0 lean = 0"), (lines[3], lines[4], lines[6]));
+        Assert.Equal(("# The camera ends far away.", "at 0 c (0, 0.5, -5) # 60", "at 0 lean = 0"), (lines[4], lines[5], lines[7]));
         var film = SceneFile.Read(_folder["film.sdo"]).Film!;
         var key = Assert.IsType<CameraKey>(film.Keys[1]);
         Assert.Equal((0.75, 4), (key.Time, film.Keys.Length));
@@ -77,6 +77,14 @@ public sealed class FilmWindowTests : IDisposable
         window.ClickText("Film path");
         Polling.WaitUntil(() => DrivenWindow.DifferingFraction(start, window.Screenshot()) > 0.0005, "path as a line");
         window.Kill();
+    }
+
+    private DrivenWindow Open()
+    {
+        var window = DrivenWindow.Open(_folder, "film.sdo");
+        // The program warns of the missing file as soon as it shows the scene.
+        window.WaitForError("missing.mtl");
+        return window;
     }
 
     /// <summary>Whether nothing has changed for a moment: a film that plays changes each frame.</summary>
