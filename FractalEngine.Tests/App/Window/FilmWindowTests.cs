@@ -12,7 +12,7 @@ public sealed class FilmWindowTests : IDisposable
 
     public FilmWindowTests()
     {
-        _folder.Write("cube.obj", "mtllib missing.mtl\n" + SampleFiles.Cube);
+        _folder.Write("cube.obj", "mtllib missing.mtl\nusemtl missing\n" + SampleFiles.Cube);
         _folder.Write("arms.fdo", "lean = 10 from 0 to 90\na. ((0, 1, 0), (0, 0, lean), (0.5))\nz<box>. [#, a.] box\n<$>. z 3\n");
         _folder.Write(
             "film.sdo",
