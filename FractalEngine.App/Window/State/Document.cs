@@ -26,6 +26,9 @@ internal sealed class Document : IDisposable
 {
     private readonly WindowStore _store;
 
+    // The view that the film has set last; null for none.
+    private CameraState? _filmView;
+
     /// <summary>Uploads the prepared models. Must be called on the window's thread.</summary>
     /// <param name="window">The window that shows the file.</param>
     /// <param name="area">The part of the window that panels leave free.</param>
@@ -117,8 +120,8 @@ internal sealed class Document : IDisposable
     /// <summary>The part of the scene that the window changes, as it is now.</summary>
     public SceneView SceneView => new(WithoutNegativeZeros(Camera), FlyingCamera.Projection, FlyingCamera.OrthographicHeight);
 
-    /// <summary>True when the view differs from the one that was loaded or saved.</summary>
-    public bool HasChanges => State.Draft.IsChanged(SceneView);
+    /// <summary>True when the view differs from the one that was loaded or saved, and is not that of the film.</summary>
+    public bool HasChanges => !ShowsFilm && State.Draft.IsChanged(SceneView);
 
     /// <summary>Whether the paper's zoom replaces that of the engine.</summary>
     public bool IsTrailEnabled { get; private set; }
@@ -134,6 +137,9 @@ internal sealed class Document : IDisposable
     /// <summary>Number of levels of the fractal that the present view is in; 0 outside, and for views that show the whole.</summary>
     public int VisibleDepth =>
         Physics.IsWalking || IsTrailEnabled || FlyingCamera.Projection != Projection.Perspective ? 0 : FlyingCamera.Depth;
+
+    /// <summary>Whether nobody has moved the camera since the film has.</summary>
+    private bool ShowsFilm => _filmView?.Equals(FlyingCamera.State) == true;
 
     private DocumentState State
     {
@@ -161,6 +167,11 @@ internal sealed class Document : IDisposable
 
         var projectionView = followsProjection ? fileView : view;
         FlyingCamera.SetProjection(projectionView.Projection, projectionView.OrthographicHeight);
+        if (previous.ShowsFilm && Film is { } film)
+        {
+            FollowFilm(film);
+        }
+
         if (File.Kind == FileKind.Fractal && !Physics.IsWalking && state.FollowsShape)
         {
             FlyingCamera.FollowShape(Area.Aspect);
@@ -314,6 +325,7 @@ internal sealed class Document : IDisposable
         if (film.Camera is { } camera && !Physics.IsWalking)
         {
             FlyingCamera.MoveTo(camera);
+            _filmView = FlyingCamera.State;
         }
     }
 

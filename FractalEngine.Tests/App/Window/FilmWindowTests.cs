@@ -61,18 +61,20 @@ public sealed class FilmWindowTests : IDisposable
         Polling.WaitUntil(() => DrivenWindow.DifferingFraction(end, window.Screenshot()) > 0.001, "another view");
         window.ClickText("Edit");
         window.ClickText("Add a key");
+        window.ClickText("Physics");
+        window.ClickText("Stop the film");
+        Polling.WaitUntil(() => DrivenWindow.DifferingFraction(start, window.Screenshot()) == 0, "view and numbers of the file");
+
         window.Send("key ctrl+s");
         window.WaitForError("saved film.sdo");
         var lines = File.ReadAllLines(_folder["film.sdo"]);
+        Assert.Equal("c (0, 0, -9) # 60", lines[0]);
         Assert.Equal(("# The camera ends far away.", "at 0 c (0, 0.5, -5) # 60", "at 0 lean = 0"), (lines[4], lines[5], lines[7]));
         var film = SceneFile.Read(_folder["film.sdo"]).Film!;
         var key = Assert.IsType<CameraKey>(film.Keys[1]);
         Assert.Equal((0.75, 4), (key.Time, film.Keys.Length));
         Assert.NotEqual(9, key.Camera.Position.X);
 
-        window.ClickText("Physics");
-        window.ClickText("Stop the film");
-        Polling.WaitUntil(() => DrivenWindow.DifferingFraction(start, window.Screenshot()) == 0, "view and numbers of the file");
         window.ClickText("View");
         window.ClickText("Film path");
         Polling.WaitUntil(() => DrivenWindow.DifferingFraction(start, window.Screenshot()) > 0.0005, "path as a line");
