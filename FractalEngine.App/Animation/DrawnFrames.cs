@@ -20,7 +20,7 @@ internal sealed class DrawnFrames(DrawableScene prepared, RenderJob job) : Frame
     private readonly Renderer _renderer = Renderer.Offscreen(job.Size.Width, job.Size.Height, job.Settings);
     private DrawableScene _drawable = prepared;
 
-    public override PixelImage CreateFrame(View view, CancellationToken cancellation, int part = 0)
+    public override PixelImage CreateFrame(View view, int part, CancellationToken cancellation)
     {
         cancellation.ThrowIfCancellationRequested();
         return job.Background.IsTransparent

@@ -10,10 +10,10 @@ internal abstract class FrameSource : IDisposable
 {
     /// <summary>Makes the image of a view.</summary>
     /// <param name="view">Camera and projection.</param>
-    /// <param name="cancellation">Ends the work on an image that takes long.</param>
     /// <param name="part">Number of the image among those of one frame, from 0: each has its own noise.</param>
+    /// <param name="cancellation">Ends the work on an image that takes long.</param>
     /// <exception cref="OperationCanceledException">The work was cancelled.</exception>
-    public abstract PixelImage CreateFrame(View view, CancellationToken cancellation, int part = 0);
+    public abstract PixelImage CreateFrame(View view, int part, CancellationToken cancellation);
 
     public abstract void Move(AnimatedBodies bodies);
 

@@ -54,7 +54,7 @@ internal sealed class TimedFrames(
             _shownTime = time;
         }
 
-        return frames.CreateFrame(motion(frame), cancellation, part);
+        return frames.CreateFrame(motion(frame), part, cancellation);
     }
 
     private static bool HaveSameValues(IReadOnlyDictionary<string, double> values, IReadOnlyDictionary<string, double> others) =>

@@ -16,7 +16,7 @@ internal sealed class TracedFrames(PathTracer prepared, RenderJob job, TracedIma
     private PathTracer _tracer = prepared;
     private LoadedScene? _nextScene;
 
-    public override PixelImage CreateFrame(View view, CancellationToken cancellation, int part = 0)
+    public override PixelImage CreateFrame(View view, int part, CancellationToken cancellation)
     {
         if (_nextScene is { } scene)
         {

@@ -62,7 +62,7 @@ internal static class RenderCommand
         using var notice = new SlowWorkNotice("drawing", report.IsQuiet);
         view = Zoom(drawable, view, job);
         using var frames = new DrawnFrames(drawable, job);
-        var image = report.Measure("draw", () => frames.CreateFrame(view, CancellationToken.None));
+        var image = report.Measure("draw", () => frames.CreateFrame(view, 0, CancellationToken.None));
         Write(image, output, report);
     }
 

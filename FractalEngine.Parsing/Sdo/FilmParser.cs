@@ -1,6 +1,5 @@
 using FractalEngine.Core.Scenes.Films;
 using FractalEngine.Parsing.Text;
-using FractalEngine.Parsing.Text.Grammar;
 
 namespace FractalEngine.Parsing.Sdo;
 
