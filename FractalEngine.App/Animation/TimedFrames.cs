@@ -1,3 +1,4 @@
+using System.Collections.Immutable;
 using FractalEngine.Core.Images;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Assets;
@@ -57,6 +58,7 @@ internal sealed class TimedFrames(
         return frames.CreateFrame(motion(frame), part, cancellation);
     }
 
-    private static bool HaveSameValues(IReadOnlyDictionary<string, double> values, IReadOnlyDictionary<string, double> others) =>
+    private static bool HaveSameValues(
+        ImmutableDictionary<string, double> values, ImmutableDictionary<string, double> others) =>
         values.All(pair => others[pair.Key].Equals(pair.Value));
 }

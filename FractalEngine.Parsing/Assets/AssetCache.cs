@@ -7,8 +7,8 @@ namespace FractalEngine.Parsing.Assets;
 
 /// <summary>
 /// Keeps what was read from files, so that loading again reads only those that have changed. Models whose files are unchanged are the
-/// same objects as before. It belongs to one set of <see cref="LoadOptions"/>, of which only edited texts and values of numbers may change, and serves one
-/// load at a time.
+/// same objects as before. It belongs to one set of <see cref="LoadOptions"/>, of which only edited texts and values of numbers may
+/// change, and serves one load at a time.
 /// </summary>
 public sealed class AssetCache
 {

@@ -1,3 +1,4 @@
+using FractalEngine.Core.Geometry;
 using FractalEngine.Render.Views;
 
 namespace FractalEngine.App.Window.State;
@@ -14,7 +15,10 @@ internal static class DocumentLines
         document.Section.AddLines(document.File.Scene.Bounds, lines);
         HandleLines.AddLines(document, view, lines);
         lines.AddRange(document.Renderer.Lines);
-        lines.AddRange(document.Film?.Lines ?? []);
+        IReadOnlyList<LineSegment> path = document.Film?.Lines ?? [];
+        lines.AddRange(path);
+        document.Renderer.LineBounds = document.VisibleDepth > 0 ? BoundingBox.Empty
+            : path.Aggregate(BoundingBox.Empty, static (box, line) => box.Including(line.From).Including(line.To));
         if (document.VisibleDepth > 0 && document.MapToDrawnFrame(null) is { } map)
         {
             lines = lines.ConvertAll(line => line with { From = map(line.From), To = map(line.To) });

@@ -12,7 +12,8 @@ public sealed class FilmFramesTests : DrawingCommandTests
 
     public FilmFramesTests()
     {
-        Folder.Write("arms.fdo", "lean = 10 from 0 to 90\nsize = 0.5\na. ((0, 1, 0), (0, 0, lean), (size))\nz<box>. [#, a.] box\n<$>. z 3\n");
+        Folder.Write(
+            "arms.fdo", "lean = 10 from 0 to 90\nsize = 0.5\na. ((0, 1, 0), (0, 0, lean), (size))\nz<box>. [#, a.] box\n<$>. z 3\n");
         Folder.Write(
             "film.sdo",
             """
@@ -83,7 +84,8 @@ public sealed class FilmFramesTests : DrawingCommandTests
 
             """);
         Animate(
-            "plate.sdo", "--fps", "1", "--shutter", "1", "--gather", "16", "--resolution", "64x16", "--no-ambient-occlusion", "--no-shadows");
+            "plate.sdo", "--fps", "1", "--shutter", "1", "--gather", "16", "--resolution", "64x16", "--no-ambient-occlusion",
+            "--no-shadows");
         var image = ReadImage("f-0001.png");
         for (int x = 0; x < 64; x++)
         {
@@ -113,7 +115,8 @@ public sealed class FilmFramesTests : DrawingCommandTests
         Animate("still.sdo", "--frames", "1", "--shutter", "0.5", "--trace", "16", "--no-denoise");
         var blurred = Pixels("f-0001.png");
         // Sixteen images of one sample each, with other noise than one of sixteen.
-        double difference = Still("still.sdo", "--time", "0", "--trace", "16", "--no-denoise").Zip(blurred).Average(pair => Math.Abs(pair.First - pair.Second));
+        double difference = Still("still.sdo", "--time", "0", "--trace", "16", "--no-denoise").Zip(blurred)
+            .Average(static pair => Math.Abs(pair.First - pair.Second));
         Assert.InRange(difference, 0, 3);
     }
 

@@ -12,8 +12,8 @@ namespace FractalEngine.Tests.Parsing.Sdo;
 /// <summary>Tests films in scene files: what their lines mean, how they are written, and what is said of faulty ones.</summary>
 public class FilmParserTests
 {
-    private static readonly Gen<Vector> AnyVector = Laws.AnyFinite.Three()
-        .Select(t => new Vector(Math.Clamp(t.Item1, -1e150, 1e150), Math.Clamp(t.Item2, -1e150, 1e150), Math.Clamp(t.Item3, -1e150, 1e150)));
+    private static readonly Gen<Vector> AnyVector = Laws.AnyFinite.Select(static number => Math.Clamp(number, -1e150, 1e150)).Three()
+        .Select(static t => new Vector(t.Item1, t.Item2, t.Item3));
 
     private static readonly Gen<Ease> Eases = Gen.Elements(Enum.GetValues<Ease>());
 
@@ -56,14 +56,14 @@ public class FilmParserTests
             """)).Scene.Film!;
         Assert.Equal(10.5, film.Duration);
         FilmKey[] expected =
-            [
-                new CameraKey(0, new(new(0, 2, 9), Vector.Zero, 45)) { Target = (Vector.Zero, Vector.J) },
-                new NumberKey(0, "angle", 20),
-                new CameraKey(4, new(new(5, 3, 4), Vector.Zero, 40)) { Target = (Vector.J, Vector.I), Ease = Ease.InOut },
-                new CameraKey(4.5, new(new(5, 3, 4), Vector.Zero, 40)) { Ease = Ease.Hold },
-                new NumberKey(10.5, "c", -60) { Ease = Ease.In },
-                new NumberKey(10.5, "angle", 60) { Ease = Ease.Out },
-            ];
+        [
+            new CameraKey(0, new(new(0, 2, 9), Vector.Zero, 45)) { Target = (Vector.Zero, Vector.J) },
+            new NumberKey(0, "angle", 20),
+            new CameraKey(4, new(new(5, 3, 4), Vector.Zero, 40)) { Target = (Vector.J, Vector.I), Ease = Ease.InOut },
+            new CameraKey(4.5, new(new(5, 3, 4), Vector.Zero, 40)) { Ease = Ease.Hold },
+            new NumberKey(10.5, "c", -60) { Ease = Ease.In },
+            new NumberKey(10.5, "angle", 60) { Ease = Ease.Out },
+        ];
         Assert.Equal(expected.Length, film.Keys.Length);
         Assert.All(expected.Zip(film.Keys), static pair => Assert.Equal(pair.First, pair.Second));
     }
@@ -74,10 +74,10 @@ public class FilmParserTests
         const string text = "film   2\n# first\nat 0   a=1\nat 1  a = 2\nat 2   a=3 # ";
         var parsed = SceneParser.Parse(new("test.sdo", text[..^3]));
         var film = parsed.Scene.Film!;
+        var changed = film with { Keys = film.Keys.SetItem(1, new NumberKey(1, "a", 5) { Ease = Ease.Out }) };
         Assert.Equal(
             "film   2\n# first\nat 0   a=1\nat 1 a = 5 ease out\nat 2   a=3",
-            SceneWriter.Write(
-                parsed.Scene with { Film = film with { Keys = film.Keys.SetItem(1, new NumberKey(1, "a", 5) { Ease = Ease.Out }) } }, parsed));
+            SceneWriter.Write(parsed.Scene with { Film = changed }, parsed));
         Assert.Equal("# first\n", SceneWriter.Write(parsed.Scene with { Film = null }, parsed));
     }
 

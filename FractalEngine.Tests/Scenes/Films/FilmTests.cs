@@ -68,7 +68,8 @@ public class FilmTests
         Assert.All(keys, key =>
         {
             var camera = path.At(key.Time);
-            Assert.Equal((key.Camera.Position, key.Camera.FieldOfView, handedness), (camera.Position, camera.FieldOfView, camera.Handedness));
+            Assert.Equal(
+                (key.Camera.Position, key.Camera.FieldOfView, handedness), (camera.Position, camera.FieldOfView, camera.Handedness));
             if (key.Target is var (point, _))
             {
                 Near.Equal((point - camera.Position).UnitVector(), camera.LocalAxes.V3, 1e-12);
