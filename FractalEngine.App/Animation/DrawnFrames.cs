@@ -36,8 +36,17 @@ internal sealed class DrawnFrames(DrawableScene prepared, RenderJob job) : Frame
         }
     }
 
-    public override void Replace(LoadedScene scene) =>
-        _drawable = DrawableScene.Prepare(job.Background.ApplyTo(scene), job.Settings, previous: _drawable);
+    public override void Replace(LoadedScene scene)
+    {
+        var preparation = new ScenePreparation(job.Background.ApplyTo(scene), job.Settings, _drawable);
+        preparation.PrepareAll(null, CancellationToken.None);
+        if (preparation.HasUnbakedSky(job.Settings))
+        {
+            preparation.BakeSky(CancellationToken.None);
+        }
+
+        _drawable = preparation.Scene;
+    }
 
     public override void Dispose()
     {

@@ -72,9 +72,6 @@ public sealed class DrawableScene
     /// <param name="scene">Scene with its files loaded.</param>
     /// <param name="settings">Settings with the budgets and the crease angle.</param>
     /// <param name="progress">Receives a report before and after each model, on this thread; null for none.</param>
-    /// <param name="previous">
-    /// A scene that was prepared with the same settings; null for none. Models that both scenes have are prepared already.
-    /// </param>
     /// <param name="cancellation">Cancels between two models, and within a fractal's light.</param>
     /// <exception cref="OperationCanceledException">Preparation was cancelled.</exception>
     /// <remarks>Without culling, time and memory grow with the instances: about 0.2 s and 150 MB a million.</remarks>
@@ -82,10 +79,9 @@ public sealed class DrawableScene
         LoadedScene scene,
         RenderSettings settings,
         IProgress<PreparationProgress>? progress = null,
-        DrawableScene? previous = null,
         CancellationToken cancellation = default)
     {
-        var preparation = new ScenePreparation(scene, settings, previous);
+        var preparation = new ScenePreparation(scene, settings);
         preparation.PrepareAll(progress, cancellation);
         if (preparation.HasUnbakedSky(settings))
         {

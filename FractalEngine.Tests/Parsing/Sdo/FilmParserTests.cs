@@ -1,6 +1,5 @@
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
-using FractalEngine.Core.Scenes.Cameras;
 using FractalEngine.Core.Scenes.Films;
 using FractalEngine.Parsing.Sdo;
 using FractalEngine.Tests.Support;
