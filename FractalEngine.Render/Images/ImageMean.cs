@@ -12,7 +12,7 @@ public sealed class ImageMean(int width, int height)
     private readonly double[] _sums = new double[4 * width * height];
     private int _count;
 
-    /// <summary>Adds an image.</summary>
+    /// <summary>Takes an image into the mean, with as much weight as each other.</summary>
     /// <param name="image">Of the size of the others, transparent or not.</param>
     /// <exception cref="ArgumentException">The image has another size.</exception>
     public void Add(PixelImage image)
