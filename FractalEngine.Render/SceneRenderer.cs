@@ -70,6 +70,9 @@ public sealed class SceneRenderer : IDisposable
     /// <summary>Lines that are drawn over the scene: in world space, or in a deep zoom in the frame of its roots.</summary>
     public IReadOnlyList<LineSegment> Lines { get; set; } = [];
 
+    /// <summary>A box, world space, in which lines are seen though no object is there: the clip planes enclose it.</summary>
+    public BoundingBox LineBounds { get; set; } = BoundingBox.Empty;
+
     /// <summary>
     /// Counts and times of the last frame, where instances are culled (<see cref="RenderSettings.Culling"/>). Reading it costs a pass over
     /// the scene's objects.
@@ -185,8 +188,8 @@ public sealed class SceneRenderer : IDisposable
     /// </returns>
     public (double Near, double Far) ClipPlanes(View view, int width, int height, RenderSettings settings) => SceneClipPlanes.Of(
         view, view.EffectiveAspect(width, height),
-        BoundingBox.Union(LinesPass.BoundsIncludingLines(Bounds, settings), _objectsPass.LampBounds),
-        settings.Grid || settings.Axes || !_objectsPass.LampBounds.IsEmpty, _transforms.Bounds, _spheres,
+        BoundingBox.Union(LinesPass.BoundsIncludingLines(Bounds, settings), BoundingBox.Union(_objectsPass.LampBounds, LineBounds)),
+        settings.Grid || settings.Axes || !_objectsPass.LampBounds.IsEmpty || !LineBounds.IsEmpty, _transforms.Bounds, _spheres,
         _hasMoved ? SceneBounds.GridOf(Scene) : 0);
 
     /// <summary>Culls the instances for a frame without drawing it, on the context's thread.</summary>

@@ -53,6 +53,14 @@ playground() {
     montage "$work"/{0,0.6,1.2,2.4,5,9}.png -tile 3x2 -geometry 480x270+2+2 -background white "$images/playground.png"
 }
 
+film() {
+    local time
+    for time in 0 3 5 6.5; do
+        run render assets/scenes/dragon.sdo --time "$time" --output "$work/$time.png" --resolution 480x270
+    done
+    montage "$work"/{0,3,5,6.5}.png -tile 2x2 -geometry 480x270+2+2 -background white "$images/film.png"
+}
+
 # A row for each scene: without shadows and occlusion, with shadows, with both, traced.
 light() {
     local scene tiles=()
@@ -108,7 +116,7 @@ make_image() {
         classic-cantor) classic cantor '(1.7, 1.4, -4.4) look-at (0, -0.02, 0) 18' ;;
         classic-pythagoras) classic pythagoras '(6.14, 4.04, -9.83) look-at (0, 1.28, 0) 25' ;;
         traced-*) draw "$1" "assets/scenes/${1#traced-}.sdo" 640x360 --trace 64 ;;
-        playground | light) "$1" ;;
+        playground | film | light) "$1" ;;
         approximate-tree) approximated_asset tree fractals --depth 5 ;;
         approximate-romanesco) approximated_asset romanesco fractals --depth 2 ;;
         approximate-snowflake) approximated_asset snowflake fractals --depth 3 ;;
@@ -135,7 +143,7 @@ make_image() {
 }
 
 all=(
-    forest gallery cathedral reef menger inside appendix-b gradients palettes textured winter playground angles
+    forest gallery cathedral reef menger inside appendix-b gradients palettes textured winter playground film angles
     wood city conifer coral tower flake
     classic-bush classic-context-tree classic-arch classic-synth-tree classic-dragon
     classic-koch classic-jerusalem classic-vicsek classic-cantor classic-pythagoras

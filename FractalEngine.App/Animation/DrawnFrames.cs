@@ -14,16 +14,17 @@ using FractalEngine.Render.Windowing;
 namespace FractalEngine.App.Animation;
 
 /// <summary>Draws an image, or the frames of an animation, with OpenGL, before the background of a command.</summary>
-/// <param name="drawable">The prepared scene.</param>
+/// <param name="prepared">The prepared scene.</param>
 /// <param name="job">Size, background and settings of the images.</param>
 /// <exception cref="GraphicsUnavailableException">There is no display, or no OpenGL 3.3.</exception>
-internal sealed class DrawnFrames(DrawableScene drawable, RenderJob job) : FrameSource
+internal sealed class DrawnFrames(DrawableScene prepared, RenderJob job) : FrameSource
 {
     private readonly Renderer _renderer = Renderer.Offscreen(job.Size.Width, job.Size.Height, job.Settings);
-    private LoadedScene _scene = drawable.Source;
+    private DrawableScene _drawable = prepared;
+    private LoadedScene _scene = prepared.Source;
     private PathTracer? _tracer;
 
-    public override PixelImage CreateFrame(View view, CancellationToken cancellation)
+    public override PixelImage CreateFrame(View view, int part, CancellationToken cancellation)
     {
         cancellation.ThrowIfCancellationRequested();
         return job.Background.IsTransparent
@@ -31,7 +32,7 @@ internal sealed class DrawnFrames(DrawableScene drawable, RenderJob job) : Frame
             : DrawOn(view, job.Background.Colour);
     }
 
-    public override LightFrame CreateLight(View view, CancellationToken cancellation)
+    public override LightFrame CreateLight(View view, int part, CancellationToken cancellation)
     {
         cancellation.ThrowIfCancellationRequested();
         var layers = job.Format!.Layers;
@@ -39,7 +40,7 @@ internal sealed class DrawnFrames(DrawableScene drawable, RenderJob job) : Frame
         _tracer = layers.All(static layer => layer == FrameLayer.Colour) ? null
             : _tracer?.WithScene(_scene, view, job.Size.Width, job.Size.Height)
             ?? new(_scene, view, job.Size.Width, job.Size.Height, job.Settings);
-        var declared = drawable.Source.Scene;
+        var declared = _drawable.Source.Scene;
         var frame = job.Background.IsTransparent
             ? LightFrame.Combine(LightOn(view, Colour.Black), LightOn(view, Colour.White), declared)
             : new(LightOn(view, job.Background.Colour), declared);
@@ -51,8 +52,21 @@ internal sealed class DrawnFrames(DrawableScene drawable, RenderJob job) : Frame
         _scene = bodies.GetScene();
         foreach (var (index, map) in bodies.Maps)
         {
-            _renderer.Move(drawable, index, map);
+            _renderer.Move(_drawable, index, map);
         }
+    }
+
+    public override void Replace(LoadedScene scene)
+    {
+        var preparation = new ScenePreparation(job.Background.ApplyTo(scene), job.Settings, _drawable);
+        preparation.PrepareAll(null, CancellationToken.None);
+        if (preparation.HasUnbakedSky(job.Settings))
+        {
+            preparation.BakeSky(CancellationToken.None);
+        }
+
+        _drawable = preparation.Scene;
+        _scene = _drawable.Source;
     }
 
     public override void Dispose()
@@ -61,9 +75,9 @@ internal sealed class DrawnFrames(DrawableScene drawable, RenderJob job) : Frame
         base.Dispose();
     }
 
-    private PixelImage DrawOn(View view, Colour? background) => _renderer.Draw(drawable, Before(view, background));
+    private PixelImage DrawOn(View view, Colour? background) => _renderer.Draw(_drawable, Before(view, background));
 
-    private FloatImage LightOn(View view, Colour? background) => _renderer.DrawLight(drawable, Before(view, background));
+    private FloatImage LightOn(View view, Colour? background) => _renderer.DrawLight(_drawable, Before(view, background));
 
     private static View Before(View view, Colour? background) => background is null ? view : view with { Background = background };
 }

@@ -15,28 +15,33 @@ namespace FractalEngine.App.Animation;
 internal sealed class TracedFrames(PathTracer prepared, RenderJob job, TracedImage trace) : FrameSource
 {
     private PathTracer _tracer = prepared;
-    private LoadedScene? _movedScene;
+    private LoadedScene? _nextScene;
 
-    public override PixelImage CreateFrame(View view, CancellationToken cancellation)
+    public override PixelImage CreateFrame(View view, int part, CancellationToken cancellation)
     {
-        Trace(view, cancellation);
+        Trace(view, part, cancellation);
         return _tracer.Denoise(cancellation: cancellation);
     }
 
-    public override LightFrame CreateLight(View view, CancellationToken cancellation)
+    public override LightFrame CreateLight(View view, int part, CancellationToken cancellation)
     {
-        Trace(view, cancellation);
+        Trace(view, part, cancellation);
         return _tracer.ToLightFrame(job.Format!.Layers, cancellation);
     }
 
-    private void Trace(View view, CancellationToken cancellation)
+    private void Trace(View view, int part, CancellationToken cancellation)
     {
-        _tracer = _movedScene is { } scene
-            ? trace.CreateTracer(scene, view, job, _tracer)
-            : _tracer.WithView(view, job.Size.Width, job.Size.Height);
-        _movedScene = null;
+        if (_nextScene is { } scene)
+        {
+            _tracer = trace.CreateTracer(scene, view, job, _tracer);
+        }
+
+        _tracer = _tracer.WithView(view, job.Size.Width, job.Size.Height, trace.Seed + part);
+        _nextScene = null;
         trace.AddSamples(_tracer, cancellation);
     }
 
-    public override void Move(AnimatedBodies bodies) => _movedScene = bodies.GetScene();
+    public override void Move(AnimatedBodies bodies) => Replace(bodies.GetScene());
+
+    public override void Replace(LoadedScene scene) => _nextScene = scene;
 }

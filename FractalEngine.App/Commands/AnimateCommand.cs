@@ -14,9 +14,6 @@ namespace FractalEngine.App.Commands;
 /// <summary>The command <c>animate FILE --output X.apng</c>, which draws a moving camera or moving bodies into many frames.</summary>
 internal static class AnimateCommand
 {
-    private const int DefaultFrameCount = 60;
-    public const int MaxFrameCount = 100_000;
-
     /// <summary>Largest number of frames a second.</summary>
     public const double MaxFramesPerSecond = 655;
     private const int DefaultFramesPerSecond = 25;
@@ -31,18 +28,22 @@ internal static class AnimateCommand
             HelpName = "FILE",
             Required = true,
         };
-        var frames = NumberOption.Integer("--frames", "N", 1, MaxFrameCount, $"Number of frames (default: {DefaultFrameCount}).");
+        var frames = NumberOption.Integer(
+            "--frames", "N", 1, AnimationJob.MaxFrameCount,
+            $"Number of frames (default: those of the scene's film, or {AnimationJob.DefaultFrameCount}).");
         var rate = NumberOption.Decimal("--fps", "F", 0.01, MaxFramesPerSecond, $"Frames a second (default: {DefaultFramesPerSecond}).");
+        var shutter = NumberOption.Decimal(
+            "--shutter", "PART", 0, 1, "Part of a frame's time in which the shutter is open, so that what moves is blurred (default: 0).");
         var turntable = new Option<bool>("--turntable") { Description = "Turn the camera once around the middle of the scene." };
         var simulate = new Option<bool>("--simulate") { Description = "Let the physics objects of the scene move." };
         var path = SharedOptions.TextOption(
             "--path", "CAMERAS.txt", "Fly through the cameras of a list, one a line as --camera takes it; '-' is the standard input.");
         var command = new DocumentedCommand(
-            "animate", "Draw FILE into the frames of an animation: --turntable, --zoom, --path and --simulate say what moves.",
+            "animate", "Draw FILE into the frames of an animation: its film, --turntable, --zoom, --path and --simulate say what moves.",
             "animate assets/fractals/tree.fdo --turntable --output out/tree.apng --resolution 480x270",
             "animate assets/scenes/playground.sdo --simulate --frames 120 --output out/frames.png")
         {
-            output, frames, rate, turntable, simulate, path,
+            output, frames, rate, shutter, turntable, simulate, path,
         };
         images.AddTo(command);
         report.AddTo(command);
@@ -55,39 +56,39 @@ internal static class AnimateCommand
                     "--camera, --view, --look-from, --look-at, --aperture and --focus have no effect with --path, which names the cameras");
             }
 
-            if (result.GetValue(rate) is not null && !result.GetValue(simulate)
-                && AnimationOutput.HasNoTimes(result.GetRequiredValue(output)))
-            {
-                throw new UsageException("--fps has no effect on numbered images unless --simulate moves something");
-            }
-
             var animation = new AnimationJob(
-                job, result.GetRequiredValue(output), result.GetValue(frames) ?? DefaultFrameCount,
+                job with { Load = job.Load with { FilmTime = job.Time } }, result.GetRequiredValue(output), result.GetValue(frames),
                 result.GetValue(rate) ?? DefaultFramesPerSecond, result.GetValue(turntable), result.GetValue(path),
                 result.GetValue(simulate))
             {
                 Trace = trace,
+                Shutter = result.GetValue(shutter) ?? 0,
             };
-            return Run(animation, report.Begin(result));
+            return Run(animation, result.GetValue(rate) is not null, report.Begin(result));
         });
         return command;
     }
 
-    private static int Run(AnimationJob animation, WrittenReport report)
+    private static int Run(AnimationJob animation, bool hasRate, WrittenReport report)
     {
         animation.Check();
-        // Before anything is loaded, since a video needs a program that may be missing.
-        using var output = animation.CreateOutput();
         var job = animation.Images;
         var file = report.Measure("load", () => ConsoleLoader.Load(job.Path, job.Load, isTraced: animation.Trace is not null));
+        var scene = job.WithProjection(file.Scene);
+        animation = animation.For(scene);
+        job = animation.Images;
+        if (hasRate && scene.Scene.Film is null && !animation.IsSimulated && AnimationOutput.HasNoTimes(animation.Output))
+        {
+            throw new UsageException("--fps has no effect on numbered images unless --simulate or a film moves something");
+        }
+
+        using var output = animation.CreateOutput();
         foreach (var written in output.Files)
         {
             InputFiles.Protect(written);
         }
 
-        var scene = job.WithProjection(file.Scene);
-        // A default camera frames the scene as it is at time 0, as in a still image.
-        var view = job.CreateView(scene, (double)job.Size.Width / job.Size.Height);
+        var view = job.CreateFirstView(scene);
         if (animation.IsSimulated)
         {
             job.RequireMotion(scene, "there is nothing to simulate");
@@ -98,12 +99,12 @@ internal static class AnimateCommand
         var bodies = animation.IsSimulated ? new AnimatedBodies(job.Path, file, scene) : null;
         scene = bodies is null ? job.AtTime(file, scene) : scene;
         using var frames = CreateFrames(animation, scene, view, report, out var motion);
-        return Write(animation, frames, motion, bodies, output, report);
+        return Write(animation, new(animation, frames, motion, scene, bodies), output, report);
     }
 
     /// <summary>Prepares a scene for drawing or tracing, and the motion of the camera.</summary>
     private static FrameSource CreateFrames(
-        AnimationJob animation, LoadedScene scene, View view, WrittenReport report, out Func<int, View> motion)
+        AnimationJob animation, LoadedScene scene, View view, WrittenReport report, out Func<double, View> motion)
     {
         var job = animation.Images;
         if (animation.Trace is { } trace)
@@ -119,30 +120,24 @@ internal static class AnimateCommand
         return new DrawnFrames(drawable, job);
     }
 
-    private static int Write(
-        AnimationJob animation, FrameSource frames, Func<int, View> motion, AnimatedBodies? bodies, AnimationOutput output,
-        WrittenReport report)
+    private static int Write(AnimationJob animation, TimedFrames frames, AnimationOutput output, WrittenReport report)
     {
         using var interruption = new InterruptSignal();
-        var progress = new TerminalProgress("frame", animation.FrameCount, report.IsQuiet);
+        var count = animation.FrameCount!.Value;
+        var progress = new TerminalProgress("frame", count, report.IsQuiet);
         var done = 0;
         try
         {
-            for (; done < animation.FrameCount; done++)
+            for (; done < count; done++)
             {
-                if (bodies?.AdvanceTo(animation.TimeOf(done), interruption.Token) == true)
-                {
-                    frames.Move(bodies);
-                }
-
                 if (animation.Images.Format is { } format)
                 {
-                    var frame = frames.CreateLight(motion(done), interruption.Token);
+                    var frame = frames.CreateLight(done, interruption.Token);
                     output.AddFile(stream => format.Write(frame, stream));
                 }
                 else
                 {
-                    output.Add(frames.CreateFrame(motion(done), interruption.Token));
+                    output.Add(frames.Create(done, interruption.Token));
                 }
 
                 progress.Report(done + 1);

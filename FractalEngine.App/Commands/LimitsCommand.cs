@@ -1,4 +1,5 @@
 using System.CommandLine;
+using FractalEngine.App.Animation;
 using FractalEngine.App.Jobs;
 using FractalEngine.App.Options;
 using FractalEngine.App.Shell;
@@ -33,7 +34,7 @@ internal static class LimitsCommand
     [
         ("--zoom", CameraZoom.MaxLevels, "levels that an image flies into a fractal: each takes some frames to find the way"),
         ("--time", SharedOptions.MaxTime, "seconds simulated before an image: minutes of work"),
-        ("--frames", AnimateCommand.MaxFrameCount, "frames of an animation: their numbers have a fixed width"),
+        ("--frames", AnimationJob.MaxFrameCount, "frames of an animation: their numbers have a fixed width"),
         ("--fps", AnimateCommand.MaxFramesPerSecond, "frames a second: an animated PNG has times of 16 bits"),
         ("--resolution", SharedOptions.MaxImageSide, "pixels along a side of an image: drivers allow less, and say so"),
         ("--samples", DrawOptions.MaxSamples, "samples of each drawn pixel: drivers allow less, and give what they have"),

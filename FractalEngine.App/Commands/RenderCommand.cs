@@ -50,8 +50,7 @@ internal static class RenderCommand
         var file = report.Measure("load", () => ConsoleLoader.Load(job.Path, job.Load, isTraced: trace is not null));
         InputFiles.Protect(output);
         var scene = job.WithProjection(file.Scene);
-        // A default camera frames the scene as it is at time 0, so that images of several times show the same view.
-        var view = job.CreateView(scene, (double)job.Size.Width / job.Size.Height);
+        var view = job.CreateFirstView(scene);
         scene = job.Exposed(job.AtTime(file, scene), view);
         if (trace is not null)
         {
@@ -67,11 +66,11 @@ internal static class RenderCommand
         using var frames = new DrawnFrames(drawable, job);
         if (job.Format is { } format)
         {
-            Write(report.Measure("draw", () => frames.CreateLight(view, CancellationToken.None)), format, output, report);
+            Write(report.Measure("draw", () => frames.CreateLight(view, 0, CancellationToken.None)), format, output, report);
         }
         else
         {
-            Write(report.Measure("draw", () => frames.CreateFrame(view, CancellationToken.None)), output, report);
+            Write(report.Measure("draw", () => frames.CreateFrame(view, 0, CancellationToken.None)), output, report);
         }
     }
 

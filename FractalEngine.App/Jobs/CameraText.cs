@@ -2,6 +2,7 @@ using FractalEngine.App.Shell;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Scenes.Cameras;
+using FractalEngine.Core.Scenes.Films;
 using FractalEngine.Parsing.Sdo;
 using FractalEngine.Parsing.Text;
 using FractalEngine.Render.Cameras;
@@ -48,7 +49,7 @@ internal static class CameraText
             Console.Error.WriteLine(warning);
         }
 
-        return scene.Camera!.Position.MaxAbsComponent() <= CameraPath.MaxCoordinate ? scene.Camera : throw new SourceException(
+        return scene.Camera!.Position.MaxAbsComponent() <= CameraKey.MaxCoordinate ? scene.Camera : throw new SourceException(
             new(file, line, 1, DiagnosticSeverity.Error, "the camera of a path is beyond the limit of 1e150") { IsLimitExceeded = true });
     }
 

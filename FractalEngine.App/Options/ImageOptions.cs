@@ -46,7 +46,8 @@ internal sealed class ImageOptions(bool canKeepPartial)
         var format = LightFormat.Parse(output, result.GetValue(_bits), result.GetValue(_layers), trace is not null);
         format?.CheckSize(_draw.Resolution(result));
         var job = new RenderJob(
-            result.GetRequiredValue(_shared.File), _draw.Staged(result, _shared.LoadOptions(result)), _draw.Resolution(result),
+            result.GetRequiredValue(_shared.File),
+            _draw.Staged(result, _shared.LoadOptions(result)) with { FilmTime = result.GetValue(_time) }, _draw.Resolution(result),
             _draw.Projection(result), _draw.Settings(result) with { KeepsLight = format is not null })
         {
             Format = format,

@@ -2,6 +2,7 @@ using System.Collections.Immutable;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes.Cameras;
+using FractalEngine.Core.Scenes.Films;
 using FractalEngine.Core.Scenes.Lights;
 
 namespace FractalEngine.Core.Scenes;
@@ -95,6 +96,9 @@ public sealed record Scene
     /// <summary>The player who walks in the scene; null for none.</summary>
     public Player? Player { get; init; }
 
+    /// <summary>How camera and numbers change in the course of time; null for a scene without a film.</summary>
+    public Film? Film { get; init; }
+
     /// <inheritdoc/>
     public bool Equals(Scene? other) =>
         other is not null && Camera == other.Camera && Projection == other.Projection
@@ -102,7 +106,7 @@ public sealed record Scene
         && Background == other.Background && Sky == other.Sky && Probe == other.Probe
         && Exposure.Equals(other.Exposure) && Tone == other.Tone && HasAutoExposure == other.HasAutoExposure
         && Fog == other.Fog && Lights.SequenceEqual(other.Lights) && Objects.SequenceEqual(other.Objects)
-        && Gravity == other.Gravity && Player == other.Player && Handedness == other.Handedness;
+        && Gravity == other.Gravity && Player == other.Player && Film == other.Film && Handedness == other.Handedness;
 
     /// <inheritdoc/>
     public override int GetHashCode() =>

@@ -7,8 +7,8 @@ namespace FractalEngine.Parsing.Assets;
 
 /// <summary>
 /// Keeps what was read from files, so that loading again reads only those that have changed. Models whose files are unchanged are the
-/// same objects as before. It belongs to one set of <see cref="LoadOptions"/>, of which only edited texts may change, and serves one
-/// load at a time.
+/// same objects as before. It belongs to one set of <see cref="LoadOptions"/>, of which only edited texts and values of numbers may
+/// change, and serves one load at a time.
 /// </summary>
 public sealed class AssetCache
 {
@@ -39,9 +39,9 @@ public sealed class AssetCache
         return contents;
     }
 
-    /// <summary>Returns a model of which no file and no edited text has changed; null for one that must be made again.</summary>
-    internal CachedModel? FindModel(string path, string? editedText) =>
-        _models.TryGetValue(path, out var cached) && ReferenceEquals(cached.EditedText, editedText)
+    /// <summary>Returns a model of which no file, edited text or value has changed; null for one that must be made again.</summary>
+    internal CachedModel? FindModel(string path, string? editedText, ImmutableDictionary<string, double> values) =>
+        _models.TryGetValue(path, out var cached) && ReferenceEquals(cached.EditedText, editedText) && cached.HasValues(values)
         && cached.Files.All(static file => FileStamp.Of(file.Key) == file.Value) ? cached : null;
 
     internal void Store(string path, CachedModel model) => _models[path] = model;
@@ -76,7 +76,16 @@ public sealed class AssetCache
     /// <param name="Warnings">The warnings about the files.</param>
     /// <param name="StorageBytes">Size of the files that were read, in bytes.</param>
     /// <param name="EditedText">The text in place of the model's own file; null where that was read.</param>
+    /// <param name="Values">Values of named numbers that it was made with.</param>
     internal sealed record CachedModel(
         Model Model, ImmutableDictionary<string, FileStamp> Files, ImmutableArray<Diagnostic> Warnings, long StorageBytes,
-        string? EditedText);
+        string? EditedText, ImmutableDictionary<string, double> Values)
+    {
+        /// <summary>Tells whether it would be the same with other values: none of its own numbers has another one.</summary>
+        public bool HasValues(ImmutableDictionary<string, double> values) => Model is not FractalModel fractal
+            || fractal.NumberNames.All(name => Find(values, name).Equals(Find(Values, name)));
+
+        private static double? Find(ImmutableDictionary<string, double> values, string name) =>
+            values.TryGetValue(name, out var value) ? value : null;
+    }
 }

@@ -1,8 +1,10 @@
 using System.Collections.Immutable;
+using FractalEngine.Core;
 using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Scenes.Cameras;
+using FractalEngine.Core.Scenes.Films;
 using FractalEngine.Core.Scenes.Lights;
 using FractalEngine.Parsing.Assets.References;
 using FractalEngine.Parsing.Sdo;
@@ -128,6 +130,11 @@ public sealed class AssetLoader
         var text = _models.ReadText(_fullPath, _path, ParsingLimits.DescriptionBytes.Value);
         var parsed = _findsAllFaults ? SceneParser.Parse(text, _errors) : SceneParser.Parse(text);
         _models.Warnings.AddRange(parsed.Warnings);
+        if (_options.FilmTime is { } time && parsed.Scene.Film is { } film)
+        {
+            _models.Values = film.ValuesAt(time).SetItems(_options.Values);
+        }
+
         var objects = ImmutableArray.CreateBuilder<SceneObject>(parsed.Scene.Objects.Length);
         foreach (var (declared, offset) in parsed.Scene.Objects.Zip(parsed.FileNameOffsets))
         {
@@ -147,6 +154,7 @@ public sealed class AssetLoader
         var scene = LoadedScene.Of(parsed.Scene with { Objects = objects.DrainToImmutable(), Sky = sky });
         if (_errors.Count == 0)
         {
+            RequireKnownNumbers(scene, parsed);
             RequireFiniteBounds(scene, parsed);
         }
 
@@ -165,6 +173,21 @@ public sealed class AssetLoader
             if (_knownErrors.Add(exception.Diagnostic))
             {
                 _errors.Add(exception.Diagnostic);
+            }
+        }
+    }
+
+    /// <summary>Throws for a key of a number that no fractal has.</summary>
+    private static void RequireKnownNumbers(LoadedScene scene, ParsedScene parsed)
+    {
+        var names = scene.Models.OfType<FractalModel>().SelectMany(static model => model.NumberNames);
+        foreach (var (index, key) in (parsed.Scene.Film?.Keys ?? []).Index())
+        {
+            if (key is NumberKey { Name: var name } && !names.Contains(name))
+            {
+                throw parsed.Source.Error(
+                    parsed.DeclarationOffset(index, SceneDeclarationKind.FilmKey),
+                    $"no fractal of the scene declares a number '{name}'{NameSuggestion.Ask(name, names)}");
             }
         }
     }

@@ -26,6 +26,12 @@ public sealed record LoadOptions
     public ImmutableDictionary<string, double> Values { get; init; } = ImmutableDictionary<string, double>.Empty;
 
     /// <summary>
+    /// Time of the scene's film, seconds, whose values the named numbers have unless <see cref="Values"/> say otherwise; null for those of
+    /// the fractals' files.
+    /// </summary>
+    public double? FilmTime { get; init; }
+
+    /// <summary>
     /// Text of a scene or fractal that takes the place of the file, whatever its name ends in; null to read the file. A text with a result
     /// <c>&lt;$&gt;</c> is a fractal. Names in it are relative to the folder of the path.
     /// </summary>

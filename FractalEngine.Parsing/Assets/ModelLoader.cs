@@ -44,11 +44,15 @@ internal sealed class ModelLoader
     {
         _fullPath = fullPath;
         _options = options;
+        Values = options.Values;
         _progress = progress;
         _cache = options.ShareModels ? cache : null;
         _references = new(AssetFolder.ForFile(fullPath), options.AllowOutsideFiles, Record);
         _materials = new(_references, Warnings, Record, _cache);
     }
+
+    /// <summary>Values of named numbers of fractals.</summary>
+    public ImmutableDictionary<string, double> Values { get; set; }
 
     /// <summary>The files that were looked at.</summary>
     public FileRecord Record { get; } = new();
@@ -121,7 +125,7 @@ internal sealed class ModelLoader
     /// <exception cref="SourceException">The file can't be loaded.</exception>
     public Model LoadModel(string fullPath, string displayName, FileKind? kind)
     {
-        if (_cache?.FindModel(fullPath, EditedText(fullPath)) is { } cached)
+        if (_cache?.FindModel(fullPath, EditedText(fullPath), Values) is { } cached)
         {
             Record.AddRange(cached.Files);
             Warnings.AddRange(cached.Warnings);
@@ -134,7 +138,8 @@ internal sealed class ModelLoader
         var bytesBefore = StorageBytes;
         Model model = kind == FileKind.Fractal ? LoadFractal(fullPath, displayName) : LoadMesh(fullPath, displayName);
         _cache?.Store(fullPath, new(
-            model, Record.Since(filesBefore), [.. Warnings.Skip(warningsBefore)], StorageBytes - bytesBefore, EditedText(fullPath)));
+            model, Record.Since(filesBefore), [.. Warnings.Skip(warningsBefore)], StorageBytes - bytesBefore, EditedText(fullPath),
+            Values));
         return model;
     }
 
@@ -154,7 +159,7 @@ internal sealed class ModelLoader
             // It names the same files, perhaps fewer times.
             var loaded = parsed.Bases.Zip(bases).DistinctBy(static one => one.First.File)
                 .ToDictionary(static one => one.First.File, static one => one.Second);
-            parsed = FractalParser.ParseKeepingSums(parsed.Source, _options.Values);
+            parsed = FractalParser.ParseKeepingSums(parsed.Source, Values);
             bases = [.. parsed.Bases.Select(reference => loaded[reference.File])];
         }
 
@@ -323,12 +328,13 @@ internal sealed class ModelLoader
     {
         var stamp = Record.Add(fullPath);
         var bytesBefore = _textBytes;
-        var parsed = EditedText(fullPath) is null ? AssetCache.ReadOrFind(_cache, fullPath, stamp, Read) : Read();
+        // What is parsed depends on the values, which may change.
+        var parsed = EditedText(fullPath) is null && Values.IsEmpty ? AssetCache.ReadOrFind(_cache, fullPath, stamp, Read) : Read();
         _textBytes = bytesBefore + parsed.Source.ByteCount;
         return parsed;
 
         ParsedFractal Read() =>
-            FractalParser.Parse(ReadText(fullPath, displayName, ParsingLimits.DescriptionBytes.Value), _options.Values);
+            FractalParser.Parse(ReadText(fullPath, displayName, ParsingLimits.DescriptionBytes.Value), Values);
     }
 
     private ParsedObj ReadOrFindMesh(string fullPath, string displayName) =>

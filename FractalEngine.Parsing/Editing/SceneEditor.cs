@@ -1,5 +1,6 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Scenes.Films;
 using FractalEngine.Parsing.Sdo;
 
 namespace FractalEngine.Parsing.Editing;
@@ -9,6 +10,9 @@ public static class SceneEditor
 {
     // Begins a comment, which no other program needs to know.
     private const string HiddenMark = "#hidden ";
+
+    // Of a film that begins with a key, seconds.
+    private const double DefaultFilmDuration = 10;
 
     /// <summary>Parses the text of a scene.</summary>
     public static Scene Parse(string text) => SceneParser.Parse(new("scene", text)).Scene;
@@ -38,6 +42,26 @@ public static class SceneEditor
         {
             throw new ArgumentException($"a name in a scene can't have a quote or a line break: {name}");
         }
+    }
+
+    /// <summary>Adds a camera to the film of a scene, in the place of one at the same time. Without a film, it gets one.</summary>
+    /// <param name="text">Text of the scene.</param>
+    /// <param name="key">The key, within the film.</param>
+    public static string AddKey(string text, CameraKey key)
+    {
+        ArgumentNullException.ThrowIfNull(key);
+        var parsed = SceneParser.Parse(new("scene", text));
+        var film = parsed.Scene.Film ?? new(DefaultFilmDuration);
+        // The first camera that is not earlier.
+        var place = film.Keys.Index().FirstOrDefault(pair => pair.Item is CameraKey && pair.Item.Time >= key.Time);
+        if (place.Item is not { } next)
+        {
+            return SceneWriter.Write(parsed.Scene with { Film = film with { Keys = film.Keys.Add(key) } }, parsed);
+        }
+
+        var line = SceneFormatter.Format(key) + parsed.Source.LineBreak;
+        return string.Concat(parsed.Lines.Select(old => old.Kind != SceneDeclarationKind.FilmKey || old.Index != place.Index ? old.Text
+            : next.Time > key.Time ? line + old.Text : line));
     }
 
     /// <summary>Removes the line of an object.</summary>

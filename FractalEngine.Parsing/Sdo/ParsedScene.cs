@@ -20,15 +20,16 @@ public sealed record ParsedScene(SourceText Source, Scene Scene, ImmutableArray<
     /// <summary>Offset of the name of the sky's image in the text; 0 without one.</summary>
     public int SkyNameOffset => Lines.FirstOrDefault(static line => line.Kind == SceneDeclarationKind.Sky)?.FileNameOffset ?? 0;
 
-    /// <summary>Finds where an object is declared: the offset of its <c>o</c> or <c>p</c> in the text.</summary>
-    /// <param name="objectIndex">Index of the object in the scene, from 0.</param>
-    /// <exception cref="ArgumentOutOfRangeException">The scene has no such object.</exception>
-    public int DeclarationOffset(int objectIndex)
+    /// <summary>Finds where an object, a light or a key is declared: the offset of its first word in the text.</summary>
+    /// <param name="index">Index in the scene among those of its kind, from 0.</param>
+    /// <param name="kind">Kind of the declaration.</param>
+    /// <exception cref="ArgumentOutOfRangeException">The scene has no such declaration.</exception>
+    public int DeclarationOffset(int index, SceneDeclarationKind kind = SceneDeclarationKind.SceneObject)
     {
         var offset = 0;
         foreach (var line in Lines)
         {
-            if (line.Kind == SceneDeclarationKind.SceneObject && line.Index == objectIndex)
+            if (line.Kind == kind && line.Index == index)
             {
                 return offset + line.Characters.Length - line.Characters.Span.TrimStart().Length;
             }
@@ -36,6 +37,6 @@ public sealed record ParsedScene(SourceText Source, Scene Scene, ImmutableArray<
             offset += line.Characters.Length;
         }
 
-        throw new ArgumentOutOfRangeException(nameof(objectIndex), objectIndex, "the scene has no such object");
+        throw new ArgumentOutOfRangeException(nameof(index), index, "the scene has no such declaration");
     }
 }

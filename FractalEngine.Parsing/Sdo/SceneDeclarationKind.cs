@@ -45,6 +45,12 @@ public enum SceneDeclarationKind
     /// <summary>Declaration of the player: <c>player (x, y, z) radius height</c>.</summary>
     Player,
 
+    /// <summary>Duration of the film: <c>film seconds</c>.</summary>
+    Film,
+
+    /// <summary>One key of the film: <c>at seconds c …</c> or <c>at seconds name = value …</c>.</summary>
+    FilmKey,
+
     /// <summary>Declaration of one object: <c>o "file" matrix …</c> or <c>p "file" matrix e …</c>.</summary>
     SceneObject,
 }

@@ -3,6 +3,7 @@ using FractalEngine.Core.Colliders;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Scenes.Cameras;
+using FractalEngine.Core.Scenes.Films;
 using FractalEngine.Core.Scenes.Lights;
 
 namespace FractalEngine.Parsing.Sdo;
@@ -18,6 +19,7 @@ internal static class SceneFormatter
     {
         SceneDeclarationKind.Light => scene.Lights.Length,
         SceneDeclarationKind.SceneObject => scene.Objects.Length,
+        SceneDeclarationKind.FilmKey => scene.Film?.Keys.Length ?? 0,
         _ => Format(scene, kind, 0) is null ? 0 : 1,
     };
 
@@ -44,10 +46,16 @@ internal static class SceneFormatter
         SceneDeclarationKind.Fog => scene.Fog is { } fog ? Format(fog) : null,
         SceneDeclarationKind.Gravity => AreBitEqual(scene.Gravity, Scene.DefaultGravity) ? null : $"gravity {scene.Gravity}",
         SceneDeclarationKind.Player => scene.Player is { } player ? Format(player) : null,
+        SceneDeclarationKind.Film => scene.Film is { } film ? $"film {FormatNumber(film.Duration)}" : null,
+        SceneDeclarationKind.FilmKey => scene.Film is { Keys: var keys } && index < keys.Length ? Format(keys[index]) : null,
         SceneDeclarationKind.Light => index < scene.Lights.Length ? Format(scene.Lights[index].Declaration) : null,
         SceneDeclarationKind.SceneObject => index < scene.Objects.Length ? Format(scene.Objects[index]) : null,
         _ => throw new ArgumentOutOfRangeException(nameof(kind)),
     };
+
+    /// <summary>Formats a key of a film.</summary>
+    public static string Format(FilmKey key) => Join(
+        $"at {FormatNumber(key.Time)} {Format(key.Declaration)}", key.Ease == Ease.Linear ? null : $"ease {FilmParser.WordOf(key.Ease)}");
 
     private static string Format(Camera camera) => Join(
         $"c {camera.Position} {camera.Rotation} {FormatNumber(camera.FieldOfView)}",

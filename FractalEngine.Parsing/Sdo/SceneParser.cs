@@ -5,7 +5,7 @@ using FractalEngine.Parsing.Text.Grammar;
 namespace FractalEngine.Parsing.Sdo;
 
 /// <summary>Reads scene files (paper §4.1.5). Their grammar is in docs/manual.md.</summary>
-public sealed class SceneParser : SceneObjectParser
+public sealed class SceneParser : FilmParser
 {
     // Faulty lines that are told together, see Parse.
     private const int MaxFaults = 100;
@@ -30,6 +30,8 @@ public sealed class SceneParser : SceneObjectParser
         ("fog", SceneDeclarationKind.Fog, static (parser, cursor, out rest) => parser.ParseFog(cursor, out rest)),
         ("gravity", SceneDeclarationKind.Gravity, static (parser, cursor, out rest) => parser.ParseGravity(cursor, out rest)),
         ("player", SceneDeclarationKind.Player, static (parser, cursor, out rest) => parser.ParsePlayer(cursor, out rest)),
+        ("film", SceneDeclarationKind.Film, static (parser, cursor, out rest) => parser.ParseFilm(cursor, out rest)),
+        ("at", SceneDeclarationKind.FilmKey, static (parser, cursor, out rest) => parser.ParseKey(cursor, out rest)),
     ];
 
     private readonly Dictionary<SceneDeclarationKind, int> _declarationOffsets = [];
@@ -90,13 +92,14 @@ public sealed class SceneParser : SceneObjectParser
         }
 
         var scene = Scene with { Camera = TurnToTarget(Scene.Camera), Lights = [.. Lights], Objects = [.. Objects] };
+        scene = scene with { Film = scene.Film is { } film ? film with { Keys = [.. Keys] } : null };
         return new(Source, scene, lines.DrainToImmutable()) { Warnings = Hints };
     }
 
     /// <summary>Parses a line. A fault is thrown, or added to a list that takes it; then nothing of the line is declared.</summary>
     private bool TryParseLine(Cursor cursor, ICollection<Diagnostic>? faults, out SceneDeclarationKind? kind, out Cursor rest)
     {
-        var (objectCount, lightCount) = (Objects.Count, Lights.Count);
+        var (objectCount, lightCount, keyCount) = (Objects.Count, Lights.Count, Keys.Count);
         try
         {
             return ParseLine(cursor, out kind, out rest) ? true : throw SyntaxError();
@@ -110,6 +113,7 @@ public sealed class SceneParser : SceneObjectParser
             });
             Objects.RemoveRange(objectCount, Objects.Count - objectCount);
             Lights.RemoveRange(lightCount, Lights.Count - lightCount);
+            Keys.RemoveRange(keyCount, Keys.Count - keyCount);
             (kind, rest) = (null, cursor);
             return false;
         }
@@ -119,6 +123,7 @@ public sealed class SceneParser : SceneObjectParser
     {
         SceneDeclarationKind.Light => Lights.Count - 1,
         SceneDeclarationKind.SceneObject => Objects.Count - 1,
+        SceneDeclarationKind.FilmKey => Keys.Count - 1,
         _ => 0,
     };
 
@@ -132,7 +137,7 @@ public sealed class SceneParser : SceneObjectParser
 
     private protected override string? Explain(SyntaxFailure failure) => SceneMistakes.Explain(failure);
 
-    /// <summary>Parses a keyword and its values. All kinds but lights and objects may be declared only once.</summary>
+    /// <summary>Parses a keyword and its values. All kinds but lights, objects and keys may be declared only once.</summary>
     private bool ParseDeclaration(Cursor cursor, out SceneDeclarationKind? kind, out Cursor rest)
     {
         foreach (var (keyword, declared, parse) in Declarations)
@@ -155,5 +160,6 @@ public sealed class SceneParser : SceneObjectParser
         return false;
     }
 
-    private static bool IsUnique(SceneDeclarationKind kind) => kind is not (SceneDeclarationKind.Light or SceneDeclarationKind.SceneObject);
+    private static bool IsUnique(SceneDeclarationKind kind) =>
+        kind is not (SceneDeclarationKind.Light or SceneDeclarationKind.SceneObject or SceneDeclarationKind.FilmKey);
 }

@@ -25,7 +25,7 @@ public abstract class SceneSettingParser : SceneValueParser
     private readonly Option<Player>[] _playerOptions;
     private readonly Option<ImageSky>[] _skyOptions;
     private readonly Option<Fog>[] _fogOptions;
-    private (Vector Target, Vector Up)? _cameraTarget;
+    private (Vector Point, Vector Up)? _cameraTarget;
 
     private protected SceneSettingParser(SourceText source)
         : base(source)
@@ -69,22 +69,25 @@ public abstract class SceneSettingParser : SceneValueParser
     /// <summary>Offset of the last name of a file; 0 for a sky of colours.</summary>
     private protected int FileNameOffset { get; set; }
 
-    private protected bool ParseCamera(Cursor cursor, out Cursor rest)
+    private protected bool ParseCamera(Cursor cursor, out Cursor rest) =>
+        ParseCamera(cursor, out var camera, out _cameraTarget, out rest) && UpdateScene(Scene with { Camera = camera });
+
+    /// <summary>Parses a camera, of which a target takes the place of the angles.</summary>
+    private protected bool ParseCamera(Cursor cursor, out Camera camera, out (Vector Point, Vector Up)? target, out Cursor rest)
     {
+        (camera, target) = (Camera.Default, null);
         return ParseVectorOrDefault(cursor, Vector.Zero, out var position, out rest) && ParseOptionalSeparator(rest, out rest)
-            && ParseOrientation(rest, position, out var rotation, out rest) && ParseOptionalSeparator(rest, out rest)
+            && ParseOrientation(rest, position, out var rotation, out target, out rest) && ParseOptionalSeparator(rest, out rest)
             && ParseNumber(rest, static number => number is > 0 and < 180, "the angle of view must lie between 0 and 180 degrees",
                 out var fieldOfView, out rest)
-            && UpdateScene(Scene with
-            {
-                Camera = ParseOptions(rest, new Camera(position, rotation, fieldOfView), _cameraOptions, out rest),
-            });
+            && Set(ref camera, ParseOptions(rest, new Camera(position, rotation, fieldOfView), _cameraOptions, out rest));
     }
 
     /// <summary>Parses angles in radians, or <c>look-at point [up direction]</c>.</summary>
-    private bool ParseOrientation(Cursor cursor, Vector position, out Vector rotation, out Cursor rest)
+    private bool ParseOrientation(
+        Cursor cursor, Vector position, out Vector rotation, out (Vector Point, Vector Up)? target, out Cursor rest)
     {
-        rotation = Vector.Zero;
+        (rotation, target) = (Vector.Zero, null);
         if (!ParseKeyword(cursor, LookAtKeyword, out var targetStart))
         {
             var success = ParseVectorOrDefault(cursor, Vector.Zero, out rotation, out rest);
@@ -92,12 +95,12 @@ public abstract class SceneSettingParser : SceneValueParser
             return success;
         }
 
-        if (!ParseVector(targetStart, out var target, out rest))
+        if (!ParseVector(targetStart, out var point, out rest))
         {
             return false;
         }
 
-        Require(target != position, targetStart, "a camera can't look at its own position");
+        Require(point != position, targetStart, "a camera can't look at its own position");
         var up = Vector.J;
         if (ParseOptionalSeparator(rest, out var next) && ParseKeyword(next, "up", out var upStart)
             && !(ParseVector(upStart, out up, out rest) && ParseOptionalSeparator(rest, out rest)))
@@ -106,15 +109,15 @@ public abstract class SceneSettingParser : SceneValueParser
         }
 
         Require(up != Vector.Zero, next, "the direction up must not be (0, 0, 0)");
-        _cameraTarget = (target, up);
+        target = (point, up);
         return true;
     }
 
     /// <summary>Turns the camera to its target. The handedness, on which the angles depend, may be declared below the camera.</summary>
-    private protected Camera? TurnToTarget(Camera? camera) => camera is not null && _cameraTarget is var (target, up)
+    private protected Camera? TurnToTarget(Camera? camera) => camera is not null && _cameraTarget is var (point, up)
         ? camera with
         {
-            Rotation = CameraFraming.LookAt(camera.Position, target, up, camera.FieldOfView, Scene.Handedness).Rotation,
+            Rotation = CameraFraming.LookAt(camera.Position, point, up, camera.FieldOfView, Scene.Handedness).Rotation,
             Handedness = Scene.Handedness,
         }
         : camera;
@@ -266,7 +269,7 @@ public abstract class SceneSettingParser : SceneValueParser
             && Set(ref player, player with { StepHeightOverride = step });
     }
 
-    private bool UpdateScene(Scene scene)
+    private protected bool UpdateScene(Scene scene)
     {
         Scene = scene;
         return true;

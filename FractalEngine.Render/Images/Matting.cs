@@ -12,7 +12,7 @@ public static class Matting
     private const int Levels = 256;
 
     // From a stored sRGB value to linear light.
-    private static readonly double[] Linear =
+    internal static readonly double[] Linear =
         [.. Enumerable.Range(0, Levels).Select(static level => new Colour(level / 255.0, 0, 0).ToLinear().Red)];
 
     /// <summary>Combines two opaque images to one with the opacity in its alpha.</summary>
@@ -48,7 +48,7 @@ public static class Matting
     private static double Through(byte black, byte white) => Linear[white] - Linear[black];
 
     /// <summary>Returns the stored value that is nearest to an amount of linear light.</summary>
-    private static byte Encode(double light)
+    internal static byte Encode(double light)
     {
         var index = Array.BinarySearch(Linear, Math.Min(light, 1));
         if (index >= 0)

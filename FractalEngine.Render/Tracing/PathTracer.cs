@@ -134,9 +134,10 @@ public sealed class PathTracer
     /// <param name="view">Camera and projection.</param>
     /// <param name="width">Pixels, at least 1.</param>
     /// <param name="height">Pixels, at least 1.</param>
+    /// <param name="seed">Distinguishes independent images of the same view; null for the seed of this one.</param>
     /// <exception cref="ArgumentOutOfRangeException">Width or height is less than 1.</exception>
-    public PathTracer WithView(View view, int width, int height) =>
-        new(view, width, height, _scene, _lights, _declared, _defaultBackground, _seed)
+    public PathTracer WithView(View view, int width, int height, int? seed = null) =>
+        new(view, width, height, _scene, _lights, _declared, _defaultBackground, seed ?? _seed)
         { BounceLimit = BounceLimit, CanDenoise = CanDenoise };
 
     /// <summary>

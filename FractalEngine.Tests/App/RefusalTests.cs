@@ -118,7 +118,7 @@ public sealed class RefusalTests : IDisposable
     [InlineData("animate cube.obj -o a.apng --turntable --seed 1", "nothing in cube.obj is by chance, so --seed has no effect")]
     [InlineData("animate cube.obj -o a.apng --turntable --time 1", "cube.obj has no physics objects, so --time has no effect")]
     [InlineData("animate cube.obj -o a.png --turntable --fps 5",
-        "--fps has no effect on numbered images unless --simulate moves something")]
+        "--fps has no effect on numbered images unless --simulate or a film moves something")]
     [InlineData("animate cube.obj -o a.apng --path c.txt --view top",
         "--camera, --view, --look-from, --look-at, --aperture and --focus have no effect with --path, which names the cameras")]
     public void Option_WithoutEffect_IsRefused(string arguments, string message)

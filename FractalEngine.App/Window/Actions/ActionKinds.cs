@@ -14,6 +14,8 @@ internal static class ActionKinds
 
     public static bool HasScene(WindowActions actions) => actions.Document?.File.Kind == FileKind.Scene;
 
+    public static bool HasFilm(WindowActions actions) => actions.Document?.Film is not null;
+
     public static bool HasSelection(WindowActions actions) => actions.Document?.Tool.Selected is not null;
 
     /// <summary>Whether the scene is cut open.</summary>

@@ -78,6 +78,11 @@ internal static class ActionTable
             IsOn = static a => a.Document?.Tool.Measure.IsActive == true,
         },
 
+        new("film-key", "Edit", "Add a key", "write the present camera into the scene, as a key at the present time of its film")
+        {
+            IsAvailable = HasScene, Run = OverlayOf(static a => a.AddKey()),
+        },
+
         Handles("handles-move", "Move", "move", Key.Digit2, HandleKind.Move),
         Handles("handles-turn", "Turn", "turn", Key.Digit4, HandleKind.Turn),
         Handles("handles-scale", "Scale", "scale", Key.Digit6, HandleKind.Scale),
@@ -155,6 +160,15 @@ internal static class ActionTable
             IsOn = static a => a.Document?.Section.Shown is { HasCap: true },
             Run = static a => a.Show(a.Document!.Section.ToggleCap()) | Redraw.Scene,
         },
+        new("film-path", "View", "Film path", "the way of the film's camera as a line, with a mark at each key")
+        {
+            IsAvailable = HasFilm, IsOn = static a => a.Document?.Film?.ShowsPath == true,
+            Run = static a =>
+            {
+                a.Document!.Film!.ShowsPath = !a.Document.Film.ShowsPath;
+                return Redraw.Scene;
+            },
+        },
         new("papers-zoom", "View", "The paper's zoom",
             "the paper's zoom into a fractal (its matrix grows about the camera) instead of ours")
         {
@@ -181,11 +195,15 @@ internal static class ActionTable
             IsOn = static a => a.Document?.Physics.IsWalking == true,
         },
 
-        new("pause", "Physics", "Pause", "pause and continue")
+        new("pause", "Physics", "Pause", "pause and continue; with a film, play and pause that together with the bodies")
         {
-            Keys = [new(Key.Space)], Run = Physics(static document => document.Physics.TogglePause()),
+            Keys = [new(Key.Space)], Run = Physics(static document => document.TogglePlaying()),
             IsAvailable = static a => a.Document?.Physics is { } physics && (!physics.IsWalking || physics.IsPaused),
             IsOn = static a => a.Document?.Physics.IsPaused == true,
+        },
+        new("film-stop", "Physics", "Stop the film", "return to the beginning of the film, and to the file's camera and numbers")
+        {
+            Run = static a => a.Show(a.Document!.StopFilm()) | Redraw.Scene, IsAvailable = HasFilm,
         },
         OfPhysics("step", "One step", "make one step", Key.N, static document => document.Physics.StepOnce()),
         new("drop-ball", "Physics", "Drop a ball",

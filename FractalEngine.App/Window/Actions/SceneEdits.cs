@@ -2,6 +2,7 @@ using FractalEngine.App.Window.State;
 using FractalEngine.Core;
 using FractalEngine.Core.Physics.Descriptions;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Scenes.Films;
 using FractalEngine.Core.Scenes.Lights;
 using FractalEngine.Parsing.Editing;
 using FractalEngine.Parsing.Text;
@@ -60,6 +61,17 @@ internal static class SceneEdits
             RequireLoaded(actions, scene);
             return scene with { Lights = scene.Lights.SetItem(index, change(scene.Lights[index])) };
         });
+
+    /// <summary>Adds the present camera to the film of the document's scene, at the time that is shown.</summary>
+    public static void AddKey(this WindowActions actions)
+    {
+        var document = actions.Document!;
+        var key = new CameraKey(document.Film?.Time ?? 0, Document.WithoutNegativeZeros(document.Camera));
+        if (actions.EditScene(text => SceneEditor.AddKey(text, key)))
+        {
+            actions.Show(FormattableString.Invariant($"a key at {key.Time:0.##} s: Ctrl+S saves the scene"));
+        }
+    }
 
     /// <summary>Changes the line of an object or a light. Refused while the scene has others than were loaded.</summary>
     public static void EditLine(this WindowActions actions, int index, Func<string, int, string> edit) =>

@@ -62,6 +62,11 @@ internal sealed class DocumentLoader(
         }
 
         var redraw = PollLoad();
+        if (!State.IsBusy && Document?.Film?.NeedsLoad == true)
+        {
+            State = State.Reload();
+        }
+
         State = State.Tick(clock());
         redraw |= FollowState() | PollFirstSight();
         if (State.AfterLoad is { } action && !State.IsEditLoading)
@@ -114,7 +119,9 @@ internal sealed class DocumentLoader(
         {
             State = State.Started(State.EditsToLoad.Rebase(report));
             var request = State.Loading!;
-            _load = new(request, options.Load, settings(), area.Aspect, _cache, request.Continues ? Document : null, window.Wake);
+            var shown = request.Continues ? Document : null;
+            _load = new(
+                request, options.Load with { FilmTime = shown?.Film?.BeginLoad() }, settings(), area.Aspect, _cache, shown, window.Wake);
         }
 
         ShowTitle();

@@ -18,7 +18,14 @@ internal sealed class PhysicsPanel(WindowActions actions)
             document.Physics.Speed = speed;
         }
 
-        ui.Tooltip("seconds of the simulation in a second");
+        ui.Tooltip("seconds of the simulation, and of the film, in a second");
+        var time = document.Film?.Time ?? 0;
+        if (document.Film is { Duration: var duration } && ui.Slider("film", ref time, 0, duration, 0.05))
+        {
+            document.SeekFilm(time, ui.Interaction);
+            actions.RequestDraw();
+        }
+
         ui.Row(1);
         foreach (var line in document.Physics.StatusText.Split('\n').SelectMany(static line => line.Split(" · ")))
         {

@@ -26,6 +26,9 @@ internal sealed class Document : IDisposable
 {
     private readonly WindowStore _store;
 
+    // The view that the film has set last; null for none.
+    private CameraState? _filmView;
+
     /// <summary>Uploads the prepared models. Must be called on the window's thread.</summary>
     /// <param name="window">The window that shows the file.</param>
     /// <param name="area">The part of the window that panels leave free.</param>
@@ -58,6 +61,13 @@ internal sealed class Document : IDisposable
         previous?.Renderer.Replace(preparation.Scene);
         Renderer = previous?.Renderer ?? new(window, preparation.Scene);
         Physics = new(file.Scene, window.Wake, previous?.Physics, alwaysBuild: !options.Settings.LazyLoading);
+        if (scene.Film is { } film)
+        {
+            Film = new(film, scene.Handedness, previous?.Film);
+            // Bodies begin with the film.
+            Physics.IsPaused |= previous is null;
+        }
+
         CameraControls = previous?.CameraControls ?? new(FlyingCamera);
         WalkControls = previous?.WalkControls ?? new();
         // Until the first frame, which shows nearly the same: handles that are dragged need a view.
@@ -79,6 +89,9 @@ internal sealed class Document : IDisposable
     public FirstSightLoader FirstSightLoader { get; }
 
     public ScenePhysics Physics { get; }
+
+    /// <summary>The film of the scene; null for none.</summary>
+    public FilmPlayer? Film { get; }
 
     /// <summary>The camera while no player walks.</summary>
     public FlyingCamera FlyingCamera { get; }
@@ -107,14 +120,14 @@ internal sealed class Document : IDisposable
     /// <summary>The part of the scene that the window changes, as it is now.</summary>
     public SceneView SceneView => new(WithoutNegativeZeros(Camera), FlyingCamera.Projection, FlyingCamera.OrthographicHeight);
 
-    /// <summary>True when the view differs from the one that was loaded or saved.</summary>
-    public bool HasChanges => State.Draft.IsChanged(SceneView);
+    /// <summary>True when the view differs from the one that was loaded or saved, and is not that of the film.</summary>
+    public bool HasChanges => !ShowsFilm && State.Draft.IsChanged(SceneView);
 
     /// <summary>Whether the paper's zoom replaces that of the engine.</summary>
     public bool IsTrailEnabled { get; private set; }
 
-    /// <summary>True while the camera or a body moves.</summary>
-    public bool IsMoving => Physics.IsRunning || (!Physics.IsWalking && CameraControls.IsMoving);
+    /// <summary>True while the film, the camera or a body moves.</summary>
+    public bool IsMoving => Film is { IsPlaying: true } || Physics.IsRunning || (!Physics.IsWalking && CameraControls.IsMoving);
 
     /// <summary>The present camera in world space: the flying one, or the one at the player's eyes.</summary>
     public Camera Camera => Physics is { IsWalking: true, Character: { } controller }
@@ -124,6 +137,9 @@ internal sealed class Document : IDisposable
     /// <summary>Number of levels of the fractal that the present view is in; 0 outside, and for views that show the whole.</summary>
     public int VisibleDepth =>
         Physics.IsWalking || IsTrailEnabled || FlyingCamera.Projection != Projection.Perspective ? 0 : FlyingCamera.Depth;
+
+    /// <summary>Whether nobody has moved the camera since the film has.</summary>
+    private bool ShowsFilm => _filmView?.Equals(FlyingCamera.State) == true;
 
     private DocumentState State
     {
@@ -151,6 +167,11 @@ internal sealed class Document : IDisposable
 
         var projectionView = followsProjection ? fileView : view;
         FlyingCamera.SetProjection(projectionView.Projection, projectionView.OrthographicHeight);
+        if (previous.ShowsFilm && Film is { } film)
+        {
+            FollowFilm(film);
+        }
+
         if (File.Kind == FileKind.Fractal && !Physics.IsWalking && state.FollowsShape)
         {
             FlyingCamera.FollowShape(Area.Aspect);
@@ -241,12 +262,71 @@ internal sealed class Document : IDisposable
         WalkControls.ReleaseKeys();
     }
 
-    /// <summary>Advances bodies and camera by a time.</summary>
+    /// <summary>Advances film, bodies and camera by a time.</summary>
     /// <returns>True when the view may have changed.</returns>
     public bool Advance(TimeSpan time)
     {
         var mayHaveMoved = Physics.Advance(time);
+        if (Film is { IsPlaying: true } film)
+        {
+            film.Advance(Physics.Speed * time.TotalSeconds);
+            Physics.IsPaused |= !film.IsPlaying;
+            FollowFilm(film);
+            mayHaveMoved = true;
+        }
+
         return (!Physics.IsWalking && CameraControls.Advance(time)) || mayHaveMoved;
+    }
+
+    /// <summary>Plays or pauses the film with the bodies, or the bodies alone where there is none.</summary>
+    /// <returns>A message for the user.</returns>
+    public string TogglePlaying()
+    {
+        if (Film is not { } film)
+        {
+            return Physics.TogglePause();
+        }
+
+        State = State.Record(UndoView);
+        if (film.Time >= film.Duration && Physics.HasMovers)
+        {
+            Physics.Reset();
+        }
+
+        film.Toggle();
+        FollowFilm(film);
+        Physics.IsPaused = Physics.IsBroken || !film.IsPlaying;
+        return FormattableString.Invariant(
+            $"film: {(film.IsPlaying ? "playing from" : "paused at")} {film.Time:0.##} s of {film.Duration:0.##} s");
+    }
+
+    /// <summary>Shows a time of the film.</summary>
+    /// <param name="time">Seconds since its beginning.</param>
+    /// <param name="interaction">All changes with the same number are one step that can be undone.</param>
+    public void SeekFilm(double time, int? interaction)
+    {
+        State = State.BeginStep(UndoView, interaction);
+        Film!.Seek(time);
+        FollowFilm(Film);
+    }
+
+    /// <summary>Ends the film, and returns to the camera and the numbers of the files.</summary>
+    /// <returns>A message for the user.</returns>
+    public string StopFilm()
+    {
+        State = State.Record(UndoView);
+        Film!.Stop();
+        FlyingCamera.Reset();
+        return "film: stopped";
+    }
+
+    private void FollowFilm(FilmPlayer film)
+    {
+        if (film.Camera is { } camera && !Physics.IsWalking)
+        {
+            FlyingCamera.MoveTo(camera);
+            _filmView = FlyingCamera.State;
+        }
     }
 
     /// <summary>Starts walking in the direction of the camera, or continues flying from the player's eyes.</summary>

@@ -32,6 +32,6 @@ public sealed class CameraPathTests : IDisposable
         double expected = (((2 * t * t * t) - (3 * t * t) + 1) * Place(index)) + (((t * t * t) - (2 * t * t) + t) * slope)
             + (((3 * t * t) - (2 * t * t * t)) * Place(index + 1)) + (((t * t * t) - (t * t)) * nextSlope);
         // A few roundings of numbers up to 100.
-        Near.Equal(new Vector(expected, 0, 5), path.At(time).Position, 1e-12);
+        Near.Equal(new Vector(expected, 0, 5), path.At(time * path.Duration).Position, 1e-12);
     }
 }

@@ -112,7 +112,8 @@ public sealed class AnimateCommandTests : DrawingCommandTests
     }
 
     [Theory]
-    [InlineData("nothing moves: expected --turntable, --zoom LEVELS, --path CAMERAS.txt or --simulate", "--output", "a.apng")]
+    [InlineData("nothing moves: expected --turntable, --zoom LEVELS, --path CAMERAS.txt, --simulate, or a scene with a film",
+        "--output", "a.apng")]
     [InlineData("--turntable, --zoom and --path exclude each other", "--output", "a.apng", "--turntable", "--zoom", "2")]
     [InlineData("--output 'a.avi' must end in .png, .exr, .hdr, .apng, .mp4, .webm or .gif", "--output", "a.avi", "--turntable")]
     [InlineData("scene.sdo has no physics objects, so there is nothing to simulate", "--output", "a.apng", "--simulate")]

@@ -30,7 +30,7 @@ public class SceneParserErrorTests
     public void Keyword_Unknown_ListsTheKnownOnes() => FailsAt(
         "x \"a.obj\" #", 1,
         "unexpected 'x', expected 'c', 'o', 'p', 'handed', 'projection', 'aspect', 'clip', 'background', 'light', 'sun', 'sky', "
-        + "'probe', 'exposure', 'tone', 'fog', 'gravity' or 'player'");
+        + "'probe', 'exposure', 'tone', 'fog', 'gravity', 'player', 'film' or 'at'");
 
     [Theory]
     [InlineData("c (1, 2, 3) (4, 5, 6)", 22, "unexpected end of file: a camera ends with its vertical angle of view in degrees")]

@@ -49,7 +49,7 @@ public sealed class CameraTurnTests : IDisposable
     [InlineData(9, 7)]
     public void At_ACameraOfTheList_IsThatCamera(double time, double x)
     {
-        var camera = Read("(0, 0, 0) # 40", "(2, 0, 0) # 50", "(7, 0, 0) # 60").At(time);
+        var camera = Read("(0, 0, 0) # 40", "(2, 0, 0) # 50", "(7, 0, 0) # 60").At(2 * time);
         Near.Equal(new Vector(x, 0, 0), camera.Position, 1e-12);
         Near.Equal(40 + (20 * Math.Clamp(time, 0, 1)), camera.FieldOfView, 1e-12);
     }

@@ -89,8 +89,8 @@ public sealed class SceneFileMergeTests : IDisposable
         foreach (int index in (int[])[-1, 2])
         {
             var exception = Assert.Throws<ArgumentOutOfRangeException>(() => parsed.DeclarationOffset(index));
-            Assert.Equal(("objectIndex", (object)index), (exception.ParamName, exception.ActualValue));
-            Assert.StartsWith("the scene has no such object", exception.Message, StringComparison.Ordinal);
+            Assert.Equal(("index", (object)index), (exception.ParamName, exception.ActualValue));
+            Assert.StartsWith("the scene has no such declaration", exception.Message, StringComparison.Ordinal);
         }
     }
 }
