@@ -160,7 +160,7 @@ def make_bell():
     add_turned(mesh, [(0, 1.45), (0.05, 1.47), (0.09, 1.53), (0.07, 1.6), (0, 1.63)], 16)
     mesh.write(MODELS / "bell.obj", "A bell of glass with a knob of brass.", "bell.mtl")
     (MODELS / "bell.mtl").write_text(
-        "newmtl glass\nKd 0.62 0.8 0.86\nKs 0.9 0.9 0.9\nNs 250\nd 0.22\n\nnewmtl knob\nKd 0.72 0.55 0.26\nKs 0.8 0.65 0.35\nNs 40\n",
+        "newmtl glass\nKd 0.62 0.8 0.86\nKs 0.07 0.07 0.07\nNs 900\nd 0.08\n\nnewmtl knob\nKd 0.72 0.55 0.26\nKs 0.8 0.65 0.35\nNs 40\n",
         encoding="utf-8", newline="\n")
 
 

@@ -61,6 +61,14 @@ film() {
     montage "$work"/{0,3,5,6.5}.png -tile 2x2 -geometry 480x270+2+2 -background white "$images/film.png"
 }
 
+planet() {
+    local time
+    for time in 0 3 6 10; do
+        run render assets/scenes/planet.sdo --time "$time" --output "$work/$time.png" --resolution 480x270
+    done
+    montage "$work"/{0,3,6,10}.png -tile 2x2 -geometry 480x270+2+2 -background white "$images/planet.png"
+}
+
 # A row for each scene: without shadows and occlusion, with shadows, with both, traced.
 light() {
     local scene tiles=()
@@ -116,7 +124,9 @@ make_image() {
         classic-cantor) classic cantor '(1.7, 1.4, -4.4) look-at (0, -0.02, 0) 18' ;;
         classic-pythagoras) classic pythagoras '(6.14, 4.04, -9.83) look-at (0, 1.28, 0) 25' ;;
         traced-*) draw "$1" "assets/scenes/${1#traced-}.sdo" 640x360 --trace 64 ;;
-        playground | film | light) "$1" ;;
+        agate) draw "$1" assets/scenes/agate.sdo 720x405 --section 1,1,1,0 --gather 16 ;;
+        chrome) draw "$1" assets/scenes/chrome.sdo 720x405 --time 3 --trace 64 ;;
+        playground | film | planet | light) "$1" ;;
         approximate-tree) approximated_asset tree fractals --depth 5 ;;
         approximate-romanesco) approximated_asset romanesco fractals --depth 2 ;;
         approximate-snowflake) approximated_asset snowflake fractals --depth 3 ;;
@@ -143,7 +153,7 @@ make_image() {
 }
 
 all=(
-    forest gallery cathedral reef menger inside appendix-b gradients palettes textured winter playground film angles
+    forest gallery cathedral reef menger inside appendix-b gradients palettes textured winter chrome agate playground film planet angles
     wood city conifer coral tower flake
     classic-bush classic-context-tree classic-arch classic-synth-tree classic-dragon
     classic-koch classic-jerusalem classic-vicsek classic-cantor classic-pythagoras

@@ -72,8 +72,8 @@ internal sealed class DrawOptions
     private readonly Option<(int Width, int Height)?> _resolution = SharedOptions.ResolutionOption();
 
     public void AddTo(Command command) => SharedOptions.AddAll(
-        command, _resolution, _projection, _plain, _shading, _noShadows, _noAmbientOcclusion, _wireframe, _grid, _section, _minProjectedSize,
-        _maxInstances, _sampleCount, _gatheredFrames);
+        command, _resolution, _projection, _plain, _shading, _noShadows, _noAmbientOcclusion, _wireframe, _grid, _section,
+        _minProjectedSize, _maxInstances, _sampleCount, _gatheredFrames);
 
     /// <summary>Returns load options for what is drawn: on a stage, unless the command line asks for the plain look.</summary>
     public LoadOptions Staged(ParseResult result, LoadOptions load) => load with { IsStaged = !result.GetValue(_plain) };

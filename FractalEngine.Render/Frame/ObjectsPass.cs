@@ -1,6 +1,5 @@
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
-using FractalEngine.Core.Scenes.Lights;
 using FractalEngine.Render.Drawables;
 using FractalEngine.Render.Gl;
 using FractalEngine.Render.Gl.State;

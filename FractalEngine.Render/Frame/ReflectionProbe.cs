@@ -13,14 +13,14 @@ namespace FractalEngine.Render.Frame;
 
 /// <summary>
 /// What is seen from a point to all sides: a cube of linear light before exposure and tone, times what objects cover of each texel, with
-/// their depths. Its further levels are means, for rougher surfaces. 21 MB.
+/// their depths. Its further levels are means, for rougher surfaces. 5 MB.
 /// </summary>
 internal sealed class ReflectionProbe : GlObject
 {
     /// <summary>Number of sides of the cube.</summary>
     public const int SideCount = 6;
 
-    private const int Size = 512;
+    private const int Size = 256;
     private const double NearToFarRatio = 1e-5;
 
     // In the order of OpenGL: what each side looks at, and what is up there. Seen from within, all of them are mirror images.

@@ -85,7 +85,8 @@ internal sealed class LightBlock : IDisposable
         [
             $"EACH_LIGHT(DO){loop}", $"LIGHT_KINDS int[]({kinds})",
             .. SymbolIf(scene.Scene.Sky is ImageSky, "SKY_SIDES"),
-            .. SymbolIf(lights.Any(static light => light.HasSurface), "SURFACE_LIGHTS"), .. SymbolIf(scene.Scene.Probe is not null, "PROBE"),
+            .. SymbolIf(lights.Any(static light => light.HasSurface), "SURFACE_LIGHTS"),
+            .. SymbolIf(scene.Scene.Probe is not null, "PROBE"),
         ];
 
         static string[] SymbolIf(bool isDefined, string symbol) => isDefined ? [symbol] : [];

@@ -36,7 +36,7 @@ public sealed class ReflectionProbeTests
         }, Mirror);
         var position = handedness.Mirror(Inside.Camera.Position);
         var view = Inside with { Camera = Inside.Camera with { Handedness = handedness, Position = position } };
-        var traced = Trace(scene, view, 16);
+        var traced = Trace(scene, view, 8);
         var (drawn, alone) = (RenderScenes.Draw(scene, view, Width, Height), RenderScenes.Draw(WithoutProbe(scene), view, Width, Height));
 
         var difference = MirrorDifference(traced, drawn);
@@ -56,7 +56,7 @@ public sealed class ReflectionProbeTests
             Roughness = roughness,
             Metalness = 1,
         });
-        var difference = MirrorDifference(Trace(scene, Inside, 64), RenderScenes.Draw(scene, Inside, Width, Height));
+        var difference = MirrorDifference(Trace(scene, Inside, 16), RenderScenes.Draw(scene, Inside, Width, Height));
 
         Assert.True(difference < limit, $"{difference}");
     }
@@ -121,7 +121,7 @@ public sealed class ReflectionProbeTests
         ];
         return RenderScenes.Scene(scene,
         [
-            (TexturedScenes.WithMaterial(Shapes.Sphere(5), material), RenderScenes.TranslatedTo(0.1, -0.2, 0.3), null),
+            (TexturedScenes.WithMaterial(Shapes.Sphere(4), material), RenderScenes.TranslatedTo(0.1, -0.2, 0.3), null),
             .. walls.Select(wall => (Glowing(Shapes.Box(new(wall.Low, wall.High)), wall.Colour), Transformation.Identity, (Colour?)null)),
         ]);
     }
