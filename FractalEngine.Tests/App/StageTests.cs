@@ -10,7 +10,7 @@ namespace FractalEngine.Tests.App;
 public sealed class StageTests : DrawingCommandTests
 {
     public StageTests() =>
-        Folder.Write("row.fdo", "v 0.4 0.7 0\nx. \"cube.obj\"\nt. (1, #, (0.5))\nz<x>. [t, #] x\n<$>. z 3\n");
+        Folder.Write("row.fdo", "v 0.4 0.7 0\nx. \"cube.obj\"\nt. (1, #, (0.5))\nz<x>. [t.] x\n<$>. z 3\n");
 
     [Theory]
     [InlineData("fractals/tree.fdo", true)]
