@@ -123,7 +123,7 @@ public class ReflectionTests
 
             // By facets, as the highlight is small: over the directions that they reflect to.
             SumOverFacets(roughness, toEye, (toLight, solidAngle) =>
-                expected[Cell(toLight)] += Count * solidAngle * Reflection.Density(in surface, toEye, toLight), 6000, 480);
+                expected[Cell(toLight)] += Count * solidAngle * Reflection.Density(in surface, toEye, toLight), 3000, 240);
             var chiSquared = Enumerable.Range(0, CellCount).Where(cell => expected[cell] > 5)
                 .Sum(cell => Math.Pow(counts[cell] - expected[cell], 2) / expected[cell]);
             // 95 cells at most: 1 of 10,000 right samplers is beyond.
