@@ -15,6 +15,7 @@ public sealed class StageTests : DrawingCommandTests
     [Theory]
     [InlineData("fractals/tree.fdo", true)]
     [InlineData("fractals/infinite-menger.fdo", true)]
+    [InlineData("examples/tree-08.fdo", true)]
     [InlineData("chance/coral.fdo", false)]
     [InlineData("models/crate.obj", false)]
     [InlineData("models/drum.obj", false)]
