@@ -19,8 +19,9 @@ namespace FractalEngine.App.Window.Drawing;
 /// </summary>
 internal sealed class WindowRenderer(FrameRenderer frame)
 {
-    // A window answers within this time while it gathers frames.
+    // A window answers within this time while it gathers frames; behind a lens, where one of them alone is no image, within the other.
     private static readonly TimeSpan MaxGatherTime = TimeSpan.FromSeconds(0.25);
+    private static readonly TimeSpan MaxLensTime = TimeSpan.FromSeconds(1.5);
 
     private readonly AdaptiveQuality _adaptiveQuality = new();
     private long _drawnCount;
@@ -39,7 +40,7 @@ internal sealed class WindowRenderer(FrameRenderer frame)
     /// <param name="settings">The render settings for a camera at rest.</param>
     public bool CanGather(RenderSettings settings) =>
         !IsReducedQuality && _shownView is { } view && frame.GatheredCount < FrameRenderer.FrameCountOf(view, settings)
-        && _gatherTime < MaxGatherTime;
+        && _gatherTime < (view.HasLens ? MaxLensTime : MaxGatherTime);
 
     /// <summary>Draws the last frame again, moved by a part of a pixel, for a mean of all.</summary>
     /// <param name="document">The document of the last frame, unchanged since.</param>
@@ -55,7 +56,7 @@ internal sealed class WindowRenderer(FrameRenderer frame)
         catch (GlException) when (frame.GatheredCount == 1)
         {
             // There is no memory for a mean: the single frame stays, and nothing that is open is lost.
-            _gatherTime = MaxGatherTime;
+            _gatherTime = TimeSpan.MaxValue;
             return false;
         }
 
