@@ -180,7 +180,7 @@ public sealed class AssetLoader
     /// <summary>Throws for a key of a number that no fractal has.</summary>
     private static void RequireKnownNumbers(LoadedScene scene, ParsedScene parsed)
     {
-        var names = scene.Models.OfType<FractalModel>().SelectMany(static model => model.NumberNames);
+        var names = scene.Models.OfType<FractalModel>().SelectMany(static model => model.NumberNames).ToHashSet();
         foreach (var (index, key) in (parsed.Scene.Film?.Keys ?? []).Index())
         {
             if (key is NumberKey { Name: var name } && !names.Contains(name))

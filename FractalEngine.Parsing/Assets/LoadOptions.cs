@@ -45,7 +45,7 @@ public sealed record LoadOptions
 
     /// <summary>
     /// Whether a mesh or fractal that is opened alone stands under a sky and a sun, and a fractal without colours of its own has those of
-    /// a palette by level. False leaves it to whoever draws it.
+    /// a palette by height. False leaves it to whoever draws it.
     /// </summary>
     public bool IsStaged { get; init; }
 

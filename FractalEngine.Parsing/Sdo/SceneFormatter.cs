@@ -53,7 +53,7 @@ internal static class SceneFormatter
         _ => throw new ArgumentOutOfRangeException(nameof(kind)),
     };
 
-    /// <summary>Formats a key of a film.</summary>
+    /// <summary>Formats the line of a key: its time, a camera or a number, and the ease.</summary>
     public static string Format(FilmKey key) => Join(
         $"at {FormatNumber(key.Time)} {Format(key.Declaration)}", key.Ease == Ease.Linear ? null : $"ease {FilmParser.WordOf(key.Ease)}");
 

@@ -62,7 +62,7 @@ internal sealed class Framebuffer : GlObject
     /// <summary>Height of the framebuffer in pixels.</summary>
     public int Height { get; }
 
-    /// <summary>Format of the colours.</summary>
+    /// <summary>Format in which the GPU stores the colours.</summary>
     public PixelInternalFormat Format { get; }
 
     /// <summary>Number of samples a pixel; 0 without multisampling.</summary>

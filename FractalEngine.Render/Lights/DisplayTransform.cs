@@ -41,7 +41,7 @@ internal readonly record struct DisplayTransform(double Exposure, Tone Tone)
     // Squares of larger ones leave the range of the shader's floats.
     private const double MaxLight = 1e18;
 
-    /// <summary>Shows light as it is.</summary>
+    /// <summary>Leaves light as it is: an exposure of 1, and no tone curve.</summary>
     public static DisplayTransform Identity { get; } = new(1, Tone.None);
 
     /// <summary>Whether light is shown as it is.</summary>

@@ -74,7 +74,7 @@ internal sealed class FilmPlayer
         Seek(IsPlaying && Time >= Duration ? 0 : Time);
     }
 
-    /// <summary>Goes to a time.</summary>
+    /// <summary>Goes to a time of the film, whose numbers are wanted from then on.</summary>
     public void Seek(double time) => _wantedTime = Time = Math.Clamp(time, 0, Duration);
 
     /// <summary>Returns to the beginning, and to the numbers of the files.</summary>

@@ -3,7 +3,7 @@ namespace FractalEngine.Core.Scenes.Films;
 /// <summary>How the way to a key of a film passes in its time.</summary>
 public enum Ease
 {
-    /// <summary>At an even pace.</summary>
+    /// <summary>In proportion to time, from key to key.</summary>
     Linear,
 
     /// <summary>From rest, faster and faster: f².</summary>
