@@ -1,11 +1,14 @@
+using System.Collections.Immutable;
 using System.CommandLine;
 using FractalEngine.App.Jobs;
 using FractalEngine.App.Options;
 using FractalEngine.App.Shell;
 using FractalEngine.App.Shell.Reports;
+using FractalEngine.Core;
 using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Assets;
+using FractalEngine.Parsing.Exports;
 using FractalEngine.Parsing.Wavefront.Writing;
 
 namespace FractalEngine.App.Commands;
@@ -13,10 +16,15 @@ namespace FractalEngine.App.Commands;
 /// <summary>The command <c>export FILE --output X.obj</c>, which expands a file into one flat mesh.</summary>
 internal static class ExportCommand
 {
+    // Beside OBJ, which has a file for its materials.
+    private static readonly ImmutableArray<SceneExport> Formats = [];
+
+    private static string Endings { get; } = string.Join('|', [".obj", .. Formats.Select(static format => format.Ending)]);
+
     public static Command Create()
     {
         var shared = new SharedOptions();
-        var output = SharedOptions.OutputOption(".obj", "Mesh to write.");
+        var output = SharedOptions.OutputOption(Endings, "File to write; its ending says the format.");
         var depth = NumberOption.Integer("--depth", "N", 0, int.MaxValue, "Recursion depth, overriding the fractal's file.");
         var noMaterials = SharedOptions.Flag("--no-materials", "Write no material file (.mtl) beside the mesh.");
         var report = new ReportOptions();
@@ -46,6 +54,19 @@ internal static class ExportCommand
         if (options.Depth is not null && !file.Scene.Models.Any(model => model is FractalModel { Fractal.Description.HasDepth: true }))
         {
             throw new UsageException($"{path} has no recursive fractal, so --depth has no effect");
+        }
+
+        if (Formats.FirstOrDefault(one => output.EndsWith(one.Ending, StringComparison.OrdinalIgnoreCase)) is { } format)
+        {
+            ExportSummary? summary = null;
+            report.Measure("write", () => OutputFile.Write(output, stream => summary = format.Write(file.Scene, new(), stream)));
+            report.Written(output, summary!.Contents);
+            foreach (var loss in summary.Losses)
+            {
+                Console.Error.WriteLine(DisplayText.Escape($"{output}: warning: {loss}"));
+            }
+
+            return ExitCode.Done;
         }
 
         var faceCount = 0L;
