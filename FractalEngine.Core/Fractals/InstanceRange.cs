@@ -79,6 +79,11 @@ public readonly record struct InstanceRange(BigInteger? Least, BigInteger? Expec
 
             var pick = hierarchy.MapSetAt(level)?.Pick;
             var edges = hierarchy.AllLevels.At(level).Edges;
+            if (pick is { IsFixed: true })
+            {
+                return _ranges[(level, sizes)] = PartOf(edges[pick.Select(new(level))]);
+            }
+
             InstanceRange? range = pick is null ? new(0, 0, 0, 0) : new(null, 0, null, null);
             if (pick is { DependsOnSize: true })
             {

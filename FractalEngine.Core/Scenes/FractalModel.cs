@@ -30,6 +30,7 @@ public sealed class FractalModel(Fractal fractal) : Model
         {
             SourcePath = SourcePath,
             Materials = MaterialsAt(index),
+            Gradient = Gradient,
         })]
         : base.Parts;
 
@@ -42,6 +43,9 @@ public sealed class FractalModel(Fractal fractal) : Model
     /// <param name="index">Index of the mesh.</param>
     public ImmutableDictionary<string, Material> MaterialsAt(int index) =>
         index < MaterialsByMesh.Length ? MaterialsByMesh[index] : Materials;
+
+    /// <summary>How its instances differ in colour where no object says otherwise; null for not at all.</summary>
+    public Gradient? Gradient { get; init; }
 
     /// <summary>Names of the numbers that its file declares, which can be set; empty for a fractal made in code.</summary>
     public ImmutableArray<string> NumberNames { get; init; } = [];

@@ -30,6 +30,13 @@ public sealed class PlacedModel(SceneObject declaration, Model model)
     /// <summary>Mesh or fractal that the object shows, in its own coordinate frame.</summary>
     public Model Model { get; } = model;
 
+    /// <summary>
+    /// How the instances differ in colour: as the object says, or else as the file of its fractal does, unless the object has a colour.
+    /// Null for not at all.
+    /// </summary>
+    public Gradient? Gradient =>
+        Declaration.Gradient ?? (Declaration.Colour is null && Model is FractalModel fractal ? fractal.Gradient : null);
+
     /// <summary>Maps the model's frame to world space: the paper's global matrix m.</summary>
     public AffineMap ObjectToWorld { get; internal init; } = declaration.Placement.ToAffineMap();
 

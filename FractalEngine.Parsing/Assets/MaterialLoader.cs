@@ -1,7 +1,9 @@
 using System.Collections.Immutable;
+using FractalEngine.Core;
 using FractalEngine.Core.Files;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Parsing.Assets.References;
+using FractalEngine.Parsing.Fdo;
 using FractalEngine.Parsing.Meshes;
 using FractalEngine.Parsing.Mtl;
 using FractalEngine.Parsing.Text;
@@ -63,6 +65,29 @@ internal sealed class MaterialLoader(
         }
 
         return materials.ToImmutable();
+    }
+
+    /// <summary>Loads the material that a fractal file gives to a base mesh.</summary>
+    /// <param name="source">Text of the fractal file.</param>
+    /// <param name="reference">Names of the material and its file.</param>
+    /// <param name="fullPath">Full path of the fractal file.</param>
+    /// <exception cref="SourceException">The file can't be read, or does not declare the material.</exception>
+    public (string Name, Material Material) LoadNamed(SourceText source, MaterialReference reference, string fullPath)
+    {
+        var (path, displayName) = references.Resolve(source, reference.Offset, fullPath, reference.File);
+        if (!_materialFiles.TryGetValue(path, out var file) || file is null)
+        {
+            file = ReadOrFind(path, displayName);
+            _fileBytes += file.Source.ByteCount;
+            warnings.AddRange(file.Warnings);
+            _materialFiles[path] = file;
+        }
+
+        var names = file.Materials.Keys;
+        var name = reference.Name ?? (names.Count() == 1 ? names.First() : throw source.Error(
+            reference.Offset, FormattableString.Invariant($"the file declares {names.Count()} materials: name one of them behind it")));
+        return file.Materials.ContainsKey(name) ? (name, ResolveMaterial(file, path, name)) : throw source.Error(
+            reference.Offset, $"the file declares no material '{name}'{NameSuggestion.Ask(name, names)}");
     }
 
     /// <summary>

@@ -157,10 +157,10 @@ internal sealed class ModelLoader
         if (!parsed.KeepsSums && bases.Exists(static one => one.Fractal.Description.HasChance))
         {
             // It names the same files, perhaps fewer times.
-            var loaded = parsed.Bases.Zip(bases).DistinctBy(static one => one.First.File)
-                .ToDictionary(static one => one.First.File, static one => one.Second);
+            var loaded = parsed.Bases.Zip(bases).DistinctBy(static one => KeyOf(one.First))
+                .ToDictionary(static one => KeyOf(one.First), static one => one.Second);
             parsed = FractalParser.ParseKeepingSums(parsed.Source, Values);
-            bases = [.. parsed.Bases.Select(reference => loaded[reference.File])];
+            bases = [.. parsed.Bases.Select(reference => loaded[KeyOf(reference)])];
         }
 
         var joined = Join(parsed, bases);
@@ -180,6 +180,7 @@ internal sealed class ModelLoader
                 ? ImmutableDictionary<string, Material>.Empty
                 : materials[fractal.BaseMeshes.MaxBy(static mesh => mesh.FaceCount)!],
             MaterialsByMesh = fractal.HasSeveralMeshes ? [.. fractal.BaseMeshes.Select(mesh => materials[mesh])] : [],
+            Gradient = parsed.Gradient,
             NumberNames = [.. parsed.NumberNames.Concat(bases.SelectMany(static one => one.NumberNames)).Distinct()],
         };
     }
@@ -197,8 +198,31 @@ internal sealed class ModelLoader
         }
     }
 
-    /// <summary>Loads what stands for a base mesh: a mesh, a shape or another fractal.</summary>
+    /// <summary>Loads what stands for a base mesh: a mesh, a shape or another fractal, perhaps with a material of its own.</summary>
     private LoadedBase LoadBase(ParsedFractal parsed, BaseReference reference, string fullPath)
+    {
+        var loaded = LoadPlainBase(parsed, reference, fullPath);
+        if (reference.Material is not { } named)
+        {
+            return loaded;
+        }
+
+        var (name, material) = _materials.LoadNamed(parsed.Source, named, fullPath);
+        var mesh = loaded.Fractal.BaseMesh;
+        ImmutableArray<MeshGroup> groups = mesh.Groups.IsEmpty
+            ? [new(0, mesh.FaceCount, "", "", name, 0)]
+            : ImmutableArray.CreateRange(mesh.Groups, group => group with { Material = name });
+        return loaded with
+        {
+            Fractal = new(new([]), mesh.WithGroups(groups, [])) { BaseMeshPath = loaded.Fractal.BaseMeshPath },
+            Materials = [ImmutableDictionary<string, Material>.Empty.Add(name, material)],
+        };
+    }
+
+    private static (string File, string? MaterialFile, string? Material) KeyOf(BaseReference reference) =>
+        (reference.File, reference.Material?.File, reference.Material?.Name);
+
+    private LoadedBase LoadPlainBase(ParsedFractal parsed, BaseReference reference, string fullPath)
     {
         // No name of a file is that of a shape, since it has an ending.
         if (BaseShapes.TryFind(reference.File, out var shape))

@@ -24,6 +24,6 @@ internal static class Stage
     };
 
     private static bool HasColours(Model model) =>
-        model is not FractalModel { Fractal.HasColours: false } fractal || !model.Materials.IsEmpty
+        model is not FractalModel { Fractal.HasColours: false, Gradient: null } fractal || !model.Materials.IsEmpty
         || fractal.MaterialsByMesh.Any(static materials => !materials.IsEmpty);
 }

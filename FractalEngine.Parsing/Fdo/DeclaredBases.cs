@@ -6,7 +6,7 @@ namespace FractalEngine.Parsing.Fdo;
 /// <param name="keepsSums">Whether sums and sets stay as they are written, see <see cref="FractalPartList"/>.</param>
 internal sealed class DeclaredBases(bool keepsSums)
 {
-    private readonly Dictionary<string, int> _numbers = [];
+    private readonly Dictionary<(string Name, string? File, string? Material), int> _numbers = [];
 
     /// <summary>The parts of all objects.</summary>
     public FractalPartList Parts { get; } = new(keepsSums);
@@ -17,15 +17,17 @@ internal sealed class DeclaredBases(bool keepsSums)
     /// <summary>Adds the object that a file or shape is, without steps.</summary>
     /// <param name="name">Name of the file, as written, or of the shape.</param>
     /// <param name="offset">Offset of the name in the text.</param>
-    public DeclaredObject Add(string name, int offset)
+    /// <param name="material">The material of all faces; null for none but that of the file.</param>
+    public DeclaredObject Add(string name, int offset, MaterialReference? material = null)
     {
-        // By chance, one file is one object wherever it is named.
-        if (!keepsSums || _numbers.TryAdd(name, References.Count))
+        // By chance, one file of one material is one object wherever it is named.
+        var key = (name, material?.File, material?.Name);
+        if (!keepsSums || _numbers.TryAdd(key, References.Count))
         {
-            References.Add(new(name, offset));
+            References.Add(new(name, offset) { Material = material });
         }
 
-        return new(Parts.AddMesh(keepsSums ? _numbers[name] : References.Count - 1), DeclaredSteps.None);
+        return new(Parts.AddMesh(keepsSums ? _numbers[key] : References.Count - 1), DeclaredSteps.None);
     }
 
     /// <summary>Returns the part that an object with all its steps is.</summary>

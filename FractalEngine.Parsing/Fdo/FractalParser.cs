@@ -1,5 +1,7 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Fractals.Descriptions;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Parsing.Sdo;
 using FractalEngine.Parsing.Text;
 using FractalEngine.Parsing.Text.Grammar;
 
@@ -13,6 +15,7 @@ public sealed class FractalParser : RecursiveParser
 {
     private (Composition Composition, int Offset)? _composition;
     private (DeclaredObject Object, int Offset)? _result;
+    private (Gradient Gradient, int Offset)? _gradient;
     private bool _hasDeclaration;
 
     private protected override string? Explain(SyntaxFailure failure) => ExplainOutput(failure) ?? FractalMistakes.Explain(failure);
@@ -81,6 +84,7 @@ public sealed class FractalParser : RecursiveParser
 
         return new(Source, description, ImmutableArray.CreateRange(meshes, mesh => Bases.References[mesh]), result.Offset)
         {
+            Gradient = _gradient?.Gradient,
             NumberNames = NumberNames,
             Warnings = Hints,
         };
@@ -99,6 +103,7 @@ public sealed class FractalParser : RecursiveParser
         return ParseVectorDeclaration(cursor, out rest)
             || ParseResult(cursor, out rest)
             || ParseComposition(cursor, out rest)
+            || ParseGradient(cursor, out rest)
             || ParseSeed(cursor, out rest)
             || ParseValueDeclaration(cursor, out rest)
             || ParseMatrix(cursor, out rest)
@@ -122,6 +127,24 @@ public sealed class FractalParser : RecursiveParser
         }
 
         _composition = (composition, cursor.Offset);
+        return true;
+    }
+
+    /// <summary>Parses <c>gradient level "moss"</c>, as objects of scenes have it.</summary>
+    private bool ParseGradient(Cursor cursor, out Cursor rest)
+    {
+        if (!ParseWord(cursor, "gradient", out rest) || !ParseBlanks(rest, out var kind) || kind.Offset == rest.Offset
+            || !char.IsLetter(kind.Current))
+        {
+            return false;
+        }
+
+        if (_gradient is { } first)
+        {
+            throw Error(cursor, $"the gradient is declared twice, first in line {Source.LineOf(first.Offset)}");
+        }
+
+        _gradient = (GradientParser.ParseIn(Source, kind, out rest), cursor.Offset);
         return true;
     }
 

@@ -1,4 +1,5 @@
 using FractalEngine.Core.Fractals.Descriptions;
+using FractalEngine.Core.Generation;
 using FractalEngine.Parsing.Text;
 using FractalEngine.Parsing.Text.Grammar;
 
@@ -8,6 +9,7 @@ namespace FractalEngine.Parsing.Fdo;
 public abstract class ObjectParser : MapSetParser
 {
     private const int MaxParentheses = 32;
+    private const string LevelWord = "level";
 
     private static readonly DeclaredObject EmptyObject = new(0, DeclaredSteps.None);
 
@@ -17,6 +19,9 @@ public abstract class ObjectParser : MapSetParser
     private int _alternatives;
     private (int Number, bool IsByLevel) _seed;
     private string? _declared;
+
+    /// <summary>Parses the number of an alternative, which may depend on that of the one before: 0 for the first one.</summary>
+    private delegate bool NumberParser(Cursor cursor, double previous, out double number, out Cursor rest);
 
     private protected ObjectParser(SourceText source, FractalNumberList? numbers, bool keepsSums)
         : base(source, numbers, keepsSums)
@@ -56,7 +61,10 @@ public abstract class ObjectParser : MapSetParser
         return !isByLevel || (ParseBlanks(next, out next) && ParseWord(next, "level", out rest));
     }
 
-    /// <summary>Parses an object: a sum, or several by chance, with weights: <c>3: a | 1: b + c</c>.</summary>
+    /// <summary>
+    /// Parses an object: a sum, or several of which one stands there, by chance with weights, <c>3: a | 1: b + c</c>, or by the level,
+    /// <c>level 0..2: a | 3..: b</c>.
+    /// </summary>
     private protected bool ParseAny(Cursor cursor, out DeclaredObject value, out Cursor rest)
     {
         if (!IsWeight(cursor.Rest))
@@ -65,38 +73,97 @@ public abstract class ObjectParser : MapSetParser
         }
 
         value = EmptyObject;
-        var weights = new List<double>();
+        var isByLevel = ParseLevelWord(cursor, out var first);
+        var numbers = new List<double>();
         var alternatives = new List<int>();
         _alternatives++;
-        var isParsed = ParseAlternatives(cursor, weights, alternatives, out rest);
+        var isParsed = ParseAlternatives(first, isByLevel ? new NumberParser(ParseLevels) : ParseWeight, numbers, alternatives, out rest);
         _alternatives--;
         if (!isParsed)
         {
             return false;
         }
 
-        ThrowIf(!(weights.Sum() is > 0 and < double.PositiveInfinity), cursor, "the weights of a choice are all 0, or too large to add");
-        var choice = new Choice([.. weights], _seed.Number, _seed.IsByLevel);
+        ThrowIf(
+            isByLevel ? numbers[^1] <= int.MaxValue : !(numbers.Sum() is > 0 and < double.PositiveInfinity), cursor,
+            isByLevel ? "the last alternative of a choice by level has no end, as in '3..: box'"
+                : "the weights of a choice are all 0, or too large to add");
+        var choice = isByLevel
+            ? Choice.OfLevels([0, .. numbers.SkipLast(1).Select(static next => (int)next)])
+            : new Choice([.. numbers], _seed.Number, _seed.IsByLevel);
         value = new(Bases.Parts.AddChoice([.. alternatives], choice, isOfBody: Calls is not null), DeclaredSteps.None);
         return true;
     }
 
-    private bool ParseAlternatives(Cursor cursor, List<double> weights, List<int> alternatives, out Cursor rest)
+    /// <summary>Parses the word before the levels of a choice, which may be the name of an object instead.</summary>
+    private bool ParseLevelWord(Cursor cursor, out Cursor rest)
+    {
+        if (Names.HasObject(LevelWord) || !ParseWord(cursor, LevelWord, out rest) || !ParseBlanks(rest, out rest)
+            || !char.IsAsciiDigit(rest.Current))
+        {
+            rest = cursor;
+            return false;
+        }
+
+        ThrowIf(Calls is null, cursor, "a choice by level stands in the body of a recursive, whose levels it counts");
+        return true;
+    }
+
+    /// <summary>Parses the levels of an alternative, and returns the first one behind them: infinite where they have no end.</summary>
+    private bool ParseLevels(Cursor cursor, double first, out double next, out Cursor rest)
+    {
+        next = double.PositiveInfinity;
+        if (!ParseInteger(cursor, "a level", out var from, out rest))
+        {
+            return false;
+        }
+
+        ThrowIf(from != first, cursor, first < double.PositiveInfinity
+            ? FormattableString.Invariant($"the levels of a choice follow each other: these begin with {first}")
+            : "the levels before have no end, so that nothing comes behind them");
+        var last = from;
+        if (rest.Rest.StartsWith("..", StringComparison.Ordinal))
+        {
+            rest = rest.Advance(2);
+            if (!char.IsAsciiDigit(rest.Current))
+            {
+                return true;
+            }
+
+            var end = rest;
+            ParseInteger(end, "a level", out last, out rest);
+            ThrowIf(last < from, end, "the last level of an alternative is not before its first one");
+        }
+
+        ThrowIf(last >= int.MaxValue, cursor, "a level is less than 2147483647");
+        next = last + 1.0;
+        return true;
+    }
+
+    private bool ParseWeight(Cursor cursor, double previous, out double weight, out Cursor rest)
+    {
+        var isParsed = ParseExpression(cursor, out weight, out rest);
+        ThrowIf(isParsed && weight < 0, cursor, FormattableString.Invariant($"a weight is not negative, and this one is {weight:R}"));
+        return isParsed;
+    }
+
+    private bool ParseAlternatives(
+        Cursor cursor, NumberParser parseNumber, List<double> numbers, List<int> alternatives, out Cursor rest)
     {
         for (var start = cursor; ; ParseBlanks(start.Advance(1), out start))
         {
             ThrowIf(!IsWeight(start.Rest), start, "each alternative of a choice has a weight and a colon, as in '1: box'");
-            if (!ParseExpression(start, out var weight, out rest) || !ParseBlanks(rest, out rest) || !ParseChar(rest, ':', out rest)
-                || !ParseBlanks(rest, out rest) || !ParseSum(rest, out var alternative, out rest))
+            if (!parseNumber(start, numbers.LastOrDefault(), out var number, out rest) || !ParseBlanks(rest, out rest)
+                || !ParseChar(rest, ':', out rest) || !ParseBlanks(rest, out rest)
+                || !ParseSum(rest, out var alternative, out rest))
             {
                 return false;
             }
 
-            ThrowIf(weight < 0, start, FormattableString.Invariant($"a weight is not negative, and this one is {weight:R}"));
             RequireLimit(alternatives.Count + 1, Choice.MaxAlternatives, "the choice", "alternatives", start);
             RequireLimit(++_sumTermCount, ParsingLimits.Names.Value, "the file", "terms of sums", start);
             RequireRepeatedSteps(alternative.Steps.Count, start);
-            weights.Add(weight);
+            numbers.Add(number);
             alternatives.Add(Bases.PartOf(alternative));
             if (!ParseBlanks(rest, out start) || start.Current != '|')
             {
@@ -172,7 +239,7 @@ public abstract class ObjectParser : MapSetParser
         }
 
         Fail(rest, "'['");
-        if (!ParseBaseFile(rest, out value, out rest) && !ParseParentheses(rest, out value, out rest)
+        if (!ParseBase(rest, out value, out rest) && !ParseParentheses(rest, out value, out rest)
             && !(ParseReference(rest, out value, out rest) && Set(ref value, value with { IsName = true })))
         {
             return false;
@@ -188,16 +255,64 @@ public abstract class ObjectParser : MapSetParser
         return true;
     }
 
-    private bool ParseBaseFile(Cursor cursor, out DeclaredObject value, out Cursor rest)
+    /// <summary>Parses a base mesh, <c>"file.obj"</c>, which may have a material: <c>box material "bark.mtl" "Oak"</c>.</summary>
+    private bool ParseBase(Cursor cursor, out DeclaredObject value, out Cursor rest)
     {
         value = EmptyObject;
-        if (!ParseString(cursor, "the name of a mesh in quotes", out var file, out rest))
+        MaterialReference? material;
+        if (ParseString(cursor, "the name of a mesh in quotes", out var file, out rest))
+        {
+            var kind = FileKinds.FromName(file);
+            ThrowIf(kind is not (FileKind.Mesh or FileKind.Fractal), cursor,
+                $"expected the name of a mesh ({FileKinds.MeshEndings}) or fractal (.fdo): that is the base of a fractal");
+            if (!ParseMaterial(rest, out material, out rest))
+            {
+                return false;
+            }
+
+            ThrowIf(
+                material is not null && kind == FileKind.Fractal, cursor, "a fractal has the materials of its meshes: give one to these");
+            value = Bases.Add(file, cursor.Offset, material);
+            return true;
+        }
+
+        // A shape without a material is known by its name.
+        if (!ParseName(cursor, FractalMistakes.ObjectName, out var name, out var behind) || Names.HasObject(name)
+            || Calls?.ContainsKey(name) == true || !BaseShapes.TryFind(name, out _)
+            || !ParseMaterial(behind, out material, out behind) || material is null)
         {
             return false;
         }
 
-        value = FileKinds.FromName(file) is FileKind.Mesh or FileKind.Fractal ? Bases.Add(file, cursor.Offset) : throw Error(
-            cursor, $"expected the name of a mesh ({FileKinds.MeshEndings}) or fractal (.fdo): that is the base of a fractal");
+        value = Bases.Add(name, cursor.Offset, material);
+        rest = behind;
+        return true;
+    }
+
+    /// <summary>Parses the material of a base mesh, where there is one.</summary>
+    private bool ParseMaterial(Cursor cursor, out MaterialReference? material, out Cursor rest)
+    {
+        material = null;
+        rest = cursor;
+        if (!ParseBlanks(cursor, out var start) || start.Offset == cursor.Offset || !ParseWord(start, "material", out var next)
+            || !ParseBlanks(next, out var name))
+        {
+            return true;
+        }
+
+        if (!ParseString(name, "the name of a material file in quotes", out var file, out rest))
+        {
+            return false;
+        }
+
+        ThrowIf(!file.EndsWith(".mtl", StringComparison.OrdinalIgnoreCase), name, "expected the name of a material file (.mtl)");
+        ParseBlanks(rest, out var second);
+        material = new(file, null, name.Offset);
+        if (second.Current == '"' && ParseString(second, "the name of a material in quotes", out var within, out rest))
+        {
+            material = material with { Name = within };
+        }
+
         return true;
     }
 

@@ -1,6 +1,7 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Generation;
+using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.Parsing.Fdo;
@@ -18,6 +19,9 @@ public sealed record ParsedFractal(
 
     /// <summary>Whether sums and sets are those of the text, see <see cref="FractalPartList"/>.</summary>
     internal bool KeepsSums { get; init; }
+
+    /// <summary>How its instances differ in colour where no scene says otherwise; null for not at all.</summary>
+    public Gradient? Gradient { get; init; }
 
     /// <summary>Names of the numbers that the file declares, in their order.</summary>
     public ImmutableArray<string> NumberNames { get; init; } = [];

@@ -10,19 +10,6 @@ namespace FractalEngine.Parsing.Sdo;
 /// <summary>Parses the objects of scene files, with the options that follow them.</summary>
 public abstract class SceneObjectParser : LightParser
 {
-    private static readonly (GradientKind Kind, string Word)[] GradientKinds =
-    [
-        .. Enum.GetValues<GradientKind>().Except([GradientKind.None]).Select(static kind => (kind, SceneFormatter.WordOf(kind))),
-    ];
-
-    // Nothing glows brighter than the brightest light of a scene.
-    private static readonly (string Word, double Maximum, string Fault, Func<Gradient, GradientRange, Gradient> With)[] SurfaceRanges =
-    [
-        ("roughness", 1, "the roughness must lie between 0 and 1", static (gradient, range) => gradient with { Roughness = range }),
-        ("metal", 1, "the share of metal must lie between 0 and 1", static (gradient, range) => gradient with { Metalness = range }),
-        ("glow", 1e9, "the glow must lie between 0 and 1e9", static (gradient, range) => gradient with { Glow = range }),
-    ];
-
     private readonly Option<SceneObject>[] _objectOptions;
     private readonly Option<SceneObject>[] _bodyOptions;
 
@@ -125,111 +112,6 @@ public abstract class SceneObjectParser : LightParser
     private bool ParseObjectName(Cursor cursor, out string name, out Cursor rest) =>
         ParseString(cursor, "a name in quotes", out name, out rest);
 
-    /// <summary>Parses a gradient, and what it makes of surfaces besides their colour.</summary>
-    private bool ParseGradedSurface(Cursor cursor, out Gradient gradient, out Cursor rest)
-    {
-        var isFound = ParseGradient(cursor, out gradient, out rest);
-        if (!isFound)
-        {
-            return false;
-        }
-
-        while (isFound)
-        {
-            isFound = false;
-            foreach (var (word, maximum, fault, with) in SurfaceRanges)
-            {
-                if (ParseNextKeyword(rest, word, true, out var start))
-                {
-                    if (!ParseRange(start, maximum, fault, out var range, out rest))
-                    {
-                        return false;
-                    }
-
-                    gradient = with(gradient, range);
-                    isFound = true;
-                }
-            }
-        }
-
-        return true;
-    }
-
-    private bool ParseRange(Cursor cursor, double maximum, string fault, out GradientRange range, out Cursor rest)
-    {
-        var last = 0.0;
-        var success = ParseNumber(cursor, number => number >= 0 && number <= maximum, fault, out var first, out rest)
-            && ParseSeparator(rest, out rest)
-            && ParseNumber(rest, number => number >= 0 && number <= maximum, fault, out last, out rest);
-        range = new(first, last);
-        return success;
-    }
-
-    private bool ParseGradient(Cursor cursor, out Gradient gradient, out Cursor rest)
-    {
-        gradient = new(GradientKind.None, Colour.White);
-        if (!ParseChoice(cursor, GradientKinds, out var kind, out rest) || !ParseBlanks(rest, out rest))
-        {
-            return false;
-        }
-
-        var start = rest;
-        if (ParseString(start, "the name of a palette in quotes", out var name, out rest))
-        {
-            var named = NamedPalettes.Find(name);
-            Require(
-                named is not null, start,
-                $"there is no palette '{name}'; there are: {string.Join(", ", NamedPalettes.All.Select(static known => known.Name))}");
-            gradient = Gradient.Of(kind, named!);
-            return true;
-        }
-
-        if (BeginsNumber(start))
-        {
-            return ParseStops(start, out var stops, out rest) && Set(ref gradient, Gradient.Of(kind, new([.. stops])));
-        }
-
-        var colours = new List<Colour>();
-        do
-        {
-            if (!ParseColour(start, out var colour, out rest))
-            {
-                return colours.Count == 0 && Fail(start, SyntaxFailure.Number);
-            }
-
-            colours.Add(colour);
-            ParseOptionalSeparator(rest, out start);
-        }
-        while (start.Current == '(');
-        gradient = colours.Count == 1 ? new(kind, colours[0]) : Gradient.Of(kind, Palette.OfEven(colours));
-        return true;
-    }
-
-    private static bool BeginsNumber(Cursor cursor) => char.IsAsciiDigit(cursor.Current) || cursor.Current is '.' or '-' or '+';
-
-    /// <summary>Parses the stops of a palette, each with its position.</summary>
-    private bool ParseStops(Cursor cursor, out List<PaletteStop> stops, out Cursor rest)
-    {
-        stops = [];
-        rest = cursor;
-        for (var start = cursor; BeginsNumber(start); ParseOptionalSeparator(rest, out start))
-        {
-            var last = stops.Count == 0 ? 0 : stops[^1].Position;
-            if (!ParseNumber(
-                    start, number => number >= last && number <= 1, "the positions of a palette must ascend from 0 to 1",
-                    out var position, out rest)
-                || !ParseOptionalSeparator(rest, out rest) || !ParseColour(rest, out var colour, out rest))
-            {
-                return false;
-            }
-
-            stops.Add(new(position, colour));
-        }
-
-        Require(stops.Count > 1, cursor, "a palette has two stops or more");
-        return true;
-    }
-
     /// <summary>Parses how an object moves by itself: <c>velocity (…) spin (…) from (…) to (…)</c>.</summary>
     private bool ParseMotion(Cursor cursor, ref SceneObject declared, out Cursor rest)
     {
@@ -267,13 +149,6 @@ public abstract class SceneObjectParser : LightParser
         Require(fault is null, isAboutVelocity ? velocityStart : cursor, fault ?? "");
         Require(motion.Velocity != Vector.Zero, velocityStart, "the velocity along a path must not be (0, 0, 0)");
         return true;
-    }
-
-    /// <summary>Parses a keyword that may follow a value; without it nothing is read.</summary>
-    private bool ParseNextKeyword(Cursor cursor, string word, bool followsValue, out Cursor rest)
-    {
-        rest = cursor;
-        return (!followsValue || (ParseBlanks(cursor, out rest) && rest.Offset > cursor.Offset)) && ParseKeyword(rest, word, out rest);
     }
 
     private bool ParseCollider(Cursor cursor, out ColliderKind collider, out Cursor rest) =>

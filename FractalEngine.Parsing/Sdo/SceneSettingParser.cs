@@ -9,7 +9,7 @@ using FractalEngine.Parsing.Text.Grammar;
 namespace FractalEngine.Parsing.Sdo;
 
 /// <summary>Parses what a scene has at most once: camera, frame, sky, how light is shown, gravity, and the player.</summary>
-public abstract class SceneSettingParser : SceneValueParser
+public abstract class SceneSettingParser : GradientParser
 {
     /// <summary>The word before the point that a camera looks at.</summary>
     internal const string LookAtKeyword = "look-at";

@@ -147,9 +147,9 @@ public sealed class DrawableScene
         return new(declaration.Name ?? model.Name, model, placed.ObjectToWorld, colour)
         {
             Tint = declaration.Colour ?? Colour.White,
-            Gradient = declaration.Gradient,
-            SurfaceGradient = declaration.Gradient is { HasSurface: true, Kind: not GradientKind.None }
-                && placed.Model is FractalModel { Fractal.Description.Composition: Composition.Affine } ? declaration.Gradient : null,
+            Gradient = placed.Gradient,
+            SurfaceGradient = placed.Gradient is { HasSurface: true, Kind: not GradientKind.None }
+                && placed.Model is FractalModel { Fractal.Description.Composition: Composition.Affine } ? placed.Gradient : null,
             IsDynamic = placed.Model is MeshModel && (declaration is PhysicsObject || declaration.Motion is not null),
         };
     }

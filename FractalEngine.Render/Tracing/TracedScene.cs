@@ -73,9 +73,9 @@ internal sealed record TracedScene
         _colours = [.. _objects.Select(static (placed, index) => placed.Parts.Select(
             (part, mesh) => ObjectPalette.ColourOf(part, index + mesh).ToLinearVector()).ToArray())];
         _gradientEnds = [.. _objects.Select((placed, index) =>
-            placed.Declaration.Gradient is { } gradient ? gradient.EndColour.ToLinearVector() : _colours[index][0])];
+            placed.Gradient is { } gradient ? gradient.EndColour.ToLinearVector() : _colours[index][0])];
         _gradients = [.. _objects.Select(static placed => placed.Model is FractalModel { Fractal: var fractal }
-            ? InstanceGradient.CreateOrNull(placed.Declaration.Gradient, fractal) : null)];
+            ? InstanceGradient.CreateOrNull(placed.Gradient, fractal) : null)];
         _gradientGloss = [.. _gradients.Select(static shading => shading is { Gradient: { IsGlossy: true } gradient }
             ? Enumerable.Range(0, GradientGlossSteps + 1)
                 .Select(step => GradedSurface.At(gradient, (double)step / GradientGlossSteps)).ToArray()
@@ -341,7 +341,7 @@ internal sealed record TracedScene
             return shading.Gradient.Palette is null ? Mix(shade.Factor) : shade.Colour;
         }
 
-        return placed.Declaration.Gradient is { IsPlain: true, Kind: not GradientKind.None and var kind }
+        return placed.Gradient is { IsPlain: true, Kind: not GradientKind.None and var kind }
             && placed.Model is FractalModel { Fractal: var fractal }
             ? Mix(zoomed?.GradientFactorOf(kind, index, context) ?? ColourPath.GradientFactorOf(fractal, kind, context.InstancePath))
             : colour;

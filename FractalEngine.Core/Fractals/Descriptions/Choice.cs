@@ -4,9 +4,9 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Fractals.Descriptions;
 
-/// <summary>What decides by chance which one of the calls of a recursive stands there: the others are left out.</summary>
+/// <summary>What decides by chance, or by the level, which one of the calls of a recursive stands there: the others are left out.</summary>
 /// <remarks>
-/// It is decided at each place anew, by a 64-bit hash of the seed and the way to the place, which is compared with the weights in integers.
+/// Chance decides at each place anew, by a 64-bit hash of the seed and the way to the place, which is compared with the weights in integers.
 /// So the same file is the same fractal on every machine, and nothing is kept.
 /// </remarks>
 public sealed record Choice
@@ -62,8 +62,26 @@ public sealed record Choice
     /// <summary>True where all places with as many calls above them have the same alternative.</summary>
     public bool IsByLevel { get; }
 
-    /// <summary>Makes the same choice with another seed.</summary>
-    public Choice WithSeed(int seed) => new(Weights, seed, IsByLevel);
+    /// <summary>
+    /// Where levels decide, the first level of each alternative: 0 for the outermost one of the recursive, and ascending. Empty where chance
+    /// decides.
+    /// </summary>
+    public ImmutableArray<int> FirstLevels { get; private init; } = [];
+
+    /// <summary>Makes a choice by levels alone, without chance.</summary>
+    /// <param name="firstLevels">The first level of each alternative, ascending from 0. The last one stands at all further levels.</param>
+    /// <exception cref="ArgumentException">They don't ascend from 0, or there are more than 64.</exception>
+    public static Choice OfLevels(ImmutableArray<int> firstLevels)
+    {
+        ArgumentCheck.Require(
+            !firstLevels.IsDefaultOrEmpty && firstLevels[0] == 0
+                && firstLevels.Zip(firstLevels.Skip(1)).All(static pair => pair.First < pair.Second),
+            "expected levels that ascend from 0", nameof(firstLevels));
+        return new([.. firstLevels.Select(static _ => 1.0)], 0, isByLevel: true) { FirstLevels = firstLevels };
+    }
+
+    /// <summary>Makes the same choice with another seed, where it is one by chance.</summary>
+    public Choice WithSeed(int seed) => FirstLevels.IsEmpty ? new(Weights, seed, IsByLevel) : this;
 
     /// <summary>How many of 2⁶⁴ hashes make an alternative stand there.</summary>
     internal BigInteger ProbabilityOf(int index) => EndOf(index) - (index > 0 ? EndOf(index - 1) : 0);
@@ -86,11 +104,17 @@ public sealed record Choice
         return i;
     }
 
+    /// <summary>Finds which alternative stands at a level, for a choice by levels.</summary>
+    /// <param name="level">From 0, the outermost one of the recursive.</param>
+    public int SelectAt(long level) => FirstLevels.IsEmpty
+        ? Select(WrittenWay.Of(level, 0).After(0))
+        : FirstLevels.Count(first => first <= level) - 1;
+
     private BigInteger EndOf(int index) => index >= _last ? BigInteger.One << 64 : _ends[index];
 
     /// <inheritdoc/>
     public bool Equals(Choice? other) => other is not null && Seed == other.Seed && IsByLevel == other.IsByLevel
-        && Weights.AsSpan().SequenceEqual(other.Weights.AsSpan());
+        && Weights.AsSpan().SequenceEqual(other.Weights.AsSpan()) && FirstLevels.AsSpan().SequenceEqual(other.FirstLevels.AsSpan());
 
     /// <inheritdoc/>
     public override int GetHashCode() => HashCode.Combine(Seed, Weights.Length, Weights[0]);

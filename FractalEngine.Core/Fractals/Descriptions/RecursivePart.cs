@@ -139,8 +139,8 @@ public sealed class RecursivePart : FractalPart
     internal override BigInteger? CountInstances(Func<int, BigInteger?> countAt) => Levels is not { } levels
         ? Until is null ? CountInfinite(Root, countAt, []) : null
         : HasChoice
-        ? Ascend(countAt, BigInteger.Zero, static (sum, count) => sum + count, static (counts, choice) => LargestOf(counts, choice))
-            .ElementAt(levels)[Root]
+        ? Ascend(countAt, BigInteger.Zero, static (sum, count) => sum + count, (counts, choice, left) =>
+            choice.FirstLevels.IsEmpty ? LargestOf(counts, choice) : counts[choice.SelectAt(levels - left)]).ElementAt(levels)[Root]
         : LinearRecurrence.TermAt(
             Ascend(countAt, BigInteger.Zero, static (sum, count) => sum + count).Select(values => values[Root]),
             (Recursives.Length * Math.Max(1, MaxLevelsLess)) + 1, levels);
@@ -163,16 +163,18 @@ public sealed class RecursivePart : FractalPart
     internal override ScaledCount EstimateInstances(Func<int, ScaledCount> countAt) =>
         Ascend(
             countAt, default, static (sum, count) => sum + count,
-            static (counts, _) => counts.MaxBy(static count => (count.Scale, count.Mantissa))).ElementAt(Levels ?? 0)[Root];
+            static (counts, _, _) => counts.MaxBy(static count => (count.Scale, count.Mantissa))).ElementAt(Levels ?? 0)[Root];
 
     /// <summary>Computes a value of each recursive with 0 levels, with 1, and so on without end.</summary>
     /// <param name="valueAt">Gives the value of an earlier part.</param>
     /// <param name="zero">The value of nothing.</param>
     /// <param name="add">Adds a value to a sum.</param>
-    /// <param name="choose">Makes one value of those of the alternatives of a choice; null to add them as those of sums.</param>
+    /// <param name="choose">
+    /// Makes one value of those of the alternatives of a choice that has so many levels left; null to add them as those of sums.
+    /// </param>
     /// <returns>The values by recursives; valid until the next are asked for.</returns>
     internal IEnumerable<T[]> Ascend<T>(
-        Func<int, T> valueAt, T zero, Func<T, T, T> add, Func<T[], Choice, T>? choose = null)
+        Func<int, T> valueAt, T zero, Func<T, T, T> add, Func<T[], Choice, int, T>? choose = null)
     {
         T[] bases = [.. Recursives.Select(recursive => valueAt(recursive.BasePart))];
         yield return bases;
@@ -185,7 +187,7 @@ public sealed class RecursivePart : FractalPart
                 var recursive = Recursives[caller];
                 if (recursive.Choice is { } choice && choose is not null)
                 {
-                    values[caller] = choose([.. recursive.Calls.Select(call => ValueOf(call, levels))], choice);
+                    values[caller] = choose([.. recursive.Calls.Select(call => ValueOf(call, levels))], choice, levels);
                     continue;
                 }
 

@@ -12,11 +12,15 @@ internal abstract class LevelPick
     /// <summary>True where the way to a place decides.</summary>
     public virtual bool DependsOnWay => false;
 
+    /// <summary>True where the level alone decides, whatever the seed.</summary>
+    public virtual bool IsFixed => false;
+
     /// <summary>True where the size at a place decides. Paths don't tell of that.</summary>
     public virtual bool DependsOnSize => false;
 
-    /// <summary>The index of the likeliest edge, the first of such.</summary>
-    public virtual int Likeliest => 0;
+    /// <summary>The index of the likeliest edge at a level, the first of such.</summary>
+    /// <param name="level">Remaining levels.</param>
+    public virtual int LikeliestAt(long level) => 0;
 
     /// <summary>The index of the edge that stands at a place.</summary>
     public abstract int Select(in LevelState state);
@@ -24,12 +28,14 @@ internal abstract class LevelPick
     /// <summary>How often an edge stands there, of 2⁶⁴; null where that is no chance.</summary>
     public virtual BigInteger? ProbabilityOf(int index) => null;
 
-    /// <summary>The share of places at which an edge stands, about.</summary>
-    public double ShareOf(int index) => ProbabilityOf(index) is { } probability ? Math.ScaleB((double)probability, -64)
-        : index == 0 ? 1
+    /// <summary>The share of places at which an edge stands, about; never 0 where size or level decides.</summary>
+    /// <param name="level">Remaining levels.</param>
+    /// <param name="index">Index of the edge.</param>
+    public double ShareOf(long level, int index) => ProbabilityOf(index) is { } probability ? Math.ScaleB((double)probability, -64)
+        : index == LikeliestAt(level) ? 1
         : 1e-9;
 
-    /// <summary>Decides by chance, with weights.</summary>
+    /// <summary>Decides by chance, with weights, or by the level.</summary>
     /// <param name="choice">The weights and the seed.</param>
     /// <param name="firstLevel">The lowest level of the recursives.</param>
     /// <param name="period">Number of recursives.</param>
@@ -42,15 +48,19 @@ internal abstract class LevelPick
         public override bool DependsOnWay => !choice.IsByLevel;
 
         /// <inheritdoc/>
-        public override int Likeliest => choice.Weights.IndexOf(choice.Weights.Max());
+        public override bool IsFixed => !choice.FirstLevels.IsEmpty;
 
         /// <inheritdoc/>
-        public override int Select(in LevelState state) => choice.Select(choice.IsByLevel
-            ? WrittenWay.Of(((TopLevel - firstLevel) / period) - ((state.Level - firstLevel) / period), 0).After(0)
-            : state.Way);
+        public override int LikeliestAt(long level) =>
+            choice.IsByLevel ? Select(new(level)) : choice.Weights.IndexOf(choice.Weights.Max());
 
         /// <inheritdoc/>
-        public override BigInteger? ProbabilityOf(int index) => choice.ProbabilityOf(index);
+        public override int Select(in LevelState state) => choice.IsByLevel
+            ? choice.SelectAt(((TopLevel - firstLevel) / period) - ((state.Level - firstLevel) / period))
+            : choice.Select(state.Way);
+
+        /// <inheritdoc/>
+        public override BigInteger? ProbabilityOf(int index) => IsFixed ? null : choice.ProbabilityOf(index);
     }
 
     /// <summary>Goes on by the first edge down to a size, and ends by the second one.</summary>

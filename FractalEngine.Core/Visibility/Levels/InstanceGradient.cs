@@ -177,7 +177,7 @@ public sealed class InstanceGradient
             {
                 var child = node.ChildLevelSteps[i].RemainingLevels(level);
                 var area = Math.Pow(Math.Abs(node.ChildMaps[i].ToAffineMap().Linear.Determinant()), 2.0 / 3);
-                var weight = weights[child] * area * (node.Pick?.ShareOf(i) ?? 1);
+                var weight = weights[child] * area * (node.Pick?.ShareOf(level, i) ?? 1);
                 var step = node.ChildMapIndices[i] < 0 ? 0 : 1;
                 weights[level] += weight;
                 for (var count = 0; count < wave && weights[level] > 0; count++)

@@ -47,7 +47,7 @@ internal static class MeanTints
             foreach (var (i, edge) in level.Edges.Index())
             {
                 var child = LevelRegion.FindIndex(all, edge.RemainingLevels(remainingLevels));
-                var share = (level.Set!.Pick?.ShareOf(i) ?? 1) * weights[child]
+                var share = (level.Set!.Pick?.ShareOf(remainingLevels, i) ?? 1) * weights[child]
                     * (hierarchy.HasOnlySimilarities ? edge.Set.ScalesSquared[edge.MapIndex] : 1);
                 sum += share * Tint.Of(edge.Set.ColourOf(edge.MapIndex)).Then(means[child]);
                 weight += share;

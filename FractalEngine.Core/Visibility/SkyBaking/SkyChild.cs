@@ -26,7 +26,7 @@ internal readonly record struct SkyChild(LodNode Node, long Levels, AffineMap In
             // Masks are those of a node wherever it stands: the likeliest alternative stands for all.
             while (child is { Pick: { } pick, IsEmpty: false })
             {
-                childLevels = child.ChildLevelSteps[pick.Likeliest].RemainingLevels(childLevels);
+                childLevels = child.ChildLevelSteps[pick.LikeliestAt(childLevels)].RemainingLevels(childLevels);
                 child = hierarchy.NodeAt(childLevels);
             }
 

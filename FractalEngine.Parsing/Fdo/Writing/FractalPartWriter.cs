@@ -84,7 +84,8 @@ internal sealed class FractalPartWriter(FractalWriter writer, List<string> names
 
         string[] seeds =
         [
-            .. part.Recursives.Select(static recursive => recursive.Choice).OfType<Choice>().Select(FormatSeed).Distinct(),
+            .. part.Recursives.Select(static recursive => recursive.Choice).OfType<Choice>()
+                .Where(static choice => choice.FirstLevels.IsEmpty).Select(FormatSeed).Distinct(),
         ];
         if (seeds.Length > 1)
         {
@@ -138,8 +139,11 @@ internal sealed class FractalPartWriter(FractalWriter writer, List<string> names
         }
     }
 
-    private static string FormatChoice(Choice choice, IEnumerable<string> alternatives) => string.Join(" | ", choice.Weights.Zip(
-        alternatives, static (weight, one) => FormattableString.Invariant($"{weight:R}: {one}")));
+    private static string FormatChoice(Choice choice, IEnumerable<string> alternatives) => choice.FirstLevels.IsEmpty
+        ? string.Join(" | ", choice.Weights.Zip(
+            alternatives, static (weight, one) => FormattableString.Invariant($"{weight:R}: {one}")))
+        : "level " + string.Join(" | ", choice.FirstLevels.Zip(choice.FirstLevels.Skip(1).Append(0), alternatives).Select(
+            static one => FormattableString.Invariant($"{one.First}..{(one.Second > 0 ? one.Second - 1 : null)}: {one.Third}")));
 
     /// <summary>Tells whether calls are one set on one target, so that they need no parentheses.</summary>
     private static bool IsSetOnOne(ImmutableArray<RecursiveCall> calls) => !calls.IsEmpty && AreOfOneTarget(calls)

@@ -172,7 +172,7 @@ internal sealed class AreaLightModel
     private AreaLightNode? CreateMean(LevelPick pick, long level)
     {
         AreaLightBounds[] parts = [.. _hierarchy!.AllLevels.At(level).Edges.Index()
-            .Select(edge => (Share: pick.ShareOf(edge.Index), Node: NodeAt(edge.Item.RemainingLevels(level))))
+            .Select(edge => (Share: pick.ShareOf(level, edge.Index), Node: NodeAt(edge.Item.RemainingLevels(level))))
             .Where(static one => one is { Share: > 0, Node: not null })
             .Select(static one => one.Node!.Total with { Power = one.Share * one.Node.Total.Power })];
         return parts.Length > 0 ? new(parts, new int[parts.Length], new AreaLightNode?[parts.Length]) : null;
