@@ -5,6 +5,7 @@ using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Generation;
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Geometry.Surfaces;
 using FractalEngine.Core.Images;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Scenes.Lights;
@@ -209,6 +210,7 @@ internal sealed class ModelLoader
 
         var (name, material) = _materials.LoadNamed(parsed.Source, named, fullPath);
         var mesh = loaded.Fractal.BaseMesh;
+        mesh = material.IsTextured && mesh.TextureIndices.IsEmpty ? mesh.WithBoxProjection() : mesh;
         ImmutableArray<MeshGroup> groups = mesh.Groups.IsEmpty
             ? [new(0, mesh.FaceCount, "", "", name, 0)]
             : ImmutableArray.CreateRange(mesh.Groups, group => group with { Material = name });

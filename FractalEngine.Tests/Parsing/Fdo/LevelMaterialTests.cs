@@ -138,6 +138,33 @@ public sealed class LevelMaterialTests : IDisposable
         Assert.Null(found.Single(static one => one.Groups.Length == 0).Colour);
     }
 
+    [Theory]
+    [InlineData("box", true)]
+    [InlineData("tetrahedron", true)]
+    [InlineData("\"uv.obj\"", false)]
+    public void Material_WithATexture_GivesCoordinatesByPositionToMeshesWithout(string mesh, bool isProjected)
+    {
+        File.WriteAllText(_folder["uv.obj"], "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0.25 0.75\nf 1/1 2/1 3/1\n");
+        File.Copy(Path.Combine(Repository.Root, "assets", "models", "crate.png"), _folder["crate.png"]);
+        File.WriteAllText(_folder["tiles.mtl"], "newmtl Tiles\nmap_Kd crate.png\n");
+        var shown = Load($"<$>. {mesh} material \"tiles.mtl\"").Mesh;
+        Assert.Equal(isProjected ? 3 * shown.FaceCount : 3, shown.TextureIndices.Length);
+        for (var face = 0; face < shown.FaceCount && isProjected; face++)
+        {
+            var (a, b, c) = shown.Face(face);
+            // The projection of a face onto the side that it looks at most has at least the part 1 / √3 of its area.
+            var (ua, ub, uc) = (Uv(face, 0), Uv(face, 1), Uv(face, 2));
+            var projected = Math.Abs(((ub.X - ua.X) * (uc.Y - ua.Y)) - ((uc.X - ua.X) * (ub.Y - ua.Y)));
+            Assert.InRange(projected / Vector.Cross(b - a, c - a).Length(), 0.577, 1.000001);
+        }
+
+        Vector Uv(int face, int corner)
+        {
+            var index = shown.TextureIndices[(3 * face) + corner];
+            return new(shown.TextureCoordinates[2 * index], shown.TextureCoordinates[(2 * index) + 1], 0);
+        }
+    }
+
     [Fact]
     public void Materials_OfOneShapeByChance_AreSeveralMeshes()
     {
